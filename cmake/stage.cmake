@@ -1,0 +1,45 @@
+# Helpers that keep every stage folder's CMakeLists.txt to a few lines.
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+# Foreign headers are not ours to fix: no warnings from them, in any target.
+add_library(clatter_eigen INTERFACE)
+target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
+
+# clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ...)
+# makes the static library clatter_<name>, alias clatter::<name>; headers are included as "<folder>/x.hpp".
+function(clatter_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(clatter_${name} STATIC ${ARG_SOURCES})
+  add_library(clatter::${name} ALIAS clatter_${name})
+  target_include_directories(clatter_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(clatter_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+endfunction()
+
+# clatter_stage(<name> SOURCES main.cpp LINKS clatter::<name>) makes the executable clatter-<name>.
+function(clatter_stage name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(clatter-${name} ${ARG_SOURCES})
+  target_link_libraries(clatter-${name} PRIVATE ${ARG_LINKS})
+  set_target_properties(clatter-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  install(TARGETS clatter-${name})
+endfunction()
+
+# clatter_test(<name> LABEL unit SOURCES x_test.cpp LINKS clatter::core [DEFINES A=B] [TIMEOUT s])
+# makes one test program; CTest sees each GoogleTest case with the label.
+include(GoogleTest)
+function(clatter_test name)
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINKS;DEFINES" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE ${ARG_DEFINES}
+    CLATTER_BIN_DIR="${PROJECT_BINARY_DIR}/bin" CLATTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,14 @@
+#pragma once
+// OpenBLAS 0.3.21 does not know recent CPUs and then runs its oldest kernel, five times slower.
+
+namespace clatter {
+
+/// Compares the kernel that OpenBLAS chose with what the CPU can do; when it fell short, sets
+/// OPENBLAS_CORETYPE and starts this program again with the same arguments (at most once, logged).
+/// Call first thing in main of every stage that uses BLAS. No effect without OpenBLAS.
+void ensure_fast_blas(char** argv);
+
+/// Sets the number of threads inside BLAS; no effect without OpenBLAS.
+void set_blas_threads(int count);
+
+}  // namespace clatter

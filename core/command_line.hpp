@@ -1,0 +1,60 @@
+#pragma once
+// The command line that all executables share: --help, --version, --threads, --quiet, --json, --depfile.
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+/// Options that every stage has.
+struct CommonOptions {
+  int threads = 0;                 // 0: all cores
+  bool quiet = false;
+  bool json = false;               // one machine-readable summary line on stdout
+  std::filesystem::path depfile;   // make-style list of the files that were read
+};
+
+/// Declares and parses one executable's arguments. A wrong command line ends with exit code 2.
+class CommandLine {
+ public:
+  /// `summary` says in a sentence what the stage does; `epilog` teaches: sample commands, see-also.
+  CommandLine(const std::string& program, const std::string& summary, const std::string& epilog);
+  ~CommandLine();
+
+  void positional(const std::string& name, std::filesystem::path& value, const std::string& help,
+                  bool required = true);
+  void positional(const std::string& name, std::vector<std::filesystem::path>& value,
+                  const std::string& help, bool required = true);
+  void option(const std::string& flags, std::filesystem::path& value, const std::string& help,
+              bool required = false);
+  void option(const std::string& flags, std::vector<std::filesystem::path>& value,
+              const std::string& help);
+  void option(const std::string& flags, std::string& value, const std::string& help);
+  void option(const std::string& flags, double& value, const std::string& help);
+  void option(const std::string& flags, int& value, const std::string& help);
+  void flag(const std::string& flags, bool& value, const std::string& help);
+
+  /// Parses; returns false when the program should end at once with exit_code() (help, version, or
+  /// a wrong command line, already reported). Applies --quiet and --threads.
+  bool parse(int argc, char** argv);
+  int exit_code() const;
+  const CommonOptions& common() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes "target: input input ..." for make. Nothing happens when `depfile` is empty.
+void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
+                   const std::vector<std::filesystem::path>& inputs);
+
+/// Prints one JSON object on stdout from (key, value) pairs; values are already JSON text.
+void print_json(const std::vector<std::pair<std::string, std::string>>& members);
+/// A text as a JSON string with quotes; a number as JSON.
+std::string json_text(const std::string& text);
+std::string json_number(double value);
+
+}  // namespace clatter

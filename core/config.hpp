@@ -1,0 +1,79 @@
+#pragma once
+// TOML reading with the manners of design.md section 5: an unknown key is an error that names the
+// nearest known one, every value that was used (also each default) can be printed and stored.
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clatter {
+
+/// Bounds of a number, both ends included unless `open_min`; default: any finite number.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool open_min = false;
+  static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
+  static Range not_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
+};
+
+/// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses the rest.
+/// Every reader throws InputError with "file:line: key: found ..., expected ...".
+class Config {
+ public:
+  /// Reads a file; InputError with line and column when it is missing or not TOML.
+  static Config load(const std::filesystem::path& path);
+  /// Reads TOML from memory; `origin` stands for the file name in messages.
+  static Config parse(std::string_view text, const std::string& origin);
+
+  bool has(std::string_view key) const;
+  /// Keys of this table in order of the file; for tables whose keys are the user's own names.
+  std::vector<std::string> keys() const;
+
+  /// A sub-table; the form without `find_` is an error when absent.
+  Config table(std::string_view key) const;
+  std::optional<Config> find_table(std::string_view key) const;
+  /// An array of tables ([[key]]); empty when absent.
+  std::vector<Config> tables(std::string_view key) const;
+
+  double number(std::string_view key, Range range = {}) const;
+  double number_or(std::string_view key, double fallback, Range range = {}) const;
+  int64_t integer(std::string_view key, Range range = {}) const;
+  int64_t integer_or(std::string_view key, int64_t fallback, Range range = {}) const;
+  bool flag_or(std::string_view key, bool fallback) const;
+  std::string text(std::string_view key) const;
+  std::string text_or(std::string_view key, const std::string& fallback) const;
+  /// A text that must be one of `allowed`; the first is the default when the key is absent.
+  std::string choice(std::string_view key, std::initializer_list<std::string_view> allowed) const;
+  std::vector<double> numbers(std::string_view key) const;
+  std::vector<double> numbers_or(std::string_view key, const std::vector<double>& fallback) const;
+  /// A list of exactly `count` numbers.
+  std::vector<double> numbers(std::string_view key, size_t count) const;
+  std::vector<std::string> texts(std::string_view key) const;
+  std::vector<std::string> texts_or(std::string_view key,
+                                    const std::vector<std::string>& fallback) const;
+  /// A file path, relative to the folder of the TOML file.
+  std::filesystem::path path(std::string_view key) const;
+
+  /// Refuses every key of the whole file that nobody asked for. Call once all tables were read.
+  void finish() const;
+  /// Every value that was asked for, defaults included, as TOML-like lines "table.key = value".
+  std::string resolved() const;
+  /// "file:line: key: message" as an InputError.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  /// Where this table stands, for messages: "file:line".
+  std::string where() const;
+
+ private:
+  struct Document;
+  struct Node;
+  Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node);
+  std::shared_ptr<Document> document_;
+  std::shared_ptr<Node> node_;
+};
+
+}  // namespace clatter

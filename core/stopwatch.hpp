@@ -1,0 +1,44 @@
+#pragma once
+// Seconds and memory of the steps of a stage.
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+/// Wall seconds since construction or the last restart().
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  void restart() { start_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// Peak resident memory of this process so far [bytes].
+long long peak_memory_bytes();
+
+/// Records the named steps of a stage, prints each as it ends.
+class StepClock {
+ public:
+  struct Step {
+    std::string name;
+    double seconds;
+    double peak_gib;
+  };
+  /// Ends the step that began at the previous call (or at construction) and records it.
+  void lap(const std::string& name);
+  const std::vector<Step>& steps() const { return steps_; }
+  double total_seconds() const { return total_.seconds(); }
+
+ private:
+  Stopwatch total_;
+  Stopwatch lap_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace clatter
