@@ -1,0 +1,125 @@
+#include "mesh/mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+template <class Map>
+std::string names_of(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+template <class Map>
+const typename Map::mapped_type& find_named(const Map& map, const std::string& name,
+                                            const std::string& mesh, const char* kind) {
+  const auto found = map.find(name);
+  if (found == map.end()) {
+    throw InputError(fmt::format("mesh '{}': {} '{}' not found, expected one of: {}", mesh, kind,
+                                 name, names_of(map)));
+  }
+  return found->second;
+}
+
+void check_range(const IndexMatrix& ids, int64_t n_nodes, const std::string& where) {
+  if (ids.size() == 0) return;
+  const auto low = ids.minCoeff(), high = ids.maxCoeff();
+  if (low < 0 || high >= n_nodes) {
+    throw InputError(fmt::format("{}: found node {}, expected 0 to {}", where, low < 0 ? low : high,
+                                 n_nodes - 1));
+  }
+}
+
+void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& used) {
+  for (size_t b = 0; b < mesh.cells.size(); ++b) {
+    const CellBlock& block = mesh.cells[b];
+    const std::string place = fmt::format("{}: cells/{}", where, b);
+    if (block.region < 0 || block.region >= static_cast<int32_t>(mesh.regions.size())) {
+      throw InputError(fmt::format("{}: found region {}, expected 0 to {}", place, block.region,
+                                   static_cast<int>(mesh.regions.size()) - 1));
+    }
+    if (block.nodes.cols() != traits(block.type).nodes) {
+      throw InputError(fmt::format("{}: found {} nodes a cell, expected {} for {}", place,
+                                   block.nodes.cols(), traits(block.type).nodes,
+                                   traits(block.type).name));
+    }
+    check_range(block.nodes, mesh.nodes.rows(), place);
+    for (Eigen::Index i = 0; i < block.nodes.size(); ++i) {
+      used[static_cast<size_t>(block.nodes.data()[i])] = true;
+    }
+  }
+}
+
+void check_sets(const Mesh& mesh, const std::string& where) {
+  for (const auto& [name, surface] : mesh.surfaces) {
+    const auto columns = surface.triangles.cols();
+    if (columns != 3 && columns != 6) {
+      throw InputError(fmt::format("{}: surfaces/{}: found {} nodes a triangle, expected 3 or 6",
+                                   where, name, columns));
+    }
+    check_range(surface.triangles, mesh.nodes.rows(), where + ": surfaces/" + name);
+  }
+  for (const auto& [name, ids] : mesh.node_sets) {
+    const IndexMatrix row =
+        Eigen::Map<const IndexMatrix>(ids.data(), 1, static_cast<Eigen::Index>(ids.size()));
+    check_range(row, mesh.nodes.rows(), where + ": node_sets/" + name);
+  }
+}
+
+}  // namespace
+
+int64_t Mesh::cell_count() const {
+  int64_t count = 0;
+  for (const CellBlock& block : cells) count += block.nodes.rows();
+  return count;
+}
+
+const Surface& Mesh::surface(const std::string& surface_name) const {
+  return find_named(surfaces, surface_name, name, "surface");
+}
+
+const std::vector<int32_t>& Mesh::node_set(const std::string& set_name) const {
+  return find_named(node_sets, set_name, name, "node set");
+}
+
+std::vector<int32_t> nodes_of(const Surface& surface) {
+  const int32_t* first = surface.triangles.data();
+  std::vector<int32_t> ids(first, first + surface.triangles.size());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+void check_structure(const Mesh& mesh, const std::string& where) {
+  if (mesh.nodes.rows() == 0 || mesh.cell_count() == 0) {
+    throw InputError(fmt::format("{}: found {} nodes and {} cells, expected some of both", where,
+                                 mesh.nodes.rows(), mesh.cell_count()));
+  }
+  if (mesh.nodes.cols() != 3) {
+    throw InputError(
+        fmt::format("{}: nodes: found {} columns, expected 3", where, mesh.nodes.cols()));
+  }
+  for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
+    if (!mesh.nodes.row(i).allFinite()) {
+      throw InputError(fmt::format("{}: nodes: row {} is not finite", where, i));
+    }
+  }
+  std::vector<bool> used(static_cast<size_t>(mesh.nodes.rows()), false);
+  check_cells(mesh, where, used);
+  const auto lone = std::find(used.begin(), used.end(), false);
+  if (lone != used.end()) {
+    throw InputError(fmt::format("{}: node {} belongs to no cell: it has no stiffness", where,
+                                 lone - used.begin()));
+  }
+  check_sets(mesh, where);
+  mesh.surface("skin");
+}
+
+}  // namespace clatter::mesh

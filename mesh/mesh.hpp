@@ -1,0 +1,47 @@
+#pragma once
+// A finite element mesh of one part: nodes, cells by region, named surfaces and node sets.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/h5_file.hpp"
+#include "mesh/cell.hpp"
+
+namespace clatter::mesh {
+
+/// Cells of one type and one region.
+struct CellBlock {
+  CellType type = CellType::kTet10;
+  int32_t region = 0;  // index into Mesh::regions
+  IndexMatrix nodes;   // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
+};
+
+/// Boundary triangles of the solid, each a face of exactly one cell or of two in different regions.
+struct Surface {
+  IndexMatrix triangles;  // f x 6 (f x 3 for a linear mesh), Gmsh order, outward orientation
+};
+
+/// One part. Every mesh has the surface "skin": all boundary faces of the solid.
+struct Mesh {
+  std::string name;
+  RowMatrix nodes;                   // n x 3 [m]
+  std::vector<std::string> regions;  // names; a region is what gets one material
+  std::vector<CellBlock> cells;
+  std::map<std::string, Surface> surfaces;
+  std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
+
+  int64_t cell_count() const;
+  /// InputError that lists the names present when there is none of that name.
+  const Surface& surface(const std::string& surface_name) const;
+  const std::vector<int32_t>& node_set(const std::string& set_name) const;
+};
+
+/// Nodes that the triangles use, ascending.
+std::vector<int32_t> nodes_of(const Surface& surface);
+
+/// Checks sizes, index ranges, finite coordinates and that every node belongs to a cell.
+/// InputError, beginning with `where`, for the first thing that is wrong.
+void check_structure(const Mesh& mesh, const std::string& where);
+
+}  // namespace clatter::mesh
