@@ -1,0 +1,140 @@
+#include "assembly/fe_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+[[noreturn]] void refuse(const H5File& file, const std::string& place, const std::string& found,
+                         const std::string& expected) {
+  throw InputError(
+      fmt::format("{}: {}: found {}, expected {}", file.path().string(), place, found, expected));
+}
+
+void check_shape(const H5File& file, const std::string& place, Eigen::Index rows, Eigen::Index cols,
+                 Eigen::Index want_rows, Eigen::Index want_cols) {
+  if (rows == want_rows && cols == want_cols) return;
+  refuse(file, place, fmt::format("{} x {}", rows, cols),
+         fmt::format("{} x {}", want_rows, want_cols));
+}
+
+template <typename Matrix>
+void check_finite(const H5File& file, const std::string& place, const Matrix& values) {
+  if (!values.allFinite()) refuse(file, place, "a value that is not finite", "finite numbers");
+}
+
+/// A symmetric positive (semi)definite matrix has no negative or empty diagonal entry.
+void check_lower(const H5File& file, const std::string& place, const SparseMatrix& matrix) {
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    SparseMatrix::InnerIterator entry(matrix, j);
+    const bool on_diagonal = entry && entry.row() == j;
+    if (!on_diagonal)
+      refuse(file, fmt::format("{}, column {}", place, j), "no entry on the diagonal first",
+             "the lower triangle");
+    if (!(entry.value() > 0.0))
+      refuse(file, fmt::format("{}, column {}", place, j),
+             fmt::format("diagonal {:g}", entry.value()), "a positive number");
+  }
+}
+
+void check_triangles(const H5File& file, const std::string& place, const IndexMatrix& triangles,
+                     Eigen::Index n_nodes) {
+  if (triangles.cols() != 6 && triangles.cols() != 3)
+    refuse(file, place, fmt::format("{} columns", triangles.cols()), "6 or 3");
+  if (triangles.size() == 0) return;
+  if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= n_nodes)
+    refuse(file, place, fmt::format("nodes {} to {}", triangles.minCoeff(), triangles.maxCoeff()),
+           fmt::format("0 to {}", n_nodes - 1));
+}
+
+void check_matrices(const H5File& file, const FeModel& model) {
+  const Eigen::Index n = model.K.rows();
+  const Eigen::Index n_nodes = model.nodes.rows();
+  if (n == 0) refuse(file, "K", "no degrees of freedom", "at least one");
+  check_shape(file, "K", n, model.K.cols(), n, n);
+  check_shape(file, "M", model.M.rows(), model.M.cols(), n, n);
+  check_shape(file, "T", model.T.rows(), model.T.cols(), 3 * n_nodes, n);
+  check_shape(file, "nodes", n_nodes, model.nodes.cols(), n_nodes, 3);
+  check_shape(file, "rigid", model.rigid.rows(), model.rigid.cols(), n, 6);
+  check_finite(file, "nodes", model.nodes);
+  check_finite(file, "rigid", model.rigid);
+  check_lower(file, "K", model.K);
+  check_lower(file, "M", model.M);
+}
+
+void read_loads(const H5File& file, FeModel& model) {
+  for (const std::string& load : file.list("loads")) {
+    const std::string place = "loads/" + load;
+    Eigen::VectorXd values = file.read_vector(place);
+    check_shape(file, place, values.size(), 1, model.K.rows(), 1);
+    check_finite(file, place, values);
+    model.loads[load] = std::move(values);
+    model.load_units[load] = file.get_string(place, "unit");
+  }
+}
+
+}  // namespace
+
+const DofSet& FeModel::set(const std::string& set_name) const {
+  const auto found = sets.find(set_name);
+  if (found != sets.end()) return found->second;
+  std::vector<std::string> present;
+  for (const auto& [key, value] : sets) present.push_back(key);
+  throw InputError(fmt::format("{}: set: found \"{}\", expected one of: {}", name, set_name,
+                               fmt::join(present, ", ")));
+}
+
+void write_fe_model(H5File& file, const FeModel& model) {
+  file.set("/", "name", model.name);
+  write_sparse(file, "M", model.M, true);
+  write_sparse(file, "K", model.K, true);
+  write_sparse(file, "T", model.T, false);
+  file.write("nodes", model.nodes);
+  file.write("rigid", model.rigid);
+  file.set("damping", "alpha", model.alpha);
+  file.set("damping", "beta", model.beta);
+  write_dof_sets(file, model.sets, model.grids);
+  for (const auto& [load, values] : model.loads) {
+    file.write("loads/" + load, values);
+    const auto unit = model.load_units.find(load);
+    file.set("loads/" + load, "unit", unit == model.load_units.end() ? "1" : unit->second);
+  }
+  for (const auto& [surface, triangles] : model.surfaces)
+    file.write("surfaces/" + surface, triangles);
+  write_mass_properties(file, model.mass);
+}
+
+FeModel read_fe_model(const std::filesystem::path& path) {
+  const H5File file = open_artefact(path, kFeSchema);
+  FeModel model;
+  model.name = file.get_string("/", "name");
+  model.M = read_sparse(file, "M");
+  model.K = read_sparse(file, "K");
+  model.T = read_sparse(file, "T");
+  model.nodes = file.read_rows("nodes");
+  model.rigid = file.read_matrix("rigid");
+  check_matrices(file, model);
+  model.alpha = file.get_double("damping", "alpha");
+  model.beta = file.get_double("damping", "beta");
+  if (!(std::isfinite(model.alpha) && model.alpha >= 0.0 && std::isfinite(model.beta) &&
+        model.beta >= 0.0))
+    refuse(file, "damping", fmt::format("alpha {:g}, beta {:g}", model.alpha, model.beta),
+           "numbers not below zero");
+  read_dof_sets(file, model.size(), model.sets, model.grids);
+  read_loads(file, model);
+  for (const std::string& surface : file.list("surfaces")) {
+    IndexMatrix triangles = file.read_index_matrix("surfaces/" + surface);
+    check_triangles(file, "surfaces/" + surface, triangles, model.nodes.rows());
+    model.surfaces[surface] = std::move(triangles);
+  }
+  model.mass = read_mass_properties(file);
+  return model;
+}
+
+}  // namespace clatter::assembly
