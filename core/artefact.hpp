@@ -16,9 +16,9 @@ std::string sha256_of_file(const std::filesystem::path& path);
 
 /// The head of an artefact.
 struct Provenance {
-  std::string schema;                          // "clatter/mesh/1"
-  std::string config;                          // Config::resolved()
-  std::vector<std::filesystem::path> inputs;   // files that were read
+  std::string schema;                         // "clatter/mesh/1"
+  std::string config;                         // Config::resolved()
+  std::vector<std::filesystem::path> inputs;  // files that were read
 };
 
 /// Writes schema, version, configuration and the inputs' paths and hashes to root attributes and

@@ -1,5 +1,6 @@
 #pragma once
-// The command line that all executables share: --help, --version, --threads, --quiet, --json, --depfile.
+// The command line that all executables share: --help, --version, --threads, --quiet, --json,
+// --depfile.
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -10,10 +11,10 @@ namespace clatter {
 
 /// Options that every stage has.
 struct CommonOptions {
-  int threads = 0;                 // 0: all cores
+  int threads = 0;  // 0: all cores
   bool quiet = false;
-  bool json = false;               // one machine-readable summary line on stdout
-  std::filesystem::path depfile;   // make-style list of the files that were read
+  bool json = false;              // one machine-readable summary line on stdout
+  std::filesystem::path depfile;  // make-style list of the files that were read
 };
 
 /// Declares and parses one executable's arguments. A wrong command line ends with exit code 2.

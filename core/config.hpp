@@ -21,8 +21,8 @@ struct Range {
   static Range not_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
 };
 
-/// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses the rest.
-/// Every reader throws InputError with "file:line: key: found ..., expected ...".
+/// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses the
+/// rest. Every reader throws InputError with "file:line: key: found ..., expected ...".
 class Config {
  public:
   /// Reads a file; InputError with line and column when it is missing or not TOML.

@@ -20,67 +20,72 @@ namespace clatter {
 
 /// A named group of degrees of freedom, each at a place and in a direction.
 struct DofSet {
-  std::string kind;                   // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
-  std::vector<int32_t> dofs;          // indices into the model's coordinates (FE: n, reduced: r)
-  std::vector<std::string> labels;    // one a DoF: "sensor_block.y", "liner_4[3,7]"
-  Eigen::MatrixXd position;           // dofs x 3 [m]
-  Eigen::MatrixXd direction;          // dofs x 3, unit vectors
-  std::vector<int32_t> is_rotation;   // 1: rotation about `direction`, 0: displacement along it
+  std::string kind;                  // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
+  std::vector<int32_t> dofs;         // indices into the model's coordinates (FE: n, reduced: r)
+  std::vector<std::string> labels;   // one a DoF: "sensor_block.y", "liner_4[3,7]"
+  Eigen::MatrixXd position;          // dofs x 3 [m]
+  Eigen::MatrixXd direction;         // dofs x 3, unit vectors
+  std::vector<int32_t> is_rotation;  // 1: rotation about `direction`, 0: displacement along it
 };
 
 /// A grid of patches on a cylinder surface (liner bore or piston skirt). Patch (i, j) is DoF
 /// i * axial.size() + j of the set of the same name; its coordinate is the area-weighted mean
 /// radial displacement, positive away from the axis.
 struct ContactGrid {
-  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();      // [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();           // unit vector
-  Eigen::Vector3d zero_angle = Eigen::Vector3d::UnitX();     // direction of angle 0, right-handed about axis
-  double radius = 0.0;                                       // [m]
-  Eigen::VectorXd angle;        // patch centres [rad], ascending; may cover a part of the circle only
-  Eigen::VectorXd axial;        // patch centres along the axis from axis_point [m], ascending
+  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();       // unit vector
+  Eigen::Vector3d zero_angle =
+      Eigen::Vector3d::UnitX();  // direction of angle 0, right-handed about axis
+  double radius = 0.0;           // [m]
+  Eigen::VectorXd angle;  // patch centres [rad], ascending; may cover a part of the circle only
+  Eigen::VectorXd axial;  // patch centres along the axis from axis_point [m], ascending
   Eigen::VectorXd angle_edges;  // pairs (begin, end) per angular strip, 2 x angle.size() [rad]
   Eigen::VectorXd axial_edges;  // axial.size() + 1 [m]
 };
 
 /// Mass properties about the origin of the part's frame.
 struct MassProperties {
-  double mass = 0.0;                                          // [kg]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();           // [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          // about the centre of mass [kg m2]
+  double mass = 0.0;                                  // [kg]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass [kg m2]
 };
 
 /// The skin of a body with the rows that recover it.
 struct Skin {
-  RowMatrix nodes;              // n_s x 3 [m]
-  IndexMatrix triangles;        // n_f x 6, quadratic triangles, outward orientation, Gmsh order
-  RowMatrix T;                  // 3 n_s x r, row 3 a + d: node a, direction d
+  RowMatrix nodes;        // n_s x 3 [m]
+  IndexMatrix triangles;  // n_f x 6, quadratic triangles, outward orientation, Gmsh order
+  RowMatrix T;            // 3 n_s x r, row 3 a + d: node a, direction d
 };
 
 struct ReducedModel {
   std::string name;
-  std::string method;                           // "guyan", "craig-bampton"
-  int n_boundary = 0;                           // first n_boundary coordinates
-  Eigen::MatrixXd M_rr, K_rr;                   // r x r, symmetric, both triangles filled [SI]
-  double alpha = 0.0;                           // stiffness-proportional damping [s]
-  double beta = 0.0;                            // mass-proportional damping [1/s]
-  Eigen::MatrixXd rigid;                        // r x 6: q of unit rigid motions x, y, z, rx, ry, rz about the origin
-  std::map<std::string, DofSet> sets;           // boundary sets
-  std::map<std::string, ContactGrid> grids;     // contact grids, keyed like their set
-  std::map<std::string, Eigen::VectorXd> loads; // r; reduced load vectors of unit load cases ("gas": per Pa)
-  MassProperties mass;                          // of the full model
-  Eigen::VectorXd fixed_interface_hz;           // frequencies of the kept modes
-  double valid_to_hz = 0.0;                     // highest frequency the basis is meant for
-  Skin skin;                                    // empty (0 rows) when not recovered
+  std::string method;          // "guyan", "craig-bampton"
+  int n_boundary = 0;          // first n_boundary coordinates
+  Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles filled [SI]
+  double alpha = 0.0;          // stiffness-proportional damping [s]
+  double beta = 0.0;           // mass-proportional damping [1/s]
+  Eigen::MatrixXd rigid;  // r x 6: q of unit rigid motions x, y, z, rx, ry, rz about the origin
+  std::map<std::string, DofSet> sets;        // boundary sets
+  std::map<std::string, ContactGrid> grids;  // contact grids, keyed like their set
+  std::map<std::string, Eigen::VectorXd>
+      loads;                           // r; reduced load vectors of unit load cases ("gas": per Pa)
+  MassProperties mass;                 // of the full model
+  Eigen::VectorXd fixed_interface_hz;  // frequencies of the kept modes
+  double valid_to_hz = 0.0;            // highest frequency the basis is meant for
+  Skin skin;                           // empty (0 rows) when not recovered
   std::map<std::string, double> certificate;
 
   int size() const { return static_cast<int>(M_rr.rows()); }
-  const DofSet& set(const std::string& set_name) const;        // InputError listing the names present
-  const ContactGrid& grid(const std::string& grid_name) const; // InputError listing the names present
+  const DofSet& set(const std::string& set_name) const;  // InputError listing the names present
+  const ContactGrid& grid(
+      const std::string& grid_name) const;  // InputError listing the names present
 };
 
-/// Writes `model` under schema "clatter/rom/1" into an open file (provenance and timing are the caller's).
+/// Writes `model` under schema "clatter/rom/1" into an open file (provenance and timing are the
+/// caller's).
 void write_reduced_model(H5File& file, const ReducedModel& model);
-/// Reads and checks shapes, ranges, symmetry, finite values (InputError). `with_skin` false leaves the skin empty.
+/// Reads and checks shapes, ranges, symmetry, finite values (InputError). `with_skin` false leaves
+/// the skin empty.
 ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin = true);
 
 /// DoF sets and grids are stored alike by the FE model and the reduced model.

@@ -1,0 +1,87 @@
+#include "core/artefact.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include "core/error.hpp"
+
+namespace clatter {
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(fmt::format("{}: cannot be read", path.string()));
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                        &EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  std::vector<char> buffer(1 << 20);
+  while (stream) {
+    stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<size_t>(stream.gcount()));
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
+  std::string hex;
+  for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
+  return hex;
+}
+
+void write_provenance(H5File& file, const Provenance& provenance) {
+  file.set("/", "schema", provenance.schema);
+  file.set("/", "version", version());
+  file.set("/", "config", provenance.config);
+  std::vector<std::string> paths, hashes;
+  for (const auto& input : provenance.inputs) {
+    paths.push_back(input.string());
+    hashes.push_back(sha256_of_file(input));
+  }
+  file.write("inputs/path", paths);
+  file.write("inputs/sha256", hashes);
+}
+
+void write_timing(H5File& file, const StepClock& clock) {
+  std::vector<std::string> names;
+  std::vector<double> seconds, peak;
+  for (const auto& step : clock.steps()) {
+    names.push_back(step.name);
+    seconds.push_back(step.seconds);
+    peak.push_back(step.peak_gib);
+  }
+  file.write("timing/step", names);
+  file.write("timing/seconds", seconds);
+  file.write("timing/peak_gib", peak);
+  file.set("timing", "total_seconds", clock.total_seconds());
+  file.set("timing", "peak_gib", static_cast<double>(peak_memory_bytes()) / 1073741824.0);
+}
+
+void write_certificate(H5File& file, const std::map<std::string, double>& certificate) {
+  for (const auto& [name, value] : certificate) file.set("certificate", name, value);
+}
+
+std::map<std::string, double> read_certificate(const H5File& file) {
+  std::map<std::string, double> certificate;
+  if (!file.has("certificate")) return certificate;
+  for (const auto& name : file.attributes("certificate")) {
+    certificate[name] = file.get_double("certificate", name);
+  }
+  return certificate;
+}
+
+H5File open_artefact(const std::filesystem::path& path, const std::string& schema) {
+  H5File file = H5File::open(path);
+  const std::string found =
+      file.has_attribute("/", "schema") ? file.get_string("/", "schema") : "no schema";
+  if (found != schema) {
+    throw InputError(
+        fmt::format("{}: schema: found {}, expected {}", path.string(), found, schema));
+  }
+  return file;
+}
+
+std::string version() { return CLATTER_VERSION; }
+
+}  // namespace clatter

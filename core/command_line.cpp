@@ -1,0 +1,143 @@
+#include "core/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "core/artefact.hpp"
+#include "core/blas_kernel.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/threads.hpp"
+
+namespace clatter {
+
+struct CommandLine::Impl {
+  CLI::App app;
+  CommonOptions common;
+  std::string program;
+  int exit_code = 0;
+};
+
+CommandLine::CommandLine(const std::string& program, const std::string& summary,
+                         const std::string& epilog)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->program = program;
+  auto& app = impl_->app;
+  app.name(program);
+  app.description(summary);
+  app.footer(epilog);
+  app.set_version_flag("--version", program + " " + version());
+  app.add_option("--threads", impl_->common.threads, "threads to use; 0 means all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--quiet", impl_->common.quiet, "warnings and errors only");
+  app.add_flag("--json", impl_->common.json, "print one machine-readable summary line on stdout");
+  app.add_option("--depfile", impl_->common.depfile, "write the files that were read, for make");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::positional(const std::string& name, std::filesystem::path& value,
+                             const std::string& help, bool required) {
+  impl_->app.add_option(name, value, help)->required(required);
+}
+
+void CommandLine::positional(const std::string& name, std::vector<std::filesystem::path>& value,
+                             const std::string& help, bool required) {
+  impl_->app.add_option(name, value, help)->required(required);
+}
+
+void CommandLine::option(const std::string& flags, std::filesystem::path& value,
+                         const std::string& help, bool required) {
+  impl_->app.add_option(flags, value, help)->required(required);
+}
+
+void CommandLine::option(const std::string& flags, std::vector<std::filesystem::path>& value,
+                         const std::string& help) {
+  impl_->app.add_option(flags, value, help);
+}
+
+void CommandLine::option(const std::string& flags, std::string& value, const std::string& help) {
+  impl_->app.add_option(flags, value, help)->capture_default_str();
+}
+
+void CommandLine::option(const std::string& flags, double& value, const std::string& help) {
+  impl_->app.add_option(flags, value, help)->capture_default_str();
+}
+
+void CommandLine::option(const std::string& flags, int& value, const std::string& help) {
+  impl_->app.add_option(flags, value, help)->capture_default_str();
+}
+
+void CommandLine::flag(const std::string& flags, bool& value, const std::string& help) {
+  impl_->app.add_flag(flags, value, help);
+}
+
+bool CommandLine::parse(int argc, char** argv) {
+  try {
+    impl_->app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      impl_->app.exit(error);
+    } else {
+      std::fprintf(stderr, "%s: error: %s (see %s --help)\n", impl_->program.c_str(), error.what(),
+                   impl_->program.c_str());
+      impl_->exit_code = static_cast<int>(ExitCode::kBadInput);
+    }
+    return false;
+  }
+  set_quiet(impl_->common.quiet);
+  set_thread_count(impl_->common.threads);
+  set_blas_threads(thread_count());
+  return true;
+}
+
+int CommandLine::exit_code() const { return impl_->exit_code; }
+
+const CommonOptions& CommandLine::common() const { return impl_->common; }
+
+void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
+                   const std::vector<std::filesystem::path>& inputs) {
+  if (depfile.empty()) return;
+  std::ofstream stream(depfile);
+  stream << target.string() << ":";
+  for (const auto& input : inputs) stream << " " << input.string();
+  stream << "\n";
+  // An input that was deleted must not stop make: each is also a target without a recipe.
+  for (const auto& input : inputs) stream << input.string() << ":\n";
+  stream.close();
+  if (!stream) throw FileError(fmt::format("{}: cannot be written", depfile.string()));
+}
+
+std::string json_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+std::string json_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+void print_json(const std::vector<std::pair<std::string, std::string>>& members) {
+  std::string line = "{";
+  for (const auto& [key, value] : members) {
+    if (line.size() > 1) line += ", ";
+    line += json_text(key) + ": " + value;
+  }
+  std::puts((line + "}").c_str());
+}
+
+}  // namespace clatter

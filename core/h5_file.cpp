@@ -1,0 +1,463 @@
+#include "core/h5_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace clatter {
+namespace {
+
+/// Owns one HDF5 identifier.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Id& operator=(Id&&) = delete;
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void silence_library() {
+  // The library's own stack of messages is for its developers; ours is one line.
+  static const bool once = [] {
+    H5check_version(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);  // hard case H6
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  (void)once;
+}
+
+template <class T>
+hid_t memory_type();
+template <>
+hid_t memory_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t memory_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t memory_type<int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+hid_t memory_type<int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+
+Id string_type() {
+  Id type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+}  // namespace
+
+struct H5File::Impl {
+  std::filesystem::path final_path;
+  std::filesystem::path part_path;  // empty when reading
+  hid_t file = -1;
+
+  ~Impl() {
+    if (file >= 0) H5Fclose(file);
+    std::error_code ignored;
+    if (!part_path.empty()) std::filesystem::remove(part_path, ignored);
+  }
+
+  std::string at(std::string_view name) const {
+    return fmt::format("{}: {}", final_path.string(), name);
+  }
+  [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", at(name), what));
+  }
+  [[noreturn]] void trouble(std::string_view name) const {
+    throw FileError(fmt::format("{}: cannot be written (disk full or no permission?)", at(name)));
+  }
+
+  bool exists(const std::string& name) const {
+    if (name.empty() || name == "/") return true;
+    for (size_t slash = name.find('/'); slash != std::string::npos;
+         slash = name.find('/', slash + 1)) {
+      if (slash > 0 && H5Lexists(file, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) {
+        return false;
+      }
+    }
+    return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+  }
+
+  Id open_dataset(std::string_view name) const {
+    const std::string path(name);
+    if (!exists(path)) refuse(name, "found nothing, expected a dataset");
+    Id set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), &H5Dclose);
+    if (!set.ok()) refuse(name, "found a group or damage, expected a dataset");
+    return set;
+  }
+
+  static std::vector<int64_t> extents(hid_t set) {
+    const Id space(H5Dget_space(set), &H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank <= 0) return {};
+    std::vector<hsize_t> raw(static_cast<size_t>(rank));
+    H5Sget_simple_extent_dims(space, raw.data(), nullptr);
+    return {raw.begin(), raw.end()};
+  }
+
+  template <class T>
+  void write(std::string_view name, const T* values, const std::vector<int64_t>& shape) {
+    const std::string path(name);
+    const std::vector<hsize_t> dims(shape.begin(), shape.end());
+    const Id space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+                   &H5Sclose);
+    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Id set(
+        H5Dcreate2(file, path.c_str(), memory_type<T>(), space, links, H5P_DEFAULT, H5P_DEFAULT),
+        &H5Dclose);
+    const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
+    if (!set.ok() ||
+        (!empty && H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+      trouble(name);
+    }
+  }
+
+  template <class T>
+  std::vector<T> read(std::string_view name, size_t rank) const {
+    const Id set = open_dataset(name);
+    const auto shape = extents(set);
+    if (shape.size() != rank) {
+      refuse(name, fmt::format("found {} dimensions, expected {}", shape.size(), rank));
+    }
+    check_number_class(name, set, std::is_integral_v<T>);
+    int64_t count = 1;
+    for (const int64_t extent : shape) count *= extent;
+    std::vector<T> values(static_cast<size_t>(count));
+    if (count > 0 &&
+        H5Dread(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+      refuse(name, "cannot be read, the file is damaged");
+    }
+    return values;
+  }
+
+  void check_number_class(std::string_view name, hid_t set, bool integral) const {
+    const Id type(H5Dget_type(set), &H5Tclose);
+    const H5T_class_t found = H5Tget_class(type);
+    const bool fits = found == H5T_INTEGER || (!integral && found == H5T_FLOAT);
+    if (!fits) {
+      refuse(name, fmt::format("found another type, expected {}",
+                               integral ? "whole numbers" : "numbers"));
+    }
+  }
+
+  Id open_object(std::string_view object) const {
+    const std::string path(object);
+    if (!exists(path)) refuse(object, "found nothing, expected a group or dataset");
+    return Id(H5Oopen(file, path.c_str(), H5P_DEFAULT), &H5Oclose);
+  }
+
+  void ensure_group(std::string_view object) {
+    const std::string path(object);
+    if (exists(path)) return;
+    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Id group(H5Gcreate2(file, path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), &H5Gclose);
+    if (!group.ok()) trouble(object);
+  }
+
+  void set_attribute(std::string_view object, std::string_view name, hid_t type,
+                     const void* value) {
+    ensure_group(object);
+    const Id owner = open_object(object);
+    const std::string key(name);
+    if (H5Aexists(owner, key.c_str()) > 0) H5Adelete(owner, key.c_str());
+    const Id space(H5Screate(H5S_SCALAR), &H5Sclose);
+    const Id attribute(H5Acreate2(owner, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                       &H5Aclose);
+    if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) trouble(object);
+  }
+
+  Id open_attribute(std::string_view object, std::string_view name) const {
+    const Id owner = open_object(object);
+    const std::string key(name);
+    if (H5Aexists(owner, key.c_str()) <= 0) {
+      refuse(object, fmt::format("found no attribute {}, expected one", name));
+    }
+    return Id(H5Aopen(owner, key.c_str(), H5P_DEFAULT), &H5Aclose);
+  }
+
+  template <class T>
+  T number_attribute(std::string_view object, std::string_view name) const {
+    const Id attribute = open_attribute(object, name);
+    const Id type(H5Aget_type(attribute), &H5Tclose);
+    const H5T_class_t found = H5Tget_class(type);
+    T value{};
+    if ((found != H5T_INTEGER && found != H5T_FLOAT) ||
+        H5Aread(attribute, memory_type<T>(), &value) < 0) {
+      refuse(object, fmt::format("attribute {} is not a number", name));
+    }
+    return value;
+  }
+};
+
+H5File::H5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+H5File::H5File(H5File&&) noexcept = default;
+H5File& H5File::operator=(H5File&&) noexcept = default;
+H5File::~H5File() = default;
+
+H5File H5File::open(const std::filesystem::path& path) {
+  silence_library();
+  auto impl = std::make_unique<Impl>();
+  impl->final_path = path;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    throw InputError(fmt::format("{}: no such file, expected an HDF5 file", path.string()));
+  }
+  impl->file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (impl->file < 0) {
+    throw InputError(
+        fmt::format("{}: cannot be opened, expected a complete HDF5 file (truncated, or not HDF5)",
+                    path.string()));
+  }
+  return H5File(std::move(impl));
+}
+
+H5File H5File::create(const std::filesystem::path& path) {
+  silence_library();
+  auto impl = std::make_unique<Impl>();
+  impl->final_path = path;
+  std::filesystem::path part = path;
+  part += ".part";
+  const Id access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (impl->file < 0) {
+    throw FileError(fmt::format(
+        "{}: cannot be created (folder missing, no permission or disk full)", part.string()));
+  }
+  impl->part_path = part;
+  return H5File(std::move(impl));
+}
+
+void H5File::commit() {
+  const auto part = impl_->part_path;
+  const auto fail = [&](const char* what) {
+    throw FileError(
+        fmt::format("{}: cannot be {} (disk full or no permission?)", part.string(), what));
+  };
+  const bool flushed = H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0;
+  const bool closed = H5Fclose(std::exchange(impl_->file, -1)) >= 0;
+  if (!flushed || !closed) fail("written");
+  const int descriptor = ::open(part.c_str(), O_RDWR);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!synced) fail("synced");
+  if (std::rename(part.c_str(), impl_->final_path.c_str()) != 0) fail("renamed");
+  impl_->part_path.clear();
+}
+
+void H5File::flush() {
+  if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->trouble("/");
+}
+
+const std::filesystem::path& H5File::path() const { return impl_->final_path; }
+
+bool H5File::has(std::string_view name) const { return impl_->exists(std::string(name)); }
+
+bool H5File::has_attribute(std::string_view object, std::string_view name) const {
+  if (!has(object)) return false;
+  const Id owner = impl_->open_object(object);
+  return H5Aexists(owner, std::string(name).c_str()) > 0;
+}
+
+std::vector<std::string> H5File::list(std::string_view group) const {
+  std::vector<std::string> names;
+  if (!has(group)) return names;
+  const Id owner = impl_->open_object(group);
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
+    static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+    return 0;
+  };
+  H5Literate(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
+  return names;
+}
+
+std::vector<int64_t> H5File::shape(std::string_view name) const {
+  return Impl::extents(impl_->open_dataset(name));
+}
+
+void H5File::write(std::string_view name, const std::vector<double>& values) {
+  impl_->write(name, values.data(), {static_cast<int64_t>(values.size())});
+}
+void H5File::write(std::string_view name, const std::vector<int32_t>& values) {
+  impl_->write(name, values.data(), {static_cast<int64_t>(values.size())});
+}
+void H5File::write(std::string_view name, const std::vector<int64_t>& values) {
+  impl_->write(name, values.data(), {static_cast<int64_t>(values.size())});
+}
+void H5File::write(std::string_view name, const Eigen::VectorXd& values) {
+  impl_->write(name, values.data(), {values.size()});
+}
+void H5File::write(std::string_view name, const Eigen::MatrixXd& values) {
+  write(name, RowMatrix(values));
+}
+void H5File::write(std::string_view name, const RowMatrix& values) {
+  impl_->write(name, values.data(), {values.rows(), values.cols()});
+}
+void H5File::write(std::string_view name, const IndexMatrix& values) {
+  impl_->write(name, values.data(), {values.rows(), values.cols()});
+}
+void H5File::write_float(std::string_view name, const std::vector<float>& values,
+                         const std::vector<int64_t>& shape) {
+  impl_->write(name, values.data(), shape);
+}
+
+void H5File::write(std::string_view name, const std::vector<std::string>& values) {
+  const Id type = string_type();
+  const auto count = static_cast<hsize_t>(values.size());
+  const Id space(H5Screate_simple(1, &count, nullptr), &H5Sclose);
+  const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  const Id set(H5Dcreate2(impl_->file, std::string(name).c_str(), type, space, links, H5P_DEFAULT,
+                          H5P_DEFAULT),
+               &H5Dclose);
+  std::vector<const char*> pointers;
+  for (const auto& value : values) pointers.push_back(value.c_str());
+  if (!set.ok() ||
+      (count > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0)) {
+    impl_->trouble(name);
+  }
+}
+
+std::vector<double> H5File::read_doubles(std::string_view name) const {
+  return impl_->read<double>(name, 1);
+}
+std::vector<int32_t> H5File::read_ints(std::string_view name) const {
+  return impl_->read<int32_t>(name, 1);
+}
+std::vector<int64_t> H5File::read_longs(std::string_view name) const {
+  return impl_->read<int64_t>(name, 1);
+}
+
+std::vector<std::string> H5File::read_strings(std::string_view name) const {
+  const Id set = impl_->open_dataset(name);
+  const Id stored(H5Dget_type(set), &H5Tclose);
+  const auto shape = Impl::extents(set);
+  if (shape.size() != 1 || H5Tis_variable_str(stored) <= 0) {
+    impl_->refuse(name, "found another type, expected a list of texts");
+  }
+  std::vector<char*> pointers(static_cast<size_t>(shape[0]), nullptr);
+  if (pointers.empty()) return {};
+  const Id type = string_type();
+  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
+    impl_->refuse(name, "cannot be read, the file is damaged");
+  }
+  std::vector<std::string> values;
+  for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
+  const Id space(H5Dget_space(set), &H5Sclose);
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return values;
+}
+
+Eigen::VectorXd H5File::read_vector(std::string_view name) const {
+  const auto values = read_doubles(name);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Eigen::MatrixXd H5File::read_matrix(std::string_view name) const { return read_rows(name); }
+
+RowMatrix H5File::read_rows(std::string_view name) const {
+  const auto values = impl_->read<double>(name, 2);
+  const auto extents = shape(name);
+  return Eigen::Map<const RowMatrix>(values.data(), extents[0], extents[1]);
+}
+
+RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count) const {
+  const Id set = impl_->open_dataset(name);
+  const auto extents = Impl::extents(set);
+  if (extents.size() != 2 || first < 0 || count < 0 || first + count > extents[0]) {
+    impl_->refuse(name, fmt::format("rows {} to {} asked for, the dataset has {}", first,
+                                    first + count, extents.empty() ? 0 : extents[0]));
+  }
+  impl_->check_number_class(name, set, false);
+  RowMatrix values(count, extents[1]);
+  if (values.size() == 0) return values;
+  const Id space(H5Dget_space(set), &H5Sclose);
+  const hsize_t start[2] = {static_cast<hsize_t>(first), 0};
+  const hsize_t size[2] = {static_cast<hsize_t>(count), static_cast<hsize_t>(extents[1])};
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
+  const Id memory(H5Screate_simple(2, size, nullptr), &H5Sclose);
+  if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0) {
+    impl_->refuse(name, "cannot be read, the file is damaged");
+  }
+  return values;
+}
+
+IndexMatrix H5File::read_index_matrix(std::string_view name) const {
+  const auto values = impl_->read<int32_t>(name, 2);
+  const auto extents = shape(name);
+  return Eigen::Map<const IndexMatrix>(values.data(), extents[0], extents[1]);
+}
+
+void H5File::set(std::string_view object, std::string_view name, double value) {
+  impl_->set_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+void H5File::set(std::string_view object, std::string_view name, int64_t value) {
+  impl_->set_attribute(object, name, H5T_NATIVE_INT64, &value);
+}
+void H5File::set(std::string_view object, std::string_view name, const std::string& value) {
+  const Id type = string_type();
+  const char* pointer = value.c_str();
+  impl_->set_attribute(object, name, type, &pointer);
+}
+
+double H5File::get_double(std::string_view object, std::string_view name) const {
+  return impl_->number_attribute<double>(object, name);
+}
+int64_t H5File::get_int(std::string_view object, std::string_view name) const {
+  return impl_->number_attribute<int64_t>(object, name);
+}
+
+std::string H5File::get_string(std::string_view object, std::string_view name) const {
+  const Id attribute = impl_->open_attribute(object, name);
+  const Id stored(H5Aget_type(attribute), &H5Tclose);
+  if (H5Tis_variable_str(stored) <= 0) {
+    impl_->refuse(object, fmt::format("attribute {} is not a text", name));
+  }
+  const Id type = string_type();
+  char* pointer = nullptr;
+  if (H5Aread(attribute, type, &pointer) < 0 || pointer == nullptr) {
+    impl_->refuse(object, fmt::format("attribute {} cannot be read", name));
+  }
+  std::string value = pointer;
+  H5free_memory(pointer);
+  return value;
+}
+
+std::vector<std::string> H5File::attributes(std::string_view object) const {
+  const Id owner = impl_->open_object(object);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* data) -> herr_t {
+    static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+    return 0;
+  };
+  hsize_t index = 0;
+  H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, &index, collect, &names);
+  return names;
+}
+
+}  // namespace clatter
