@@ -1,0 +1,215 @@
+#pragma once
+// Inner side of h5_file: identifiers that close themselves and typed access. Only core/h5_*.cpp
+// include this; nobody else sees an HDF5 type.
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/h5_file.hpp"
+
+namespace clatter {
+
+/// Owns one HDF5 identifier.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Id& operator=(Id&&) = delete;
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+inline void silence_library() {
+  // The library's own stack of messages is for its developers; ours is one line.
+  static const bool once = [] {
+    H5check_version(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);  // hard case H6
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  (void)once;
+}
+
+template <class T>
+hid_t memory_type();
+template <>
+inline hid_t memory_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+inline hid_t memory_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+inline hid_t memory_type<int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+inline hid_t memory_type<int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+
+inline Id string_type() {
+  Id type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+struct H5File::Impl {
+  std::filesystem::path final_path;
+  std::filesystem::path part_path;  // empty when reading
+  hid_t file = -1;
+
+  ~Impl() {
+    if (file >= 0) H5Fclose(file);
+    std::error_code ignored;
+    if (!part_path.empty()) std::filesystem::remove(part_path, ignored);
+  }
+
+  std::string at(std::string_view name) const {
+    return fmt::format("{}: {}", final_path.string(), name);
+  }
+  [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", at(name), what));
+  }
+  [[noreturn]] void trouble(std::string_view name) const {
+    throw FileError(fmt::format("{}: cannot be written (disk full or no permission?)", at(name)));
+  }
+
+  bool exists(const std::string& name) const {
+    if (name.empty() || name == "/") return true;
+    for (size_t slash = name.find('/'); slash != std::string::npos;
+         slash = name.find('/', slash + 1)) {
+      if (slash > 0 && H5Lexists(file, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) {
+        return false;
+      }
+    }
+    return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+  }
+
+  Id open_dataset(std::string_view name) const {
+    const std::string path(name);
+    if (!exists(path)) refuse(name, "found nothing, expected a dataset");
+    Id set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), &H5Dclose);
+    if (!set.ok()) refuse(name, "found a group or damage, expected a dataset");
+    return set;
+  }
+
+  static std::vector<int64_t> extents(hid_t set) {
+    const Id space(H5Dget_space(set), &H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank <= 0) return {};
+    std::vector<hsize_t> raw(static_cast<size_t>(rank));
+    H5Sget_simple_extent_dims(space, raw.data(), nullptr);
+    return {raw.begin(), raw.end()};
+  }
+
+  template <class T>
+  void write(std::string_view name, const T* values, const std::vector<int64_t>& shape) {
+    const std::string path(name);
+    const std::vector<hsize_t> dims(shape.begin(), shape.end());
+    const Id space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+                   &H5Sclose);
+    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Id set(
+        H5Dcreate2(file, path.c_str(), memory_type<T>(), space, links, H5P_DEFAULT, H5P_DEFAULT),
+        &H5Dclose);
+    const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
+    if (!set.ok() ||
+        (!empty && H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+      trouble(name);
+    }
+  }
+
+  template <class T>
+  std::vector<T> read(std::string_view name, size_t rank) const {
+    const Id set = open_dataset(name);
+    const auto shape = extents(set);
+    if (shape.size() != rank) {
+      refuse(name, fmt::format("found {} dimensions, expected {}", shape.size(), rank));
+    }
+    check_number_class(name, set, std::is_integral_v<T>);
+    int64_t count = 1;
+    for (const int64_t extent : shape) count *= extent;
+    std::vector<T> values(static_cast<size_t>(count));
+    if (count > 0 &&
+        H5Dread(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+      refuse(name, "cannot be read, the file is damaged");
+    }
+    return values;
+  }
+
+  void check_number_class(std::string_view name, hid_t set, bool integral) const {
+    const Id type(H5Dget_type(set), &H5Tclose);
+    const H5T_class_t found = H5Tget_class(type);
+    const bool fits = found == H5T_INTEGER || (!integral && found == H5T_FLOAT);
+    if (!fits) {
+      refuse(name, fmt::format("found another type, expected {}",
+                               integral ? "whole numbers" : "numbers"));
+    }
+  }
+
+  Id open_object(std::string_view object) const {
+    const std::string path(object);
+    if (!exists(path)) refuse(object, "found nothing, expected a group or dataset");
+    return Id(H5Oopen(file, path.c_str(), H5P_DEFAULT), &H5Oclose);
+  }
+
+  void ensure_group(std::string_view object) {
+    const std::string path(object);
+    if (exists(path)) return;
+    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Id group(H5Gcreate2(file, path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), &H5Gclose);
+    if (!group.ok()) trouble(object);
+  }
+
+  void set_attribute(std::string_view object, std::string_view name, hid_t type,
+                     const void* value) {
+    ensure_group(object);
+    const Id owner = open_object(object);
+    const std::string key(name);
+    if (H5Aexists(owner, key.c_str()) > 0) H5Adelete(owner, key.c_str());
+    const Id space(H5Screate(H5S_SCALAR), &H5Sclose);
+    const Id attribute(H5Acreate2(owner, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                       &H5Aclose);
+    if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) trouble(object);
+  }
+
+  Id open_attribute(std::string_view object, std::string_view name) const {
+    const Id owner = open_object(object);
+    const std::string key(name);
+    if (H5Aexists(owner, key.c_str()) <= 0) {
+      refuse(object, fmt::format("found no attribute {}, expected one", name));
+    }
+    return Id(H5Aopen(owner, key.c_str(), H5P_DEFAULT), &H5Aclose);
+  }
+
+  template <class T>
+  T number_attribute(std::string_view object, std::string_view name) const {
+    const Id attribute = open_attribute(object, name);
+    const Id type(H5Aget_type(attribute), &H5Tclose);
+    const H5T_class_t found = H5Tget_class(type);
+    T value{};
+    if ((found != H5T_INTEGER && found != H5T_FLOAT) ||
+        H5Aread(attribute, memory_type<T>(), &value) < 0) {
+      refuse(object, fmt::format("attribute {} is not a number", name));
+    }
+    return value;
+  }
+};
+
+}  // namespace clatter
