@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include "core/command_line.hpp"
+#include "core/error.hpp"
+#include "core/threads.hpp"
+
+namespace clatter {
+namespace {
+
+TEST(Threads, PiecesCoverTheRangeOnceWhateverTheCount) {
+  for (const int count : {1, 2, 3, 7}) {
+    set_thread_count(count);
+    std::vector<int> visits(100, 0);
+    parallel_pieces(100, [&](int64_t begin, int64_t end) {
+      for (int64_t i = begin; i < end; ++i) ++visits[static_cast<size_t>(i)];
+    });
+    EXPECT_EQ(visits, std::vector<int>(100, 1)) << count << " threads";
+  }
+  set_thread_count(0);
+}
+
+TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
+  set_thread_count(2);
+  EXPECT_THROW(parallel_pieces(10,
+                               [](int64_t begin, int64_t) {
+                                 if (begin > 0) throw NumericsError("piece");
+                               }),
+               NumericsError);
+  set_thread_count(0);
+}
+
+TEST(RunGuarded, GivesTheExitCodeOfTheError) {
+  EXPECT_EQ(run_guarded("t", [] { return 0; }), 0);
+  EXPECT_EQ(run_guarded("t", []() -> int { throw InputError("x"); }), 2);
+  EXPECT_EQ(run_guarded("t", []() -> int { throw NumericsError("x"); }), 3);
+  EXPECT_EQ(run_guarded("t", []() -> int { throw FileError("x"); }), 4);
+}
+
+TEST(RunGuarded, HardG1_AThrownStringIsCaught) {
+  EXPECT_EQ(run_guarded("t", []() -> int { throw std::string("gmsh says no"); }), 3);
+}
+
+TEST(CommandLine, AWrongOptionEndsWithTwo) {
+  CommandLine line("t", "summary", "");
+  std::string program = "t", wrong = "--nonsense";
+  char* argv[] = {program.data(), wrong.data(), nullptr};
+  EXPECT_FALSE(line.parse(2, argv));
+  EXPECT_EQ(line.exit_code(), 2);
+}
+
+TEST(CommandLine, TheDepfileNamesEachInputTwice) {
+  const auto path = std::filesystem::temp_directory_path() / "clatter_depfile_test.d";
+  write_depfile(path, "a.h5", {"a.toml", "b.csv"});
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_EQ(text.str(), "a.h5: a.toml b.csv\na.toml:\nb.csv:\n");
+  std::filesystem::remove(path);
+}
+
+TEST(Json, QuotesAndControlCharactersAreEscaped) {
+  EXPECT_EQ(json_text("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
+  EXPECT_EQ(json_number(std::numeric_limits<double>::quiet_NaN()), "null");
+}
+
+}  // namespace
+}  // namespace clatter
