@@ -1,0 +1,45 @@
+# clatter from a fresh Debian 12: `make demo` and `make check` install what is missing, build, run.
+#   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
+#   make demo       samples/truck_diesel         make validate  the longer comparisons as well
+#   make check      every test but the long ones
+JOBS ?= $(shell nproc)
+PRESET ?= release
+PREFIX ?= /usr/local
+BUILD := build/$(PRESET)
+BIN := $(CURDIR)/$(BUILD)/bin
+CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
+
+.NOTPARALLEL:
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate install clean
+help:
+	@sed -n 's/^# \{0,1\}//;1,5p' Makefile
+
+setup: ; @tools/setup build
+setup-demo: ; @tools/setup build demo
+setup-check: ; @tools/setup build demo check
+
+configure: | setup
+	@mkdir -p build
+	@cmake --preset $(PRESET) -DCMAKE_INSTALL_PREFIX=$(PREFIX) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+
+build: configure
+	cmake --build $(BUILD) -j$(JOBS) --target stages
+
+build-tests: configure
+	cmake --build $(BUILD) -j$(JOBS)
+
+demo: setup-demo build
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN)
+	@tools/clatter report samples/truck_diesel
+
+check: setup-check build-tests
+	@$(CTEST) -LE long
+
+validate: setup-check build-tests
+	@$(CTEST)
+
+install: build
+	cmake --install $(BUILD)
+
+clean:
+	rm -rf build
