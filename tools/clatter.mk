@@ -1,0 +1,48 @@
+# Make rules from TOML files to clatter's artefacts: `include` this file, then name the targets.
+#
+#   part.mesh.toml -> part.mesh.h5 -> part.fe.h5 (+ part.fe.toml) -> part.rom.h5 (+ part.rom.toml)
+#   part.fe.h5 (+ part.modes.toml) -> part.modes.h5
+#   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
+#
+# Say which reduced models a scene needs: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other file that
+# a stage read (tables, CAD, base scenes) is known from its dependency file after the first run.
+# CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS goes to every
+# stage (--quiet, --threads 2). An artefact is redone when an input or its stage's program is newer.
+
+clatter_tool := $(lastword $(wildcard $(dir $(lastword $(MAKEFILE_LIST)))clatter \
+                                      $(dir $(lastword $(MAKEFILE_LIST)))../../bin/clatter))
+clatter_program = $(if $(CLATTER_BIN),$(CLATTER_BIN)/clatter-$(1),$(or $(shell command -v clatter-$(1)),\
+  $(error clatter-$(1) is not in PATH: install clatter or set CLATTER_BIN to the folder of its programs)))
+
+clatter_mesh := $(call clatter_program,mesh)
+clatter_assembly := $(call clatter_program,assembly)
+clatter_modal := $(call clatter_program,modal)
+clatter_condense := $(call clatter_program,condense)
+clatter_dynamics := $(call clatter_program,dynamics)
+clatter_recover := $(call clatter_program,recover)
+
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+%.mesh.h5: %.mesh.toml $(clatter_mesh)
+	$(clatter_mesh) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.fe.h5: %.mesh.h5 %.fe.toml $(clatter_assembly)
+	$(clatter_assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.modes.h5: %.fe.h5 %.modes.toml $(clatter_modal)
+	$(clatter_modal) $< -c $*.modes.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.rom.h5: %.fe.h5 %.rom.toml $(clatter_condense)
+	$(clatter_condense) $< -c $*.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.run.h5: %.run.toml $(clatter_dynamics)
+	$(clatter_dynamics) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.field.h5: %.run.h5 %.field.toml $(clatter_recover)
+	$(clatter_recover) $< -c $*.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.field.h5: %.run.h5 field.toml $(clatter_recover)
+	$(clatter_recover) $< -c field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+-include $(wildcard *.h5.d)

@@ -1,0 +1,1 @@
+"""Reads clatter's artefacts: information, reports and pictures."""

@@ -1,0 +1,80 @@
+"""One artefact (HDF5 file) as its stages wrote it: head, inputs, certificate, timing, effects."""
+import hashlib
+import pathlib
+
+import h5py
+
+
+class BadArtefact(Exception):
+    """A file that is missing, broken or of another kind: one line for the user."""
+
+
+def text(value):
+    """An attribute or element that may be bytes as str."""
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def open_artefact(path, kind=None):
+    """Opens an artefact for reading; `kind` is the middle of its schema, as "run" in clatter/run/1."""
+    path = pathlib.Path(path)
+    if not path.exists():
+        raise BadArtefact(f"{path}: no such file")
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise BadArtefact(f"{path}: not a readable HDF5 file") from error
+    schema = text(file.attrs.get("schema", "none"))
+    if kind and schema.split("/")[:2] != ["clatter", kind]:
+        raise BadArtefact(f"{path}: schema: found {schema}, expected clatter/{kind}/1")
+    return file
+
+
+def dataset(file, name):
+    """A dataset's values; BadArtefact names the file and what it holds in that place when it is absent."""
+    if name in file:
+        return file[name][()]
+    group = name.rpartition("/")[0]
+    present = ", ".join(sorted(file[group])) if group in file else "no such group"
+    raise BadArtefact(f"{file.filename}: {name}: absent; {group} holds: {present}")
+
+
+def sha256(path):
+    digest = hashlib.sha256()
+    with open(path, "rb") as stream:
+        for piece in iter(lambda: stream.read(1 << 20), b""):
+            digest.update(piece)
+    return digest.hexdigest()
+
+
+def inputs(file):
+    """Pairs (path, state) of the files that an artefact was made from: "unchanged", "changed since", "gone"."""
+    if "inputs/path" not in file:
+        return []
+    folder = pathlib.Path(file.filename).parent
+    pairs = []
+    for path, digest in zip(file["inputs/path"][()], file["inputs/sha256"][()]):
+        path = text(path)
+        there = next((p for p in (pathlib.Path(path), folder / path, folder / pathlib.Path(path).name)
+                      if p.exists()), None)
+        state = "gone" if there is None else "unchanged" if sha256(there) == text(digest) else "changed since"
+        pairs.append((path, state))
+    return pairs
+
+
+def certificate(file):
+    """What the stage proved, as {name: number}."""
+    return {name: value for name, value in file["certificate"].attrs.items()} if "certificate" in file else {}
+
+
+def timing(file):
+    """Rows (step, seconds, peak GiB so far) of the stage that wrote the file."""
+    if "timing/step" not in file:
+        return []
+    steps = [text(name) for name in file["timing/step"][()]]
+    return list(zip(steps, file["timing/seconds"][()], file["timing/peak_gib"][()]))
+
+
+def totals(file):
+    """(seconds, peak GiB) of the whole stage."""
+    attributes = file["timing"].attrs if "timing" in file else {}
+    return float(attributes.get("total_seconds", float("nan"))), float(attributes.get("peak_gib", float("nan")))

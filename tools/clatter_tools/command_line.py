@@ -1,0 +1,71 @@
+"""The command `clatter`: one subcommand a job, exit codes like the stages' (0 done, 2 bad input)."""
+import argparse
+import os
+import subprocess
+import sys
+
+from . import info, report
+from .artefact import BadArtefact
+
+EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
+clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
+
+
+def parser():
+    top = argparse.ArgumentParser(prog="clatter", description=__import__("clatter_tools").__doc__, epilog=EPILOG)
+    commands = top.add_subparsers(dest="command", required=True, metavar="command")
+    one = commands.add_parser("info", help="what an artefact holds, was made from, proved, and cost")
+    one.add_argument("files", nargs="+", metavar="file.h5")
+    one.add_argument("--config", action="store_true", help="print the resolved configuration instead")
+    one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
+    one.add_argument("folder", nargs="?", default=".")
+    one.add_argument("-j", "--jobs", type=int, default=1, help="how many stages at once")
+    one = commands.add_parser("report", help="print what the runs of a folder found")
+    one.add_argument("folder", nargs="?", default=".")
+    one = commands.add_parser("plot", help="draw a picture from artefacts")
+    one.add_argument("kind", help="which picture; 'list' names them")
+    one.add_argument("files", nargs="*", metavar="file.h5")
+    one.add_argument("-o", "--output", help="PNG file; default: kind.png")
+    one = commands.add_parser("rules", help="print where clatter.mk lies, for `include`")
+    return top
+
+
+def run_make(folder, jobs):
+    if not os.path.exists(os.path.join(folder, "Makefile")):
+        raise BadArtefact(f"{folder}: no Makefile; ten lines with `include $(shell clatter rules)` make one")
+    return subprocess.call(["make", "--no-print-directory", "-C", folder, f"-j{jobs}"])
+
+
+def plot(kind, files, output):
+    from . import plots  # matplotlib is slow to load: only when drawing
+    if kind == "list":
+        for name, picture in plots.PICTURES.items():
+            print(f"{name:<16} {picture.__doc__.strip().splitlines()[0]}")
+        return 0
+    if kind not in plots.PICTURES:
+        raise BadArtefact(f"plot: no picture named {kind}; known: {', '.join(plots.PICTURES)}")
+    plots.draw(kind, files, output or f"{kind}.png")
+    return 0
+
+
+def main(arguments, rules):
+    """Runs one command line; returns the exit code."""
+    options = parser().parse_args(arguments)
+    try:
+        if options.command == "info":
+            for path in options.files:
+                info.print_config(path) if options.config else info.print_info(path)
+        elif options.command == "run":
+            return run_make(options.folder, options.jobs)
+        elif options.command == "report":
+            report.print_report(options.folder)
+        elif options.command == "plot":
+            return plot(options.kind, options.files, options.output)
+        elif options.command == "rules":
+            print(rules)
+    except BadArtefact as error:
+        print(f"clatter: error: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        return 0
+    return 0

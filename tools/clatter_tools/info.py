@@ -1,0 +1,59 @@
+"""`clatter info`: what an artefact holds, what it was made from, what was proved, what it cost."""
+import h5py
+
+from . import artefact
+
+
+def print_tree(group, depth=1):
+    """Groups and datasets with shape and unit; long lists of equal kind are cut after eight."""
+    names = list(group)
+    for name in names[:8] if len(names) > 12 else names:
+        item = group[name]
+        unit = artefact.text(item.attrs["unit"]) if "unit" in item.attrs else ""
+        if isinstance(item, h5py.Group):
+            print(f"{'  ' * depth}{name}/  {sparse_note(item)}".rstrip())
+            if not sparse_note(item):
+                print_tree(item, depth + 1)
+        else:
+            shape = " x ".join(map(str, item.shape)) or "scalar"
+            print(f"{'  ' * depth}{name:<28} {shape:>14}  {item.dtype}  {unit}".rstrip())
+    if len(names) > 12:
+        print(f"{'  ' * depth}... and {len(names) - 8} more")
+
+
+def sparse_note(group):
+    """"csc 300 x 300, 4213 entries" for a sparse matrix, else nothing."""
+    if "format" not in group.attrs or "data" not in group:
+        return ""
+    rows, columns = group.attrs["shape"] if "shape" in group.attrs else ("?", "?")
+    return f"{artefact.text(group.attrs['format'])} {rows} x {columns}, {len(group['data'])} entries"
+
+
+def print_info(path):
+    """Prints everything about one artefact."""
+    with artefact.open_artefact(path) as file:
+        print(f"{path}: {artefact.text(file.attrs.get('schema', 'no schema'))}, "
+              f"written by clatter {artefact.text(file.attrs.get('version', 'of unknown version'))}")
+        print_section("made from", [f"{name}  ({state})" for name, state in artefact.inputs(file)])
+        print_section("proved", [f"{name:<40} {value:.6g}" if isinstance(value, float) else f"{name:<40} {value}"
+                                 for name, value in artefact.certificate(file).items()])
+        steps = [f"{name:<40} {seconds:9.2f} s   peak {peak:.2f} GiB" for name, seconds, peak in artefact.timing(file)]
+        if steps:
+            seconds, peak = artefact.totals(file)
+            steps.append(f"{'in all':<40} {seconds:9.2f} s   peak {peak:.2f} GiB")
+        print_section("cost", steps)
+        print("holds")
+        print_tree({name: file[name] for name in file if name not in ("inputs", "certificate", "timing")})
+
+
+def print_section(title, lines):
+    if lines:
+        print(title)
+        for line in lines:
+            print(f"  {line}")
+
+
+def print_config(path):
+    """Prints the resolved configuration that the stage ran with."""
+    with artefact.open_artefact(path) as file:
+        print(artefact.text(file.attrs.get("config", "")))

@@ -1,0 +1,19 @@
+"""Pictures from artefacts: one function a picture, one style for all."""
+from . import accelerations, film, piston, radiation, shape, style
+
+PICTURES = {
+    "piston": piston.draw,
+    "film": film.draw,
+    "acceleration": accelerations.draw_time,
+    "third-octaves": accelerations.draw_third_octaves,
+    "erp": radiation.draw,
+    "mesh": shape.draw_mesh,
+    "shape": shape.draw_deflection,
+}
+
+
+def draw(kind, files, output):
+    """Draws one picture of PICTURES from files into a PNG, which appears only when it is complete."""
+    style.apply()
+    figure = PICTURES[kind](files)
+    style.save(figure, output)

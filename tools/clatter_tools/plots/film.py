@@ -1,0 +1,25 @@
+"""The oil film between skirt and liner."""
+from . import style
+from ..artefact import BadArtefact
+from .histories import centred, crank_angle, has, history, last_cycle
+
+
+def draw(files):
+    """Smallest film thickness over crank angle (run files with a film; dry ones are left out)."""
+    runs = [run for run in style.open_all(files, "run") if has(run, "film_min")]
+    if not runs:
+        raise BadArtefact("film: none of these runs has a history film_min")
+    figure, axes = style.figure(height=3.4)
+    axis = axes[0, 0]
+    for run in runs:
+        angle = crank_angle(run)
+        window = last_cycle(angle)
+        degrees, order = centred(angle[window])
+        axis.plot(degrees, history(run, "film_min", "m")[window][order] * 1e6, label=style.label(run))
+    style.mark_firing(axis)
+    style.crank_axis(axis, degrees)
+    axis.set_ylim(bottom=0)
+    axis.set_ylabel("smallest film thickness [µm]")
+    axis.set_title("Smallest gap between skirt and liner", loc="left")
+    axis.legend(fontsize=8)
+    return figure

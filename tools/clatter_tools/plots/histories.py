@@ -1,0 +1,35 @@
+"""Scalar histories of a run file over crank angle."""
+import numpy as np
+
+from ..artefact import BadArtefact, dataset, text
+
+
+def crank_angle(run):
+    """Crank angle of the recorded histories [deg]."""
+    return dataset(run, "history/crank_angle_deg")
+
+
+def history(run, name, unit):
+    """One history; BadArtefact when the file's unit is not the expected one."""
+    values = dataset(run, f"history/{name}")
+    found = text(run[f"history/{name}"].attrs.get("unit", ""))
+    if found != unit:
+        raise BadArtefact(f"{run.filename}: history/{name}: unit: found '{found}', expected '{unit}'")
+    return values
+
+
+def has(run, name):
+    return f"history/{name}" in run
+
+
+def last_cycle(angle):
+    """Slice of the last whole cycle of 720 deg (the periodic one), or everything when the run is shorter."""
+    first = int(np.searchsorted(angle, angle[-1] - 720.0 - 1e-6))
+    return slice(first, None)
+
+
+def centred(angle):
+    """Maps the last cycle's angles to -360 .. 360 deg about firing TDC and the order that sorts them."""
+    wrapped = (angle + 360.0) % 720.0 - 360.0
+    order = np.argsort(wrapped, kind="stable")
+    return wrapped[order], order

@@ -1,0 +1,65 @@
+"""The shared look: sizes, colours, labels, and how a picture is saved."""
+import os
+import pathlib
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+from ..artefact import BadArtefact, open_artefact, text  # noqa: E402
+
+# Colour-blind safe (Okabe and Ito 2008); a run keeps its colour in all pictures of one call.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+WIDTH = 8.0  # inches
+
+
+def apply():
+    plt.rcParams.update({
+        "figure.dpi": 110, "savefig.dpi": 110, "font.size": 10, "axes.titlesize": 11, "axes.titleweight": "bold",
+        "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.spines.top": False,
+        "axes.spines.right": False, "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "lines.linewidth": 1.4,
+        "legend.frameon": False, "figure.constrained_layout.use": True, "axes.axisbelow": True,
+    })
+
+
+def figure(rows=1, columns=1, height=2.6, sharex=False, **options):
+    """A figure of `rows` x `columns` axes, `height` inches a row; axes always as a 2-D array."""
+    return plt.subplots(rows, columns, figsize=(WIDTH, height * rows + 0.6), sharex=sharex, squeeze=False, **options)
+
+
+def save(figure_, output):
+    output = pathlib.Path(output)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    part = output.with_name(output.name + ".part")
+    figure_.savefig(part, format="png")
+    plt.close(figure_)
+    os.replace(part, output)
+
+
+def open_all(paths, kind):
+    """Opened artefacts of one kind; at least one."""
+    if not paths:
+        raise BadArtefact(f"this picture needs at least one .{kind}.h5 file")
+    return [open_artefact(path, kind) for path in paths]
+
+
+def label(file):
+    """How a run is called in a legend: its own title, else its file's stem."""
+    if "title" in file.attrs:
+        return text(file.attrs["title"])
+    return pathlib.Path(file.filename).name.split(".")[0].replace("_", " ")
+
+
+def mark_firing(axis, position=0.0):
+    """A thin line at firing top dead centre."""
+    axis.axvline(position, color="#888888", linewidth=0.8, linestyle=":")
+
+
+def crank_axis(axis, angle):
+    """Ticks every 90 degrees over a whole cycle, else as they come."""
+    axis.set_xlim(angle[0], angle[-1])
+    if angle[-1] - angle[0] > 300:
+        first = int(-(-angle[0] // 90)) * 90
+        axis.set_xticks(range(first, int(angle[-1]) + 1, 90))
+    axis.set_xlabel("crank angle [deg], 0 = firing TDC")
