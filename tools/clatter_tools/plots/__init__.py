@@ -1,14 +1,10 @@
 """Pictures from artefacts: one function a picture, one style for all."""
-from . import accelerations, film, piston, radiation, shape, style
+from . import film, piston, shape, style
 
 PICTURES = {
     "piston": piston.draw,
     "film": film.draw,
-    "acceleration": accelerations.draw_time,
-    "third-octaves": accelerations.draw_third_octaves,
-    "erp": radiation.draw,
     "mesh": shape.draw_mesh,
-    "shape": shape.draw_deflection,
 }
 
 

@@ -21,5 +21,5 @@ def draw(files):
     axis.set_ylim(bottom=0)
     axis.set_ylabel("smallest film thickness [µm]")
     axis.set_title("Smallest gap between skirt and liner", loc="left")
-    axis.legend(fontsize=8)
+    axis.legend()
     return figure

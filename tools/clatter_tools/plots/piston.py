@@ -26,5 +26,5 @@ def draw(files):
     for axis in axes:
         style.mark_firing(axis)
     style.crank_axis(axes[-1], degrees)
-    axes[0].legend(ncol=len(runs), fontsize=8, loc="lower left", bbox_to_anchor=(0, -0.02))
+    axes[0].legend()
     return figure

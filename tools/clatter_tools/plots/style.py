@@ -19,7 +19,7 @@ def apply():
         "figure.dpi": 110, "savefig.dpi": 110, "font.size": 10, "axes.titlesize": 11, "axes.titleweight": "bold",
         "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.spines.top": False,
         "axes.spines.right": False, "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "lines.linewidth": 1.4,
-        "legend.frameon": False, "figure.constrained_layout.use": True, "axes.axisbelow": True,
+        "legend.framealpha": 0.85, "legend.edgecolor": "none", "legend.fontsize": 8, "figure.constrained_layout.use": True, "axes.axisbelow": True,
     })
 
 
@@ -60,6 +60,7 @@ def crank_axis(axis, angle):
     """Ticks every 90 degrees over a whole cycle, else as they come."""
     axis.set_xlim(angle[0], angle[-1])
     if angle[-1] - angle[0] > 300:
-        first = int(-(-angle[0] // 90)) * 90
-        axis.set_xticks(range(first, int(angle[-1]) + 1, 90))
+        first, last = (int(round(end / 90)) * 90 for end in (angle[0], angle[-1]))
+        axis.set_xlim(first, last)
+        axis.set_xticks(range(first, last + 1, 90))
     axis.set_xlabel("crank angle [deg], 0 = firing TDC")

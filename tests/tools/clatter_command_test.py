@@ -1,0 +1,88 @@
+"""The command `clatter`: information, report, pictures, on small synthetic artefacts."""
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.image  # noqa: E402
+import numpy as np  # noqa: E402
+
+import synthetic  # noqa: E402
+from clatter_tools.plots import raster  # noqa: E402
+
+CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
+
+
+def clatter(*arguments, folder):
+    return subprocess.run([CLATTER, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        synthetic.write_mesh(self.folder / "block.mesh.h5")
+        synthetic.write_run(self.folder / "slap.run.h5")
+        synthetic.write_run(self.folder / "slap_dry.run.h5", film=False)
+
+    def test_info_names_schema_cost_and_contents(self):
+        done = clatter("info", "slap.run.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for expected in ("clatter/run/1", "energy_residue", "solve", "history/", "piston_lateral"):
+            self.assertIn(expected, done.stdout)
+
+    def test_report_prints_each_run_and_the_cost_of_each_stage(self):
+        done = clatter("report", ".", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for expected in ("slap_dry", "block.mesh.h5", "in all", "2.00"):
+            self.assertIn(expected, done.stdout)
+
+    def test_each_picture_is_drawn_and_is_not_blank(self):
+        runs = ["slap.run.h5", "slap_dry.run.h5"]
+        for kind, files in (("piston", runs), ("film", runs), ("mesh", ["block.mesh.h5"])):
+            with self.subTest(kind=kind):
+                done = clatter("plot", kind, *files, "-o", f"{kind}.png", folder=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                image = matplotlib.image.imread(self.folder / f"{kind}.png")
+                self.assertGreater(image[..., :3].std(), 0.05)  # a blank page has 0
+
+    def test_a_wrong_file_gets_one_line_and_exit_code_2(self):
+        (self.folder / "broken.run.h5").write_bytes(b"not HDF5")
+        for arguments, expected in ((("info", "absent.h5"), "no such file"),
+                                    (("info", "broken.run.h5"), "not a readable HDF5 file"),
+                                    (("plot", "piston", "block.mesh.h5"), "expected clatter/run/1"),
+                                    (("plot", "poem", "slap.run.h5"), "no picture named poem"),
+                                    (("report", "nowhere"), "no artefacts"),
+                                    (("run", "."), "no Makefile")):
+            with self.subTest(arguments=arguments):
+                done = clatter(*arguments, folder=self.folder)
+                self.assertEqual(done.returncode, 2)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(expected, done.stderr)
+
+
+class Renderer(unittest.TestCase):
+    def test_the_nearer_of_two_faces_is_seen(self):
+        square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+        points = np.vstack([square, square * [0.5, 0.5, 0] + [0, 0, 1]])
+        triangles = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+        colour = np.array([[1, 0, 0]] * 2 + [[0, 0, 1]] * 2, float)
+        image = raster.render(points, triangles, colour, azimuth=-90, elevation=90, size=(100, 100))
+        self.assertGreater(image[50, 50, 2], 0.5)
+        self.assertEqual(image[50, 50, 0], 0)
+        self.assertGreater(image[50, 15, 0], 0.5)
+
+    def test_clipping_keeps_the_area_below_the_plane(self):
+        points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
+        cut, parts, _ = raster.clip(points, np.array([[0, 1, 2]]), (1, 0, 0), 0.5)
+        corners = cut[parts]
+        area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        self.assertAlmostEqual(area.sum(), 0.5 - 0.125, delta=1e-12)  # a triangle of 1/2 x 1/2 / 2 is cut off
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

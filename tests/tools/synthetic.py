@@ -1,0 +1,86 @@
+"""Small artefacts with the layout of docs/formats.md and plausible values, for tests of what reads them."""
+import pathlib
+
+import h5py
+import numpy as np
+
+
+def new_file(path, kind):
+    file = h5py.File(path, "w")
+    file.attrs["schema"] = f"clatter/{kind}/1"
+    file.attrs["version"] = "0.1.0"
+    file.attrs["config"] = "speed_rpm = 2000\n"
+    text = h5py.string_dtype()
+    file.create_dataset("timing/step", data=["read", "solve"], dtype=text)
+    file["timing/seconds"] = [0.25, 1.5]
+    file["timing/peak_gib"] = [0.05, 0.2]
+    file["timing"].attrs["total_seconds"] = 1.75
+    file["timing"].attrs["peak_gib"] = 0.2
+    file.require_group("certificate").attrs["energy_residue"] = 0.002
+    return file
+
+
+def box_skin(lengths=(0.4, 0.2, 0.25), counts=(8, 4, 5)):
+    """Nodes (n, 3) and tri6 (f, 6) of a box's surface, normals outward."""
+    nodes, index, faces = [], {}, []
+
+    def node(point):
+        key = tuple(np.round(point, 9))
+        if key not in index:
+            index[key] = len(nodes)
+            nodes.append(key)
+        return index[key]
+
+    def triangle(a, b, c):
+        faces.append([node(p) for p in (a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2)])
+
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (0, 1):
+            for i in range(counts[u]):
+                for j in range(counts[v]):
+                    corner = np.zeros((4, 3))
+                    for k, (di, dj) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+                        corner[k, axis] = side * lengths[axis]
+                        corner[k, u] = (i + di) * lengths[u] / counts[u]
+                        corner[k, v] = (j + dj) * lengths[v] / counts[v]
+                    order = (0, 1, 2, 3) if side else (0, 3, 2, 1)
+                    a, b, c, d = corner[list(order)]
+                    triangle(a, b, c)
+                    triangle(a, c, d)
+    return np.array(nodes) - [lengths[0] / 2, lengths[1] / 2, 0], np.array(faces, np.int32)
+
+
+def write_mesh(path):
+    nodes, faces = box_skin()
+    with new_file(path, "mesh") as file:
+        file.attrs["name"] = pathlib.Path(path).name.split(".")[0]
+        file["nodes"] = nodes
+        file["surfaces/skin"] = faces
+        file["surfaces/deck"] = faces[(nodes[faces[:, :3]][:, :, 2] > 0.2499).all(axis=1)]
+        file["surfaces/mount_1"] = faces[(nodes[faces[:, :3]][:, :, 1] > 0.0999).all(axis=1)]
+        file["cells/0/nodes"] = np.zeros((1, 10), np.int32)
+
+
+def slap_signal(time, amplitude, ring_hz=1800.0):
+    """An impact 0.3 ms after time zero that rings for about 2.5 ms."""
+    after = np.maximum(time - 0.3e-3, 0.0)
+    return amplitude * np.sin(2 * np.pi * ring_hz * after) * np.exp(-after / 0.9e-3) * (after > 0)
+
+
+def write_run(path, clearance=20e-6, film=True):
+    angle = np.arange(0, 1440.5, 0.5)
+    wrapped = np.radians((angle + 360) % 720 - 360)
+    with new_file(path, "run") as file:
+        put = lambda name, values, unit: history(file, name, values, unit)  # noqa: E731
+        file["history/crank_angle_deg"] = angle
+        put("piston_lateral", clearance * np.tanh(3 * np.sin(wrapped)), "m")
+        put("piston_tilt", 4e-4 * np.cos(wrapped / 2) * np.sin(2 * wrapped), "rad")
+        put("side_force", 3000 * np.exp(-(wrapped / 0.8) ** 2) * np.sin(wrapped), "N")
+        if film:
+            put("film_min", 2e-6 + clearance / 4 * np.cos(wrapped) ** 2, "m")
+
+
+def history(file, name, values, unit):
+    file[f"history/{name}"] = values
+    file[f"history/{name}"].attrs["unit"] = unit

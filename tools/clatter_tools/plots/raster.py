@@ -1,0 +1,132 @@
+"""A small z-buffer renderer: triangles to an image, with shading and element edges, by NumPy alone."""
+import numpy as np
+
+LIGHT = np.array([-0.3, 0.55, 0.8])  # toward the light, in view coordinates (right, up, viewer)
+EDGE_PIXELS = 0.9
+
+
+def view_matrix(azimuth_deg, elevation_deg):
+    """Rows: right, up, toward the viewer, for an eye at that azimuth (from x) and elevation."""
+    a, e = np.radians([azimuth_deg, elevation_deg])
+    toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    right = np.array([-np.sin(a), np.cos(a), 0.0])
+    return np.array([right, np.cross(toward, right), toward])
+
+
+def split_quadratic(triangles):
+    """tri6 (Gmsh order) as four flat triangles each; `edges` tells which of their sides are element edges.
+
+    Side k lies opposite corner k. Returns triangles (4 m, 3), edges (4 m, 3) of bool.
+    """
+    t = np.asarray(triangles)
+    parts = [t[:, [0, 3, 5]], t[:, [3, 1, 4]], t[:, [5, 4, 2]], t[:, [3, 4, 5]]]
+    sides = [(False, True, True), (True, False, True), (True, True, False), (False, False, False)]
+    return np.vstack(parts), np.repeat(np.array(sides), len(t), axis=0)
+
+
+def clip(points, triangles, normal, offset):
+    """Cuts triangles (m, 3) by the plane normal . x = offset and keeps the side below it.
+
+    Returns (points with the new ones appended, triangles, source): `source` is the old triangle of each new one.
+    """
+    distance = points @ np.asarray(normal, float) - offset
+    inside = distance[triangles] <= 0
+    count = inside.sum(axis=1)
+    source = [np.flatnonzero(count == 3)]
+    kept, new_points, n = [triangles[source[0]]], [points], len(points)
+    for wanted in (1, 2):
+        old = np.flatnonzero(count == wanted)
+        # The corner that stands alone on its side comes first; the turn of the triangle is kept.
+        alone = np.argmax(inside[old] == (wanted == 1), axis=1)
+        a, b, c = (triangles[old, (alone + k) % 3] for k in range(3))
+        ab = points[a] + (distance[a] / (distance[a] - distance[b]))[:, None] * (points[b] - points[a])
+        ac = points[a] + (distance[a] / (distance[a] - distance[c]))[:, None] * (points[c] - points[a])
+        new_points += [ab, ac]
+        i_ab, i_ac = n + np.arange(len(old)), n + len(old) + np.arange(len(old))
+        n += 2 * len(old)
+        parts = [(a, i_ab, i_ac)] if wanted == 1 else [(i_ab, b, c), (i_ab, c, i_ac)]
+        kept += [np.column_stack(part) for part in parts]
+        source += [old] * len(parts)
+    return np.vstack(new_points), np.vstack(kept), np.concatenate(source)
+
+
+def render(points, triangles, colour, edges=None, inner=None, azimuth=-60.0, elevation=25.0, size=(900, 640),
+           smooth=2):
+    """An RGBA image (rows, columns, 4) of float in 0..1; the background is transparent.
+
+    points (n, 3); triangles (m, 3); colour (n, 3) by point or (m, 3) by triangle; edges (m, 3) of bool draws these
+    sides dark; `inner` (3) is the flat colour of faces seen from inside, which is how a cut solid's section looks.
+    `smooth` is the oversampling per direction.
+    """
+    columns, rows = size[0] * smooth, size[1] * smooth
+    view = points @ view_matrix(azimuth, elevation).T
+    low, high = view.min(axis=0), view.max(axis=0)
+    scale = 0.94 * min(columns / (high[0] - low[0]), rows / (high[1] - low[1]))
+    view = (view - (low + high) / 2) * scale + [columns / 2, rows / 2, 0.0]
+
+    corners = view[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    turned = normal[:, 2] / np.maximum(length, 1e-300)  # > 0: looks at the viewer
+    keep = turned > 1e-6 if inner is None else np.abs(turned) > 1e-6
+    bright = 0.62 + 0.38 * np.clip(normal[keep] / length[keep, None] @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)
+    by_point = len(colour) == len(points)
+    corner_colour = colour[triangles[keep]] if by_point else np.repeat(colour[keep][:, None], 3, axis=1)
+    corner_colour = corner_colour * bright[:, None, None]
+    marks = np.zeros((keep.sum(), 3), bool) if edges is None else edges[keep].copy()
+    if inner is not None:
+        corner_colour[turned[keep] < 0] = inner
+        marks[turned[keep] < 0] = False
+
+    depth = np.full(rows * columns, -np.inf, np.float32)
+    image = np.zeros((rows * columns, 4), np.float32)
+    for pixel, z, rgb in samples(corners[keep], corner_colour, marks, smooth):
+        inside = (pixel[:, 0] >= 0) & (pixel[:, 0] < columns) & (pixel[:, 1] >= 0) & (pixel[:, 1] < rows)
+        index, z, rgb = (pixel[:, 1] * columns + pixel[:, 0])[inside], z[inside], rgb[inside]
+        nearest_last = np.argsort(z, kind="stable")
+        nearest_last = nearest_last[z[nearest_last] > depth[index[nearest_last]]]
+        index = index[nearest_last]
+        depth[index] = z[nearest_last]  # of several samples in a pixel the last one stays
+        image[index, :3] = rgb[nearest_last]
+        image[index, 3] = 1.0
+    image = image.reshape(rows, columns, 4)[::-1]
+    return average(image, smooth)
+
+
+def average(image, smooth):
+    """Mean of smooth x smooth blocks, colours weighted by coverage."""
+    rows, columns = image.shape[0] // smooth, image.shape[1] // smooth
+    blocks = image.reshape(rows, smooth, columns, smooth, 4)
+    cover = blocks[..., 3].sum(axis=(1, 3))
+    rgb = (blocks[..., :3] * blocks[..., 3:]).sum(axis=(1, 3)) / np.maximum(cover, 1e-9)[..., None]
+    return np.clip(np.dstack([rgb, cover / smooth**2]), 0, 1)
+
+
+def samples(corners, colour, marks, smooth):
+    """Yields (pixel (k, 2) int, depth (k), colour (k, 3)) of dense samples, for groups of triangles of like size."""
+    sides = np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=2)  # side k opposite corner k
+    counts = np.ceil(np.maximum(sides.max(axis=1) * 1.2, 1.0)).astype(int)
+    # Heights in view coordinates tell how many pixels a barycentric coordinate stands for.
+    area2 = np.abs(np.cross(corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]))
+    flat = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2)
+    height = area2[:, None] / np.maximum(flat, 1e-9)
+    for level in 2 ** np.arange(0, int(np.ceil(np.log2(counts.max()))) + 1):
+        group = np.flatnonzero((counts <= level) & (counts > level // 2))
+        weights = barycentric_grid(level)
+        step = max(1, 2_000_000 // len(weights))
+        for begin in range(0, len(group), step):
+            chosen = group[begin:begin + step]
+            where = np.einsum("sk,mkd->msd", weights, corners[chosen])
+            rgb = np.einsum("sk,mkd->msd", weights, colour[chosen])
+            near = weights[None] * height[chosen][:, None] < EDGE_PIXELS * smooth / 2
+            rgb = np.where((near & marks[chosen][:, None]).any(axis=2)[..., None], rgb * 0.45, rgb)
+            where, rgb = where.reshape(-1, 3), rgb.reshape(-1, 3)
+            yield np.floor(where[:, :2]).astype(int), where[:, 2], rgb
+
+
+def barycentric_grid(count):
+    """Barycentric coordinates of (count + 1)(count + 2)/2 points spread over a triangle, (k, 3)."""
+    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
+    inside = i + j <= count
+    a, b = i[inside] / count, j[inside] / count
+    return np.column_stack([a, b, 1 - a - b])

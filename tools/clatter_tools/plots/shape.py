@@ -1,0 +1,79 @@
+"""Meshes and deflection shapes, rendered."""
+import numpy as np
+
+from ..artefact import BadArtefact, dataset, text
+from . import raster, style
+
+METAL = np.array([0.80, 0.82, 0.84])
+SECTION = np.array([0.55, 0.36, 0.33])  # cut material
+
+
+def rgb(hexadecimal):
+    return np.array([int(hexadecimal[i:i + 2], 16) / 255 for i in (1, 3, 5)])
+
+
+def surface(mesh, name):
+    """tri6 of a named surface, (f, 6)."""
+    group = mesh["surfaces"][name]
+    return group["triangles"][()] if hasattr(group, "keys") else group[()]
+
+
+def draw_mesh(files):
+    """The surface mesh of each part, whole and cut open, its named surfaces in colour (mesh files)."""
+    meshes = style.open_all(files, "mesh")
+    figure, axes = style.figure(len(meshes), 2, height=3.4)
+    for row, mesh in zip(axes, meshes):
+        draw_part(row, mesh)
+    return figure
+
+
+def draw_part(axes, mesh):
+    points = dataset(mesh, "nodes")
+    quadratic, face_colour, legend = coloured_faces(mesh)
+    triangles, edges = raster.split_quadratic(quadratic)
+    face_colour = np.tile(face_colour, (4, 1))
+    show(axes[0], raster.render(points, triangles, face_colour, edges, azimuth=40.0), mesh, "whole")
+    cut, parts, source = raster.clip(points, triangles, (1, 0, 0), cut_position(points))
+    show(axes[1], raster.render(cut, parts, face_colour[source], inner=SECTION, azimuth=25.0), mesh,
+         f"cut at x = {cut_position(points) * 1e3:.0f} mm")
+    axes[0].text(0, -0.02, f"{len(points)} nodes, {cell_count(mesh)} cells", transform=axes[0].transAxes, va="top")
+    if legend:
+        handles = [style.plt.Line2D([], [], marker="s", linestyle="", color=colour, label=name)
+                   for name, colour in legend]
+        axes[1].legend(handles=handles, loc="upper left", bbox_to_anchor=(0, 0.0), ncol=4,
+                       handletextpad=0.1, columnspacing=0.8)
+
+
+def show(axis, image, mesh, title):
+    axis.imshow(image)
+    axis.set_axis_off()
+    axis.set_title(f"{text(mesh.attrs.get('name', 'part'))}, {title}", loc="left")
+
+
+def cut_position(points):
+    """Where the cut across the crankshaft lies [m]: off the middle, so that it meets no wall between two bores."""
+    low, high = points[:, 0].min(), points[:, 0].max()
+    return low + 0.625 * (high - low)
+
+
+def cell_count(mesh):
+    return sum(len(block["nodes"]) for block in mesh["cells"].values())
+
+
+def coloured_faces(mesh, limit=7):
+    """(tri6, colour a face, [(name, colour)]): the skin in grey, up to `limit` families of surfaces in colour."""
+    families = {}
+    for name in mesh["surfaces"]:
+        if name != "skin":
+            families.setdefault(name.rstrip("0123456789").rstrip("_"), []).append(name)
+    faces = surface(mesh, "skin")
+    colour = np.tile(METAL, (len(faces), 1))
+    corner_key = {tuple(sorted(face[:3])): i for i, face in enumerate(faces)}
+    legend = []
+    for family, hexadecimal in zip(list(families)[:limit], style.COLOURS):
+        ids = [corner_key.get(tuple(sorted(face[:3]))) for name in families[family] for face in surface(mesh, name)]
+        ids = [i for i in ids if i is not None]
+        colour[ids] = 0.25 * METAL + 0.75 * rgb(hexadecimal)
+        if ids:
+            legend.append((family, hexadecimal))
+    return faces, colour, legend

@@ -1,0 +1,71 @@
+"""`clatter report`: what the runs of a folder found, what every stage cost, where pictures lie."""
+import pathlib
+
+from . import artefact, findings
+
+STAGES = ["mesh", "fe", "modes", "rom", "run", "field"]
+
+
+def print_report(folder):
+    """Prints findings a run, seconds and memory a stage, and the files to look at."""
+    folder = pathlib.Path(folder)
+    files = {stage: sorted(folder.glob(f"*.{stage}.h5")) for stage in STAGES}
+    if not any(files.values()):
+        raise artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
+    print_models(files["fe"], files["rom"])
+    print_runs(files["run"])
+    print_cost([path for stage in STAGES for path in files[stage]])
+    print_places(folder)
+
+
+def print_table(title, head, rows):
+    """A table with aligned columns; the first column is text, the others are numbers as text."""
+    if not rows:
+        return
+    widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]
+    print(f"\n{title}")
+    for row in [head, *rows]:
+        print("  " + "  ".join(str(cell).ljust(w) if i == 0 else str(cell).rjust(w)
+                               for i, (cell, w) in enumerate(zip(row, widths))))
+
+
+def stem(path):
+    return path.name.split(".")[0]
+
+
+def print_models(fe_files, rom_files):
+    rows = []
+    for path in fe_files:
+        with artefact.open_artefact(path, "fe") as file:
+            rows.append([stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
+    print_table("parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], rows)
+
+
+def print_runs(paths):
+    rows = []
+    for path in paths:
+        with artefact.open_artefact(path, "run") as file:
+            rows.append([stem(path), *findings.run_row(file)])
+    print_table("runs (last cycle)", ["run", *findings.RUN_HEAD], rows)
+
+
+def print_cost(paths):
+    rows, total = [], 0.0
+    for path in paths:
+        with artefact.open_artefact(path) as file:
+            seconds, peak = artefact.totals(file)
+            size = path.stat().st_size / 1e6
+        total += seconds
+        rows.append([path.name, f"{seconds:.1f}", f"{peak:.2f}", f"{size:.1f}"])
+    rows.append(["in all", f"{total:.1f}", "", ""])
+    print_table("cost of each stage", ["artefact", "seconds", "peak GiB", "file MB"], rows)
+
+
+def print_places(folder):
+    pictures = sorted(folder.rglob("*.png"))
+    series = sorted(folder.glob("*.xdmf"))
+    print()
+    if pictures:
+        print("pictures:  " + "\n           ".join(map(str, pictures)))
+    if series:
+        print("ParaView:  " + "\n           ".join(map(str, series)))
