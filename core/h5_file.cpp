@@ -212,6 +212,11 @@ void H5File::set(std::string_view object, std::string_view name, double value) {
 void H5File::set(std::string_view object, std::string_view name, int64_t value) {
   impl_->set_attribute(object, name, H5T_NATIVE_INT64, &value);
 }
+void H5File::set(std::string_view object, std::string_view name,
+                 const std::vector<int64_t>& values) {
+  impl_->set_attribute(object, name, H5T_NATIVE_INT64, values.data(),
+                       static_cast<int64_t>(values.size()));
+}
 void H5File::set(std::string_view object, std::string_view name, const std::string& value) {
   const Id type = string_type();
   const char* pointer = value.c_str();
@@ -223,6 +228,9 @@ double H5File::get_double(std::string_view object, std::string_view name) const 
 }
 int64_t H5File::get_int(std::string_view object, std::string_view name) const {
   return impl_->number_attribute<int64_t>(object, name);
+}
+std::vector<int64_t> H5File::get_ints(std::string_view object, std::string_view name) const {
+  return impl_->number_attributes<int64_t>(object, name);
 }
 
 std::string H5File::get_string(std::string_view object, std::string_view name) const {

@@ -75,12 +75,15 @@ class H5File {
   void set(std::string_view object, std::string_view name, int value) {
     set(object, name, static_cast<int64_t>(value));
   }
+  void set(std::string_view object, std::string_view name, const std::vector<int64_t>& values);
   void set(std::string_view object, std::string_view name, const std::string& value);
   void set(std::string_view object, std::string_view name, const char* value) {
     set(object, name, std::string(value));
   }
   double get_double(std::string_view object, std::string_view name) const;
   int64_t get_int(std::string_view object, std::string_view name) const;
+  /// A list of whole numbers, at least one.
+  std::vector<int64_t> get_ints(std::string_view object, std::string_view name) const;
   std::string get_string(std::string_view object, std::string_view name) const;
   /// Names of all attributes of an object, sorted.
   std::vector<std::string> attributes(std::string_view object) const;

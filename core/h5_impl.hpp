@@ -177,13 +177,16 @@ struct H5File::Impl {
     if (!group.ok()) trouble(object);
   }
 
-  void set_attribute(std::string_view object, std::string_view name, hid_t type,
-                     const void* value) {
+  /// `extent` < 0: one value, otherwise a list of so many.
+  void set_attribute(std::string_view object, std::string_view name, hid_t type, const void* value,
+                     int64_t extent = -1) {
     ensure_group(object);
     const Id owner = open_object(object);
     const std::string key(name);
     if (H5Aexists(owner, key.c_str()) > 0) H5Adelete(owner, key.c_str());
-    const Id space(H5Screate(H5S_SCALAR), &H5Sclose);
+    const auto length = static_cast<hsize_t>(extent);
+    const Id space(extent < 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr),
+                   &H5Sclose);
     const Id attribute(H5Acreate2(owner, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
                        &H5Aclose);
     if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) trouble(object);
@@ -199,16 +202,27 @@ struct H5File::Impl {
   }
 
   template <class T>
-  T number_attribute(std::string_view object, std::string_view name) const {
+  std::vector<T> number_attributes(std::string_view object, std::string_view name) const {
     const Id attribute = open_attribute(object, name);
     const Id type(H5Aget_type(attribute), &H5Tclose);
+    const Id space(H5Aget_space(attribute), &H5Sclose);
     const H5T_class_t found = H5Tget_class(type);
-    T value{};
-    if ((found != H5T_INTEGER && found != H5T_FLOAT) ||
-        H5Aread(attribute, memory_type<T>(), &value) < 0) {
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    std::vector<T> values(static_cast<size_t>(std::max<hssize_t>(count, 0)));
+    if ((found != H5T_INTEGER && found != H5T_FLOAT) || count < 1 ||
+        H5Aread(attribute, memory_type<T>(), values.data()) < 0) {
       refuse(object, fmt::format("attribute {} is not a number", name));
     }
-    return value;
+    return values;
+  }
+
+  template <class T>
+  T number_attribute(std::string_view object, std::string_view name) const {
+    const std::vector<T> values = number_attributes<T>(object, name);
+    if (values.size() != 1) {
+      refuse(object, fmt::format("attribute {} has {} numbers, expected 1", name, values.size()));
+    }
+    return values.front();
   }
 };
 

@@ -26,8 +26,7 @@ void write_sparse(H5File& file, std::string_view name, const SparseMatrix& matri
              std::vector<int32_t>(source->outerIndexPtr(),
                                   source->outerIndexPtr() + source->outerSize() + 1));
   file.set(group, "format", "csc");
-  file.set(group, "rows", static_cast<int64_t>(source->rows()));
-  file.set(group, "columns", static_cast<int64_t>(source->cols()));
+  file.set(group, "shape", std::vector<int64_t>{source->rows(), source->cols()});
   file.set(group, "symmetric", lower ? "lower" : "no");
 }
 
@@ -36,8 +35,9 @@ SparseMatrix read_sparse(const H5File& file, std::string_view name) {
   const auto fail = [&](const std::string& what) {
     throw InputError(fmt::format("{}: {}: {}", file.path().string(), group, what));
   };
-  const int64_t rows = file.get_int(group, "rows");
-  const int64_t columns = file.get_int(group, "columns");
+  const std::vector<int64_t> shape = file.get_ints(group, "shape");
+  if (shape.size() != 2) fail(fmt::format("shape has {} numbers, expected 2", shape.size()));
+  const int64_t rows = shape[0], columns = shape[1];
   const bool lower = file.get_string(group, "symmetric") == "lower";
   const auto data = file.read_doubles(group + "/data");
   const auto indices = file.read_ints(group + "/indices");

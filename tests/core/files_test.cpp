@@ -112,9 +112,18 @@ TEST_F(Files, ASparseMatrixRoundTripsAndMultiplies) {
 TEST_F(Files, ASparseMatrixWithAnIndexOutOfRangeIsRefused) {
   H5File out = H5File::create(folder_ / "a.h5");
   write_sparse(out, "K", small_lower(), true);
-  out.set("K", "rows", 2);
+  out.set("K", "shape", std::vector<int64_t>{2, 3});
   out.commit();
   EXPECT_THROW(read_sparse(H5File::open(folder_ / "a.h5"), "K"), InputError);
+}
+
+TEST_F(Files, AnAttributeWithSeveralNumbersIsNotReadAsOne) {
+  H5File out = H5File::create(folder_ / "a.h5");
+  out.set("K", "shape", std::vector<int64_t>{2, 3});
+  out.commit();
+  const H5File back = H5File::open(folder_ / "a.h5");
+  EXPECT_EQ(back.get_ints("K", "shape"), (std::vector<int64_t>{2, 3}));
+  EXPECT_THROW(back.get_int("K", "shape"), InputError);
 }
 
 TEST_F(Files, AReducedModelRoundTrips) {
