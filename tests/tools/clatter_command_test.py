@@ -28,6 +28,7 @@ class Command(unittest.TestCase):
         synthetic.write_mesh(self.folder / "block.mesh.h5")
         synthetic.write_run(self.folder / "slap.run.h5")
         synthetic.write_run(self.folder / "slap_dry.run.h5", film=False)
+        synthetic.write_field(self.folder / "slap.field.h5")
 
     def test_info_names_schema_cost_and_contents(self):
         done = clatter("info", "slap.run.h5", folder=self.folder)
@@ -38,12 +39,15 @@ class Command(unittest.TestCase):
     def test_report_prints_each_run_and_the_cost_of_each_stage(self):
         done = clatter("report", ".", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        for expected in ("slap_dry", "block.mesh.h5", "in all", "2.00"):
+        # The synthetic slap starts 0.3 ms after firing TDC with 40 m/s2 on the liner.
+        for expected in ("slap_dry", "block.mesh.h5", "in all", "2.00", "0.3"):
             self.assertIn(expected, done.stdout)
 
     def test_each_picture_is_drawn_and_is_not_blank(self):
         runs = ["slap.run.h5", "slap_dry.run.h5"]
-        for kind, files in (("piston", runs), ("film", runs), ("mesh", ["block.mesh.h5"])):
+        fields = ["slap.field.h5"]
+        for kind, files in (("piston", runs), ("film", runs), ("mesh", ["block.mesh.h5"]), ("acceleration", fields),
+                            ("erp", fields), ("shape", fields)):
             with self.subTest(kind=kind):
                 done = clatter("plot", kind, *files, "-o", f"{kind}.png", folder=self.folder)
                 self.assertEqual(done.returncode, 0, done.stderr)

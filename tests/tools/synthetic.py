@@ -84,3 +84,64 @@ def write_run(path, clearance=20e-6, film=True):
 def history(file, name, values, unit):
     file[f"history/{name}"] = values
     file[f"history/{name}"].attrs["unit"] = unit
+
+
+def put(file, name, values, **attributes):
+    file[name] = values
+    for key, value in attributes.items():
+        file[name].attrs[key] = value
+
+
+def write_field(path, amplitude=40.0, ring_hz=1800.0):
+    """A field file: two sensors that ring after a slap, an ERP, a skin that breathes."""
+    time = np.arange(-0.83e-3, 5e-3, 2e-5)
+    nodes, faces = box_skin()
+    with new_file(path, "field") as file:
+        for piece, times in (("ftdc", time), ("cycle", np.arange(0, 0.06, 2e-5))):
+            write_piece(file, f"analysis/{piece}", times, amplitude, ring_hz)
+        write_skin(file, nodes, faces)
+
+
+def write_piece(file, at, time, amplitude, ring_hz):
+    put(file, f"{at}/time", time, unit="s")
+    frequency = np.arange(1, 300) * 1000 / 60
+    file[f"{at}/frequency_hz"] = frequency
+    file[at].attrs["line_spacing_hz"] = frequency[0]
+    mid = 1000 * 10 ** (np.arange(-12, 7) / 10)
+    names = "63 80 100 125 160 200 250 315 400 500 630 800 1000 1250 1600 2000 2500 3150 4000".split()
+    for key, values in (("mid", mid), ("lower", mid * 10**-0.05), ("upper", mid * 10**0.05)):
+        file[f"{at}/third_octave/{key}_hz"] = values
+    file.create_dataset(f"{at}/third_octave/nominal", data=names, dtype=h5py.string_dtype())
+    levels = 20 * np.log10(amplitude / 1e-6) - 30 * np.abs(np.log10(mid / ring_hz))
+    for name, factor in (("sensor_liner", 1.0), ("sensor_block", 0.3)):
+        sensor = f"{at}/sensors/{name}"
+        file.create_dataset(f"{sensor}/labels", data=[f"{name}.{d}" for d in "xyz"], dtype=h5py.string_dtype())
+        file[f"{sensor}/direction"] = np.eye(3)
+        file[f"{sensor}/is_rotation"] = np.zeros(3, np.int32)
+        signal = slap_signal(time, factor * amplitude, ring_hz)
+        put(file, f"{sensor}/acceleration", signal[:, None] * [0.1, 1, 0.2], unit="m/s2")
+        put(file, f"{sensor}/third_octave/acceleration_db", (levels + 20 * np.log10(factor))[:, None] * np.ones(3),
+            reference=1e-6, reference_unit="m/s2")
+    for panel in ("skin", "exposed"):
+        where = f"{at}/panels/{panel}"
+        put(file, f"{where}/erp", 1e-9 / (1 + ((frequency - ring_hz) / 200) ** 2), unit="W")
+        put(file, f"{where}/third_octave/erp_db", levels - 80, reference=1e-12, reference_unit="W")
+        file[where].attrs["erp_dba"] = levels.max() - 78
+        file[where].attrs["erp_db"] = levels.max() - 76
+
+
+def write_skin(file, nodes, faces):
+    centre = nodes[faces[:, :3]].mean(axis=1)
+    outward = (nodes - nodes.mean(axis=0)) / np.linalg.norm(nodes - nodes.mean(axis=0), axis=1)[:, None]
+    file["skin/nodes"], file["skin/triangles"] = nodes, faces
+    file["skin/node_normal"], file["skin/face_area"] = outward, np.full(len(faces), 1e-4)
+    shape = np.sin(8 * nodes[:, :1]) * np.cos(6 * nodes[:, 2:]) * outward
+    file["frames/time"] = [0.0, 0.4e-3, 0.8e-3]
+    file["lines/frequency_hz"] = [600.0, 1800.0]
+    for k, factor in enumerate((0.1, 1.0, 0.5)):
+        file[f"frames/velocity/{k:05d}"] = (factor * 2e-3 * shape).astype(np.float32)
+        file[f"frames/normal_velocity/{k:05d}"] = (factor * np.sin(8 * centre[:, 0])).astype(np.float32)
+    for k in range(2):
+        for part, value in (("re", 1e-3), ("im", 5e-4)):
+            file[f"lines/velocity_{part}/{k:05d}"] = value * (1 + k) * shape
+            file[f"lines/normal_velocity_{part}/{k:05d}"] = value * (1 + k) * np.sin(8 * centre[:, 0])

@@ -14,6 +14,7 @@ def print_report(folder):
         raise artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
     print_models(files["fe"], files["rom"])
     print_runs(files["run"])
+    print_fields(files["field"])
     print_cost([path for stage in STAGES for path in files[stage]])
     print_places(folder)
 
@@ -47,6 +48,14 @@ def print_runs(paths):
         with artefact.open_artefact(path, "run") as file:
             rows.append([stem(path), *findings.run_row(file)])
     print_table("runs (last cycle)", ["run", *findings.RUN_HEAD], rows)
+
+
+def print_fields(paths):
+    rows = []
+    for path in paths:
+        with artefact.open_artefact(path, "field") as file:
+            rows.append([stem(path), *findings.field_row(file)])
+    print_table("sensors and skin (around firing TDC; power over the cycle)", ["run", *findings.FIELD_HEAD], rows)
 
 
 def print_cost(paths):

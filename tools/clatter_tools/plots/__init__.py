@@ -1,10 +1,13 @@
 """Pictures from artefacts: one function a picture, one style for all."""
-from . import film, piston, shape, style
+from . import accelerations, film, piston, radiation, shape, style
 
 PICTURES = {
     "piston": piston.draw,
     "film": film.draw,
+    "acceleration": accelerations.draw,
+    "erp": radiation.draw,
     "mesh": shape.draw_mesh,
+    "shape": shape.draw_deflection,
 }
 
 

@@ -1,7 +1,7 @@
 """The oil film between skirt and liner."""
 from . import style
 from ..artefact import BadArtefact
-from .histories import centred, crank_angle, has, history, last_cycle
+from ..histories import centred, crank_angle, has, history, last_cycle
 
 
 def draw(files):

@@ -1,6 +1,6 @@
 """The piston's secondary motion over crank angle."""
 from . import style
-from .histories import centred, crank_angle, has, history, last_cycle
+from ..histories import centred, crank_angle, has, history, last_cycle
 
 
 def draw(files):

@@ -78,19 +78,36 @@ def render(points, triangles, colour, edges=None, inner=None, azimuth=-60.0, ele
         corner_colour[turned[keep] < 0] = inner
         marks[turned[keep] < 0] = False
 
-    depth = np.full(rows * columns, -np.inf, np.float32)
-    image = np.zeros((rows * columns, 4), np.float32)
-    for pixel, z, rgb in samples(corners[keep], corner_colour, marks, smooth):
-        inside = (pixel[:, 0] >= 0) & (pixel[:, 0] < columns) & (pixel[:, 1] >= 0) & (pixel[:, 1] < rows)
-        index, z, rgb = (pixel[:, 1] * columns + pixel[:, 0])[inside], z[inside], rgb[inside]
-        nearest_last = np.argsort(z, kind="stable")
-        nearest_last = nearest_last[z[nearest_last] > depth[index[nearest_last]]]
-        index = index[nearest_last]
-        depth[index] = z[nearest_last]  # of several samples in a pixel the last one stays
-        image[index, :3] = rgb[nearest_last]
-        image[index, 3] = 1.0
-    image = image.reshape(rows, columns, 4)[::-1]
-    return average(image, smooth)
+    canvas = Canvas(rows, columns)
+    for chosen, weights in sample_groups(corners[keep]):
+        canvas.draw(corners[keep][chosen], corner_colour[chosen], marks[chosen], weights, EDGE_PIXELS * smooth / 2)
+    return average(canvas.image.reshape(rows, columns, 4)[::-1], smooth)
+
+
+class Canvas:
+    """Depth and colour of each pixel, row 0 at the bottom."""
+
+    def __init__(self, rows, columns):
+        self.rows, self.columns = rows, columns
+        self.depth = np.full(rows * columns, -np.inf, np.float32)
+        self.image = np.zeros((rows * columns, 4), np.float32)
+
+    def draw(self, corners, colour, marks, weights, edge_width):
+        """Puts samples of triangles: corners and colour (m, 3, 3), marks (m, 3), weights (s, 3)."""
+        place = np.einsum("sk,mkd->dms", weights, corners.astype(np.float32))
+        x, y, z = place[0].astype(np.int32), place[1].astype(np.int32), place[2].ravel()
+        index = (y * self.columns + x).ravel()
+        seen = np.flatnonzero(((x >= 0) & (x < self.columns) & (y >= 0) & (y < self.rows)).ravel())
+        seen = seen[z[seen] > self.depth[index[seen]]]
+        seen = seen[np.argsort(z[seen], kind="stable")]  # of several samples in a pixel the last one stays
+        index, triangle, sample = index[seen], seen // len(weights), seen % len(weights)
+        self.depth[index] = z[seen]
+        rgb = np.einsum("nk,nkd->nd", weights[sample], colour[triangle])
+        if marks.any():
+            distance = weights[sample] * heights(corners)[triangle]
+            rgb[((distance < edge_width) & marks[triangle]).any(axis=1)] *= 0.45
+        self.image[index, :3] = rgb
+        self.image[index, 3] = 1.0
 
 
 def average(image, smooth):
@@ -102,26 +119,23 @@ def average(image, smooth):
     return np.clip(np.dstack([rgb, cover / smooth**2]), 0, 1)
 
 
-def samples(corners, colour, marks, smooth):
-    """Yields (pixel (k, 2) int, depth (k), colour (k, 3)) of dense samples, for groups of triangles of like size."""
-    sides = np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=2)  # side k opposite corner k
-    counts = np.ceil(np.maximum(sides.max(axis=1) * 1.2, 1.0)).astype(int)
-    # Heights in view coordinates tell how many pixels a barycentric coordinate stands for.
+def heights(corners):
+    """Pixels that a barycentric coordinate of 1 stands for, in the image plane, (m, 3)."""
+    sides = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2)
     area2 = np.abs(np.cross(corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]))
-    flat = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2)
-    height = area2[:, None] / np.maximum(flat, 1e-9)
+    return (area2[:, None] / np.maximum(sides, 1e-9)).astype(np.float32)
+
+
+def sample_groups(corners):
+    """Yields (triangle ids, barycentric weights (s, 3)): groups of like size, dense enough to leave no hole."""
+    side = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2).max(axis=1)
+    counts = np.ceil(np.maximum(side * 1.2, 1.0)).astype(int)
     for level in 2 ** np.arange(0, int(np.ceil(np.log2(counts.max()))) + 1):
         group = np.flatnonzero((counts <= level) & (counts > level // 2))
-        weights = barycentric_grid(level)
-        step = max(1, 2_000_000 // len(weights))
+        weights = barycentric_grid(level).astype(np.float32)
+        step = max(1, 1_000_000 // len(weights))
         for begin in range(0, len(group), step):
-            chosen = group[begin:begin + step]
-            where = np.einsum("sk,mkd->msd", weights, corners[chosen])
-            rgb = np.einsum("sk,mkd->msd", weights, colour[chosen])
-            near = weights[None] * height[chosen][:, None] < EDGE_PIXELS * smooth / 2
-            rgb = np.where((near & marks[chosen][:, None]).any(axis=2)[..., None], rgb * 0.45, rgb)
-            where, rgb = where.reshape(-1, 3), rgb.reshape(-1, 3)
-            yield np.floor(where[:, :2]).astype(int), where[:, 2], rgb
+            yield group[begin:begin + step], weights
 
 
 def barycentric_grid(count):

@@ -77,3 +77,48 @@ def coloured_faces(mesh, limit=7):
         if ids:
             legend.append((family, hexadecimal))
     return faces, colour, legend
+
+
+def draw_deflection(files):
+    """The skin when it moves most, and its deflection shape at the strongest frequency (one field file)."""
+    field = style.open_all(files, "field")[0]
+    points, quadratic = dataset(field, "skin/nodes"), dataset(field, "skin/triangles")
+    triangles, _ = raster.split_quadratic(quadratic)
+    figure, axes = style.figure(1, 2, height=4.2)
+    for axis, (title, velocity) in zip(axes[0], (strongest_instant(field), strongest_line(field))):
+        normal = np.einsum("ij,ij->i", velocity, dataset(field, "skin/node_normal")) * 1e3
+        limit = np.percentile(np.abs(normal), 99.5) or 1.0
+        scale = 0.04 * np.ptp(points, axis=0).max() / np.abs(velocity).max()
+        colours = style.plt.cm.RdBu_r(0.5 + 0.5 * np.clip(normal / limit, -1, 1))[:, :3]
+        axis.imshow(raster.render(points + scale * velocity, triangles, colours, azimuth=40.0, size=(900, 760)))
+        axis.set_axis_off()
+        axis.set_title(title, loc="left")
+        bar = style.matplotlib.cm.ScalarMappable(style.matplotlib.colors.Normalize(-limit, limit), "RdBu_r")
+        figure.colorbar(bar, ax=axis, orientation="horizontal", shrink=0.8, pad=0.01,
+                        label="normal velocity [mm/s], outward positive")
+    return figure
+
+
+def strongest_instant(field):
+    """(title, nodal velocity [m/s]) of the frame with the largest mean square normal velocity."""
+    area = dataset(field, "skin/face_area")
+    frames = sorted(field["frames/normal_velocity"])
+    power = [np.dot(area, np.square(field[f"frames/normal_velocity/{name}"][()], dtype=float)) for name in frames]
+    best = int(np.argmax(power))
+    time = dataset(field, "frames/time")[best]
+    return f"{time * 1e3:.2f} ms after firing TDC", field[f"frames/velocity/{frames[best]}"][()].astype(float)
+
+
+def strongest_line(field):
+    """(title, nodal velocity [m/s] at the phase where it is largest) of the strongest complex line."""
+    area = dataset(field, "skin/face_area")
+    names = sorted(field["lines/velocity_re"])
+    if not names:
+        raise BadArtefact(f"{field.filename}: lines: the file holds no complex lines")
+    power = [np.dot(area, field[f"lines/normal_velocity_re/{n}"][()] ** 2 + field[f"lines/normal_velocity_im/{n}"][()] ** 2)
+             for n in names]
+    best = int(np.argmax(power))
+    velocity = field[f"lines/velocity_re/{names[best]}"][()] + 1j * field[f"lines/velocity_im/{names[best]}"][()]
+    # The phase at which the real part carries most: half the angle of sum v^2.
+    velocity = (velocity * np.exp(-0.5j * np.angle(np.sum(velocity**2)))).real
+    return f"shape at {dataset(field, 'lines/frequency_hz')[best]:.0f} Hz, enlarged", velocity

@@ -1,7 +1,7 @@
 """Scalar histories of a run file over crank angle."""
 import numpy as np
 
-from ..artefact import BadArtefact, dataset, text
+from .artefact import BadArtefact, dataset, text
 
 
 def crank_angle(run):

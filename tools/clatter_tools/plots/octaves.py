@@ -1,0 +1,30 @@
+"""Third-octave spectra as stairs with nominal frequencies below."""
+import numpy as np
+
+from ..artefact import dataset, text
+
+FLOOR_DB = 70.0  # how far below the highest level a picture reaches
+
+
+def draw_stairs(axis, field, at, levels, **look):
+    """Stairs over the bands of a piece; levels of silence fall below the picture."""
+    edges = np.append(dataset(field, f"{at}/third_octave/lower_hz"), dataset(field, f"{at}/third_octave/upper_hz")[-1])
+    axis.stairs(levels, np.log10(edges), baseline=None, linewidth=1.5, **look)
+
+
+def finish(axis, field, at, all_levels):
+    """Ticks at every third band by nominal name, limits from the levels that are drawn."""
+    mid = np.log10(dataset(field, f"{at}/third_octave/mid_hz"))
+    names = [text(name) for name in dataset(field, f"{at}/third_octave/nominal")]
+    start = next((i for i, name in enumerate(names) if float(name) in (31.5, 63, 125, 250, 500, 1000)), 0)
+    axis.set_xticks(mid[start::3], [short(name) for name in names[start::3]])
+    axis.set_xlim(mid[0] - 0.05, mid[-1] + 0.05)
+    audible = np.concatenate([np.asarray(levels) for levels in all_levels])
+    top = audible.max() + 5
+    axis.set_ylim(max(audible[audible > -900].min() - 5, top - FLOOR_DB), top)
+    axis.set_xlabel("third-octave band [Hz]")
+
+
+def short(name):
+    """"16000" as "16k"."""
+    return f"{float(name) / 1000:g}k" if float(name) >= 1000 else name
