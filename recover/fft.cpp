@@ -1,0 +1,26 @@
+#include "recover/fft.hpp"
+
+// Foreign code: its narrowing conversions are not ours to mend.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wextra"
+#include <unsupported/Eigen/FFT>
+#pragma GCC diagnostic pop
+
+namespace clatter::recover {
+
+Eigen::VectorXcd real_fft(const Eigen::VectorXd& x) {
+  // The plan (twiddle factors) of a length is kept for the next column; one set a thread.
+  thread_local Eigen::FFT<double> fft;
+  const Eigen::Index n = x.size();
+  Eigen::VectorXcd full(n);
+  // The complex transform is used: kissfft's real one handles only even lengths.
+  const Eigen::VectorXcd z = x.cast<std::complex<double>>();
+  if (n == 1)
+    full = z;
+  else
+    fft.fwd(full.data(), z.data(), n);
+  return full.head(n / 2 + 1);
+}
+
+}  // namespace clatter::recover

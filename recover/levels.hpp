@@ -1,0 +1,44 @@
+#pragma once
+// Third octaves, A-weighting and decibels.
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace clatter::recover {
+
+/// Third-octave bands, base ten: mid-band 1000 * 10^(n/10) Hz, edges mid * 10^(+-1/20)
+/// (IEC 61260-1:2014, eq. 1 to 4).
+struct ThirdOctaves {
+  Eigen::VectorXd mid_hz, lower_hz, upper_hz;  // exact
+  std::vector<std::string> nominal;            // "31.5", "1000", "16000"
+  Eigen::Index size() const { return mid_hz.size(); }
+};
+
+/// All bands that lie inside [from_hz, to_hz] with both edges and are at least `line_spacing_hz`
+/// wide, so that each holds a line. Empty when none does.
+ThirdOctaves third_octaves(double from_hz, double to_hz, double line_spacing_hz);
+
+/// Nominal name of band n (0 is 1000 Hz), as engineers write it.
+std::string nominal_frequency(int n);
+
+/// Sums line powers into bands.
+/// @param frequency_hz lines, rising, equally spaced
+/// @param power per line, any unit
+/// @param periodic true: a line belongs to the band that holds it, lower edge included. False: a
+///        line stands for the density over one spacing around it and is shared between bands.
+Eigen::VectorXd band_sums(const Eigen::VectorXd& frequency_hz, const Eigen::VectorXd& power,
+                          const ThirdOctaves& bands, bool periodic);
+
+/// A-weighting in dB (IEC 61672-1:2013, annex E): 20 lg R_A(f) + 2.000.
+double a_weighting_db(double frequency_hz);
+/// The same as a factor on power, 10^(A/10).
+double a_weighting_power(double frequency_hz);
+
+/// 10 lg(power / reference); kSilence for a power of zero.
+double level_db(double power, double reference);
+Eigen::VectorXd levels_db(const Eigen::VectorXd& power, double reference);
+
+/// Stands for the level of nothing, so that files hold finite numbers only [dB].
+constexpr double kSilence = -999.0;
+
+}  // namespace clatter::recover

@@ -1,0 +1,177 @@
+#include "recover/recover.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace clatter::recover {
+namespace {
+
+/// A piece that the user did not ask for may be left out, with a word; one asked for may not.
+template <typename Make>
+std::optional<Piece> piece_or_word(bool asked, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    if (asked) throw;
+    warn(std::string(error.what()) + ": left out");
+    return std::nullopt;
+  }
+}
+
+Piece whole_run(const RunClock& clock, const std::string& origin) {
+  const Span span{clock.time[0], clock.time[clock.time.size() - 1], true};
+  return window(clock, "whole", span, Taper::kHann, origin);
+}
+
+std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
+                                 const std::string& origin) {
+  std::vector<Piece> pieces;
+  const auto keep = [&](std::optional<Piece> piece) {
+    if (piece) pieces.push_back(*piece);
+  };
+  if (options.cycle && (clock.turns() || options.cycle_asked))
+    keep(piece_or_word(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
+  for (const WindowRule& rule : options.windows)
+    if (clock.turns() || options.windows_asked)
+      keep(piece_or_word(options.windows_asked,
+                         [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
+  if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
+  return pieces;
+}
+
+/// The frames asked for; when the default does not fit the run, sixty over the whole of it.
+std::pair<Piece, std::vector<int64_t>> choose_frames(const RunClock& clock, const Options& options,
+                                                     const std::string& origin) {
+  const FrameRule& rule = options.frames;
+  std::optional<Piece> piece;
+  if (clock.turns() || options.frames_asked)
+    piece = piece_or_word(options.frames_asked,
+                          [&] { return window(clock, "frames", rule.span, Taper::kNone, origin); });
+  if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
+  piece = whole_run(clock, origin);
+  constexpr double kFrames = 60.0;
+  return {*piece, frame_samples(clock, *piece, {0.0, 0.0, true}, piece->duration_s() / kFrames)};
+}
+
+std::vector<PanelRule> panel_rules(const Options& options) {
+  if (options.panels.empty()) return default_panels();
+  std::vector<PanelRule> rules{{.name = "skin"}};
+  rules.insert(rules.end(), options.panels.begin(), options.panels.end());
+  return rules;
+}
+
+/// Share of the mean square normal velocity of the skin that lies above the spectra's limit.
+double share_above_limit(const Analysis& analysis) {
+  const PanelResult& skin = analysis.panels.front();
+  const double all = skin.instant_mean_square.mean();
+  return all > 0.0 ? std::max(1.0 - skin.mean_square_velocity.sum() / all, 0.0) : 0.0;
+}
+
+}  // namespace
+
+Summary recover(const RunBody& body, const ReducedModel& model, const Options& options,
+                H5File& file, StepClock& clock) {
+  const std::string origin = body.rom_path().filename().string();
+  Summary summary{.options = options};
+  const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
+  summary.n_nodes = model.skin.nodes.rows();
+  summary.n_faces = model.skin.triangles.rows();
+  summary.limit = frequency_limit(options.spectrum, model.valid_to_hz, body.clock().step_s);
+  if (model.valid_to_hz <= 0.0)
+    warn(origin + ": valid_to_hz is not stated: spectra are not checked against the basis");
+  summary.sensors = find_sensors(options.sensors, model, geometry);
+  const std::vector<Piece> pieces = choose_pieces(body.clock(), options, "run");
+  const auto [frame_piece, frame_list] = choose_frames(body.clock(), options, "run");
+  summary.panels =
+      choose_panels(panel_rules(options), model.skin.nodes, model.skin.triangles, geometry);
+  clock.lap("skin and panels");
+
+  const std::vector<PanelForm> forms = normal_velocity_forms(model.skin, geometry, summary.panels);
+  clock.lap("normal velocity forms");
+
+  for (const Piece& piece : pieces)
+    summary.analyses.push_back(
+        analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
+  const std::vector<ChosenLine> lines =
+      choose_lines(options.lines, options.spectrum, summary.analyses.front(), summary.limit);
+  clock.lap("spectra and radiated power");
+
+  write_conventions(file, options, summary.limit, model.valid_to_hz);
+  file.set("/", "body", body.name());
+  write_skin_geometry(file, model.skin, geometry);
+  write_panels(file, summary.panels);
+  for (const Analysis& analysis : summary.analyses)
+    write_analysis(file, analysis, options.references);
+  const SparseRows face_normal =
+      face_normal_operator(model.skin.nodes, model.skin.triangles, geometry);
+  write_lines(file, summary.analyses.front(), lines, model.skin, face_normal);
+  for (const ChosenLine& line : lines)
+    summary.line_hz.push_back(summary.analyses.front().velocity.frequency_hz[line.index]);
+  if (options.frames.on)
+    summary.frames = write_frames(file, body, model.skin, face_normal, frame_piece, frame_list,
+                                  options.frames.displacement);
+  clock.lap("skin fields");
+
+  summary.certificate["skin_area_m2"] = geometry.area;
+  summary.certificate["skin_closure"] = geometry.closure;
+  const Analysis& first = summary.analyses.front();
+  if (first.piece.periodic) {
+    summary.certificate["mean_square_share_above_spectra"] = share_above_limit(first);
+    const double drift = cycle_to_cycle_difference(body, first.piece, forms.front());
+    if (drift >= 0.0) summary.certificate["cycle_to_cycle_velocity_difference"] = drift;
+  }
+  write_certificate(file, summary.certificate);
+  return summary;
+}
+
+void write_exports(const std::filesystem::path& field_file, const Summary& summary) {
+  const auto write = [](const std::filesystem::path& path, const XdmfSeries& series) {
+    std::error_code ignored;
+    if (series.values.empty())
+      std::filesystem::remove(path, ignored);
+    else
+      write_text_file(path, xdmf_text(series));
+  };
+  write(frame_export_path(field_file),
+        frame_series(field_file, summary.n_nodes, summary.n_faces, summary.frames));
+  write(line_export_path(field_file),
+        line_series(field_file, summary.n_nodes, summary.n_faces, summary.line_hz));
+}
+
+std::string summary_text(const Summary& summary) {
+  const Analysis& analysis = summary.analyses.front();
+  const LevelReferences& ref = summary.options.references;
+  std::string text =
+      fmt::format("'{}': {} samples, lines every {:.4g} Hz up to {:.5g} Hz ({})\n",
+                  analysis.piece.name, analysis.piece.count, analysis.velocity.spacing_hz(),
+                  summary.limit.to_hz, summary.limit.reason);
+  text += fmt::format("{:<24}{:>11}{:>14}{:>13}{:>13}\n", "panel", "area [m2]", "v_n rms [m/s]",
+                      "ERP [dB]", "ERP [dB(A)]");
+  for (const PanelResult& panel : analysis.panels) {
+    const double mean_square =
+        panel.total_erp / equivalent_radiated_power(summary.options.air, panel.area, 1.0);
+    text += fmt::format("{:<24}{:>11.4g}{:>14.4g}{:>13.1f}{:>13.1f}\n", panel.name, panel.area,
+                        std::sqrt(mean_square), level_db(panel.total_erp, ref.power),
+                        level_db(panel.total_erp_a, ref.power));
+  }
+  text +=
+      fmt::format("ERP re 1 pW, rho c = {:.1f} Pa s/m, radiation loss factor {:g}; from {:g} Hz\n",
+                  summary.options.air.density * summary.options.air.sound_speed,
+                  summary.options.air.loss_factor, summary.options.spectrum.from_hz);
+  for (const SensorResult& result : analysis.sensors)
+    text += fmt::format(
+        "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,
+        result.acceleration.size() > 0 ? result.acceleration.cwiseAbs().maxCoeff() : 0.0);
+  for (const auto& [name, value] : summary.certificate)
+    text += fmt::format("{} = {:.4g}\n", name, value);
+  text += fmt::format("{} frames of the skin, {} complex lines", summary.frames.size(),
+                      summary.line_hz.size());
+  return text;
+}
+
+}  // namespace clatter::recover

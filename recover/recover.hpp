@@ -1,0 +1,42 @@
+#pragma once
+// The stage's one call: from a run and its reduced model to a field file.
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/h5_file.hpp"
+#include "core/stopwatch.hpp"
+#include "recover/exports.hpp"
+#include "recover/options.hpp"
+#include "recover/run_input.hpp"
+
+namespace clatter::recover {
+
+/// What was found, for the printed and the JSON summary.
+struct Summary {
+  Options options{};
+  std::vector<Panel> panels{};
+  std::vector<Sensor> sensors{};
+  std::vector<Analysis> analyses{};
+  FrameIndex frames{};
+  std::vector<double> line_hz{};
+  FrequencyLimit limit{};
+  int64_t n_nodes = 0, n_faces = 0;
+  std::map<std::string, double> certificate{};
+};
+
+/// Recovers everything that `options` ask for and writes it to `file` (conventions, skin, panels,
+/// analyses, frames, lines, certificate; provenance and timing are the caller's).
+/// @throws InputError for spans, panels, sensors or frequencies that run or basis do not hold
+Summary recover(const RunBody& body, const ReducedModel& model, const Options& options,
+                H5File& file, StepClock& clock);
+
+/// Writes the XDMF files that show the committed field file; a file of an older run that shows
+/// nothing any more is removed.
+void write_exports(const std::filesystem::path& field_file, const Summary& summary);
+
+/// The lines that are printed at the end: panels with levels, sensors with peaks.
+std::string summary_text(const Summary& summary);
+
+}  // namespace clatter::recover

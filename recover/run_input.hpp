@@ -1,0 +1,53 @@
+#pragma once
+// The part of a run file (clatter/run/1) that recovery needs, and the reduced model behind it.
+#include <filesystem>
+#include <string>
+
+#include "core/h5_file.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::recover {
+
+/// When the samples of a run were taken.
+struct RunClock {
+  Eigen::VectorXd time;       // n_t [s], uniform steps
+  Eigen::VectorXd angle_deg;  // n_t, crank angle, rising through all cycles; empty: nothing turns
+  double step_s = 0.0;
+
+  bool turns() const { return angle_deg.size() > 0; }
+  /// Mean speed [deg/s].
+  double speed_deg_s() const;
+};
+
+/// One body of a run: its clock and its reduced coordinates, read piece by piece.
+class RunBody {
+ public:
+  /// Opens the run and picks a body: the named one; with an empty name "block", or else the only
+  /// body that has a reduced model.
+  /// @throws InputError for a wrong schema, uneven time steps, an unknown body
+  RunBody(const std::filesystem::path& run, const std::string& body);
+
+  const std::string& name() const { return name_; }
+  const RunClock& clock() const { return clock_; }
+  const std::filesystem::path& rom_path() const { return rom_path_; }
+  /// The hash that the run noted for the reduced model that it used.
+  const std::string& rom_sha256() const { return rom_sha256_; }
+
+  /// Reads the reduced model beside the run, checks its hash and that its size fits the run.
+  ReducedModel read_model() const;
+
+  /// Samples [first, first + count) of "q" [m], "v" [m/s] or "a" [m/s2]: count x r.
+  RowMatrix samples(const std::string& quantity, int64_t first, int64_t count) const;
+
+ private:
+  void pick_body(const std::string& wanted);
+  void check_shapes() const;
+  std::string place(const std::string& member) const { return "bodies/" + name_ + "/" + member; }
+
+  H5File file_;
+  std::string name_, rom_sha256_;
+  std::filesystem::path rom_path_;
+  RunClock clock_;
+};
+
+}  // namespace clatter::recover
