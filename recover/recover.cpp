@@ -85,8 +85,8 @@ Summary recover(const RunBody& body, const ReducedModel& model, const Options& o
   if (model.valid_to_hz <= 0.0)
     warn(origin + ": valid_to_hz is not stated: spectra are not checked against the basis");
   summary.sensors = find_sensors(options.sensors, model, geometry);
-  const std::vector<Piece> pieces = choose_pieces(body.clock(), options, "run");
-  const auto [frame_piece, frame_list] = choose_frames(body.clock(), options, "run");
+  const std::vector<Piece> pieces = choose_pieces(body.clock(), options, body.path().string());
+  const auto [frame_piece, frame_list] = choose_frames(body.clock(), options, body.path().string());
   summary.panels =
       choose_panels(panel_rules(options), model.skin.nodes, model.skin.triangles, geometry);
   clock.lap("skin and panels");

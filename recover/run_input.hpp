@@ -28,6 +28,7 @@ class RunBody {
   RunBody(const std::filesystem::path& run, const std::string& body);
 
   const std::string& name() const { return name_; }
+  const std::filesystem::path& path() const { return file_.path(); }
   const RunClock& clock() const { return clock_; }
   const std::filesystem::path& rom_path() const { return rom_path_; }
   /// The hash that the run noted for the reduced model that it used.
