@@ -1,0 +1,29 @@
+#pragma once
+// Tables of numbers as text: a header with units, then rows.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clatter::dynamics {
+
+/// Two columns of a CSV file in SI: the abscissa (first column) and one other.
+struct CsvColumns {
+  std::string abscissa_name, name;
+  std::string abscissa_unit, unit;  // as converted: "rad", "s", "Pa", "N", ...
+  std::vector<double> x, y;
+  std::vector<int> lines;  // line in the file of each row, for messages
+};
+
+/// Reads `column` (or, when empty, the second one) of a file such as
+///
+///     # anything
+///     crank_angle [deg], pressure [bar]
+///     -180, 1.0
+///
+/// Separators: comma or semicolon. Units: deg, rad, s, ms, us, Pa, kPa, bar, MPa, N, kN, N m, m,
+/// mm, um, K, degC, 1; each is converted to SI. InputError "file:line: ..." for a missing header,
+/// an unknown unit, a missing or extra cell, what is not a finite number, an abscissa that does not
+/// ascend.
+CsvColumns read_csv(const std::filesystem::path& path, const std::string& column);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,92 @@
+#include "dynamics/integrate/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stopwatch.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kMaxIterations = 12;
+/// Increments below this part of the error limit count as converged: Newton's leftovers stay well
+/// below the error that the step control sees.
+constexpr double kConverged = 0.05;
+/// A kept matrix that contracts slower than this is formed anew.
+constexpr double kSlow = 0.3;
+/// With a fresh matrix, growth of the increment beyond this is divergence.
+constexpr double kGrowth = 2.0;
+
+}  // namespace
+
+StageNewton::StageNewton(System& system, const ErrorWeights& weights, StepStatistics& statistics)
+    : system_(system), weights_(weights), statistics_(statistics) {}
+
+void StageNewton::factor(const StageOperator& op) {
+  const Stopwatch clock;
+  const auto n = system_.interface_size();
+  Eigen::MatrixXd J = -op.apply_S(tangent_);
+  J.diagonal().array() += 1.0;
+  if (n > 0) lu_.compute(J);
+  kappa_ = op.kappa();
+  ++statistics_.factorizations;
+  statistics_.factor_seconds += clock.seconds();
+}
+
+double StageNewton::norm(const VectorXd& dy, double kappa, int& worst) const {
+  double largest = 0.0;
+  for (int i = 0; i < static_cast<int>(dy.size()); ++i) {
+    const double weight = std::max(weights_.displacement(i), weights_.velocity(i) / kappa);
+    const double value = std::abs(dy(i)) * weight;
+    if (!(value <= largest)) {
+      largest = value;
+      worst = i;
+    }
+  }
+  return largest;
+}
+
+StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& op,
+                                       const VectorXd& y_pred, const VectorXd& y_tilde, VectorXd& y,
+                                       VectorXd& f) {
+  Result result{Outcome::kDiverged, "", -1};
+  if (y.size() == 0) {
+    f.resize(0);
+    return {Outcome::kConverged, "", -1};
+  }
+  double previous = 0.0;
+  bool refresh = kappa_ != op.kappa();
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const bool fresh = refresh;
+    try {
+      const Stopwatch clock;
+      ++statistics_.evaluations;
+      const VectorXd v = (y - y_tilde) / stage.kappa;
+      system_.evaluate(stage, y, v, fresh, f, tangent_);
+      statistics_.element_seconds += clock.seconds();
+    } catch (const StepRefused& refusal) {
+      forget();
+      return {Outcome::kRefused, refusal.what(), -1};
+    }
+    if (fresh) factor(op);
+    const VectorXd dy = lu_.solve(y_pred + op.apply_S(f) - y);
+    const double size = norm(dy, stage.kappa, result.worst);
+    if (!std::isfinite(size)) break;
+    y += dy;
+    if (size < kConverged) {
+      f += tangent_ * dy;
+      result.outcome = Outcome::kConverged;
+      return result;
+    }
+    if (iteration > 0 && fresh && size > kGrowth * previous) break;
+    refresh = iteration > 0 ? size > kSlow * previous : false;
+    previous = size;
+  }
+  forget();
+  return result;
+}
+
+}  // namespace clatter::dynamics

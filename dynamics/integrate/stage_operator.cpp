@@ -1,0 +1,53 @@
+#include "dynamics/integrate/stage_operator.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+StageOperator::StageOperator(const System& system, double kappa) : system_(&system), kappa_(kappa) {
+  const Eigen::ArrayXd mu = system.inertia().array() / (kappa * kappa);
+  const Eigen::ArrayXd delta = system.damping().array() / kappa;
+  H_ = (mu + delta + system.omega_squared().array()).inverse();
+  per_force_ = H_ / (kappa * kappa);
+  per_velocity_ = system.damping() + kappa * system.omega_squared();
+  from_eta_ = H_.array() * (mu + delta);
+  from_v_ = H_.array() * system.inertia().array() / kappa;
+  for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+    const MatrixXd& P = system.P(b);
+    const auto H = H_.segment(system.mode_offset(b), P.cols());
+    S_.push_back((P * H.asDiagonal()) * P.transpose());
+  }
+}
+
+VectorXd StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
+                                     const VectorXd& F) const {
+  return per_force_.array() * (F.array() - system_->omega_squared().array() * eta_tilde.array() -
+                               per_velocity_.array() * v_tilde.array());
+}
+
+VectorXd StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v) const {
+  return from_eta_.cwiseProduct(e_eta) + from_v_.cwiseProduct(e_v);
+}
+
+MatrixXd StageOperator::apply_S(const MatrixXd& x) const {
+  MatrixXd result(x.rows(), x.cols());
+  for (int b = 0; b < static_cast<int>(S_.size()); ++b) {
+    const auto& rows = system_->rows(b);
+    if (rows.empty()) continue;
+    result(rows, Eigen::all) = S_[static_cast<size_t>(b)] * x(rows, Eigen::all);
+  }
+  return result;
+}
+
+VectorXd StageOperator::apply_S(const VectorXd& f) const {
+  VectorXd result(f.size());
+  for (int b = 0; b < static_cast<int>(S_.size()); ++b) {
+    const auto& rows = system_->rows(b);
+    if (rows.empty()) continue;
+    result(rows) = S_[static_cast<size_t>(b)] * gather(f, rows);
+  }
+  return result;
+}
+
+}  // namespace clatter::dynamics

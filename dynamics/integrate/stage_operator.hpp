@@ -1,0 +1,44 @@
+#pragma once
+// The linear part of an implicit stage, per step size.
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/system.hpp"
+
+namespace clatter::dynamics {
+
+/// For one kappa = a_ii dt: per mode, with mu = 1 (0 for a quasi-static mode),
+///   H = 1 / (mu / kappa^2 + delta / kappa + omega^2)
+///   a = H / kappa^2 (F - omega^2 eta~ - (delta + kappa omega^2) v~),  v = v~ + kappa a,
+///   eta = eta~ + kappa v,
+/// which is the stage equation solved for a: no difference of nearly equal numbers at any kappa.
+/// Per body S = P H P^T, so that y = y_pred + S f.
+class StageOperator {
+ public:
+  StageOperator(const System& system, double kappa);
+
+  double kappa() const { return kappa_; }
+  const Eigen::VectorXd& H() const { return H_; }
+  /// The accelerations a of the stage under modal forces F; all N.
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& eta_tilde, const Eigen::VectorXd& v_tilde,
+                               const Eigen::VectorXd& F) const;
+  /// The embedded error (e_eta, e_v) sent through the linear part of the stage equations:
+  /// H (mu e_v / kappa + (mu / kappa^2 + delta / kappa) e_eta).
+  Eigen::VectorXd filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v) const;
+  /// S x for a matrix of n_y rows.
+  Eigen::MatrixXd apply_S(const Eigen::MatrixXd& x) const;
+  /// S f.
+  Eigen::VectorXd apply_S(const Eigen::VectorXd& f) const;
+
+ private:
+  const System* system_;
+  double kappa_;
+  Eigen::VectorXd H_;
+  Eigen::VectorXd per_force_;       // H / kappa^2
+  Eigen::VectorXd per_velocity_;    // delta + kappa omega^2
+  Eigen::VectorXd from_eta_;        // H (mu / kappa^2 + delta / kappa)
+  Eigen::VectorXd from_v_;          // H mu / kappa
+  std::vector<Eigen::MatrixXd> S_;  // per body
+};
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,28 @@
+#pragma once
+// What the time integration did and what it cost.
+#include <limits>
+#include <map>
+#include <string>
+
+namespace clatter::dynamics {
+
+/// Counts since the start of a run.
+struct StepStatistics {
+  long long accepted = 0;
+  long long rejected_error = 0;    // the error test failed
+  long long rejected_newton = 0;   // the stage equations did not converge
+  long long rejected_refused = 0;  // an element refused a trial state
+  long long stages = 0;            // implicit stages that were solved
+  long long evaluations = 0;       // evaluations of all elements
+  long long factorizations = 0;    // of the Newton matrix
+  long long operators = 0;         // S = P H P^T formed
+  double smallest_step = std::numeric_limits<double>::infinity();  // accepted [s]
+  double largest_step = 0.0;                                       // accepted [s]
+  double element_seconds = 0.0;
+  double factor_seconds = 0.0;
+  double operator_seconds = 0.0;
+  double total_seconds = 0.0;
+  std::map<std::string, long long> refusals;  // reason: count
+};
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,257 @@
+#include "dynamics/integrate/tr_bdf2.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::VectorXd;
+using Tableau = TrBdf2Tableau;
+
+namespace {
+
+constexpr double kSafety = 0.9;
+constexpr double kOrder = 3.0;  // of the embedded difference in dt
+constexpr int kLongestHold = 64;
+
+}  // namespace
+
+TrBdf2::TrBdf2(System& system, const StepOptions& options)
+    : system_(system),
+      options_(options),
+      weights_(error_weights(system, options.accuracy)),
+      newton_(system, weights_, statistics_) {}
+
+double TrBdf2::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
+
+int TrBdf2::rung_for(double dt) const {
+  // The longest rung not above dt; the small excess keeps exact hits on their rung.
+  const double exact = 2.0 * std::log2(options_.largest / dt);
+  return std::max(0, static_cast<int>(std::ceil(exact - 1e-9)));
+}
+
+std::unique_ptr<StageOperator> TrBdf2::make_operator(double kappa) {
+  const Stopwatch clock;
+  auto op = std::make_unique<StageOperator>(system_, kappa);
+  ++statistics_.operators;
+  statistics_.operator_seconds += clock.seconds();
+  return op;
+}
+
+const StageOperator& TrBdf2::ladder_operator(int rung) {
+  auto& op = operators_[rung];
+  if (!op) op = make_operator(Tableau::kDiagonal * ladder_step(rung));
+  return *op;
+}
+
+void TrBdf2::start(double time, const VectorXd& eta, const VectorXd& v) {
+  system_.begin_step(time);
+  const Stage stage{time + options_.first, options_.first, 0, {}};
+  const auto op = make_operator(options_.first);
+  const VectorXd y_guess = system_.interface(eta);
+  if (!solve_stage(stage, *op, eta, v, y_guess, now_)) {
+    throw NumericsError(
+        fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
+                    last_newton_.reason.empty() ? "Newton did not converge" : last_newton_.reason));
+  }
+  system_.finish_stage(stage);
+  system_.accept_step(now_.time);
+  if (observer_ != nullptr) observer_->stage(0, now_);
+  before_ = now_;
+  rung_ = options_.fixed ? 0 : rung_for(std::min(options_.first, options_.largest));
+}
+
+void TrBdf2::resume(const StageState& state, int rung) {
+  now_ = before_ = state;
+  rung_ = rung;
+  forget_history();
+}
+
+void TrBdf2::forget_history() {
+  newton_.forget();
+  hold_ = 0;
+  failures_ = 0;
+}
+
+bool TrBdf2::solve_stage(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
+                         const VectorXd& v_tilde, const VectorXd& y_guess, StageState& out) {
+  ++statistics_.stages;
+  VectorXd F = system_.load_force(stage.time);
+  const auto settle = [&] {
+    out.a = op.acceleration(eta_tilde, v_tilde, F);
+    out.v = v_tilde + stage.kappa * out.a;
+    out.eta = eta_tilde + stage.kappa * out.v;
+  };
+  settle();
+  const VectorXd y_pred = system_.interface(out.eta), y_tilde = system_.interface(eta_tilde);
+  out.y = y_guess;
+  VectorXd f;
+  last_newton_ = newton_.solve(stage, op, y_pred, y_tilde, out.y, f);
+  if (last_newton_.outcome != StageNewton::Outcome::kConverged) return false;
+  system_.add_interface_force(f, F);
+  settle();
+  out.time = stage.time;
+  out.y = system_.interface(out.eta);
+  out.v_y = system_.interface(out.v);
+  return true;
+}
+
+TrBdf2::Verdict TrBdf2::attempt(double dt, const StageOperator& op) {
+  const double kappa = Tableau::kDiagonal * dt, w = Tableau::kWeight * dt;
+  system_.begin_step(now_.time);
+  const auto failed = [&] {
+    return last_newton_.outcome == StageNewton::Outcome::kRefused ? Verdict::kRefused
+                                                                  : Verdict::kNewton;
+  };
+  const double c = Tableau::kGamma * dt;
+  const Stage first{now_.time + c, kappa, 1, {kappa}};
+  if (!solve_stage(first, op, now_.eta + kappa * now_.v, now_.v + kappa * now_.a,
+                   now_.y + c * now_.v_y, stages_[0])) {
+    return failed();
+  }
+  system_.finish_stage(first);
+  if (observer_ != nullptr) observer_->stage(1, stages_[0]);
+
+  const Stage second{now_.time + dt, kappa, 2, {w, w}};
+  const StageState& mid = stages_[0];
+  if (!solve_stage(second, op, now_.eta + w * (now_.v + mid.v), now_.v + w * (now_.a + mid.a),
+                   mid.y + (dt - c) * mid.v_y, stages_[1])) {
+    return failed();
+  }
+  if (!options_.fixed) {
+    last_error_ = error(dt, op);
+    if (!(last_error_ <= 1.0)) return Verdict::kError;
+  }
+  system_.finish_stage(second);
+  if (observer_ != nullptr) observer_->stage(2, stages_[1]);
+  return Verdict::kAccepted;
+}
+
+double TrBdf2::error(double dt, const StageOperator& op) {
+  constexpr auto& b = Tableau::b;
+  constexpr auto& b_hat = Tableau::b_hat;
+  const double d0 = dt * (b[0] - b_hat[0]), d1 = dt * (b[1] - b_hat[1]),
+               d2 = dt * (b[2] - b_hat[2]);
+  const VectorXd e_eta = d0 * now_.v + d1 * stages_[0].v + d2 * stages_[1].v;
+  const VectorXd e_v = d0 * now_.a + d1 * stages_[0].a + d2 * stages_[1].a;
+  VectorXd eta = op.filter(e_eta, e_v);
+  VectorXd e_y, e_vy;
+  if (system_.interface_size() > 0) {
+    e_y = newton_.solve_linear(system_.interface(eta));
+    VectorXd g = VectorXd::Zero(system_.modes());
+    system_.add_interface_force(newton_.tangent() * e_y, g);
+    eta += op.H().cwiseProduct(g);
+    e_vy = (e_y - system_.interface(e_eta)) / op.kappa();
+  }
+  const VectorXd v = (eta - e_eta) / op.kappa();
+
+  double largest = 0.0;
+  for (int i = 0; i < e_y.size(); ++i) {
+    const double value = std::max(std::abs(e_y(i)) * weights_.displacement(i),
+                                  std::abs(e_vy(i)) * weights_.velocity(i));
+    if (!(value <= largest)) {
+      largest = value;
+      worst_ = i;
+    }
+  }
+  for (int k = 0; k < static_cast<int>(system_.bodies().size()); ++k) {
+    const int at = system_.mode_offset(k), n = system_.bodies()[static_cast<size_t>(k)].modes();
+    largest = std::max({largest, eta.segment(at, n).norm() * weights_.body_displacement(k),
+                        v.segment(at, n).norm() * weights_.body_velocity(k)});
+  }
+  return largest;
+}
+
+void TrBdf2::step(double limit) {
+  const Stopwatch clock;
+  for (;;) {
+    double dt = ladder_step(rung_);
+    const double left = limit - now_.time;
+    Verdict verdict;
+    // Up to the limit the last two steps leave the ladder, so that none of them is tiny.
+    const bool near_limit = left < 2.0 * dt * (1.0 - 1e-9);
+    if (near_limit) {
+      dt = left <= dt * (1.0 + 1e-9) ? left : 0.5 * left;
+      verdict = attempt(dt, *make_operator(Tableau::kDiagonal * dt));
+    } else {
+      verdict = attempt(dt, ladder_operator(rung_));
+    }
+    if (verdict == Verdict::kAccepted) {
+      std::swap(before_, now_);
+      std::swap(now_, stages_[1]);
+      if (near_limit && dt == left) now_.time = limit;
+      system_.accept_step(now_.time);
+      if (observer_ != nullptr) observer_->accept(dt);
+      ++statistics_.accepted;
+      statistics_.smallest_step = std::min(statistics_.smallest_step, dt);
+      statistics_.largest_step = std::max(statistics_.largest_step, dt);
+      after_acceptance(dt);
+      statistics_.total_seconds += clock.seconds();
+      return;
+    }
+    if (near_limit) rung_ = std::max(rung_, rung_for(dt));
+    after_rejection(verdict);
+  }
+}
+
+void TrBdf2::after_acceptance(double dt) {
+  failures_ = 0;
+  if (options_.fixed) return;
+  if (hold_ > 0) {
+    --hold_;
+    return;
+  }
+  const double factor = kSafety * std::pow(std::max(last_error_, 1e-6), -1.0 / kOrder);
+  const int wanted = rung_for(dt * factor);
+  // At most a factor of two up at a time.
+  if (wanted < rung_) rung_ = std::max(wanted, rung_ - 2);
+}
+
+void TrBdf2::after_rejection(Verdict verdict) {
+  const double dt = ladder_step(rung_);
+  if (verdict == Verdict::kError) {
+    ++statistics_.rejected_error;
+    const double factor = std::max(0.1, kSafety * std::pow(last_error_, -1.0 / kOrder));
+    rung_ = std::max(rung_ + 1, std::isfinite(factor) ? rung_for(dt * factor) : rung_ + 4);
+    hold_ = std::max(hold_, 1);
+  } else {
+    ++(verdict == Verdict::kRefused ? statistics_.rejected_refused : statistics_.rejected_newton);
+    if (verdict == Verdict::kRefused) ++statistics_.refusals[last_newton_.reason];
+    worst_ = last_newton_.worst;
+    rung_ += 2;
+    failures_ = std::min(failures_ + 1, 6);
+    hold_ = std::min(kLongestHold, 2 << failures_);
+  }
+  if (options_.fixed || ladder_step(rung_) < options_.smallest) give_up(dt);
+}
+
+void TrBdf2::give_up(double dt) const {
+  std::vector<std::string> names;
+  for (int e = 0; worst_ >= 0 && e < system_.elements(); ++e) {
+    const auto& at = system_.element(e).coordinates();
+    if (std::find(at.begin(), at.end(), worst_) != at.end()) {
+      names.push_back(system_.element(e).name());
+    }
+  }
+  const std::string place =
+      worst_ < 0
+          ? std::string("no single coordinate")
+          : fmt::format("{} (y = {:.6g}, v = {:.6g}) under {}", system_.coordinate_name(worst_),
+                        now_.y(worst_), now_.v_y(worst_),
+                        names.empty() ? "no element" : fmt::format("{}", fmt::join(names, ", ")));
+  throw NumericsError(fmt::format(
+      "time {:.9g} s: a step of {:.3g} s failed and the next is below the floor of {:.3g} s; "
+      "worst: "
+      "{}{}; {} steps accepted, {} rejected by error, {} by Newton, {} refused",
+      now_.time, dt, options_.smallest, place,
+      last_newton_.reason.empty() ? "" : "; " + last_newton_.reason, statistics_.accepted,
+      statistics_.rejected_error, statistics_.rejected_newton, statistics_.rejected_refused));
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,116 @@
+#pragma once
+// TR-BDF2: second order, L-stable, three stages of which the first is the end of the last step.
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/newton.hpp"
+#include "dynamics/integrate/stage_operator.hpp"
+#include "dynamics/integrate/statistics.hpp"
+#include "dynamics/system.hpp"
+
+namespace clatter::dynamics {
+
+/// The tableau of TR-BDF2 as an ESDIRK with gamma = 2 - sqrt 2 (Bank et al. 1985; the embedded
+/// third-order weights of Hosea and Shampine 1996).
+struct TrBdf2Tableau {
+  static constexpr double kSqrt2 = 1.4142135623730950488;
+  static constexpr double kGamma = 2.0 - kSqrt2;     // c_1
+  static constexpr double kDiagonal = kGamma / 2.0;  // d
+  static constexpr double kWeight = kSqrt2 / 4.0;    // w
+  static constexpr double b[3] = {kWeight, kWeight, kDiagonal};
+  static constexpr double b_hat[3] = {(1.0 - kWeight) / 3.0, (3.0 * kWeight + 1.0) / 3.0,
+                                      kDiagonal / 3.0};
+};
+
+/// Step size limits.
+struct StepOptions {
+  Accuracy accuracy;
+  double largest = 1e-4;    // top of the ladder [s]
+  double smallest = 1e-10;  // floor: below it the run ends with a NumericsError [s]
+  double first = 1e-7;      // length of the starting stage and first step [s]
+  bool fixed = false;       // every step has `largest`; no error test (order tests)
+};
+
+/// One instant of the motion.
+struct StageState {
+  double time = 0.0;
+  Eigen::VectorXd eta, v, a;  // N modal displacements, velocities, accelerations
+  Eigen::VectorXd y, v_y;     // n_y interface displacements and velocities
+};
+
+/// Looks at stages as they are finished; what energy accounting needs.
+class StageObserver {
+ public:
+  virtual ~StageObserver() = default;
+  /// Stage 0 is the accepted state of the start; then stages 1 and 2 of each attempted step.
+  virtual void stage(int index, const StageState& state) = 0;
+  /// The step of length `dt` stands: sums with dt b_i over its stages are due.
+  virtual void accept(double dt) = 0;
+};
+
+/// Integrates a System with error-controlled steps dt = largest 2^(-k/2).
+///
+/// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), sent through the linearised stage
+/// equations (so stiff components do not decide), then max(|e_y|, |e_vy|) over interface
+/// coordinates and the root mean square over each body, each over its limit (Accuracy); a step
+/// stands when that is at most 1. After an error rejection the step follows (0.9 / error^(1/3));
+/// after a Newton failure or refusal it is halved and may not grow for some steps, doubling with
+/// each failure in a row (hard case T4). Below `smallest` a NumericsError names the coordinate and
+/// its elements.
+class TrBdf2 {
+ public:
+  TrBdf2(System& system, const StepOptions& options);
+
+  /// Starts from (eta, v) at `time` by one implicit Euler stage of length `first`, which gives
+  /// consistent accelerations and rates of internal states.
+  void start(double time, const Eigen::VectorXd& eta, const Eigen::VectorXd& v);
+  /// One accepted step, not beyond `limit`.
+  void step(double limit);
+  /// Forgets what earlier steps taught (kept matrix, hold on growth), as after a resume.
+  void forget_history();
+
+  const StageState& state() const { return now_; }
+  const StageState& previous() const { return before_; }
+  const StepStatistics& statistics() const { return statistics_; }
+  StepStatistics& statistics() { return statistics_; }
+  void set_observer(StageObserver* observer) { observer_ = observer; }
+
+  /// The rung on the ladder of steps; with the state all that a resumed run needs.
+  int rung() const { return rung_; }
+  /// Takes up a state that an earlier run reached.
+  void resume(const StageState& state, int rung);
+
+ private:
+  enum class Verdict { kAccepted, kError, kNewton, kRefused };
+  Verdict attempt(double dt, const StageOperator& op);
+  bool solve_stage(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
+                   const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& y_guess, StageState& out);
+  double error(double dt, const StageOperator& op);
+  const StageOperator& ladder_operator(int rung);
+  double ladder_step(int rung) const;
+  std::unique_ptr<StageOperator> make_operator(double kappa);
+  void after_acceptance(double dt);
+  void after_rejection(Verdict verdict);
+  int rung_for(double dt) const;
+  [[noreturn]] void give_up(double dt) const;
+
+  System& system_;
+  StepOptions options_;
+  ErrorWeights weights_;
+  StepStatistics statistics_;
+  StageNewton newton_;
+  StageObserver* observer_ = nullptr;
+  std::map<int, std::unique_ptr<StageOperator>> operators_;
+  StageState before_, now_, stages_[2];
+  StageNewton::Result last_newton_{StageNewton::Outcome::kConverged, "", -1};
+  double last_error_ = 0.0;
+  int worst_ = -1;
+  int rung_ = 0;
+  int hold_ = 0;      // accepted steps before the step may grow again
+  int failures_ = 0;  // Newton failures and refusals in a row
+};
+
+}  // namespace clatter::dynamics

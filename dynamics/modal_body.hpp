@@ -1,0 +1,44 @@
+#pragma once
+// A body as a set of decoupled oscillators: eta'' + delta eta' + omega^2 eta = phi^T f.
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/reduced_model.hpp"
+
+namespace clatter::dynamics {
+
+/// A linear body in its own eigenbasis, q = shapes eta with shapes^T M_rr shapes = I.
+///
+/// Modes beyond `mode_limit_hz` may drop their inertia (inertia = 0): they follow their load
+/// quasi-statically, omega^2 eta + delta eta' = phi^T f.
+struct ModalBody {
+  std::string name;
+  Eigen::MatrixXd shapes;         // r x n_m, mass-normalised
+  Eigen::VectorXd omega_squared;  // n_m [1/s2], ascending; exactly 0 for rigid modes
+  Eigen::VectorXd damping;        // n_m [1/s], alpha omega^2 + beta; 0 for rigid modes
+  Eigen::VectorXd inertia;        // n_m, 1 or 0
+  Eigen::MatrixXd rigid;          // n_m x 6, M-weighted: shapes^T M_rr r of the unit rigid motions
+  std::vector<int32_t> is_rotation;  // r, 1 where the coordinate is a rotation
+  int rigid_modes = 0;               // the first ones
+  double mass = 0.0;                 // [kg]
+
+  int modes() const { return static_cast<int>(omega_squared.size()); }
+  int size() const { return static_cast<int>(shapes.rows()); }
+};
+
+/// How a reduced model becomes a ModalBody.
+struct ModalBodyOptions {
+  bool elastic = true;         // false: the rigid modes only
+  double mode_limit_hz = 0.0;  // inertia of modes above is dropped; 0: never
+};
+
+/// Solves K_rr phi = omega^2 M_rr phi once. Rigid modes are identified exactly: the combinations of
+/// the six rigid motions with |K_rr r| below 1e-8 |K_rr| |r| are M-orthonormalised, pushed out of
+/// the elastic spectrum by K - s M R R^T M, and given omega = 0 and no damping.
+/// NumericsError when M_rr is not positive definite, when an elastic eigenvalue is not positive, or
+/// when a rigid variant is asked of a body that is held.
+ModalBody make_modal_body(const ReducedModel& model, const ModalBodyOptions& options);
+
+}  // namespace clatter::dynamics

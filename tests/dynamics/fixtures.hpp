@@ -1,0 +1,62 @@
+#pragma once
+// Small bodies and elements that the dynamics tests share.
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/reduced_model.hpp"
+#include "dynamics/element.hpp"
+#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/modal_body.hpp"
+#include "dynamics/system.hpp"
+
+namespace clatter::dynamics::testing {
+
+/// A mass on a line, q = position [m], on a spring to the ground (k = 0: free).
+inline ModalBody point_mass(double mass, double k = 0.0, double damping = 0.0) {
+  ModalBody body;
+  body.name = "mass";
+  body.shapes = Eigen::MatrixXd::Constant(1, 1, 1.0 / std::sqrt(mass));
+  body.omega_squared = Eigen::VectorXd::Constant(1, k / mass);
+  body.damping = Eigen::VectorXd::Constant(1, damping / mass);
+  body.inertia = Eigen::VectorXd::Ones(1);
+  body.rigid = Eigen::MatrixXd::Zero(1, 6);
+  body.is_rotation = {0};
+  body.rigid_modes = k > 0.0 ? 0 : 1;
+  body.mass = mass;
+  return body;
+}
+
+/// A wall at y = gap: force -k <y - gap>^1.5 - c <y - gap> v (compliant, no adhesion for small c).
+class Wall : public ForceElement {
+ public:
+  Wall(int coordinate, double gap, double stiffness, double damping = 0.0, double exponent = 1.5)
+      : ForceElement({coordinate}), gap_(gap), k_(stiffness), c_(damping), n_(exponent) {}
+  std::string name() const override { return "wall"; }
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool tangent, Response& response) override {
+    const double x = std::max(y(0) - gap_, 0.0);
+    response.force = Eigen::VectorXd::Constant(1, -k_ * std::pow(x, n_) - c_ * x * v(0));
+    if (!tangent) return;
+    const double slope =
+        x > 0.0 ? -k_ * n_ * std::pow(x, n_ - 1.0) - c_ * v(0) - c_ * x / stage.kappa : 0.0;
+    response.tangent = Eigen::MatrixXd::Constant(1, 1, slope);
+  }
+  Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override {
+    const double x = std::max(y(0) - gap_, 0.0);
+    return {k_ * std::pow(x, n_ + 1.0) / (n_ + 1.0), c_ * x * v(0) * v(0), 0.0};
+  }
+
+ private:
+  double gap_, k_, c_, n_;
+};
+
+inline Eigen::VectorXd vector(double value) { return Eigen::VectorXd::Constant(1, value); }
+
+/// Adds value(t) newtons along coordinate 0 of body 0.
+inline void push(System& system, std::function<double(double)> value) {
+  system.add_load({"push", 0, system.bodies()[0].shapes.row(0).transpose(), std::move(value)});
+}
+
+}  // namespace clatter::dynamics::testing
