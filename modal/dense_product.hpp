@@ -1,0 +1,16 @@
+#pragma once
+// Products of tall dense matrices through BLAS.
+#include <Eigen/Core>
+
+namespace clatter::modal {
+
+using DenseView = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using DenseOut = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+/// A^T B; A is n x p, B is n x q.
+Eigen::MatrixXd transposed_product(const DenseView& A, const DenseView& B);
+
+/// C += factor A B; A is n x p, B is p x q, C is n x q and overlaps neither.
+void add_product(double factor, const DenseView& A, const DenseView& B, DenseOut C);
+
+}  // namespace clatter::modal

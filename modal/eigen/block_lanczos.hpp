@@ -1,0 +1,25 @@
+#pragma once
+// Block Lanczos with thick restart: reads the factor once for a whole block of vectors, which
+// makes it several times faster than ARPACK where many modes are wanted.
+#include "modal/eigen/shift_invert.hpp"
+
+namespace clatter::modal {
+
+struct BlockLanczosOptions {
+  int count = 0;             // pairs wanted
+  int block = 0;             // vectors a block; 0: chosen from `count`
+  int basis = 0;             // largest subspace; 0: chosen from `count`
+  double tolerance = 1e-10;  // |Op x - nu x|_M / nu of each pair; nu is then right to its square
+  int max_restarts = 50;
+  uint64_t seed = 1;      // of the random start block
+  Eigen::MatrixXd start;  // first columns of the start block when not empty (tests)
+};
+
+/// The `count` lowest eigenpairs of K x = lambda M x from the projection of Op = (K - sigma M)^{-1}
+/// M on span{X, Op X, Op^2 X, ...} with two passes of orthogonalisation in the M inner product
+/// (Grimes, Lewis and Simon, 1994), restarted from the wanted Ritz vectors and the residual block
+/// (Wu and Simon, Thick-restart Lanczos, 2000). A block of size b finds up to b copies of a
+/// multiple eigenvalue.
+EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options);
+
+}  // namespace clatter::modal

@@ -1,0 +1,19 @@
+#pragma once
+// All eigenpairs of a small model by dense algebra: the fallback where Lanczos has no room (hard
+// case A6), and the oracle of the tests.
+#include "core/sparse.hpp"
+#include "modal/eigen/shift_invert.hpp"
+
+namespace clatter::modal {
+
+/// Solves M x = nu (K - sigma M) x, lambda = sigma + 1 / nu, so that the low modes are the accurate
+/// ones. K, M n x n, symmetric, both triangles filled; K - sigma M positive definite. Gives the
+/// `count` lowest pairs (0: all with nu > 0), M-orthonormal. kBadInput when K - sigma M is not
+/// definite.
+EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double sigma,
+                        int count = 0);
+
+/// Both triangles of a sparse symmetric matrix that is given by its lower one.
+Eigen::MatrixXd dense_symmetric(const SparseMatrix& lower);
+
+}  // namespace clatter::modal

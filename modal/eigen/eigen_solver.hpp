@@ -1,0 +1,74 @@
+#pragma once
+// The modes of K x = lambda M x by count or by frequency, with a proof that none is missing.
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/sparse.hpp"
+#include "modal/eigen/shift_invert.hpp"
+#include "modal/factor/cholmod_factor.hpp"
+
+namespace clatter::modal {
+
+enum class EigenMethod { kBlockLanczos, kArpack };
+
+struct EigenOptions {
+  int count = 0;         // the lowest `count` modes, or
+  double fmax_hz = 0.0;  // all modes below this frequency; exactly one of both is given
+  bool prove_count = true;
+  EigenMethod method = EigenMethod::kBlockLanczos;
+  std::optional<double> sigma;  // shift [rad2/s2]; chosen by default_shift when absent
+  int max_retries = 2;          // new start vectors after a count mismatch
+  uint64_t seed = 1;
+  int dense_limit = 300;       // up to this size dense algebra is used
+  double max_residual = 1e-5;  // largest accepted residual of a mode
+  FactorOptions factor;
+  Eigen::VectorXd start;  // first start vector in place of a random one (tests)
+};
+
+/// What was proved about the number of modes.
+struct CountProof {
+  bool proved = false;
+  double limit = 0.0;  // [rad2/s2]
+  int64_t below = -1;  // eigenvalues below `limit` by inertia
+  double seconds = 0.0;
+};
+
+struct ModeSet {
+  Eigen::VectorXd values;     // lambda [rad2/s2], ascending
+  Eigen::MatrixXd vectors;    // n x m, M-orthonormal, largest entry of each positive
+  Eigen::VectorXd residuals;  // |K x - lambda M x| / (|lambda - sigma| |M x|)
+  int rigid = 0;              // modes with |lambda| below 1e-6 of the first elastic one
+  double sigma = 0.0;
+  double next_value = 0.0;  // a value that no unlisted mode stays below, as far as is known
+  std::string method;       // "block-lanczos", "arpack", "dense"
+  CountProof proof;
+  FactorReport factor;
+  int64_t solves = 0;
+  int retries = 0;
+  double seconds = 0.0;  // of the eigen-solver alone
+
+  int size() const { return static_cast<int>(values.size()); }
+  /// sqrt(lambda) / 2 pi [Hz]; 0 for rigid modes.
+  Eigen::VectorXd frequencies_hz() const;
+};
+
+/// lambda of a frequency: (2 pi f)^2.
+double value_of_hz(double hz);
+double hz_of_value(double value);
+
+/// A negative shift of the size of a tenth of the first elastic eigenvalue of a compact body, from
+/// the median of K_jj / M_jj (the square of the highest frequency of an element) and the number of
+/// unknowns. Only speed depends on how good the guess is.
+double default_shift(const SparseMatrix& K, const SparseMatrix& M);
+
+/// Modes of K x = lambda M x.
+/// @param K, M n x n, symmetric, lower triangle; K positive semidefinite, M positive definite.
+/// @param factor of K - options.sigma M when the caller has it already (then sigma must be given).
+/// Throws InputError for a senseless request; NumericsError when the solver does not converge, a
+/// residual is too large, or the count does not match after all retries.
+ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
+                    const CholmodFactor* factor = nullptr);
+
+}  // namespace clatter::modal

@@ -1,0 +1,28 @@
+#pragma once
+// How many eigenvalues lie below a limit: the proof that no mode was missed.
+#include <cstdint>
+#include <vector>
+
+#include "core/sparse.hpp"
+
+namespace clatter::modal {
+
+/// What the count found and what it cost.
+struct InertiaCount {
+  int64_t negative = 0;  // eigenvalues of K x = lambda M x below mu
+  int64_t zero = 0;      // pivots that vanish: mu is an eigenvalue to working precision
+  double seconds = 0.0;
+};
+
+/// Number of negative pivots of K - mu M = L D L^T, which by Sylvester's law of inertia is the
+/// number of eigenvalues of K x = lambda M x below mu when M is positive definite (Parlett, The
+/// Symmetric Eigenvalue Problem, 1998, section 3.3). Multifrontal LDL^T with 1x1 and 2x2 pivots;
+/// the factor is not kept.
+/// @param K, M [N/m], [kg], n x n, symmetric, lower triangle.
+/// @param mu [rad2/s2]; should lie well inside a gap between eigenvalues.
+/// @param permutation fill-reducing order (row of K at each place), may be empty.
+/// Throws NumericsError when the factorisation fails.
+InertiaCount count_below(const SparseMatrix& K, const SparseMatrix& M, double mu,
+                         const std::vector<int64_t>& permutation = {});
+
+}  // namespace clatter::modal

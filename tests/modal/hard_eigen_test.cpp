@@ -1,0 +1,215 @@
+// The cases that break ARPACK and its users.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "modal/eigen/arpack_solver.hpp"
+#include "modal/eigen/block_lanczos.hpp"
+#include "modal/eigen/eigen_solver.hpp"
+#include "modal/symmetric_product.hpp"
+#include "tests/modal/spring_models.hpp"
+
+namespace clatter::modal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::free_chain;
+using test::free_chain_value;
+using test::Pencil;
+using test::spring_box;
+
+EigenOptions by_count(int count, EigenMethod method = EigenMethod::kBlockLanczos) {
+  EigenOptions options;
+  options.count = count;
+  options.method = method;
+  return options;
+}
+
+constexpr EigenMethod kBoth[] = {EigenMethod::kBlockLanczos, EigenMethod::kArpack};
+
+/// Shift-invert problem of a pencil for the solvers below solve_modes.
+struct Shifted {
+  Shifted(const Pencil& pencil, double sigma)
+      : factor(SparseMatrix(pencil.K - sigma * pencil.M)), mass(pencil.M) {
+    problem.size = pencil.K.rows();
+    problem.sigma = sigma;
+    problem.solve = [this](const auto& x) { return factor.solve(x); };
+    problem.mass = [this](const auto& x) { return mass * x; };
+  }
+  CholmodFactor factor;
+  SymmetricProduct mass;
+  ShiftInvert problem;
+};
+
+TEST(HardA1, SixRigidModesAndOneSpectrumForThreeShifts) {
+  const auto box = spring_box(7, 5, 6);
+  const ModeSet reference = solve_modes(box.K, box.M, by_count(20));
+  const double first = reference.values[6];
+  for (const EigenMethod method : kBoth) {
+    for (const double part : {-1.0, -0.1, -0.01}) {
+      EigenOptions options = by_count(20, method);
+      options.sigma = part * first;
+      const ModeSet modes = solve_modes(box.K, box.M, options);
+      EXPECT_EQ(modes.rigid, 6);
+      EXPECT_LT(modes.values.head(6).cwiseAbs().maxCoeff(), 1e-6 * first);
+      EXPECT_LT((modes.values.tail(14) - reference.values.tail(14)).cwiseAbs().maxCoeff(),
+                1e-8 * first);
+    }
+  }
+}
+
+TEST(HardA1, AShiftOnTheRigidModesIsRefused) {
+  const auto box = spring_box(7, 5, 6);
+  EigenOptions options = by_count(10);
+  options.sigma = 0.0;
+  EXPECT_THROW((void)solve_modes(box.K, box.M, options), NotPositiveDefinite);
+}
+
+/// Start vector that is equal on both bars: half of the spectrum is invisible to one vector.
+VectorXd symmetric_start(int n) {
+  VectorXd start(2 * n);
+  for (int i = 0; i < n; ++i) start[i] = start[i + n] = std::sin(1.0 + 0.37 * i);
+  return start;
+}
+
+TEST(HardA2, TwoEqualBarsWithASymmetricStartAreRefused) {
+  const Pencil bars = test::twice(free_chain(200));
+  EigenOptions options = by_count(6, EigenMethod::kArpack);
+  options.start = symmetric_start(200);
+  options.sigma = -1e5;
+  options.factor.ordering = Ordering::kNatural;  // treats both bars alike, rounding included
+  options.max_retries = 0;
+  EXPECT_THROW((void)solve_modes(bars.K, bars.M, options), NumericsError);
+  options.count = 0;
+  options.fmax_hz = hz_of_value(0.5 * (free_chain_value(200, 2) + free_chain_value(200, 3)));
+  EXPECT_THROW((void)solve_modes(bars.K, bars.M, options), NumericsError);
+}
+
+TEST(HardA2, TwoEqualBarsAreCuredByANewStartAndRightAtDefaults) {
+  const Pencil bars = test::twice(free_chain(200));
+  for (const EigenMethod method : kBoth) {
+    for (const bool symmetric : {true, false}) {
+      EigenOptions options = by_count(6, method);
+      if (symmetric) options.start = symmetric_start(200);
+      const ModeSet modes = solve_modes(bars.K, bars.M, options);
+      EXPECT_EQ(modes.rigid, 2);
+      for (int j = 2; j < 6; ++j) {
+        const double exact = free_chain_value(200, j / 2);
+        EXPECT_NEAR(modes.values[j], exact, 1e-7 * exact) << j;
+      }
+    }
+  }
+}
+
+TEST(HardA3, AnOperatorThatReturnsNanEndsInAStatus) {
+  const auto box = spring_box(6, 5, 6);
+  Shifted shifted(box, default_shift(box.K, box.M));
+  const auto healthy = shifted.problem.solve;
+  int calls = 0;
+  shifted.problem.solve = [&](const Eigen::Ref<const MatrixXd>& x) {
+    MatrixXd y = healthy(x);
+    if (++calls == 3) y(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    return y;
+  };
+  ArpackOptions arpack;
+  arpack.count = 6;
+  const EigenResult result = solve_arpack(shifted.problem, arpack);
+  EXPECT_EQ(result.status, EigenStatus::kOperatorFailed);
+  EXPECT_EQ(result.values.size(), 0);
+  calls = 0;
+  BlockLanczosOptions block;
+  block.count = 6;
+  EXPECT_EQ(solve_block_lanczos(shifted.problem, block).status, EigenStatus::kOperatorFailed);
+}
+
+TEST(HardA4, TooFewIterationsAreNotConverged) {
+  const auto box = spring_box(7, 7, 7);
+  Shifted shifted(box, 100.0 * default_shift(box.K, box.M));
+  ArpackOptions arpack;
+  arpack.count = 30;
+  arpack.basis = 40;
+  arpack.max_restarts = 1;
+  const EigenResult result = solve_arpack(shifted.problem, arpack);
+  EXPECT_EQ(result.status, EigenStatus::kNotConverged);
+  EXPECT_EQ(result.vectors.size(), 0);
+  BlockLanczosOptions block;
+  block.count = 30;
+  block.basis = 40;
+  block.max_restarts = 0;
+  EXPECT_EQ(solve_block_lanczos(shifted.problem, block).status, EigenStatus::kNotConverged);
+}
+
+TEST(HardA5, SmallCountsGivePrefixesOfOneList) {
+  const auto box = spring_box(6, 5, 6);
+  const ModeSet reference = solve_modes(box.K, box.M, by_count(8));
+  for (int count = 1; count <= 8; ++count) {
+    const ModeSet modes = solve_modes(box.K, box.M, by_count(count, EigenMethod::kArpack));
+    ASSERT_EQ(modes.size(), count);
+    EXPECT_LT((modes.values - reference.values.head(count)).cwiseAbs().maxCoeff(),
+              1e-8 * reference.values[7]);
+  }
+}
+
+TEST(HardA6, SmallModelsFallBackToDenseAlgebra) {
+  const Pencil chain = free_chain(8);
+  for (const int count : {6, 8}) {
+    const ModeSet modes = solve_modes(chain.K, chain.M, by_count(count, EigenMethod::kArpack));
+    EXPECT_EQ(modes.method, "dense");
+    for (int j = 1; j < count; ++j)
+      EXPECT_NEAR(modes.values[j], free_chain_value(8, j), 1e-10 * free_chain_value(8, j));
+  }
+  Shifted shifted(chain, -1e5);
+  ArpackOptions options;
+  options.count = 8;
+  EXPECT_EQ(solve_arpack(shifted.problem, options).status, EigenStatus::kBadInput);
+}
+
+TEST(HardA7, RepeatsAreEqualBitByBitAndSeedsAgree) {
+  const auto box = spring_box(6, 5, 4);
+  for (const EigenMethod method : kBoth) {
+    const ModeSet first = solve_modes(box.K, box.M, by_count(10, method));
+    const ModeSet again = solve_modes(box.K, box.M, by_count(10, method));
+    EXPECT_EQ(first.values, again.values);
+    EXPECT_EQ(first.vectors, again.vectors);
+    for (uint64_t seed = 2; seed < 102; ++seed) {
+      EigenOptions options = by_count(10, method);
+      options.seed = seed;
+      options.prove_count = false;
+      const ModeSet modes = solve_modes(box.K, box.M, options);
+      EXPECT_LT((modes.values - first.values).cwiseAbs().maxCoeff(), 1e-8 * first.values[9]);
+    }
+  }
+  EXPECT_FALSE(arpack_version().empty());
+}
+
+TEST(HardA8, EightThreadsGiveTheSerialResult) {
+  const auto box = spring_box(6, 5, 4);
+  const ModeSet serial = solve_modes(box.K, box.M, by_count(10, EigenMethod::kArpack));
+  std::atomic<int> equal{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&] {
+      const ModeSet modes = solve_modes(box.K, box.M, by_count(10, EigenMethod::kArpack));
+      const double error = (modes.values - serial.values).cwiseAbs().maxCoeff();
+      if (error < 1e-10 * serial.values[9]) ++equal;
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(equal, 8);
+}
+
+TEST(HardA9, SizesBeyond32BitsAreRefusedBeforeTheCall) {
+  ShiftInvert problem;
+  problem.size = 5'000'000;
+  ArpackOptions options;
+  options.count = 1000;
+  EXPECT_EQ(solve_arpack(problem, options).status, EigenStatus::kBadInput);
+}
+
+}  // namespace
+}  // namespace clatter::modal
