@@ -45,4 +45,16 @@ clatter_recover := $(call clatter_program,recover)
 %.field.h5: %.run.h5 field.toml $(clatter_recover)
 	$(clatter_recover) $< -c field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
+# Without a configuration the defaults hold.
+%.modes.h5: %.fe.h5 $(clatter_modal)
+	$(clatter_modal) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.field.h5: %.run.h5 $(clatter_recover)
+	$(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+# A picture of the kind that its name starts with, from the artefacts that it depends on:
+# `pictures/acceleration-dry.png: slap_dry.field.h5`. `clatter plot list` names the kinds.
+pictures/%.png: $(clatter_tool)
+	$(clatter_tool) plot $(firstword $(subst -, ,$*)) $(filter %.h5,$^) -o $@
+
 -include $(wildcard *.h5.d)
