@@ -17,9 +17,10 @@ namespace clatter {
 
 struct Config::Document {
   toml::table root;
-  std::string origin;                 // file name for messages
-  std::filesystem::path folder;       // relative paths start here
-  std::set<const toml::node*> known;  // values and tables that somebody asked for
+  std::string origin;                        // file name for messages
+  std::filesystem::path folder;              // relative paths start here
+  std::vector<std::filesystem::path> files;  // that were read
+  std::set<const toml::node*> known;         // values and tables that somebody asked for
   std::map<const toml::table*, std::set<std::string>> asked;  // keys asked for, found or not
   std::vector<std::pair<std::string, std::string>> resolved;  // in order of asking
 };
@@ -104,36 +105,93 @@ std::string joined(const std::vector<std::string>& values) {
 Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
     : document_(std::move(document)), node_(std::move(node)) {}
 
-Config Config::load(const std::filesystem::path& path) {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path)) {
     throw InputError(fmt::format("{}: no such file, expected a TOML file", path.string()));
   }
   std::stringstream text;
   text << stream.rdbuf();
-  Config config = parse(text.str(), path.string());
+  return text.str();
+}
+
+toml::table parsed(std::string_view text, const std::string& origin) {
+  try {
+    return toml::parse(text, std::string_view(origin));
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}:{}: not TOML: {}", origin, error.source().begin.line,
+                                 error.source().begin.column, error.description()));
+  }
+}
+
+/// Moves what `over` says into `base`. Nodes are moved, not copied: they keep file and line.
+void overlay(toml::table& base, toml::table& over) {
+  for (auto&& [key, value] : over) {
+    toml::node* below = base.get(key);
+    if (below != nullptr && below->is_table() && value.is_table()) {
+      overlay(*below->as_table(), *value.as_table());
+    } else {
+      value.visit([&](auto& concrete) { base.insert_or_assign(key, std::move(concrete)); });
+    }
+  }
+}
+
+toml::table with_base(const std::filesystem::path& path,
+                      std::vector<std::filesystem::path>& files) {
+  if (std::find(files.begin(), files.end(), path) != files.end()) {
+    throw InputError(fmt::format("{}: base: the file is its own base", path.string()));
+  }
+  files.push_back(path);
+  toml::table table = parsed(text_of(path), path.string());
+  const toml::node* named = table.get("base");
+  if (named == nullptr) return table;
+  if (!named->is_string()) {
+    throw InputError(fmt::format("{}:{}: base: expected the path of a TOML file in quotes",
+                                 path.string(), named->source().begin.line));
+  }
+  const std::filesystem::path below = *named->value<std::string>();
+  table.erase("base");
+  toml::table base = with_base((path.parent_path() / below).lexically_normal(), files);
+  overlay(base, table);
+  return base;
+}
+
+}  // namespace
+
+Config Config::load(const std::filesystem::path& path) {
+  Config config = parse(text_of(path), path.string());
   config.document_->folder = path.parent_path();
+  config.document_->files = {path};
   return config;
+}
+
+Config Config::load_with_base(const std::filesystem::path& path) {
+  auto document = std::make_shared<Document>();
+  document->root = with_base(path, document->files);
+  document->origin = path.string();
+  document->folder = path.parent_path();
+  auto node = std::make_shared<Node>(Node{&document->root, ""});
+  return Config(document, node);
 }
 
 Config Config::parse(std::string_view text, const std::string& origin) {
   auto document = std::make_shared<Document>();
   document->origin = origin;
-  try {
-    document->root = toml::parse(text, std::string_view(origin));
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}:{}: not TOML: {}", origin, error.source().begin.line,
-                                 error.source().begin.column, error.description()));
-  }
+  document->root = parsed(text, origin);
   auto node = std::make_shared<Node>(Node{&document->root, ""});
   return Config(document, node);
 }
+
+const std::vector<std::filesystem::path>& Config::files() const { return document_->files; }
 
 namespace {
 
 std::string place(const std::string& origin, const toml::node* node) {
   if (node == nullptr || node->source().begin.line == 0) return origin;
-  return fmt::format("{}:{}", origin, node->source().begin.line);
+  const auto& file = node->source().path;  // a base's values stand in the base's file
+  return fmt::format("{}:{}", file ? *file : origin, node->source().begin.line);
 }
 
 }  // namespace
@@ -331,7 +389,10 @@ std::vector<std::string> Config::texts_or(std::string_view key,
 
 std::filesystem::path Config::path(std::string_view key) const {
   const std::filesystem::path named = text(key);
-  return named.is_absolute() ? named : document_->folder / named;
+  if (named.is_absolute()) return named;
+  const auto& file = node_->table->get(key)->source().path;
+  const bool from_base = file && *file != document_->origin;
+  return (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
 }
 
 namespace {

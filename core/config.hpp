@@ -27,6 +27,9 @@ class Config {
  public:
   /// Reads a file; InputError with line and column when it is missing or not TOML.
   static Config load(const std::filesystem::path& path);
+  /// Like load(), but the file may say `base = "other.toml"`: what it does not say itself is taken
+  /// from there, table by table (lists and values are replaced whole); a base may have a base.
+  static Config load_with_base(const std::filesystem::path& path);
   /// Reads TOML from memory; `origin` stands for the file name in messages.
   static Config parse(std::string_view text, const std::string& origin);
 
@@ -58,6 +61,9 @@ class Config {
                                     const std::vector<std::string>& fallback) const;
   /// A file path, relative to the folder of the TOML file.
   std::filesystem::path path(std::string_view key) const;
+
+  /// The TOML files that were read: the file itself, then its bases.
+  const std::vector<std::filesystem::path>& files() const;
 
   /// Refuses every key of the whole file that nobody asked for. Call once all tables were read.
   void finish() const;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "core/error.hpp"
 
 namespace clatter {
@@ -75,6 +78,26 @@ TEST(Config, AChoiceListsWhatIsAllowed) {
               config.choice("mode", {"film", "none"});
             }),
             "s:1: mode: found \"oily\", expected one of: film, none");
+}
+
+TEST(Config, WhatAFileDoesNotSayComesFromItsBase) {
+  const std::filesystem::path folder = ::testing::TempDir() + "clatter_config_base";
+  std::filesystem::create_directories(folder / "below");
+  std::ofstream(folder / "below/base.toml") << "table = \"gas.csv\"\n[oil]\nmu = 0.01\nkeep = 1\n";
+  std::ofstream(folder / "top.toml") << "base = \"below/base.toml\"\n[oil]\nmu = -2\n";
+  const Config config = Config::load_with_base(folder / "top.toml");
+  EXPECT_EQ(config.table("oil").number("mu"), -2.0);
+  EXPECT_EQ(config.table("oil").number("keep"), 1.0);
+  EXPECT_EQ(config.path("table"), folder / "below/gas.csv");
+  EXPECT_EQ(config.files().size(), 2U);
+  EXPECT_NO_THROW(config.finish());
+  const auto message = [&](const char* key) {
+    return message_of([&] { config.table("oil").number(key, Range{5.0, 9.0, false}); });
+  };
+  EXPECT_NE(message("mu").find("top.toml:3: oil.mu"), std::string::npos) << message("mu");
+  EXPECT_NE(message("keep").find("base.toml:4: oil.keep"), std::string::npos) << message("keep");
+  std::ofstream(folder / "loop.toml") << "base = \"loop.toml\"\n";
+  EXPECT_THROW(Config::load_with_base(folder / "loop.toml"), InputError);
 }
 
 }  // namespace
