@@ -1,0 +1,61 @@
+#include "mesh/cad_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kBoxTolerance = 0.01;  // a wrong unit is off by 2.54 at least
+
+void check_box(GmshSession& session, const Config& table, const std::string& unit) {
+  if (!table.has("expected_box")) return;
+  const std::vector<double> expected = table.numbers("expected_box", 3);
+  const BoxFilter box = session.extent();
+  const Eigen::Vector3d found = box.max - box.min;
+  for (int d = 0; d < 3; ++d) {
+    if (std::abs(found[d] - expected[d]) <= kBoxTolerance * expected[d]) continue;
+    table.fail(
+        "expected_box",
+        fmt::format("found a part of {:.6g} x {:.6g} x {:.6g} {}, expected {:.6g} x {:.6g} "
+                    "x {:.6g}: is the file in another unit?",
+                    found[0], found[1], found[2], unit, expected[0], expected[1], expected[2]));
+  }
+}
+
+// Order by place, not by the tag that the import happened to give.
+Solids in_order(const GmshSession& session, Solids solids) {
+  std::sort(solids.begin(), solids.end(), [&](Solid a, Solid b) {
+    const Eigen::Vector3d p = session.centre(a), q = session.centre(b);
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  });
+  return solids;
+}
+
+}  // namespace
+
+PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit) {
+  const std::string region = table.text_or("region", "solid");
+  Solids solids = session.import_cad(table.path("source"), unit);
+  if (solids.size() > 1) {
+    Solids pieces;
+    for (const Solids& of_one : session.fragment(solids)) {
+      pieces.insert(pieces.end(), of_one.begin(), of_one.end());
+    }
+    std::sort(pieces.begin(), pieces.end());
+    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+    solids = in_order(session, pieces);
+  }
+  check_box(session, table, unit);
+  PartGeometry part;
+  for (size_t i = 0; i < solids.size(); ++i) {
+    const std::string name = solids.size() == 1 ? region : fmt::format("{}_{}", region, i + 1);
+    part.regions.push_back({name, {solids[i]}});
+  }
+  return part;
+}
+
+}  // namespace clatter::mesh

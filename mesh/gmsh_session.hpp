@@ -1,0 +1,106 @@
+#pragma once
+// Gmsh with its OpenCASCADE kernel behind one door: solids, booleans, faces, the mesh.
+//
+// Gmsh is one global state, so at most one session lives at a time. It runs with one thread and
+// the Delaunay algorithm because only that gives the same bits on every run (hard case G7). Its
+// errors are plain std::string (G1); here they become InputError or NumericsError. Lengths are in
+// the part's unit throughout.
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/h5_file.hpp"
+#include "mesh/select.hpp"
+
+namespace clatter::mesh {
+
+using Solid = int;
+using Solids = std::vector<Solid>;
+
+/// A ball in which cells shall be finer; outside, the size grows back with the distance.
+struct FineSpot {
+  Eigen::Vector3d centre;
+  double radius, size;
+};
+
+/// How fine a mesh is wanted.
+struct SizeSettings {
+  double size = 1.0;                 // target edge length
+  double min_size = 0.0;             // curvature asks for nothing below
+  int per_turn = 0;                  // elements on a full circle; 0: curvature is not looked at
+  std::map<int, double> face_sizes;  // by face tag
+  std::vector<FineSpot> spots;
+};
+
+/// A mesh as Gmsh leaves it; tables hold rows of `nodes`.
+struct RawMesh {
+  RowMatrix nodes;                     // n x 3
+  std::vector<size_t> node_tags;       // Gmsh's numbers of the rows, ascending
+  std::map<Solid, IndexMatrix> cells;  // tet4 or tet10, Gmsh order
+  std::map<int, IndexMatrix>
+      face_cells;  // by face tag: tri3 or tri6, orientation as the face has it
+};
+
+class GmshSession {
+ public:
+  explicit GmshSession(const std::string& model_name);
+  ~GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+  // --- solids (gmsh_solids.cpp) ---
+  Solid box(const Eigen::Vector3d& min, const Eigen::Vector3d& max);
+  /// From the centre of the base along `axis`, whose length is the cylinder's.
+  Solid cylinder(const Eigen::Vector3d& base, const Eigen::Vector3d& axis, double radius);
+  /// A plane polygon pushed along `extrusion`.
+  Solid prism(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& extrusion);
+
+  /// Booleans consume their arguments. Each checks that the volume of the result is possible and
+  /// that at least one solid is left (NumericsError names the operation); hard case G5.
+  Solids fuse(const Solids& objects, const Solids& tools);
+  Solids cut(const Solids& objects, const Solids& tools);
+  Solids intersect(const Solids& objects, const Solids& tools);
+  /// Makes touching and overlapping solids share their faces; pieces per argument, volumes of the
+  /// pieces checked to 1e-6 against the argument.
+  std::vector<Solids> fragment(const Solids& solids);
+
+  Solids copy(const Solids& solids);
+  void rotate(const Solids& solids, const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
+              double angle_deg);
+  double volume(const Solids& solids) const;
+  Eigen::Vector3d centre(Solid solid) const;
+  /// Smallest and largest coordinates of all solids, from the edges of their faces.
+  BoxFilter extent();
+  Solids all_solids() const;
+
+  /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
+  /// the format knows its own (STEP, IGES). InputError when it holds no solid.
+  Solids import_cad(const std::filesystem::path& path, const std::string& unit);
+  /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says.
+  void write_cad(const std::filesystem::path& path, const std::string& unit);
+  /// Faces that bound exactly one solid, by ascending tag.
+  std::vector<FaceFacts> boundary_faces();
+
+  // --- mesh (gmsh_session.cpp) ---
+  /// Linear tetrahedra in all solids, anew at each call. NumericsError when Gmsh fails.
+  void generate(const SizeSettings& settings);
+  /// Puts the nodes of a linear mesh where `raw` has them.
+  void move_nodes(const RawMesh& raw);
+  /// Makes the cells quadratic; middle nodes of boundary edges go onto the geometry.
+  void make_quadratic();
+  /// Moves middle nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
+  void repair_curved_cells();
+  RawMesh extract() const;
+  static std::string library_version();
+
+ private:
+  void synchronize();
+  bool synchronized_ = false;
+  int order_ = 1;
+};
+
+}  // namespace clatter::mesh

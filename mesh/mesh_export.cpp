@@ -1,0 +1,186 @@
+#include "mesh/mesh_export.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+
+#include "core/error.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using Text = fmt::memory_buffer;
+
+template <class... Args>
+void put(Text& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+// Calls body(block, row, number) for each cell, numbered through from 0.
+void for_each_cell(const Mesh& mesh,
+                   const std::function<void(const CellBlock&, Eigen::Index, int64_t)>& body) {
+  int64_t number = 0;
+  for (const CellBlock& block : mesh.cells) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) body(block, c, number++);
+  }
+}
+
+// Appended raw arrays: one after the other, each behind its length in bytes.
+class RawArrays {
+ public:
+  template <class T>
+  std::string add(const char* type, const char* name, int components,
+                  const std::vector<T>& values) {
+    const auto offset = bytes_.size();
+    const auto length = static_cast<uint64_t>(values.size() * sizeof(T));
+    append(&length, sizeof length);
+    append(values.data(), length);
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        type, name, components, offset);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, uint64_t length) {
+    bytes_.append(static_cast<const char*>(data), length);
+  }
+  std::string bytes_;
+};
+
+Text vtu_text(const Mesh& mesh) {
+  std::vector<double> points(mesh.nodes.data(), mesh.nodes.data() + mesh.nodes.size());
+  std::vector<int32_t> connectivity, regions;
+  std::vector<int64_t> offsets;
+  std::vector<uint8_t> types;
+  for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t) {
+    const CellTraits& cell = traits(block.type);
+    for (int i : cell.to_vtk) connectivity.push_back(block.nodes(c, i));
+    offsets.push_back(static_cast<int64_t>(connectivity.size()));
+    types.push_back(static_cast<uint8_t>(cell.vtk_type));
+    regions.push_back(block.region);
+  });
+  RawArrays raw;
+  Text out;
+  put(out,
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      mesh.nodes.rows(), mesh.cell_count());
+  put(out, "<Points>\n{}</Points>\n", raw.add("Float64", "points", 3, points));
+  const std::string ids = raw.add("Int32", "connectivity", 1, connectivity);
+  const std::string ends = raw.add("Int64", "offsets", 1, offsets);
+  const std::string kinds = raw.add("UInt8", "types", 1, types);
+  put(out, "<Cells>\n{}{}{}</Cells>\n", ids, ends, kinds);
+  put(out, "<CellData>\n{}</CellData>\n", raw.add("Int32", "region", 1, regions));
+  put(out, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+  out.append(raw.bytes());
+  put(out, "\n</AppendedData>\n</VTKFile>\n");
+  return out;
+}
+
+void put_nset(Text& out, const std::string& name, const std::vector<int32_t>& nodes) {
+  put(out, "*NSET, NSET={}\n", name);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    put(out, "{}{}", nodes[i] + 1, i % 16 == 15 || i + 1 == nodes.size() ? "\n" : ", ");
+  }
+}
+
+Text inp_text(const Mesh& mesh) {
+  Text out;
+  put(out, "*HEADING\n{} (lengths in metres)\n*NODE, NSET=NALL\n", mesh.name);
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
+    put(out, "{}, {:.16e}, {:.16e}, {:.16e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
+        mesh.nodes(n, 2));
+  }
+  const CellBlock* current = nullptr;
+  for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t number) {
+    const CellTraits& cell = traits(block.type);
+    if (current != &block) {
+      put(out, "*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
+          mesh.regions[static_cast<size_t>(block.region)]);
+      current = &block;
+    }
+    put(out, "{}", number + 1);
+    for (int i : cell.to_vtk) put(out, ", {}", block.nodes(c, i) + 1);
+    put(out, "\n");
+  });
+  for (const auto& [name, surface] : mesh.surfaces) put_nset(out, name, nodes_of(surface));
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    if (!mesh.surfaces.contains(name)) put_nset(out, name, nodes);
+  }
+  return out;
+}
+
+// Physical groups: surfaces 1.., regions after them.
+Text msh_text(const Mesh& mesh) {
+  Text out;
+  const size_t n_surfaces = mesh.surfaces.size();
+  put(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
+      n_surfaces + mesh.regions.size());
+  size_t group = 0;
+  int64_t elements = mesh.cell_count();
+  for (const auto& [name, surface] : mesh.surfaces) {
+    put(out, "2 {} \"{}\"\n", ++group, name);
+    elements += surface.triangles.rows();
+  }
+  for (const std::string& name : mesh.regions) put(out, "3 {} \"{}\"\n", ++group, name);
+  put(out, "$EndPhysicalNames\n$Nodes\n{}\n", mesh.nodes.rows());
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
+    put(out, "{} {:.16e} {:.16e} {:.16e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
+        mesh.nodes(n, 2));
+  }
+  put(out, "$EndNodes\n$Elements\n{}\n", elements);
+  int64_t id = 0;
+  group = 0;
+  for (const auto& [name, surface] : mesh.surfaces) {
+    ++group;
+    const auto columns = surface.triangles.cols();
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+      put(out, "{} {} 2 {} {}", ++id, columns == 6 ? 9 : 2, group, group);
+      for (Eigen::Index i = 0; i < columns; ++i) put(out, " {}", surface.triangles(f, i) + 1);
+      put(out, "\n");
+    }
+  }
+  for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t) {
+    const size_t region = n_surfaces + static_cast<size_t>(block.region) + 1;
+    put(out, "{} {} 2 {} {}", ++id, traits(block.type).gmsh_type, region, region);
+    for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) put(out, " {}", block.nodes(c, i) + 1);
+    put(out, "\n");
+  });
+  put(out, "$EndElements\n");
+  return out;
+}
+
+void write_whole(const std::filesystem::path& path, const Text& text) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::error_code trouble;
+  {
+    std::ofstream file(part, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file) {
+      std::filesystem::remove(part, trouble);
+      throw FileError(
+          fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
+    }
+  }
+  std::filesystem::rename(part, path, trouble);
+  if (trouble) throw FileError(fmt::format("{}: {}", path.string(), trouble.message()));
+}
+
+}  // namespace
+
+void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".vtu") return write_whole(path, vtu_text(mesh));
+  if (extension == ".inp") return write_whole(path, inp_text(mesh));
+  if (extension == ".msh") return write_whole(path, msh_text(mesh));
+  throw InputError(fmt::format("{}: found extension '{}', expected .vtu, .inp or .msh",
+                               path.string(), extension));
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,43 @@
+#pragma once
+// How good the cells are, and where the worst ones lie.
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/h5_file.hpp"
+#include "mesh/mesh.hpp"
+
+namespace clatter::mesh {
+
+/// One measure over all cells.
+struct Measure {
+  double worst = 0.0;
+  int32_t block = 0, cell = 0;                                // the worst cell
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();            // its centre [m]
+  double low = 0.0, high = 1.0;                               // range of the histogram
+  std::vector<int64_t> histogram = std::vector<int64_t>(20);  // equal bins from low to high
+};
+
+/// Angles and shapes belong to the straight cell through the corners (hard case G8); the scaled
+/// Jacobian to the curved one.
+struct QualityReport {
+  Measure min_dihedral_deg;  // smallest of the six angles between faces; 70.53 for a regular cell
+  Measure max_dihedral_deg;  // largest
+  Measure radius_ratio;      // 3 r_in / r_circum: 1 for a regular cell, 0 for a flat one
+  Measure scaled_jacobian;   // min det J / mean det J, proved bound (validity.hpp)
+};
+
+QualityReport measure_quality(const Mesh& mesh);
+
+/// Six angles between the faces of a tetrahedron with corners in rows, (4 x 3), edge order of
+/// kTetEdges [deg].
+Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& corners);
+
+/// 3 r_in / r_circum.
+double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);
+
+/// Writes group `quality`: per measure the histogram and the worst cell.
+void write_quality(H5File& file, const QualityReport& report);
+
+}  // namespace clatter::mesh
