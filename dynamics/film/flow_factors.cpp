@@ -1,0 +1,133 @@
+#include "dynamics/film/flow_factors.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace clatter::film {
+namespace {
+
+struct PressureRow {
+  double peklenik, c, r;
+};
+constexpr std::array<PressureRow, 7> kPressureTable{{{1.0 / 9.0, 1.48, 0.42},
+                                                     {1.0 / 6.0, 1.38, 0.42},
+                                                     {1.0 / 3.0, 1.18, 0.42},
+                                                     {1.0, 0.90, 0.56},
+                                                     {3.0, 0.225, 1.5},
+                                                     {6.0, 0.520, 1.5},
+                                                     {9.0, 0.870, 1.5}}};
+
+struct ShearRow {
+  double peklenik, a1, alpha1, alpha2, alpha3, a2;
+};
+constexpr std::array<ShearRow, 4> kShearTable{{{1.0 / 3.0, 1.858, 1.01, 0.76, 0.03, 1.561},
+                                               {1.0, 1.899, 0.98, 0.92, 0.05, 1.126},
+                                               {3.0, 1.560, 0.85, 1.13, 0.08, 0.556},
+                                               {6.0, 1.290, 0.62, 1.09, 0.08, 0.388}}};
+
+template <typename Table>
+const auto& find_row(const Table& table, double peklenik, const char* what) {
+  std::string known;
+  for (const auto& row : table) {
+    if (std::abs(row.peklenik - peklenik) < 1e-3 * row.peklenik) return row;
+    known += fmt::format("{}{:.4g}", known.empty() ? "" : ", ", row.peklenik);
+  }
+  throw InputError(
+      fmt::format("peklenik: no {} for {}, expected one of {}", what, peklenik, known));
+}
+
+// Even moments of the density 35/32 (1 - t^2)^3 on (-1, 1): m_k = m_{k-1} (2k - 1) / (2k + 7).
+ValueSlope inverse_gap_series(double z) {
+  double moment = 1.0, power = 1.0 / z;
+  ValueSlope sum;
+  for (int k = 0; k < 14; ++k) {
+    sum.value += moment * power;
+    sum.slope -= (2 * k + 1) * moment * power / z;
+    moment *= (2.0 * k + 1.0) / (2.0 * k + 9.0);
+    power /= z * z;
+  }
+  return sum;
+}
+
+}  // namespace
+
+ValueSlope mean_gap(double h, double sigma) {
+  // erfc keeps its relative accuracy far below zero, where 1 + erf cancels.
+  const double ratio = h / sigma;
+  const double free_share = 0.5 * std::erfc(-ratio / std::numbers::sqrt2);
+  const double density = std::exp(-0.5 * ratio * ratio) / std::sqrt(2.0 * std::numbers::pi);
+  return {h * free_share + sigma * density, free_share};
+}
+
+ValueSlope pressure_flow_factor(double ratio, double peklenik) {
+  const PressureRow& row = find_row(kPressureTable, peklenik, "pressure flow factor");
+  const bool clamped = ratio < kLowestRatio;
+  const double h = clamped ? kLowestRatio : ratio;
+  ValueSlope factor;
+  if (row.peklenik <= 1.0) {
+    const double decay = row.c * std::exp(-row.r * h);
+    factor = {1.0 - decay, row.r * decay};
+  } else {
+    const double excess = row.c * std::pow(h, -row.r);
+    factor = {1.0 + excess, -row.r * excess / h};
+  }
+  if (clamped) factor.slope = 0.0;
+  return factor;
+}
+
+ValueSlope shear_flow_factor(double ratio, double peklenik) {
+  const ShearRow& row = find_row(kShearTable, peklenik, "shear flow factor");
+  const bool clamped = ratio < kLowestRatio;
+  const double h = clamped ? kLowestRatio : ratio;
+  ValueSlope factor;
+  if (h <= 5.0) {
+    factor.value =
+        row.a1 * std::pow(h, row.alpha1) * std::exp(-row.alpha2 * h + row.alpha3 * h * h);
+    factor.slope = factor.value * (row.alpha1 / h - row.alpha2 + 2.0 * row.alpha3 * h);
+  } else {
+    factor.value = row.a2 * std::exp(-0.25 * h);
+    factor.slope = -0.25 * factor.value;
+  }
+  if (clamped) factor.slope = 0.0;
+  return factor;
+}
+
+// With t = d / (3 sigma) and z = H / 3 the mean is 1/(3 sigma) of the integral of 35/32 (1 - t^2)^3
+// / (z + t).
+ValueSlope mean_inverse_gap(double ratio) {
+  const double z = std::max(ratio, 0.0) / 3.0;
+  ValueSlope mean;
+  if (z > 3.0) {
+    mean = inverse_gap_series(z);
+  } else {
+    const double w = 1.0 - z * z;
+    if (z <= 1.0) {
+      const double log_term = std::log(300.0 * (z + 1.0));
+      const double poly =
+          (-55.0 +
+           z * (132.0 + z * (345.0 + z * (-160.0 + z * (-405.0 + z * (60.0 + z * 147.0)))))) /
+          60.0;
+      const double poly_slope =
+          (132.0 + z * (690.0 + z * (-480.0 + z * (-1620.0 + z * (300.0 + z * 882.0))))) / 60.0;
+      mean.value = w * w * w * log_term + poly;
+      mean.slope = -6.0 * z * w * w * log_term + w * w * w / (z + 1.0) + poly_slope;
+    } else {
+      const double log_term = std::log((z + 1.0) / (z - 1.0));
+      mean.value = w * w * w * log_term + z / 15.0 * (66.0 + z * z * (30.0 * z * z - 80.0));
+      mean.slope = -6.0 * z * w * w * log_term + 2.0 * w * w +
+                   (66.0 + z * z * (150.0 * z * z - 240.0)) / 15.0;
+    }
+    mean.value *= 35.0 / 32.0;
+    mean.slope *= 35.0 / 32.0;
+  }
+  mean.value /= 3.0;
+  mean.slope = ratio > 0.0 ? mean.slope / 9.0 : 0.0;
+  return mean;
+}
+
+}  // namespace clatter::film

@@ -1,0 +1,44 @@
+#pragma once
+// How roughness changes the flow and the shear of a film: functions of H = h / sigma.
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+
+/// A value and its derivative.
+struct ValueSlope {
+  double value = 0.0;
+  double slope = 0.0;
+};
+
+/// Mean gap over Gaussian roughness, contacts counted as zero:
+/// h_T = h/2 (1 + erf(h / (sqrt 2 sigma))) + sigma / sqrt(2 pi) exp(-h^2 / (2 sigma^2)).
+///
+/// `h` [m] may be negative, the result stays positive; slope dh_T/dh is the share of the area out
+/// of contact. Source: Patir and Cheng 1978, eq. (8).
+ValueSlope mean_gap(double h, double sigma);
+
+/// Patir-Cheng pressure flow factor along the flow, phi_x = 1 - C e^{-r H} (gamma <= 1) or 1 + C
+/// H^-r (gamma > 1).
+///
+/// `peklenik` gamma is the ratio of the correlation lengths along and across the flow: 1/9, 1/6,
+/// 1/3, 1, 3, 6 or 9 (InputError otherwise). Across: gamma -> 1/gamma. Slope by H. Source: Patir
+/// and Cheng 1978, table 1. Below H = kLowestRatio the value of kLowestRatio holds.
+ValueSlope pressure_flow_factor(double ratio, double peklenik);
+
+/// Patir-Cheng shear flow factor of one rough wall, Phi_s = A1 H^a1 e^{-a2 H + a3 H^2} (H <= 5), A2
+/// e^{-H/4} (H > 5).
+///
+/// gamma 1/3, 1, 3 or 6 (InputError otherwise). Slope by H. Source: Patir and Cheng 1979, table 2.
+ValueSlope shear_flow_factor(double ratio, double peklenik);
+
+/// Mean of sigma / h over the roughness, phi_f / H: shear stress on the wall is mu U / sigma times
+/// this.
+///
+/// phi_f of Patir and Cheng 1979, eq. (17) to (19): the mean over the polynomial density
+/// 35/96 (1 - (d/3)^2)^3 with gaps under sigma/100 left out. Below H = 0 constant. Slope by H.
+ValueSlope mean_inverse_gap(double ratio);
+
+/// Below this h / sigma the flow factors are out of their range; see RoughFilm.
+inline constexpr double kLowestRatio = 0.5;
+
+}  // namespace clatter::film

@@ -1,0 +1,47 @@
+#pragma once
+// Axial shear force on the piston, cell by cell, with the coefficients of its exact derivative.
+#include <Eigen/Core>
+
+#include "dynamics/film/grid.hpp"
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+
+struct FrictionOptions {
+  double coefficient = 0.1;      // mu_a of the asperity contact [1]
+  double reversal_speed = 1e-2;  // u_0 of the smoothed sign U / sqrt(U^2 + u_0^2) [m/s]
+};
+
+/// Axial force of each cell on the piston that slides at U along z past a resting liner:
+///
+///   f = -mu U theta (1/h) A + (h/2) dp/dz A - mu_a p_a A U / sqrt(U^2 + u_0^2)
+///
+/// The film's part is the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette
+/// and Poiseuille); the pressure on the slope of the skirt is contained in it, because the liner
+/// wall is straight. Derivative: df = gap_slope dh + film_slope dx, where
+/// x is p in a full cell and theta in a cavitated one. Summed along one axial column of cells both
+/// are exact.
+class Friction {
+ public:
+  Friction(const FrictionOptions& options, int cells);
+
+  /// Sets all three arrays to zero before the contributions of a new state.
+  void clear();
+  /// Adds film shear; `inverse` and `inverse_slope` are the effective 1/h and its derivative
+  /// (RoughFilm).
+  void add_film(const Reynolds& solution, const FilmCells& film, const Eigen::ArrayXd& inverse,
+                const Eigen::ArrayXd& inverse_slope, double viscosity, double speed);
+  /// Adds contact friction; `contact` p_a [Pa] and `contact_slope` dp_a/dh, n.
+  void add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
+                   const Eigen::ArrayXd& contact_slope, double speed);
+
+  const Eigen::ArrayXd& force() const { return force_; }            // [N]
+  const Eigen::ArrayXd& gap_slope() const { return gap_slope_; }    // [N/m]
+  const Eigen::ArrayXd& film_slope() const { return film_slope_; }  // [N/Pa] or [N]
+
+ private:
+  FrictionOptions options_;
+  Eigen::ArrayXd force_, gap_slope_, film_slope_;
+};
+
+}  // namespace clatter::film

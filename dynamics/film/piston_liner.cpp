@@ -1,0 +1,240 @@
+#include "dynamics/film/piston_liner.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dynamics/film/pad_state.hpp"
+
+namespace clatter::film {
+namespace {
+
+void require(bool holds, const std::string& name, const char* key, double found,
+             const char* expected) {
+  if (!holds)
+    throw InputError(fmt::format("{}: {}: found {}, expected {}", name, key, found, expected));
+}
+
+PadGrid make_grid(const PistonLinerOptions& options, double centre) {
+  return PadGrid::uniform(centre - 0.5 * options.pad_span, centre + 0.5 * options.pad_span,
+                          options.cells_around, options.skirt_bottom, options.skirt_top,
+                          options.cells_along, options.bore_radius);
+}
+
+}  // namespace
+
+PistonLiner::~PistonLiner() = default;
+
+PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
+                         std::vector<int> coordinates)
+    : ForceElement(std::move(coordinates)),
+      options_(std::move(options)),
+      bodies_(std::move(bodies)) {
+  check();
+  const ContactEffects& on = options_.effects;
+  if (on.film) rough_ = std::make_unique<RoughFilm>(options_.roughness);
+  if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
+  n_piston_ =
+      bodies_.piston
+          ? static_cast<int>(bodies_.piston->grid.angle.size() * bodies_.piston->grid.axial.size())
+          : 0;
+  n_liner_ =
+      bodies_.liner
+          ? static_cast<int>(bodies_.liner->grid.angle.size() * bodies_.liner->grid.axial.size())
+          : 0;
+  pin_ = n_piston_ + n_liner_;
+  n_total_ = pin_ + 6;
+  if (bodies_.liner_axial) liner_axial_ = n_total_++;
+  if (static_cast<int>(coordinates_.size()) != n_total_)
+    throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
+                                 coordinates_.size(), n_total_));
+
+  const Edge open = Edge::supply(options_.supply_pressure, options_.supply_fill);
+  for (const auto& [name, centre] :
+       {std::pair{"thrust", 0.0}, std::pair{"antithrust", std::numbers::pi}}) {
+    pads_.push_back(std::make_unique<Pad>(name, make_grid(options_, centre), n_total_));
+    Pad& pad = *pads_.back();
+    pad.rest = options_.clearance + skirt_relief(options_.skirt, pad.grid);
+    if (bodies_.piston) {
+      RowMatrix map;
+      PatchMap(*bodies_.piston, pad.grid).at(0.0, map);
+      pad.gap_by_y.leftCols(n_piston_) = -map;
+    } else {
+      pad.gap_by_y.middleCols(pin_, 6) = -rigid_radial(pad.grid);
+    }
+    if (bodies_.liner) pad.liner_map.emplace(*bodies_.liner, pad.grid);
+    if (bodies_.liner_shape) pad.liner_shape.emplace(*bodies_.liner_shape, pad.grid);
+    if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open}, on.cavitation);
+    if (on.asperities)
+      for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
+        values->setZero(pad.grid.size());
+    if (!on.friction) continue;
+    pad.friction.emplace(options_.friction, pad.grid.size());
+    pad.levers.resize(pad.grid.size(), 3);
+    for (int i = 0; i < pad.grid.n_angle(); ++i) {
+      const Eigen::Vector3d arm = pad.grid.radius() * pad_normal(pad.grid.angle(i));
+      for (int j = 0; j < pad.grid.n_axial(); ++j)
+        pad.levers.row(pad.grid.cell(i, j)) << 1.0, arm.y(), -arm.x();
+    }
+  }
+}
+
+void PistonLiner::check() const {
+  const PistonLinerOptions& o = options_;
+  auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  require(o.effects.film || o.effects.asperities, o.name, "effects", 0.0,
+          "film or asperities on: else nothing separates skirt and liner");
+  require(o.clearance >= 0.0, o.name, "clearance", o.clearance, ">= 0 m");
+  require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
+  require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
+  require(o.pad_span > 0.0 && o.pad_span < std::numbers::pi, o.name, "pad_span", o.pad_span,
+          "between 0 and pi rad");
+  require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
+  require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
+  require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
+  require(o.supply_pressure >= 0.0, o.name, "supply_pressure", o.supply_pressure, ">= 0 Pa");
+  require(static_cast<bool>(bodies_.stroke), o.name, "stroke", 0.0, "a stroke law");
+}
+
+double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) const {
+  return position + y[pin_ + 2] - (liner_axial_ >= 0 ? y[liner_axial_] : 0.0);
+}
+
+// Gap and its derivatives at one state; `height` is the pin centre's engine z.
+void PistonLiner::place_pad(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
+  pad.gap = pad.rest;
+  pad.gap_by_height.setZero();
+  if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
+  if (pad.liner_map) {
+    pad.liner_map->at(height, pad.liner_weights, &pad.liner_slopes);
+    pad.gap_by_height += (pad.liner_slopes * y.segment(n_piston_, n_liner_)).array();
+    pad.gap_by_y.middleCols(n_piston_, n_liner_) = pad.liner_weights;
+  }
+  // Height enters the gap by d(z) and G_l(z), not linearly: its column joins after the sum.
+  pad.gap_by_y.col(pin_ + 2).setZero();
+  if (liner_axial_ >= 0) pad.gap_by_y.col(liner_axial_).setZero();
+  pad.gap += (pad.gap_by_y * y).array();
+  if (!with_slope) return;
+  pad.gap_by_y.col(pin_ + 2) = pad.gap_by_height;
+  if (liner_axial_ >= 0) pad.gap_by_y.col(liner_axial_) = -pad.gap_by_height;
+}
+
+void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                           const Eigen::VectorXd& v, bool with_tangent,
+                           dynamics::Response& response) {
+  stroke_ = bodies_.stroke(stage.time);
+  response.force.setZero(n_total_);
+  if (with_tangent) response.tangent.setZero(n_total_, n_total_);
+  for (const auto& owned : pads_) {
+    Pad& pad = *owned;
+    if (pad.film && !running_) start_content(pad, stage, y, v);
+    place_pad(pad, stroke_height(stroke_.position, y), y, true);
+    if (!pad.gap.allFinite()) throw dynamics::StepRefused(options_.name + ": gap is not finite");
+    pad.load.setZero();
+    if (pad.friction) pad.friction->clear();
+    if (pad.film) solve_film(pad, stage, stroke_.velocity);
+    if (asperity_) touch(pad);
+    if (pad.friction) rub(pad, stroke_.velocity);
+    add_force(pad, response.force);
+    if (with_tangent) add_tangent(pad, response.tangent);
+  }
+}
+
+// The content at the start is the gap at the start, y~ = y - kappa v, filled to the scene's share.
+void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                                const Eigen::VectorXd& v) {
+  const Eigen::VectorXd y_start = y - stage.kappa * v;
+  place_pad(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start), y_start,
+            false);
+  if (pad.gap.minCoeff() <= rough_->lowest_gap())
+    throw InputError(fmt::format(
+        "{}: the gap at the start is {:.3g} m at its narrowest, expected more than {:.3g} m",
+        options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
+  rough_->thicknesses(pad.gap, pad.film->cells);
+  pad.film->content = options_.initial_fill * pad.film->cells.content;
+  for (Eigen::ArrayXd& rate : pad.film->rates) rate.setZero();
+}
+
+void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
+  PadFilm& film = *pad.film;
+  const double lowest = pad.gap.minCoeff();
+  if (lowest <= rough_->lowest_gap())
+    throw dynamics::StepRefused(
+        fmt::format("{}: gap {:.3g} m on the {} pad", options_.name, lowest, pad.name));
+  rough_->thicknesses(pad.gap, film.cells);
+  film.before = film.content;
+  for (size_t j = 0; j < stage.weights.size(); ++j) film.before += stage.weights[j] * film.rates[j];
+  // The liner slides past the grid at -U: the mean wall velocity is half of that.
+  FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false};
+  try {
+    film_solves_ += film.reynolds.solve(film.cells, film.before, inner);
+  } catch (const NumericsError& error) {
+    throw dynamics::StepRefused(options_.name + ": " + error.what());
+  }
+  pad.load += pad.grid.area() * film.reynolds.pressure();
+}
+
+void PistonLiner::touch(Pad& pad) {
+  for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
+    const Asperity::Contact contact = asperity_->at(pad.gap[c]);
+    pad.contact[c] = contact.pressure;
+    pad.contact_slope[c] = contact.slope;
+    pad.contact_energy[c] = contact.energy;
+  }
+  pad.load += pad.grid.area() * pad.contact;
+}
+
+void PistonLiner::rub(Pad& pad, double speed) {
+  if (pad.film) {
+    PadFilm& film = *pad.film;
+    rough_->inverse_gap(pad.gap, film.cells, film.inverse, film.inverse_slope);
+    pad.friction->add_film(film.reynolds, film.cells, film.inverse, film.inverse_slope,
+                           options_.viscosity, speed);
+  }
+  if (asperity_) pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, speed);
+}
+
+void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
+  force += pad.gap_by_y.transpose() * pad.load.matrix();
+  if (!pad.friction) return;
+  const Eigen::Vector3d rub = pad.levers.transpose() * pad.friction->force().matrix();
+  force.segment<3>(pin_ + 2) += rub;
+  if (liner_axial_ >= 0) force[liner_axial_] -= rub[0];
+}
+
+void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
+  if (pad.film)
+    pad.film->reynolds.sensitivities(pad.gap_by_y, pad.derivative);
+  else if (pad.derivative.size() == 0)
+    pad.derivative.setZero(pad.grid.size(), n_total_);
+  if (pad.friction) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> rub =
+        (pad.levers.array().colwise() * pad.friction->gap_slope()).matrix().transpose() *
+        pad.gap_by_y;
+    if (pad.film)
+      rub += (pad.levers.array().colwise() * pad.friction->film_slope()).matrix().transpose() *
+             pad.derivative;
+    tangent.middleRows<3>(pin_ + 2) += rub;
+    if (liner_axial_ >= 0) tangent.row(liner_axial_) -= rub.row(0);
+  }
+  for (int c = 0; c < pad.grid.size(); ++c) {
+    const double area = pad.grid.area()[c];
+    auto row = pad.derivative.row(c);
+    row *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
+    if (asperity_ && pad.contact_slope[c] != 0.0)
+      row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
+  }
+  tangent.noalias() += pad.gap_by_y.transpose() * pad.derivative;
+  if (!pad.liner_map) return;
+  // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
+  const Eigen::VectorXd cross = pad.liner_slopes.transpose() * pad.load.matrix();
+  tangent.col(pin_ + 2).segment(n_piston_, n_liner_) += cross;
+  tangent.row(pin_ + 2).segment(n_piston_, n_liner_) += cross.transpose();
+  if (liner_axial_ < 0) return;
+  tangent.col(liner_axial_).segment(n_piston_, n_liner_) -= cross;
+  tangent.row(liner_axial_).segment(n_piston_, n_liner_) -= cross.transpose();
+}
+
+}  // namespace clatter::film

@@ -1,0 +1,82 @@
+#pragma once
+// Mixed lubricated contact between a piston skirt and its liner as a force element.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/element.hpp"
+#include "dynamics/film/piston_liner_options.hpp"
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+
+/// Fields of one pad at the last evaluated state, n_angle x n_axial each.
+struct PadSnapshot {
+  std::string name;            // "thrust", "antithrust"
+  Eigen::VectorXd angle;       // cell centres, from the thrust side [rad]
+  Eigen::VectorXd axial;       // cell centres, z from the pin centre [m]
+  RowMatrix gap;               // h [m]
+  RowMatrix pressure;          // film [Pa]; empty without film
+  RowMatrix fill;              // theta [1]; empty without film
+  RowMatrix contact_pressure;  // asperities [Pa]; empty without asperities
+};
+
+/// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
+///
+///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + y_pin,z - y_liner,z
+///   f = (dh/dy)^T A (p + p_a) + friction
+///
+/// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid that
+/// rides on the skirt; its content follows the integrator's tableau. The liner's slope along the
+/// stroke loads the piston axially (through dh/dz), so that the contact does exactly the work of p
+/// on h.
+class PistonLiner : public dynamics::ForceElement {
+ public:
+  /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
+  PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies, std::vector<int> coordinates);
+  ~PistonLiner() override;
+
+  std::string name() const override { return options_.name; }
+  void evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, dynamics::Response& response) override;
+  void begin_step(double time) override;
+  void finish_stage(const dynamics::Stage& stage) override;
+  void accept_step(double time) override;
+  dynamics::Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+  void record(dynamics::History& history) const override;
+  std::vector<double> save() const override;
+  void restore(const std::vector<double>& state) override;
+
+  int size() const { return n_total_; }
+  std::vector<PadSnapshot> snapshot() const;
+  const PistonLinerOptions& options() const { return options_; }
+  /// Linear solves of the film so far; cost figure of the effect.
+  long film_solves() const { return film_solves_; }
+  /// Worst mass residual of the last evaluation (0 without film).
+  double film_residual() const;
+
+ private:
+  struct Pad;
+  void check() const;
+  void place_pad(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
+  void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
+  void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                     const Eigen::VectorXd& v);
+  void touch(Pad& pad);
+  void rub(Pad& pad, double speed);
+  void add_force(const Pad& pad, Eigen::VectorXd& force) const;
+  void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
+  double stroke_height(double position, const Eigen::VectorXd& y) const;
+
+  PistonLinerOptions options_;
+  PistonLinerBodies bodies_;
+  int n_piston_ = 0, n_liner_ = 0, pin_ = 0, liner_axial_ = -1, n_total_ = 0;
+  std::vector<std::unique_ptr<Pad>> pads_;
+  std::unique_ptr<RoughFilm> rough_;
+  std::unique_ptr<Asperity> asperity_;
+  StrokeState stroke_;
+  bool running_ = false;  // false: the content is still that of the start
+  long film_solves_ = 0;
+};
+
+}  // namespace clatter::film

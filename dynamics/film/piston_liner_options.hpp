@@ -1,0 +1,67 @@
+#pragma once
+// What a scene says about one piston-liner contact.
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/film/asperity.hpp"
+#include "dynamics/film/friction.hpp"
+#include "dynamics/film/gap.hpp"
+#include "dynamics/film/roughness.hpp"
+
+namespace clatter::film {
+
+/// Which effects the contact has; one that is off allocates and computes nothing.
+struct ContactEffects {
+  bool film = true;        // oil film; off ("lubrication = none"): dry, asperity contact alone
+  bool cavitation = true;  // mass-conserving JFO; off: full films with unrestricted pressure
+  bool asperities = true;  // asperity pressure, eq. (12)
+  bool friction = true;    // film shear and contact friction along the stroke
+};
+
+/// Parameters with their defaults. Two pads: thrust side (around +y) and anti-thrust side (around
+/// -y).
+struct PistonLinerOptions {
+  std::string name = "piston_liner";
+  ContactEffects effects;
+
+  double bore_radius = 53.5e-3;  // [m]
+  double clearance = 20e-6;      // warm radial clearance where the skirt is widest [m], >= 0
+  double skirt_bottom = -45e-3;  // lower end of the pads, z from the pin centre [m]
+  double skirt_top = 25e-3;      // upper end of the pads, z from the pin centre [m]
+  double pad_span = 80.0 * std::numbers::pi / 180.0;  // angle that each pad covers [rad], under pi
+  int cells_around = 14;                              // cells of a pad along the circumference
+  int cells_along = 16;                               // cells of a pad along the axis
+  SkirtShape skirt;
+
+  double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
+  double initial_fill = 1.0;  // share of the gap that holds oil at the start, 0 to 1
+  double supply_fill =
+      1.0;  // content of the oil film that the pad meets at its top and bottom edge, 0 to 1
+  double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
+  RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};
+  AsperityOptions asperity;
+  FrictionOptions friction;
+};
+
+/// Stroke position and velocity of the piston's reference point (pin centre) along engine z.
+struct StrokeState {
+  double position = 0.0;  // z_B [m]
+  double velocity = 0.0;  // dz_B/dt [m/s]
+};
+
+/// What the contact touches. Coordinates of the element, in this order:
+/// [piston patches | liner patches | pin x, y, z, rx, ry, rz | liner axial mean]; absent parts have
+/// none.
+struct PistonLinerBodies {
+  std::optional<ElasticSurface>
+      piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin
+  std::optional<ElasticSurface> liner;    // bore patches, engine frame; absent: rigid at rest
+  std::optional<LinerShape> liner_shape;  // given deviation of the liner at rest
+  bool liner_axial = false;               // a coordinate takes the axial reaction on the liner
+  std::function<StrokeState(double time)> stroke;
+};
+
+}  // namespace clatter::film

@@ -1,0 +1,154 @@
+// State, power and reports of the piston-liner contact.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dynamics/film/pad_state.hpp"
+
+namespace clatter::film {
+
+void PistonLiner::begin_step(double) {
+  for (const auto& pad : pads_)
+    if (pad->film) pad->film->last_stage = 0;
+}
+
+void PistonLiner::finish_stage(const dynamics::Stage& stage) {
+  for (const auto& pad : pads_) {
+    if (!pad->film) continue;
+    PadFilm& film = *pad->film;
+    film.stage_content = film.reynolds.fill() * film.cells.content;
+    film.rates.at(static_cast<size_t>(stage.index)) =
+        (film.stage_content - film.before) / stage.kappa;
+    film.last_stage = stage.index;
+  }
+}
+
+void PistonLiner::accept_step(double) {
+  running_ = true;
+  for (const auto& pad : pads_) {
+    if (!pad->film) continue;
+    PadFilm& film = *pad->film;
+    film.content = film.stage_content;
+    if (film.last_stage > 0) film.rates[0] = film.rates[static_cast<size_t>(film.last_stage)];
+  }
+}
+
+dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
+  dynamics::Power power;
+  for (const auto& pad : pads_) {
+    const Eigen::ArrayXd& area = pad->grid.area();
+    const Eigen::ArrayXd gap_rate =
+        (pad->gap_by_y * v).array() + pad->gap_by_height * stroke_.velocity;
+    power.input -= (pad->load * pad->gap_by_height).sum() * stroke_.velocity;
+    if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
+    if (asperity_) power.stored += (area * pad->contact_energy).sum();
+    if (!pad->friction) continue;
+    const Eigen::Vector3d rub = pad->levers.transpose() * pad->friction->force().matrix();
+    const double liner = liner_axial_ >= 0 ? v[liner_axial_] : 0.0;
+    power.lost -= rub.dot(v.segment<3>(pin_ + 2)) + rub[0] * (stroke_.velocity - liner);
+    power.input -= rub[0] * stroke_.velocity;
+  }
+  return power;
+}
+
+void PistonLiner::record(dynamics::History& history) const {
+  double lowest = INFINITY, side = 0.0, moment = 0.0, rubbing = 0.0, film_load = 0.0,
+         contact_load = 0.0;
+  double film_peak = 0.0, contact_peak = 0.0, oil = 0.0, space = 0.0;
+  for (const auto& pad : pads_) {
+    const PadGrid& grid = pad->grid;
+    lowest = std::min(lowest, pad->gap.minCoeff());
+    for (int i = 0; i < grid.n_angle(); ++i) {
+      const double across = pad_normal(grid.angle(i)).y();
+      for (int j = 0; j < grid.n_axial(); ++j) {
+        const double load = pad->load[grid.cell(i, j)];
+        side -= load * across;
+        moment += load * across * grid.axial(j);
+      }
+    }
+    if (pad->film) {
+      film_load += (grid.area() * pad->film->reynolds.pressure()).sum();
+      film_peak = std::max(film_peak, pad->film->reynolds.pressure().maxCoeff());
+      oil += (grid.area() * pad->film->cells.content * pad->film->reynolds.fill()).sum();
+      space += (grid.area() * pad->film->cells.content).sum();
+    }
+    if (asperity_) {
+      contact_load += (grid.area() * pad->contact).sum();
+      contact_peak = std::max(contact_peak, pad->contact.maxCoeff());
+    }
+    if (pad->friction) {
+      rubbing += pad->friction->force().sum();
+      moment += pad->levers.col(1).dot(pad->friction->force().matrix());
+    }
+  }
+  const double normal = film_load + contact_load;
+  history.put("film_min", "m", lowest);
+  history.put("side_force", "N", side);
+  history.put("side_moment", "N m", moment);
+  history.put("friction_force", "N", rubbing);
+  history.put("film_pressure_max", "Pa", film_peak);
+  history.put("contact_pressure_max", "Pa", contact_peak);
+  history.put("asperity_share", "1", normal > 0.0 ? contact_load / normal : 0.0);
+  history.put("film_fill", "1", space > 0.0 ? oil / space : 0.0);
+}
+
+std::vector<double> PistonLiner::save() const {
+  std::vector<double> state{running_ ? 1.0 : 0.0};
+  for (const auto& pad : pads_) {
+    if (!pad->film) continue;
+    state.insert(state.end(), pad->film->content.begin(), pad->film->content.end());
+    state.insert(state.end(), pad->film->rates[0].begin(), pad->film->rates[0].end());
+  }
+  return state;
+}
+
+void PistonLiner::restore(const std::vector<double>& state) {
+  size_t expected = 1;
+  for (const auto& pad : pads_)
+    if (pad->film) expected += 2 * static_cast<size_t>(pad->grid.size());
+  if (state.size() != expected)
+    throw InputError(options_.name + ": the saved film state has " + std::to_string(state.size()) +
+                     " numbers, expected " + std::to_string(expected));
+  running_ = state[0] != 0.0;
+  auto next = state.begin() + 1;
+  for (const auto& pad : pads_) {
+    if (!pad->film) continue;
+    for (Eigen::ArrayXd* values : {&pad->film->content, &pad->film->rates[0]}) {
+      std::copy(next, next + values->size(), values->begin());
+      next += values->size();
+    }
+  }
+}
+
+double PistonLiner::film_residual() const {
+  double worst = 0.0;
+  for (const auto& pad : pads_)
+    if (pad->film) worst = std::max(worst, pad->film->reynolds.residual());
+  return worst;
+}
+
+std::vector<PadSnapshot> PistonLiner::snapshot() const {
+  std::vector<PadSnapshot> all;
+  for (const auto& pad : pads_) {
+    const int n_i = pad->grid.n_angle(), n_j = pad->grid.n_axial();
+    auto field = [&](const Eigen::ArrayXd& values) {
+      return RowMatrix(Eigen::Map<const RowMatrix>(values.data(), n_i, n_j));
+    };
+    PadSnapshot one;
+    one.name = pad->name;
+    one.angle.resize(n_i);
+    one.axial.resize(n_j);
+    for (int i = 0; i < n_i; ++i) one.angle[i] = pad->grid.angle(i);
+    for (int j = 0; j < n_j; ++j) one.axial[j] = pad->grid.axial(j);
+    one.gap = field(pad->gap);
+    if (pad->film) {
+      one.pressure = field(pad->film->reynolds.pressure());
+      one.fill = field(pad->film->reynolds.fill());
+    }
+    if (asperity_) one.contact_pressure = field(pad->contact);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace clatter::film

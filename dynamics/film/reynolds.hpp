@@ -1,0 +1,138 @@
+#pragma once
+// Mass-conserving Reynolds equation of one pad.
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/h5_file.hpp"
+#include "dynamics/film/banded_lu.hpp"
+#include "dynamics/film/grid.hpp"
+
+namespace clatter::film {
+
+/// What stands at one edge of a pad. Gauge pressure; cavitation pressure is 0.
+struct Edge {
+  enum class Kind { kPressure, kWall };
+  Kind kind = Kind::kPressure;
+  double pressure = 0.0;  // [Pa] >= 0, of the oil outside
+  double fill = 1.0;      // [1] content of the oil that is dragged in over this edge, 0 to 1
+
+  static Edge wall() { return {Kind::kWall, 0.0, 0.0}; }
+  static Edge supply(double pressure, double fill) { return {Kind::kPressure, pressure, fill}; }
+};
+
+/// The four edges; a periodic grid has no angular ones.
+struct Edges {
+  Edge angle_begin, angle_end, axial_begin, axial_end;
+};
+
+/// Thicknesses of the film cell by cell and their derivatives by the gap h; n each.
+///
+/// With smooth surfaces all of them equal h; rough ones: see flow_factors.hpp.
+struct FilmCells {
+  Eigen::ArrayXd content, d_content;        // volume per area s(h) [m]
+  Eigen::ArrayXd flow_angle, d_flow_angle;  // g with g^3 = phi_x h^3, along the circumference [m]
+  Eigen::ArrayXd flow_axial, d_flow_axial;  // the same along the axis [m]
+  Eigen::ArrayXd carry, d_carry;            // c, thickness carried by the mean wall velocity [m]
+
+  void resize(int n);
+  /// Smooth surfaces: every thickness is `h`.
+  void set_smooth(const Eigen::ArrayXd& h);
+};
+
+/// One implicit stage: what does not depend on the cell.
+struct FilmStage {
+  double kappa = 1.0;      // dt * a_ii [s]
+  double viscosity = 0.0;  // [Pa s]
+  double speed_angle =
+      0.0;  // mean wall velocity relative to the grid, along the circumference [m/s]
+  double speed_axial = 0.0;  // the same along the axis [m/s]
+  bool steady = false;  // true: div q = 0, no storage; kappa and the content before are not used
+};
+
+/// JFO film in stage form, conserving mass for any Runge-Kutta tableau:
+///
+///   theta s - m~ = -kappa div q,   q = -g^3/(12 mu) grad p + theta c U_m,
+///   p >= 0,  0 <= theta <= 1,  p (1 - theta) = 0
+///
+/// (Jakobsson and Floberg 1957, Olsson 1965; p-theta form of Elrod and Adams 1975 without its
+/// bulk modulus). Cell-centred finite volumes. A face conducts 2 a^2 b^2 / (a + b) in place of g^3
+/// and carries 2 a b / (a + b) in place of c, a and b being its neighbours' values: exact integrals
+/// of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge comes out exact at the centres.
+/// theta is upwinded by U_m.
+///
+/// The unknown of a full cell is p (theta = 1), of a cavitated cell theta (p = 0). For a given
+/// split into full and cavitated cells the system is linear, and its matrix is a column-diagonally
+/// dominant M-matrix; the split is found by a primal-dual active set (Hintermueller, Ito and
+/// Kunisch 2003), starting from the last one.
+class Reynolds {
+ public:
+  /// `cavitation` false: every cell stays full and p may be negative (full Sommerfeld).
+  Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation);
+
+  /// Solves; `content_before` is m~ [m], n (not read when steady). Returns the number of linear
+  /// solves. Throws NumericsError when no split is found or the matrix is singular.
+  int solve(const FilmCells& film, const Eigen::ArrayXd& content_before, const FilmStage& stage);
+
+  /// Pressure [Pa], n.
+  const Eigen::ArrayXd& pressure() const { return pressure_; }
+  /// Fill theta, n.
+  const Eigen::ArrayXd& fill() const { return fill_; }
+  bool is_full(int cell) const { return full_[static_cast<size_t>(cell)] != 0; }
+  /// Largest mass residual of a cell relative to the largest terms of its balance.
+  double residual() const { return residual_; }
+  /// Volume that left over the edges in the stage, kappa * sum of q n L [m3] (flow [m3/s] when
+  /// steady).
+  double outflow() const { return outflow_; }
+
+  /// Exact derivatives of the last solution along the k gap fields `dh` (n x k) [m]: row c of
+  /// `derivative` is dp/d(.) for a full cell and dtheta/d(.) for a cavitated one.
+  void sensitivities(const RowMatrix& dh, RowMatrix& derivative);
+
+  const PadGrid& grid() const { return grid_; }
+
+ private:
+  struct Face {
+    int a, b;         // cells; flow counts from a to b
+    double length;    // [m]
+    double distance;  // between the centres [m]
+    bool axial;
+  };
+  struct Rim {
+    int cell;
+    double length, distance;  // distance from the centre to the edge [m]
+    double sign;              // outward direction along the axis of flow
+    bool axial;
+    Edge edge;
+  };
+  void build_faces();
+  void number_cells();
+  void weigh(const FilmCells& film, const Eigen::ArrayXd& content_before, const FilmStage& stage);
+  void assemble();
+  bool update_split(bool one_at_a_time);
+  void unpack();
+  void measure();
+
+  PadGrid grid_;
+  Edges edges_;
+  bool cavitation_;
+  std::vector<Face> faces_;
+  std::vector<Rim> rims_;
+  std::vector<int> place_;  // cell -> row of the banded system
+  BandedLu lu_;
+  std::vector<char> full_;
+  bool started_ = false;
+
+  // Nondimensional terms of the current stage: storage, m~, conductance and carried volume of faces
+  // and rims.
+  Eigen::ArrayXd storage_, before_;
+  std::vector<double> conduct_, carry_, rim_conduct_, rim_carry_;
+  double volume_scale_ = 1.0, pressure_scale_ = 1.0;
+  const FilmCells* film_ = nullptr;
+  FilmStage stage_;
+  Eigen::VectorXd x_;
+  RowMatrix work_;
+  Eigen::ArrayXd pressure_, fill_, scratch_, magnitude_;
+  double residual_ = 0.0, outflow_ = 0.0;
+};
+
+}  // namespace clatter::film

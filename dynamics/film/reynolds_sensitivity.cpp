@@ -1,0 +1,61 @@
+// Exact derivatives of the film solution by the gap: the factor of the last solve, one more sweep.
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+namespace {
+
+// d/da of 2 a^2 b^2 / (a + b).
+double conductance_slope(double a, double b) {
+  return 2.0 * a * b * b * (a + 2.0 * b) / ((a + b) * (a + b));
+}
+// d/da of 2 a b / (a + b).
+double carry_slope(double a, double b) { return 2.0 * b * b / ((a + b) * (a + b)); }
+
+}  // namespace
+
+void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
+  const FilmCells& film = *film_;
+  const int k = static_cast<int>(dh.cols());
+  const double kappa = stage_.steady ? 1.0 : stage_.kappa;
+  const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;
+  work_.setZero(grid_.size(), k);
+  auto row = [this](int cell) { return work_.row(place_[static_cast<size_t>(cell)]); };
+  if (!stage_.steady)
+    for (int c = 0; c < grid_.size(); ++c)
+      row(c) = -(grid_.area()[c] * fill_[c] * film.d_content[c] / volume_scale_) * dh.row(c);
+  for (const Face& face : faces_) {
+    const int a = face.a, b = face.b;
+    const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;
+    const Eigen::ArrayXd& dg = face.axial ? film.d_flow_axial : film.d_flow_angle;
+    const double speed = face.axial ? stage_.speed_axial : stage_.speed_angle;
+    const double drive = mobility * face.length / face.distance * (pressure_[a] - pressure_[b]);
+    const double drag = kappa * speed * face.length * fill_[speed > 0.0 ? a : b] / volume_scale_;
+    const double by_a = drive * conductance_slope(g[a], g[b]) * dg[a] +
+                        drag * carry_slope(film.carry[a], film.carry[b]) * film.d_carry[a];
+    const double by_b = drive * conductance_slope(g[b], g[a]) * dg[b] +
+                        drag * carry_slope(film.carry[b], film.carry[a]) * film.d_carry[b];
+    if (by_a == 0.0 && by_b == 0.0) continue;
+    auto to_a = row(a), to_b = row(b);
+    for (int m = 0; m < k; ++m) {
+      const double flow = by_a * dh(a, m) + by_b * dh(b, m);
+      to_a[m] -= flow;
+      to_b[m] += flow;
+    }
+  }
+  for (const Rim& rim : rims_) {
+    const int c = rim.cell;
+    const double g = (rim.axial ? film.flow_axial : film.flow_angle)[c];
+    const double dg = (rim.axial ? film.d_flow_axial : film.d_flow_angle)[c];
+    const double outward = rim.sign * (rim.axial ? stage_.speed_axial : stage_.speed_angle);
+    const double drive = mobility * rim.length / rim.distance * (pressure_[c] - rim.edge.pressure);
+    const double drag =
+        kappa * outward * rim.length * (outward > 0.0 ? fill_[c] : rim.edge.fill) / volume_scale_;
+    row(c) -= (drive * 3.0 * g * g * dg + drag * film.d_carry[c]) * dh.row(c);
+  }
+  lu_.solve_rows(work_.data(), k);
+  derivative.resize(grid_.size(), k);
+  for (int c = 0; c < grid_.size(); ++c)
+    derivative.row(c) = (is_full(c) ? pressure_scale_ : 1.0) * row(c);
+}
+
+}  // namespace clatter::film

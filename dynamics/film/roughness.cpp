@@ -1,0 +1,78 @@
+#include "dynamics/film/roughness.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dynamics/film/flow_factors.hpp"
+
+namespace clatter::film {
+
+RoughFilm::RoughFilm(const RoughnessOptions& options) : options_(options) {
+  if (!(options.piston >= 0.0) || !(options.liner >= 0.0))
+    throw InputError(fmt::format("roughness: found {} m and {} m, expected >= 0", options.piston,
+                                 options.liner));
+  sigma_ = std::hypot(options.piston, options.liner);
+  if (!options.flow_factors) return;
+  if (sigma_ == 0.0)
+    throw InputError("flow_factors: both walls are smooth, expected a roughness > 0");
+  share_difference_ =
+      (options.piston * options.piston - options.liner * options.liner) / (sigma_ * sigma_);
+  pressure_flow_factor(1.0, options.peklenik);
+  if (share_difference_ != 0.0) shear_flow_factor(1.0, options.peklenik);
+}
+
+void RoughFilm::thicknesses(const Eigen::ArrayXd& h, FilmCells& film) const {
+  if (sigma_ == 0.0) {
+    film.set_smooth(h);
+    return;
+  }
+  for (Eigen::Index i = 0; i < h.size(); ++i) {
+    const ValueSlope gap = mean_gap(h[i], sigma_);
+    film.content[i] = film.flow_angle[i] = film.flow_axial[i] = film.carry[i] = gap.value;
+    film.d_content[i] = film.d_flow_angle[i] = film.d_flow_axial[i] = film.d_carry[i] = gap.slope;
+    if (options_.flow_factors) apply_factors(h[i], static_cast<int>(i), film);
+  }
+}
+
+void RoughFilm::apply_factors(double h, int cell, FilmCells& film) const {
+  const double lowest = kLowestRatio * sigma_;
+  const bool below = h < lowest;
+  const double at = below ? lowest : h;
+  const double ratio = at / sigma_;
+  // Below the range, value and slope of h_T scaled to meet the factor's value at its end.
+  const double h_t = film.content[cell], d_h_t = film.d_content[cell];
+  const double h_t_end = below ? mean_gap(lowest, sigma_).value : h_t;
+  auto set = [&](double value, double slope, double& out, double& d_out) {
+    out = below ? value * h_t / h_t_end : value;
+    d_out = below ? value * d_h_t / h_t_end : slope;
+  };
+  auto flow = [&](double peklenik, double& out, double& d_out) {
+    const ValueSlope phi = pressure_flow_factor(ratio, peklenik);
+    const double root = std::cbrt(phi.value);
+    set(at * root, root + ratio * phi.slope * root / (3.0 * phi.value), out, d_out);
+  };
+  flow(options_.peklenik, film.flow_axial[cell], film.d_flow_axial[cell]);
+  flow(1.0 / options_.peklenik, film.flow_angle[cell], film.d_flow_angle[cell]);
+  if (share_difference_ == 0.0) return;
+  const ValueSlope shear = shear_flow_factor(ratio, options_.peklenik);
+  const double carry = (below ? h_t_end : h_t) - sigma_ * share_difference_ * shear.value;
+  set(carry, d_h_t - share_difference_ * shear.slope, film.carry[cell], film.d_carry[cell]);
+}
+
+void RoughFilm::inverse_gap(const Eigen::ArrayXd& h, const FilmCells& film, Eigen::ArrayXd& value,
+                            Eigen::ArrayXd& slope) const {
+  if (!options_.flow_factors) {
+    value = film.content.inverse();
+    slope = -film.d_content * value.square();
+    return;
+  }
+  for (Eigen::Index i = 0; i < h.size(); ++i) {
+    const ValueSlope mean = mean_inverse_gap(h[i] / sigma_);
+    value[i] = mean.value / sigma_;
+    slope[i] = mean.slope / (sigma_ * sigma_);
+  }
+}
+
+}  // namespace clatter::film

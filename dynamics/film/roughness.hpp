@@ -1,0 +1,49 @@
+#pragma once
+// From the gap h to the thicknesses that the Reynolds equation works with.
+#include <Eigen/Core>
+
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+
+/// Roughness of the two walls as the film sees it.
+struct RoughnessOptions {
+  double piston = 0.0;        // rms height of the wall that carries the grid [m]
+  double liner = 0.0;         // rms height of the wall that slides past [m]
+  double peklenik = 1.0;      // pattern: correlation length along the axis over that around it [1]
+  bool flow_factors = false;  // Patir-Cheng factors; off: only the mean gap h_T replaces h
+};
+
+/// Thicknesses of a film between rough walls, averaged after Patir and Cheng 1978, 1979:
+///
+///   s = h_T,   g^3 = phi h^3,   c = h_T - sigma (V_p - V_l) Phi_s,   sigma^2 = sigma_p^2 +
+///   sigma_l^2, V = sigma_i^2 / sigma^2.
+///
+/// The sign of c holds because the grid rides on the piston: oil in the piston's valleys stays
+/// behind. Under h = sigma / 2, where the factors end, g and c go on in proportion to h_T: they
+/// stay positive and monotone into contact. sigma = 0: all thicknesses are h, which must then be
+/// positive.
+class RoughFilm {
+ public:
+  /// InputError for roughness below 0 or a pattern that is not in the tables.
+  explicit RoughFilm(const RoughnessOptions& options);
+
+  double sigma() const { return sigma_; }
+  /// Lowest admissible gap [m]: 0 for smooth walls (not admissible itself), -4 sigma for rough
+  /// ones.
+  double lowest_gap() const { return -4.0 * sigma_; }
+  /// Fills `film` for the gaps `h` [m], n.
+  void thicknesses(const Eigen::ArrayXd& h, FilmCells& film) const;
+  /// Effective 1/h of the shear stress [1/m] and its slope by h: phi_f / h with flow factors, 1 /
+  /// h_T without.
+  void inverse_gap(const Eigen::ArrayXd& h, const FilmCells& film, Eigen::ArrayXd& value,
+                   Eigen::ArrayXd& slope) const;
+
+ private:
+  void apply_factors(double h, int cell, FilmCells& film) const;
+  RoughnessOptions options_;
+  double sigma_ = 0.0;
+  double share_difference_ = 0.0;  // V_p - V_l
+};
+
+}  // namespace clatter::film

@@ -1,0 +1,68 @@
+#pragma once
+// What the film tests share: one-dimensional strips, marching in time, a rigid body thrown at a
+// wall.
+#include <functional>
+
+#include "dynamics/film/piston_liner.hpp"
+#include "dynamics/film/reynolds.hpp"
+
+namespace clatter::film {
+
+/// A strip of `cells` cells along the axis over [begin, end] [m], 1 m wide, walls on both long
+/// sides.
+PadGrid strip(double begin, double end, int cells);
+/// Walls along the strip, `first` and `last` at its ends.
+Edges strip_edges(const Edge& first = {}, const Edge& last = {});
+/// Gap at the cell centres of a strip.
+Eigen::ArrayXd along(const PadGrid& grid, const std::function<double(double)>& gap);
+FilmCells smooth(const Eigen::ArrayXd& h);
+/// Sum of p times area [N].
+double load(const Reynolds& film);
+
+/// Marches a film without sliding through a given gap(t) by the tableau that the integrator uses.
+class FilmMarch {
+ public:
+  FilmMarch(Reynolds& film, std::function<Eigen::ArrayXd(double)> gap, double viscosity,
+            double begin);
+  void implicit_euler(double dt);
+  void tr_bdf2(double dt);
+  double time() const { return time_; }
+
+ private:
+  void stage(double time, double kappa, const Eigen::ArrayXd& before);
+  Reynolds& film_;
+  std::function<Eigen::ArrayXd(double)> gap_;
+  double viscosity_, time_;
+  FilmCells cells_;
+  Eigen::ArrayXd content_, rate_;
+};
+
+/// Observed order between successive halvings.
+double order(double coarse_error, double fine_error);
+
+/// A body of six coordinates under the element alone: TR-BDF2 with full Newton, halved steps when
+/// refused.
+class Flight {
+ public:
+  Flight(dynamics::ForceElement& element, Eigen::VectorXd mass, Eigen::VectorXd y,
+         Eigen::VectorXd v);
+  /// Advances by at most `dt`; true when accepted.
+  bool step(double dt);
+  /// Takes back the motion of an earlier copy (the element's own state is the caller's to restore).
+  void restore(const Flight& earlier);
+  /// Implicit Euler over a vanishing step: settles the element's internal rates.
+  void start();
+
+  Eigen::VectorXd mass, y, v, force;
+  double time = 0.0;
+  int refused = 0;
+
+ private:
+  bool solve_stage(const dynamics::Stage& stage, const Eigen::VectorXd& y_before,
+                   const Eigen::VectorXd& v_before, Eigen::VectorXd& y_new, Eigen::VectorXd& a_new);
+  dynamics::ForceElement& element_;
+  Eigen::VectorXd a_;
+  dynamics::Response response_;
+};
+
+}  // namespace clatter::film

@@ -1,0 +1,166 @@
+// Hard case R6: the element's tangent against central differences, in every regime.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "film_march.hpp"
+#include "piston_scene.hpp"
+
+namespace clatter::film {
+namespace {
+
+struct Regime {
+  const char* name;
+  double clearance, fill, depth;  // depth: how far the pin is pushed to the thrust side [m]
+  ContactEffects effects;
+  bool flow_factors;
+  AsperityOptions::Law law;
+};
+
+std::vector<bool> split_of(const PistonLiner& element) {
+  std::vector<bool> split;
+  for (const PadSnapshot& pad : element.snapshot())
+    for (Eigen::Index c = 0; c < pad.fill.size(); ++c) split.push_back(pad.fill.data()[c] < 1.0);
+  return split;
+}
+
+// Central differences with Richardson extrapolation; the start content is fixed, so each difference
+// is of one stage.
+double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double& cavitated_share,
+                     double& contact_share) {
+  const int n = element.size();
+  // Settle the content at rest, then probe a stage that closes the gap a little further.
+  const dynamics::Stage first{2.0e-3, 1e-12, 0, {}};
+  dynamics::Response response;
+  element.begin_step(first.time);
+  element.evaluate(first, y, Eigen::VectorXd::Zero(n), true, response);
+  element.finish_stage(first);
+  element.accept_step(first.time);
+  element.begin_step(first.time);
+  const dynamics::Stage stage{2.0e-3 + 2e-6, 2e-6, 1, {2e-6}};
+  Eigen::VectorXd probe = y;
+  // Closing at 20 mm/s towards the thrust side, and a different little step of every coordinate.
+  probe += 2e-9 * (y.array() / y.cwiseAbs().maxCoeff()).matrix() * 20.0;
+  for (int k = 0; k < n; ++k) probe[k] += 2e-9 * std::sin(3.0 * k + 1.0);
+  element.evaluate(stage, probe, Eigen::VectorXd::Zero(n), true, response);
+  const Eigen::MatrixXd tangent = response.tangent;
+  double fill = 0.0, count = 0.0, contact = 0.0, total = 0.0;
+  for (const PadSnapshot& pad : element.snapshot()) {
+    if (pad.fill.size() > 0) {
+      fill += (pad.fill.array() < 1.0).cast<double>().sum();
+      total += pad.pressure.sum();
+    }
+    if (pad.contact_pressure.size() > 0) contact += pad.contact_pressure.sum();
+    count += static_cast<double>(pad.gap.size());
+  }
+  cavitated_share = fill / count;
+  contact_share = contact > 0.0 ? contact / (contact + total) : 0.0;
+  const std::vector<bool> split = split_of(element);
+  bool same_split = true;
+  double worst = 0.0;
+  dynamics::Response low, high;
+  for (int k = 0; k < n; ++k) {
+    auto central = [&](double d) {
+      Eigen::VectorXd y_low = probe, y_high = probe;
+      y_low[k] -= d;
+      y_high[k] += d;
+      element.evaluate(stage, y_high, Eigen::VectorXd::Zero(n), false, high);
+      same_split = same_split && split_of(element) == split;
+      element.evaluate(stage, y_low, Eigen::VectorXd::Zero(n), false, low);
+      same_split = same_split && split_of(element) == split;
+      return Eigen::VectorXd((high.force - low.force) / (2.0 * d));
+    };
+    // Differences across a switch of a cell say nothing about either side: shrink until the split
+    // stays.
+    double d = 4e-10;
+    Eigen::VectorXd difference;
+    do {
+      same_split = true;
+      difference = (4.0 * central(0.5 * d) - central(d)) / 3.0;
+      d *= 0.25;
+    } while (!same_split && d > 1e-13);
+    EXPECT_TRUE(same_split) << "column " << k;
+    worst = std::max(worst, (difference - tangent.col(k)).cwiseAbs().maxCoeff() /
+                                tangent.col(k).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+class Tangent : public ::testing::TestWithParam<Regime> {};
+
+TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
+  const Regime& regime = GetParam();
+  for (bool elastic : {false, true}) {
+    PistonLinerOptions options;
+    options.cells_around = 8;
+    options.cells_along = 9;
+    options.clearance = regime.clearance;
+    options.initial_fill = regime.fill;
+    options.effects = regime.effects;
+    options.skirt.barrel_top = 15e-6;
+    options.skirt.barrel_bottom = 10e-6;
+    options.skirt.ovality = 8e-6;
+    options.roughness = {0.4e-6, 0.3e-6, 1.0, regime.flow_factors};
+    options.asperity.law = regime.law;
+    const auto element = make_element(options, elastic);
+    Eigen::VectorXd y = pushed(*element, elastic, regime.depth, 2e-5);
+    double cavitated = 0.0, contact = 0.0;
+    const double error = tangent_error(*element, y, cavitated, contact);
+    std::printf("R6 %-22s %-7s error %.1e  cavitated %.0f %%  asperity share %.0f %%\n",
+                regime.name, elastic ? "elastic" : "rigid", error, 100.0 * cavitated,
+                100.0 * contact);
+    EXPECT_LT(error, 1e-6);  // demanded
+  }
+}
+
+constexpr ContactEffects kAll{true, true, true, true};
+INSTANTIATE_TEST_SUITE_P(
+    Regimes, Tangent,
+    ::testing::Values(Regime{"full film",
+                             30e-6,
+                             1.0,
+                             15e-6,
+                             {true, true, false, true},
+                             false,
+                             AsperityOptions::Law::kFit},
+                      Regime{"cavitated",
+                             30e-6,
+                             0.999,
+                             24e-6,
+                             {true, true, false, true},
+                             false,
+                             AsperityOptions::Law::kFit},
+                      Regime{"plain Reynolds",
+                             30e-6,
+                             1.0,
+                             15e-6,
+                             {true, false, false, false},
+                             false,
+                             AsperityOptions::Law::kFit},
+                      Regime{"dry contact",
+                             5e-6,
+                             1.0,
+                             5.2e-6,
+                             {false, false, true, true},
+                             false,
+                             AsperityOptions::Law::kFit},
+                      Regime{"dry contact exact",
+                             5e-6,
+                             1.0,
+                             5.2e-6,
+                             {false, false, true, true},
+                             false,
+                             AsperityOptions::Law::kExact},
+                      Regime{"mixed", 5e-6, 1.0, 5e-6, kAll, false, AsperityOptions::Law::kFit},
+                      Regime{"mixed, flow factors", 5e-6, 1.0, 5e-6, kAll, true,
+                             AsperityOptions::Law::kExact}),
+    [](const auto& info) {
+      std::string name = info.param.name;
+      std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+      return name;
+    });
+
+}  // namespace
+}  // namespace clatter::film

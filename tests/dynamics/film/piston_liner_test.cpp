@@ -1,0 +1,181 @@
+// The piston-liner element: resultants, power, content under the tableau, effects.
+#include "dynamics/film/piston_liner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "film_march.hpp"
+#include "piston_scene.hpp"
+
+namespace clatter::film {
+namespace {
+
+PistonLinerOptions small_scene() {
+  PistonLinerOptions options;
+  options.cells_around = 8;
+  options.cells_along = 9;
+  options.clearance = 6e-6;
+  options.skirt.barrel_top = 15e-6;
+  options.skirt.barrel_bottom = 10e-6;
+  options.skirt.ovality = 8e-6;
+  return options;
+}
+
+void settle(PistonLiner& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+            dynamics::Response& response) {
+  const dynamics::Stage first{2e-3, 1e-10, 0, {}};
+  element.begin_step(first.time);
+  element.evaluate(first, y, v, true, response);
+  element.finish_stage(first);
+  element.accept_step(first.time);
+}
+
+double entry(const dynamics::History& history, const std::string& name) {
+  for (const auto& one : history.entries())
+    if (one.name == name) return one.value;
+  ADD_FAILURE() << name;
+  return NAN;
+}
+
+TEST(PistonLiner, ElasticBodiesInRigidMotionFeelTheSameForceAsRigidOnes) {
+  PistonLinerOptions options = small_scene();
+  const auto rigid = make_element(options, false);
+  PistonLinerBodies bodies;
+  bodies.stroke = crank_stroke;
+  const ContactGrid skirt =
+      make_patches(8, 3, options.skirt_bottom, options.skirt_top, options.bore_radius);
+  bodies.piston = ElasticSurface{skirt, {}};
+  std::vector<int> coordinates(30);
+  std::iota(coordinates.begin(), coordinates.end(), 0);
+  PistonLiner elastic(options, bodies, coordinates);
+  Eigen::MatrixXd motion(24, 6);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Eigen::Vector3d n = pad_normal(skirt.angle[i]);
+      const double z = skirt.axis_point.z() + skirt.axial[j];
+      motion.row(i * 3 + j) << n.x(), n.y(), 0.0, -z * n.y(), z * n.x(), 0.0;
+    }
+  Eigen::VectorXd y(6), v(6);
+  y << 1e-6, 4e-6, 0.0, 2e-5, -1e-5, 0.0;
+  v << 0.0, 0.02, 0.0, 0.3, 0.0, 0.0;
+  dynamics::Response one, other;
+  settle(*rigid, y, v, one);
+  Eigen::VectorXd y_e(30), v_e(30);
+  y_e << motion * y, Eigen::VectorXd::Zero(6);
+  v_e << motion * v, Eigen::VectorXd::Zero(6);
+  settle(elastic, y_e, v_e, other);
+  // Radial resultants come through the patches, friction through the pin.
+  const Eigen::VectorXd total = motion.transpose() * other.force.head(24) + other.force.tail(6);
+  EXPECT_GT(one.force.norm(), 1.0);
+  EXPECT_LT((total - one.force).norm(),
+            1e-8 * one.force.norm());  // rounding of G, magnified by the film's stiffness
+}
+
+TEST(PistonLiner, ReportedResultantsAreTheForcesOnTheRigidPiston) {
+  const auto element = make_element(small_scene(), false);
+  dynamics::Response response;
+  Eigen::VectorXd y = pushed(*element, false, 5e-6, 3e-5), v = Eigen::VectorXd::Zero(6);
+  v[1] = 0.01;
+  settle(*element, y, v, response);
+  dynamics::History history;
+  element->record(history);
+  EXPECT_NEAR(entry(history, "side_force"), response.force[1], 1e-9 * std::abs(response.force[1]));
+  EXPECT_NEAR(entry(history, "side_moment"), response.force[3], 1e-9 * std::abs(response.force[1]));
+  EXPECT_NEAR(entry(history, "friction_force"), response.force[2],
+              1e-9 * std::abs(response.force[2]));
+  EXPECT_LT(response.force[1], 0.0);  // pushed to the thrust side, driven back
+  EXPECT_GT(response.force[2], 0.0);  // moving down at 2 ms, friction points up
+  EXPECT_GT(entry(history, "film_pressure_max"), 0.0);
+  EXPECT_GT(entry(history, "film_min"), 0.0);
+}
+
+TEST(PistonLiner, PowerBalancesForceTimesVelocity) {
+  // f.v = input - lost - d(stored)/dt, in a state where film, asperities, liner slope and friction
+  // all act.
+  const auto element = make_element(small_scene(), true);
+  dynamics::Response response;
+  Eigen::VectorXd y = pushed(*element, true, 6.5e-6, 2e-5),
+                  v = Eigen::VectorXd::Zero(element->size());
+  for (int k = 0; k < v.size(); ++k) v[k] = 1e-3 * std::cos(2.0 * k);
+  settle(*element, y, v, response);
+  const dynamics::Power power = element->power(y, v);
+  const double work = response.force.dot(v);
+  // Stored energy along the motion, by central difference in time.
+  const double dt = 1e-7;
+  auto stored_at = [&](double shift) {
+    dynamics::Response ignored;
+    const dynamics::Stage probe{2e-3 + shift, 1e-7, 1, {0.0}};
+    element->evaluate(probe, y + shift * v, v, false, ignored);
+    return element->power(y, v).stored;
+  };
+  const double rate = (stored_at(dt) - stored_at(-dt)) / (2.0 * dt);
+  EXPECT_GT(std::abs(rate), 1e-3);
+  EXPECT_NEAR(work, power.input - power.lost - rate,
+              1e-5 * (std::abs(power.lost) + std::abs(rate)));  // difference step
+}
+
+TEST(PistonLiner, DryContactTakesNoFilmMemoryAndIsConservativeWithoutFriction) {
+  PistonLinerOptions options = small_scene();
+  options.effects = {false, true, true, false};
+  const auto element = make_element(options, false);
+  EXPECT_TRUE(element->save().size() == 1);
+  Eigen::VectorXd mass(6);
+  mass << 2.0, 2.0, 2.0, 4e-3, 4e-3, 4e-3;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(6), v = Eigen::VectorXd::Zero(6);
+  v[1] = 0.1;
+  Flight flight(*element, mass, y, v);
+  flight.start();
+  const double start = 0.5 * v.cwiseAbs2().dot(mass);
+  for (int k = 0; k < 400; ++k) ASSERT_TRUE(flight.step(1e-6));
+  EXPECT_LT(flight.v[1], 0.0);  // bounced
+  EXPECT_EQ(element->snapshot()[0].pressure.size(), 0);
+  const double energy =
+      0.5 * flight.v.cwiseAbs2().dot(mass) + element->power(flight.y, flight.v).stored;
+  EXPECT_NEAR(energy / start, 1.0, 2e-3);  // TR-BDF2 at 1 us over the bounce loses a little
+}
+
+TEST(PistonLiner, ContentFollowsTheTableauAndSurvivesSaving) {
+  PistonLinerOptions options = small_scene();
+  options.initial_fill = 0.8;
+  const auto one = make_element(options, false), two = make_element(options, false);
+  Eigen::VectorXd mass = Eigen::VectorXd::Constant(6, 2.0);
+  mass.tail(3).setConstant(4e-3);
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(6);
+  v[1] = 0.05;
+  Flight first(*one, mass, Eigen::VectorXd::Zero(6), v);
+  first.start();
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(first.step(1e-6));
+  two->restore(one->save());
+  const dynamics::Stage stage{first.time + 1e-6, 1e-6, 1, {1e-6}};
+  dynamics::Response a, b;
+  one->begin_step(first.time);
+  two->begin_step(first.time);
+  one->evaluate(stage, first.y, first.v, true, a);
+  two->evaluate(stage, first.y, first.v, true, b);
+  EXPECT_LT((a.force - b.force).norm(), 1e-10 * a.force.norm());
+  EXPECT_THROW(two->restore({1.0, 2.0}), InputError);
+}
+
+TEST(PistonLiner, RefusesParametersOutOfRangeAndAGapThatIsClosedAtTheStart) {
+  for (auto spoil : std::initializer_list<void (*)(PistonLinerOptions&)>{
+           [](PistonLinerOptions& o) { o.clearance = -1e-6; },
+           [](PistonLinerOptions& o) { o.viscosity = 0.0; },
+           [](PistonLinerOptions& o) { o.initial_fill = 1.2; },
+           [](PistonLinerOptions& o) { o.pad_span = 3.5; },
+           [](PistonLinerOptions& o) { o.skirt_top = o.skirt_bottom; },
+           [](PistonLinerOptions& o) { o.effects.film = o.effects.asperities = false; }}) {
+    PistonLinerOptions options = small_scene();
+    spoil(options);
+    EXPECT_THROW(make_element(options, false), InputError);
+  }
+  const auto element = make_element(small_scene(), false);
+  dynamics::Response response;
+  EXPECT_THROW(
+      settle(*element, pushed(*element, false, 60e-6, 0.0), Eigen::VectorXd::Zero(6), response),
+      InputError);
+}
+
+}  // namespace
+}  // namespace clatter::film
