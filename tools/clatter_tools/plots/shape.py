@@ -1,4 +1,6 @@
 """Meshes and deflection shapes, rendered."""
+import re
+
 import numpy as np
 
 from ..artefact import BadArtefact, dataset, text
@@ -45,9 +47,15 @@ def draw_part(axes, mesh):
 
 
 def show(axis, image, mesh, title):
-    axis.imshow(image)
+    axis.imshow(cropped(image))
     axis.set_axis_off()
     axis.set_title(f"{text(mesh.attrs.get('name', 'part'))}, {title}", loc="left")
+
+
+def cropped(image):
+    """The image without its empty margins."""
+    rows, columns = (np.flatnonzero(image[..., 3].any(axis=axis)) for axis in (1, 0))
+    return image[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1]
 
 
 def cut_position(points):
@@ -65,17 +73,18 @@ def coloured_faces(mesh, limit=7):
     families = {}
     for name in mesh["surfaces"]:
         if name != "skin":
-            families.setdefault(name.rstrip("0123456789").rstrip("_"), []).append(name)
+            families.setdefault(re.sub(r"_?\d+", "", name), []).append(name)
     faces = surface(mesh, "skin")
     colour = np.tile(METAL, (len(faces), 1))
     corner_key = {tuple(sorted(face[:3])): i for i, face in enumerate(faces)}
-    legend = []
-    for family, hexadecimal in zip(list(families)[:limit], style.COLOURS):
-        ids = [corner_key.get(tuple(sorted(face[:3]))) for name in families[family] for face in surface(mesh, name)]
-        ids = [i for i in ids if i is not None]
-        colour[ids] = 0.25 * METAL + 0.75 * rgb(hexadecimal)
-        if ids:
-            legend.append((family, hexadecimal))
+    ids = {family: [corner_key[key] for name in names for key in map(tuple, np.sort(surface(mesh, name)[:, :3]))
+                    if key in corner_key] for family, names in families.items()}
+    # What covers much of the skin tells nothing by its colour; small surfaces go over large ones.
+    chosen = sorted((family for family in ids if 0 < len(ids[family]) < 0.35 * len(faces)),
+                    key=lambda family: -len(ids[family]))[:limit]
+    legend = list(zip(chosen, style.COLOURS))
+    for family, hexadecimal in legend:
+        colour[ids[family]] = 0.25 * METAL + 0.75 * rgb(hexadecimal)
     return faces, colour, legend
 
 
@@ -90,7 +99,7 @@ def draw_deflection(files):
         limit = np.percentile(np.abs(normal), 99.5) or 1.0
         scale = 0.04 * np.ptp(points, axis=0).max() / np.abs(velocity).max()
         colours = style.plt.cm.RdBu_r(0.5 + 0.5 * np.clip(normal / limit, -1, 1))[:, :3]
-        axis.imshow(raster.render(points + scale * velocity, triangles, colours, azimuth=40.0, size=(900, 760)))
+        axis.imshow(cropped(raster.render(points + scale * velocity, triangles, colours, azimuth=40.0, size=(900, 760))))
         axis.set_axis_off()
         axis.set_title(title, loc="left")
         bar = style.matplotlib.cm.ScalarMappable(style.matplotlib.colors.Normalize(-limit, limit), "RdBu_r")

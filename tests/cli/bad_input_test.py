@@ -1,0 +1,111 @@
+"""Bad input: one clear line, the right exit code, older artefacts untouched."""
+import unittest
+
+import h5py
+import numpy as np
+import stages
+
+
+class WrongFiles(stages.PipelineTest):
+    def test_a_missing_file(self):
+        for stage in stages.STAGES:
+            with self.subTest(stage=stage):
+                arguments = ["absent.file", *self.command(stage)[1:]]
+                self.assert_refused(stage, arguments, says=["absent.file", "no such file"])
+
+    def test_a_file_of_another_schema(self):
+        wrong = {"assembly": "beam.fe.h5", "modal": "beam.mesh.h5", "condense": "beam.mesh.h5", "recover": "beam.fe.h5"}
+        for stage, file in wrong.items():
+            with self.subTest(stage=stage):
+                arguments = [file, *self.command(stage)[1:]]
+                self.assert_refused(stage, arguments, says=[file, "schema", "expected clatter/"])
+
+    def test_a_truncated_artefact(self):
+        for stage in ("assembly", "modal", "condense", "recover"):
+            path = self.folder / self.command(stage)[0]
+            whole = path.read_bytes()
+            for part in (0.9, 0.5, 0.01):
+                with self.subTest(stage=stage, part=part):
+                    path.write_bytes(whole[:int(part * len(whole))])
+                    self.assert_refused(stage, says=[path.name])
+            path.write_bytes(whole)
+
+    def test_a_file_that_is_not_hdf5(self):
+        for stage in ("assembly", "modal", "condense", "recover"):
+            with self.subTest(stage=stage):
+                (self.folder / self.command(stage)[0]).write_text("not HDF5\n" * 100)
+                self.assert_refused(stage, says=[self.command(stage)[0], "HDF5"])
+
+    def test_a_file_that_is_not_toml(self):
+        for stage, file in (("mesh", "beam.mesh.toml"), ("assembly", "beam.fe.toml"), ("modal", "beam.modes.toml"),
+                            ("condense", "beam.rom.toml"), ("dynamics", "step.run.toml"),
+                            ("recover", "step.field.toml")):
+            with self.subTest(stage=stage):
+                (self.folder / file).write_text("this is = = no TOML\n")
+                self.assert_refused(stage, says=[f"{file}:1"])
+
+    def test_an_unknown_key_is_named_with_the_nearest_known_one(self):
+        self.edit("beam.mesh.toml", "element_size_mm", "elementsize_mm")
+        self.assert_refused("mesh", says=["elementsize_mm", "element_size_mm", "beam.mesh.toml:"])
+        self.edit("beam.fe.toml", "E_gpa = 210.0", "E_gpa = 210.0\nE_gpaa = 1.0")
+        self.assert_refused("assembly", says=["E_gpaa", "E_gpa", "beam.fe.toml:"])
+        for stage, file in (("modal", "beam.modes.toml"), ("condense", "beam.rom.toml"), ("dynamics", "step.run.toml"),
+                            ("recover", "step.field.toml")):
+            with self.subTest(stage=stage):
+                path = self.folder / file
+                path.write_text("nobody_knows_this = 1\n" + path.read_text())
+                self.assert_refused(stage, says=["nobody_knows_this", f"{file}:1"])
+
+    def test_a_wrong_command_line(self):
+        for stage in stages.STAGES:
+            with self.subTest(stage=stage):
+                done = stages.run_stage(stage, "--no-such-option", folder=self.folder)
+                self.assertEqual(done.returncode, 2)
+                self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+
+
+class WrongContent(stages.PipelineTest):
+    def test_a_mesh_with_an_inverted_element(self):
+        with h5py.File(self.folder / "beam.mesh.h5", "r+") as mesh:
+            cells = mesh["cells/0/nodes"][()]
+            cells[5, [0, 1]] = cells[5, [1, 0]]
+            mesh["cells/0/nodes"][...] = cells
+        self.assert_refused("assembly", says=["beam.mesh.h5", "inverted"])
+
+    def test_a_mesh_with_a_node_that_does_not_exist(self):
+        with h5py.File(self.folder / "beam.mesh.h5", "r+") as mesh:
+            mesh["cells/0/nodes"][3, 2] = len(mesh["nodes"]) + 7
+        self.assert_refused("assembly", says=["beam.mesh.h5", "cells/0"])
+
+    def test_a_coordinate_that_is_not_a_number(self):
+        with h5py.File(self.folder / "beam.mesh.h5", "r+") as mesh:
+            mesh["nodes"][10, 1] = np.nan
+        self.assert_refused("assembly", says=["beam.mesh.h5", "nodes"])
+
+    def test_a_matrix_with_an_index_out_of_range(self):
+        with h5py.File(self.folder / "beam.fe.h5", "r+") as model:
+            model["K/indices"][4] = 10**9
+        for stage in ("modal", "condense"):
+            with self.subTest(stage=stage):
+                self.assert_refused(stage, says=["beam.fe.h5", "K"])
+
+    def test_a_set_that_selects_nothing(self):
+        self.edit("beam.fe.toml", 'surface = "x_max"', 'surface = "x_mox"')
+        self.assert_refused("assembly", says=["beam.fe.toml:", "x_mox", "x_max"])
+
+    def test_a_named_surface_that_selects_no_face(self):
+        path = self.folder / "beam.mesh.toml"
+        path.write_text(path.read_text() + '\n[surface.ghost]\nplane = {normal = [1, 0, 0], height = 5000}\n')
+        self.assert_refused("mesh", says=["ghost", "no face"])
+
+    def test_a_negative_length(self):
+        self.edit("beam.mesh.toml", "size = [600.0,", "size = [-600.0,")
+        self.assert_refused("mesh", says=["beam.mesh.toml:", "size"])
+
+    def test_a_region_without_material(self):
+        self.edit("beam.fe.toml", 'regions = ["bar"]', "regions = []")
+        self.assert_refused("assembly", says=["beam.fe.toml", "bar"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,77 @@
+"""A disk that is full and a stage that is killed: nothing half under the final name, the older artefact intact."""
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import time
+import unittest
+
+import h5py
+import stages
+
+
+class HardH1KilledHalfWay(stages.PipelineTest):
+    def test_kill_at_random_times_leaves_the_older_artefact_or_a_complete_one(self):
+        draw = random.Random(7)
+        for stage in ("mesh", "assembly", "condense", "dynamics", "recover"):
+            arguments = self.command(stage)
+            output = self.folder / arguments[-1]
+            begin = time.monotonic()
+            stages.run_stage(stage, *arguments, folder=self.folder)
+            duration = time.monotonic() - begin
+            for _ in range(4):
+                with self.subTest(stage=stage):
+                    self.kill_once(stage, arguments, output, draw.uniform(0.0, 1.1 * duration))
+
+    def kill_once(self, stage, arguments, output, delay):
+        before = stages.fingerprint(output)
+        process = subprocess.Popen([stages.BIN / f"clatter-{stage}", *arguments], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(delay)
+        process.kill()
+        process.wait()
+        if stages.fingerprint(output) != before:  # it was faster than the kill: then it must be whole
+            with h5py.File(output) as file:
+                self.assertIn("timing", file)
+        again = stages.run_stage(stage, *arguments, folder=self.folder)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertFalse(pathlib.Path(f"{output}.part").exists(), "a later run removes what the killed one left")
+
+
+class HardH2DiskFull(stages.PipelineTest):
+    def test_a_full_disk_is_told_in_one_line_and_harms_nothing(self):
+        small = self.small_disk()
+        for stage in ("mesh", "assembly", "condense", "dynamics", "recover"):
+            name = self.command(stage)[-1]
+            target = small / name
+            target.write_bytes(b"the older artefact")
+            filler = small / "filler"
+            free = os.statvfs(small)
+            filler.write_bytes(b"\0" * max(0, free.f_bavail * free.f_frsize - 16384))
+            with self.subTest(stage=stage):
+                self.assert_refused(stage, [*self.command(stage)[:-1], str(target)], code=4, says=[name])
+                self.assertEqual(target.read_bytes(), b"the older artefact")
+            filler.unlink()
+            target.unlink()
+
+    def small_disk(self):
+        """A file system of 1 MB in the test's folder; the test is skipped where none can be mounted."""
+        place = self.folder / "small"
+        place.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", place], capture_output=True,
+                                 text=True) if shutil.which("mount") else None
+        if mounted is None or mounted.returncode != 0:
+            self.skipTest("a 1 MB file system cannot be mounted here: needs root")
+        self.addCleanup(subprocess.run, ["umount", place], check=True)
+        return place
+
+    def test_a_folder_that_does_not_exist(self):
+        for stage in stages.STAGES:
+            with self.subTest(stage=stage):
+                arguments = [*self.command(stage)[:-1], "nowhere/out.h5"]
+                self.assert_refused(stage, arguments, code=4, says=["nowhere/out.h5"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,86 @@
+"""Runs the stages for tests: a small pipeline made once, and checks of how a stage refuses."""
+import hashlib
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
+STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
+
+
+def run_stage(stage, *arguments, folder, **options):
+    """Runs clatter-<stage> in `folder`; returns the finished process with its texts."""
+    return subprocess.run([BIN / f"clatter-{stage}", *map(str, arguments)], cwd=folder, text=True,
+                          capture_output=True, timeout=300, **options)
+
+
+def fingerprint(path):
+    """What must not change: content, inode and time stamp of a file."""
+    state = path.stat()
+    return hashlib.sha256(path.read_bytes()).hexdigest(), state.st_ino, state.st_mtime_ns
+
+
+class PipelineTest(unittest.TestCase):
+    """Tests in a fresh copy of a folder in which the beam sample has been brought through all stages."""
+
+    @classmethod
+    def setUpClass(cls):
+        missing = [stage for stage in STAGES if not (BIN / f"clatter-{stage}").exists()]
+        if missing:
+            raise unittest.SkipTest(f"not built: {', '.join(missing)}")
+        cls.master = pathlib.Path(tempfile.mkdtemp(prefix="clatter-cli-"))
+        cls.addClassCleanup(shutil.rmtree, cls.master)
+        for path in (SOURCE / "samples/beam").glob("*.toml"):
+            shutil.copy(path, cls.master)
+        for stage, arguments in cls.commands():
+            done = run_stage(stage, *arguments, folder=cls.master)
+            if done.returncode != 0:
+                raise RuntimeError(f"clatter-{stage} {arguments}: {done.stderr}")
+
+    @staticmethod
+    def commands():
+        """The beam's way through the stages: (stage, arguments)."""
+        return [("mesh", ["beam.mesh.toml", "-o", "beam.mesh.h5"]),
+                ("assembly", ["beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5"]),
+                ("modal", ["beam.fe.h5", "-c", "beam.modes.toml", "-o", "beam.modes.h5"]),
+                ("condense", ["beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5"]),
+                ("dynamics", ["step.run.toml", "-o", "step.run.h5"]),
+                ("recover", ["step.run.h5", "-c", "step.field.toml", "-o", "step.field.h5"])]
+
+    @classmethod
+    def command(cls, stage):
+        return list(dict(cls.commands())[stage])
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="clatter-cli-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        shutil.copytree(self.master, self.folder, dirs_exist_ok=True)
+
+    def edit(self, name, old, new):
+        """Replaces a text in a file; the test fails when it is not there."""
+        path = self.folder / name
+        before = path.read_text()
+        self.assertIn(old, before, f"{name} has changed, adapt this test")
+        path.write_text(before.replace(old, new, 1))
+
+    def assert_refused(self, stage, arguments=None, code=2, says=(), program=None, **options):
+        """The stage ends with `code` and one line that says all of `says`; its older artefact stays as it was."""
+        arguments = arguments or self.command(stage)
+        output = self.folder / arguments[-1]
+        before = fingerprint(output) if output.exists() else None
+        done = run_stage(stage, *arguments, "--quiet", folder=self.folder, **options)
+        self.assertEqual(done.returncode, code, f"clatter-{stage}: {done.stderr}")
+        lines = done.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertTrue(lines[0].startswith(f"clatter-{stage}: error: "), lines[0])
+        for text in says:
+            self.assertIn(text, lines[0])
+        self.assertEqual(before, fingerprint(output) if output.exists() else None, "the older artefact was touched")
+        self.assertFalse((self.folder / (arguments[-1] + ".part")).exists(), "a part file is left")
+        print(f"    {lines[0]}", file=sys.stderr)
