@@ -34,6 +34,9 @@ class Id {
 inline void silence_library() {
   // The library's own stack of messages is for its developers; ours is one line.
   static const bool once = [] {
+    // After a full disk the library's own clean-up at exit crashes (1.10.8); files are closed by
+    // us.
+    H5dont_atexit();
     H5check_version(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);  // hard case H6
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     return true;
