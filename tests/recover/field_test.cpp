@@ -1,0 +1,228 @@
+// From run to field file and back: what is read equals what was put in.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+#include "recover/recover.hpp"
+#include "synthetic.hpp"
+
+namespace clatter::recover {
+namespace {
+
+using namespace testing;
+using Complex = std::complex<double>;
+constexpr double kPi = std::numbers::pi;
+constexpr Complex kI{0.0, 1.0};
+
+/// q = (cos w t, sin w t) at engine order `order`, t from angle 0.
+MotionLaw turning(const RunPlan& plan, double order) {
+  const double w = 2 * kPi * order * plan.speed_rpm / 60.0;
+  return [w](double t) {
+    const Eigen::Vector2d c(std::cos(w * t), std::sin(w * t)), s(-std::sin(w * t), std::cos(w * t));
+    return Motion{c, w * s, -w * w * c};
+  };
+}
+
+std::filesystem::path recover_file(const std::filesystem::path& run, const std::string& config) {
+  const Config parsed = Config::parse(config, "test");
+  const Options options = read_options(parsed);
+  const RunBody body(run, options.body);
+  const ReducedModel model = body.read_model();
+  const auto path = run.parent_path() / "out.field.h5";
+  StepClock clock;
+  H5File file = H5File::create(path);
+  const Summary summary = recover(body, model, options, file, clock);
+  write_provenance(file, {kFieldSchema, parsed.resolved(), {run}});
+  file.commit();
+  write_exports(path, summary);
+  EXPECT_FALSE(summary_text(summary).empty());
+  return path;
+}
+
+/// A monopole p = A exp(-i k r)/r inside an ellipsoid; velocities by -grad p / (i w rho).
+struct Source {
+  Eigen::Vector3d centre{0.05, -0.03, 0.04};
+  Complex A{0.4, 0.3};
+  double w = 0, rho = 1.204, c = 343.2;
+  Complex pressure(const Eigen::Vector3d& x) const {
+    const double r = (x - centre).norm();
+    return A * std::exp(-kI * (w / c) * r) / r;
+  }
+  Eigen::Vector3cd velocity(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d d = x - centre;
+    const double r = d.norm();
+    const Complex slope = pressure(x) * (-kI * (w / c) - 1.0 / r);
+    return (-slope / (kI * w * rho) / r) * d.cast<Complex>();
+  }
+};
+
+TEST(FieldFile, MonopoleInsideTheSkinKeepsItsPowerThroughRunSpectraAndFile) {
+  // The end-to-end check of normals, areas, phases and files: the run moves the skin as a monopole
+  // inside would; the power from the file's own normal velocities must be 2 pi |A|^2 / (rho c).
+  const RunPlan plan{.first_angle_deg = -150.0};  // firing TDC is no sample of special place
+  const double order = 12.0;
+  Source source;
+  source.w = 2 * kPi * order * plan.speed_rpm / 60.0;
+  double error[2];
+  for (int level : {2, 3}) {
+    Mesh6 mesh = unit_sphere(level);
+    mesh.nodes.array().rowwise() *= Eigen::Array3d(0.4, 0.25, 0.3).transpose();
+    RowMatrix T(mesh.nodes.size(), 2);  // u(t) = Re(V/(i w) e^{i w t}) = Re U cos - Im U sin
+    for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
+      const Eigen::Vector3cd u =
+          source.velocity(Eigen::Vector3d(mesh.nodes.row(a))) / (kI * source.w);
+      T.block(3 * a, 0, 3, 1) = u.real();
+      T.block(3 * a, 1, 3, 1) = -u.imag();
+    }
+    const auto folder = fresh_folder("monopole");
+    const auto path =
+        recover_file(write_run(folder, model_on(mesh, T, 3000.0), plan, turning(plan, order)),
+                     "[lines]\norders = [12]\n");
+    const H5File file = open_artefact(path, kFieldSchema);
+    const Eigen::VectorXd re = file.read_vector("lines/normal_velocity_re/00000");
+    const Eigen::VectorXd im = file.read_vector("lines/normal_velocity_im/00000");
+    const Eigen::VectorXd area = file.read_vector("skin/face_area");
+    const RowMatrix centre = file.read_rows("skin/face_centre");
+    double power = 0.0;
+    for (Eigen::Index f = 0; f < area.size(); ++f)
+      power += 0.5 * area[f] *
+               std::real(source.pressure(Eigen::Vector3d(centre.row(f))) *
+                         std::conj(Complex(re[f], im[f])));
+    error[level - 2] =
+        std::abs(power / (2 * kPi * std::norm(source.A) / (source.rho * source.c)) - 1.0);
+    EXPECT_NEAR(file.read_doubles("lines/frequency_hz")[0], 400.0, 1e-9);
+    std::filesystem::remove_all(folder);
+  }
+  // Pressure is taken at face centres only: second order, a factor near 4 from level to level.
+  EXPECT_LT(error[1], 0.01);
+  EXPECT_GT(error[0] / error[1], 3.0);
+}
+
+TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
+  const RunPlan plan;
+  const Mesh6 mesh = box({0.3, 0.2, 0.1}, 2);
+  RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 2);
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a + 1, 0) = 1e-6;  // rigid, along y
+  const auto folder = fresh_folder("tone");
+  const double order = 24.0, hz = 800.0, w = 2 * kPi * hz;
+  const auto path = recover_file(
+      write_run(folder, model_on(mesh, T, 5000.0), plan, turning(plan, order)),
+      "[lines]\nfrequencies_hz = [803]\n[[sensor]]\nset = \"sensor_block\"\n"
+      "[[sensor]]\nname = \"top\"\nposition = [0.1, 0.2, 0.05]\ndirection = [0, 3, 0]\n");
+  const H5File file = open_artefact(path, kFieldSchema);
+  const Eigen::VectorXd f = file.read_vector("analysis/cycle/frequency_hz");
+  EXPECT_NEAR(f[48], hz, 1e-9);
+  EXPECT_NEAR(file.read_vector("analysis/cycle/order")[48], order, 1e-12);
+
+  // v = Re(i w U e^{i w t}), U = 1e-6 m: purely imaginary, peak amplitude w U.
+  const double v = w * 1e-6;
+  const RowMatrix re = file.read_rows("lines/velocity_re/00000"),
+                  im = file.read_rows("lines/velocity_im/00000");
+  EXPECT_LT(re.cwiseAbs().maxCoeff(), 1e-12 * v);
+  EXPECT_LT((im.col(1).array() - v).abs().maxCoeff(), 1e-12 * v);
+  EXPECT_EQ(file.read_doubles("lines/requested_hz")[0], 803.0);
+
+  // Two faces of 0.3 x 0.1 m2 carry it; ERP = 1/2 rho c S v^2.
+  const double erp = 0.5 * 1.204 * 343.2 * 0.06 * v * v;
+  EXPECT_NEAR(file.read_vector("analysis/cycle/panels/skin/erp")[48] / erp, 1.0, 1e-11);
+  EXPECT_NEAR(file.get_double("analysis/cycle/panels/skin", "erp_w") / erp, 1.0, 1e-10);
+  EXPECT_NEAR(file.get_double("analysis/cycle/panels/thrust_side", "share_of_skin"), 0.5, 1e-10);
+  EXPECT_NEAR(file.read_vector("analysis/cycle/panels/thrust_side/mean_square_velocity")[48],
+              0.5 * v * v, 1e-11 * v * v);
+
+  // The 800 Hz third octave holds all of it; the sensor at coordinate 0 has |a| = w^2.
+  const std::vector<std::string> names = file.read_strings("analysis/cycle/third_octave/nominal");
+  const auto band = std::find(names.begin(), names.end(), "800") - names.begin();
+  const auto skin_db = file.read_vector("analysis/cycle/panels/skin/third_octave/erp_db");
+  EXPECT_NEAR(skin_db[band], 10 * std::log10(erp / 1e-12), 1e-9);
+  const Eigen::MatrixXd a_db =
+      file.read_matrix("analysis/cycle/sensors/sensor_block/third_octave/acceleration_db");
+  EXPECT_NEAR(a_db(band, 0), 20 * std::log10(w * w / std::sqrt(2.0) / 1e-6), 1e-9);
+  const Eigen::MatrixXd a_re =
+      file.read_matrix("analysis/cycle/sensors/sensor_block/spectrum/acceleration_re");
+  EXPECT_NEAR(a_re(48, 0) / (-w * w), 1.0, 1e-11);
+  const Eigen::MatrixXd top =
+      file.read_matrix("analysis/cycle/sensors/top/spectrum/displacement_re");
+  EXPECT_NEAR(top(48, 0) / 1e-6, 1.0, 1e-11);
+
+  // A frame in single precision: v(t) = -w U sin(w t).
+  const std::vector<double> time = file.read_doubles("frames/time");
+  const RowMatrix frame = file.read_rows("frames/velocity/00007");
+  EXPECT_NEAR(frame(0, 1), -v * std::sin(w * time[7]), 1e-6 * v);
+  EXPECT_NEAR(file.read_doubles("frames/crank_angle_deg")[0], -10.0, 1e-9);
+  EXPECT_EQ(time.size(), file.list("frames/velocity").size());
+  EXPECT_EQ(file.get_string("analysis/cycle/panels/skin/erp", "unit"), "W");
+  EXPECT_NE(file.get_string("/", "phase").find("exp(+i 2 pi f t)"), std::string::npos);
+  EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), 0.0, 1e-9);
+  EXPECT_NEAR(file.get_double("certificate", "mean_square_share_above_spectra"), 0.0, 1e-9);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FieldFile, StrongestPeaksAreTakenWhenNoFrequencyIsAskedFor) {
+  const RunPlan plan;
+  const Mesh6 mesh = box({1, 1, 1}, 1);
+  RowMatrix T = random_rows(mesh, 2, 5);
+  const auto two_tones = [&](double t) {
+    Motion m = turning(plan, 12.0)(t);
+    const Motion high = turning(plan, 30.0)(t);
+    m.q[1] = 0.3 * high.q[0], m.v[1] = 0.3 * high.v[0], m.a[1] = 0.3 * high.a[0];
+    return m;
+  };
+  const auto folder = fresh_folder("peaks");
+  const auto path = recover_file(write_run(folder, model_on(mesh, T, 2000.0), plan, two_tones),
+                                 "[lines]\nstrongest = 2\n[frames]\non = false\n");
+  const H5File file = open_artefact(path, kFieldSchema);
+  const std::vector<double> hz = file.read_doubles("lines/frequency_hz");
+  ASSERT_EQ(hz.size(), 2u);
+  EXPECT_NEAR(hz[0], 400.0, 1e-9);
+  EXPECT_NEAR(hz[1], 1000.0, 1e-9);
+  EXPECT_FALSE(file.has("frames"));
+  EXPECT_FALSE(std::filesystem::exists(frame_export_path(path)));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FieldFile, RunThatDoesNotTurnIsAnalysedAsAWhole) {
+  const RunPlan plan;
+  const Mesh6 mesh = box({1, 1, 1}, 1);
+  const auto folder = fresh_folder("still");
+  const auto run =
+      write_run(folder, model_on(mesh, random_rows(mesh, 2, 5), 2000.0), plan, turning(plan, 12.0));
+  H5File still = H5File::create(folder / "still.h5");  // the same without a crank
+  const H5File turns = H5File::open(run);
+  write_provenance(still, {"clatter/run/1", "", {}});
+  still.write("output/time", turns.read_vector("output/time"));
+  for (const char* member : {"bodies/block/q", "bodies/block/v", "bodies/block/a"})
+    still.write(member, turns.read_rows(member));
+  for (const char* name : {"rom", "rom_sha256"})
+    still.set("bodies/block", name, turns.get_string("bodies/block", name));
+  still.commit();
+  const H5File file = open_artefact(recover_file(folder / "still.h5", ""), kFieldSchema);
+  EXPECT_EQ(file.list("analysis"), std::vector<std::string>{"whole"});
+  EXPECT_FALSE(file.has("analysis/whole/order"));
+  EXPECT_GE(file.list("frames/velocity").size(), 50u);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Options, UnknownKeysAndContradictionsAreRefused) {
+  const auto read = [](const std::string& text) {
+    return read_options(Config::parse(text, "test.toml"));
+  };
+  EXPECT_THROW(read("bodie = \"block\""), InputError);
+  EXPECT_THROW(read("[frames]\nfrom_deg = 10\nto_deg = -10"), InputError);
+  EXPECT_THROW(read("[[window]]\nname = \"cycle\""), InputError);
+  EXPECT_THROW(read("[[window]]\nname = \"w\"\ntaper = \"box\""), InputError);
+  EXPECT_THROW(read("[[sensor]]\nname = \"s\""), InputError);
+  EXPECT_THROW(read("[[sensor]]\nset = \"s\"\nposition = [0, 0, 0]"), InputError);
+  EXPECT_THROW(read("[[panel]]\nname = \"p\"\ndirection = [0, 0, 0]"), InputError);
+  EXPECT_THROW(read("[lines]\nfrequencies_hz = [-5]"), InputError);
+  EXPECT_THROW(read("[air]\ndensity = 0"), InputError);
+  EXPECT_NO_THROW(read(""));
+  EXPECT_NE(options_help().find("velocity_reference = 5e-08"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clatter::recover

@@ -1,0 +1,130 @@
+// The program as a user meets it: exit codes, one clear line, untouched older results.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "core/h5_file.hpp"
+#include "synthetic.hpp"
+
+namespace clatter::recover {
+namespace {
+
+using namespace testing;
+namespace fs = std::filesystem;
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fresh_folder(test->name());
+    const Mesh6 mesh = hollow_box({0.3, 0.2, 0.1}, 2);
+    const RunPlan plan;
+    write_run(folder_, model_on(mesh, random_rows(mesh, 3, 1), 2000.0), plan, [&](double t) {
+      const double w = 2 * std::numbers::pi * 400.0;
+      Motion m{Eigen::Vector3d(1, 2, 3) * std::cos(w * t), {}, {}};
+      m.v = Eigen::Vector3d(1, 2, 3) * -w * std::sin(w * t);
+      m.a = -w * w * m.q;
+      return m;
+    });
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// Runs clatter-recover inside the folder.
+  int recover(const std::string& arguments) {
+    return run_command(
+        "cd '" + folder_.string() + "' && '" CLATTER_BIN_DIR "/clatter-recover' " + arguments,
+        output_);
+  }
+  /// Bad input: exit code `code`, one line that names `words`, no output file.
+  void expect_refused(const std::string& arguments, const std::string& words, int code = 2) {
+    EXPECT_EQ(recover(arguments + " -o out.field.h5 --quiet"), code) << output_;
+    EXPECT_NE(output_.find(words), std::string::npos) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out.field.h5"));
+    EXPECT_FALSE(fs::exists(folder_ / "out.field.h5.part"));
+  }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+TEST_F(Program, DefaultsMakeAFieldFileThatAnotherProgramReads) {
+  ASSERT_EQ(recover("run.h5 -o out.field.h5 --json --depfile out.d"), 0) << output_;
+  EXPECT_NE(output_.find("\"erp_db\""), std::string::npos);
+  EXPECT_NE(output_.find("ERP re 1 pW"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out.d"));
+  const std::string check = "/usr/bin/python3 '" CLATTER_SOURCE_DIR
+                            "/tests/recover/check_field.py' '" +
+                            (folder_ / "out.field.h5").string() + "'";
+  EXPECT_EQ(run_command(check, output_), 0) << output_;
+}
+
+TEST_F(Program, HelpTeachesTheConfiguration) {
+  EXPECT_EQ(recover("--help"), 0);
+  for (const char* word : {"[[panel]]", "[[window]]", "clatter-recover slap.run.h5", "taper"})
+    EXPECT_NE(output_.find(word), std::string::npos) << word;
+}
+
+TEST_F(Program, SameInputGivesTheSameNumbers) {
+  ASSERT_EQ(recover("run.h5 -o a.field.h5 --quiet"), 0) << output_;
+  ASSERT_EQ(recover("run.h5 -o b.field.h5 --quiet"), 0) << output_;
+  const H5File a = H5File::open(folder_ / "a.field.h5"), b = H5File::open(folder_ / "b.field.h5");
+  for (const char* name : {"analysis/cycle/panels/skin/erp", "lines/normal_velocity_im/00000",
+                           "analysis/ftdc/panels/exposed/instant_mean_square_velocity"})
+    EXPECT_EQ(a.read_doubles(name), b.read_doubles(name)) << name;
+}
+
+TEST_F(Program, FrequencyAboveTheBasisIsRefused) {
+  write("f.toml", "[lines]\nfrequencies_hz = [2500]\n");
+  expect_refused("run.h5 -c f.toml", "2500 Hz, expected at most 2000 Hz");
+  write("g.toml", "[spectrum]\nto_hz = 2500\n");
+  expect_refused("run.h5 -c g.toml", "spectrum.to_hz: found 2500 Hz");
+}
+
+TEST_F(Program, MissingFilesAndWrongSchemasAreRefused) {
+  EXPECT_NE(recover("nowhere.run.h5 -o out.field.h5 --quiet"), 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out.field.h5"));
+  expect_refused("rom.h5", "clatter/run/1");
+}
+
+TEST_F(Program, UnknownKeyBodySensorAndPanelAreRefused) {
+  write("key.toml", "[spectrun]\nto_hz = 10\n");
+  expect_refused("run.h5 -c key.toml", "spectrun");
+  write("body.toml", "body = \"piston\"\n");
+  expect_refused("run.h5 -c body.toml", "piston");
+  write("sensor.toml", "[[sensor]]\nset = \"nowhere\"\n");
+  expect_refused("run.h5 -c sensor.toml", "nowhere");
+  write("panel.toml", "[[panel]]\nname = \"far\"\nbox_min = [9, 9, 9]\n");
+  expect_refused("run.h5 -c panel.toml", "far");
+  write("window.toml", "[[window]]\nname = \"late\"\nfrom_s = 1.0\nto_s = 2.0\n");
+  expect_refused("run.h5 -c window.toml", "late");
+}
+
+TEST_F(Program, TruncatedRunIsRefusedAndAnOlderResultStaysUntouched) {
+  ASSERT_EQ(recover("run.h5 -o keep.field.h5 --quiet"), 0) << output_;
+  const auto before = fs::file_size(folder_ / "keep.field.h5");
+  fs::resize_file(folder_ / "run.h5", fs::file_size(folder_ / "run.h5") / 2);
+  const int code = recover("run.h5 -o keep.field.h5 --quiet");
+  EXPECT_TRUE(code == 2 || code == 4) << code << output_;
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  EXPECT_EQ(fs::file_size(folder_ / "keep.field.h5"), before);
+}
+
+TEST_F(Program, AnotherReducedModelThanTheRunsIsRefused) {
+  const Mesh6 mesh = box({1, 1, 1}, 1);
+  const auto other = fresh_folder("other_rom");
+  write_run(other, model_on(mesh, random_rows(mesh, 3, 2), 2000.0), {}, [](double) {
+    return Motion{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  });
+  fs::copy_file(other / "rom.h5", folder_ / "rom.h5", fs::copy_options::overwrite_existing);
+  fs::remove_all(other);
+  expect_refused("run.h5", "sha256");
+}
+
+}  // namespace
+}  // namespace clatter::recover
