@@ -5,7 +5,8 @@
 namespace clatter::recover {
 namespace {
 
-constexpr const char* kPhase = "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC";
+constexpr const char* kPhase =
+    "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC (at the first sample when nothing turns)";
 
 template <typename Values>
 void put(H5File& file, const std::string& name, const Values& values, const std::string& unit,
@@ -87,7 +88,7 @@ void write_axes(H5File& file, const std::string& at, const Analysis& analysis) {
     put(file, at + "/order", Eigen::VectorXd(frequency_hz / analysis.speed_hz), "1",
         "lines as engine orders: multiples of the crank's speed");
   put(file, at + "/power_factor", analysis.velocity.power_factor, "1",
-      "mean square = sum over lines of power_factor |X|^2");
+      "mean square = sum over lines of power_factor |X|^2; 1/2 over the taper's noise bandwidth");
   const ThirdOctaves& bands = analysis.bands;
   put(file, at + "/third_octave/mid_hz", bands.mid_hz, "Hz", "exact mid-bands, base ten");
   put(file, at + "/third_octave/lower_hz", bands.lower_hz, "Hz", "lower edges, mid 10^(-1/20)");

@@ -106,7 +106,7 @@ void write_lines(H5File& file, const Analysis& analysis, const std::vector<Chose
   describe(file, "lines/requested_hz", "Hz", "what was asked for; the nearest line was taken");
   file.set("lines", "analysis", analysis.piece.name);
   file.set("lines", "amplitude", "peak");
-  file.set("lines", "phase", "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC");
+  file.set("lines", "phase", file.get_string("/", "phase"));
 
   expand(skin.T, reduced, expansion_block(skin.T.rows()),
          [&](int64_t first, const Eigen::MatrixXd& u) {

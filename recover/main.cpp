@@ -48,7 +48,8 @@ int run(int argc, char** argv) {
   StepClock clock;
   const Config config = settings.empty() ? Config::parse("", "defaults") : Config::load(settings);
   const recover::Options options = recover::read_options(config);
-  say("options:\n" + config.resolved());
+  const std::string resolved = recover::resolved_text(options);
+  say("options:\n" + resolved);
   const recover::RunBody body(input, options.body);
   const ReducedModel model = body.read_model();
   clock.lap("read");
@@ -57,7 +58,7 @@ int run(int argc, char** argv) {
   const recover::Summary summary = recover::recover(body, model, options, file, clock);
   std::vector<fs::path> inputs{input, body.rom_path()};
   if (!settings.empty()) inputs.push_back(settings);
-  write_provenance(file, {recover::kFieldSchema, config.resolved(), inputs});
+  write_provenance(file, {recover::kFieldSchema, resolved, inputs});
   write_timing(file, clock);
   file.commit();
   recover::write_exports(output, summary);

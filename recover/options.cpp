@@ -127,48 +127,4 @@ Options read_options(const Config& config) {
   return options;
 }
 
-std::string options_help() {
-  const Options d;
-  const WindowRule w;
-  return fmt::format(R"(Configuration (slap.field.toml); every key may be left out:
-
-  body = "block"           # which body of the run
-  cycle = true             # analyse the last cycle: exact lines, 1/2 engine order apart
-  [spectrum]
-  from_hz = {:g}             # lower end of third octaves and totals
-  to_hz = 0                # upper end; 0: as far as the reduced basis holds
-  [air]
-  density = {:g}         # kg/m3
-  sound_speed = {:g}     # m/s
-  loss_factor = {:g}          # radiation loss factor of the ERP
-  [levels]
-  velocity_reference = {:g}      # m/s; ISO 1683 has 1e-9
-  acceleration_reference = {:g}  # m/s2
-  [frames]                 # instants at which the whole skin is written (ParaView)
-  from_deg = {:g}           # crank angle about firing TDC; or from_s, to_s, step_s
-  to_deg = {:g}
-  step_deg = {:g}
-  displacement = true
-  [lines]                  # frequencies at which the whole skin is written
-  frequencies_hz = [500]   # or orders = [2, 4]; with neither the
-  strongest = {}            # highest peaks of the radiated power
-  [[window]]               # a piece that is not periodic, with its own spectra
-  name = "{}"
-  from_deg = {:g}
-  to_deg = {:g}
-  taper = "{}"          # tukey, hann, flattop, none
-  [[sensor]]               # default: every set of kind "sensor"
-  set = "sensor_block"     # or name + position (m), optional direction
-  [[panel]]                # default: skin, exposed, and six sides
-  name = "oil_pan_rail"
-  direction = [0, 0, -1]   # outward normal within angle_deg = 45 of it
-  box_min = [-1, -1, -0.3]
-  box_max = [1, 1, -0.2]
-  exposed = true           # only faces with free sight along their normal)",
-                     d.spectrum.from_hz, d.air.density, d.air.sound_speed, d.air.loss_factor,
-                     d.references.velocity, d.references.acceleration, d.frames.span.from,
-                     d.frames.span.to, d.frames.step, d.lines.strongest, w.name, w.span.from,
-                     w.span.to, name_of(w.taper));
-}
-
 }  // namespace clatter::recover

@@ -65,6 +65,9 @@ struct Options {
 /// Reads the whole configuration; unknown keys are refused.
 Options read_options(const Config& config);
 
+/// Every choice, defaults included, as TOML that read_options() reads back to the same choices.
+std::string resolved_text(const Options& options);
+
 /// The configuration file explained, with the defaults filled in; for --help.
 std::string options_help();
 

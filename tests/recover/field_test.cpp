@@ -224,5 +224,20 @@ TEST(Options, UnknownKeysAndContradictionsAreRefused) {
   EXPECT_NE(options_help().find("velocity_reference = 5e-08"), std::string::npos);
 }
 
+TEST(Options, ResolvedTextReadsBackToTheSameChoices) {
+  const auto again = [](const Options& options) {
+    return resolved_text(read_options(Config::parse(resolved_text(options), "resolved")));
+  };
+  EXPECT_EQ(again(Options{}), resolved_text(Options{}));
+  const Options chosen = read_options(Config::parse(
+      "body = \"piston\"\n[frames]\nfrom_s = 0.01\nto_s = 0.02\nstep_s = 1e-4\n[lines]\norders = "
+      "[2, 4.5]\n"
+      "[[window]]\nname = \"w\"\ntaper = \"hann\"\n[[sensor]]\nname = \"p\"\nposition = [1, 2, 3]\n"
+      "[[panel]]\nname = \"top\"\ndirection = [0, 0, 1]\nangle_deg = 30\nexposed = true\n",
+      "chosen"));
+  EXPECT_EQ(again(chosen), resolved_text(chosen));
+  EXPECT_NE(resolved_text(chosen).find("step_s = 0.0001"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace clatter::recover
