@@ -1,0 +1,132 @@
+#include "condense/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "modal/eigen/dense_solver.hpp"
+
+namespace clatter::condense {
+namespace {
+
+constexpr double kMassLimit = 1e-9;    // hard case B5
+constexpr double kRigidLimit = 1e-10;  // hard case B4
+
+Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+  return rigid.transpose() * multiply_symmetric(M, rigid);
+}
+
+/// Of the free motions, each scaled to unit length so that metres and radians weigh alike.
+double stiffness_residue(const ReducedModel& reduced, const Eigen::MatrixXd& motions) {
+  if (motions.cols() == 0) return 0.0;
+  Eigen::MatrixXd r = reduced.rigid * motions;
+  r = r.colwise().normalized().eval();
+  return (reduced.K_rr * r).colwise().norm().maxCoeff() / reduced.K_rr.norm();
+}
+
+double scaled_condition(const Eigen::MatrixXd& M_rr) {
+  const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eig(
+      scale.asDiagonal() * M_rr * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  return eig.eigenvalues().maxCoeff() / eig.eigenvalues().minCoeff();
+}
+
+/// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
+void certify_spectrum(ReducedModel& reduced) {
+  auto& out = reduced.certificate;
+  const Eigen::VectorXd quotient = reduced.K_rr.diagonal().cwiseQuotient(reduced.M_rr.diagonal());
+  const double sigma = -0.1 * quotient.minCoeff();
+  const modal::EigenResult low = modal::solve_dense(reduced.K_rr, reduced.M_rr, sigma);
+  if (!low.ok()) throw NumericsError("reduced model: " + low.message);
+  double elastic = -sigma;
+  for (Eigen::Index j = low.values.size() - 1; j >= 0; --j) {
+    if (low.values[j] > -1e-6 * sigma) elastic = low.values[j];
+  }
+  out["rigid_modes"] = static_cast<double>((low.values.array().abs() < 1e-6 * elastic).count());
+  out["first_elastic_hz"] = modal::hz_of_value(elastic);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(reduced.K_rr, reduced.M_rr,
+                                                                      Eigen::EigenvaluesOnly);
+  if (all.info() != Eigen::Success) {
+    throw NumericsError("reduced model: M_rr is not positive definite");
+  }
+  out["max_frequency_hz"] = modal::hz_of_value(all.eigenvalues().maxCoeff());
+}
+
+void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
+  auto& out = reduced.certificate;
+  const Eigen::Index n_k = reduced.size() - reduced.n_boundary;
+  const Eigen::MatrixXd unit =
+      reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
+  out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
+  out["eigen_residual_max"] = source.residuals.size() > 0 ? source.residuals.maxCoeff() : 0.0;
+  out["fixed_interface_modes"] = static_cast<double>(n_k);
+  out["count_proved"] = source.proof.proved ? 1.0 : 0.0;
+  out["count_below"] = static_cast<double>(source.proof.below);
+  out["count_limit_hz"] = modal::hz_of_value(source.proof.limit);
+  out["cutoff_hz"] = source.cutoff_hz;
+  out["accurate_to_hz"] = 0.5 * source.cutoff_hz;
+}
+
+}  // namespace
+
+MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
+  MassProperties out;
+  out.mass = rigid_mass.topLeftCorner<3, 3>().trace() / 3.0;
+  // Column j is the momentum m e_j x c of a unit rotation about axis j.
+  const Eigen::Matrix3d S = rigid_mass.topRightCorner<3, 3>();
+  out.centre = Eigen::Vector3d(S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0));
+  out.centre *= 0.5 / out.mass;
+  const Eigen::Vector3d& c = out.centre;
+  const Eigen::Matrix3d about_origin = rigid_mass.bottomRightCorner<3, 3>();
+  out.inertia =
+      about_origin - out.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  return out;
+}
+
+MassError compare_mass(const MassProperties& found, const MassProperties& expected) {
+  MassError error;
+  const double moment = expected.inertia.norm();
+  const double gyration = std::sqrt(moment / expected.mass);
+  error.mass = std::abs(found.mass - expected.mass) / expected.mass;
+  error.centre = (found.centre - expected.centre).norm() / gyration;
+  error.inertia = (found.inertia - expected.inertia).norm() / moment;
+  return error;
+}
+
+void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
+             int dropped) {
+  auto& out = reduced.certificate;
+  const Eigen::MatrixXd motions = free_motions(model);
+  const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
+  const MassProperties found = mass_properties_of(reduced_mass);
+  const MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
+  out["rigid_stiffness_residue"] = stiffness_residue(reduced, motions);
+  out["rigid_shape_error"] = source.rigid_error;
+  out["mass_error"] = compare_mass(found, full).largest();
+  if (model.mass.mass > 0.0) {
+    out["mass_error_elements"] = compare_mass(found, model.mass).largest();
+  }
+  out["condition_M_rr"] = scaled_condition(reduced.M_rr);
+  out["dropped_vectors"] = dropped;
+  out["K_ii_rcond"] = source.factor.rcond;
+  out["K_ii_probe_residual"] = source.factor.probe_residual;
+  certify_spectrum(reduced);
+  certify_modes(reduced, source);
+  if (motions.cols() == 6 && !(out["mass_error"] <= kMassLimit)) {
+    throw NumericsError(
+        fmt::format("reduced model: mass properties differ by {:.1e} from the full "
+                    "model's, expected at most {:.0e}",
+                    out["mass_error"], kMassLimit));
+  }
+  if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||
+      out["rigid_modes"] != static_cast<double>(motions.cols())) {
+    throw NumericsError(fmt::format(
+        "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
+        "{:.0e}",
+        out["rigid_modes"], out["rigid_stiffness_residue"], motions.cols(), kRigidLimit));
+  }
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,34 @@
+#pragma once
+// What a reduced model proves about itself.
+#include <map>
+#include <string>
+
+#include "condense/craig_bampton.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// The largest relative differences of the ten mass properties.
+struct MassError {
+  double mass = 0.0;
+  double centre = 0.0;   // over the body's radius of gyration
+  double inertia = 0.0;  // over the largest principal moment
+  double largest() const { return std::max({mass, centre, inertia}); }
+};
+
+/// Ten mass properties from a 6 x 6 rigid mass matrix r^T M r about the origin.
+MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass);
+MassError compare_mass(const MassProperties& found, const MassProperties& expected);
+
+/// Fills `reduced.certificate`:
+/// rigid_stiffness_residue |K_rr r| / (|K_rr| |r|) of the free motions; rigid_modes, the zeros of
+/// (K_rr, M_rr); first_elastic_hz; mass_error (reduced against r^T M r of the FE matrices) and
+/// mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
+/// diagonal; max_frequency_hz; eigen_residual_max; modal_mass_error; count_proved, count_below and
+/// count_limit_hz; cutoff_hz and accurate_to_hz (half of it: there the frequencies hold to 0.1 %);
+/// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual.
+/// Throws NumericsError when the rigid motions or the mass did not survive the reduction.
+void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
+             int dropped);
+
+}  // namespace clatter::condense

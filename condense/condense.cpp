@@ -1,0 +1,142 @@
+#include "condense/condense.hpp"
+
+#include <fmt/format.h>
+
+#include "condense/certificate.hpp"
+#include "condense/recovery_rows.hpp"
+#include "core/log.hpp"
+
+namespace clatter::condense {
+namespace {
+
+void report_repeated(const DofPartition& partition) {
+  if (partition.repeated.empty()) return;
+  warn(fmt::format("boundary: {} DoFs stand in two sets and got one coordinate, the first is {}",
+                   partition.repeated.size(), partition.repeated.front()));
+}
+
+/// Projects M and K; vectors that depend on others are dropped first. Returns how many.
+int project_matrices(ReducedModel& reduced, CraigBampton& source, const PartitionedMatrix& K,
+                     const PartitionedMatrix& M) {
+  ReducedBasis& basis = source.basis;
+  reduced.M_rr = project(M, basis);
+  const std::vector<int> kept = independent_columns(reduced.M_rr, basis.n_boundary);
+  const int dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
+  if (dropped > 0) {
+    warn(fmt::format("{} basis vectors depend on others and were dropped", dropped));
+    std::vector<int> modes;
+    for (const int j : kept) {
+      if (j >= basis.n_boundary) modes.push_back(j - basis.n_boundary);
+    }
+    source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
+    source.residuals = source.residuals(modes).eval();
+    select_columns(basis, kept);
+    reduced.M_rr = reduced.M_rr(kept, kept).eval();
+  }
+  reduced.K_rr = project(K, basis);
+  return dropped;
+}
+
+/// The boundary rows of the rigid motions; fixed-interface modes take no part in them.
+Eigen::MatrixXd reduced_rigid(const assembly::FeModel& model, const DofPartition& partition,
+                              Eigen::Index size) {
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
+  const auto n_b = static_cast<Eigen::Index>(partition.boundary.size());
+  rigid.topRows(n_b) = model.rigid(partition.boundary, Eigen::all);
+  return rigid;
+}
+
+}  // namespace
+
+CondenseOptions read_condense_options(const Config& config) {
+  CondenseOptions options;
+  options.method = config.choice("method", {"craig-bampton", "guyan"});
+  options.boundary = config.texts("boundary");
+  if (options.boundary.empty()) config.fail("boundary", "found no set, expected one or more names");
+  options.skin = config.texts_or("skin", options.skin);
+  const bool guyan = options.method == "guyan";
+  if (config.has("count")) {
+    options.modes.count = static_cast<int>(config.integer("count", {1.0, 1e6}));
+  }
+  if (config.has("fmax_hz")) {
+    options.modes.fmax_hz = config.number("fmax_hz", Range::positive());
+  }
+  const bool by_count = options.modes.count > 0;
+  const bool by_frequency = options.modes.fmax_hz > 0.0;
+  if (guyan && (by_count || by_frequency)) {
+    config.fail(by_count ? "count" : "fmax_hz", "found with method guyan, which has no modes");
+  }
+  if (!guyan && by_count == by_frequency) {
+    config.fail("fmax_hz", "found both or neither of fmax_hz and count, expected one of them");
+  }
+  options.modes.prove_count = config.flag_or("prove_count", true);
+  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
+  options.modes.method =
+      solver == "arpack" ? modal::EigenMethod::kArpack : modal::EigenMethod::kBlockLanczos;
+  config.finish();
+  return options;
+}
+
+ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& options,
+                      StepClock& clock) {
+  const DofPartition partition = partition_dofs(model, options.boundary);
+  report_repeated(partition);
+  const PartitionedMatrix K = partition_matrix(model.K, partition);
+  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  clock.lap("partition");
+  CraigBampton source = craig_bampton(model, partition, K, M, options.modes, clock);
+
+  ReducedModel reduced;
+  reduced.name = model.name;
+  reduced.method = options.method;
+  reduced.n_boundary = static_cast<int>(partition.boundary.size());
+  reduced.alpha = model.alpha;
+  reduced.beta = model.beta;
+  reduced.sets = partition.sets;
+  reduced.grids = partition.grids;
+  reduced.mass = model.mass;
+  const int dropped = project_matrices(reduced, source, K, M);
+  reduced.rigid = reduced_rigid(model, partition, reduced.size());
+  for (const auto& [name, load] : model.loads) {
+    reduced.loads[name] = project_load(load, partition, source.basis);
+  }
+  clock.lap("reduced matrices and loads");
+  reduced.skin = recover_skin(model, partition, source.basis, options.skin);
+  clock.lap("skin rows");
+  reduced.fixed_interface_hz = source.fixed_interface_hz;
+  reduced.valid_to_hz = source.cutoff_hz;
+  certify(reduced, model, source, dropped);
+  clock.lap("certificate");
+  return reduced;
+}
+
+std::vector<std::string> describe(const ReducedModel& reduced) {
+  const auto& c = reduced.certificate;
+  const auto n_k = reduced.size() - reduced.n_boundary;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{}: {} boundary coordinates + {} fixed-interface modes = {} ({})",
+                              reduced.name, reduced.n_boundary, n_k, reduced.size(),
+                              reduced.method));
+  lines.push_back(
+      fmt::format("basis holds modes to {:.0f} Hz; frequencies to 0.1 % up to {:.0f} Hz",
+                  c.at("cutoff_hz"), c.at("accurate_to_hz")));
+  if (n_k > 0) {
+    const std::string proof =
+        c.at("count_proved") > 0.0
+            ? fmt::format("none is missing (inertia counts {:.0f} below {:.1f} Hz)",
+                          c.at("count_below"), c.at("count_limit_hz"))
+            : std::string("their number is not proved (prove_count = false)");
+    lines.push_back(fmt::format("fixed-interface modes: {}; largest residual {:.1e}", proof,
+                                c.at("eigen_residual_max")));
+  }
+  lines.push_back(
+      fmt::format("{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz",
+                  c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz")));
+  lines.push_back(fmt::format("mass {:.6g} kg, ten mass properties within {:.1e} of the full model",
+                              reduced.mass.mass, c.at("mass_error")));
+  lines.push_back(fmt::format("condition of M_rr {:.1e}, highest frequency {:.4g} Hz",
+                              c.at("condition_M_rr"), c.at("max_frequency_hz")));
+  return lines;
+}
+
+}  // namespace clatter::condense

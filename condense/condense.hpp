@@ -1,0 +1,34 @@
+#pragma once
+// From an assembled model to a reduced one.
+#include <string>
+#include <vector>
+
+#include "assembly/fe_model.hpp"
+#include "condense/craig_bampton.hpp"
+#include "core/config.hpp"
+#include "core/reduced_model.hpp"
+#include "core/stopwatch.hpp"
+
+namespace clatter::condense {
+
+/// The `.rom.toml`; defaults stand here.
+struct CondenseOptions {
+  std::string method = "craig-bampton";      // or "guyan"
+  std::vector<std::string> boundary;         // set names; their order is that of the coordinates
+  ModeRequest modes;                         // fixed-interface modes by fmax_hz or count
+  std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
+};
+
+/// Reads the options; InputError for unknown keys and senseless values.
+CondenseOptions read_condense_options(const Config& config);
+
+/// Reduces `model` by Guyan or Craig-Bampton (eq. 13, 14) and certifies the result. Steps and their
+/// times go to `clock`. Throws InputError (boundary, surfaces) and NumericsError (eigen-solver,
+/// count of modes, rigid motions or mass lost).
+ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& options,
+                      StepClock& clock);
+
+/// Lines that tell a user what the reduced model holds and what was proved.
+std::vector<std::string> describe(const ReducedModel& reduced);
+
+}  // namespace clatter::condense

@@ -1,0 +1,99 @@
+#include "condense/craig_bampton.hpp"
+
+#include <fmt/format.h>
+
+#include "condense/constraint_modes.hpp"
+#include "core/error.hpp"
+
+namespace clatter::condense {
+namespace {
+
+/// "node 12 (0.1, 0.2, 0.3) direction y" of an interior DoF, from the row of T that it moves most.
+std::string place_of(const assembly::FeModel& model, int32_t dof) {
+  Eigen::Index row = -1;
+  double largest = 0.0;
+  for (SparseMatrix::InnerIterator it(model.T, dof); it; ++it) {
+    if (std::abs(it.value()) <= largest) continue;
+    largest = std::abs(it.value());
+    row = it.row();
+  }
+  if (row < 0) return fmt::format("DoF {}", dof);
+  const Eigen::RowVector3d at = model.nodes.row(row / 3);
+  return fmt::format("node {} ({:.4g}, {:.4g}, {:.4g}) direction {}", row / 3, at.x(), at.y(),
+                     at.z(), "xyz"[row % 3]);
+}
+
+modal::CholmodFactor factorise_interior(const assembly::FeModel& model,
+                                        const DofPartition& partition, const SparseMatrix& K_ii) {
+  try {
+    return modal::CholmodFactor(K_ii);
+  } catch (const modal::NotPositiveDefinite& error) {
+    const std::string where =
+        error.column < 0
+            ? std::string{}
+            : ", at " + place_of(model, partition.interior[static_cast<size_t>(error.column)]);
+    throw modal::NotPositiveDefinite(
+        fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
+                    "look for a part of the mesh that is not connected",
+                    error.what(), where),
+        error.column);
+  }
+}
+
+modal::EigenOptions eigen_options(const ModeRequest& request) {
+  modal::EigenOptions options;
+  options.count = request.count;
+  options.fmax_hz = request.fmax_hz;
+  options.prove_count = request.prove_count;
+  options.method = request.method;
+  options.sigma = 0.0;  // K_ii itself is definite, and its factor is there
+  return options;
+}
+
+void assemble_basis(CraigBampton& out, Eigen::MatrixXd&& Psi_ib, const Eigen::MatrixXd& Phi_ik) {
+  const Eigen::Index n_b = Psi_ib.cols();
+  const Eigen::Index r = n_b + Phi_ik.cols();
+  out.basis.n_boundary = static_cast<int>(n_b);
+  out.basis.V_b = Eigen::MatrixXd::Identity(n_b, r);
+  out.basis.V_i = std::move(Psi_ib);
+  out.basis.V_i.conservativeResize(Eigen::NoChange, r);
+  out.basis.V_i.rightCols(Phi_ik.cols()) = Phi_ik;
+}
+
+}  // namespace
+
+CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& partition,
+                           const PartitionedMatrix& K, const PartitionedMatrix& M,
+                           const ModeRequest& request, StepClock& clock) {
+  check_boundary_holds(model, partition);
+  const modal::CholmodFactor factor = factorise_interior(model, partition, K.ii);
+  CraigBampton out;
+  out.factor = factor.report();
+  clock.lap(
+      fmt::format("factor of K_ii ({:.3g} entries)", static_cast<double>(out.factor.entries)));
+  Eigen::MatrixXd Psi_ib = constraint_modes(factor, K.ib);
+  const Eigen::MatrixXd motions = model.rigid * free_motions(model);
+  out.rigid_error = restore_rigid_motions(Psi_ib, motions(partition.boundary, Eigen::all),
+                                          motions(partition.interior, Eigen::all));
+  clock.lap(fmt::format("{} constraint modes", Psi_ib.cols()));
+
+  const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
+  ModeRequest search = request;
+  if (guyan) search.count = 1;
+  modal::ModeSet modes = modal::solve_modes(K.ii, M.ii, eigen_options(search), &factor);
+  clock.lap(fmt::format("{} fixed-interface modes", modes.size()));
+  out.proof = modes.proof;
+  out.cutoff_hz =
+      request.fmax_hz > 0.0 ? request.fmax_hz : modal::hz_of_value(modes.values.tail(1)[0]);
+  if (guyan) {
+    modes.values.resize(0);
+    modes.vectors.resize(K.ii.rows(), 0);
+    modes.residuals.resize(0);
+  }
+  out.fixed_interface_hz = modes.values.unaryExpr(&modal::hz_of_value);
+  out.residuals = modes.residuals;
+  assemble_basis(out, std::move(Psi_ib), modes.vectors);
+  return out;
+}
+
+}  // namespace clatter::condense

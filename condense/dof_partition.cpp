@@ -1,0 +1,147 @@
+#include "condense/dof_partition.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace clatter::condense {
+namespace {
+
+/// Distances of rotations are measured at the body's own size.
+double characteristic_length(const assembly::FeModel& model) {
+  const Eigen::RowVector3d span =
+      model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff();
+  return std::max(0.5 * span.norm(), 1e-12);
+}
+
+/// Rotations about a far point look like displacements, so any turn at all is called a rotation.
+std::string motion_name(const Eigen::VectorXd& motion, double length) {
+  const Eigen::Vector3d shift = motion.head(3), turn = motion.tail(3);
+  const bool turns = turn.norm() * length > 1e-3 * shift.norm();
+  Eigen::Index axis = 0;
+  (turns ? turn : shift).cwiseAbs().maxCoeff(&axis);
+  return fmt::format("{} {}", turns ? "rotation about" : "displacement along", "xyz"[axis]);
+}
+
+}  // namespace
+
+Eigen::MatrixXd free_motions(const assembly::FeModel& model) {
+  // An M-orthonormal basis of the motions first: a row of points has no rotation about itself.
+  const Eigen::MatrixXd mass = model.rigid.transpose() * multiply_symmetric(model.M, model.rigid);
+  const Eigen::VectorXd scale =
+      mass.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(scale.asDiagonal() * mass *
+                                                            scale.asDiagonal());
+  const Eigen::Index moving = (gram.eigenvalues().array() > 1e-12).count();
+  const Eigen::MatrixXd unit =
+      scale.asDiagonal() * gram.eigenvectors().rightCols(moving) *
+      gram.eigenvalues().tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
+
+  const Eigen::MatrixXd motion = model.rigid * unit;
+  const Eigen::MatrixXd energy = motion.transpose() * multiply_symmetric(model.K, motion);
+  // Rounding leaves about 1e-15 of the energy that the DoFs would have each by itself.
+  const Eigen::VectorXd alone = motion.cwiseAbs2().transpose() * model.K.diagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eig(0.5 * (energy + energy.transpose()));
+  const Eigen::Index count = (eig.eigenvalues().array() < 1e-10 * alone.maxCoeff()).count();
+  return unit * eig.eigenvectors().leftCols(count);
+}
+
+DofPartition partition_dofs(const assembly::FeModel& model,
+                            const std::vector<std::string>& set_names) {
+  DofPartition partition;
+  std::vector<int32_t> coordinate(static_cast<size_t>(model.size()), -1);
+  for (const std::string& name : set_names) {
+    if (partition.sets.contains(name)) {
+      throw InputError(fmt::format("boundary: set \"{}\" is named twice", name));
+    }
+    DofSet set = model.set(name);
+    if (set.dofs.empty()) throw InputError(fmt::format("boundary: set \"{}\" is empty", name));
+    for (size_t k = 0; k < set.dofs.size(); ++k) {
+      const int32_t dof = set.dofs[k];
+      int32_t& here = coordinate[static_cast<size_t>(dof)];
+      if (here >= 0) {
+        partition.repeated.push_back(k < set.labels.size() ? set.labels[k] : name);
+      } else {
+        here = static_cast<int32_t>(partition.boundary.size());
+        partition.boundary.push_back(dof);
+      }
+      set.dofs[k] = here;
+    }
+    partition.sets[name] = std::move(set);
+    const auto grid = model.grids.find(name);
+    if (grid != model.grids.end()) partition.grids[name] = grid->second;
+  }
+  if (partition.boundary.empty()) {
+    throw InputError("boundary: found no set, expected the names of one or more");
+  }
+  for (int32_t dof = 0; dof < model.size(); ++dof) {
+    if (coordinate[static_cast<size_t>(dof)] < 0) partition.interior.push_back(dof);
+  }
+  if (partition.interior.empty()) {
+    throw InputError("boundary: found every degree of freedom, expected some left inside");
+  }
+  return partition;
+}
+
+PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition) {
+  const auto n = static_cast<size_t>(lower.cols());
+  const auto n_i = static_cast<int>(partition.interior.size());
+  const auto n_b = static_cast<int>(partition.boundary.size());
+  std::vector<int> place(n);
+  std::vector<char> is_boundary(n, 0);
+  for (int k = 0; k < n_i; ++k) place[static_cast<size_t>(partition.interior[k])] = k;
+  for (int k = 0; k < n_b; ++k) {
+    place[static_cast<size_t>(partition.boundary[k])] = k;
+    is_boundary[static_cast<size_t>(partition.boundary[k])] = 1;
+  }
+  std::vector<Eigen::Triplet<double>> ii, ib;
+  ii.reserve(static_cast<size_t>(lower.nonZeros()));
+  PartitionedMatrix blocks;
+  blocks.bb = Eigen::MatrixXd::Zero(n_b, n_b);
+  for (int j = 0; j < lower.outerSize(); ++j) {
+    const bool column_b = is_boundary[static_cast<size_t>(j)] != 0;
+    const int q = place[static_cast<size_t>(j)];
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      const bool row_b = is_boundary[static_cast<size_t>(it.row())] != 0;
+      const int p = place[static_cast<size_t>(it.row())];
+      if (row_b && column_b) {
+        blocks.bb(p, q) = blocks.bb(q, p) = it.value();
+      } else if (row_b) {
+        ib.emplace_back(q, p, it.value());
+      } else if (column_b) {
+        ib.emplace_back(p, q, it.value());
+      } else {
+        ii.emplace_back(p, q, it.value());  // ascending places keep p >= q
+      }
+    }
+  }
+  blocks.ii.resize(n_i, n_i);
+  blocks.ii.setFromTriplets(ii.begin(), ii.end());
+  blocks.ib.resize(n_i, n_b);
+  blocks.ib.setFromTriplets(ib.begin(), ib.end());
+  return blocks;
+}
+
+void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition) {
+  const Eigen::MatrixXd motions = free_motions(model);
+  if (motions.cols() == 0) return;
+  const Eigen::MatrixXd held = model.rigid(partition.boundary, Eigen::all) * motions;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
+  const Eigen::VectorXd& strength = svd.singularValues();
+  const double limit = 1e-6 * strength.maxCoeff();
+  Eigen::Index rank = 0;
+  while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
+  if (rank == motions.cols()) return;
+  const Eigen::VectorXd loose = motions * svd.matrixV().col(motions.cols() - 1);
+  throw InputError(fmt::format(
+      "boundary: its {} coordinates hold {} of the body's {} rigid motions; free is a {}: add a "
+      "set that holds it",
+      partition.boundary.size(), rank, motions.cols(),
+      motion_name(loose, characteristic_length(model))));
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,47 @@
+#pragma once
+// The split of a model's degrees of freedom into boundary (retained) and interior ones.
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assembly/fe_model.hpp"
+#include "core/sparse.hpp"
+
+namespace clatter::condense {
+
+/// Boundary DoFs b in the order of the reduced coordinates, interior DoFs i ascending.
+struct DofPartition {
+  std::vector<int32_t> boundary;             // n_b indices into the model
+  std::vector<int32_t> interior;             // n_i indices into the model
+  std::map<std::string, DofSet> sets;        // the boundary sets; `dofs` index the reduced model
+  std::map<std::string, ContactGrid> grids;  // of those sets that are contact grids
+  std::vector<std::string> repeated;         // labels that name a DoF which was already retained
+};
+
+/// Boundary = the DoFs of the named sets, set by set. A DoF that stands in several sets gets one
+/// coordinate, which all of them share (hard case B3). InputError for an unknown or empty set, or
+/// when nothing is left inside.
+DofPartition partition_dofs(const assembly::FeModel& model,
+                            const std::vector<std::string>& set_names);
+
+/// A symmetric matrix in blocks, A = [A_ii A_ib; A_bi A_bb].
+struct PartitionedMatrix {
+  SparseMatrix ii;     // n_i x n_i, lower triangle
+  SparseMatrix ib;     // n_i x n_b
+  Eigen::MatrixXd bb;  // n_b x n_b, both triangles
+};
+
+/// @param lower n x n, lower triangle.
+PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition);
+
+/// The rigid motions that cost no energy in K, as combinations of the six unit motions: 6 x m, with
+/// m = 6 for a free body and 0 for one on its own supports.
+Eigen::MatrixXd free_motions(const assembly::FeModel& model);
+
+/// Refuses a boundary that leaves the body free to move by one of its `free_motions`:
+/// InputError naming the motion.
+void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition);
+
+}  // namespace clatter::condense

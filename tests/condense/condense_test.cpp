@@ -1,0 +1,257 @@
+// Craig-Bampton against hand figures, against the full model, and its invariants.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "condense/certificate.hpp"
+#include "condense/condense.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "modal/eigen/dense_solver.hpp"
+#include "tests/condense/box_model.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::box_model;
+
+CondenseOptions options_for(std::vector<std::string> boundary, int count) {
+  CondenseOptions options;
+  options.boundary = std::move(boundary);
+  options.modes.count = count;
+  options.skin = {};
+  if (count == 0) options.method = "guyan";
+  return options;
+}
+
+ReducedModel reduce(const assembly::FeModel& model, const CondenseOptions& options) {
+  set_quiet(true);
+  StepClock clock;
+  return condense(model, options, clock);
+}
+
+/// Free modes of the reduced model, with a shift below the first elastic one.
+modal::EigenResult reduced_modes(const ReducedModel& reduced) {
+  const double first = reduced.certificate.at("first_elastic_hz");
+  return modal::solve_dense(reduced.K_rr, reduced.M_rr, -0.1 * modal::value_of_hz(first));
+}
+
+TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
+  // K = tridiag(-1, 2, -1) with last entry 1, M = diag(2, 2, 2, 1), boundary = last mass.
+  assembly::FeModel model;
+  model.K = test::from_triplets(4, {{0, 0, 2.0},
+                                    {1, 1, 2.0},
+                                    {2, 2, 2.0},
+                                    {3, 3, 1.0},
+                                    {1, 0, -1.0},
+                                    {2, 1, -1.0},
+                                    {3, 2, -1.0}});
+  model.M = test::diagonal(Eigen::Vector4d(2.0, 2.0, 2.0, 1.0));
+  model.nodes = RowMatrix::Random(4, 3);
+  model.rigid = MatrixXd::Zero(4, 6);
+  model.rigid.col(0).setOnes();  // not free: the chain is held at its first mass
+  model.sets["end"].dofs = {3};
+  const DofPartition partition = partition_dofs(model, {"end"});
+  const PartitionedMatrix K = partition_matrix(model.K, partition);
+  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  ModeRequest request;
+  request.count = 3;
+  set_quiet(true);
+  StepClock clock;
+  const CraigBampton result = craig_bampton(model, partition, K, M, request, clock);
+  const MatrixXd K_rr = project(K, result.basis);
+  const MatrixXd M_rr = project(M, result.basis);
+  const double eps = 1e-12;  // a few roundings of numbers of order one
+  const Eigen::Vector4d expected(0.25, 1.0 - 1.0 / std::sqrt(2.0), 1.0, 1.0 + 1.0 / std::sqrt(2.0));
+  EXPECT_LT((K_rr - MatrixXd(expected.asDiagonal())).cwiseAbs().maxCoeff(), eps);
+  EXPECT_NEAR(M_rr(0, 0), 2.75, eps);
+  EXPECT_NEAR(std::abs(M_rr(0, 1)), (1.0 + std::sqrt(2.0)) / 2.0, eps);
+  EXPECT_NEAR(std::abs(M_rr(0, 2)), 0.5, eps);
+  EXPECT_NEAR(std::abs(M_rr(0, 3)), (std::sqrt(2.0) - 1.0) / 2.0, eps);  // 0.207107
+  EXPECT_LT((M_rr.bottomRightCorner(3, 3) - MatrixXd::Identity(3, 3)).norm(), eps);
+}
+
+TEST(CraigBamptonTest, EveryModeBelowHalfTheCutOffIsWithinATenthOfAPercent) {
+  const auto model = box_model();
+  CondenseOptions options = options_for({"left", "right", "point"}, 0);
+  options.method = "craig-bampton";
+  const VectorXd full =
+      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
+                         modal::default_shift(model.K, model.M))
+          .values;
+  options.modes.fmax_hz = modal::hz_of_value(full[70]);
+  const ReducedModel reduced = reduce(model, options);
+  const VectorXd small = reduced_modes(reduced).values;
+  int compared = 0;
+  for (Eigen::Index j = 6; modal::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j) {
+    const double f = modal::hz_of_value(full[j]);
+    EXPECT_NEAR(modal::hz_of_value(small[j]), f, 1e-3 * f) << j;
+    EXPECT_GE(small[j], full[j] * (1.0 - 1e-9)) << "a subspace cannot lower a mode";
+    ++compared;
+  }
+  EXPECT_GT(compared, 5);
+}
+
+TEST(CraigBamptonTest, AllModesGiveTheFullSpectrum) {
+  const auto model = box_model(4, 3, 3);
+  const int interior = model.size() - 15;
+  const ReducedModel reduced = reduce(model, options_for({"left", "right"}, interior));
+  const VectorXd full =
+      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
+                         modal::default_shift(model.K, model.M))
+          .values;
+  const VectorXd small = reduced_modes(reduced).values;
+  ASSERT_EQ(small.size(), full.size());
+  EXPECT_LT((small - full)
+                .tail(full.size() - 6)
+                .cwiseQuotient(full.tail(full.size() - 6))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-8);
+}
+
+TEST(CraigBamptonTest, GuyanKeepsStaticResponsesExactly) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, options_for({"left", "right"}, 0));
+  ASSERT_EQ(reduced.size(), 15);
+  // Hold "left", pull at "right": the full model's displacement there.
+  VectorXd force = VectorXd::Zero(model.size());
+  const auto& right = model.sets.at("right").dofs;
+  for (size_t k = 0; k < right.size(); ++k) force[right[k]] = 1.0 + static_cast<double>(k);
+  MatrixXd held = modal::dense_symmetric(model.K);
+  for (const int dof : model.sets.at("left").dofs) {
+    held.row(dof).setZero();
+    held.col(dof).setZero();
+    held(dof, dof) = 1.0;
+  }
+  const VectorXd u = held.llt().solve(force);
+  const VectorXd expected = u(right);
+  const VectorXd f_r = force(right);
+  const VectorXd found = reduced.K_rr.bottomRightCorner(6, 6).llt().solve(f_r);
+  EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(CraigBamptonTest, LoadsDoTheSameWorkOnEveryBasisVector) {
+  const auto model = box_model();
+  CondenseOptions options = options_for({"left", "right"}, 20);
+  options.skin = {"skin"};
+  const ReducedModel reduced = reduce(model, options);
+  // A rigid shift by x: the work of the load is its resultant.
+  const double resultant = model.loads.at("pull").sum();
+  EXPECT_NEAR(reduced.loads.at("pull").dot(reduced.rigid.col(0)), resultant, 1e-9 * resultant);
+  const double moment = model.loads.at("pull").dot(model.rigid.col(4));
+  EXPECT_NEAR(reduced.loads.at("pull").dot(reduced.rigid.col(4)), moment, 1e-9 * std::abs(moment));
+}
+
+TEST(CraigBamptonTest, SkinRowsCarryRigidMotionsToTheirNodes) {
+  const auto model = box_model();
+  CondenseOptions options = options_for({"left", "right"}, 10);
+  options.skin = {"skin"};
+  const ReducedModel reduced = reduce(model, options);
+  const MatrixXd u = reduced.skin.T * reduced.rigid;
+  ASSERT_EQ(reduced.skin.triangles.cols(), 6);
+  for (Eigen::Index a = 0; a < reduced.skin.nodes.rows(); ++a) {
+    const Eigen::Vector3d r = reduced.skin.nodes.row(a);
+    const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(r);
+    EXPECT_LT((u.block<3, 1>(3 * a, 5) - turned).norm(), 1e-11);
+    EXPECT_LT((u.block<3, 1>(3 * a, 1) - Eigen::Vector3d::UnitY()).norm(), 1e-11);
+  }
+}
+
+TEST(CraigBamptonTest, BoundaryCoordinatesAreTheDisplacementsOfTheirDofs) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, options_for({"right", "left"}, 5));
+  EXPECT_EQ(reduced.set("right").dofs.front(), 0);  // order of the sets as given
+  EXPECT_EQ(reduced.set("left").dofs.front(), 6);
+  for (const std::string name : {"left", "right"}) {
+    const auto& full = model.sets.at(name);
+    const auto& small = reduced.set(name);
+    EXPECT_EQ(small.labels, full.labels);
+    for (size_t k = 0; k < full.dofs.size(); ++k)
+      EXPECT_LT((reduced.rigid.row(small.dofs[k]) - model.rigid.row(full.dofs[k])).norm(), 1e-15);
+  }
+}
+
+TEST(CertificateTest, MassPropertiesOfARigidMassMatrixAreItsOwn) {
+  const auto box = test::spring_box(3, 4, 5);
+  const MatrixXd rigid_mass = box.rigid.transpose() * MatrixXd(box.M) * box.rigid;
+  const MassProperties found = mass_properties_of(rigid_mass);
+  EXPECT_LT(compare_mass(found, test::point_mass_properties(box)).largest(), 1e-13);
+}
+
+TEST(CertificateTest, SaysWhetherTheCountWasProved) {
+  const auto model = box_model();
+  CondenseOptions options = options_for({"left", "right"}, 10);
+  EXPECT_EQ(reduce(model, options).certificate.at("count_proved"), 1.0);
+  options.modes.prove_count = false;
+  EXPECT_EQ(reduce(model, options).certificate.at("count_proved"), 0.0);
+}
+
+TEST(BadInput, UnknownSetsAndSurfacesNameThosePresent) {
+  const auto model = box_model();
+  try {
+    reduce(model, options_for({"left", "rigth"}, 5));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("right"), std::string::npos) << error.what();
+  }
+  CondenseOptions options = options_for({"left"}, 5);
+  options.skin = {"skni"};
+  EXPECT_THROW(reduce(model, options), InputError);
+}
+
+TEST(BadInput, ABoundaryThatDoesNotHoldTheBodyIsRefusedWithTheMotion) {
+  const auto model = box_model();
+  try {
+    reduce(model, options_for({"point"}, 5));  // one node: three rotations stay free
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("rotation"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BadInput, ALoosePartIsNamedByItsPlace) {
+  auto model = box_model(4, 3, 3);
+  const int n = model.size();
+  // A second body that nothing holds.
+  const auto both = test::twice({model.K, model.M});
+  model.K = both.K;
+  model.M = both.M;
+  model.nodes.conservativeResize(2 * n / 3, 3);
+  model.nodes.bottomRows(n / 3) = model.nodes.topRows(n / 3).array() + 1.0;
+  model.rigid.conservativeResize(2 * n, 6);
+  for (int a = n / 3; a < 2 * n / 3; ++a) {
+    const Eigen::RowVector3d r = model.nodes.row(a);
+    model.rigid.block<3, 3>(3 * a, 0).setIdentity();
+    model.rigid.block<3, 3>(3 * a, 3) << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
+  }
+  model.T.resize(2 * n, 2 * n);
+  model.T.setIdentity();
+  try {
+    reduce(model, options_for({"left"}, 5));
+    FAIL();
+  } catch (const modal::NotPositiveDefinite& error) {
+    EXPECT_NE(std::string(error.what()).find("not connected"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BadInput, SenselessOptionsAreRefused) {
+  const auto parse = [](const std::string& text) {
+    return read_condense_options(Config::parse(text, "box.rom.toml"));
+  };
+  EXPECT_NO_THROW(parse("boundary = [\"left\"]\nfmax_hz = 1000.0\n"));
+  EXPECT_THROW(parse("boundary = [\"left\"]\n"), InputError);
+  EXPECT_THROW(parse("boundary = [\"left\"]\nfmax_hz = -5.0\n"), InputError);
+  EXPECT_THROW(parse("boundary = [\"left\"]\nfmax_hz = nan\n"), InputError);
+  EXPECT_THROW(parse("boundary = [\"left\"]\nfmax_hz = 10.0\ncount = 4\n"), InputError);
+  EXPECT_THROW(parse("boundary = []\nfmax_hz = 10.0\n"), InputError);
+  EXPECT_THROW(parse("boundary = [\"left\"]\nmethod = \"guyan\"\ncount = 4\n"), InputError);
+  EXPECT_THROW(parse("boundary = [\"left\"]\nfmaxhz = 10.0\n"), InputError);
+}
+
+}  // namespace
+}  // namespace clatter::condense

@@ -1,0 +1,105 @@
+// What breaks reduced bodies in practice (hard cases B3, B4, B5, B8).
+#include <gtest/gtest.h>
+
+#include <Eigen/SVD>
+
+#include "condense/certificate.hpp"
+#include "condense/condense.hpp"
+#include "core/log.hpp"
+#include "modal/eigen/dense_solver.hpp"
+#include "tests/condense/box_model.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::box_model;
+
+ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary, int count) {
+  CondenseOptions options;
+  options.boundary = std::move(boundary);
+  options.modes.count = count;
+  options.skin = {};
+  set_quiet(true);
+  StepClock clock;
+  return condense(model, options, clock);
+}
+
+TEST(HardB3, ARepeatedInterfaceDofGetsOneCoordinate) {
+  const auto model = box_model();
+  const ReducedModel once = reduce(model, {"left", "point"}, 12);
+  const ReducedModel twice = reduce(model, {"left", "point", "same_point"}, 12);
+  EXPECT_EQ(twice.size(), once.size());
+  EXPECT_EQ(twice.set("same_point").dofs, twice.set("point").dofs);
+  EXPECT_LT((twice.K_rr - once.K_rr).norm(), 1e-12 * once.K_rr.norm());
+}
+
+TEST(HardB3, ADuplicatedModeIsDroppedAndTheAnswerStays) {
+  const auto model = box_model();
+  const DofPartition partition = partition_dofs(model, {"left", "right"});
+  const PartitionedMatrix K = partition_matrix(model.K, partition);
+  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  ModeRequest request;
+  request.count = 10;
+  set_quiet(true);
+  StepClock clock;
+  CraigBampton source = craig_bampton(model, partition, K, M, request, clock);
+  const MatrixXd K_once = project(K, source.basis);
+  ReducedBasis& basis = source.basis;
+  const Eigen::Index r = basis.size();
+  basis.V_i.conservativeResize(Eigen::NoChange, r + 1);
+  basis.V_b.conservativeResize(Eigen::NoChange, r + 1);
+  basis.V_i.col(r) = 3.0 * basis.V_i.col(r - 4) - basis.V_i.col(2);  // a mode and a static shape
+  basis.V_b.col(r) = 3.0 * basis.V_b.col(r - 4) - basis.V_b.col(2);
+  const std::vector<int> kept = independent_columns(project(M, basis), basis.n_boundary);
+  ASSERT_EQ(static_cast<Eigen::Index>(kept.size()), r);
+  EXPECT_EQ(kept.back(), r - 1);
+  select_columns(basis, kept);
+  EXPECT_LT((project(K, basis) - K_once).norm(), 1e-12 * K_once.norm());
+}
+
+TEST(HardB4, SixRigidMotionsSurviveWithoutStiffness) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, {"left", "right", "point"}, 25);
+  for (int d = 0; d < 6; ++d) {
+    const VectorXd r = reduced.rigid.col(d).normalized();
+    EXPECT_LT((reduced.K_rr * r).norm(), 1e-10 * reduced.K_rr.norm()) << d;
+  }
+  EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);
+}
+
+TEST(HardB5, TenMassPropertiesEqualTheFullModels) {
+  const auto model = box_model();
+  for (const int count : {1, 10, 40}) {
+    const ReducedModel reduced = reduce(model, {"left", "right"}, count);
+    const MassProperties found =
+        mass_properties_of(reduced.rigid.transpose() * reduced.M_rr * reduced.rigid);
+    EXPECT_LT(compare_mass(found, model.mass).largest(), 1e-9) << count;
+    EXPECT_LT(reduced.certificate.at("mass_error"), 1e-9);
+    EXPECT_LT(reduced.certificate.at("mass_error_elements"), 1e-9);
+  }
+}
+
+TEST(HardB8, ADoubleModeSpansTheSamePlaneInBothSolvers) {
+  // Two equal bodies: each pair of equal modes mixes freely, the plane of the pair does not.
+  const auto box = test::spring_box(9, 4, 4);
+  const auto twice = test::twice(box);
+  modal::EigenOptions options;
+  options.count = 16;
+  const modal::ModeSet block = modal::solve_modes(twice.K, twice.M, options);
+  options.method = modal::EigenMethod::kArpack;
+  options.seed = 77;
+  const modal::ModeSet arpack = modal::solve_modes(twice.K, twice.M, options);
+  ASSERT_EQ(block.rigid, 12);
+  const MatrixXd M = MatrixXd(twice.M);
+  for (int pair = 12; pair < 16; pair += 2) {
+    const MatrixXd overlap =
+        block.vectors.middleCols(pair, 2).transpose() * M * arpack.vectors.middleCols(pair, 2);
+    const VectorXd cosines = Eigen::JacobiSVD<MatrixXd>(overlap).singularValues();
+    EXPECT_GT(cosines.minCoeff(), 1.0 - 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace clatter::condense
