@@ -1,0 +1,27 @@
+#pragma once
+// Sparse M and K of a mesh, on nodal displacements.
+#include <vector>
+
+#include "assembly/material.hpp"
+#include "assembly/pattern.hpp"
+#include "core/sparse.hpp"
+#include "mesh/mesh.hpp"
+
+namespace clatter::assembly {
+
+/// M q'' + K q = f on 3 n_nodes nodal displacements, node-major (3 a + d); lower triangles.
+struct NodalMatrices {
+  SparseMatrix M;  // [kg]
+  SparseMatrix K;  // [N/m], singular: six rigid motions
+};
+
+/// Assembles all cells; `materials` has one entry a region of the mesh.
+///
+/// Cells go through in chunks: their matrices are computed in parallel, then added in parallel,
+/// each thread to the columns of its own nodes and in the order of the cells. So every entry is
+/// summed in one order, and the bits do not depend on the thread count. Beyond M, K and the
+/// pattern only one chunk is held. InputError names an inverted cell.
+NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                       const NodePattern& pattern);
+
+}  // namespace clatter::assembly

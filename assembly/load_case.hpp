@@ -1,0 +1,24 @@
+#pragma once
+// Consistent nodal forces of unit load cases, on nodal displacements (3 n_nodes).
+#include <Eigen/Core>
+
+#include "assembly/surface_integral.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::assembly {
+
+/// Force of 1 Pa that pushes on a surface: f_a = - int N_a n dA [N/Pa].
+Eigen::VectorXd pressure_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface);
+
+/// A resultant `force` [N] spread evenly over a surface: f_a = force w_a / A. It acts at the
+/// centroid: no moment about it.
+Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface,
+                               const Eigen::Vector3d& force);
+
+/// A force [N] and moment [N m] on a set, in the model's coordinates (size n). The force is shared
+/// evenly by the places of the set. InputError, beginning with `where`, when the set has no
+/// coordinate that takes a part of it.
+Eigen::VectorXd set_load(Eigen::Index n, const DofSet& set, const Eigen::Vector3d& force,
+                         const Eigen::Vector3d& moment, const std::string& where);
+
+}  // namespace clatter::assembly

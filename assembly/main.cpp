@@ -1,0 +1,93 @@
+// clatter-assembly: from a mesh to sparse mass and stiffness matrices.
+#include <fmt/format.h>
+
+#include "assembly/build.hpp"
+#include "core/artefact.hpp"
+#include "core/command_line.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "mesh/mesh_file.hpp"
+
+namespace {
+
+constexpr const char* kSummary =
+    "Assembles a part's mass and stiffness matrices, couples reference nodes and contact patches "
+    "to "
+    "them, and makes unit load cases.";
+
+constexpr const char* kEpilog = R"(Sample:
+  clatter-assembly block.mesh.h5 -c block.fe.toml -o block.fe.h5
+
+The smallest fe.toml names a material for each region of the mesh:
+  [material.cast_iron]
+  regions = ["block"]
+  E_gpa = 110.0        # or E [Pa]
+  nu = 0.26
+  rho = 7200.0         # [kg/m3]
+
+Further tables, any number of each:
+  [damping]       ratio at at_hz, or alpha and beta:  D = alpha K + beta M
+  [[support]]     surface or node_set held at zero
+  [[coupling]]    reference node (6 or 3 DoFs) that rides on a surface: bearings, mounts, pins
+  [[contact]]     grid of patches on a cylinder surface, one radial DoF each
+  [[mean]]        mean displacement of a surface along a direction
+  [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
+  [[point_mass]]  mass and inertia on a coupling, sensor or node set
+  [[load]]        pressure, resultant, force or gravity
+
+assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
+Next: clatter-modal block.fe.h5, clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
+
+void print_summary(const clatter::assembly::FeModel& model, double seconds, bool json) {
+  const clatter::MassProperties& mass = model.mass;
+  clatter::say(fmt::format("{}: {} DoFs, {} entries in K, {} sets, {} loads", model.name,
+                           model.size(), model.K.nonZeros(), model.sets.size(),
+                           model.loads.size()));
+  clatter::say(fmt::format("mass {:.6g} kg, centre ({:.6g}, {:.6g}, {:.6g}) m", mass.mass,
+                           mass.centre(0), mass.centre(1), mass.centre(2)));
+  const Eigen::Matrix3d& J = mass.inertia;
+  clatter::say(
+      fmt::format("inertia about it: xx {:.6g} yy {:.6g} zz {:.6g} xy {:.4g} yz {:.4g} zx "
+                  "{:.4g} kg m2",
+                  J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(2, 0)));
+  if (!json) return;
+  clatter::print_json({{"name", clatter::json_text(model.name)},
+                       {"dofs", fmt::format("{}", model.size())},
+                       {"nonzeros_K", fmt::format("{}", model.K.nonZeros())},
+                       {"mass_kg", clatter::json_number(mass.mass)},
+                       {"seconds", clatter::json_number(seconds)}});
+}
+
+int run(int argc, char** argv) {
+  using namespace clatter;
+  std::filesystem::path mesh_path, config_path, output_path;
+  CommandLine line("clatter-assembly", kSummary, kEpilog);
+  line.positional("mesh", mesh_path, "mesh of the part (.mesh.h5)");
+  line.option("-c,--config", config_path, "materials, couplings, sets, loads (.fe.toml)", true);
+  line.option("-o,--output", output_path, "the model to write (.fe.h5)", true);
+  if (!line.parse(argc, argv)) return line.exit_code();
+
+  StepClock clock;
+  const mesh::Mesh mesh = mesh::read_mesh(mesh_path);
+  const Config config = Config::load(config_path);
+  const assembly::Recipe recipe = assembly::read_recipe(config, mesh);
+  clock.lap("read");
+  const assembly::BuiltModel built = assembly::build_fe_model(mesh, recipe, clock);
+  print_summary(built.model, clock.total_seconds(), line.common().json);
+
+  H5File file = H5File::create(output_path);
+  write_provenance(file, {assembly::kFeSchema, config.resolved(), {mesh_path, config_path}});
+  assembly::write_fe_model(file, built.model);
+  write_certificate(file, built.certificate);
+  clock.lap("write");
+  write_timing(file, clock);
+  file.commit();
+  write_depfile(line.common().depfile, output_path, {mesh_path, config_path});
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return clatter::run_guarded("clatter-assembly", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,26 @@
+#pragma once
+// Integrals of shape functions over a surface of linear or quadratic triangles.
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/sparse.hpp"
+
+namespace clatter::assembly {
+
+/// Integrals over a surface, node by node; k = 0 ... n_s - 1 counts the surface's own nodes.
+struct SurfaceIntegrals {
+  std::vector<int32_t> nodes;  // n_s mesh nodes, ascending
+  Eigen::VectorXd weight;      // w_k = int N_k dA [m2]: consistent area, sums to `area`
+  RowMatrix normal;            // n_s x 3: int N_k n dA [m2], n outward
+  SparseMatrix gram;           // n_s x n_s, int N_k N_l dA [m2], both triangles
+  double area = 0.0;           // [m2]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // [m]
+};
+
+/// `coordinates` n x 3 [m]; `triangles` f x 6 or f x 3. The corner nodes of a flat quadratic
+/// triangle get w = 0 and its middles a third of the area each: this is what reproduces a constant
+/// pressure exactly.
+SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const IndexMatrix& triangles);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <random>
+
+#include "assembly/assemble.hpp"
+#include "assembly/coupling.hpp"
+#include "assembly/elimination.hpp"
+#include "assembly/mass_properties.hpp"
+#include "block_mesh.hpp"
+#include "core/error.hpp"
+#include "small_solver.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+/// A random symmetric positive definite matrix (lower) and functionals on it.
+struct RandomModel {
+  SparseMatrix A;
+  Coupling coupling;
+  std::vector<int32_t> fixed = {4, 17, 18};
+};
+
+RandomModel random_model(int n) {
+  RandomModel model;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd B = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
+  Eigen::MatrixXd A = B * B.transpose();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (std::abs(i - j) > 7) A(i, j) = 0.0;  // holes, so that structure matters
+  A.diagonal().array() += 100.0 * n;
+  model.A = Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
+  for (int r = 0; r < 3; ++r) {
+    Functional row;
+    for (int k = 0; k < 9; ++k) {
+      row.dofs.push_back(5 * r + 2 * k);
+      row.values.push_back(normal(generator));
+    }
+    model.coupling.rows.push_back(row);
+    model.coupling.set.labels.push_back("row");
+  }
+  return model;
+}
+
+TEST(AssemblyHard, HardE3_InPlaceTransformEqualsTheDenseProductOfCopies) {
+  RandomModel model = random_model(40);
+  Eliminator eliminator(40, model.fixed, {2, 7});
+  eliminator.add(model.coupling, "test");
+  const Elimination elimination = eliminator.finish();
+  ASSERT_EQ(elimination.size(), 37);  // 40 less 3 fixed; 3 pivots make way for 3 coordinates
+  const Eigen::MatrixXd T = elimination.T;
+  const Eigen::MatrixXd want = T.transpose() * full(model.A) * T;
+  const SparseMatrix got = transform(SparseMatrix(model.A), elimination);
+  EXPECT_LT((full(got) - want).cwiseAbs().maxCoeff(), 1e-12 * want.cwiseAbs().maxCoeff());
+  // And it is a lower triangle with ascending rows.
+  for (Eigen::Index c = 0; c < got.cols(); ++c) {
+    Eigen::Index last = c - 1;
+    for (SparseMatrix::InnerIterator it(got, c); it; ++it) {
+      EXPECT_GT(it.row(), last);
+      last = it.row();
+    }
+  }
+}
+
+TEST(AssemblyHard, HardE3_CouplingsOneByOneEqualAllAtOnce) {
+  // Later rows hold pivots of earlier ones: substitution in both directions.
+  RandomModel model = random_model(40);
+  Eliminator together(40, model.fixed, {});
+  together.add(model.coupling, "test");
+  Eliminator apart(40, model.fixed, {});
+  for (const Functional& row : model.coupling.rows) {
+    Coupling one;
+    one.rows = {row};
+    one.set.labels = {"row"};
+    apart.add(one, "test");
+  }
+  for (const Eliminator* eliminator : {&together, &apart}) {
+    const Elimination e = eliminator->finish();
+    const Eigen::MatrixXd T = e.T;
+    for (int g = 0; g < 3; ++g) {
+      Eigen::RowVectorXd c = Eigen::RowVectorXd::Zero(40);
+      const Functional& row = model.coupling.rows[static_cast<size_t>(g)];
+      for (size_t k = 0; k < row.dofs.size(); ++k) c(row.dofs[k]) = row.values[k];
+      // C T must be the unit row of the coordinate.
+      const Eigen::RowVectorXd unit = Eigen::RowVectorXd::Unit(e.size(), e.first_generalised + g);
+      EXPECT_LT((c * T - unit).cwiseAbs().maxCoeff(), 1e-12 * T.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST(AssemblyHard, HardE4_AMatrixBeyond32BitIndicesIsRefusedBeforeMemoryIsTaken) {
+  // 1.3 M nodes with 80 neighbours each, half of them counted: fits; three times as many do not.
+  EXPECT_NO_THROW(predict_size(1'300'000, 1'300'000LL * 40));
+  EXPECT_EQ(predict_size(2, 1).stiffness, 21);  // 6 x 7 / 2
+  EXPECT_EQ(predict_size(2, 1).mass, 9);
+  try {
+    predict_size(8'000'000, 8'000'000LL * 40);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("2928000000 entries"), std::string::npos)
+        << error.what();
+  }
+  // The assembler asks the same question: a pattern that claims too much gets no further.
+  NodePattern pattern;
+  pattern.start = {0, 1'000'000'000'000};
+  mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
+  EXPECT_THROW(assemble(mesh, materials_of(mesh), pattern), InputError);
+}
+
+TEST(AssemblyHard, HardB5_TenMassPropertiesSurviveCouplingsAndPointMasses) {
+  BlockOptions options;
+  options.curved = options.wrap_x = true;
+  mesh::Mesh mesh = block_mesh({8, 1, 3}, ring(0.04, 0.06, 0.1), options);
+  mesh.nodes.rowwise() += Eigen::RowVector3d(0.3, -0.1, 0.2);
+  const BuiltModel built = build(mesh, R"(
+[[coupling]]
+name = "pin"
+surface = "y0"
+[[coupling]]
+name = "foot"
+surface = "z0"
+dofs = 3
+[[point_mass]]
+on = "pin"
+mass = 0.7
+inertia = [0.002, 0.003, 0.004]
+[[point_mass]]
+on = "foot"
+mass = 0.4
+)");
+  EXPECT_LT(built.certificate.at("mass_error"), 1e-9);
+  EXPECT_LT(built.certificate.at("centre_error"), 1e-9);
+  EXPECT_LT(built.certificate.at("inertia_error"), 1e-9);
+  EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
+  // Nothing lost: the ring by itself, and the two masses.
+  const double ring_mass = integrate_mass(mesh, materials_of(mesh)).mass;
+  EXPECT_NEAR(built.model.mass.mass, ring_mass + 1.1, 1e-12);
+  // M stays definite although two masses have no or little rotary inertia.
+  EXPECT_EQ(full(built.model.M).llt().info(), Eigen::Success);
+}
+
+TEST(AssemblyHard, HardB6_ADistributingCouplingLetsTheBoreOvaliseAndARigidOneDoesNot) {
+  BlockOptions options;
+  options.curved = options.wrap_x = true;
+  const mesh::Mesh mesh = block_mesh({12, 1, 1}, ring(0.05, 0.058, 0.03), options);
+  const std::string rest = R"(
+[[coupling]]
+name = "bore"
+surface = "y0"
+)";
+  const FeModel plain = build(mesh, "").model;
+  const FeModel coupled = build(mesh, rest).model;
+  // A patch load: +-y forces on the outside, balanced, so the free ring needs no support.
+  const SurfaceIntegrals outside = integrate_surface(mesh.nodes, mesh.surface("y1").triangles);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
+  Eigen::Index top = 0, bottom = 0;
+  for (size_t k = 0; k < outside.nodes.size(); ++k) {
+    const Eigen::RowVector3d x = mesh.nodes.row(outside.nodes[k]);
+    const double patch = std::abs(x(0)) < 0.016 ? outside.weight(static_cast<Eigen::Index>(k)) : 0;
+    f(3 * outside.nodes[k] + 1) = x(1) > 0.0 ? -patch : patch;
+  }
+  const std::vector<int32_t> bore = mesh::nodes_of(mesh.surface("y0"));
+  for (const int32_t node : bore) {
+    if (mesh.nodes(node, 1) > mesh.nodes(top, 1) || top == 0) top = node;
+    if (mesh.nodes(node, 1) < mesh.nodes(bottom, 1) || bottom == 0) bottom = node;
+  }
+  const auto ovalisation = [&](const SparseMatrix& K, const Eigen::MatrixXd& T) {
+    // A free body under balanced load: the mass-like shift on rigid motions fixes the rest.
+    Eigen::MatrixXd stiffness = full(K);
+    const Eigen::MatrixXd rigid =
+        T.colPivHouseholderQr().solve(Eigen::MatrixXd(plain.T * plain.rigid));
+    const double scale = stiffness.diagonal().mean() / rigid.squaredNorm();
+    stiffness += scale * rigid * rigid.transpose();
+    const Eigen::VectorXd u = T * stiffness.llt().solve(T.transpose() * f);
+    return u(3 * top + 1) - u(3 * bottom + 1);
+  };
+  const double want = ovalisation(plain.K, Eigen::MatrixXd(plain.T));
+  EXPECT_NEAR(ovalisation(coupled.K, Eigen::MatrixXd(coupled.T)) / want, 1.0, 0.05);
+
+  // The rigid counterpart (RBE2): the bore's displacements are six numbers.
+  Eigen::MatrixXd rigid_T = Eigen::MatrixXd::Zero(3 * mesh.nodes.rows(), 0);
+  Eigen::MatrixXd free_columns =
+      Eigen::MatrixXd::Identity(3 * mesh.nodes.rows(), 3 * mesh.nodes.rows());
+  std::vector<Eigen::Index> keep;
+  Eigen::MatrixXd bore_motion = Eigen::MatrixXd::Zero(3 * mesh.nodes.rows(), 6);
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
+    if (std::binary_search(bore.begin(), bore.end(), static_cast<int32_t>(a)))
+      bore_motion.middleRows<3>(3 * a) = rigid_motion(mesh.nodes.row(a).transpose());
+    else
+      for (int d = 0; d < 3; ++d) keep.push_back(3 * a + d);
+  }
+  rigid_T.resize(3 * mesh.nodes.rows(), static_cast<Eigen::Index>(keep.size()) + 6);
+  rigid_T << free_columns(Eigen::all, keep), bore_motion;
+  const Eigen::MatrixXd K_rigid = rigid_T.transpose() * full(plain.K) * rigid_T;
+  const SparseMatrix lower = Eigen::MatrixXd(K_rigid.triangularView<Eigen::Lower>()).sparseView();
+  EXPECT_LT(std::abs(ovalisation(lower, rigid_T) / want), 0.5);
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+
+#include "assembly/load_case.hpp"
+#include "assembly/mass_properties.hpp"
+#include "block_mesh.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "small_solver.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+mesh::Mesh bar() { return block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4})); }
+
+TEST(LoadCase, PressureOnAClosedSkinHasNoResultant) {
+  BlockOptions options;
+  options.curved = options.wrap_x = true;
+  const mesh::Mesh mesh = block_mesh({8, 1, 2}, ring(0.04, 0.06, 0.1), options);
+  const FeModel model =
+      build(mesh, "[[load]]\nname = \"p\"\nkind = \"pressure\"\nsurface = \"skin\"\n").model;
+  const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("p");
+  EXPECT_LT(resultant.norm(), 1e-15);  // against 0.01 m2 of skin, times rounding
+  EXPECT_EQ(model.load_units.at("p"), "Pa");
+}
+
+TEST(LoadCase, PressurePushesAgainstTheFaceWithItsArea) {
+  const FeModel model =
+      build(bar(), "[[load]]\nname = \"gas\"\nkind = \"pressure\"\nsurface = \"z1\"\n").model;
+  const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("gas");
+  // 1 Pa on 0.1 x 0.2 m2 at (0.05, 0.1, 0.4), downwards: F_z = -0.02, M_x = y F_z, M_y = -x F_z.
+  const Eigen::VectorXd want = (Eigen::VectorXd(6) << 0, 0, -0.02, -0.002, 0.001, 0).finished();
+  EXPECT_LT((resultant - want).norm(), 1e-15);
+}
+
+TEST(LoadCase, AResultantIsSpreadEvenlyAndActsAtTheCentroid) {
+  const FeModel model = build(bar(), R"(
+[[load]]
+name = "head"
+kind = "resultant"
+surface = "z1"
+direction = [0.0, 0.0, 2.0]
+total = 8.992e-3
+unit = "Pa"
+)")
+                            .model;
+  const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("head");
+  EXPECT_NEAR(resultant(2), 8.992e-3, 1e-16);
+  EXPECT_NEAR(resultant(3), 0.1 * 8.992e-3, 1e-16);
+  EXPECT_EQ(model.load_units.at("head"), "Pa");
+}
+
+TEST(LoadCase, GravityIsTheWeightOfElementsAndPointMasses) {
+  const FeModel model = build(bar(), R"(
+[[coupling]]
+name = "top"
+surface = "z1"
+[[point_mass]]
+on = "top"
+mass = 3.0
+inertia = [0.01, 0.02, 0.025]
+[[load]]
+name = "weight"
+kind = "gravity"
+direction = [0.0, 0.0, -1.0]
+)")
+                            .model;
+  const double m = 7800.0 * 0.1 * 0.2 * 0.4 + 3.0;
+  const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("weight");
+  EXPECT_NEAR(resultant(2) / -m, 1.0, 1e-12);
+  EXPECT_NEAR(resultant(3) / -(0.1 * m), 1.0, 1e-12);  // both centres lie at y = 0.1
+  EXPECT_NEAR(model.mass.mass / m, 1.0, 1e-13);
+}
+
+TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {
+  const FeModel model = build(bar(), R"(
+[[coupling]]
+name = "top"
+surface = "z1"
+[[load]]
+name = "push"
+kind = "force"
+set = "top"
+force = [1.0, 2.0, 0.0]
+moment = [0.0, 0.0, 4.0]
+)")
+                            .model;
+  const DofSet& top = model.set("top");
+  const Eigen::VectorXd& f = model.loads.at("push");
+  EXPECT_DOUBLE_EQ(f(top.dofs[0]), 1.0);
+  EXPECT_DOUBLE_EQ(f(top.dofs[1]), 2.0);
+  EXPECT_DOUBLE_EQ(f(top.dofs[5]), 4.0);
+  EXPECT_DOUBLE_EQ(f.norm(), std::sqrt(21.0));
+}
+
+TEST(LoadCase, AMomentOnPlainNodesIsRefused) {
+  EXPECT_THROW(build(bar(),
+                     "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
+                     "0.4]\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = \"s\"\nmoment = "
+                     "[1.0, 0.0, 0.0]\n"),
+               InputError);
+}
+
+TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {
+  const std::string coupling = "[[coupling]]\nname = \"pin\"\nsurface = \"z1\"\n";
+  const FeModel bare = build(bar(), coupling).model;
+  const FeModel loaded = build(bar(), coupling +
+                                          "[[point_mass]]\non = \"pin\"\nmass = 2.0\ninertia "
+                                          "= [0.3, 0.2, 0.4, 0.01, 0.02, 0.03]\n")
+                             .model;
+  Eigen::MatrixXd change = full(loaded.M) - full(bare.M);
+  const std::vector<int32_t>& dofs = loaded.set("pin").dofs;
+  Eigen::MatrixXd want = Eigen::MatrixXd::Zero(6, 6);
+  want.diagonal() << 2.0, 2.0, 2.0, 0.3, 0.2, 0.4;
+  want(3, 4) = want(4, 3) = 0.01;
+  want(4, 5) = want(5, 4) = 0.02;
+  want(3, 5) = want(5, 3) = 0.03;
+  EXPECT_LT((change(dofs, dofs) - want).norm(), 1e-13);
+  change(dofs, dofs).setZero();
+  EXPECT_EQ(change.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(PointMass, OnASoftBarGivesTheOscillatorsFrequency) {
+  // A mass of 1000 bars on a clamped bar in pure stretch (nu = 0): w^2 = E A / (L (m + bar / 3)).
+  const mesh::Mesh mesh = bar();
+  set_quiet(true);
+  const Config config = Config::parse(R"(
+[material.cork]
+regions = ["body"]
+E = 1e6
+nu = 0.0
+rho = 1.0
+[[support]]
+surface = "z0"
+[[coupling]]
+name = "top"
+surface = "z1"
+[[point_mass]]
+on = "top"
+mass = 8.0
+inertia = [1e6, 1e6, 1e6]
+)",
+                                      "cork.fe.toml");
+  StepClock clock;
+  const FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
+  const Eigen::VectorXd f = Eigen::VectorXd::Unit(model.size(), model.set("top").dofs[2]);
+  const double compliance = f.dot(full(model.K).llt().solve(f));
+  EXPECT_NEAR(compliance / (0.4 / (1e6 * 0.02)), 1.0, 1e-10);
+}
+
+TEST(Damping, ARatioAtAFrequencyGivesAlpha) {
+  const FeModel model = build(bar(), "[damping]\nratio = 0.02\nat_hz = 2000.0\n").model;
+  const double omega = 2.0 * std::numbers::pi * 2000.0;
+  EXPECT_NEAR(0.5 * model.alpha * omega, 0.02, 1e-16);
+  EXPECT_EQ(model.beta, 0.0);
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing

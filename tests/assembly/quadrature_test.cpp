@@ -1,0 +1,64 @@
+#include "assembly/quadrature.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace clatter::assembly {
+namespace {
+
+double factorial(int n) { return std::tgamma(n + 1.0); }
+
+double worst_tet_error(const TetRule& rule, int degree) {
+  double worst = 0.0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j)
+      for (int k = 0; i + j + k <= degree; ++k) {
+        double sum = 0.0;
+        for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+          sum += rule.weights(q) * std::pow(rule.points(q, 0), i) * std::pow(rule.points(q, 1), j) *
+                 std::pow(rule.points(q, 2), k);
+        // int x^i y^j z^k = i! j! k! / (i + j + k + 3)!
+        const double exact = factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
+        worst = std::max(worst, std::abs(sum - exact) / exact);
+      }
+  return worst;
+}
+
+TEST(Quadrature, TetRulesIntegrateEveryMonomialOfTheirDegree) {
+  // 1e-14: tabulated to 20 digits; 1e-12: points from a 4 x 4 eigenproblem, up to 7th powers.
+  EXPECT_LT(worst_tet_error(tet_rule_1(), 1), 1e-14);
+  EXPECT_LT(worst_tet_error(tet_rule_4(), 2), 1e-14);
+  EXPECT_LT(worst_tet_error(tet_rule_14(), 5), 1e-13);
+  EXPECT_LT(worst_tet_error(tet_rule_64(), 7), 1e-12);
+}
+
+TEST(Quadrature, TetRulesAreNotExactBeyondTheirDegree) {
+  EXPECT_GT(worst_tet_error(tet_rule_1(), 2), 1e-3);
+  EXPECT_GT(worst_tet_error(tet_rule_4(), 3), 1e-3);
+  EXPECT_GT(worst_tet_error(tet_rule_14(), 6), 1e-4);
+}
+
+TEST(Quadrature, AllWeightsArePositiveAndAllPointsInside) {
+  for (const TetRule* rule : {&tet_rule_1(), &tet_rule_4(), &tet_rule_14(), &tet_rule_64()}) {
+    EXPECT_GT(rule->weights.minCoeff(), 0.0);
+    EXPECT_GT(rule->points.minCoeff(), 0.0);
+    EXPECT_LT(rule->points.rowwise().sum().maxCoeff(), 1.0);
+  }
+}
+
+TEST(Quadrature, TriangleRuleIntegratesDegreeSeven) {
+  const TriangleRule& rule = triangle_rule_16();
+  for (int i = 0; i <= 7; ++i)
+    for (int j = 0; i + j <= 7; ++j) {
+      double sum = 0.0;
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+        sum += rule.weights(q) * std::pow(rule.points(q, 0), i) * std::pow(rule.points(q, 1), j);
+      const double exact = factorial(i) * factorial(j) / factorial(i + j + 2);
+      EXPECT_NEAR(sum / exact, 1.0, 1e-12) << i << " " << j;
+    }
+}
+
+}  // namespace
+}  // namespace clatter::assembly
