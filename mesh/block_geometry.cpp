@@ -28,10 +28,13 @@ void check_block(const Config& t, const BlockParameters& p) {
   require(t, p.liner_bottom() > 0.5 * p.stroke, "liner_length",
           fmt::format("found {}, expected the liner to end above the crank pin's circle (z = {})",
                       p.liner_length, 0.5 * p.stroke));
-  require(t, p.jacket_bottom() > p.liner_bottom(), "jacket_depth",
-          "expected the jacket to end above the liner: it needs a lower land");
-  require(t, p.crankcase_top > p.liner_bottom() && p.crankcase_top < p.jacket_top(),
-          "crankcase_top", "expected between the liner's lower end and the deck plate");
+  require(t, p.end_wall + p.jacket_thickness > p.liner_wall, "end_wall",
+          "expected to stand clear of the opening around the last liner");
+  require(t, p.jacket_bottom() > p.roof(), "jacket_depth",
+          fmt::format("found {}, expected less than {}: the liner needs a lower land",
+                      p.jacket_depth, p.jacket_top() - p.roof()));
+  require(t, p.crankcase_top > p.roof() && p.crankcase_top < p.jacket_top(), "crankcase_top",
+          "expected between the crankcase's roof and the deck plate");
   require(t, p.shoulder_height > 0.0 && p.shoulder_height < p.liner_bottom(), "shoulder_height",
           "expected between the crank axis and the liner's lower end");
   require(t, p.crankcase_half_width - p.crankcase_wall > 0.5 * p.stroke + 0.35 * p.bore,
@@ -45,6 +48,10 @@ void check_block(const Config& t, const BlockParameters& p) {
   require(t, p.bearing_wall_bottom > -0.5 * p.bearing_boss && p.bearing_wall_bottom < 0.0,
           "bearing_wall_bottom", "expected between the boss's lower edge and the crank axis");
 }
+
+// Half width of the openings in the bearing walls, of the liner's radius: wider than the part of
+// the liner that stands above the wall.
+constexpr double kWindow = 0.75;
 
 // --- solids --------------------------------------------------------------------------------------
 
@@ -70,7 +77,7 @@ Solid outer_shell(GmshSession& s, const BlockParameters& p) {
   const Solid crankcase = symmetric_prism(
       s, {{w, -p.skirt_depth}, {w, p.shoulder_height}, {top_half_width(p), p.crankcase_top}}, -l,
       l);
-  const double low = 0.5 * (p.liner_bottom() + p.crankcase_top);  // inside the crankcase's roof
+  const double low = 0.5 * (p.roof() + p.crankcase_top);  // inside the crankcase's roof
   const double plate = p.housing_radius() + p.deck_overhang;
   Solids parts;
   for (int i = 0; i < p.cylinders; ++i) {
@@ -101,7 +108,7 @@ double inner_slope(const BlockParameters& p, double z) {
 }
 
 Solids hollows(GmshSession& s, const BlockParameters& p) {
-  const double w = p.crankcase_half_width - p.crankcase_wall, roof = p.liner_bottom();
+  const double w = p.crankcase_half_width - p.crankcase_wall, roof = p.roof();
   // Where the vertical inner wall meets the inner slope.
   const double dy = p.crankcase_half_width - top_half_width(p);
   const double slope = dy / (p.crankcase_top - p.shoulder_height);
@@ -116,6 +123,11 @@ Solids hollows(GmshSession& s, const BlockParameters& p) {
     tools.push_back(upright(s, x, p.jacket_radius(), p.jacket_bottom(), p.jacket_top()));
     tools.push_back(upright(s, x, p.liner_radius(), roof, p.deck_height + 1.0));
   }
+  // The bearing walls are open around the liners' free lower ends: the chambers breathe there.
+  const double reach = p.x_of_cylinder(p.cylinders - 1) + p.liner_radius() + p.liner_wall;
+  const double window = kWindow * p.liner_radius();
+  tools.push_back(
+      s.box({-reach, -window, p.liner_bottom() - p.liner_protrusion}, {reach, window, roof}));
   const double end = p.half_length() - 1.5 * p.end_wall;
   tools.push_back(s.box({-end, -w, below}, {end, w, p.bearing_wall_bottom}));
   return tools;
@@ -176,15 +188,15 @@ NamedSurface in_plane(const std::string& name, const Vector3d& normal, double he
 }
 
 NamedSurface outer_surface(const BlockParameters& p) {
-  const double roof = p.liner_bottom(), w = p.crankcase_half_width - p.crankcase_wall;
+  const double roof = p.roof(), w = p.crankcase_half_width - p.crankcase_wall;
   const double r = p.jacket_radius(), deck = p.deck_height, pan = -p.skirt_depth;
   SurfaceFilter filter;
   filter.outside = {
-      {{-kFar, -w, pan}, {kFar, w, roof}},                                 // crankcase
-      {{-kFar, -r, p.jacket_bottom()}, {kFar, r, p.jacket_top()}},         // jackets
-      {{-kFar, -p.liner_radius(), roof}, {kFar, p.liner_radius(), deck}},  // bores
-      {{-kFar, -kFar, pan}, {kFar, kFar, pan}},                            // pan flange
-      {{-kFar, -kFar, deck}, {kFar, kFar, deck}},                          // deck
+      {{-kFar, -w, pan}, {kFar, w, roof}},                                // crankcase
+      {{-kFar, -r, p.jacket_bottom()}, {kFar, r, p.jacket_top()}},        // jackets
+      {{-kFar, -p.liner_radius(), 0.0}, {kFar, p.liner_radius(), deck}},  // bores
+      {{-kFar, -kFar, pan}, {kFar, kFar, pan}},                           // pan flange
+      {{-kFar, -kFar, deck}, {kFar, kFar, deck}},                         // deck
   };
   return {"outer", {filter}};
 }
@@ -239,6 +251,7 @@ BlockParameters read_block(const Config& t) {
   length("deck_overhang", p.deck_overhang);
   length("liner_wall", p.liner_wall);
   length("liner_length", p.liner_length);
+  length("liner_protrusion", p.liner_protrusion);
   length("jacket_thickness", p.jacket_thickness);
   length("jacket_depth", p.jacket_depth);
   length("outer_wall", p.outer_wall);

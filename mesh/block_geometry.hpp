@@ -8,7 +8,7 @@
 //        z                 deck plate ============ deck_height
 //        |               scallop | jacket | liner | bore ...       head bolt columns between
 //        |                       |________|       |                cylinders
-//        |      crankcase_top ___/  lower deck    | _____ liner bottom = crankcase roof
+//        |      crankcase_top ___/  lower deck    | _____ crankcase roof; liners end below
 //        |                   /                      \            .
 //        |  shoulder_height |   chamber, bearing     |           mount pads outside
 //        +---- crank axis   |   walls with bosses    |
@@ -25,7 +25,8 @@ struct BlockParameters {
   double deck_height = 345, deck_thickness = 16;      // above the crank axis; of the top plate
   double deck_overhang = 4;                           // of the plate over the housing's walls
   double liner_wall = 7, liner_length = 230;
-  double jacket_thickness = 9, jacket_depth = 190;  // water around the liner; below the deck plate
+  double liner_protrusion = 10;                     // below the lower deck, free in the chamber
+  double jacket_thickness = 9, jacket_depth = 185;  // water around the liner; below the deck plate
   double outer_wall = 6, end_wall = 8;              // housing around the jacket; front and rear
   double column_width = 22, column_reach = 72;      // head bolt columns: along x; to |y|
   double crankcase_half_width = 128, crankcase_wall = 7;
@@ -43,6 +44,7 @@ struct BlockParameters {
   double housing_radius() const { return jacket_radius() + outer_wall; }
   double half_length() const { return x_of_cylinder(cylinders - 1) + jacket_radius() + end_wall; }
   double liner_bottom() const { return deck_height - liner_length; }
+  double roof() const { return liner_bottom() + liner_protrusion; }  // of the crankcase chambers
   double jacket_top() const { return deck_height - deck_thickness; }
   double jacket_bottom() const { return jacket_top() - jacket_depth; }
 };

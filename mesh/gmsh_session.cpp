@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 
 #include "mesh/gmsh_call.hpp"
 
@@ -157,12 +158,31 @@ void GmshSession::generate(const SizeSettings& settings) {
   });
 }
 
-void GmshSession::move_nodes(const RawMesh& raw) {
-  gmsh_call("gmsh: moving nodes", [&] {
-    for (size_t i = 0; i < raw.node_tags.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      gmsh::model::mesh::setNode(raw.node_tags[i],
-                                 {raw.nodes(row, 0), raw.nodes(row, 1), raw.nodes(row, 2)}, {});
+void GmshSession::replace_cells(const RawMesh& raw) {
+  gmsh_call("gmsh: replacing cells", [&] {
+    gmsh::vectorpair solids;
+    gmsh::model::getEntities(solids, 3);
+    gmsh::model::mesh::clear(solids);
+    std::vector<size_t> present;
+    std::vector<double> xyz, parameters;
+    gmsh::model::mesh::getNodes(present, xyz, parameters, -1, -1, false, false);
+    std::set<size_t> known(present.begin(), present.end());
+    std::vector<size_t> tags = raw.node_tags;
+    size_t next = std::max(tags.back(), known.empty() ? 0 : *known.rbegin());
+    while (tags.size() < static_cast<size_t>(raw.nodes.rows())) tags.push_back(++next);
+    for (const auto& [solid, cells] : raw.cells) {
+      std::vector<size_t> inner, corners;
+      std::vector<double> places;
+      for (Eigen::Index i = 0; i < cells.size(); ++i) {
+        const int32_t row = cells.data()[i];
+        const size_t tag = tags[static_cast<size_t>(row)];
+        corners.push_back(tag);
+        if (!known.insert(tag).second) continue;
+        inner.push_back(tag);
+        for (int d = 0; d < 3; ++d) places.push_back(raw.nodes(row, d));
+      }
+      gmsh::model::mesh::addNodes(3, solid, inner, places);
+      gmsh::model::mesh::addElementsByType(solid, kTet4, {}, corners);
     }
   });
 }

@@ -88,8 +88,9 @@ class GmshSession {
   // --- mesh (gmsh_session.cpp) ---
   /// Linear tetrahedra in all solids, anew at each call. NumericsError when Gmsh fails.
   void generate(const SizeSettings& settings);
-  /// Puts the nodes of a linear mesh where `raw` has them.
-  void move_nodes(const RawMesh& raw);
+  /// Replaces the cells and inner nodes of a linear mesh by those of `raw`; rows of `nodes` beyond
+  /// `node_tags` are new nodes. The boundary stays.
+  void replace_cells(const RawMesh& raw);
   /// Makes the cells quadratic; middle nodes of boundary edges go onto the geometry.
   void make_quadratic();
   /// Moves middle nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).

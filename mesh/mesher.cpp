@@ -8,7 +8,8 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh/smooth.hpp"
+#include "mesh/sliver.hpp"
+#include "mesh/unfold.hpp"
 #include "mesh/validity.hpp"
 
 namespace clatter::mesh {
@@ -99,8 +100,8 @@ Mesh linear_mesh(const RawMesh& raw) {
   return mesh;
 }
 
-// Slivers that smoothing cannot lift have no inner node: the size does not fit a thin wall or a
-// sharp corner. Finer cells there make room for better ones.
+// Where slivers cannot be lifted, the size does not fit a thin wall or a sharp corner. Finer cells
+// there make room for better ones.
 std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   std::vector<FineSpot> spots;
   for (const CellBlock& block : mesh.cells) {
@@ -124,9 +125,12 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
     session.generate(trial);
     RawMesh raw = session.extract();
     Mesh linear = linear_mesh(raw);
-    lift_slivers(linear, target);
-    raw.nodes = linear.nodes;
-    session.move_nodes(raw);
+    if (lift_slivers(linear, target).before > 0) {
+      raw.nodes = linear.nodes;
+      size_t b = 0;
+      for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
+      session.replace_cells(raw);
+    }
     return linear;
   };
   SizeSettings best = sizes;
@@ -149,21 +153,29 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
   session.make_quadratic();
 }
 
-/// What the repair had to do.
+/// What there was to repair.
 struct Repair {
   size_t invalid_before = 0;
   double min_ratio_before = 0.0;
+  bool elastic = false;  // the local search was not enough
 };
 
-Repair make_valid(GmshSession& session, const PartGeometry& part, double metres_per_unit,
-                  Mesh& mesh) {
+// Folded cells are unfolded near by; if some stay, Gmsh's elastic smoother moves the whole mesh.
+Repair make_valid(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                  double metres_per_unit, Mesh& mesh) {
   const ValidityReport before = check_validity(mesh);
-  const Repair repair{before.invalid.size(), before.min_ratio};
-  if (before.invalid.empty()) return repair;
-  say(fmt::format("mesh: {} curved cells are folded, repairing", before.invalid.size()));
-  session.repair_curved_cells();
-  mesh = convert(session.extract(), part, metres_per_unit);
-  const ValidityReport after = check_validity(mesh);
+  Repair repair{before.invalid.size(), before.min_ratio};
+  unfold_cells(mesh, settings.min_scaled_jacobian);
+  ValidityReport after = check_validity(mesh);
+  if (!after.invalid.empty()) {
+    say(fmt::format("mesh: {} curved cells stay folded, smoothing the whole mesh",
+                    after.invalid.size()));
+    session.repair_curved_cells();
+    mesh = convert(session.extract(), part, metres_per_unit);
+    unfold_cells(mesh, settings.min_scaled_jacobian);
+    after = check_validity(mesh);
+    repair.elastic = true;
+  }
   if (!after.invalid.empty()) {
     throw NumericsError(fmt::format(
         "mesh: {} of {} cells stay invalid after repair, choose smaller elements there: {}",
@@ -242,6 +254,8 @@ MeshSettings read_mesh_settings(const Config& config) {
       static_cast<int>(table->integer_or("elements_per_turn", 0, {0.0, 1000.0}));
   settings.min_dihedral_deg =
       table->number_or("min_dihedral_deg", settings.min_dihedral_deg, {0.0, 60.0});
+  settings.min_scaled_jacobian =
+      table->number_or("min_scaled_jacobian", settings.min_scaled_jacobian, {0.0, 0.9});
   settings.refine_passes =
       static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
   if (settings.min_size > settings.element_size) {
@@ -265,7 +279,7 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   generate_without_slivers(session, settings,
                            size_settings(settings, tags, metres_per_unit, where));
   result.mesh = convert(session.extract(), part, metres_per_unit);
-  const Repair repair = make_valid(session, part, metres_per_unit, result.mesh);
+  const Repair repair = make_valid(session, part, settings, metres_per_unit, result.mesh);
   const RawMesh raw = session.extract();
   Mesh& mesh = result.mesh;
   mesh.name = name;
@@ -280,6 +294,7 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   result.certificate = certify(mesh, result.quality, cad_volume);
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
   result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
+  result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;
   return result;
 }
 

@@ -17,12 +17,13 @@ struct LocalSize {
 
 /// Table [mesh].
 struct MeshSettings {
-  double element_size = 0.012;    // key element_size_mm [m]
-  double min_size = 0.0;          // key min_size_mm [m]: curvature asks for nothing below
-  int elements_per_turn = 0;      // on a full circle; 0: curvature is not looked at
-  double min_dihedral_deg = 8.0;  // aimed at: cells below are meshed anew with finer neighbours
-  int refine_passes = 4;          // at most so many times; 0: never
-  std::vector<LocalSize> local;   // [[mesh.local]] surface = "...", factor = 0.5
+  double element_size = 0.012;       // key element_size_mm [m]
+  double min_size = 0.0;             // key min_size_mm [m]: curvature asks for nothing below
+  int elements_per_turn = 0;         // on a full circle; 0: curvature is not looked at
+  double min_dihedral_deg = 8.0;     // aimed at: cells below are meshed anew with finer neighbours
+  double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
+  int refine_passes = 4;             // at most so many times; 0: never
+  std::vector<LocalSize> local;      // [[mesh.local]] surface = "...", factor = 0.5
 };
 MeshSettings read_mesh_settings(const Config& config);
 
@@ -32,10 +33,10 @@ struct PartMesh {
   std::map<std::string, double> certificate;
 };
 
-/// Meshes the part with quadratic tetrahedra, repairs and proves the curved cells, names the
-/// surfaces, measures. `where` begins messages about surfaces that select nothing (InputError).
-/// NumericsError when a cell stays invalid, the boundary is not closed and outward, or the mesh's
-/// volume differs from the CAD volume by more than 1 %.
+/// Meshes the part with quadratic tetrahedra, lifts slivers, unfolds and proves the curved cells,
+/// names the surfaces, measures. `where` begins messages about surfaces that select nothing
+/// (InputError). NumericsError when a cell stays invalid, the boundary is not closed and outward,
+/// or the mesh's volume differs from the CAD volume by more than 1 %.
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
                    double metres_per_unit, const std::string& name, const std::string& where);
 

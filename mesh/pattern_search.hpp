@@ -1,0 +1,48 @@
+#pragma once
+// The place of one node that makes its neighbourhood best, by trying.
+#include <Eigen/Core>
+#include <vector>
+
+namespace clatter::mesh {
+
+/// The 26 unit vectors to the neighbours of a cube's centre.
+inline const std::vector<Eigen::Vector3d>& search_directions() {
+  static const std::vector<Eigen::Vector3d> kDirections = [] {
+    std::vector<Eigen::Vector3d> all;
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int k = -1; k <= 1; ++k) {
+          if (i != 0 || j != 0 || k != 0) all.push_back(Eigen::Vector3d(i, j, k).normalized());
+        }
+      }
+    }
+    return all;
+  }();
+  return kDirections;
+}
+
+/// Moves a point while score() rises: tries all directions at each step length, keeps the best
+/// place, halves the step. `place` is any reference-like view of the point that score() looks at.
+/// Returns the best score.
+template <class Place, class Score>
+double search_place(Place place, double first_step, const Score& score) {
+  constexpr int kHalvings = 7;  // the last step is about a hundredth of the first
+  double best = score();
+  double step = first_step;
+  for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
+    const Eigen::Vector3d from = place.get();
+    Eigen::Vector3d to = from;
+    for (const Eigen::Vector3d& direction : search_directions()) {
+      place.set(from + step * direction);
+      const double value = score();
+      if (value > best) {
+        best = value;
+        to = place.get();
+      }
+    }
+    place.set(to);
+  }
+  return best;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,160 @@
+#include "mesh/sliver.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "mesh/cell_graph.hpp"
+#include "mesh/pattern_search.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kSweeps = 8;
+constexpr double kFirstStep = 0.25;  // of the mean edge around the node
+constexpr double kWorthwhile = 0.5;  // degrees that an edit must gain
+
+double smallest_angle(const CellGraph& graph, const std::vector<TetCorners>& cells) {
+  double smallest = 180.0;
+  for (const TetCorners& cell : cells) smallest = std::min(smallest, graph.angle(cell));
+  return smallest;
+}
+
+double mean_edge_at(const CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
+  double sum = 0.0;
+  for (const TetCorners& cell : cells) {
+    for (int32_t other : cell) sum += (graph.point(other) - graph.point(node)).norm();
+  }
+  return sum / (3.0 * static_cast<double>(cells.size()));
+}
+
+struct GraphNode {
+  CellGraph& graph;
+  int32_t node;
+  Vector3d get() const { return graph.point(node); }
+  void set(const Vector3d& x) { graph.point(node) = x; }
+};
+
+// Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
+double place_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
+  return search_place(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
+                      [&] { return smallest_angle(graph, cells); });
+}
+
+std::vector<TetCorners> corners_around(const CellGraph& graph, int32_t node) {
+  std::vector<TetCorners> cells;
+  for (size_t c : graph.around(node)) cells.push_back(graph.cell(c));
+  return cells;
+}
+
+using Edge = std::array<int32_t, 2>;
+
+/// Edges that get one node in common, what goes and what comes.
+struct Split {
+  std::vector<size_t> removed;
+  std::vector<TetCorners> added;
+  Vector3d place;
+  double angle = -2.0;
+};
+
+TetCorners with(TetCorners cell, int32_t old_node, int32_t new_node) {
+  std::replace(cell.begin(), cell.end(), old_node, new_node);
+  return cell;
+}
+
+// Tries one node on all of `edges` (one edge, or both diagonals of the cell, which then vanishes).
+Split try_split(CellGraph& graph, size_t cell, const std::vector<Edge>& edges) {
+  Split split;
+  Vector3d middle = Vector3d::Zero();
+  for (const auto& [a, b] : edges) middle += graph.point(a) + graph.point(b);
+  const int32_t node = graph.add_node(middle / (2.0 * static_cast<double>(edges.size())));
+  for (const auto& [a, b] : edges) {
+    for (size_t c : graph.around_edge(a, b)) {
+      split.removed.push_back(c);
+      if (c == cell && edges.size() == 2) continue;
+      split.added.push_back(with(graph.cell(c), a, node));
+      split.added.push_back(with(graph.cell(c), b, node));
+    }
+  }
+  std::sort(split.removed.begin(), split.removed.end());
+  split.removed.erase(std::unique(split.removed.begin(), split.removed.end()), split.removed.end());
+  split.angle = place_node(graph, node, split.added);
+  split.place = graph.point(node);
+  graph.remove_last_node();
+  return split;
+}
+
+std::vector<std::vector<Edge>> splittable(const CellGraph& graph, size_t cell) {
+  constexpr std::array<std::array<int, 2>, 3> kOpposite = {{{0, 4}, {1, 3}, {2, 5}}};
+  const TetCorners& x = graph.cell(cell);
+  const auto edge = [&](int e) { return Edge{x[kTetEdges[e][0]], x[kTetEdges[e][1]]}; };
+  const auto inner = [&](int e) { return !graph.boundary_edge(edge(e)[0], edge(e)[1]); };
+  std::vector<std::vector<Edge>> choices;
+  for (const auto& [e, f] : kOpposite) {
+    if (inner(e) && inner(f)) choices.push_back({edge(e), edge(f)});
+  }
+  for (int e = 0; e < 6; ++e) {
+    if (inner(e)) choices.push_back({edge(e)});
+  }
+  return choices;
+}
+
+bool split_cell(CellGraph& graph, size_t cell) {
+  const double before = graph.angle(graph.cell(cell));
+  Split best;
+  for (const auto& edges : splittable(graph, cell)) {
+    Split split = try_split(graph, cell, edges);
+    if (split.angle > best.angle) best = std::move(split);
+  }
+  if (best.angle < before + kWorthwhile) return false;
+  const int block = graph.block_of(cell);
+  graph.add_node(best.place);
+  for (size_t c : best.removed) graph.remove_cell(c);
+  for (const TetCorners& corners : best.added) graph.add_cell(corners, block);
+  return true;
+}
+
+std::vector<size_t> cells_below(const CellGraph& graph, double target_deg) {
+  std::vector<size_t> found;
+  for (size_t c = 0; c < graph.cell_count(); ++c) {
+    if (graph.alive(c) && graph.angle(graph.cell(c)) < target_deg) found.push_back(c);
+  }
+  return found;
+}
+
+// One pass over the bad cells: first its nodes move, then, if that is not enough, an edge splits.
+bool sweep(CellGraph& graph, const std::vector<size_t>& bad, double target_deg) {
+  bool changed = false;
+  for (size_t c : bad) {
+    if (!graph.alive(c)) continue;
+    const TetCorners corners = graph.cell(c);
+    const double before = graph.angle(corners);
+    for (int32_t node : corners) {
+      if (!graph.fixed(node)) place_node(graph, node, corners_around(graph, node));
+    }
+    changed = changed || graph.angle(corners) > before;
+    if (graph.angle(corners) < target_deg) changed = split_cell(graph, c) || changed;
+  }
+  return changed;
+}
+
+}  // namespace
+
+SliverReport lift_slivers(Mesh& mesh, double target_deg) {
+  CellGraph graph(mesh);
+  std::vector<size_t> bad = cells_below(graph, target_deg);
+  SliverReport report;
+  report.before = static_cast<int64_t>(bad.size());
+  for (int i = 0; i < kSweeps && !bad.empty(); ++i) {
+    const bool changed = sweep(graph, bad, target_deg);
+    bad = cells_below(graph, target_deg);
+    if (!changed) break;
+  }
+  report.after = static_cast<int64_t>(bad.size());
+  report.new_nodes = graph.node_count() - mesh.nodes.rows();
+  graph.store(mesh);
+  return report;
+}
+
+}  // namespace clatter::mesh
