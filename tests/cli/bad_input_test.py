@@ -106,6 +106,94 @@ class WrongContent(stages.PipelineTest):
         self.edit("beam.fe.toml", 'regions = ["bar"]', "regions = []")
         self.assert_refused("assembly", says=["beam.fe.toml", "bar"])
 
+    def test_a_frequency_above_what_the_basis_holds(self):
+        self.edit("step.field.toml", "to_hz = 3000.0", "to_hz = 30000.0")
+        self.assert_refused("recover", says=["step.field.toml", "to_hz", "30000"])
+
+    def test_a_run_whose_reduced_model_has_changed_since(self):
+        with h5py.File(self.folder / "beam.rom.h5", "r+") as model:
+            model["K_rr"][0, 0] *= 1.01
+        self.assert_refused("recover", says=["beam.rom.h5"])
+
+    def test_a_reduced_model_with_a_value_that_is_not_finite(self):
+        with h5py.File(self.folder / "beam.rom.h5", "r+") as model:
+            model["M_rr"][2, 2] = np.inf
+        self.assert_refused("dynamics", says=["beam.rom.h5", "M_rr"])
+
+    def test_a_load_or_a_body_that_does_not_exist(self):
+        self.edit("step.run.toml", 'load = "tip_force"', 'load = "top_force"')
+        self.assert_refused("dynamics", says=["top_force", "tip_force"])
+
+
+# An engine whose piston is the beam: enough of a scene to reach its tables and contact.
+ENGINE = """
+[engine]
+speed_rpm = 2000.0
+stroke_mm = 130.0
+[rod]
+length_mm = 210.0
+mass_kg = 2.0
+inertia_kg_m2 = 0.02
+centre_mm = 60.0
+[time]
+cycles = 1
+[piston]
+rom = "beam.rom.h5"
+pin = "tip"
+gas_load = "tip_force"
+[gas]
+table = "cycle.csv"
+"""
+
+
+class WrongScenes(stages.PipelineTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "step.run.toml").write_text(ENGINE)
+        self.rows = [f"{angle}, {1.0 + 30 * np.exp(-(angle / 40) ** 2):.4f}" for angle in range(-360, 361, 2)]
+
+    def refuse_table(self, rows, says):
+        (self.folder / "cycle.csv").write_text("crank_angle [deg], pressure [bar]\n" + "\n".join(rows) + "\n")
+        self.assert_refused("dynamics", says=["cycle.csv:", *says])
+
+    def test_a_table_with_a_gap(self):
+        self.refuse_table(self.rows[:100] + self.rows[150:], ["gap"])
+
+    def test_a_table_that_does_not_cover_a_cycle(self):
+        self.refuse_table(self.rows[:300], ["720"])
+
+    def test_a_table_with_nan(self):
+        self.rows[40] = "-280, nan"
+        self.refuse_table(self.rows, ["cycle.csv:42", "nan"])
+
+    def test_a_table_with_a_missing_cell(self):
+        self.rows[40] = "-280"
+        self.refuse_table(self.rows, ["cycle.csv:42"])
+
+    def test_a_table_that_does_not_ascend(self):
+        self.rows[40], self.rows[41] = self.rows[41], self.rows[40]
+        self.refuse_table(self.rows, ["cycle.csv:43"])
+
+    def test_a_table_in_an_unknown_unit(self):
+        (self.folder / "cycle.csv").write_text("crank_angle [deg], pressure [psi]\n" + "\n".join(self.rows) + "\n")
+        self.assert_refused("dynamics", says=["cycle.csv:1", "psi"])
+
+    def test_a_table_that_is_missing(self):
+        self.assert_refused("dynamics", says=["cycle.csv"])
+
+    def test_a_negative_clearance(self):
+        path = self.folder / "step.run.toml"
+        path.write_text(ENGINE + "[contact]\nbore_mm = 107.0\nclearance_um = -5.0\n")
+        self.assert_refused("dynamics", says=["step.run.toml:", "clearance_um", "-5"])
+
+    def test_a_negative_speed(self):
+        self.edit("step.run.toml", "speed_rpm = 2000.0", "speed_rpm = -2000.0")
+        self.assert_refused("dynamics", says=["step.run.toml:", "speed_rpm"])
+
+    def test_a_rod_shorter_than_the_crank(self):
+        self.edit("step.run.toml", "length_mm = 210.0", "length_mm = 61.0")
+        self.assert_refused("dynamics", says=["rod"])
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
