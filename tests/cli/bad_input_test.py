@@ -108,7 +108,7 @@ class WrongContent(stages.PipelineTest):
 
     def test_a_frequency_above_what_the_basis_holds(self):
         self.edit("step.field.toml", "to_hz = 3000.0", "to_hz = 30000.0")
-        self.assert_refused("recover", says=["step.field.toml", "to_hz", "30000"])
+        self.assert_refused("recover", says=["to_hz", "30000", "4000"])
 
     def test_a_run_whose_reduced_model_has_changed_since(self):
         with h5py.File(self.folder / "beam.rom.h5", "r+") as model:
