@@ -1,5 +1,6 @@
 #pragma once
 // What the time integration did and what it cost.
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,6 +24,25 @@ struct StepStatistics {
   double operator_seconds = 0.0;
   double total_seconds = 0.0;
   std::map<std::string, long long> refusals;  // reason: count
+
+  StepStatistics& operator+=(const StepStatistics& other) {
+    accepted += other.accepted;
+    rejected_error += other.rejected_error;
+    rejected_newton += other.rejected_newton;
+    rejected_refused += other.rejected_refused;
+    stages += other.stages;
+    evaluations += other.evaluations;
+    factorizations += other.factorizations;
+    operators += other.operators;
+    smallest_step = std::min(smallest_step, other.smallest_step);
+    largest_step = std::max(largest_step, other.largest_step);
+    element_seconds += other.element_seconds;
+    factor_seconds += other.factor_seconds;
+    operator_seconds += other.operator_seconds;
+    total_seconds += other.total_seconds;
+    for (const auto& [reason, count] : other.refusals) refusals[reason] += count;
+    return *this;
+  }
 };
 
 }  // namespace clatter::dynamics

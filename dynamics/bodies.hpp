@@ -1,0 +1,33 @@
+#pragma once
+// The reduced models that a scene names, read once, with their modal bodies.
+#include <deque>
+#include <string>
+
+#include "core/reduced_model.hpp"
+#include "dynamics/modal_body.hpp"
+#include "dynamics/scene.hpp"
+
+namespace clatter::dynamics {
+
+/// A body of the scene with the model behind it.
+struct LoadedBody {
+  BodySpec spec;
+  std::string sha256;  // of the model's file
+  ReducedModel model;  // without its skin
+  ModalBody modal;
+};
+
+using LoadedBodies = std::deque<LoadedBody>;
+
+/// Reads every body that the scene simulates (a rigid block is none of them).
+LoadedBodies load_bodies(const Scene& scene);
+/// The body of that name, or nullptr.
+const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name);
+
+/// The coordinate of a set that moves along (or turns about) axis 0, 1 or 2.
+/// InputError naming the set when it has none.
+int set_dof(const ReducedModel& model, const std::string& set, int axis, bool rotation);
+/// The vector of a unit load; InputError listing the names present.
+const Eigen::VectorXd& unit_load(const ReducedModel& model, const std::string& load);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,35 @@
+#pragma once
+// All that a run needs to go on from the end of a cycle.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/integrate/statistics.hpp"
+#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/scene.hpp"
+
+namespace clatter::dynamics {
+
+/// Every cycle begins from one of these with elements built anew, whether the run was interrupted
+/// or not: so both give the same bits.
+struct Checkpoint {
+  int cycle = 0;  // cycles that are done
+  StageState state;
+  int rung = 0;
+  std::vector<std::vector<double>> elements;  // internal states, per element
+  RowMatrix eta, v;  // uniform samples of the cycle before, for periodicity
+  StepStatistics statistics;
+};
+
+/// Text that must agree between a checkpoint and the scene that resumes from it: configuration and
+/// hashes of all inputs.
+std::string fingerprint(const Scene& scene);
+
+std::filesystem::path checkpoint_path(const std::filesystem::path& output);
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point,
+                      const std::string& fingerprint);
+/// InputError when the file belongs to another scene or other inputs.
+Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& fingerprint);
+
+}  // namespace clatter::dynamics

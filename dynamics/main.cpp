@@ -1,0 +1,172 @@
+// clatter-dynamics: runs a scene in the time domain.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <numbers>
+
+#include "core/blas_kernel.hpp"
+#include "core/command_line.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/stopwatch.hpp"
+#include "dynamics/gas_cycle.hpp"
+#include "dynamics/run_file.hpp"
+
+namespace {
+
+using namespace clatter;
+using namespace clatter::dynamics;
+
+constexpr const char* kEpilog =
+    R"(A scene is a TOML file: [engine] [rod] [piston] [block] [gas] [contact] [[mount]] for piston slap,
+or [[body]] and [[load]] for any reduced bodies without an engine. `base = "other.toml"` takes everything
+that a scene does not say itself from another one, so a variant is a few lines:
+
+    base = "slap.run.toml"
+    [contact]
+    lubrication = "none"
+
+dynamics/README.md lists every key, the equations and the error test. Ctrl-C ends at a step with a valid
+file (attribute complete = 0); --resume goes on from the last finished cycle.
+
+sample commands
+  clatter-dynamics slap.run.toml -o slap.run.h5
+  clatter-dynamics slap.run.toml -o slap.run.h5 --resume
+  clatter-dynamics --write-motored-cycle motored.csv --bore-mm 107 --stroke-mm 130 --rod-mm 210 \
+      --compression-ratio 17 --exponent 1.34
+
+see also: clatter-condense (makes .rom.h5), clatter-recover (surface velocity from .run.h5))";
+
+std::atomic<bool> stop_requested{false};
+
+void request_stop(int) { stop_requested.store(true); }
+
+struct Arguments {
+  std::filesystem::path scene, output, motored;
+  bool resume = false;
+  MotoredCycle cycle;
+  double bore_mm = 107.0, stroke_mm = 130.0, rod_mm = 210.0, offset_mm = 0.0, intake_bar = 1.0,
+         closed_deg = 180.0, step_deg = 1.0;
+};
+
+void declare(CommandLine& line, Arguments& a) {
+  line.positional("scene", a.scene, "the scene, stem.run.toml", false);
+  line.option("-o,--output", a.output, "the run file to write; default: the scene's stem.run.h5");
+  line.flag("--resume", a.resume, "go on from the checkpoint beside the output");
+  line.option("--write-motored-cycle", a.motored, "write a motored cycle's pressure table and end");
+  line.option("--bore-mm", a.bore_mm, "motored cycle: bore [mm]");
+  line.option("--stroke-mm", a.stroke_mm, "motored cycle: stroke [mm]");
+  line.option("--rod-mm", a.rod_mm, "motored cycle: rod length [mm]");
+  line.option("--pin-offset-mm", a.offset_mm, "motored cycle: pin offset [mm]");
+  line.option("--compression-ratio", a.cycle.compression_ratio, "motored cycle: ratio");
+  line.option("--exponent", a.cycle.exponent, "motored cycle: polytropic exponent");
+  line.option("--intake-bar", a.intake_bar, "motored cycle: pressure at valve closing [bar]");
+  line.option("--closed-deg", a.closed_deg,
+              "motored cycle: valves closed within +- this of TDC [deg]");
+  line.option("--step-deg", a.step_deg, "motored cycle: rows every ... [deg]");
+}
+
+int write_table(Arguments& a) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  a.cycle.bore = 1e-3 * a.bore_mm;
+  a.cycle.stroke = 1e-3 * a.stroke_mm;
+  a.cycle.rod_length = 1e-3 * a.rod_mm;
+  a.cycle.pin_offset = 1e-3 * a.offset_mm;
+  a.cycle.intake_pressure = 1e5 * a.intake_bar;
+  a.cycle.valves_closed_half = kDegree * a.closed_deg;
+  write_motored_cycle(a.motored, a.cycle, kDegree * a.step_deg);
+  say(fmt::format("{}: peak {:.2f} bar", a.motored.string(),
+                  1e-5 * motored_pressure(a.cycle, 0.0)));
+  return 0;
+}
+
+std::filesystem::path default_output(const std::filesystem::path& scene) {
+  return std::filesystem::path(scene).replace_extension(".h5");
+}
+
+void print_summary(const RunResult& result, const Arguments& a, double seconds) {
+  say("effects (seconds of their elements):");
+  for (const auto& row : result.model->effects.lines(true)) say(row);
+  const StepStatistics& s = result.statistics;
+  say(fmt::format(
+      "steps: {} accepted, {} rejected by error, {} by Newton, {} refused; {:.3g} to {:.3g} "
+      "s; {} evaluations, {} factorisations",
+      s.accepted, s.rejected_error, s.rejected_newton, s.rejected_refused, s.smallest_step,
+      s.largest_step, s.evaluations, s.factorizations));
+  for (const auto& [reason, count] : s.refusals)
+    say(fmt::format("  refused {}x: {}", count, reason));
+  say(fmt::format(
+      "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
+      "{:.2f}; {:.2f} in all",
+      s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
+  for (const auto& [name, value] : result.periodicity) say(fmt::format("{}: {:.3g}", name, value));
+  say(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
+                  result.energy_exchanged));
+  say(fmt::format("{} written", a.output.string()));
+}
+
+int run(const Arguments& a, const CommonOptions& common) {
+  StepClock clock;
+  const Scene scene = read_scene(a.scene);
+  const LoadedBodies bodies = load_bodies(scene);
+  clock.lap("read and modal bodies");
+  say("effects:");
+  for (const auto& row : build_model(scene, bodies)->effects.lines(false)) say(row);
+
+  const auto checkpoint = checkpoint_path(a.output);
+  const std::string mark = fingerprint(scene);
+  RunControl control;
+  control.stop = &stop_requested;
+  control.checkpoint = [&](const Checkpoint& point) { write_checkpoint(checkpoint, point, mark); };
+  control.film_every = scene.film_every;
+  if (a.resume && std::filesystem::exists(checkpoint)) {
+    control.resume_from = read_checkpoint(checkpoint, mark);
+    say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
+  }
+  std::signal(SIGINT, request_stop);
+  const RunResult result = simulate(scene, bodies, control);
+  clock.lap("integration");
+
+  H5File file = H5File::create(a.output);
+  write_run(file, scene, bodies, result);
+  clock.lap("writing");
+  write_timing(file, clock);
+  file.commit();
+  if (result.complete) std::filesystem::remove(checkpoint);
+  write_depfile(common.depfile, a.output, scene.inputs);
+  print_summary(result, a, clock.total_seconds());
+  if (common.json) {
+    print_json({{"output", json_text(a.output.string())},
+                {"complete", result.complete ? "true" : "false"},
+                {"steps", json_number(static_cast<double>(result.statistics.accepted))},
+                {"energy_residue", json_number(result.energy_residue)},
+                {"seconds", json_number(clock.total_seconds())}});
+  }
+  if (!result.complete) {
+    throw NumericsError(fmt::format("{}: interrupted after {} whole cycles; --resume goes on",
+                                    a.output.string(), result.cycles));
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ensure_fast_blas(argv);
+  Arguments arguments;
+  CommandLine line("clatter-dynamics",
+                   "Runs a scene of reduced elastic bodies, joints and a lubricated piston-liner "
+                   "contact in the time domain.",
+                   kEpilog);
+  declare(line, arguments);
+  if (!line.parse(argc, argv)) return line.exit_code();
+  return run_guarded("clatter-dynamics", [&] {
+    if (!arguments.motored.empty()) return write_table(arguments);
+    if (arguments.scene.empty())
+      throw InputError("no scene given, expected stem.run.toml (see --help)");
+    if (arguments.output.empty()) arguments.output = default_output(arguments.scene);
+    return run(arguments, line.common());
+  });
+}

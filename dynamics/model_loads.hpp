@@ -1,0 +1,19 @@
+#pragma once
+// The known forces of a scene: gas, inertia of moving frames, gravity, [[load]].
+#include <functional>
+#include <map>
+#include <string>
+
+#include "dynamics/model.hpp"
+
+namespace clatter::dynamics {
+
+/// Indices of the bodies in the model's system, by name ("piston", "block", "rod", ...).
+using BodyIndex = std::map<std::string, int>;
+
+/// Adds every load to model.system. All of them grow from nothing over `time.ramp` at the start, as
+/// (3 s^2 - 2 s^3), so that the motion can start from rest at its ideal place.
+void add_loads(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
+               Model& model);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,73 @@
+#pragma once
+// What one cycle (or one whole run) leaves behind: uniform samples, histories, energies, film
+// fields.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dynamics/energy.hpp"
+#include "dynamics/model.hpp"
+
+namespace clatter::dynamics {
+
+/// Modal motion at uniform times begin + i (end - begin) / n, i = 0..n.
+///
+/// Between accepted states q and v are cubic Hermite interpolants (of q, v and of v, a), a is
+/// linear: all three are exact at the states and never overshoot a stiff mode.
+class UniformSamples {
+ public:
+  UniformSamples(double begin, double end, double step, int modes);
+  /// Takes the samples in (previous, now]; the first call also takes the one at `begin`.
+  void add(const StageState& previous, const StageState& now);
+
+  int count() const { return count_; }  // samples taken so far
+  double time(int i) const;
+  double step() const { return step_; }
+  /// count x modes; rows beyond count() are not set.
+  const RowMatrix& eta() const { return eta_; }
+  const RowMatrix& v() const { return v_; }
+  const RowMatrix& a() const { return a_; }
+
+ private:
+  void take(const StageState& p, const StageState& n, double t);
+  double begin_, step_;
+  int count_ = 0;
+  RowMatrix eta_, v_, a_;
+};
+
+/// Columns of numbers that grow row by row.
+struct Columns {
+  std::vector<std::string> names, units;
+  std::vector<std::vector<double>> values;  // one a column
+};
+
+/// Film fields of some instants.
+struct FilmFrames {
+  std::vector<double> time;
+  std::vector<std::vector<film::PadSnapshot>> pads;
+};
+
+/// Records one span of a run.
+class Recorder {
+ public:
+  /// `film_every`: time between film fields [s], 0: none.
+  Recorder(const Model& model, double begin, double end, double step, double film_every);
+  void record(const Model& model, const StageState& previous, const StageState& now,
+              const EnergyBalance& energy);
+
+  const UniformSamples& samples() const { return samples_; }
+  const std::vector<double>& time() const { return time_; }  // of the histories: accepted states
+  const Columns& history() const { return history_; }
+  const Columns& energy() const { return energy_; }
+  const FilmFrames& film() const { return film_; }
+
+ private:
+  static void append(Columns& columns, const History& row);
+  UniformSamples samples_;
+  std::vector<double> time_;
+  Columns history_, energy_;
+  FilmFrames film_;
+  double film_every_, next_film_;
+};
+
+}  // namespace clatter::dynamics
