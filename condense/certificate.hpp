@@ -22,8 +22,8 @@ MassError compare_mass(const MassProperties& found, const MassProperties& expect
 
 /// Fills `reduced.certificate`:
 /// rigid_stiffness_residue |K_rr r| / (|K_rr| |r|) of the free motions; rigid_modes, the zeros of
-/// (K_rr, M_rr); first_elastic_hz; mass_error (reduced against r^T M r of the FE matrices) and
-/// mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
+/// (K_rr, M_rr); first_elastic_hz; for a free body mass_error (against r^T M r of the FE matrices)
+/// and mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
 /// diagonal; max_frequency_hz; eigen_residual_max; modal_mass_error; count_proved, count_below and
 /// count_limit_hz; cutoff_hz and accurate_to_hz (half of it: there the frequencies hold to 0.1 %);
 /// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual.

@@ -132,8 +132,11 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
   lines.push_back(
       fmt::format("{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz",
                   c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz")));
-  lines.push_back(fmt::format("mass {:.6g} kg, ten mass properties within {:.1e} of the full model",
-                              reduced.mass.mass, c.at("mass_error")));
+  if (c.contains("mass_error")) {
+    lines.push_back(
+        fmt::format("mass {:.6g} kg, ten mass properties within {:.1e} of the full model",
+                    reduced.mass.mass, c.at("mass_error")));
+  }
   lines.push_back(fmt::format("condition of M_rr {:.1e}, highest frequency {:.4g} Hz",
                               c.at("condition_M_rr"), c.at("max_frequency_hz")));
   return lines;

@@ -37,7 +37,7 @@ void print_summary(const Paths& paths, const ReducedModel& reduced, const StepCl
               {"size", json_number(reduced.size())},
               {"valid_to_hz", json_number(reduced.valid_to_hz)},
               {"count_proved", json_number(reduced.certificate.at("count_proved"))},
-              {"mass_error", json_number(reduced.certificate.at("mass_error"))},
+              {"rigid_modes", json_number(reduced.certificate.at("rigid_modes"))},
               {"seconds", json_number(clock.total_seconds())}});
 }
 

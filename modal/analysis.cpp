@@ -1,0 +1,141 @@
+#include "modal/analysis.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace clatter::modal {
+namespace {
+
+constexpr int kDefaultCount = 20;
+
+EigenOptions eigen_options(const ModesOptions& options, int size) {
+  EigenOptions eigen;
+  eigen.fmax_hz = options.fmax_hz;
+  eigen.count = options.count;
+  if (options.count == 0 && options.fmax_hz == 0.0) eigen.count = std::min(kDefaultCount, size);
+  eigen.prove_count = options.prove_count;
+  eigen.method = options.method;
+  return eigen;
+}
+
+template <typename Model>
+std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string>& fixed) {
+  std::vector<char> held(static_cast<size_t>(model.size()), 0);
+  for (const std::string& name : fixed) {
+    for (const int32_t dof : model.set(name).dofs) held[static_cast<size_t>(dof)] = 1;
+  }
+  std::vector<int32_t> left;
+  for (int32_t dof = 0; dof < model.size(); ++dof) {
+    if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
+  }
+  if (left.empty()) throw InputError(model.name + ": fixed: found every degree of freedom");
+  return left;
+}
+
+/// Vectors on all DoFs, zero where they are held.
+Eigen::MatrixXd spread(const Eigen::MatrixXd& vectors, const std::vector<int32_t>& left,
+                       Eigen::Index size) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, vectors.cols());
+  all(left, Eigen::all) = vectors;
+  return all;
+}
+
+}  // namespace
+
+ModesOptions read_modes_options(const Config& config) {
+  ModesOptions options;
+  if (config.has("count")) options.count = static_cast<int>(config.integer("count", {1.0, 1e6}));
+  if (config.has("fmax_hz")) options.fmax_hz = config.number("fmax_hz", Range::positive());
+  if (options.count > 0 && options.fmax_hz > 0.0) {
+    config.fail("fmax_hz", "found both count and fmax_hz, expected one of them");
+  }
+  options.fixed = config.texts_or("fixed", {});
+  options.prove_count = config.flag_or("prove_count", true);
+  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
+  options.method = solver == "arpack" ? EigenMethod::kArpack : EigenMethod::kBlockLanczos;
+  config.finish();
+  return options;
+}
+
+SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept) {
+  std::vector<int32_t> place(static_cast<size_t>(lower.cols()), -1);
+  for (size_t k = 0; k < kept.size(); ++k) {
+    place[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(lower.nonZeros()));
+  for (int j = 0; j < lower.outerSize(); ++j) {
+    const int column = place[static_cast<size_t>(j)];
+    if (column < 0) continue;
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      const int row = place[static_cast<size_t>(it.row())];
+      if (row >= 0) entries.emplace_back(row, column, it.value());
+    }
+  }
+  const auto size = static_cast<int>(kept.size());
+  SparseMatrix out(size, size);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+PartModes analyse(const assembly::FeModel& model, const ModesOptions& options) {
+  PartModes part;
+  part.name = model.name;
+  part.source = "fe";
+  part.nodes = model.nodes;
+  part.surfaces = model.surfaces;
+  if (options.fixed.empty()) {
+    part.modes = solve_modes(model.K, model.M, eigen_options(options, model.size()));
+    part.shapes = model.T * part.modes.vectors;
+    return part;
+  }
+  const std::vector<int32_t> left = dofs_left(model, options.fixed);
+  part.modes = solve_modes(principal_submatrix(model.K, left), principal_submatrix(model.M, left),
+                           eigen_options(options, static_cast<int>(left.size())));
+  part.modes.vectors = spread(part.modes.vectors, left, model.size());
+  part.shapes = model.T * part.modes.vectors;
+  return part;
+}
+
+PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
+  PartModes part;
+  part.name = model.name;
+  part.source = "rom";
+  part.nodes = model.skin.nodes;
+  if (model.skin.triangles.rows() > 0) part.surfaces["skin"] = model.skin.triangles;
+  const std::vector<int32_t> left = dofs_left(model, options.fixed);
+  const auto size = static_cast<int>(left.size());
+  EigenOptions eigen = eigen_options(options, size);
+  eigen.dense_limit = size;
+  const auto lower = [&](const Eigen::MatrixXd& matrix) -> SparseMatrix {
+    const Eigen::MatrixXd kept = matrix(left, left);
+    return Eigen::MatrixXd(kept.triangularView<Eigen::Lower>()).sparseView(0.0, 0.0);
+  };
+  part.modes = solve_modes(lower(model.K_rr), lower(model.M_rr), eigen);
+  part.modes.vectors = spread(part.modes.vectors, left, model.size());
+  part.shapes = model.skin.T * part.modes.vectors;
+  return part;
+}
+
+std::vector<std::string> describe(const PartModes& part) {
+  const ModeSet& modes = part.modes;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{}: {} modes ({}), {} of them rigid", part.name, modes.size(),
+                              modes.method, modes.rigid));
+  const Eigen::VectorXd hz = modes.frequencies_hz();
+  for (Eigen::Index j = 0; j < modes.size(); ++j) {
+    lines.push_back(fmt::format("{:>5}  {:>12.4f} Hz  residual {:.1e}{}", j + 1, hz[j],
+                                modes.residuals[j], j < modes.rigid ? "  rigid" : ""));
+  }
+  lines.push_back(modes.proof.proved
+                      ? fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
+                                    modes.proof.below, hz_of_value(modes.proof.limit))
+                      : std::string("their number is not proved (prove_count = false)"));
+  return lines;
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,49 @@
+#pragma once
+// The modes of one part, assembled or reduced, with their shapes at the nodes.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assembly/fe_model.hpp"
+#include "core/config.hpp"
+#include "core/reduced_model.hpp"
+#include "modal/eigen/eigen_solver.hpp"
+
+namespace clatter::modal {
+
+/// The `.modes.toml`, or the command line; defaults stand here.
+struct ModesOptions {
+  int count = 0;                   // lowest modes, or
+  double fmax_hz = 0.0;            // all modes below; neither: the 20 lowest
+  std::vector<std::string> fixed;  // sets that are clamped; none: as assembled
+  bool prove_count = true;
+  EigenMethod method = EigenMethod::kBlockLanczos;
+};
+
+/// Reads the options; InputError for unknown keys and senseless values.
+ModesOptions read_modes_options(const Config& config);
+
+/// Modes with their shapes.
+struct PartModes {
+  std::string name;
+  std::string source;  // "fe" or "rom"
+  ModeSet modes;
+  RowMatrix nodes;         // n x 3 [m]: all nodes of an FE model, the skin of a reduced one
+  Eigen::MatrixXd shapes;  // 3 n x m: row 3 a + d is node a, direction d; unit modal mass
+  std::map<std::string, IndexMatrix> surfaces;  // triangles on `nodes`
+};
+
+/// Modes of an assembled part; clamped DoFs are taken out of M and K. InputError for an unknown
+/// set.
+PartModes analyse(const assembly::FeModel& model, const ModesOptions& options);
+
+/// Modes of a reduced part by dense algebra; shapes on its skin.
+PartModes analyse(const ReducedModel& model, const ModesOptions& options);
+
+/// Rows and columns `kept` (ascending) of a symmetric matrix given by its lower triangle.
+SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept);
+
+/// "mode  frequency [Hz]  residual" line by line, with the proof below.
+std::vector<std::string> describe(const PartModes& part);
+
+}  // namespace clatter::modal

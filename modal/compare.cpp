@@ -1,0 +1,183 @@
+#include "modal/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/command_line.hpp"
+#include "core/error.hpp"
+#include "modal/analysis.hpp"
+
+namespace clatter::modal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNear = 5e-3;  // modes this near (relative) are compared as one subspace
+
+/// Rows of both models that mean the same displacement.
+struct CommonRows {
+  MatrixXd full;     // rows x n modes
+  MatrixXd reduced;  // rows x m modes
+};
+
+using Place = std::tuple<double, double, double>;
+
+/// Skin nodes are copies of the full model's nodes, so equal coordinates are equal to the last bit.
+std::vector<std::pair<Index, Index>> shared_nodes(const RowMatrix& full, const RowMatrix& skin) {
+  std::map<Place, Index> at;
+  for (Index a = 0; a < full.rows(); ++a) at.emplace(Place(full(a, 0), full(a, 1), full(a, 2)), a);
+  std::vector<std::pair<Index, Index>> pairs;
+  for (Index a = 0; a < skin.rows(); ++a) {
+    const auto found = at.find(Place(skin(a, 0), skin(a, 1), skin(a, 2)));
+    if (found != at.end()) pairs.emplace_back(found->second, a);
+  }
+  return pairs;
+}
+
+/// DoF pairs of displacement coordinates in sets of the same name.
+std::vector<std::pair<Index, Index>> shared_coordinates(const assembly::FeModel& full,
+                                                        const ReducedModel& reduced) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const auto& [name, set] : reduced.sets) {
+    const auto other = full.sets.find(name);
+    if (other == full.sets.end() || other->second.dofs.size() != set.dofs.size()) continue;
+    for (size_t k = 0; k < set.dofs.size(); ++k) {
+      if (k < set.is_rotation.size() && set.is_rotation[k] != 0) continue;
+      pairs.emplace_back(other->second.dofs[k], set.dofs[k]);
+    }
+  }
+  return pairs;
+}
+
+CommonRows common_rows(const assembly::FeModel& full, const PartModes& full_modes,
+                       const ReducedModel& reduced, const PartModes& reduced_modes) {
+  const auto nodes = shared_nodes(full.nodes, reduced.skin.nodes);
+  const auto coordinates = shared_coordinates(full, reduced);
+  const auto count = static_cast<Index>(3 * nodes.size() + coordinates.size());
+  if (count == 0) {
+    throw InputError(fmt::format("{} and {}: found no node or set in both, expected the same part",
+                                 full.name, reduced.name));
+  }
+  CommonRows rows{MatrixXd(count, full_modes.modes.size()),
+                  MatrixXd(count, reduced_modes.modes.size())};
+  Index row = 0;
+  for (const auto& [a, b] : nodes) {
+    rows.full.middleRows(row, 3) = full_modes.shapes.middleRows(3 * a, 3);
+    rows.reduced.middleRows(row, 3) = reduced_modes.shapes.middleRows(3 * b, 3);
+    row += 3;
+  }
+  for (const auto& [p, q] : coordinates) {
+    rows.full.row(row) = full_modes.modes.vectors.row(p);
+    rows.reduced.row(row) = reduced_modes.modes.vectors.row(q);
+    ++row;
+  }
+  return rows;
+}
+
+double subspace_mac(const VectorXd& shape, const MatrixXd& basis) {
+  const Eigen::HouseholderQR<MatrixXd> qr(basis);
+  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(basis.rows(), basis.cols());
+  return (Q.transpose() * shape).squaredNorm() / shape.squaredNorm();
+}
+
+/// Reduced modes near `hz`, always with `partner` itself.
+std::vector<int> near_modes(const VectorXd& hz_of, double hz, int rigid, int partner) {
+  std::vector<int> near;
+  for (int j = rigid; j < hz_of.size(); ++j) {
+    if (j == partner || std::abs(hz_of[j] - hz) <= kNear * hz) near.push_back(j);
+  }
+  return near;
+}
+
+ModesOptions request(const CompareOptions& options, const ReducedModel& reduced) {
+  ModesOptions modes;
+  modes.count = options.count;
+  if (options.count == 0) {
+    modes.fmax_hz = options.fmax_hz > 0.0 ? options.fmax_hz : 0.5 * reduced.valid_to_hz;
+  }
+  return modes;
+}
+
+}  // namespace
+
+double Comparison::largest_error() const {
+  double largest = 0.0;
+  for (const ComparedMode& mode : modes) largest = std::max(largest, std::abs(mode.error));
+  return largest;
+}
+
+double Comparison::smallest_mac() const {
+  double smallest = 1.0;
+  for (const ComparedMode& mode : modes) smallest = std::min(smallest, mode.mac);
+  return smallest;
+}
+
+Comparison compare(const assembly::FeModel& full, const ReducedModel& reduced,
+                   const CompareOptions& options) {
+  const PartModes a = analyse(full, request(options, reduced));
+  ModesOptions all;
+  all.count = std::min(reduced.size(), 2 * a.modes.size() + 10);  // with neighbours to project on
+  const PartModes b = analyse(reduced, all);
+  Comparison out;
+  out.rigid_full = a.modes.rigid;
+  out.rigid_reduced = b.modes.rigid;
+  if (out.rigid_full != out.rigid_reduced) {
+    throw NumericsError(fmt::format("{}: the full model has {} rigid modes, the reduced one {}",
+                                    full.name, out.rigid_full, out.rigid_reduced));
+  }
+  if (b.modes.size() < a.modes.size()) {
+    throw NumericsError(
+        fmt::format("{}: {} modes of the full model to compare, the reduced one has "
+                    "{}",
+                    full.name, a.modes.size(), b.modes.size()));
+  }
+  const CommonRows rows = common_rows(full, a, reduced, b);
+  out.rows = static_cast<int>(rows.full.rows());
+  const VectorXd full_hz = a.modes.frequencies_hz(), reduced_hz = b.modes.frequencies_hz();
+  for (int j = out.rigid_full; j < a.modes.size(); ++j) {
+    ComparedMode mode;
+    mode.full_hz = full_hz[j];
+    mode.reduced_hz = reduced_hz[j];
+    mode.error = reduced_hz[j] / full_hz[j] - 1.0;
+    const std::vector<int> near = near_modes(reduced_hz, full_hz[j], out.rigid_reduced, j);
+    mode.mac = subspace_mac(rows.full.col(j), rows.reduced(Eigen::all, near));
+    out.modes.push_back(mode);
+  }
+  return out;
+}
+
+std::vector<std::string> table_of(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{:>5} {:>14} {:>14} {:>11} {:>10}", "mode", "full [Hz]",
+                              "reduced [Hz]", "error [%]", "MAC"));
+  int number = comparison.rigid_full;
+  for (const ComparedMode& mode : comparison.modes) {
+    lines.push_back(fmt::format("{:>5} {:>14.4f} {:>14.4f} {:>11.5f} {:>10.6f}", ++number,
+                                mode.full_hz, mode.reduced_hz, 100.0 * mode.error, mode.mac));
+  }
+  lines.push_back(
+      fmt::format("{} rigid modes in both; {} elastic ones: largest error {:.2e} %, "
+                  "smallest MAC {:.6f} on {} displacements",
+                  comparison.rigid_full, comparison.modes.size(),
+                  100.0 * comparison.largest_error(), comparison.smallest_mac(), comparison.rows));
+  return lines;
+}
+
+std::string json_of(const Comparison& comparison) {
+  std::string text = "[";
+  for (const ComparedMode& mode : comparison.modes) {
+    if (text.size() > 1) text += ", ";
+    text += fmt::format("{{\"full_hz\": {}, \"reduced_hz\": {}, \"error\": {}, \"mac\": {}}}",
+                        json_number(mode.full_hz), json_number(mode.reduced_hz),
+                        json_number(mode.error), json_number(mode.mac));
+  }
+  return text + "]";
+}
+
+}  // namespace clatter::modal

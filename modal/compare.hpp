@@ -1,0 +1,48 @@
+#pragma once
+// How well a reduced model keeps the modes of the full one.
+#include <string>
+#include <vector>
+
+#include "assembly/fe_model.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::modal {
+
+struct CompareOptions {
+  double fmax_hz = 0.0;  // compare all modes below; 0: half of the reduced model's cut-off
+  int count = 0;         // or the lowest ones, rigid included
+};
+
+/// One elastic mode of the full model and its partner.
+struct ComparedMode {
+  double full_hz = 0.0;
+  double reduced_hz = 0.0;
+  double error = 0.0;  // reduced / full - 1
+  double mac = 0.0;    // modal assurance criterion
+};
+
+struct Comparison {
+  std::vector<ComparedMode> modes;
+  int rigid_full = 0;
+  int rigid_reduced = 0;
+  int rows = 0;  // displacements on which shapes were compared
+
+  double largest_error() const;
+  double smallest_mac() const;
+};
+
+/// Pairs elastic modes in ascending order. Shapes are compared at the boundary coordinates and the
+/// skin nodes that both models have (found by their coordinates) by
+///   MAC = |P phi|^2 / |phi|^2,
+/// P the projector on the reduced modes within 0.5 % of the frequency: for a single mode this is
+/// Allemang's criterion (Allemang and Brown, 1982), for near-multiple modes, which mix freely, it
+/// compares subspaces (hard case B8). InputError when the two models share no place, NumericsError
+/// when their modes differ in number.
+Comparison compare(const assembly::FeModel& full, const ReducedModel& reduced,
+                   const CompareOptions& options);
+
+/// The comparison as an aligned table, and as one JSON array of objects.
+std::vector<std::string> table_of(const Comparison& comparison);
+std::string json_of(const Comparison& comparison);
+
+}  // namespace clatter::modal

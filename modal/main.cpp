@@ -1,0 +1,133 @@
+// clatter-modal: modes of a part, with a proof that none is missing; and how well a reduced model
+// keeps them.
+//
+// Sample runs:
+//   clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5
+//   clatter-modal block.rom.h5 --count 40 -o block_rom.modes.h5
+//   clatter-modal --compare block.fe.h5 block.rom.h5
+#include <fmt/format.h>
+
+#include "core/artefact.hpp"
+#include "core/blas_kernel.hpp"
+#include "core/command_line.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "modal/compare.hpp"
+#include "modal/modes_file.hpp"
+
+namespace {
+
+using namespace clatter;
+using Path = std::filesystem::path;
+
+struct Arguments {
+  std::vector<Path> inputs;
+  Path config, output;
+  int count = 0;
+  double fmax_hz = 0.0;
+  bool compare = false;
+};
+
+std::string number(double value) { return json_number(value); }
+
+modal::ModesOptions choose_options(const Arguments& arguments, std::string& resolved) {
+  modal::ModesOptions options;
+  if (!arguments.config.empty()) {
+    const Config config = Config::load(arguments.config);
+    options = modal::read_modes_options(config);
+    resolved = config.resolved();
+  }
+  if (arguments.count != 0 || arguments.fmax_hz != 0.0) {
+    options.count = arguments.count;
+    options.fmax_hz = arguments.fmax_hz;
+    resolved += fmt::format("count = {}\nfmax_hz = {}\n", options.count, options.fmax_hz);
+  }
+  return options;
+}
+
+int compute(const Arguments& arguments, const CommonOptions& common) {
+  if (arguments.inputs.size() != 1 || arguments.output.empty()) {
+    throw InputError("command line: expected one model and -o output.modes.h5");
+  }
+  StepClock clock;
+  const Path& input = arguments.inputs.front();
+  std::string resolved;
+  const modal::ModesOptions options = choose_options(arguments, resolved);
+  const std::string schema = H5File::open(input).get_string("/", "schema");
+  modal::PartModes part;
+  if (schema == "clatter/rom/1") {
+    part = modal::analyse(read_reduced_model(input), options);
+  } else {
+    const assembly::FeModel model = assembly::read_fe_model(input);
+    clock.lap(fmt::format("read {} DoF", model.size()));
+    part = modal::analyse(model, options);
+  }
+  clock.lap("modes");
+  for (const std::string& line : modal::describe(part)) say(line);
+
+  std::vector<Path> read{input};
+  if (!arguments.config.empty()) read.push_back(arguments.config);
+  H5File file = H5File::create(arguments.output);
+  modal::write_modes(file, part);
+  write_provenance(file, {modal::kModesSchema, resolved, read});
+  write_timing(file, clock);
+  file.commit();
+  write_depfile(common.depfile, arguments.output, read);
+  if (common.json) {
+    print_json({{"output", json_text(arguments.output.string())},
+                {"modes", number(part.modes.size())},
+                {"rigid", number(part.modes.rigid)},
+                {"count_proved", number(part.modes.proof.proved ? 1.0 : 0.0)},
+                {"seconds", number(clock.total_seconds())}});
+  }
+  return 0;
+}
+
+int compare(const Arguments& arguments, const CommonOptions& common) {
+  if (arguments.inputs.size() != 2) {
+    throw InputError("command line: --compare expects full.fe.h5 and reduced.rom.h5");
+  }
+  const assembly::FeModel full = assembly::read_fe_model(arguments.inputs[0]);
+  const ReducedModel reduced = read_reduced_model(arguments.inputs[1]);
+  const modal::Comparison result =
+      modal::compare(full, reduced, {arguments.fmax_hz, arguments.count});
+  if (common.json) {
+    print_json({{"modes", modal::json_of(result)},
+                {"rigid", number(result.rigid_full)},
+                {"largest_error", number(result.largest_error())},
+                {"smallest_mac", number(result.smallest_mac())}});
+  } else {
+    for (const std::string& line : modal::table_of(result)) fmt::print("{}\n", line);
+  }
+  return 0;
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  CommandLine line("clatter-modal",
+                   "Modes of an assembled or reduced part, with a proof that none is missing; "
+                   "--compare shows how well a reduced model keeps them.",
+                   "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"
+                   "         clatter-modal --compare block.fe.h5 block.rom.h5");
+  line.positional("model", arguments.inputs, "assembled (.fe.h5) or reduced (.rom.h5) part");
+  line.option("-c,--config", arguments.config, "what to compute (.modes.toml)");
+  line.option("-o,--output", arguments.output, "modes (.modes.h5)");
+  line.option("--count", arguments.count, "the lowest modes, this many (default 20)");
+  line.option("--fmax-hz", arguments.fmax_hz, "all modes below this frequency");
+  line.flag("--compare", arguments.compare, "compare a full and a reduced model");
+  if (!line.parse(argc, argv)) return line.exit_code();
+  if (arguments.count < 0 || arguments.fmax_hz < 0.0) {
+    throw InputError(
+        fmt::format("command line: found --count {} --fmax-hz {}, expected positive "
+                    "numbers",
+                    arguments.count, arguments.fmax_hz));
+  }
+  return arguments.compare ? compare(arguments, line.common()) : compute(arguments, line.common());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  clatter::ensure_fast_blas(argv);
+  return clatter::run_guarded("clatter-modal", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,64 @@
+#include "modal/modes_file.hpp"
+
+#include <fmt/format.h>
+
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+
+namespace clatter::modal {
+namespace {
+
+void write_proof(H5File& file, const ModeSet& modes) {
+  std::map<std::string, double> certificate;
+  certificate["count_proved"] = modes.proof.proved ? 1.0 : 0.0;
+  certificate["count_below"] = static_cast<double>(modes.proof.below);
+  certificate["count_limit_hz"] = hz_of_value(modes.proof.limit);
+  certificate["residual_max"] = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
+  certificate["rigid_modes"] = modes.rigid;
+  certificate["shift"] = modes.sigma;
+  certificate["solves"] = static_cast<double>(modes.solves);
+  certificate["retries"] = modes.retries;
+  certificate["factor_entries"] = static_cast<double>(modes.factor.entries);
+  certificate["factor_rcond"] = modes.factor.rcond;
+  write_certificate(file, certificate);
+}
+
+}  // namespace
+
+void write_modes(H5File& file, const PartModes& part) {
+  const ModeSet& modes = part.modes;
+  file.set("/", "name", part.name);
+  file.set("/", "source", part.source);
+  file.set("/", "method", modes.method);
+  file.set("/", "rigid_modes", modes.rigid);
+  file.write("frequency_hz", modes.frequencies_hz());
+  file.write("eigenvalue", modes.values);
+  file.write("residual", modes.residuals);
+  file.write("nodes", part.nodes);
+  const Eigen::MatrixXf shapes = part.shapes.cast<float>();
+  file.write_float("shapes", std::vector<float>(shapes.data(), shapes.data() + shapes.size()),
+                   {shapes.cols(), shapes.rows() / 3, 3});
+  for (const auto& [name, triangles] : part.surfaces) file.write("surfaces/" + name, triangles);
+  write_proof(file, modes);
+}
+
+ModeTable read_mode_table(const std::filesystem::path& path) {
+  const H5File file = open_artefact(path, kModesSchema);
+  ModeTable table;
+  table.name = file.get_string("/", "name");
+  table.rigid = static_cast<int>(file.get_int("/", "rigid_modes"));
+  table.frequency_hz = file.read_vector("frequency_hz");
+  table.residual = file.read_vector("residual");
+  const Eigen::Index count = table.frequency_hz.size();
+  if (table.residual.size() != count || table.rigid < 0 || table.rigid > count) {
+    throw InputError(fmt::format("{}: found {} frequencies, {} residuals, {} rigid modes",
+                                 path.string(), count, table.residual.size(), table.rigid));
+  }
+  if (!table.frequency_hz.allFinite() || (table.frequency_hz.array() < 0.0).any()) {
+    throw InputError(fmt::format("{}: frequency_hz: found a value that is negative or not finite",
+                                 path.string()));
+  }
+  return table;
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,191 @@
+// Comparison of models and the files of modes and reduced models.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "condense/condense.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "modal/compare.hpp"
+#include "modal/modes_file.hpp"
+#include "tests/condense/box_model.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+using test::box_model;
+
+ReducedModel reduce(const assembly::FeModel& model, double fmax_hz) {
+  condense::CondenseOptions options;
+  options.boundary = {"left", "right", "point"};
+  options.modes.fmax_hz = fmax_hz;
+  set_quiet(true);
+  StepClock clock;
+  return condense::condense(model, options, clock);
+}
+
+class InFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("clatter_modes_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write_fe(const assembly::FeModel& model) const {
+    const fs::path path = folder_ / "box.fe.h5";
+    H5File file = H5File::create(path);
+    assembly::write_fe_model(file, model);
+    write_provenance(file, {assembly::kFeSchema, "", {}});
+    file.commit();
+    return path;
+  }
+  fs::path write_text(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  /// Exit code of one of clatter's programs; what it prints goes to `log`.
+  int call(const std::string& arguments) const {
+    const std::string log = (folder_ / "log").string();
+    const std::string command =
+        std::string(CLATTER_BIN_DIR) + "/" + arguments + " >" + log + " 2>&1";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string log() const {
+    std::ifstream file(folder_ / "log");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder_;
+};
+
+TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, 9000.0);
+  const modal::Comparison result = modal::compare(model, reduced, {});
+  EXPECT_EQ(result.rigid_full, 6);
+  ASSERT_GT(result.modes.size(), 4u);
+  EXPECT_LT(result.largest_error(), 1e-3);
+  // A frequency that is 0.1 % too high comes from a shape with 0.2 % of foreign energy.
+  EXPECT_GT(result.smallest_mac(), 1.0 - 2e-3);
+  for (const auto& mode : result.modes) EXPECT_GE(mode.error, -1e-9);
+}
+
+TEST(Compare, AStifferModelShowsItsErrorInFrequencyOnly) {
+  const auto model = box_model();
+  ReducedModel reduced = reduce(model, 9000.0);
+  reduced.K_rr *= 1.21;
+  const modal::Comparison result = modal::compare(model, reduced, {0.0, 12});
+  for (const auto& mode : result.modes) EXPECT_NEAR(mode.error, 0.1, 1e-3);
+}
+
+TEST(Compare, StrangersAreRefused) {
+  const auto model = box_model();
+  ReducedModel reduced = reduce(model, 6000.0);
+  reduced.sets.clear();
+  reduced.skin.nodes.array() += 100.0;
+  EXPECT_THROW(modal::compare(model, reduced, {0.0, 10}), InputError);
+}
+
+TEST(Analyse, AClampedBoxHasNoRigidModesAndZerosWhereItIsHeld) {
+  const auto model = box_model();
+  modal::ModesOptions options;
+  options.count = 5;
+  options.fixed = {"left", "right"};
+  const modal::PartModes part = modal::analyse(model, options);
+  EXPECT_EQ(part.modes.rigid, 0);
+  for (const int dof : model.sets.at("left").dofs)
+    EXPECT_EQ(part.modes.vectors.row(dof).norm(), 0.0);
+  options.fixed = {"lfet"};
+  EXPECT_THROW(modal::analyse(model, options), InputError);
+}
+
+TEST_F(InFolder, ModesFileGivesBackItsTable) {
+  const auto model = box_model();
+  modal::ModesOptions options;
+  options.count = 9;
+  const modal::PartModes part = modal::analyse(model, options);
+  const fs::path path = folder_ / "box.modes.h5";
+  H5File file = H5File::create(path);
+  modal::write_modes(file, part);
+  write_provenance(file, {modal::kModesSchema, "", {}});
+  file.commit();
+  const modal::ModeTable table = modal::read_mode_table(path);
+  EXPECT_EQ(table.rigid, 6);
+  EXPECT_EQ(table.frequency_hz, part.modes.frequencies_hz());
+  EXPECT_EQ(H5File::open(path).shape("shapes"), (std::vector<int64_t>{9, model.nodes.rows(), 3}));
+}
+
+TEST_F(InFolder, CommandsReduceAndCompareAModel) {
+  const std::string fe = write_fe(box_model()).string();
+  const std::string toml =
+      write_text("box.rom.toml", "boundary = [\"left\", \"right\"]\nfmax_hz = 9000.0\n").string();
+  const std::string rom = (folder_ / "box.rom.h5").string();
+  ASSERT_EQ(call("clatter-condense " + fe + " -c " + toml + " -o " + rom + " --json"), 0) << log();
+  EXPECT_NE(log().find("\"count_proved\": 1"), std::string::npos) << log();
+  const ReducedModel reduced = read_reduced_model(rom);
+  EXPECT_EQ(reduced.method, "craig-bampton");
+  EXPECT_EQ(reduced.valid_to_hz, 9000.0);
+  EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);
+  ASSERT_EQ(call("clatter-modal --compare " + fe + " " + rom), 0) << log();
+  EXPECT_NE(log().find("MAC"), std::string::npos) << log();
+  const std::string modes = (folder_ / "box.modes.h5").string();
+  ASSERT_EQ(call("clatter-modal " + fe + " --count 8 -o " + modes), 0) << log();
+  EXPECT_EQ(modal::read_mode_table(modes).rigid, 6);
+  ASSERT_EQ(call("clatter-modal " + rom + " --count 8 -o " + modes), 0) << log();
+}
+
+TEST_F(InFolder, BadInputEndsWithCode2AndLeavesNoFile) {
+  const std::string fe = write_fe(box_model()).string();
+  const std::string rom = (folder_ / "box.rom.h5").string();
+  const auto condense_with = [&](const std::string& text) {
+    const std::string toml = write_text("bad.rom.toml", text).string();
+    return call("clatter-condense " + fe + " -c " + toml + " -o " + rom);
+  };
+  EXPECT_EQ(condense_with("boundary = [\"lfet\"]\nfmax_hz = 5000.0\n"), 2);
+  EXPECT_NE(log().find("left"), std::string::npos) << log();
+  EXPECT_EQ(condense_with("boundary = [\"left\"]\nfmax_hz = -1.0\n"), 2);
+  EXPECT_EQ(condense_with("boundary = [\"left\"]\nfmax_hz = 1e12\n"), 2);
+  EXPECT_EQ(condense_with("boundary = [\"point\"]\nfmax_hz = 5000.0\n"), 2);
+  EXPECT_EQ(condense_with("bounday = [\"left\"]\nfmax_hz = 5000.0\n"), 2);
+  EXPECT_FALSE(fs::exists(rom));
+  EXPECT_EQ(call("clatter-modal " + fe + " --fmax-hz -3 -o " + rom), 2);
+  EXPECT_EQ(call("clatter-modal " + fe), 2);
+}
+
+TEST_F(InFolder, ATruncatedModelIsRefusedAndTheOldResultStays) {
+  const std::string fe = write_fe(box_model()).string();
+  fs::resize_file(fe, fs::file_size(fe) / 2);
+  const std::string rom = write_text("box.rom.h5", "an older result").string();
+  const std::string toml =
+      write_text("box.rom.toml", "boundary = [\"left\", \"right\"]\ncount = 5\n").string();
+  const int code = call("clatter-condense " + fe + " -c " + toml + " -o " + rom);
+  EXPECT_TRUE(code == 2 || code == 4) << code << log();
+  std::ifstream old(rom);
+  std::string text;
+  std::getline(old, text);
+  EXPECT_EQ(text, "an older result");
+}
+
+TEST_F(InFolder, HardC6_TooLittleMemoryEndsWithCode3AndNeverWithASignal) {
+  const std::string fe = write_fe(box_model(24, 22, 22)).string();
+  const std::string toml =
+      write_text("box.rom.toml", "boundary = [\"left\", \"right\"]\ncount = 60\n").string();
+  const std::string rom = (folder_ / "box.rom.h5").string();
+  const std::string program = "clatter-condense " + fe + " -c " + toml + " -o " + rom;
+  // Address space that holds the program and the matrices, but not the factor.
+  const std::string command = "bash -c 'export OPENBLAS_NUM_THREADS=1; ulimit -v 420000; exec " +
+                              std::string(CLATTER_BIN_DIR) + "/" + program + "' >" +
+                              (folder_ / "log").string() + " 2>&1";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3) << log();
+  EXPECT_NE(log().find("memory"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(rom));
+}
+
+}  // namespace
+}  // namespace clatter
