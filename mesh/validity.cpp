@@ -126,7 +126,9 @@ double mean_of(const PolarForm& form) {
 
 JacobianBounds jacobian_bounds(const Tet10Nodes& x) {
   const PolarForm form = polar_form(x);
-  return {lower_bound(form, 0), mean_of(form)};
+  const double low = lower_bound(form, 0);
+  // Disproved in a part of the cell: the bound of the whole is the smallest coefficient.
+  return {low > 0.0 ? low : smallest(form), mean_of(form)};
 }
 
 double volume_of(const Tet10Nodes& x) { return mean_of(polar_form(x)) / 6.0; }

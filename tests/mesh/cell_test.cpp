@@ -1,0 +1,146 @@
+// Node orders, validity and quality against cases that can be checked by hand.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "core/error.hpp"
+#include "mesh/quality.hpp"
+#include "support.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using testing::one_cell;
+using testing::reference_tet10;
+
+TEST(Cell, VtkOrderSwapsTheLastTwoNodesAndIsItsOwnInverse) {
+  const auto p = traits(CellType::kTet10).to_vtk;
+  const std::vector<int> gmsh = {10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+  std::vector<int> vtk, back;
+  for (int i : p) vtk.push_back(gmsh[i]);
+  EXPECT_EQ(vtk, (std::vector<int>{10, 11, 12, 13, 14, 15, 16, 17, 19, 18}));
+  for (int i : p) back.push_back(vtk[i]);
+  EXPECT_EQ(back, gmsh);
+}
+
+TEST(Cell, MiddleNodesOfFacesLieBetweenTheirCorners) {
+  const Tet10Nodes x = reference_tet10();
+  for (const auto& face : kTetFaces) {
+    for (int e = 0; e < 3; ++e) {
+      const auto [a, b] = kTriangleEdges[e];
+      EXPECT_EQ(x.row(face[3 + e]), 0.5 * (x.row(face[a]) + x.row(face[b])));
+    }
+  }
+}
+
+TEST(Cell, UnknownNameIsRefusedWithTheKnownOnes) {
+  EXPECT_EQ(cell_type_named("tet10", "f"), CellType::kTet10);
+  EXPECT_THROW(cell_type_named("hex99", "f"), InputError);
+}
+
+TEST(Boundary, OneCellIsClosedOutwardAndEnclosesASixth) {
+  const Mesh mesh = one_cell();
+  const SurfaceIntegrals s = integrate(mesh, mesh.surface("skin"));
+  EXPECT_EQ(mesh.surface("skin").triangles.rows(), 4);
+  // Rounding of a few dozen products of order one; the quadrature's constants carry 15 digits.
+  EXPECT_NEAR(s.enclosed, 1.0 / 6.0, 1e-14);
+  EXPECT_NEAR(s.area, 1.5 + std::sqrt(3.0) / 2.0, 1e-14);
+  EXPECT_LT(s.normal.norm(), 1e-14);
+  EXPECT_EQ(count_inward(mesh, mesh.surface("skin")), 0);
+}
+
+TEST(Boundary, HardG9_ReversedTriangleIsCountedAsInward) {
+  Mesh mesh = one_cell();
+  auto& t = mesh.surfaces["skin"].triangles;
+  std::swap(t(1, 1), t(1, 2));
+  std::swap(t(1, 3), t(1, 5));
+  EXPECT_EQ(count_inward(mesh, mesh.surface("skin")), 1);
+  EXPECT_GT(integrate(mesh, mesh.surface("skin")).normal.norm(), 0.1);
+}
+
+TEST(Validity, StraightCellHasScaledJacobianOne) {
+  const JacobianBounds b = jacobian_bounds(reference_tet10());
+  EXPECT_NEAR(b.min, 1.0, 1e-14);   // det J of the reference cell
+  EXPECT_NEAR(b.mean, 1.0, 1e-14);  // rounding only
+  EXPECT_NEAR(volume_of(reference_tet10()), 1.0 / 6.0, 1e-15);
+}
+
+// det J of x = sum N_i x_i at barycentric coordinates l, from shape function derivatives.
+double det_at(const Tet10Nodes& x, const Eigen::Vector4d& l) {
+  Eigen::Matrix<double, 10, 4> d = Eigen::Matrix<double, 10, 4>::Zero();  // dN/dl
+  for (int i = 0; i < 4; ++i) d(i, i) = 4 * l[i] - 1;
+  for (int e = 0; e < 6; ++e) {
+    d(4 + e, kTetEdges[e][0]) = 4 * l[kTetEdges[e][1]];
+    d(4 + e, kTetEdges[e][1]) = 4 * l[kTetEdges[e][0]];
+  }
+  const Eigen::Matrix<double, 3, 4> g = x.transpose() * d;
+  Eigen::Matrix3d J;
+  for (int k = 0; k < 3; ++k) J.col(k) = g.col(k + 1) - g.col(0);
+  return J.determinant();
+}
+
+TEST(Validity, BezierBoundIsBelowEverySampleAndVerdictIsRight) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-0.16, 0.16), unit(0.0, 1.0);
+  int folded = 0, valid = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Tet10Nodes x = reference_tet10();
+    for (int i = 4; i < 10; ++i)
+      x.row(i) += Eigen::RowVector3d(shift(random), shift(random), shift(random));
+    const JacobianBounds bounds = jacobian_bounds(x);
+    double lowest = 1e300;
+    for (int s = 0; s < 2000; ++s) {
+      Eigen::Vector4d l(unit(random), unit(random), unit(random), unit(random));
+      if (s % 2 == 0) l[s / 2 % 4] = 0.0;  // also faces: minima often lie there
+      l /= l.sum();
+      lowest = std::min(lowest, det_at(x, l));
+    }
+    for (int i = 0; i < 4; ++i) lowest = std::min(lowest, det_at(x, Eigen::Vector4d::Unit(i)));
+    EXPECT_LE(bounds.min, lowest + 1e-12);  // rounding of a cubic with terms of order one
+    if (bounds.min > 0.0) ++valid;
+    if (lowest < 0.0) {
+      ++folded;
+      EXPECT_LE(bounds.min, 0.0);
+    }
+  }
+  EXPECT_GT(folded, 20);  // the cases do reach both sides
+  EXPECT_GT(valid, 20);
+}
+
+TEST(Validity, HardG2_FoldedCellThatFourGaussPointsCallGoodIsFound) {
+  Tet10Nodes x = reference_tet10();
+  x(4, 0) = 0.2;  // middle of edge 0-1 pulled below the quarter point: det J < 0 at corner 0
+  const double a = 0.58541020, b = 0.13819660;
+  for (int i = 0; i < 4; ++i) {
+    Eigen::Vector4d l = Eigen::Vector4d::Constant(b);
+    l[i] = a;
+    EXPECT_GT(det_at(x, l), 0.0);
+  }
+  EXPECT_LT(det_at(x, Eigen::Vector4d::Unit(0)), 0.0);
+  EXPECT_LE(jacobian_bounds(x).ratio(), 0.0);
+  const ValidityReport report = check_validity(one_cell(x));
+  ASSERT_EQ(report.invalid.size(), 1u);
+  EXPECT_NE(describe_invalid(report, 1).find("cell 0 of block 0 at (0.25, 0.25, 0.25) m"),
+            std::string::npos);
+}
+
+TEST(Quality, RegularTetrahedronHasItsKnownAngles) {
+  Eigen::Matrix<double, 4, 3> x;
+  x << 1, 1, 1, -1, 1, -1, 1, -1, -1, -1, -1, 1;  // positive orientation
+  const auto angles = dihedral_angles(x);
+  for (int e = 0; e < 6; ++e) EXPECT_NEAR(angles[e], std::acos(1.0 / 3.0) * 180 / M_PI, 1e-12);
+  EXPECT_NEAR(radius_ratio(x), 1.0, 1e-14);
+}
+
+TEST(Quality, WorstCellIsNamedWithItsPlace) {
+  const QualityReport q = measure_quality(one_cell());
+  EXPECT_NEAR(q.min_dihedral_deg.worst, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
+  EXPECT_NEAR(q.max_dihedral_deg.worst, 90.0, 1e-12);
+  EXPECT_NEAR(q.min_dihedral_deg.place.x(), 0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace clatter::mesh

@@ -1,0 +1,98 @@
+// clatter-mesh as a user meets it: exit codes, one line on stderr, nothing left behind.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "mesh/mesh_file.hpp"
+#include "support.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using testing::Folder;
+
+struct Outcome {
+  int code;
+  std::string out, err;
+};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+Outcome run(const Folder& folder, const std::string& arguments) {
+  const std::string command = std::string(CLATTER_BIN_DIR) + "/clatter-mesh " + arguments + " >" +
+                              (folder / "out").string() + " 2>" + (folder / "err").string();
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), text_of(folder / "out"), text_of(folder / "err")};
+}
+
+std::string put(const Folder& folder, const std::string& text) {
+  std::ofstream(folder / "part.mesh.toml") << text;
+  return (folder / "part.mesh.toml").string();
+}
+
+const std::string kBeam =
+    "name = 'beam'\nkind = 'box'\n[box]\nsize = [60, 20, 10]\n[mesh]\nelement_size_mm = 12\n";
+
+TEST(CliMesh, MakesTheMeshTheStepFileAndTheExports) {
+  const Folder folder;
+  const std::string part = put(folder, kBeam), mesh = (folder / "beam.mesh.h5").string();
+  const Outcome o =
+      run(folder, part + " -o " + mesh + " --json --write-step " + (folder / "beam.step").string() +
+                      " --export " + (folder / "beam.vtu").string() + " --export " +
+                      (folder / "beam.msh").string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out.front(), '{');
+  EXPECT_EQ(std::count(o.out.begin(), o.out.end(), '\n'), 1);
+  EXPECT_GT(read_mesh(mesh).cell_count(), 10);
+  for (const char* name : {"beam.step", "beam.vtu", "beam.msh"}) {
+    EXPECT_GT(std::filesystem::file_size(folder / name), 1000u) << name;
+  }
+  // And the second way in: the STEP file that was written.
+  const std::string again = put(folder,
+                                "name = 'beam'\nkind = 'cad'\n[cad]\nsource = 'beam.step'\n"
+                                "[surface.clamp]\nplane = { normal = [1, 0, 0], height = 0 }\n");
+  EXPECT_EQ(run(folder, again + " -o " + (folder / "again.mesh.h5").string()).code, 0);
+  EXPECT_GT(read_mesh(folder / "again.mesh.h5").surface("clamp").triangles.rows(), 0);
+}
+
+void expect_refused(const std::string& toml, int code, const std::string& text) {
+  const Folder folder;
+  std::ofstream(folder / "old.mesh.h5") << "precious";
+  const Outcome o =
+      run(folder, put(folder, toml) + " -o " + (folder / "old.mesh.h5").string() + " --quiet");
+  EXPECT_EQ(o.code, code) << o.err;
+  EXPECT_NE(o.err.find(text), std::string::npos) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_EQ(text_of(folder / "old.mesh.h5"), "precious");
+}
+
+TEST(CliMesh, UnknownKeyIsBadInput) {
+  expect_refused(kBeam + "elements_per_trun = 3\n", 2, "elements_per_turn");
+}
+
+TEST(CliMesh, SurfaceThatSelectsNothingIsBadInput) {
+  expect_refused(kBeam + "[surface.hole]\nplane = { normal = [1, 0, 0], height = 61 }\n", 2,
+                 "surface 'hole' selects no face");
+}
+
+TEST(CliMesh, MissingCadFileIsBadInput) {
+  expect_refused("name = 'x'\nkind = 'cad'\n[cad]\nsource = 'none.step'\n", 2, "none.step");
+}
+
+TEST(CliMesh, MissingDescriptionIsBadInputAndMissingFolderFileTrouble) {
+  const Folder folder;
+  EXPECT_EQ(run(folder, "/nowhere/part.mesh.toml -o x.h5").code, 2);
+  EXPECT_EQ(run(folder, put(folder, kBeam) + " -o /nowhere/beam.mesh.h5 --quiet").code, 4);
+  EXPECT_EQ(run(folder, "--help").code, 0);
+}
+
+}  // namespace
+}  // namespace clatter::mesh

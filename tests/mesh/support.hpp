@@ -1,0 +1,63 @@
+#pragma once
+// Small meshes and folders that the tests share.
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "mesh/boundary.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/validity.hpp"
+
+namespace clatter::mesh::testing {
+
+/// The reference tetrahedron: corners at the origin and on the axes, straight edges.
+inline Tet10Nodes reference_tet10() {
+  Tet10Nodes x = Tet10Nodes::Zero();
+  x.row(1) << 1, 0, 0;
+  x.row(2) << 0, 1, 0;
+  x.row(3) << 0, 0, 1;
+  for (int e = 0; e < 6; ++e) {
+    x.row(4 + e) = 0.5 * (x.row(kTetEdges[e][0]) + x.row(kTetEdges[e][1]));
+  }
+  return x;
+}
+
+/// A mesh of that one cell.
+inline Mesh one_cell(const Tet10Nodes& x = reference_tet10()) {
+  Mesh mesh;
+  mesh.name = "one";
+  mesh.nodes = x;
+  mesh.regions = {"steel"};
+  CellBlock block;
+  block.nodes.resize(1, 10);
+  block.nodes << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  mesh.cells = {block};
+  mesh.surfaces["skin"] = skin_of(mesh, boundary_faces(mesh));
+  mesh.node_sets["tip"] = {3};
+  return mesh;
+}
+
+/// A folder of its own that goes when the test ends.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("clatter_mesh_" + unique())) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  static std::string unique() {
+    static int count = 0;
+    return std::to_string(::getpid()) + "_" + std::to_string(count++);
+  }
+  std::filesystem::path path_;
+};
+
+}  // namespace clatter::mesh::testing
