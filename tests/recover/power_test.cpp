@@ -19,10 +19,8 @@ using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
 constexpr Complex kI{0.0, 1.0};
 
-/// Nodal velocity equal to the outward normal of a box's or sphere's faces does not exist at edges;
-/// one column per side does it instead: side s moves with its own unit normal.
 TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
-  // A plate pair: the two x sides of a box move outward with v, everything else tangentially.
+  // The two x sides of a box move outward with v; the other four only slide along themselves.
   const Mesh6 mesh = box({0.2, 0.5, 0.3}, 3);
   RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 1);
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a, 0) = mesh.nodes(a, 0) / 0.1 - 1.0;
