@@ -106,7 +106,9 @@ void Builder::add_generalised(const std::string& name, const Coupling& coupling,
   DofSet set = coupling.set;
   for (size_t k = 0; k < coupling.rows.size(); ++k)
     set.dofs.push_back(first + static_cast<int32_t>(k));
-  functionals_.insert(functionals_.end(), coupling.rows.begin(), coupling.rows.end());
+  const std::vector<Functional> rows = coupling.nodal_rows();
+  functionals_.insert(functionals_.end(), coupling.means.begin(), coupling.means.end());
+  functionals_.insert(functionals_.end(), rows.begin(), rows.end());
   generalised_sets_.push_back(name);
   out_.model.sets[name] = std::move(set);
 }
@@ -134,7 +136,8 @@ void Builder::add_couplings() {
                     spec.where);
   elimination_ = eliminator_->finish();
   for (const std::string& name : generalised_sets_)
-    for (int32_t& dof : out_.model.sets[name].dofs) dof += elimination_.first_generalised;
+    for (int32_t& dof : out_.model.sets[name].dofs)
+      dof = elimination_.reduced_of[static_cast<size_t>(3 * mesh_.nodes.rows() + dof)];
 }
 
 void Builder::number_node_sets() {
@@ -230,13 +233,17 @@ Eigen::MatrixXd Builder::nodal_rigid() const {
 
 Eigen::MatrixXd Builder::reduced_rigid(const Eigen::MatrixXd& nodal) const {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(elimination_.size(), 6);
-  for (size_t dof = 0; dof < elimination_.reduced_of.size(); ++dof)
-    if (elimination_.reduced_of[dof] >= 0)
-      rigid.row(elimination_.reduced_of[dof]) = nodal.row(static_cast<Eigen::Index>(dof));
-  for (size_t g = 0; g < functionals_.size(); ++g)
+  const auto reduced = [this](Eigen::Index id) {
+    return elimination_.reduced_of[static_cast<size_t>(id)];
+  };
+  for (Eigen::Index dof = 0; dof < nodal.rows(); ++dof)
+    if (reduced(dof) >= 0) rigid.row(reduced(dof)) = nodal.row(dof);
+  for (size_t g = 0; g < functionals_.size(); ++g) {
+    const int32_t row = reduced(nodal.rows() + static_cast<Eigen::Index>(g));
+    if (row < 0) continue;
     for (size_t k = 0; k < functionals_[g].dofs.size(); ++k)
-      rigid.row(elimination_.first_generalised + static_cast<Eigen::Index>(g)) +=
-          functionals_[g].values[k] * nodal.row(functionals_[g].dofs[k]);
+      rigid.row(row) += functionals_[g].values[k] * nodal.row(functionals_[g].dofs[k]);
+  }
   return rigid;
 }
 

@@ -20,21 +20,34 @@ struct Functional {
 };
 
 /// Generalised coordinates that enter the model together.
+///
+/// A row over a large face would couple each displacement of the face with each other in K and M.
+/// So large faces go in two steps: `means` are mean displacements of groups of nodes, which become
+/// coordinates too, and `rows` combine these few. The model then grows by entries within groups and
+/// among group means only.
 struct Coupling {
-  std::vector<Functional> rows;
-  bool disjoint = false;  // no nodal DoF occurs in two rows
-  DofSet set;             // one entry a row; `dofs` is filled by the elimination
+  std::vector<Functional> rows;   // on nodal DoFs; on the means' numbers when there are means
+  std::vector<Functional> means;  // on nodal DoFs, no DoF in two of them
+  bool disjoint = false;          // no nodal DoF occurs in two rows
+  DofSet set;                     // one entry a row; `dofs` is filled by the elimination
+
+  /// The rows in terms of nodal DoFs.
+  std::vector<Functional> nodal_rows() const;
 };
+
+/// Faces with more nodes than this go in two steps; groups have at most kGroupNodes nodes.
+inline constexpr size_t kLargeFace = 100;
+inline constexpr size_t kGroupNodes = 24;
 
 /// The motion of a reference node at `point` (the centroid when absent) that fits the motion of a
 /// face best (distributing coupling, RBE3):
-///   minimise int |u(x) - (u_ref + theta x (x - point))|^2 dA   over u_ref, theta,
-///   q_ref = A^-1 int R^T u dA,  A = int R^T R dA,  R = [I, -(x - point) x].
-/// With u = sum N_a u_a the integrals are those of surface_integral.hpp. Rigid motions are
-/// reproduced exactly; a force on q_ref is a traction on the face, linear in space, that adds
-/// nothing to the face's stiffness (hard case B6: an RBE2 would).
-/// `n_dofs` 6 (displacement, rotation) or 3 (displacement only). InputError, beginning with
-/// `where`, when the face does not define a rotation (all nodes on a line).
+///   minimise sum_p W_p |u_p - (u_ref + theta x (x - point)_p)|^2   over u_ref, theta,
+///   q_ref = A^-1 sum_p W_p R_p^T u_p,  A = sum_p W_p R_p^T R_p,  R = [I, -(x - point) x].
+/// p counts the nodes of the face with their consistent areas W_p = int N_p dA; on a large face
+/// groups of nodes with area-weighted means u_p, R_p. Rigid motions are reproduced exactly; a force
+/// on q_ref is spread over the face like a traction and adds nothing to its stiffness (hard case
+/// B6: an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only). InputError,
+/// beginning with `where`, when the face does not define a rotation (all nodes on a line).
 Coupling distributing_coupling(const std::string& name, const std::string& kind,
                                const RowMatrix& coordinates, const SurfaceIntegrals& surface,
                                const std::optional<Eigen::Vector3d>& point, int n_dofs,

@@ -63,8 +63,7 @@ std::vector<int32_t> Eliminator::choose_pivots(const Eigen::MatrixXd& C,
                                                const std::string& where) const {
   std::vector<int32_t> candidates;
   for (size_t c = 0; c < ids.size(); ++c)
-    if (ids[c] < n_dofs_ && state_[static_cast<size_t>(ids[c])] == kFree)
-      candidates.push_back(static_cast<int32_t>(c));
+    if (state_[static_cast<size_t>(ids[c])] == kFree) candidates.push_back(static_cast<int32_t>(c));
   const Eigen::Index m = C.rows();
   std::vector<int32_t> chosen;
   if (static_cast<Eigen::Index>(candidates.size()) >= m) {
@@ -91,21 +90,17 @@ void Eliminator::substitute(const std::vector<int32_t>& fresh) {
     };
     if (std::none_of(pivot_rows_[p].begin(), pivot_rows_[p].end(), is_fresh)) continue;
     Functional row;
-    SparseRow rest;
     for (const auto& [id, value] : pivot_rows_[p]) {
-      const bool nodal = id < n_dofs_;
-      if (nodal) row.dofs.push_back(id), row.values.push_back(value);
-      if (!nodal) rest.emplace_back(id, value);
-    }
-    for (const auto& [id, value] : rest) {
-      sum_[static_cast<size_t>(id)] += value;
-      touched_.push_back(id);
+      row.dofs.push_back(id);
+      row.values.push_back(value);
     }
     pivot_rows_[p] = expand(row);
   }
 }
 
-void Eliminator::eliminate(const std::vector<Functional>& functionals, const std::string& where) {
+/// Takes rows in as the next generalised coordinates, which get the given state.
+void Eliminator::eliminate(const std::vector<Functional>& functionals, int32_t state,
+                           const std::string& where) {
   std::vector<SparseRow> rows;
   std::vector<int32_t> ids;
   for (const Functional& functional : functionals) {
@@ -156,18 +151,35 @@ void Eliminator::eliminate(const std::vector<Functional>& functionals, const std
   }
   generalised_ += static_cast<int>(m);
   sum_.resize(static_cast<size_t>(n_dofs_ + generalised_), 0.0);
+  state_.resize(sum_.size(), state);
   substitute(fresh);
   const auto width = static_cast<int64_t>(ids.size());
   fill_ += width * (width + 1) / 2;
 }
 
+void Eliminator::add_mean(const Functional& mean, const std::string& where) {
+  if (expand(mean).empty()) {  // a group that supports hold altogether
+    ++generalised_;
+    sum_.push_back(0.0);
+    state_.push_back(kFixed);
+    return;
+  }
+  eliminate({mean}, kFree, where);
+}
+
 int Eliminator::add(const Coupling& coupling, const std::string& where) {
+  const auto first_mean = static_cast<int32_t>(n_dofs_ + generalised_);
+  for (const Functional& mean : coupling.means) add_mean(mean, where);
+  std::vector<Functional> rows = coupling.rows;
+  for (Functional& row : rows)
+    for (int32_t& id : row.dofs)
+      if (!coupling.means.empty()) id += first_mean;
   const int first = generalised_;
   if (coupling.disjoint) {
-    for (size_t r = 0; r < coupling.rows.size(); ++r)
-      eliminate({coupling.rows[r]}, where + ": " + coupling.set.labels[r]);
+    for (size_t r = 0; r < rows.size(); ++r)
+      eliminate({rows[r]}, kKept, where + ": " + coupling.set.labels[r]);
   } else {
-    eliminate(coupling.rows, where);
+    eliminate(rows, kKept, where);
   }
   if (fill_ > std::numeric_limits<int32_t>::max())
     throw InputError(fmt::format(
@@ -179,30 +191,25 @@ int Eliminator::add(const Coupling& coupling, const std::string& where) {
 
 Elimination Eliminator::finish() const {
   Elimination out;
-  out.reduced_of.assign(static_cast<size_t>(n_dofs_), -1);
+  out.reduced_of.assign(state_.size(), -1);
   int32_t next = 0;
-  for (size_t dof = 0; dof < state_.size(); ++dof)
-    if (state_[dof] == kFree || state_[dof] == kKept) out.reduced_of[dof] = next++;
-  out.first_generalised = next;
-  const auto reduced = [&](int32_t id) {
-    return id < n_dofs_ ? out.reduced_of[static_cast<size_t>(id)]
-                        : out.first_generalised + static_cast<int32_t>(id - n_dofs_);
-  };
+  for (size_t id = 0; id < state_.size(); ++id)
+    if (state_[id] == kFree || state_[id] == kKept) out.reduced_of[id] = next++;
   // A row of T is a column of its transpose: rows are appended, nothing is sorted or searched.
-  const Eigen::Index n = next + generalised_;
-  SparseMatrix transposed(n, static_cast<Eigen::Index>(n_dofs_));
-  SparseMatrix pivots(n, static_cast<Eigen::Index>(pivot_dofs_.size()));
+  const auto nodal = static_cast<Eigen::Index>(n_dofs_);
+  SparseMatrix transposed(next, nodal), pivots(next, nodal);
   Eigen::Index pivot = 0;
-  for (size_t dof = 0; dof < state_.size(); ++dof) {
-    const auto column = static_cast<Eigen::Index>(dof);
+  for (Eigen::Index column = 0; column < nodal; ++column) {
+    const auto dof = static_cast<size_t>(column);
     transposed.startVec(column);
     if (out.reduced_of[dof] >= 0) transposed.insertBack(out.reduced_of[dof], column) = 1.0;
     if (state_[dof] < 0) continue;
     out.pivots.push_back(static_cast<int32_t>(dof));
     pivots.startVec(pivot);
     for (const auto& [id, value] : pivot_rows_[static_cast<size_t>(state_[dof])]) {
-      transposed.insertBack(reduced(id), column) = value;
-      pivots.insertBack(reduced(id), pivot) = value;
+      const int32_t reduced = out.reduced_of[static_cast<size_t>(id)];
+      transposed.insertBack(reduced, column) = value;
+      pivots.insertBack(reduced, pivot) = value;
       if (id < n_dofs_) out.growth = std::max(out.growth, std::abs(value));
     }
     ++pivot;
@@ -210,7 +217,7 @@ Elimination Eliminator::finish() const {
   transposed.finalize();
   pivots.finalize();
   out.T = transposed.transpose();
-  out.pivot_rows = pivots.transpose();
+  out.pivot_rows = SparseMatrix(pivots.leftCols(pivot)).transpose();
   return out;
 }
 

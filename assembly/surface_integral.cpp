@@ -12,7 +12,7 @@ namespace {
 template <int N>
 struct FaceIntegrals {
   Eigen::Matrix<double, N, 3> normal = Eigen::Matrix<double, N, 3>::Zero();
-  Eigen::Matrix<double, N, N> gram = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, 1> weight = Eigen::Matrix<double, N, 1>::Zero();
 };
 
 template <int N>
@@ -25,15 +25,13 @@ FaceIntegrals<N> integrate_face(const Eigen::Matrix<double, N, 3>& x) {
     const Eigen::Vector3d normal = tangent.col(0).cross(tangent.col(1));
     const double weight = rule.weights(q);
     sum.normal += weight * shape.value * normal.transpose();
-    sum.gram += weight * normal.norm() * shape.value * shape.value.transpose();
+    sum.weight += weight * normal.norm() * shape.value;
   }
   return sum;
 }
 
 template <int N>
 void add_faces(const RowMatrix& coordinates, const IndexMatrix& triangles, SurfaceIntegrals& out) {
-  std::vector<Eigen::Triplet<double, int32_t>> entries;
-  entries.reserve(static_cast<size_t>(triangles.rows() * N * N));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     Eigen::Matrix<double, N, 3> x;
     Eigen::Matrix<int32_t, N, 1> local;
@@ -46,10 +44,9 @@ void add_faces(const RowMatrix& coordinates, const IndexMatrix& triangles, Surfa
     const FaceIntegrals<N> face = integrate_face<N>(x);
     for (int a = 0; a < N; ++a) {
       out.normal.row(local(a)) += face.normal.row(a);
-      for (int b = 0; b < N; ++b) entries.emplace_back(local(a), local(b), face.gram(a, b));
+      out.weight(local(a)) += face.weight(a);
     }
   }
-  out.gram.setFromTriplets(entries.begin(), entries.end());
 }
 
 }  // namespace
@@ -61,12 +58,11 @@ SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const IndexMatr
   out.nodes.erase(std::unique(out.nodes.begin(), out.nodes.end()), out.nodes.end());
   const auto n = static_cast<Eigen::Index>(out.nodes.size());
   out.normal = RowMatrix::Zero(n, 3);
-  out.gram.resize(n, n);
+  out.weight = Eigen::VectorXd::Zero(n);
   if (triangles.cols() == 3)
     add_faces<3>(coordinates, triangles, out);
   else
     add_faces<6>(coordinates, triangles, out);
-  out.weight = out.gram * Eigen::VectorXd::Ones(n);  // sum_l N_l = 1
   out.area = out.weight.sum();
   for (Eigen::Index k = 0; k < n; ++k)
     out.centroid +=

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/sparse.hpp"
+#include "core/h5_file.hpp"
 
 namespace clatter::assembly {
 
@@ -13,7 +13,6 @@ struct SurfaceIntegrals {
   std::vector<int32_t> nodes;  // n_s mesh nodes, ascending
   Eigen::VectorXd weight;      // w_k = int N_k dA [m2]: consistent area, sums to `area`
   RowMatrix normal;            // n_s x 3: int N_k n dA [m2], n outward
-  SparseMatrix gram;           // n_s x n_s, int N_k N_l dA [m2], both triangles
   double area = 0.0;           // [m2]
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // [m]
 };

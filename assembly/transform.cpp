@@ -62,8 +62,9 @@ Split split(SparseMatrix&& lower, const Elimination& elimination) {
     const int32_t reduced = elimination.reduced_of[static_cast<size_t>(col)];
     if (reduced >= 0) new_outer[static_cast<size_t>(reduced) + 1] = to;
   }
-  for (size_t c = static_cast<size_t>(elimination.first_generalised) + 1; c < new_outer.size(); ++c)
-    new_outer[c] = to;
+  // The generalised coordinates follow the displacements and have no entries yet.
+  for (size_t c = 1; c < new_outer.size(); ++c)
+    new_outer[c] = std::max(new_outer[c], new_outer[c - 1]);
   Split parts;
   parts.kept = Eigen::Map<const SparseMatrix>(n, n, to, new_outer.data(), inner, values);
   lower.resize(0, 0);

@@ -1,0 +1,16 @@
+#pragma once
+// Cuts the nodes of a surface into compact groups.
+#include <cstdint>
+#include <vector>
+
+#include "core/h5_file.hpp"
+
+namespace clatter::assembly {
+
+/// Groups of at most `limit` nodes each: halved at the median of the longest extent until small
+/// enough (recursive coordinate bisection). `coordinates` n x 3; each node is in one group. The
+/// result depends on the coordinates and node numbers only.
+std::vector<std::vector<int32_t>> cluster_nodes(const RowMatrix& coordinates,
+                                                const std::vector<int32_t>& nodes, size_t limit);
+
+}  // namespace clatter::assembly
