@@ -6,21 +6,14 @@
 namespace clatter::film {
 namespace {
 
-// Right-hand sides are swept in strips of this many columns: one strip of a row stays in registers.
-constexpr int kStrip = 16;
-
-// target[0..count) -= sum over m of factor[m] * source row m; rows lie `stride` apart.
-void subtract_rows(double* target, const double* factor, const double* source, int rows, int stride,
-                   int count) {
-  if (count == kStrip) {
-    double sum[kStrip] = {};
-    for (int m = 0; m < rows; ++m, source += stride)
-      for (int c = 0; c < kStrip; ++c) sum[c] += factor[m] * source[c];
-    for (int c = 0; c < kStrip; ++c) target[c] -= sum[c];
-    return;
-  }
+// target[0..kCount) -= sum over m of factor[m] * source row m; rows lie `stride` apart.
+template <int kCount>
+void subtract_rows(double* target, const double* factor, const double* source, int rows,
+                   int stride) {
+  double sum[kCount] = {};
   for (int m = 0; m < rows; ++m, source += stride)
-    for (int c = 0; c < count; ++c) target[c] -= factor[m] * source[c];
+    for (int c = 0; c < kCount; ++c) sum[c] += factor[m] * source[c];
+  for (int c = 0; c < kCount; ++c) target[c] -= sum[c];
 }
 
 }  // namespace
@@ -70,22 +63,26 @@ void BandedLu::solve(double* x) const {
   }
 }
 
-void BandedLu::solve_rows(double* x, int k) const {
-  for (int begin = 0; begin < k; begin += kStrip) {
-    const int count = std::min(kStrip, k - begin);
-    double* strip = x + begin;
-    for (int i = 1; i < n_; ++i) {
-      const int first = std::max(0, i - band_);
-      subtract_rows(strip + static_cast<ptrdiff_t>(i) * k, row(i) + (first - i + band_),
-                    strip + static_cast<ptrdiff_t>(first) * k, i - first, k, count);
-    }
-    for (int i = n_ - 1; i >= 0; --i) {
-      const int last = std::min(n_ - 1, i + band_);
-      double* target = strip + static_cast<ptrdiff_t>(i) * k;
-      if (last > i) subtract_rows(target, row(i) + band_ + 1, target + k, last - i, k, count);
-      for (int c = 0; c < count; ++c) target[c] *= inverse_[static_cast<size_t>(i)];
-    }
+// A strip of kCount columns: its part of a row stays in registers while the row's factors pass.
+template <int kCount>
+void BandedLu::sweep_strip(double* x, int stride) const {
+  for (int i = 1; i < n_; ++i) {
+    const int first = std::max(0, i - band_);
+    subtract_rows<kCount>(x + static_cast<ptrdiff_t>(i) * stride, row(i) + (first - i + band_),
+                          x + static_cast<ptrdiff_t>(first) * stride, i - first, stride);
   }
+  for (int i = n_ - 1; i >= 0; --i) {
+    const int last = std::min(n_ - 1, i + band_);
+    double* target = x + static_cast<ptrdiff_t>(i) * stride;
+    subtract_rows<kCount>(target, row(i) + band_ + 1, target + stride, last - i, stride);
+    for (int c = 0; c < kCount; ++c) target[c] *= inverse_[static_cast<size_t>(i)];
+  }
+}
+
+void BandedLu::solve_rows(double* x, int k) const {
+  int begin = 0;
+  for (; begin + 32 <= k; begin += 32) sweep_strip<32>(x + begin, k);
+  for (; begin + 8 <= k; begin += 8) sweep_strip<8>(x + begin, k);
 }
 
 }  // namespace clatter::film

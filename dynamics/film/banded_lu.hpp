@@ -27,10 +27,16 @@ class BandedLu {
   [[nodiscard]] bool factor();
   /// x <- A^-1 x for one right-hand side, n.
   void solve(double* x) const;
-  /// X <- A^-1 X for k right-hand sides, n x k stored row by row.
+  /// X <- A^-1 X for k right-hand sides, n x k stored row by row; k must be a multiple of 8, see
+  /// `padded`.
   void solve_rows(double* x, int k) const;
 
+  /// Columns to provide for k right-hand sides.
+  static int padded(int k) { return (k + 7) / 8 * 8; }
+
  private:
+  template <int kCount>
+  void sweep_strip(double* x, int stride) const;
   const double* row(int i) const { return data_.data() + static_cast<size_t>(i) * width_; }
   int n_ = 0, band_ = 0;
   size_t width_ = 1;

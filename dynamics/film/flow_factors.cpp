@@ -31,14 +31,19 @@ constexpr std::array<ShearRow, 4> kShearTable{{{1.0 / 3.0, 1.858, 1.01, 0.76, 0.
                                                {6.0, 1.290, 0.62, 1.09, 0.08, 0.388}}};
 
 template <typename Table>
-const auto& find_row(const Table& table, double peklenik, const char* what) {
+[[noreturn]] void refuse(const Table& table, double peklenik, const char* what) {
   std::string known;
-  for (const auto& row : table) {
-    if (std::abs(row.peklenik - peklenik) < 1e-3 * row.peklenik) return row;
+  for (const auto& row : table)
     known += fmt::format("{}{:.4g}", known.empty() ? "" : ", ", row.peklenik);
-  }
   throw InputError(
       fmt::format("peklenik: no {} for {}, expected one of {}", what, peklenik, known));
+}
+
+template <typename Table>
+const auto& find_row(const Table& table, double peklenik, const char* what) {
+  for (const auto& row : table)
+    if (std::abs(row.peklenik - peklenik) < 1e-3 * row.peklenik) return row;
+  refuse(table, peklenik, what);
 }
 
 // Even moments of the density 35/32 (1 - t^2)^3 on (-1, 1): m_k = m_{k-1} (2k - 1) / (2k + 7).

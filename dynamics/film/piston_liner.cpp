@@ -51,7 +51,8 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
                                  coordinates_.size(), n_total_));
 
-  const Edge open = Edge::supply(options_.supply_pressure, options_.supply_fill);
+  const Edge open =
+      Edge::supply(options_.supply_pressure, options_.supply_fill, 2.0 * options_.oil_thickness);
   for (const auto& [name, centre] :
        {std::pair{"thrust", 0.0}, std::pair{"antithrust", std::numbers::pi}}) {
     pads_.push_back(std::make_unique<Pad>(name, make_grid(options_, centre), n_total_));
@@ -94,6 +95,7 @@ void PistonLiner::check() const {
   require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
   require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
   require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
+  require(o.oil_thickness > 0.0, o.name, "oil_thickness", o.oil_thickness, "> 0 m");
   require(o.supply_pressure >= 0.0, o.name, "supply_pressure", o.supply_pressure, ">= 0 Pa");
   require(static_cast<bool>(bodies_.stroke), o.name, "stroke", 0.0, "a stroke law");
 }
@@ -153,7 +155,8 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
         "{}: the gap at the start is {:.3g} m at its narrowest, expected more than {:.3g} m",
         options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
   rough_->thicknesses(pad.gap, pad.film->cells);
-  pad.film->content = options_.initial_fill * pad.film->cells.content;
+  pad.film->content =
+      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness);
   for (Eigen::ArrayXd& rate : pad.film->rates) rate.setZero();
 }
 

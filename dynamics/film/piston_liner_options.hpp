@@ -1,6 +1,7 @@
 #pragma once
 // What a scene says about one piston-liner contact.
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -40,6 +41,10 @@ struct PistonLinerOptions {
   double initial_fill = 1.0;  // share of the gap that holds oil at the start, 0 to 1
   double supply_fill =
       1.0;  // content of the oil film that the pad meets at its top and bottom edge, 0 to 1
+  // Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
+  // slides into it at full speed while its film moves at half of that, so the content of the gap is
+  // at most twice this, at the start and at inflow; infinite: the fills above alone decide.
+  double oil_thickness = std::numeric_limits<double>::infinity();
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};
   AsperityOptions asperity;

@@ -51,6 +51,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
   carry_.resize(faces_.size());
   rim_conduct_.resize(rims_.size());
   rim_carry_.resize(rims_.size());
+  rim_entering_.resize(rims_.size());
 }
 
 void Reynolds::build_faces() {
@@ -127,6 +128,10 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     weigh_one(g * g * g, film.carry[rim.cell], rim.length, rim.distance, rim.axial, rim_conduct_[r],
               rim_carry_[r]);
     rim_carry_[r] *= rim.sign;
+    // What a layer thinner than the gap brings in does not depend on the gap.
+    const double carry = film.carry[rim.cell];
+    rim_entering_[r] =
+        std::min(rim_carry_[r], 0.0) * std::min(rim.edge.fill, rim.edge.layer / carry);
   }
   const double count = static_cast<double>(faces_.size() + rims_.size());
   volume_scale_ = stage.steady ? carry_sum / count : (film.content * grid_.area()).mean();
@@ -134,7 +139,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
   pressure_scale_ = volume_scale_ * count / conduct_sum;
   for (std::vector<double>* values : {&conduct_, &rim_conduct_})
     for (double& t : *values) t *= pressure_scale_ / volume_scale_;
-  for (std::vector<double>* values : {&carry_, &rim_carry_})
+  for (std::vector<double>* values : {&carry_, &rim_carry_, &rim_entering_})
     for (double& c : *values) c /= volume_scale_;
   if (stage.steady) {
     storage_.setZero();
@@ -181,10 +186,11 @@ void Reynolds::assemble() {
     x_[row] += rim_conduct_[r] * rim.edge.pressure / pressure_scale_;
     if (is_full(rim.cell)) lu_.at(row, row) += rim_conduct_[r];
     const double carried = rim_carry_[r];
-    if (carried > 0.0 && !is_full(rim.cell))
+    if (carried > 0.0 && !is_full(rim.cell)) {
       lu_.at(row, row) += carried;
-    else
-      x_[row] -= carried * (carried > 0.0 ? 1.0 : rim.edge.fill);
+    } else {
+      x_[row] -= carried > 0.0 ? carried : rim_entering_[r];
+    }
   }
 }
 
@@ -261,7 +267,7 @@ void Reynolds::measure() {
   double out = 0.0;
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
-    const double carried = rim_carry_[r] * (rim_carry_[r] > 0.0 ? fill_[rim.cell] : rim.edge.fill);
+    const double carried = rim_carry_[r] > 0.0 ? rim_carry_[r] * fill_[rim.cell] : rim_entering_[r];
     const double flow =
         rim_conduct_[r] * (pressure_[rim.cell] - rim.edge.pressure) / pressure_scale_ + carried;
     balance[rim.cell] += flow;

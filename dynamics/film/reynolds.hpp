@@ -1,6 +1,7 @@
 #pragma once
 // Mass-conserving Reynolds equation of one pad.
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "core/h5_file.hpp"
@@ -15,9 +16,15 @@ struct Edge {
   Kind kind = Kind::kPressure;
   double pressure = 0.0;  // [Pa] >= 0, of the oil outside
   double fill = 1.0;      // [1] content of the oil that is dragged in over this edge, 0 to 1
+  // [m] bound of theta c at inflow. A layer of thickness t on a wall that slides at 2 U_m past the
+  // grid brings 2 t U_m: layer = 2 t.
+  double layer = std::numeric_limits<double>::infinity();
 
-  static Edge wall() { return {Kind::kWall, 0.0, 0.0}; }
-  static Edge supply(double pressure, double fill) { return {Kind::kPressure, pressure, fill}; }
+  static Edge wall() { return {Kind::kWall, 0.0, 0.0, 0.0}; }
+  static Edge supply(double pressure, double fill,
+                     double layer = std::numeric_limits<double>::infinity()) {
+    return {Kind::kPressure, pressure, fill, layer};
+  }
 };
 
 /// The four edges; a periodic grid has no angular ones.
@@ -125,7 +132,7 @@ class Reynolds {
   // Nondimensional terms of the current stage: storage, m~, conductance and carried volume of faces
   // and rims.
   Eigen::ArrayXd storage_, before_;
-  std::vector<double> conduct_, carry_, rim_conduct_, rim_carry_;
+  std::vector<double> conduct_, carry_, rim_conduct_, rim_carry_, rim_entering_;
   double volume_scale_ = 1.0, pressure_scale_ = 1.0;
   const FilmCells* film_ = nullptr;
   FilmStage stage_;

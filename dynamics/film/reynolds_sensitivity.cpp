@@ -18,8 +18,8 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
   const int k = static_cast<int>(dh.cols());
   const double kappa = stage_.steady ? 1.0 : stage_.kappa;
   const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;
-  work_.setZero(grid_.size(), k);
-  auto row = [this](int cell) { return work_.row(place_[static_cast<size_t>(cell)]); };
+  work_.setZero(grid_.size(), BandedLu::padded(k));
+  auto row = [this, k](int cell) { return work_.row(place_[static_cast<size_t>(cell)]).head(k); };
   if (!stage_.steady)
     for (int c = 0; c < grid_.size(); ++c)
       row(c) = -(grid_.area()[c] * fill_[c] * film.d_content[c] / volume_scale_) * dh.row(c);
@@ -48,11 +48,12 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
     const double dg = (rim.axial ? film.d_flow_axial : film.d_flow_angle)[c];
     const double outward = rim.sign * (rim.axial ? stage_.speed_axial : stage_.speed_angle);
     const double drive = mobility * rim.length / rim.distance * (pressure_[c] - rim.edge.pressure);
-    const double drag =
-        kappa * outward * rim.length * (outward > 0.0 ? fill_[c] : rim.edge.fill) / volume_scale_;
+    const bool layer_bound = rim.edge.fill * film.carry[c] > rim.edge.layer;
+    const double content = outward > 0.0 ? fill_[c] : layer_bound ? 0.0 : rim.edge.fill;
+    const double drag = kappa * outward * rim.length * content / volume_scale_;
     row(c) -= (drive * 3.0 * g * g * dg + drag * film.d_carry[c]) * dh.row(c);
   }
-  lu_.solve_rows(work_.data(), k);
+  lu_.solve_rows(work_.data(), static_cast<int>(work_.cols()));
   derivative.resize(grid_.size(), k);
   for (int c = 0; c < grid_.size(); ++c)
     derivative.row(c) = (is_full(c) ? pressure_scale_ : 1.0) * row(c);

@@ -17,6 +17,8 @@ struct Regime {
   ContactEffects effects;
   bool flow_factors;
   AsperityOptions::Law law;
+  double approach = 20e-3;  // [m/s] towards the thrust side
+  double layer = INFINITY;  // oil on the liner [m]
 };
 
 std::vector<bool> split_of(const PistonLiner& element) {
@@ -28,8 +30,8 @@ std::vector<bool> split_of(const PistonLiner& element) {
 
 // Central differences with Richardson extrapolation; the start content is fixed, so each difference
 // is of one stage.
-double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double& cavitated_share,
-                     double& contact_share) {
+double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double approach,
+                     double& cavitated_share, double& contact_share) {
   const int n = element.size();
   // Settle the content at rest, then probe a stage that closes the gap a little further.
   const dynamics::Stage first{2.0e-3, 1e-12, 0, {}};
@@ -41,9 +43,9 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double& cav
   element.begin_step(first.time);
   const dynamics::Stage stage{2.0e-3 + 2e-6, 2e-6, 1, {2e-6}};
   Eigen::VectorXd probe = y;
-  // Closing at 20 mm/s towards the thrust side, and a different little step of every coordinate.
-  probe += 2e-9 * (y.array() / y.cwiseAbs().maxCoeff()).matrix() * 20.0;
-  for (int k = 0; k < n; ++k) probe[k] += 2e-9 * std::sin(3.0 * k + 1.0);
+  // Closing towards the thrust side, and a different little step of every coordinate.
+  probe += stage.kappa * approach * (y.array() / y.cwiseAbs().maxCoeff()).matrix();
+  for (int k = 0; k < n; ++k) probe[k] += 0.1 * stage.kappa * approach * std::sin(3.0 * k + 1.0);
   element.evaluate(stage, probe, Eigen::VectorXd::Zero(n), true, response);
   const Eigen::MatrixXd tangent = response.tangent;
   double fill = 0.0, count = 0.0, contact = 0.0, total = 0.0;
@@ -99,6 +101,7 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
     options.clearance = regime.clearance;
     options.initial_fill = regime.fill;
     options.effects = regime.effects;
+    options.oil_thickness = regime.layer;
     options.skirt.barrel_top = 15e-6;
     options.skirt.barrel_bottom = 10e-6;
     options.skirt.ovality = 8e-6;
@@ -107,7 +110,7 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
     const auto element = make_element(options, elastic);
     Eigen::VectorXd y = pushed(*element, elastic, regime.depth, 2e-5);
     double cavitated = 0.0, contact = 0.0;
-    const double error = tangent_error(*element, y, cavitated, contact);
+    const double error = tangent_error(*element, y, regime.approach, cavitated, contact);
     std::printf("R6 %-22s %-7s error %.1e  cavitated %.0f %%  asperity share %.0f %%\n",
                 regime.name, elastic ? "elastic" : "rigid", error, 100.0 * cavitated,
                 100.0 * contact);
@@ -116,51 +119,55 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
 }
 
 constexpr ContactEffects kAll{true, true, true, true};
-INSTANTIATE_TEST_SUITE_P(
-    Regimes, Tangent,
-    ::testing::Values(Regime{"full film",
-                             30e-6,
-                             1.0,
-                             15e-6,
-                             {true, true, false, true},
-                             false,
-                             AsperityOptions::Law::kFit},
-                      Regime{"cavitated",
-                             30e-6,
-                             0.999,
-                             24e-6,
-                             {true, true, false, true},
-                             false,
-                             AsperityOptions::Law::kFit},
-                      Regime{"plain Reynolds",
-                             30e-6,
-                             1.0,
-                             15e-6,
-                             {true, false, false, false},
-                             false,
-                             AsperityOptions::Law::kFit},
-                      Regime{"dry contact",
-                             5e-6,
-                             1.0,
-                             5.2e-6,
-                             {false, false, true, true},
-                             false,
-                             AsperityOptions::Law::kFit},
-                      Regime{"dry contact exact",
-                             5e-6,
-                             1.0,
-                             5.2e-6,
-                             {false, false, true, true},
-                             false,
-                             AsperityOptions::Law::kExact},
-                      Regime{"mixed", 5e-6, 1.0, 5e-6, kAll, false, AsperityOptions::Law::kFit},
-                      Regime{"mixed, flow factors", 5e-6, 1.0, 5e-6, kAll, true,
-                             AsperityOptions::Law::kExact}),
-    [](const auto& info) {
-      std::string name = info.param.name;
-      std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Regimes, Tangent,
+                         ::testing::Values(Regime{"full film",
+                                                  30e-6,
+                                                  1.0,
+                                                  15e-6,
+                                                  {true, true, false, true},
+                                                  false,
+                                                  AsperityOptions::Law::kFit},
+                                           Regime{"cavitated",
+                                                  30e-6,
+                                                  0.999,
+                                                  24e-6,
+                                                  {true, true, false, true},
+                                                  false,
+                                                  AsperityOptions::Law::kFit},
+                                           Regime{"plain Reynolds",
+                                                  30e-6,
+                                                  1.0,
+                                                  15e-6,
+                                                  {true, false, false, false},
+                                                  false,
+                                                  AsperityOptions::Law::kFit},
+                                           Regime{"dry contact",
+                                                  5e-6,
+                                                  1.0,
+                                                  5.2e-6,
+                                                  {false, false, true, true},
+                                                  false,
+                                                  AsperityOptions::Law::kFit},
+                                           Regime{"dry contact exact",
+                                                  5e-6,
+                                                  1.0,
+                                                  5.2e-6,
+                                                  {false, false, true, true},
+                                                  false,
+                                                  AsperityOptions::Law::kExact},
+                                           Regime{"mixed", 5e-6, 1.0, 6.2e-6, kAll, false,
+                                                  AsperityOptions::Law::kFit, 1e-5},
+                                           Regime{"mixed, thin oil layer", 5e-6, 1.0, 5e-6, kAll,
+                                                  false, AsperityOptions::Law::kFit, 20e-3, 1e-6},
+                                           Regime{"mixed, flow factors", 5e-6, 1.0, 6.2e-6, kAll,
+                                                  true, AsperityOptions::Law::kExact, 1e-5}),
+                         [](const auto& info) {
+                           std::string name = info.param.name;
+                           std::erase_if(name, [](char c) {
+                             return std::isalnum(static_cast<unsigned char>(c)) == 0;
+                           });
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace clatter::film
