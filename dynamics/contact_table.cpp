@@ -34,6 +34,9 @@ void read_oil(const Config& table, film::PistonLinerOptions& options) {
   options.viscosity = table.number_or("viscosity_pa_s", options.viscosity, Range::positive());
   options.initial_fill = table.number_or("initial_fill", options.initial_fill, share);
   options.supply_fill = table.number_or("supply_fill", options.supply_fill, share);
+  if (table.has("oil_thickness_um")) {
+    options.oil_thickness = table.number("oil_thickness_um", Range::positive()) * kMicro;
+  }
   options.supply_pressure =
       table.number_or("supply_pressure_bar", 0.0, Range::not_negative()) * 1e5;
 }
