@@ -102,4 +102,12 @@ double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const 
   return std::sqrt(normal_velocity_integral(skin.W, difference).sum() / size);
 }
 
+double cycle_end_jump(const RunBody& body, const Piece& cycle, const PanelForm& skin) {
+  if (cycle.first + cycle.count >= body.clock().time.size()) return -1.0;
+  const RowMatrix v = body.samples("v", cycle.first, cycle.count + 1);
+  const RowMatrix jump = v.bottomRows(1) - v.topRows(1);
+  const double mean = normal_velocity_integral(skin.W, v).mean();
+  return mean > 0.0 ? std::sqrt(normal_velocity_integral(skin.W, jump)[0] / mean) : 0.0;
+}
+
 }  // namespace clatter::recover

@@ -56,4 +56,9 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
 /// (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.
 double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin);
 
+/// Jump between the end of a cycle and its beginning, which a transform takes for one instant:
+/// surface RMS of v_n(end) - v_n(begin) over the cycle's RMS of v_n. Negative when the run ends
+/// before the instant that closes the cycle.
+double cycle_end_jump(const RunBody& body, const Piece& cycle, const PanelForm& skin);
+
 }  // namespace clatter::recover

@@ -44,9 +44,14 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
   return pieces;
 }
 
+struct FrameChoice {
+  Piece piece;
+  std::vector<int64_t> samples;
+};
+
 /// The frames asked for; when the default does not fit the run, sixty over the whole of it.
-std::pair<Piece, std::vector<int64_t>> choose_frames(const RunClock& clock, const Options& options,
-                                                     const std::string& origin) {
+FrameChoice choose_frames(const RunClock& clock, const Options& options,
+                          const std::string& origin) {
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
   if (clock.turns() || options.frames_asked)
@@ -72,60 +77,68 @@ double share_above_limit(const Analysis& analysis) {
   return all > 0.0 ? std::max(1.0 - skin.mean_square_velocity.sum() / all, 0.0) : 0.0;
 }
 
+std::map<std::string, double> certify(const RunBody& body, const Analysis& analysis,
+                                      const SkinGeometry& geometry, const PanelForm& skin) {
+  std::map<std::string, double> certificate{{"skin_area_m2", geometry.area},
+                                            {"skin_closure", geometry.closure},
+                                            {"run_complete", body.complete() ? 1.0 : 0.0}};
+  if (!analysis.piece.periodic) return certificate;
+  certificate["mean_square_share_above_spectra"] = share_above_limit(analysis);
+  const double drift = cycle_to_cycle_difference(body, analysis.piece, skin);
+  const double jump = cycle_end_jump(body, analysis.piece, skin);
+  if (drift >= 0.0) certificate["cycle_to_cycle_velocity_difference"] = drift;
+  if (jump >= 0.0) certificate["cycle_end_velocity_jump"] = jump;
+  return certificate;
+}
+
 }  // namespace
 
 Summary recover(const RunBody& body, const ReducedModel& model, const Options& options,
                 H5File& file, StepClock& clock) {
-  const std::string origin = body.rom_path().filename().string();
+  const Skin& skin = model.skin;
   Summary summary{.options = options};
-  const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
-  summary.n_nodes = model.skin.nodes.rows();
-  summary.n_faces = model.skin.triangles.rows();
+  const SkinGeometry geometry = measure_skin(skin.nodes, skin.triangles);
+  summary.n_nodes = skin.nodes.rows();
+  summary.n_faces = skin.triangles.rows();
   summary.limit = frequency_limit(options.spectrum, model.valid_to_hz, body.clock().step_s);
   if (model.valid_to_hz <= 0.0)
-    warn(origin + ": valid_to_hz is not stated: spectra are not checked against the basis");
+    warn(body.rom_path().filename().string() +
+         ": valid_to_hz is not stated: spectra are not checked against the basis");
+  if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
   summary.sensors = find_sensors(options.sensors, model, geometry);
-  const std::vector<Piece> pieces = choose_pieces(body.clock(), options, body.path().string());
-  const auto [frame_piece, frame_list] = choose_frames(body.clock(), options, body.path().string());
-  summary.panels =
-      choose_panels(panel_rules(options), model.skin.nodes, model.skin.triangles, geometry);
+  const std::string origin = body.path().string();
+  const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
+  const FrameChoice frames = choose_frames(body.clock(), options, origin);
+  summary.panels = choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry);
   clock.lap("skin and panels");
 
-  const std::vector<PanelForm> forms = normal_velocity_forms(model.skin, geometry, summary.panels);
+  const std::vector<PanelForm> forms = normal_velocity_forms(skin, geometry, summary.panels);
   clock.lap("normal velocity forms");
 
   for (const Piece& piece : pieces)
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
+  const Analysis& first = summary.analyses.front();
   const std::vector<ChosenLine> lines =
-      choose_lines(options.lines, options.spectrum, summary.analyses.front(), summary.limit);
+      choose_lines(options.lines, options.spectrum, first, summary.limit);
+  for (const ChosenLine& line : lines)
+    summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
+  summary.certificate = certify(body, first, geometry, forms.front());
   clock.lap("spectra and radiated power");
 
-  write_conventions(file, options, summary.limit, model.valid_to_hz);
   file.set("/", "body", body.name());
-  write_skin_geometry(file, model.skin, geometry);
+  write_conventions(file, options, summary.limit, model.valid_to_hz);
+  write_certificate(file, summary.certificate);
+  write_skin_geometry(file, skin, geometry);
   write_panels(file, summary.panels);
   for (const Analysis& analysis : summary.analyses)
     write_analysis(file, analysis, options.references);
-  const SparseRows face_normal =
-      face_normal_operator(model.skin.nodes, model.skin.triangles, geometry);
-  write_lines(file, summary.analyses.front(), lines, model.skin, face_normal);
-  for (const ChosenLine& line : lines)
-    summary.line_hz.push_back(summary.analyses.front().velocity.frequency_hz[line.index]);
+  const SparseRows face_normal = face_normal_operator(skin.nodes, skin.triangles, geometry);
+  write_lines(file, first, lines, skin, face_normal);
   if (options.frames.on)
-    summary.frames = write_frames(file, body, model.skin, face_normal, frame_piece, frame_list,
+    summary.frames = write_frames(file, body, skin, face_normal, frames.piece, frames.samples,
                                   options.frames.displacement);
   clock.lap("skin fields");
-
-  summary.certificate["skin_area_m2"] = geometry.area;
-  summary.certificate["skin_closure"] = geometry.closure;
-  const Analysis& first = summary.analyses.front();
-  if (first.piece.periodic) {
-    summary.certificate["mean_square_share_above_spectra"] = share_above_limit(first);
-    const double drift = cycle_to_cycle_difference(body, first.piece, forms.front());
-    if (drift >= 0.0) summary.certificate["cycle_to_cycle_velocity_difference"] = drift;
-  }
-  write_certificate(file, summary.certificate);
   return summary;
 }
 

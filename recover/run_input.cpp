@@ -118,6 +118,10 @@ ReducedModel RunBody::read_model() const {
   return model;
 }
 
+bool RunBody::complete() const {
+  return !file_.has_attribute("/", "complete") || file_.get_int("/", "complete") != 0;
+}
+
 RowMatrix RunBody::samples(const std::string& quantity, int64_t first, int64_t count) const {
   RowMatrix rows = file_.read_rows(place(quantity), first, count);
   if (!rows.allFinite())

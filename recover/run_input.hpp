@@ -37,6 +37,9 @@ class RunBody {
   /// Reads the reduced model beside the run, checks its hash and that its size fits the run.
   ReducedModel read_model() const;
 
+  /// False for a run that was stopped inside its last cycle.
+  bool complete() const;
+
   /// Samples [first, first + count) of "q" [m], "v" [m/s] or "a" [m/s2]: count x r.
   RowMatrix samples(const std::string& quantity, int64_t first, int64_t count) const;
 

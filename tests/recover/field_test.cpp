@@ -158,6 +158,8 @@ TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
   EXPECT_EQ(file.get_string("analysis/cycle/panels/skin/erp", "unit"), "W");
   EXPECT_NE(file.get_string("/", "phase").find("exp(+i 2 pi f t)"), std::string::npos);
   EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), 0.0, 1e-9);
+  EXPECT_NEAR(file.get_double("certificate", "cycle_end_velocity_jump"), 0.0, 1e-9);
+  EXPECT_EQ(file.get_double("certificate", "run_complete"), 1.0);
   EXPECT_NEAR(file.get_double("certificate", "mean_square_share_above_spectra"), 0.0, 1e-9);
   std::filesystem::remove_all(folder);
 }
@@ -182,6 +184,24 @@ TEST(FieldFile, StrongestPeaksAreTakenWhenNoFrequencyIsAskedFor) {
   EXPECT_NEAR(hz[1], 1000.0, 1e-9);
   EXPECT_FALSE(file.has("frames"));
   EXPECT_FALSE(std::filesystem::exists(frame_export_path(path)));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FieldFile, CertificateShowsAMotionThatDoesNotRepeatAndWhatLiesAboveTheSpectra) {
+  const RunPlan plan;
+  const Mesh6 mesh = box({1, 1, 1}, 1);
+  RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 2);
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a, 0) = T(3 * a + 1, 1) = 1.0;
+  const auto folder = fresh_folder("jump");
+  const auto run = write_run(folder, model_on(mesh, T, 0.0), plan, turning(plan, 12.125));
+  const H5File file = open_artefact(recover_file(run, "[spectrum]\nto_hz = 1000\n"), kFieldSchema);
+  // v has constant size w and turns by a quarter over a cycle (0.25 of 2 pi): |jump| = sqrt(2) w.
+  EXPECT_NEAR(file.get_double("certificate", "cycle_end_velocity_jump"), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), std::sqrt(2.0),
+              1e-9);
+  const double leaked = file.get_double("certificate", "mean_square_share_above_spectra");
+  EXPECT_GT(leaked, 1e-5);
+  EXPECT_LT(leaked, 0.1);
   std::filesystem::remove_all(folder);
 }
 
