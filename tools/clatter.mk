@@ -1,7 +1,7 @@
 # Make rules from TOML files to clatter's artefacts: `include` this file, then name the targets.
 #
 #   part.mesh.toml -> part.mesh.h5 -> part.fe.h5 (+ part.fe.toml) -> part.rom.h5 (+ part.rom.toml)
-#   part.fe.h5 (+ part.modes.toml) -> part.modes.h5
+#   part.fe.h5 (+ part.modes.toml) -> part.modes.h5;  part.fe.h5, part.rom.h5 -> part.compare.txt
 #   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
 #
 # Say which reduced models a scene needs: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other file that
@@ -51,6 +51,11 @@ clatter_recover := $(call clatter_program,recover)
 
 %.field.h5: %.run.h5 $(clatter_recover)
 	$(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+# How well a reduced model keeps the full model's lowest modes: frequency errors and MAC.
+%.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
+	$(clatter_modal) --compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
+	mv $@.part $@
 
 # A picture of the kind that its name starts with, from the artefacts that it depends on:
 # `pictures/acceleration-dry.png: slap_dry.field.h5`. `clatter plot list` names the kinds.

@@ -13,6 +13,7 @@ def print_report(folder):
     if not any(files.values()):
         raise artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
     print_models(files["fe"], files["rom"])
+    print_comparisons(folder)
     print_runs(files["run"])
     print_fields(files["field"])
     print_cost([path for stage in STAGES for path in files[stage]])
@@ -40,6 +41,15 @@ def print_models(fe_files, rom_files):
         with artefact.open_artefact(path, "fe") as file:
             rows.append([stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
     print_table("parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], rows)
+
+
+def print_comparisons(folder):
+    """The last line of what clatter-modal said about each reduced model."""
+    tables = sorted(folder.glob("*.compare.txt"))
+    if tables:
+        print("\nreduced against full model (each mode: *.compare.txt)")
+    for path in tables:
+        print(f"  {stem(path)}: {path.read_text().strip().splitlines()[-1]}")
 
 
 def print_runs(paths):

@@ -45,10 +45,15 @@ def open_all(paths, kind):
 
 
 def label(file):
-    """How a run is called in a legend: its own title, else its file's stem."""
+    """How a run is called in a legend: its scene's title, also for what was recovered from it; else the file's stem."""
     if "title" in file.attrs:
         return text(file.attrs["title"])
-    return pathlib.Path(file.filename).name.split(".")[0].replace("_", " ")
+    own = pathlib.Path(file.filename)
+    for name in file["inputs/path"][()] if "inputs/path" in file else []:
+        run = own.parent / pathlib.Path(text(name)).name
+        if run.name.endswith(".run.h5") and run.exists():
+            return label(open_artefact(run, "run"))
+    return own.name.split(".")[0].replace("_", " ")
 
 
 def mark_firing(axis, position=0.0):
