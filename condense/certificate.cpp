@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
@@ -18,14 +19,6 @@ Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) 
   return rigid.transpose() * multiply_symmetric(M, rigid);
 }
 
-/// Of the free motions, each scaled to unit length so that metres and radians weigh alike.
-double stiffness_residue(const ReducedModel& reduced, const Eigen::MatrixXd& motions) {
-  if (motions.cols() == 0) return 0.0;
-  Eigen::MatrixXd r = reduced.rigid * motions;
-  r = r.colwise().normalized().eval();
-  return (reduced.K_rr * r).colwise().norm().maxCoeff() / reduced.K_rr.norm();
-}
-
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
   const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eig(
@@ -37,7 +30,10 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
 void certify_spectrum(ReducedModel& reduced) {
   auto& out = reduced.certificate;
   const Eigen::VectorXd quotient = reduced.K_rr.diagonal().cwiseQuotient(reduced.M_rr.diagonal());
-  const double sigma = -0.1 * quotient.minCoeff();
+  // A coordinate that a rigid motion moves alone has no stiffness: take a typical one.
+  Eigen::VectorXd sorted = quotient;
+  std::sort(sorted.begin(), sorted.end());
+  const double sigma = -1e-3 * sorted[sorted.size() / 2];
   const modal::EigenResult low = modal::solve_dense(reduced.K_rr, reduced.M_rr, sigma);
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
   double elastic = -sigma;
@@ -95,6 +91,18 @@ MassError compare_mass(const MassProperties& found, const MassProperties& expect
   return error;
 }
 
+double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r) {
+  if (r.cols() == 0) return 0.0;
+  const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians weigh alike
+  const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
+  const Eigen::MatrixXd Mr = reduced.M_rr * unit;
+  const Eigen::MatrixXd to_rigid = (unit.transpose() * Mr).ldlt().solve(Mr.transpose());
+  const Eigen::MatrixXd right = reduced.K_rr - (reduced.K_rr * unit) * to_rigid;
+  const Eigen::MatrixXd both = right - to_rigid.transpose() * (unit.transpose() * right);
+  reduced.K_rr = 0.5 * (both + both.transpose());
+  return residue;
+}
+
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
              int dropped) {
   auto& out = reduced.certificate;
@@ -102,7 +110,7 @@ void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigB
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
   const MassProperties found = mass_properties_of(reduced_mass);
   const MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
-  out["rigid_stiffness_residue"] = stiffness_residue(reduced, motions);
+  out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, reduced.rigid * motions);
   out["rigid_shape_error"] = source.rigid_error;
   const bool free_body = motions.cols() == 6;  // a held body cannot move rigidly
   if (free_body) {

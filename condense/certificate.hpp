@@ -20,8 +20,15 @@ struct MassError {
 MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass);
 MassError compare_mass(const MassProperties& found, const MassProperties& expected);
 
+/// Takes out of K_rr what rounding left of a stiffness against the free motions r, K_rr <- P^T K_rr
+/// P with P = I - r (r^T M_rr r)^{-1} r^T M_rr, so that K_rr r = 0. Couplings with many nodes have
+/// entries in K that are up to 1e6 times those of K_rr, and rounding grows with them. Returns
+/// |K_rr r| / (|K_rr| |r|) before the change.
+/// @param r the free motions in reduced coordinates, size x m.
+double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
+
 /// Fills `reduced.certificate`:
-/// rigid_stiffness_residue |K_rr r| / (|K_rr| |r|) of the free motions; rigid_modes, the zeros of
+/// rigid_stiffness_residue of clear_rigid_stiffness, which it calls; rigid_modes, the zeros of
 /// (K_rr, M_rr); first_elastic_hz; for a free body mass_error (against r^T M r of the FE matrices)
 /// and mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
 /// diagonal; max_frequency_hz; eigen_residual_max; modal_mass_error; count_proved, count_below and
