@@ -92,7 +92,8 @@ Text inp_text(const Mesh& mesh) {
   Text out;
   put(out, "*HEADING\n{} (lengths in metres)\n*NODE, NSET=NALL\n", mesh.name);
   for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
-    put(out, "{}, {:.16e}, {:.16e}, {:.16e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
+    // CalculiX refuses numbers of more than 20 characters.
+    put(out, "{}, {:.12e}, {:.12e}, {:.12e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
         mesh.nodes(n, 2));
   }
   const CellBlock* current = nullptr;

@@ -1,0 +1,112 @@
+#include "assembly/fe_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "block_mesh.hpp"
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+#include "small_solver.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+FeModel sample() {
+  return build(block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1})), R"(
+[damping]
+alpha = 1e-6
+beta = 2.0
+[[coupling]]
+name = "end"
+surface = "x1"
+[[load]]
+name = "gas"
+kind = "pressure"
+surface = "z1"
+)")
+      .model;
+}
+
+class FeModelFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = std::filesystem::temp_directory_path() /
+            ("clatter_fe_" + std::to_string(getpid()) + ".fe.h5");
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+  void save(const FeModel& model) const {
+    H5File file = H5File::create(path_);
+    write_provenance(file, {kFeSchema, "", {}});
+    write_fe_model(file, model);
+    file.commit();
+  }
+  std::string refusal() const {
+    try {
+      read_fe_model(path_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  std::filesystem::path path_;
+};
+
+TEST_F(FeModelFile, ReturnsWhatWasWritten) {
+  const FeModel model = sample();
+  save(model);
+  const FeModel back = read_fe_model(path_);
+  EXPECT_EQ(back.name, model.name);
+  EXPECT_EQ((back.K - model.K).norm(), 0.0);
+  EXPECT_EQ((back.M - model.M).norm(), 0.0);
+  EXPECT_EQ((back.T - model.T).norm(), 0.0);
+  EXPECT_EQ((back.rigid - model.rigid).norm(), 0.0);
+  EXPECT_EQ(back.alpha, 1e-6);
+  EXPECT_EQ(back.beta, 2.0);
+  EXPECT_EQ(back.set("end").dofs, model.set("end").dofs);
+  EXPECT_EQ(back.loads.at("gas"), model.loads.at("gas"));
+  EXPECT_EQ(back.load_units.at("gas"), "Pa");
+  EXPECT_EQ(back.surfaces.at("x1"), model.surfaces.at("x1"));
+  EXPECT_EQ(back.mass.mass, model.mass.mass);
+  EXPECT_THROW(back.set("edn"), InputError);
+}
+
+TEST_F(FeModelFile, RefusesMatricesOfDifferentSize) {
+  FeModel model = sample();
+  model.M.conservativeResize(model.M.rows() - 1, model.M.cols() - 1);
+  save(model);
+  EXPECT_NE(refusal().find(": M: found"), std::string::npos) << refusal();
+}
+
+TEST_F(FeModelFile, RefusesADiagonalThatIsNotPositive) {
+  FeModel model = sample();
+  model.K.coeffRef(7, 7) = -1.0;
+  save(model);
+  EXPECT_NE(refusal().find("K, column 7: found diagonal -1"), std::string::npos) << refusal();
+}
+
+TEST_F(FeModelFile, RefusesNumbersThatAreNotFinite) {
+  FeModel model = sample();
+  model.rigid(3, 3) = std::nan("");
+  save(model);
+  EXPECT_NE(refusal().find("rigid"), std::string::npos) << refusal();
+}
+
+TEST_F(FeModelFile, RefusesTrianglesBeyondTheNodes) {
+  FeModel model = sample();
+  model.surfaces.at("x1")(0, 0) = 100000;
+  save(model);
+  EXPECT_NE(refusal().find("surfaces/x1"), std::string::npos) << refusal();
+}
+
+TEST_F(FeModelFile, RefusesADofThatDoesNotExist) {
+  FeModel model = sample();
+  model.sets.at("end").dofs[2] = model.size();
+  save(model);
+  EXPECT_NE(refusal().find("end"), std::string::npos) << refusal();
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing

@@ -1,0 +1,104 @@
+#include "assembly/recipe.hpp"
+
+#include <gtest/gtest.h>
+
+#include "block_mesh.hpp"
+#include "core/error.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+constexpr const char* kSteel =
+    "[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
+
+Recipe read(const std::string& toml) {
+  const mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
+  return read_recipe(Config::parse(toml, "part.fe.toml"), mesh);
+}
+
+/// The message of the InputError that the text must raise.
+std::string refusal(const std::string& toml) {
+  try {
+    read(toml);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << "one line: " << text;
+}
+
+TEST(Recipe, ReadsUnitsByName) {
+  const Recipe recipe = read(std::string("length_unit = \"mm\"\n") + kSteel + R"(
+[[sensor]]
+name = "s"
+surface = "z1"
+near = [100.0, 200.0, 1000.0]
+)");
+  EXPECT_DOUBLE_EQ(recipe.materials[0].youngs, 2.1e11);
+  EXPECT_LT((*recipe.nodes[0].near - Eigen::Vector3d(0.1, 0.2, 1.0)).norm(), 1e-15);
+}
+
+TEST(Recipe, UnknownNamesListWhatThereIs) {
+  expect_parts(refusal("[material.a]\nregions = [\"bdoy\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
+               {"part.fe.toml:", "bdoy", "expected one of: body"});
+  expect_parts(refusal(std::string(kSteel) + "[[support]]\nsurface = \"z9\"\n"),
+               {"part.fe.toml:", "z9", "skin, x0, x1, y0, y1, z0, z1"});
+  expect_parts(refusal(std::string(kSteel) + "[[support]]\nnode_set = \"al\"\n"),
+               {"al", "expected one of: all"});
+  expect_parts(refusal(std::string(kSteel) + "[[point_mass]]\non = \"pin\"\nmass = 1.0\n"),
+               {"pin", "expected one of"});
+  expect_parts(refusal(std::string(kSteel) + "[[suport]]\nsurface = \"z0\"\n"), {"suport"});
+}
+
+TEST(Recipe, EachRegionNeedsOneMaterial) {
+  expect_parts(refusal("[material]\n"), {"body"});
+  expect_parts(refusal(std::string(kSteel) +
+                       "[material.other]\nregions = [\"body\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
+               {"body", "two materials"});
+}
+
+TEST(Recipe, RefusesMaterialsThatDoNotExist) {
+  const auto material = [](const std::string& values) {
+    return refusal("[material.a]\nregions = [\"body\"]\n" + values);
+  };
+  expect_parts(material("E = 2e11\nnu = 0.3\nrho = -7800.0\n"), {"rho", "-7800"});
+  expect_parts(material("E = 0.0\nnu = 0.3\nrho = 7800.0\n"), {"E", "0"});
+  expect_parts(material("E = 2e11\nnu = 0.5\nrho = 7800.0\n"), {"nu", "0.5"});
+  expect_parts(material("E = 2e11\nE_gpa = 200.0\nnu = 0.3\nrho = 7800.0\n"), {"E_gpa"});
+  expect_parts(material("E = nan\nnu = 0.3\nrho = 7800.0\n"), {"E"});
+}
+
+TEST(Recipe, RefusesWhatCannotBe) {
+  const std::string contact = std::string(kSteel) +
+                              "[[contact]]\nname = \"c\"\nsurface = \"y0\"\naxis_point = [0.0, "
+                              "0.0, 0.0]\naxis = [0.0, 0.0, 1.0]\nzero_angle = [0.0, 1.0, 0.0]\n";
+  const std::string sector =
+      "[[contact.sector]]\ncentre_deg = 0.0\nhalf_width_deg = 40.0\nstrips = 3\n";
+  expect_parts(refusal(contact + "axial = [1.0, 0.0]\nrows = 3\n" + sector),
+               {"axial", "ascending"});
+  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 0\n" + sector), {"rows"});
+  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n"), {"sector"});
+  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n" + sector + sector), {"overlap"});
+  expect_parts(
+      refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\ndofs = 5\n"),
+      {"dofs", "5", "6 or 3"});
+  expect_parts(refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n"
+                                             "[[coupling]]\nname = \"a\"\nsurface = \"z1\"\n"),
+               {"\"a\" twice"});
+  expect_parts(
+      refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n[[point_"
+                                    "mass]]\non = \"a\"\nmass = 1.0\ninertia = [1.0, 1.0, "
+                                    "3.0]\n"),
+      {"inertia"});
+  expect_parts(refusal(std::string(kSteel) + "[[load]]\nname = \"g\"\nkind = \"presure\"\n"),
+               {"presure", "pressure"});
+  expect_parts(refusal(std::string(kSteel) + "[damping]\nratio = 0.01\nat_hz = 0.0\n"), {"at_hz"});
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing
