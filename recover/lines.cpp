@@ -13,16 +13,25 @@ namespace {
 /// Room for a limit that was written with rounded digits.
 constexpr double kSlack = 1.0 + 1e-9;
 
+/// The power that picks lines: what radiates outward, weighted by how loud it is heard. Without the
+/// weighting the rocking on the mounts would always win.
+Eigen::VectorXd heard_power(const Analysis& analysis) {
+  const PanelResult* panel = &analysis.panels.front();
+  for (const PanelResult& other : analysis.panels)
+    if (other.name == "exposed") panel = &other;
+  return panel->erp.cwiseProduct(analysis.velocity.frequency_hz.unaryExpr(&a_weighting_power));
+}
+
 std::vector<ChosenLine> strongest_peaks(const Eigen::VectorXd& frequency_hz,
-                                        const Eigen::VectorXd& erp, double from_hz, int count) {
+                                        const Eigen::VectorXd& power, double from_hz, int count) {
   std::vector<ChosenLine> peaks;
-  const Eigen::Index n = erp.size();
+  const Eigen::Index n = power.size();
   for (Eigen::Index k = 1; k < n; ++k) {
-    const bool rises = erp[k] > erp[k - 1], falls = k + 1 == n || erp[k] >= erp[k + 1];
+    const bool rises = power[k] > power[k - 1], falls = k + 1 == n || power[k] >= power[k + 1];
     if (rises && falls && frequency_hz[k] >= from_hz) peaks.push_back({k, frequency_hz[k]});
   }
   std::sort(peaks.begin(), peaks.end(), [&](const ChosenLine& a, const ChosenLine& b) {
-    return erp[a.index] != erp[b.index] ? erp[a.index] > erp[b.index] : a.index < b.index;
+    return power[a.index] != power[b.index] ? power[a.index] > power[b.index] : a.index < b.index;
   });
   peaks.resize(std::min(peaks.size(), static_cast<size_t>(count)));
   return peaks;
@@ -61,8 +70,7 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
     lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
   }
   if (wanted.empty() && !analysis.panels.empty())
-    lines =
-        strongest_peaks(frequency_hz, analysis.panels.front().erp, band.from_hz, rule.strongest);
+    lines = strongest_peaks(frequency_hz, heard_power(analysis), band.from_hz, rule.strongest);
   std::sort(lines.begin(), lines.end(),
             [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
   const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };

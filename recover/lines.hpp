@@ -26,7 +26,8 @@ struct ChosenLine {
 };
 
 /// The lines nearest to the frequencies and orders asked for, rising; with neither the strongest
-/// local peaks of the first panel's ERP inside the spectrum's band.
+/// local peaks of the A-weighted ERP inside the spectrum's band, of panel "exposed" when there is
+/// one, else of the whole skin.
 /// @throws InputError for a frequency above the limit, or orders when nothing turns
 std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& band,
                                      const Analysis& analysis, const FrequencyLimit& limit);

@@ -84,7 +84,7 @@ std::string options_help() {
   displacement = true
   [lines]                  # frequencies at which the whole skin is written
   frequencies_hz = [500]   # or orders = [2, 4]; with neither the
-  strongest = {}            # highest peaks of the radiated power
+  strongest = {}            # highest peaks of the A-weighted ERP
   [[window]]               # a piece that is not periodic, with its own spectra
   name = "{}"
   from_deg = {:g}
