@@ -6,6 +6,12 @@
 
 #include "mesh/gmsh_call.hpp"
 
+#ifdef __SANITIZE_ADDRESS__
+// OpenCASCADE's STEP reader keeps some memory for the life of the process; that is not ours to
+// free.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libTK\nleak:libgmsh\n"; }
+#endif
+
 namespace clatter::mesh {
 namespace {
 

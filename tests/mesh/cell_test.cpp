@@ -1,7 +1,6 @@
 // Node orders, validity and quality against cases that can be checked by hand.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <random>
 #include <set>
@@ -13,6 +12,7 @@
 namespace clatter::mesh {
 namespace {
 
+using testing::det_at;
 using testing::one_cell;
 using testing::reference_tet10;
 
@@ -66,20 +66,6 @@ TEST(Validity, StraightCellHasScaledJacobianOne) {
   EXPECT_NEAR(b.min, 1.0, 1e-14);   // det J of the reference cell
   EXPECT_NEAR(b.mean, 1.0, 1e-14);  // rounding only
   EXPECT_NEAR(volume_of(reference_tet10()), 1.0 / 6.0, 1e-15);
-}
-
-// det J of x = sum N_i x_i at barycentric coordinates l, from shape function derivatives.
-double det_at(const Tet10Nodes& x, const Eigen::Vector4d& l) {
-  Eigen::Matrix<double, 10, 4> d = Eigen::Matrix<double, 10, 4>::Zero();  // dN/dl
-  for (int i = 0; i < 4; ++i) d(i, i) = 4 * l[i] - 1;
-  for (int e = 0; e < 6; ++e) {
-    d(4 + e, kTetEdges[e][0]) = 4 * l[kTetEdges[e][1]];
-    d(4 + e, kTetEdges[e][1]) = 4 * l[kTetEdges[e][0]];
-  }
-  const Eigen::Matrix<double, 3, 4> g = x.transpose() * d;
-  Eigen::Matrix3d J;
-  for (int k = 0; k < 3; ++k) J.col(k) = g.col(k + 1) - g.col(0);
-  return J.determinant();
 }
 
 TEST(Validity, BezierBoundIsBelowEverySampleAndVerdictIsRight) {

@@ -2,6 +2,7 @@
 // Small meshes and folders that the tests share.
 #include <unistd.h>
 
+#include <Eigen/LU>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,20 @@ inline Tet10Nodes reference_tet10() {
     x.row(4 + e) = 0.5 * (x.row(kTetEdges[e][0]) + x.row(kTetEdges[e][1]));
   }
   return x;
+}
+
+/// det J of x = sum N_i x_i at barycentric coordinates l, from shape function derivatives.
+inline double det_at(const Tet10Nodes& x, const Eigen::Vector4d& l) {
+  Eigen::Matrix<double, 10, 4> d = Eigen::Matrix<double, 10, 4>::Zero();  // dN/dl
+  for (int i = 0; i < 4; ++i) d(i, i) = 4 * l[i] - 1;
+  for (int e = 0; e < 6; ++e) {
+    d(4 + e, kTetEdges[e][0]) = 4 * l[kTetEdges[e][1]];
+    d(4 + e, kTetEdges[e][1]) = 4 * l[kTetEdges[e][0]];
+  }
+  const Eigen::Matrix<double, 3, 4> g = x.transpose() * d;
+  Eigen::Matrix3d J;
+  for (int k = 0; k < 3; ++k) J.col(k) = g.col(k + 1) - g.col(0);
+  return J.determinant();
 }
 
 /// A mesh of that one cell.
