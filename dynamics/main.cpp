@@ -129,11 +129,17 @@ int run(const Arguments& a, const CommonOptions& common) {
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
 
-  H5File file = H5File::create(a.output);
+  auto output = a.output;
+  if (!result.failure.empty()) output.replace_extension(".failed.h5");  // a state dump
+  H5File file = H5File::create(output);
   write_run(file, scene, bodies, result);
   clock.lap("writing");
   write_timing(file, clock);
   file.commit();
+  if (!result.failure.empty()) {
+    throw NumericsError(fmt::format("{}; what came before it is in {}", result.failure,
+                                    output.string()));
+  }
   if (result.complete) std::filesystem::remove(checkpoint);
   write_depfile(common.depfile, a.output, scene.inputs);
   print_summary(result, a, clock.total_seconds());

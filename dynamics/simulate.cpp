@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
 #include "dynamics/periodicity.hpp"
@@ -111,8 +112,13 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
   while (point.cycle < cycles) {
     CycleRun cycle(scene, bodies, point, control.film_every);
     const Span span = cycle.span();
-    const bool whole = cycle.run(
-        [&](double t) { progress.update(factor * (t - scene.time.begin)); }, control.stop);
+    bool whole = false;
+    try {
+      whole = cycle.run([&](double t) { progress.update(factor * (t - scene.time.begin)); },
+                        control.stop);
+    } catch (const NumericsError& error) {
+      result.failure = error.what();
+    }
     result.statistics = point.statistics;
     result.statistics += cycle.statistics();
     for (const auto& [name, value] : seconds_by_element(cycle.model())) seconds[name] += value;

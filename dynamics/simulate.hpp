@@ -20,6 +20,7 @@ struct RunResult {
   StepStatistics statistics;
   int cycles = 0;                 // completed; 1 for a scene without an engine
   bool complete = false;          // false: interrupted inside a cycle
+  std::string failure;   // why the integration gave up; empty: it did not
   double energy_residue = 0.0;    // of the reported cycle
   double energy_exchanged = 0.0;  // [J]
   std::map<std::string, double> periodicity;
@@ -35,7 +36,7 @@ struct RunControl {
 /// Starts from rest at the ideal place of every body (all deviations zero, so every gap is the
 /// clearance) at TDC of gas exchange, loads growing from nothing over `time.ramp`: a consistent
 /// state. Integrates `cycles` cycles of 720 deg, or the span of a scene without an engine.
-/// NumericsError when steps fall below the floor.
+/// When steps fall below the floor the result ends there and says why in `failure`.
 RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunControl& control);
 
 }  // namespace clatter::dynamics

@@ -1,6 +1,9 @@
 #pragma once
 // What "accurate enough" means, from one number.
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "dynamics/system.hpp"
 
@@ -10,35 +13,43 @@ namespace clatter::dynamics {
 /// piston in its bore: 10 um of clearance, crossed with 0.1 m/s, on an arm of 50 mm.
 struct Accuracy {
   double tolerance = 1e-3;
-  double displacement_scale = 1e-5;  // [m]
-  double velocity_scale = 0.1;       // [m/s]
+  double displacement_scale = 1e-5;  // of every interface coordinate, so of every gap [m]
+  double velocity_scale = 0.1;       // of the lightest body as a whole [m/s]
   double arm = 0.05;                 // turns rotations into displacements [m]
 };
 
 /// Weights of errors: entry times error is 1 at the limit.
+///
+/// Displacements are judged coordinate by coordinate. Velocities are judged by the kinetic energy
+/// of their error over all bodies, measured against the lightest body at the velocity scale: a
+/// patch of some grams that a filling film cell pushes does not decide over the step of the whole
+/// engine.
 struct ErrorWeights {
-  Eigen::VectorXd displacement;       // per y
-  Eigen::VectorXd velocity;           // per y
-  Eigen::VectorXd body_displacement;  // per body, of the modal norm |eta| = sqrt(m) u_rms
-  Eigen::VectorXd body_velocity;
+  Eigen::VectorXd displacement;  // per y
+  Eigen::VectorXd velocity;      // per y: of the smallest modal velocity that moves it so fast
+  double modal_displacement;     // of the modal norm |eta| = sqrt(m) u_rms over all bodies
+  double modal_velocity;
 };
 
 inline ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
   const int n = system.interface_size();
-  const auto n_b = static_cast<int>(system.bodies().size());
-  ErrorWeights w{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n_b),
-                 Eigen::VectorXd(n_b)};
+  ErrorWeights w{Eigen::VectorXd(n), Eigen::VectorXd(n), 0.0, 0.0};
   const double per_displacement = 1.0 / (accuracy.tolerance * accuracy.displacement_scale);
-  const double per_velocity = 1.0 / (accuracy.tolerance * accuracy.velocity_scale);
   for (int i = 0; i < n; ++i) {
-    const double arm = system.is_rotation(i) ? accuracy.arm : 1.0;
-    w.displacement(i) = arm * per_displacement;
-    w.velocity(i) = arm * per_velocity;
+    w.displacement(i) = (system.is_rotation(i) ? accuracy.arm : 1.0) * per_displacement;
   }
-  for (int b = 0; b < n_b; ++b) {
-    const double root = std::sqrt(system.bodies()[static_cast<size_t>(b)].mass);
-    w.body_displacement(b) = per_displacement / root;
-    w.body_velocity(b) = per_velocity / root;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const auto& body : system.bodies()) lightest = std::min(lightest, body.mass);
+  w.modal_displacement = per_displacement / std::sqrt(lightest);
+  w.modal_velocity = 1.0 / (accuracy.tolerance * accuracy.velocity_scale * std::sqrt(lightest));
+  // The smallest |v| with P_i v = u is |u| / |P_i|.
+  for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+    const auto& rows = system.rows(b);
+    const auto inertia = system.bodies()[static_cast<size_t>(b)].inertia.asDiagonal();
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const double reach = (system.P(b).row(static_cast<Eigen::Index>(i)) * inertia).norm();
+      w.velocity(rows[i]) = reach > 0.0 ? w.modal_velocity / reach : 0.0;
+    }
   }
   return w;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/stopwatch.hpp"
 
@@ -11,14 +12,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMaxIterations = 12;
+constexpr int kMaxIterations = 24;
+/// Matrices formed in one stage. A film cell that fills or empties bends the force sharply: then each
+/// iteration needs its own matrix, and a few of them settle which cells are full.
+constexpr int kMaxFresh = 10;
 /// Increments below this part of the error limit count as converged: Newton's leftovers stay well
 /// below the error that the step control sees.
 constexpr double kConverged = 0.05;
-/// A kept matrix that contracts slower than this is formed anew.
+/// A matrix that contracts slower than this is formed anew.
 constexpr double kSlow = 0.3;
-/// With a fresh matrix, growth of the increment beyond this is divergence.
-constexpr double kGrowth = 2.0;
 
 }  // namespace
 
@@ -57,21 +59,25 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     f.resize(0);
     return {Outcome::kConverged, "", -1};
   }
-  double previous = 0.0;
+  double previous = std::numeric_limits<double>::infinity();
   bool refresh = kappa_ != op.kappa();
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const bool fresh = refresh;
+  int fresh = 0;
+  for (int iteration = 0; iteration < kMaxIterations && fresh + refresh <= kMaxFresh; ++iteration) {
     try {
       const Stopwatch clock;
       ++statistics_.evaluations;
       const VectorXd v = (y - y_tilde) / stage.kappa;
-      system_.evaluate(stage, y, v, fresh, f, tangent_);
+      system_.evaluate(stage, y, v, refresh, f, tangent_);
       statistics_.element_seconds += clock.seconds();
     } catch (const StepRefused& refusal) {
       forget();
       return {Outcome::kRefused, refusal.what(), -1};
     }
-    if (fresh) factor(op);
+    if (refresh) {
+      factor(op);
+      ++fresh;
+      previous = std::numeric_limits<double>::infinity();  // sizes by another matrix tell nothing
+    }
     const VectorXd dy = lu_.solve(y_pred + op.apply_S(f) - y);
     const double size = norm(dy, stage.kappa, result.worst);
     if (!std::isfinite(size)) break;
@@ -81,8 +87,8 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       result.outcome = Outcome::kConverged;
       return result;
     }
-    if (iteration > 0 && fresh && size > kGrowth * previous) break;
-    refresh = iteration > 0 ? size > kSlow * previous : false;
+    // Once one matrix did not serve two states of this stage, each state gets its own.
+    refresh = refresh ? fresh > 1 : size > kSlow * previous;
     previous = size;
   }
   forget();

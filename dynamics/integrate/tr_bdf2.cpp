@@ -140,32 +140,15 @@ double TrBdf2::error(double dt, const StageOperator& op) {
                d2 = dt * (b[2] - b_hat[2]);
   const VectorXd e_eta = d0 * now_.v + d1 * stages_[0].v + d2 * stages_[1].v;
   const VectorXd e_v = d0 * now_.a + d1 * stages_[0].a + d2 * stages_[1].a;
-  VectorXd eta = op.filter(e_eta, e_v);
-  VectorXd e_y, e_vy;
+  const VectorXd eta = op.filter(e_eta, e_v);
+  double largest = 0.0;
   if (system_.interface_size() > 0) {
-    e_y = newton_.solve_linear(system_.interface(eta));
-    VectorXd g = VectorXd::Zero(system_.modes());
-    system_.add_interface_force(newton_.tangent() * e_y, g);
-    eta += op.H().cwiseProduct(g);
-    e_vy = (e_y - system_.interface(e_eta)) / op.kappa();
+    const VectorXd e_y = newton_.solve_linear(system_.interface(eta));
+    largest = e_y.cwiseAbs().cwiseProduct(weights_.displacement).maxCoeff(&worst_);
   }
   const VectorXd v = (eta - e_eta) / op.kappa();
-
-  double largest = 0.0;
-  for (int i = 0; i < e_y.size(); ++i) {
-    const double value = std::max(std::abs(e_y(i)) * weights_.displacement(i),
-                                  std::abs(e_vy(i)) * weights_.velocity(i));
-    if (!(value <= largest)) {
-      largest = value;
-      worst_ = i;
-    }
-  }
-  for (int k = 0; k < static_cast<int>(system_.bodies().size()); ++k) {
-    const int at = system_.mode_offset(k), n = system_.bodies()[static_cast<size_t>(k)].modes();
-    largest = std::max({largest, eta.segment(at, n).norm() * weights_.body_displacement(k),
-                        v.segment(at, n).norm() * weights_.body_velocity(k)});
-  }
-  return largest;
+  return std::max(
+      {largest, eta.norm() * weights_.modal_displacement, v.norm() * weights_.modal_velocity});
 }
 
 void TrBdf2::step(double limit) {

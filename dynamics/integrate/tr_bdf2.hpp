@@ -54,12 +54,12 @@ class StageObserver {
 /// Integrates a System with error-controlled steps dt = largest 2^(-k/2).
 ///
 /// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), sent through the linearised stage
-/// equations (so stiff components do not decide), then max(|e_y|, |e_vy|) over interface
-/// coordinates and the root mean square over each body, each over its limit (Accuracy); a step
-/// stands when that is at most 1. After an error rejection the step follows (0.9 / error^(1/3));
-/// after a Newton failure or refusal it is halved and may not grow for some steps, doubling with
-/// each failure in a row (hard case T4). Below `smallest` a NumericsError names the coordinate and
-/// its elements.
+/// equations (so stiff components do not decide), then the largest |e_y| over interface coordinates
+/// and the norms of e_eta and e_v over all bodies, each over its limit (Accuracy); a step stands
+/// when the largest of the three is at most 1. After an error rejection the step follows (0.9 /
+/// error^(1/3)); after a Newton failure or refusal it is halved and may not grow for some steps,
+/// doubling with each failure in a row (hard case T4). Below `smallest` a NumericsError names the
+/// coordinate and its elements.
 class TrBdf2 {
  public:
   TrBdf2(System& system, const StepOptions& options);
