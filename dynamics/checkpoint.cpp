@@ -37,6 +37,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point
   for (size_t e = 0; e < point.elements.size(); ++e) {
     if (!point.elements[e].empty()) file.write(fmt::format("elements/{}", e), point.elements[e]);
   }
+  file.write("energy", point.energy);
   file.write("cycle/eta", point.eta);
   file.write("cycle/v", point.v);
   const StepStatistics& s = point.statistics;
@@ -70,6 +71,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
     const auto name = fmt::format("elements/{}", e);
     if (file.has(name)) point.elements[e] = file.read_doubles(name);
   }
+  point.energy = file.read_doubles("energy");
   point.eta = file.read_rows("cycle/eta");
   point.v = file.read_rows("cycle/v");
   StepStatistics& s = point.statistics;

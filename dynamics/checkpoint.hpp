@@ -18,6 +18,7 @@ struct Checkpoint {
   StageState state;
   int rung = 0;
   std::vector<std::vector<double>> elements;  // internal states, per element
+  std::vector<double> energy;                 // EnergyBalance::save()
   RowMatrix eta, v;  // uniform samples of the cycle before, for periodicity
   StepStatistics statistics;
 };

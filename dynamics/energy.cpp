@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace clatter::dynamics {
 
 EnergyBalance::EnergyBalance(const System& system) : system_(system) {
@@ -46,12 +48,30 @@ EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
 void EnergyBalance::stage(int index, const StageState& state) {
   stages_[index] = flow(state);
   time_ = state.time;
-  if (index != 0 || started_) return;
+  if (index == 0 && !started_) start_from(stages_[0]);
+}
+
+void EnergyBalance::start_from(const Flow& flow) {
   started_ = true;
-  now_.kinetic = stages_[0].kinetic;
-  now_.strain = stages_[0].strain;
-  now_.element = stages_[0].element;
+  now_.kinetic = flow.kinetic;
+  now_.strain = flow.strain;
+  now_.element = flow.element;
   reset();
+}
+
+std::vector<double> EnergyBalance::save() const {
+  std::vector<double> state{stages_[0].kinetic, stages_[0].strain, stages_[0].element};
+  state.insert(state.end(), stages_[0].powers.begin(), stages_[0].powers.end());
+  return state;
+}
+
+void EnergyBalance::restore(const std::vector<double>& state, double time) {
+  if (state.size() != 3 + names_.size()) {
+    throw InputError("energy balance: the saved state is of another scene");
+  }
+  stages_[0] = {state[0], state[1], state[2], {state.begin() + 3, state.end()}};
+  time_ = time;
+  start_from(stages_[0]);
 }
 
 void EnergyBalance::reset() {

@@ -37,6 +37,10 @@ class EnergyBalance : public StageObserver {
   const EnergyState& now() const { return now_; }
   /// Starts counting anew from the present state.
   void reset();
+  /// Powers and energies of the present state, for checkpoints; restore() starts counting from
+  /// them.
+  std::vector<double> save() const;
+  void restore(const std::vector<double>& state, double time);
   /// |stored(now) - stored(start) - input + lost| / exchanged since reset; 0 when nothing moved.
   double residue() const;
   double imbalance() const;
@@ -48,6 +52,7 @@ class EnergyBalance : public StageObserver {
   };
   Flow flow(const StageState& state) const;
   size_t term(const std::string& name);
+  void start_from(const Flow& flow);
 
   const System& system_;
   std::vector<std::string> names_;

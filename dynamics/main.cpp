@@ -137,8 +137,8 @@ int run(const Arguments& a, const CommonOptions& common) {
   write_timing(file, clock);
   file.commit();
   if (!result.failure.empty()) {
-    throw NumericsError(fmt::format("{}; what came before it is in {}", result.failure,
-                                    output.string()));
+    throw NumericsError(
+        fmt::format("{}; what came before it is in {}", result.failure, output.string()));
   }
   if (result.complete) std::filesystem::remove(checkpoint);
   write_depfile(common.depfile, a.output, scene.inputs);

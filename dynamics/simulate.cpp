@@ -48,6 +48,7 @@ class CycleRun {
       for (int e = 0; e < model_->system.elements(); ++e) {
         model_->system.element(e).restore(from.elements[static_cast<size_t>(e)]);
       }
+      energy_.restore(from.energy, from.state.time);
       method_.resume(from.state, from.rung);
     }
   }
@@ -72,6 +73,7 @@ class CycleRun {
     for (int e = 0; e < model_->system.elements(); ++e) {
       point.elements.push_back(model_->system.element(e).save());
     }
+    point.energy = energy_.save();
     point.eta = recorder_->samples().eta();
     point.v = recorder_->samples().v();
     return point;

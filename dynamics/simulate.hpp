@@ -20,7 +20,7 @@ struct RunResult {
   StepStatistics statistics;
   int cycles = 0;                 // completed; 1 for a scene without an engine
   bool complete = false;          // false: interrupted inside a cycle
-  std::string failure;   // why the integration gave up; empty: it did not
+  std::string failure;            // why the integration gave up; empty: it did not
   double energy_residue = 0.0;    // of the reported cycle
   double energy_exchanged = 0.0;  // [J]
   std::map<std::string, double> periodicity;
