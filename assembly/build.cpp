@@ -19,9 +19,10 @@ namespace {
 /// Builds step by step; the members are what the steps hand on.
 class Builder {
  public:
-  Builder(const mesh::Mesh& mesh, const Recipe& recipe) : mesh_(mesh), recipe_(recipe) {}
+  Builder(const mesh::Mesh& mesh, const Recipe& recipe, BuiltModel& out)
+      : mesh_(mesh), recipe_(recipe), out_(out) {}
 
-  BuiltModel run(StepClock& clock);
+  void run(StepClock& clock);
 
  private:
   const SurfaceIntegrals& surface(const std::string& name);
@@ -39,7 +40,7 @@ class Builder {
 
   const mesh::Mesh& mesh_;
   const Recipe& recipe_;
-  BuiltModel out_;
+  BuiltModel& out_;
   std::map<std::string, SurfaceIntegrals> surfaces_;
   std::vector<int32_t> fixed_, kept_;
   std::vector<std::vector<int32_t>> set_nodes_;  // like recipe_.nodes
@@ -193,7 +194,7 @@ void Builder::add_point_masses() {
 }
 
 Eigen::VectorXd Builder::load_vector(const LoadSpec& load, const Eigen::MatrixXd& momentum) {
-  const SparseMatrix& T = elimination_.T;
+  const SparseMatrix& T = out_.model.T;
   switch (load.kind) {
     case LoadSpec::Kind::kPressure:
       return T.transpose() * pressure_load(mesh_.nodes.rows(), surface(load.surface));
@@ -247,7 +248,7 @@ Eigen::MatrixXd Builder::reduced_rigid(const Eigen::MatrixXd& nodal) const {
   return rigid;
 }
 
-BuiltModel Builder::run(StepClock& clock) {
+void Builder::run(StepClock& clock) {
   FeModel& model = out_.model;
   model.name = mesh_.name;
   model.nodes = mesh_.nodes;
@@ -271,9 +272,12 @@ BuiltModel Builder::run(StepClock& clock) {
     if (load.kind == LoadSpec::Kind::kGravity && momentum.size() == 0)
       momentum = multiply_symmetric(matrices.M,
                                     Eigen::Matrix3d::Identity().replicate(mesh_.nodes.rows(), 1));
-  model.K = transform(std::move(matrices.K), elimination_);
-  model.M = transform(std::move(matrices.M), elimination_);
-  model.T = elimination_.T;
+  transform(matrices.K, elimination_);
+  transform(matrices.M, elimination_);
+  // Swapped, since Eigen 3.4 copies where std::move is asked for.
+  model.K.swap(matrices.K);
+  model.M.swap(matrices.M);
+  model.T.swap(elimination_.T);
   clock.lap("transform");
   moments_ = integrate_mass(mesh_, recipe_.materials);
   add_point_masses();
@@ -282,13 +286,14 @@ BuiltModel Builder::run(StepClock& clock) {
   clock.lap("masses and loads");
   out_.certificate = certify(model, nodal, elimination_, static_cast<int>(fixed_.size()));
   clock.lap("certificate");
-  return std::move(out_);
 }
 
 }  // namespace
 
 BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepClock& clock) {
-  return Builder(mesh, recipe).run(clock);
+  BuiltModel built;
+  Builder(mesh, recipe, built).run(clock);
+  return built;
 }
 
 }  // namespace clatter::assembly

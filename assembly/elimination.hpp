@@ -69,7 +69,7 @@ class Eliminator {
   std::vector<int32_t> touched_;
 };
 
-/// T^T A T for symmetric A (lower triangle), lower triangle. A is consumed to save memory.
-SparseMatrix transform(SparseMatrix&& lower, const Elimination& elimination);
+/// Replaces symmetric A (lower triangle) by T^T A T (lower triangle).
+void transform(SparseMatrix& lower, const Elimination& elimination);
 
 }  // namespace clatter::assembly
