@@ -15,25 +15,21 @@ void report_repeated(const DofPartition& partition) {
                    partition.repeated.size(), partition.repeated.front()));
 }
 
-/// Projects M and K; vectors that depend on others are dropped first. Returns how many.
-int project_matrices(ReducedModel& reduced, CraigBampton& source, const PartitionedMatrix& K,
-                     const PartitionedMatrix& M) {
+/// Drops vectors that depend on others; returns how many.
+int drop_dependent(CraigBampton& source) {
   ReducedBasis& basis = source.basis;
-  reduced.M_rr = project(M, basis);
-  const std::vector<int> kept = independent_columns(reduced.M_rr, basis.n_boundary);
+  const std::vector<int> kept = independent_columns(source.M_rr, basis.n_boundary);
   const int dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
-  if (dropped > 0) {
-    warn(fmt::format("{} basis vectors depend on others and were dropped", dropped));
-    std::vector<int> modes;
-    for (const int j : kept) {
-      if (j >= basis.n_boundary) modes.push_back(j - basis.n_boundary);
-    }
-    source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
-    source.residuals = source.residuals(modes).eval();
-    select_columns(basis, kept);
-    reduced.M_rr = reduced.M_rr(kept, kept).eval();
+  if (dropped == 0) return 0;
+  warn(fmt::format("{} basis vectors depend on others and were dropped", dropped));
+  std::vector<int> modes;
+  for (const int j : kept) {
+    if (j >= basis.n_boundary) modes.push_back(j - basis.n_boundary);
   }
-  reduced.K_rr = project(K, basis);
+  source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
+  select_columns(basis, kept);
+  source.M_rr = source.M_rr(kept, kept).eval();
+  source.K_rr = source.K_rr(kept, kept).eval();
   return dropped;
 }
 
@@ -69,6 +65,8 @@ CondenseOptions read_condense_options(const Config& config) {
   if (!guyan && by_count == by_frequency) {
     config.fail("fmax_hz", "found both or neither of fmax_hz and count, expected one of them");
   }
+  options.modes.frequency_error =
+      config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
   options.modes.prove_count = config.flag_or("prove_count", true);
   const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
   options.modes.method =
@@ -95,14 +93,15 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   reduced.sets = partition.sets;
   reduced.grids = partition.grids;
   reduced.mass = model.mass;
-  const int dropped = project_matrices(reduced, source, K, M);
+  const int dropped = drop_dependent(source);
+  reduced.M_rr = source.M_rr;
+  reduced.K_rr = source.K_rr;
   reduced.rigid = reduced_rigid(model, partition, reduced.size());
   for (const auto& [name, load] : model.loads) {
     reduced.loads[name] = project_load(load, partition, source.basis);
   }
-  clock.lap("reduced matrices and loads");
   reduced.skin = recover_skin(model, partition, source.basis, options.skin);
-  clock.lap("skin rows");
+  clock.lap("loads and skin rows");
   reduced.fixed_interface_hz = source.fixed_interface_hz;
   reduced.valid_to_hz = source.cutoff_hz;
   certify(reduced, model, source, dropped);
@@ -114,12 +113,14 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
   const auto& c = reduced.certificate;
   const auto n_k = reduced.size() - reduced.n_boundary;
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{}: {} boundary coordinates + {} fixed-interface modes = {} ({})",
-                              reduced.name, reduced.n_boundary, n_k, reduced.size(),
-                              reduced.method));
   lines.push_back(
-      fmt::format("basis holds modes to {:.0f} Hz; frequencies to 0.1 % up to {:.0f} Hz",
-                  c.at("cutoff_hz"), c.at("accurate_to_hz")));
+      fmt::format("{}: {} boundary coordinates + {:.0f} fixed-interface modes + {:.0f} residual "
+                  "modes = {} ({})",
+                  reduced.name, reduced.n_boundary, c.at("fixed_interface_modes"),
+                  c.at("residual_modes"), reduced.size(), reduced.method));
+  lines.push_back(fmt::format(
+      "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
+      c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
   if (n_k > 0) {
     const std::string proof =
         c.at("count_proved") > 0.0

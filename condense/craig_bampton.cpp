@@ -93,6 +93,15 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
   out.fixed_interface_hz = modes.values.unaryExpr(&modal::hz_of_value);
   out.residuals = modes.residuals;
   assemble_basis(out, std::move(Psi_ib), modes.vectors);
+  out.M_rr = project(M, out.basis);
+  out.K_rr = project(K, out.basis);
+  clock.lap("reduced matrices");
+  out.residual = add_residual_modes(out, factor, K, M, 0.5 * out.cutoff_hz,
+                                    guyan ? 0.0 : request.frequency_error);
+  const Eigen::Index kept = out.fixed_interface_hz.size();
+  out.fixed_interface_hz.conservativeResize(kept + out.residual.hz.size());
+  out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;
+  clock.lap(fmt::format("{} residual modes", out.residual.hz.size()));
   return out;
 }
 

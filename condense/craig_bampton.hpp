@@ -2,7 +2,7 @@
 // The Craig-Bampton basis: constraint modes and fixed-interface modes from one factorisation.
 #include <string>
 
-#include "condense/reduced_basis.hpp"
+#include "condense/residual_modes.hpp"
 #include "core/stopwatch.hpp"
 #include "modal/eigen/eigen_solver.hpp"
 
@@ -13,15 +13,16 @@ struct ModeRequest {
   int count = 0;
   double fmax_hz = 0.0;
   bool prove_count = true;
+  double frequency_error = 5e-4;  // aimed at by residual modes below half the cut-off; 0: none
   modal::EigenMethod method = modal::EigenMethod::kBlockLanczos;
 };
 
-/// The basis V = [I 0; Psi_ib Phi_ik] with what was proved on the way.
-struct CraigBampton {
-  ReducedBasis basis;
-  Eigen::VectorXd fixed_interface_hz;  // of the kept modes
+/// The basis V = [I 0; Psi_ib Phi_ik] and its matrices, with what was proved on the way.
+struct CraigBampton : Reduction {
+  Eigen::VectorXd fixed_interface_hz;  // of the kept modes, residual modes after them
   Eigen::VectorXd residuals;           // of the kept modes
-  double cutoff_hz = 0.0;              // all fixed-interface modes below it are kept
+  ResidualReport residual;
+  double cutoff_hz = 0.0;  // all fixed-interface modes below it are kept
   modal::CountProof proof;
   modal::FactorReport factor;
   double rigid_error = 0.0;  // |Psi r_b - r_i| / |r_i| of the plain solve

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -95,6 +96,25 @@ std::vector<int> near_modes(const VectorXd& hz_of, double hz, int rigid, int par
   return near;
 }
 
+/// The free reduced mode of the likest shape within 5 % of the frequency; by order when none is
+/// alike.
+int find_partner(const CommonRows& rows, const VectorXd& hz_of, double hz, int j,
+                 std::vector<char>& taken) {
+  int best = -1;
+  double likeness = 0.5;
+  const VectorXd shape = rows.full.col(j).normalized();
+  for (int k = 0; k < hz_of.size(); ++k) {
+    if (taken[static_cast<size_t>(k)] != 0 || std::abs(hz_of[k] - hz) > 0.05 * hz) continue;
+    const double mac = std::pow(shape.dot(rows.reduced.col(k).normalized()), 2);
+    if (mac <= likeness) continue;
+    best = k;
+    likeness = mac;
+  }
+  if (best < 0) return j;
+  taken[static_cast<size_t>(best)] = 1;
+  return best;
+}
+
 ModesOptions request(const CompareOptions& options, const ReducedModel& reduced) {
   ModesOptions modes;
   modes.count = options.count;
@@ -140,12 +160,14 @@ Comparison compare(const assembly::FeModel& full, const ReducedModel& reduced,
   const CommonRows rows = common_rows(full, a, reduced, b);
   out.rows = static_cast<int>(rows.full.rows());
   const VectorXd full_hz = a.modes.frequencies_hz(), reduced_hz = b.modes.frequencies_hz();
+  std::vector<char> taken(static_cast<size_t>(b.modes.size()), 0);
   for (int j = out.rigid_full; j < a.modes.size(); ++j) {
+    const int partner = find_partner(rows, reduced_hz, full_hz[j], j, taken);
     ComparedMode mode;
     mode.full_hz = full_hz[j];
-    mode.reduced_hz = reduced_hz[j];
-    mode.error = reduced_hz[j] / full_hz[j] - 1.0;
-    const std::vector<int> near = near_modes(reduced_hz, full_hz[j], out.rigid_reduced, j);
+    mode.reduced_hz = reduced_hz[partner];
+    mode.error = mode.reduced_hz / full_hz[j] - 1.0;
+    const std::vector<int> near = near_modes(reduced_hz, full_hz[j], out.rigid_reduced, partner);
     mode.mac = subspace_mac(rows.full.col(j), rows.reduced(Eigen::all, near));
     out.modes.push_back(mode);
   }

@@ -31,7 +31,8 @@ struct Comparison {
   double smallest_mac() const;
 };
 
-/// Pairs elastic modes in ascending order. Shapes are compared at the boundary coordinates and the
+/// Pairs each elastic mode with the likest one within 5 % of its frequency (by order when none has
+/// a MAC over 0.5). Shapes are compared at the boundary coordinates and the
 /// skin nodes that both models have (found by their coordinates) by
 ///   MAC = |P phi|^2 / |phi|^2,
 /// P the projector on the reduced modes within 0.5 % of the frequency: for a single mode this is

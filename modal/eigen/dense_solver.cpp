@@ -39,6 +39,12 @@ EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, doub
   return result;
 }
 
+double dense_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
+  Eigen::VectorXd quotient = K.diagonal().cwiseQuotient(M.diagonal());
+  std::sort(quotient.begin(), quotient.end());
+  return -1e-3 * quotient[quotient.size() / 2];
+}
+
 Eigen::MatrixXd dense_symmetric(const SparseMatrix& lower) {
   const SparseMatrix full = lower.selfadjointView<Eigen::Lower>();
   return Eigen::MatrixXd(full);

@@ -13,6 +13,10 @@ namespace clatter::modal {
 EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double sigma,
                         int count = 0);
 
+/// A negative shift well below the elastic eigenvalues of a reduced model: a thousandth of the
+/// median of K_jj / M_jj. (The least may be zero: a rigid motion can move a coordinate alone.)
+double dense_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
+
 /// Both triangles of a sparse symmetric matrix that is given by its lower one.
 Eigen::MatrixXd dense_symmetric(const SparseMatrix& lower);
 

@@ -96,6 +96,33 @@ TEST(CraigBamptonTest, EveryModeBelowHalfTheCutOffIsWithinATenthOfAPercent) {
   EXPECT_GT(compared, 5);
 }
 
+TEST(CraigBamptonTest, ResidualModesRemoveTheErrorThatTheEstimateNames) {
+  const auto model = box_model();
+  const VectorXd full =
+      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
+                         modal::default_shift(model.K, model.M))
+          .values;
+  CondenseOptions options = options_for({"left", "right", "point"}, 0);
+  options.method = "craig-bampton";
+  options.modes.fmax_hz = modal::hz_of_value(full[70]);
+  double without = 0.0, with = 0.0;
+  for (const double target : {0.0, 1e-5}) {
+    options.modes.frequency_error = target;
+    const ReducedModel reduced = reduce(model, options);
+    const VectorXd small = reduced_modes(reduced).values;
+    double largest = 0.0;
+    for (Eigen::Index j = 6; modal::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j)
+      largest = std::max(largest, std::sqrt(small[j] / full[j]) - 1.0);
+    const double estimate = reduced.certificate.at("frequency_error_estimate");
+    // First order in the error, for modes up to half of the cut-off: (f / f_cut)^2 = 1/4 is left.
+    EXPECT_NEAR(estimate, largest, 0.4 * largest + 1e-9) << target;
+    (target == 0.0 ? without : with) = largest;
+    EXPECT_EQ(reduced.certificate.at("residual_modes") > 0.0, target > 0.0);
+  }
+  EXPECT_LT(with, 1.4e-5);
+  EXPECT_GT(without, 10.0 * with);
+}
+
 TEST(CraigBamptonTest, AllModesGiveTheFullSpectrum) {
   const auto model = box_model(4, 3, 3);
   const int interior = model.size() - 15;
