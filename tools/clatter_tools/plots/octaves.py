@@ -21,7 +21,7 @@ def finish(axis, field, at, all_levels):
     axis.set_xlim(mid[0] - 0.05, mid[-1] + 0.05)
     audible = np.concatenate([np.asarray(levels) for levels in all_levels])
     top = audible.max() + 5
-    axis.set_ylim(max(audible[audible > -900].min() - 5, top - FLOOR_DB), top)
+    axis.set_ylim(max(audible[audible > -900].min() - 10, top - FLOOR_DB), top)
     axis.set_xlabel("third-octave band [Hz]")
 
 

@@ -30,7 +30,7 @@ def draw_bands(axis, runs):
     octaves.finish(axis, run, at, drawn)
     axis.set_ylabel(f"ERP [dB re {levels.attrs['reference'] * 1e12:g} pW]")
     axis.set_title(f"Equivalent radiated power, panel “{where.rpartition('/')[2]}”", loc="left")
-    axis.legend(loc="lower right")
+    axis.legend(loc="lower left")
 
 
 def draw_lines(axis, runs):

@@ -101,7 +101,7 @@ def draw_deflection(files):
         colours = style.plt.cm.RdBu_r(0.5 + 0.5 * np.clip(normal / limit, -1, 1))[:, :3]
         axis.imshow(cropped(raster.render(points + scale * velocity, triangles, colours, azimuth=40.0, size=(900, 760))))
         axis.set_axis_off()
-        axis.set_title(title, loc="left")
+        axis.set_title(title, loc="left", fontsize=10)
         bar = style.matplotlib.cm.ScalarMappable(style.matplotlib.colors.Normalize(-limit, limit), "RdBu_r")
         figure.colorbar(bar, ax=axis, orientation="horizontal", shrink=0.8, pad=0.01,
                         label="normal velocity [mm/s], outward positive")
@@ -109,25 +109,49 @@ def draw_deflection(files):
 
 
 def strongest_instant(field):
-    """(title, nodal velocity [m/s]) of the frame with the largest mean square normal velocity."""
-    area = dataset(field, "skin/face_area")
-    frames = sorted(field["frames/normal_velocity"])
-    power = [np.dot(area, np.square(field[f"frames/normal_velocity/{name}"][()], dtype=float)) for name in frames]
-    best = int(np.argmax(power))
+    """(title, nodal velocity [m/s]) of the frame with the largest mean square velocity beside rigid motion."""
+    names = sorted(field["frames/velocity"])
+    moved = [elastic_part(field, field[f"frames/velocity/{name}"][()].astype(float)) for name in names]
+    best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
     time = dataset(field, "frames/time")[best]
-    return f"{time * 1e3:.2f} ms after firing TDC", field[f"frames/velocity/{frames[best]}"][()].astype(float)
+    return f"{time * 1e3:.2f} ms after firing TDC\n(rigid motion removed, enlarged)", moved[best]
 
 
 def strongest_line(field):
-    """(title, nodal velocity [m/s] at the phase where it is largest) of the strongest complex line."""
-    area = dataset(field, "skin/face_area")
+    """(title, nodal velocity [m/s] at the phase where it is largest) of the complex line that is heard most."""
     names = sorted(field["lines/velocity_re"])
     if not names:
         raise BadArtefact(f"{field.filename}: lines: the file holds no complex lines")
-    power = [np.dot(area, field[f"lines/normal_velocity_re/{n}"][()] ** 2 + field[f"lines/normal_velocity_im/{n}"][()] ** 2)
+    frequency = dataset(field, "lines/frequency_hz")
+    lines = [elastic_part(field, field[f"lines/velocity_re/{n}"][()] + 1j * field[f"lines/velocity_im/{n}"][()])
              for n in names]
-    best = int(np.argmax(power))
-    velocity = field[f"lines/velocity_re/{names[best]}"][()] + 1j * field[f"lines/velocity_im/{names[best]}"][()]
+    best = int(np.argmax([mean_square(field, line) * a_weight(f) for line, f in zip(lines, frequency)]))
     # The phase at which the real part carries most: half the angle of sum v^2.
-    velocity = (velocity * np.exp(-0.5j * np.angle(np.sum(velocity**2)))).real
-    return f"shape at {dataset(field, 'lines/frequency_hz')[best]:.0f} Hz, enlarged", velocity
+    velocity = (lines[best] * np.exp(-0.5j * np.angle(np.sum(lines[best] ** 2)))).real
+    return f"shape at {frequency[best]:.0f} Hz\n(rigid motion removed, enlarged)", velocity
+
+
+def mean_square(field, velocity):
+    """Sum over the skin of |normal velocity|^2, by the nodes' shares of the area when the file has them."""
+    normal = np.einsum("ij,ij->i", velocity, dataset(field, "skin/node_normal"))
+    share = dataset(field, "skin/node_area") if "skin/node_area" in field else 1.0
+    return float(np.sum(share * np.abs(normal) ** 2))
+
+
+def elastic_part(field, velocity):
+    """Velocity without the rigid motion (three translations, three rotations) that fits it best."""
+    points = dataset(field, "skin/nodes")
+    x, y, z = (points - points.mean(axis=0)).T
+    zero, one = np.zeros_like(x), np.ones_like(x)
+    motions = [(one, zero, zero), (zero, one, zero), (zero, zero, one), (zero, -z, y), (z, zero, -x), (-y, x, zero)]
+    rigid = np.stack([np.column_stack(motion).ravel() for motion in motions], axis=1)
+    amount = np.linalg.lstsq(rigid, velocity.ravel(), rcond=None)[0]
+    return velocity - (rigid @ amount).reshape(velocity.shape)
+
+
+def a_weight(hz):
+    """A-weighting as a factor on power, relative to 1 kHz (IEC 61672-1)."""
+    f2 = hz * hz
+    r = 12194.217**2 * f2**2 / ((f2 + 20.598997**2) * np.sqrt((f2 + 107.65265**2) * (f2 + 737.86223**2))
+                                * (f2 + 12194.217**2))
+    return 1.2589 * r * r
