@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/integrate/dirk.hpp"
 #include "dynamics/integrate/statistics.hpp"
-#include "dynamics/integrate/tr_bdf2.hpp"
 #include "dynamics/scene.hpp"
 
 namespace clatter::dynamics {

@@ -32,6 +32,8 @@ void read_shape(const Config& table, film::SkirtShape& shape) {
 void read_oil(const Config& table, film::PistonLinerOptions& options) {
   const Range share{0.0, 1.0, false};
   options.viscosity = table.number_or("viscosity_pa_s", options.viscosity, Range::positive());
+  options.bulk_modulus =
+      table.number_or("bulk_modulus_mpa", options.bulk_modulus * 1e-6, Range::not_negative()) * 1e6;
   options.initial_fill = table.number_or("initial_fill", options.initial_fill, share);
   options.supply_fill = table.number_or("supply_fill", options.supply_fill, share);
   if (table.has("oil_thickness_um")) {

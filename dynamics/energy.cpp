@@ -7,7 +7,8 @@
 
 namespace clatter::dynamics {
 
-EnergyBalance::EnergyBalance(const System& system) : system_(system) {
+EnergyBalance::EnergyBalance(const System& system, const Tableau& method)
+    : system_(system), method_(method) {
   term("modal damping");
   for (const auto& load : system.loads()) load_term_.push_back(term(load.term));
   for (int e = 0; e < system.elements(); ++e) {
@@ -82,7 +83,7 @@ void EnergyBalance::reset() {
 }
 
 void EnergyBalance::accept(double dt) {
-  constexpr auto& b = TrBdf2Tableau::b;
+  const auto& b = method_.b;
   for (size_t k = 0; k < names_.size(); ++k) {
     double work = 0.0;
     for (int i = 0; i < 3; ++i) work += dt * b[i] * stages_[i].powers[k];

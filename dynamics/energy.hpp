@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/integrate/dirk.hpp"
 #include "dynamics/system.hpp"
 
 namespace clatter::dynamics {
@@ -30,7 +30,7 @@ struct EnergyState {
 /// like any other; their work is the term "inertia frame".
 class EnergyBalance : public StageObserver {
  public:
-  explicit EnergyBalance(const System& system);
+  explicit EnergyBalance(const System& system, const Tableau& method = tr_bdf2());
 
   void stage(int index, const StageState& state) override;
   void accept(double dt) override;
@@ -55,6 +55,7 @@ class EnergyBalance : public StageObserver {
   void start_from(const Flow& flow);
 
   const System& system_;
+  const Tableau& method_;
   std::vector<std::string> names_;
   std::vector<size_t> load_term_, input_term_, lost_term_;
   Flow stages_[3];

@@ -10,7 +10,7 @@
 #include "dynamics/effects.hpp"
 #include "dynamics/film/piston_liner.hpp"
 #include "dynamics/history.hpp"
-#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/integrate/dirk.hpp"
 #include "dynamics/scene.hpp"
 #include "dynamics/spline.hpp"
 #include "dynamics/system.hpp"

@@ -149,6 +149,10 @@ void read_steps(const Config& root, Scene& scene) {
   const double largest_us =
       scene.engine ? turn / 360.0 / kMicro : (scene.time.end - scene.time.begin) / 100.0 / kMicro;
   const Config time = root.table("time");
+  const std::string method = scene.contact && scene.contact->effects.film
+                                 ? time.choice("method", {"sdirk2", "tr-bdf2"})
+                                 : time.choice("method", {"tr-bdf2", "sdirk2"});
+  scene.steps.method = method == "sdirk2" ? &sdirk2() : &tr_bdf2();
   scene.steps.largest = time.number_or("largest_step_us", largest_us, Range::positive()) * kMicro;
   scene.steps.smallest = time.number_or("smallest_step_us", 1e-4, Range::positive()) * kMicro;
   scene.steps.first = std::min(1e-7, 1e-3 * scene.steps.largest);
@@ -220,7 +224,6 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   scene.title = root.text_or("title", path.stem().stem().string());
   if (root.has("engine")) scene.engine = read_engine(root);
   read_time(root, scene);
-  read_steps(root, scene);
   scene.gravity = root.number_or("gravity_m_s2", 0.0, Range::not_negative());
   for (const Config& table : root.tables("body")) {
     BodySpec body;
@@ -238,6 +241,7 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
     scene.big_end = read_law(root, "big_end");
     scene.guide = read_guide(root);
   }
+  read_steps(root, scene);
   check_engine(root, scene);
   root.finish();
   scene.resolved = root.resolved();

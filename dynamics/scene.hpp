@@ -7,7 +7,7 @@
 
 #include "core/config.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
-#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/integrate/dirk.hpp"
 #include "dynamics/radial_law.hpp"
 #include "dynamics/rigid_rod.hpp"
 #include "dynamics/spline.hpp"

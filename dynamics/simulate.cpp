@@ -36,7 +36,7 @@ class CycleRun {
            double film_every)
       : span_(cycle_span(scene, from.cycle)),
         model_(build_model(scene, bodies)),
-        energy_(model_->system),
+        energy_(model_->system, *scene.steps.method),
         method_(model_->system, scene.steps),
         recorder_(std::make_unique<Recorder>(*model_, span_.begin, span_.end,
                                              scene.time.output_step, film_every)) {
@@ -91,7 +91,7 @@ class CycleRun {
   Span span_;
   std::unique_ptr<Model> model_;
   EnergyBalance energy_;
-  TrBdf2 method_;
+  Dirk method_;
   std::unique_ptr<Recorder> recorder_;
 };
 

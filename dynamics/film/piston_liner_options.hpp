@@ -38,6 +38,7 @@ struct PistonLinerOptions {
   SkirtShape skirt;
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
+  double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
   double initial_fill = 1.0;  // share of the gap that holds oil at the start, 0 to 1
   double supply_fill =
       1.0;  // content of the oil film that the pad meets at its top and bottom edge, 0 to 1

@@ -16,7 +16,7 @@ void PistonLiner::finish_stage(const dynamics::Stage& stage) {
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
-    film.stage_content = film.reynolds.fill() * film.cells.content;
+    film.stage_content = film.reynolds.density() * film.cells.content;
     film.rates.at(static_cast<size_t>(stage.index)) =
         (film.stage_content - film.before) / stage.kappa;
     film.last_stage = stage.index;

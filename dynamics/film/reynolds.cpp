@@ -41,6 +41,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
   const int n = grid_.size();
   full_.assign(static_cast<size_t>(n), 1);
   storage_.setZero(n);
+  squeeze_.setZero(n);
   before_.setZero(n);
   x_.setZero(n);
   pressure_.setZero(n);
@@ -148,6 +149,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     storage_ = film.content * grid_.area() / volume_scale_;
     before_ = content_before * grid_.area() / volume_scale_;
   }
+  squeeze_ = storage_ * (stage.bulk_modulus > 0.0 ? pressure_scale_ / stage.bulk_modulus : 0.0);
 }
 
 void Reynolds::assemble() {
@@ -155,10 +157,12 @@ void Reynolds::assemble() {
   auto place = [this](int cell) { return place_[static_cast<size_t>(cell)]; };
   for (int c = 0; c < grid_.size(); ++c) {
     x_[place(c)] = before_[c];
-    if (is_full(c))
+    if (is_full(c)) {
       x_[place(c)] -= storage_[c];
-    else
+      lu_.at(place(c), place(c)) += squeeze_[c];
+    } else {
       lu_.at(place(c), place(c)) += storage_[c];
+    }
   }
   for (size_t f = 0; f < faces_.size(); ++f) {
     const int a = faces_[f].a, b = faces_[f].b, pa = place(a), pb = place(b);
@@ -211,6 +215,11 @@ bool Reynolds::update_split(bool one_at_a_time) {
   return changed;
 }
 
+Eigen::ArrayXd Reynolds::density() const {
+  if (!(stage_.bulk_modulus > 0.0)) return fill_;
+  return fill_ + pressure_ / stage_.bulk_modulus;
+}
+
 int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,
                     const FilmStage& stage) {
   film_ = &film;
@@ -250,7 +259,7 @@ void Reynolds::unpack() {
 // Balance of each cell with the values as returned, against the size of its own terms.
 void Reynolds::measure() {
   Eigen::ArrayXd& balance = scratch_;
-  balance = storage_ * fill_ - before_;
+  balance = storage_ * fill_ + squeeze_ * pressure_ / pressure_scale_ - before_;
   magnitude_ = storage_ * fill_.abs() + before_.abs();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const int a = faces_[f].a, b = faces_[f].b;

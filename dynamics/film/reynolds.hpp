@@ -54,18 +54,21 @@ struct FilmStage {
       0.0;  // mean wall velocity relative to the grid, along the circumference [m/s]
   double speed_axial = 0.0;  // the same along the axis [m/s]
   bool steady = false;  // true: div q = 0, no storage; kappa and the content before are not used
+  // Bulk modulus of the oil [Pa]: a full cell holds (1 + p / B) s. 0: incompressible. A body of
+  // mass m per area stops on a cell that fills within sqrt(m s / B), in place of at once.
+  double bulk_modulus = 0.0;
 };
 
 /// JFO film in stage form, conserving mass for any Runge-Kutta tableau:
 ///
-///   theta s - m~ = -kappa div q,   q = -g^3/(12 mu) grad p + theta c U_m,
+///   (theta + p / B) s - m~ = -kappa div q,   q = -g^3/(12 mu) grad p + theta c U_m,
 ///   p >= 0,  0 <= theta <= 1,  p (1 - theta) = 0
 ///
-/// (Jakobsson and Floberg 1957, Olsson 1965; p-theta form of Elrod and Adams 1975 without its
-/// bulk modulus). Cell-centred finite volumes. A face conducts 2 a^2 b^2 / (a + b) in place of g^3
-/// and carries 2 a b / (a + b) in place of c, a and b being its neighbours' values: exact integrals
-/// of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge comes out exact at the centres.
-/// theta is upwinded by U_m.
+/// (Jakobsson and Floberg 1957, Olsson 1965; p-theta form of Elrod and Adams 1975, with their bulk
+/// modulus in the storage only). Cell-centred finite volumes. A face conducts 2 a^2 b^2 / (a + b)
+/// in place of g^3 and carries 2 a b / (a + b) in place of c, a and b being its neighbours' values:
+/// exact integrals of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge comes out exact
+/// at the centres. theta is upwinded by U_m.
 ///
 /// The unknown of a full cell is p (theta = 1), of a cavitated cell theta (p = 0). For a given
 /// split into full and cavitated cells the system is linear, and its matrix is a column-diagonally
@@ -84,6 +87,8 @@ class Reynolds {
   const Eigen::ArrayXd& pressure() const { return pressure_; }
   /// Fill theta, n.
   const Eigen::ArrayXd& fill() const { return fill_; }
+  /// Oil in a cell over what it holds when just full, theta + p / B; n.
+  Eigen::ArrayXd density() const;
   bool is_full(int cell) const { return full_[static_cast<size_t>(cell)] != 0; }
   /// Largest mass residual of a cell relative to the largest terms of its balance.
   double residual() const { return residual_; }
@@ -129,9 +134,9 @@ class Reynolds {
   std::vector<char> full_;
   bool started_ = false;
 
-  // Nondimensional terms of the current stage: storage, m~, conductance and carried volume of faces
-  // and rims.
-  Eigen::ArrayXd storage_, before_;
+  // Nondimensional terms of the current stage: storage s, storage by pressure s / B, m~,
+  // conductance and carried volume of faces and rims.
+  Eigen::ArrayXd storage_, squeeze_, before_;
   std::vector<double> conduct_, carry_, rim_conduct_, rim_carry_, rim_entering_;
   double volume_scale_ = 1.0, pressure_scale_ = 1.0;
   const FilmCells* film_ = nullptr;

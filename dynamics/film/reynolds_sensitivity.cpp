@@ -20,9 +20,11 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
   const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;
   work_.setZero(grid_.size(), BandedLu::padded(k));
   auto row = [this, k](int cell) { return work_.row(place_[static_cast<size_t>(cell)]).head(k); };
-  if (!stage_.steady)
+  if (!stage_.steady) {
+    const Eigen::ArrayXd held = density();
     for (int c = 0; c < grid_.size(); ++c)
-      row(c) = -(grid_.area()[c] * fill_[c] * film.d_content[c] / volume_scale_) * dh.row(c);
+      row(c) = -(grid_.area()[c] * held[c] * film.d_content[c] / volume_scale_) * dh.row(c);
+  }
   for (const Face& face : faces_) {
     const int a = face.a, b = face.b;
     const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;

@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kMaxIterations = 24;
-/// Matrices formed in one stage. A film cell that fills or empties bends the force sharply: then each
-/// iteration needs its own matrix, and a few of them settle which cells are full.
+/// Matrices formed in one stage. A film cell that fills or empties bends the force sharply: then
+/// each iteration needs its own matrix, and a few of them settle which cells are full.
 constexpr int kMaxFresh = 10;
 /// Increments below this part of the error limit count as converged: Newton's leftovers stay well
 /// below the error that the step control sees.

@@ -7,7 +7,7 @@
 
 #include "core/reduced_model.hpp"
 #include "dynamics/element.hpp"
-#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/integrate/dirk.hpp"
 #include "dynamics/modal_body.hpp"
 #include "dynamics/system.hpp"
 

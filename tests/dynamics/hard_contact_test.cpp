@@ -51,7 +51,7 @@ TEST(HardT1_UndampedStiffContact, EnergyNeverRisesOverTenThousandImpacts) {
   options.largest = 1e-3;
   // The energy error of an impact follows the tolerance; this one is tight enough for the claim.
   options.accuracy = {3e-7, 1e-4, 0.1, 0.05};
-  TrBdf2 method(system, options);
+  Dirk method(system, options);
   method.set_observer(&energy);
   method.start(0.0, vector(-1e-4), vector(0.0));
   const double potential_start = -50.0 * -1e-4;
@@ -81,7 +81,7 @@ TEST(HardT3_NewtonFailure, IsRejectedAndCounted) {
     StepOptions options;
     options.accuracy = {1e-3, 1e-3, 0.1, 0.05};
     options.largest = 1e-2;
-    TrBdf2 method(system, options);
+    Dirk method(system, options);
     method.start(0.0, vector(0.0), vector(0.0));
     while (method.state().time < 1.0) method.step(1.0);
     const auto& count = method.statistics();
@@ -104,7 +104,7 @@ TEST(HardT4_ImpossiblePenalty, EndsAtTheFloorNamingTheContact) {
   system.add_element(std::make_unique<Wall>(y, 1e-5, 1e20, 0.0, 1.0));
   push(system, [](double) { return 1000.0; });
   StepOptions options;
-  TrBdf2 method(system, options);
+  Dirk method(system, options);
   method.start(0.0, vector(0.0), vector(0.0));
   try {
     while (method.state().time < 1.0) method.step(1.0);
@@ -128,7 +128,7 @@ TEST(HardT5_BouncingBall, ComesToRestOnTheWall) {
   StepOptions options;
   options.largest = 1e-3;
   options.accuracy = {1e-3, 1e-3, 1.0, 0.05};
-  TrBdf2 method(system, options);
+  Dirk method(system, options);
   method.start(0.0, vector(-drop), vector(0.0));
   while (method.state().time < 5.0) method.step(5.0);
   EXPECT_NEAR(method.state().y(y), weight / k, 0.1 * weight / k);
@@ -145,7 +145,7 @@ double deepest_penetration(double dt, double& lost) {
   options.largest = dt;
   options.first = 1e-9;
   options.fixed = true;
-  TrBdf2 method(system, options);
+  Dirk method(system, options);
   method.set_observer(&energy);
   method.start(0.0, vector(-1e-5), vector(0.1));
   double deepest = 0.0;
@@ -174,7 +174,7 @@ TEST(HardT9_FreeRun, EnergyDoesNotRiseInTenSeconds) {
   StepOptions options;
   options.largest = 1e-3;
   options.accuracy = {1e-3, 1e-3, 0.2, 0.05};
-  TrBdf2 method(system, options);
+  Dirk method(system, options);
   method.set_observer(&energy);
   method.start(0.0, vector(1e-3), vector(0.0));
   double last = energy.now().stored();

@@ -165,11 +165,10 @@ ReducedModel clamped_bar(double length, int elements, int modes) {
   model.K_rr = (0.5 * (model.K_rr + model.K_rr.transpose())).eval();
   model.rigid = MatrixXd::Zero(1 + modes, 6);
   model.rigid(0, 0) = 1.0;
-  model.sets["tip"] = {"node", {0}, {"tip.x"}, Eigen::RowVector3d(length, 0, 0),
-                       Eigen::RowVector3d(1, 0, 0), {0}};
+  model.sets["tip"] = {
+      "node", {0}, {"tip.x"}, Eigen::RowVector3d(length, 0, 0), Eigen::RowVector3d(1, 0, 0), {0}};
   model.mass.mass = rho * area * length;
-  model.fixed_interface_hz =
-      fixed.eigenvalues().head(modes).cwiseSqrt() / (2.0 * kPi);
+  model.fixed_interface_hz = fixed.eigenvalues().head(modes).cwiseSqrt() / (2.0 * kPi);
   model.valid_to_hz = modes > 0 ? 0.5 * model.fixed_interface_hz(modes - 1) : 1.0;
   return model;
 }
@@ -200,8 +199,8 @@ ReducedModel elastic_block(double radius, int strips, int rows) {
   const Vector3d axis(0.195, 0.0, 0.0);
   parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * kPi, strips),
              VectorXd::LinSpaced(rows + 1, 0.115, 0.345), axis, 4.0 / (strips * rows), 5000.0);
-  parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(0, 0, 0.23), Vector3d::UnitZ(),
-            false, 4.0, 4000.0);
+  parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(0, 0, 0.23),
+            Vector3d::UnitZ(), false, 4.0, 4000.0);
   parts.node("main_4", "bearing", Vector3d(0.13, 0.0, 0.0), 8.0, 2500.0);
   parts.node("main_5", "bearing", Vector3d(0.26, 0.0, 0.0), 8.0, 2200.0);
   parts.node("head", "sensor", Vector3d(0.195, 0.0, 0.345), 15.0, 2000.0);

@@ -22,6 +22,7 @@ class Impact : public ::testing::TestWithParam<Throw> {};
 TEST_P(Impact, HardR1_FilmStaysPositiveAndImpulseBalances) {
   const Throw& shot = GetParam();
   PistonLinerOptions options;
+  options.bulk_modulus = 0.0;  // the hardest case: oil that gives way by flowing only
   options.clearance = 50e-6;
   options.cells_around = 10;
   options.cells_along = 12;

@@ -1,5 +1,5 @@
 #pragma once
-// TR-BDF2: second order, L-stable, three stages of which the first is the end of the last step.
+// Diagonally implicit Runge-Kutta steps with error control.
 #include <Eigen/Core>
 #include <map>
 #include <memory>
@@ -9,24 +9,14 @@
 #include "dynamics/integrate/newton.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/statistics.hpp"
+#include "dynamics/integrate/tableau.hpp"
 #include "dynamics/system.hpp"
 
 namespace clatter::dynamics {
 
-/// The tableau of TR-BDF2 as an ESDIRK with gamma = 2 - sqrt 2 (Bank et al. 1985; the embedded
-/// third-order weights of Hosea and Shampine 1996).
-struct TrBdf2Tableau {
-  static constexpr double kSqrt2 = 1.4142135623730950488;
-  static constexpr double kGamma = 2.0 - kSqrt2;     // c_1
-  static constexpr double kDiagonal = kGamma / 2.0;  // d
-  static constexpr double kWeight = kSqrt2 / 4.0;    // w
-  static constexpr double b[3] = {kWeight, kWeight, kDiagonal};
-  static constexpr double b_hat[3] = {(1.0 - kWeight) / 3.0, (3.0 * kWeight + 1.0) / 3.0,
-                                      kDiagonal / 3.0};
-};
-
 /// Step size limits.
 struct StepOptions {
+  const Tableau* method = &tr_bdf2();
   Accuracy accuracy;
   double largest = 1e-4;    // top of the ladder [s]
   double smallest = 1e-10;  // floor: below it the run ends with a NumericsError [s]
@@ -51,7 +41,8 @@ class StageObserver {
   virtual void accept(double dt) = 0;
 };
 
-/// Integrates a System with error-controlled steps dt = largest 2^(-k/2).
+/// Integrates a System by a two-stage method (tableau.hpp) with error-controlled steps dt = largest
+/// 2^(-k/2).
 ///
 /// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), sent through the linearised stage
 /// equations (so stiff components do not decide), then the largest |e_y| over interface coordinates
@@ -60,9 +51,9 @@ class StageObserver {
 /// error^(1/3)); after a Newton failure or refusal it is halved and may not grow for some steps,
 /// doubling with each failure in a row (hard case T4). Below `smallest` a NumericsError names the
 /// coordinate and its elements.
-class TrBdf2 {
+class Dirk {
  public:
-  TrBdf2(System& system, const StepOptions& options);
+  Dirk(System& system, const StepOptions& options);
 
   /// Starts from (eta, v) at `time` by one implicit Euler stage of length `first`, which gives
   /// consistent accelerations and rates of internal states.

@@ -1,4 +1,4 @@
-#include "dynamics/integrate/tr_bdf2.hpp"
+#include "dynamics/integrate/dirk.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,6 @@
 namespace clatter::dynamics {
 
 using Eigen::VectorXd;
-using Tableau = TrBdf2Tableau;
 
 namespace {
 
@@ -22,21 +21,21 @@ constexpr int kLongestHold = 64;
 
 }  // namespace
 
-TrBdf2::TrBdf2(System& system, const StepOptions& options)
+Dirk::Dirk(System& system, const StepOptions& options)
     : system_(system),
       options_(options),
       weights_(error_weights(system, options.accuracy)),
       newton_(system, weights_, statistics_) {}
 
-double TrBdf2::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
+double Dirk::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
 
-int TrBdf2::rung_for(double dt) const {
+int Dirk::rung_for(double dt) const {
   // The longest rung not above dt; the small excess keeps exact hits on their rung.
   const double exact = 2.0 * std::log2(options_.largest / dt);
   return std::max(0, static_cast<int>(std::ceil(exact - 1e-9)));
 }
 
-std::unique_ptr<StageOperator> TrBdf2::make_operator(double kappa) {
+std::unique_ptr<StageOperator> Dirk::make_operator(double kappa) {
   const Stopwatch clock;
   auto op = std::make_unique<StageOperator>(system_, kappa);
   ++statistics_.operators;
@@ -44,13 +43,13 @@ std::unique_ptr<StageOperator> TrBdf2::make_operator(double kappa) {
   return op;
 }
 
-const StageOperator& TrBdf2::ladder_operator(int rung) {
+const StageOperator& Dirk::ladder_operator(int rung) {
   auto& op = operators_[rung];
-  if (!op) op = make_operator(Tableau::kDiagonal * ladder_step(rung));
+  if (!op) op = make_operator(options_.method->d * ladder_step(rung));
   return *op;
 }
 
-void TrBdf2::start(double time, const VectorXd& eta, const VectorXd& v) {
+void Dirk::start(double time, const VectorXd& eta, const VectorXd& v) {
   system_.begin_step(time);
   const Stage stage{time + options_.first, options_.first, 0, {}};
   const auto op = make_operator(options_.first);
@@ -67,20 +66,20 @@ void TrBdf2::start(double time, const VectorXd& eta, const VectorXd& v) {
   rung_ = options_.fixed ? 0 : rung_for(std::min(options_.first, options_.largest));
 }
 
-void TrBdf2::resume(const StageState& state, int rung) {
+void Dirk::resume(const StageState& state, int rung) {
   now_ = before_ = state;
   rung_ = rung;
   forget_history();
 }
 
-void TrBdf2::forget_history() {
+void Dirk::forget_history() {
   newton_.forget();
   hold_ = 0;
   failures_ = 0;
 }
 
-bool TrBdf2::solve_stage(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
-                         const VectorXd& v_tilde, const VectorXd& y_guess, StageState& out) {
+bool Dirk::solve_stage(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
+                       const VectorXd& v_tilde, const VectorXd& y_guess, StageState& out) {
   ++statistics_.stages;
   VectorXd F = system_.load_force(stage.time);
   const auto settle = [&] {
@@ -102,26 +101,27 @@ bool TrBdf2::solve_stage(const Stage& stage, const StageOperator& op, const Vect
   return true;
 }
 
-TrBdf2::Verdict TrBdf2::attempt(double dt, const StageOperator& op) {
-  const double kappa = Tableau::kDiagonal * dt, w = Tableau::kWeight * dt;
+Dirk::Verdict Dirk::attempt(double dt, const StageOperator& op) {
+  const Tableau& A = *options_.method;
+  const double kappa = A.d * dt;
   system_.begin_step(now_.time);
   const auto failed = [&] {
     return last_newton_.outcome == StageNewton::Outcome::kRefused ? Verdict::kRefused
                                                                   : Verdict::kNewton;
   };
-  const double c = Tableau::kGamma * dt;
-  const Stage first{now_.time + c, kappa, 1, {kappa}};
-  if (!solve_stage(first, op, now_.eta + kappa * now_.v, now_.v + kappa * now_.a,
+  const double c = A.c_1 * dt, w_10 = A.a_10 * dt, w_20 = A.a_20 * dt, w_21 = A.a_21 * dt;
+  const Stage first{now_.time + c, kappa, 1, {w_10}};
+  if (!solve_stage(first, op, now_.eta + w_10 * now_.v, now_.v + w_10 * now_.a,
                    now_.y + c * now_.v_y, stages_[0])) {
     return failed();
   }
   system_.finish_stage(first);
   if (observer_ != nullptr) observer_->stage(1, stages_[0]);
 
-  const Stage second{now_.time + dt, kappa, 2, {w, w}};
+  const Stage second{now_.time + dt, kappa, 2, {w_20, w_21}};
   const StageState& mid = stages_[0];
-  if (!solve_stage(second, op, now_.eta + w * (now_.v + mid.v), now_.v + w * (now_.a + mid.a),
-                   mid.y + (dt - c) * mid.v_y, stages_[1])) {
+  if (!solve_stage(second, op, now_.eta + w_20 * now_.v + w_21 * mid.v,
+                   now_.v + w_20 * now_.a + w_21 * mid.a, mid.y + (dt - c) * mid.v_y, stages_[1])) {
     return failed();
   }
   if (!options_.fixed) {
@@ -133,9 +133,9 @@ TrBdf2::Verdict TrBdf2::attempt(double dt, const StageOperator& op) {
   return Verdict::kAccepted;
 }
 
-double TrBdf2::error(double dt, const StageOperator& op) {
-  constexpr auto& b = Tableau::b;
-  constexpr auto& b_hat = Tableau::b_hat;
+double Dirk::error(double dt, const StageOperator& op) {
+  const auto& b = options_.method->b;
+  const auto& b_hat = options_.method->b_hat;
   const double d0 = dt * (b[0] - b_hat[0]), d1 = dt * (b[1] - b_hat[1]),
                d2 = dt * (b[2] - b_hat[2]);
   const VectorXd e_eta = d0 * now_.v + d1 * stages_[0].v + d2 * stages_[1].v;
@@ -151,7 +151,7 @@ double TrBdf2::error(double dt, const StageOperator& op) {
       {largest, eta.norm() * weights_.modal_displacement, v.norm() * weights_.modal_velocity});
 }
 
-void TrBdf2::step(double limit) {
+void Dirk::step(double limit) {
   const Stopwatch clock;
   for (;;) {
     double dt = ladder_step(rung_);
@@ -161,7 +161,7 @@ void TrBdf2::step(double limit) {
     const bool near_limit = left < 2.0 * dt * (1.0 - 1e-9);
     if (near_limit) {
       dt = left <= dt * (1.0 + 1e-9) ? left : 0.5 * left;
-      verdict = attempt(dt, *make_operator(Tableau::kDiagonal * dt));
+      verdict = attempt(dt, *make_operator(options_.method->d * dt));
     } else {
       verdict = attempt(dt, ladder_operator(rung_));
     }
@@ -183,7 +183,7 @@ void TrBdf2::step(double limit) {
   }
 }
 
-void TrBdf2::after_acceptance(double dt) {
+void Dirk::after_acceptance(double dt) {
   failures_ = 0;
   if (options_.fixed) return;
   if (hold_ > 0) {
@@ -196,7 +196,7 @@ void TrBdf2::after_acceptance(double dt) {
   if (wanted < rung_) rung_ = std::max(wanted, rung_ - 2);
 }
 
-void TrBdf2::after_rejection(Verdict verdict) {
+void Dirk::after_rejection(Verdict verdict) {
   const double dt = ladder_step(rung_);
   if (verdict == Verdict::kError) {
     ++statistics_.rejected_error;
@@ -214,7 +214,7 @@ void TrBdf2::after_rejection(Verdict verdict) {
   if (options_.fixed || ladder_step(rung_) < options_.smallest) give_up(dt);
 }
 
-void TrBdf2::give_up(double dt) const {
+void Dirk::give_up(double dt) const {
   std::vector<std::string> names;
   for (int e = 0; worst_ >= 0 && e < system_.elements(); ++e) {
     const auto& at = system_.element(e).coordinates();
