@@ -28,6 +28,7 @@ void multiply_rows(const SparseMatrix& A, const double* x, double* y, Eigen::Ind
 
 SymmetricProduct::SymmetricProduct(const SparseMatrix& lower)
     : full_(lower.selfadjointView<Eigen::Lower>()) {
+  full_.prune(1.0, 0.0);  // a consistent mass matrix couples equal directions only
   full_.makeCompressed();
 }
 

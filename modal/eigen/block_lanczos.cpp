@@ -24,8 +24,9 @@ class Run {
 
  private:
   void fill_random(Index first);
-  /// Makes columns [begin, begin + b) of V_ M-orthonormal to all before and among themselves; gives
-  /// the coefficients R with old = new R. Directions that vanish are replaced by random ones.
+  /// Makes columns [begin, begin + b) of V_, which are M-orthogonal to all before, M-orthonormal
+  /// among themselves; gives R with old = new R and fills MV_. Directions that vanish are replaced
+  /// by random ones.
   MatrixXd orthonormalise(Index begin);
   void remove_previous(Index begin, MatrixXd& coefficients);
   bool expand();
@@ -39,6 +40,7 @@ class Run {
   Index n_, b_, wanted_, limit_;
   Index size_ = 0;  // columns whose image under Op is in T_
   MatrixXd V_;      // n x (limit + b): basis, then the residual block
+  MatrixXd MV_;     // M V
   MatrixXd T_;      // projection of Op
   MatrixXd R_;      // b x b: the residual block is V(:, size:) R
   VectorXd nu_;     // Ritz values, descending
@@ -47,7 +49,7 @@ class Run {
   std::mt19937_64 engine_;
 };
 
-Index default_block(Index wanted) { return std::clamp<Index>(wanted / 8, 4, 16); }
+Index default_block(Index wanted) { return std::clamp<Index>(wanted / 8, 4, 8); }
 
 Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
     : problem_(problem),
@@ -60,6 +62,7 @@ Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
   const Index blocks = std::max<Index>((std::max(room, wanted_ + 2 * b_) + b_ - 1) / b_, 3);
   limit_ = blocks * b_;
   V_.resize(n_, limit_ + b_);
+  MV_.resize(n_, limit_ + b_);
   T_ = MatrixXd::Zero(limit_, limit_);
 }
 
@@ -71,37 +74,52 @@ void Run::fill_random(Index column) {
 void Run::remove_previous(Index begin, MatrixXd& coefficients) {
   if (begin == 0) return;
   auto block = V_.middleCols(begin, b_);
-  const MatrixXd H = transposed_product(V_.leftCols(begin), problem_.mass(block));
+  const MatrixXd H = transposed_product(MV_.leftCols(begin), block);
   add_product(-1.0, V_.leftCols(begin), H, block);
   coefficients += H;
 }
 
+/// A times `right` in place.
+void transform(DenseOut A, const MatrixXd& right) {
+  const MatrixXd old = A;
+  A.setZero();
+  add_product(1.0, old, right, A);
+}
+
 MatrixXd Run::orthonormalise(Index begin) {
+  // Below this ratio of squared lengths, what two passes left of earlier vectors is no longer
+  // small.
+  constexpr double kDependent = 1e-8;
+  constexpr double kVanished = 1e-20;
   MatrixXd R = MatrixXd::Identity(b_, b_);
-  // Twice is enough (Parlett 1998, section 6.9); the third pass is for replaced directions.
-  for (int pass = 0; pass < 3; ++pass) {
-    MatrixXd ignored = MatrixXd::Zero(begin, b_);
-    if (pass > 0) remove_previous(begin, ignored);
-    auto block = V_.middleCols(begin, b_);
-    const MatrixXd gram = transposed_product(block, problem_.mass(block));
+  auto block = V_.middleCols(begin, b_);
+  auto image = MV_.middleCols(begin, b_);
+  bool repeat = true;
+  image = problem_.mass(block);
+  for (int pass = 0; pass < 2 || (repeat && pass < 4); ++pass) {
+    const MatrixXd gram = transposed_product(block, image);
     const VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * gram *
                                                       scale.asDiagonal());
-    // Singular values of the block; a direction far below the largest holds rounding errors only.
     const VectorXd d = eig.eigenvalues().cwiseMax(1e-30);
     const MatrixXd to_unit =
         scale.asDiagonal() * eig.eigenvectors() * d.cwiseSqrt().cwiseInverse().asDiagonal();
     const MatrixXd from_unit = d.cwiseSqrt().asDiagonal() * eig.eigenvectors().transpose() *
                                scale.cwiseInverse().asDiagonal();
-    const MatrixXd old = block;
-    block.setZero();
-    add_product(1.0, old, to_unit, block);
+    transform(block, to_unit);
+    transform(image, to_unit);
     R = (from_unit * R).eval();
+    repeat = d[0] < kDependent * d[b_ - 1];
     for (Index c = 0; c < b_; ++c) {
-      if (d[c] > 1e-20 * d[b_ - 1] && block.col(c).allFinite()) continue;
+      if (d[c] > kVanished * d[b_ - 1] && block.col(c).allFinite()) continue;
       fill_random(begin + c);
       R.row(c).setZero();
     }
+    if (!repeat) continue;
+    MatrixXd ignored = MatrixXd::Zero(begin, b_);
+    remove_previous(begin, ignored);
+    remove_previous(begin, ignored);
+    image = problem_.mass(block);
   }
   return R;
 }
@@ -109,14 +127,14 @@ MatrixXd Run::orthonormalise(Index begin) {
 bool Run::expand() {
   const Index next = size_ + b_;
   {
-    const MatrixXd image = problem_.solve(problem_.mass(V_.middleCols(size_, b_)));
+    const MatrixXd answer = problem_.solve(MV_.middleCols(size_, b_));
     solves_ += b_;
-    if (!image.allFinite()) return false;
-    V_.middleCols(next, b_) = image;
+    if (!answer.allFinite()) return false;
+    V_.middleCols(next, b_) = answer;
   }
   MatrixXd H = MatrixXd::Zero(next, b_);
   remove_previous(next, H);
-  remove_previous(next, H);
+  remove_previous(next, H);  // twice is enough (Parlett 1998, section 6.9)
   T_.block(0, size_, next, b_) = H;
   T_.block(size_, 0, b_, next) = H.transpose();
   R_ = orthonormalise(next);
@@ -145,11 +163,13 @@ Index Run::converged() const {
 void Run::restart() {
   // The wanted vectors, and some more whose progress would be lost.
   const Index keep = std::min(wanted_ + b_, size_ - b_);
-  MatrixXd kept = MatrixXd::Zero(n_, keep);
-  add_product(1.0, V_.leftCols(size_), S_.leftCols(keep), kept);
-  const MatrixXd residual_block = V_.middleCols(size_, b_);
-  V_.leftCols(keep) = kept;
-  V_.middleCols(keep, b_) = residual_block;
+  for (MatrixXd* basis : {&V_, &MV_}) {
+    MatrixXd kept = MatrixXd::Zero(n_, keep);
+    add_product(1.0, basis->leftCols(size_), S_.leftCols(keep), kept);
+    const MatrixXd residual_block = basis->middleCols(size_, b_);
+    basis->leftCols(keep) = kept;
+    basis->middleCols(keep, b_) = residual_block;
+  }
   T_.setZero();
   T_.topLeftCorner(keep, keep) = nu_.head(keep).asDiagonal();
   size_ = keep;
