@@ -206,6 +206,10 @@ void Builder::list_effects() {
   table.add("inertia of the piston", true, "eq. (10): frame moves with z_B(t), does not turn");
   table.add("inertia of the rod", true, "moving and turning frame, exact in the plane");
   table.add("inertia of the block", false, "p* = 0: its frame is at rest");
+  const bool balanced = scene_.engine->balanced && block() != nullptr;
+  table.add("balance by other cylinders", balanced,
+            !balanced && scene_.engine->balanced ? "no elastic block"
+                                                 : "engine.balanced, on the block's rigid modes");
   table.add("gas pressure", scene_.gas.has_value(), scene_.gas ? "[gas]" : "no [gas]");
   table.add("rod joint at the pin", true, "[small_end]", "pin");
   table.add("rod joint at the crank", true, "[big_end]", "crank_pin");

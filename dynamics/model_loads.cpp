@@ -54,6 +54,53 @@ void add_frame_inertia(const Scene& scene, const BodyIndex& index, Model& model)
   add("rod", 3, [&crank](double t) { return crank.rod_angle(t).acceleration; });
 }
 
+/// What the ideal mechanism's inertia does to the engine, as forces (y, z) and moment about x at
+/// the crank axis, sum of m a and of its moments.
+Eigen::Vector3d mechanism_inertia(const EngineSpec& engine, const SliderCrank& crank,
+                                  double piston_mass, double t) {
+  const auto pin = crank.piston_pin(t);
+  const auto centre = crank.rod_point(t, engine.rod.centre);
+  const Eigen::Vector2d rod = engine.rod.mass * centre.acceleration;
+  const double piston = piston_mass * pin.acceleration;
+  const double moment = centre.position.x() * rod.y() - centre.position.y() * rod.x() +
+                        engine.pin_offset * piston +
+                        engine.rod.inertia * crank.rod_angle(t).acceleration;
+  return {rod.x(), rod.y() + piston, moment};
+}
+
+/// Forces of the other cylinders that cancel this one's inertia on the block's rigid modes.
+void add_balance(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
+                 Model& model) {
+  const auto block = index.find("block");
+  if (!scene.engine->balanced || block == index.end()) return;
+  const LoadedBody& body = *find_body(bodies, "block");
+  const int n = body.modal.rigid_modes;
+  if (n != 6) return;  // a held block needs no balance
+  const double x = body.model.grids.empty() || !scene.contact
+                       ? 0.0
+                       : body.model.grid(scene.block->liner).axis_point.x();
+  // Wrench (F, M) about the origin of a unit force y, a unit force z in the crank's plane, a unit
+  // moment about x.
+  Eigen::Matrix<double, 6, 3> wrench = Eigen::Matrix<double, 6, 3>::Zero();
+  wrench(1, 0) = 1.0;
+  wrench(5, 0) = x;
+  wrench(2, 1) = 1.0;
+  wrench(4, 1) = -x;
+  wrench(3, 2) = 1.0;
+  const Eigen::MatrixXd on_modes =
+      body.modal.rigid.topRows(6).transpose().partialPivLu().solve(wrench);
+  const double piston_mass = find_body(bodies, "piston")->model.mass.mass;
+  for (int k = 0; k < 3; ++k) {
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(body.modal.modes());
+    direction.head(6) = on_modes.col(k);
+    model.system.add_load({"balance of the other cylinders", block->second, direction,
+                           ramped(scene.time, [engine = *scene.engine, &crank = *model.crank,
+                                               piston_mass, k](double t) {
+                             return mechanism_inertia(engine, crank, piston_mass, t)(k);
+                           })});
+  }
+}
+
 TimeFunction load_value(const Scene& scene, const LoadSpec& load, const Model& model) {
   if (load.table.empty()) return [value = load.scale](double) { return value; };
   if (model.crank) {
@@ -96,6 +143,7 @@ void add_loads(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& 
   if (model.crank) {
     add_gas(scene, bodies, index, model);
     add_frame_inertia(scene, index, model);
+    add_balance(scene, bodies, index, model);
   }
   if (scene.gravity > 0.0) {
     for (const auto& [name, b] : index) {

@@ -36,6 +36,7 @@ EngineSpec read_engine(const Config& root) {
   engine.speed = table.number("speed_rpm", Range::positive()) * std::numbers::pi / 30.0;
   engine.stroke = table.number("stroke_mm", Range::positive()) * kMilli;
   engine.pin_offset = table.number_or("pin_offset_mm", 0.0) * kMilli;
+  engine.balanced = table.flag_or("balanced", false);
   const Config rod = root.table("rod");
   engine.rod.length = rod.number("length_mm", Range::positive()) * kMilli;
   engine.rod.mass = rod.number("mass_kg", Range::positive());

@@ -28,6 +28,9 @@ struct EngineSpec {
   double speed = 0.0;       // omega [rad/s]
   double stroke = 0.0;      // [m]
   double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
+  // The other cylinders hold the block against the inertia forces of this one: its rigid modes feel
+  // them not, its elastic modes do.
+  bool balanced = false;
   RodProperties rod;
 };
 

@@ -1,0 +1,66 @@
+#include "dynamics/modal_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "tests/dynamics/fixtures.hpp"
+#include "tests/dynamics/synthetic.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using testing::clamped_bar;
+using testing::vector;
+
+TEST(ModalBody, ShapesAreMassOrthonormalAndRebuildTheStiffness) {
+  const auto model = testing::elastic_block(0.0535, 6, 4);
+  const ModalBody body = make_modal_body(model, {});
+  const auto n = body.modes();
+  const Eigen::MatrixXd mass = body.shapes.transpose() * model.M_rr * body.shapes;
+  const Eigen::MatrixXd stiffness = body.shapes.transpose() * model.K_rr * body.shapes;
+  EXPECT_LT((mass - Eigen::MatrixXd::Identity(n, n)).norm(), 1e-10);
+  const Eigen::MatrixXd rest = stiffness - Eigen::MatrixXd(body.omega_squared.asDiagonal());
+  EXPECT_LT(rest.norm(), 1e-9 * stiffness.norm());
+}
+
+TEST(ModalBody, SixRigidModesAreExactlyZeroAndUndamped) {
+  const ModalBody body = make_modal_body(testing::elastic_piston(0.0535, 4, 4), {});
+  ASSERT_EQ(body.rigid_modes, 6);
+  EXPECT_EQ(body.omega_squared.head(6).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_EQ(body.damping.head(6).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_GT(body.omega_squared(6), std::pow(2.0 * std::numbers::pi * 100.0, 2));
+  // A unit translation in z has no part in elastic modes, and the mass of the whole body.
+  EXPECT_LT(body.rigid.bottomRows(body.modes() - 6).norm(), 1e-9);
+}
+
+TEST(ModalBody, RigidVariantKeepsTheSixMotionsOnly) {
+  const auto model = testing::elastic_piston(0.0535, 4, 4);
+  const ModalBody body = make_modal_body(model, {false, 0.0});
+  EXPECT_EQ(body.modes(), 6);
+  EXPECT_THROW(make_modal_body(clamped_bar(1.0, 20, 3), {false, 0.0}), NumericsError);
+}
+
+TEST(ModalBody, InertiaIsDroppedAboveTheLimit) {
+  const auto model = clamped_bar(1.0, 40, 10);
+  const ModalBody body = make_modal_body(model, {true, 6000.0});
+  for (int i = 0; i < body.modes(); ++i) {
+    const double hz = std::sqrt(body.omega_squared(i)) / (2.0 * std::numbers::pi);
+    EXPECT_EQ(body.inertia(i), hz <= 6000.0 ? 1.0 : 0.0) << hz;
+  }
+}
+
+TEST(ModalBody, BarFrequenciesAreThoseOfTheContinuum) {
+  // f_i = (2 i - 1) c / (4 L); linear elements of h = L / 400: error (k h)^2 / 24 < 1e-5 here.
+  const ModalBody body = make_modal_body(clamped_bar(1.0, 400, 20), {});
+  const double c = std::sqrt(210e9 / 7850.0);
+  for (int i = 0; i < 3; ++i) {
+    const double hz = std::sqrt(body.omega_squared(i)) / (2.0 * std::numbers::pi);
+    EXPECT_NEAR(hz, (2 * i + 1) * c / 4.0, 1e-4 * hz);
+  }
+}
+
+}  // namespace
+}  // namespace clatter::dynamics

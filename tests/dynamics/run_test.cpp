@@ -1,0 +1,239 @@
+// Whole scenes from TOML to the run file, on synthetic reduced models.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+#include "dynamics/gas_cycle.hpp"
+#include "dynamics/run_file.hpp"
+#include "tests/dynamics/synthetic.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with the models, the gas table and the scene that the tests change.
+class Runs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) / "clatter_dynamics_runs";
+    fs::create_directories(folder_);
+    testing::write_rom(folder_ / "piston.rom.h5", testing::rigid_piston(1.9, 4e-3, 8.992e-3));
+    testing::write_rom(folder_ / "block.rom.h5", testing::elastic_block(0.0535, 8, 6));
+    testing::write_rom(folder_ / "bar.rom.h5", testing::clamped_bar(1.0, 100, 10));
+    write_motored_cycle(folder_ / "motored.csv", {}, 0.0174532925199432957);
+    std::ofstream(folder_ / "slap.run.toml") << R"(
+[engine]
+speed_rpm = 2000.0
+stroke_mm = 130.0
+[rod]
+length_mm = 210.0
+mass_kg = 2.2
+inertia_kg_m2 = 0.02
+centre_mm = 70.0
+[time]
+cycles = 2
+output_step_us = 50.0
+[gas]
+table = "motored.csv"
+[piston]
+rom = "piston.rom.h5"
+model = "rigid"
+[block]
+rom = "block.rom.h5"
+model = "rigid"
+[contact]
+bore_mm = 107.0
+clearance_um = 20.0
+barrel_top_um = 30.0
+barrel_bottom_um = 20.0
+ovality_um = 40.0
+cells_around = 6
+cells_along = 6
+oil_thickness_um = 5.0
+)";
+  }
+  Scene scene(const std::string& changes = "") {
+    std::ofstream(folder_ / "changed.run.toml") << "base = \"slap.run.toml\"\n" << changes;
+    return read_scene(folder_ / "changed.run.toml");
+  }
+  static RunResult run(const Scene& scene, const RunControl& control = {}) {
+    return simulate(scene, load_bodies(scene), control);
+  }
+  fs::path folder_;
+};
+
+TEST_F(Runs, LubricatedRigidCyclesCloseTheirEnergyBalance) {
+  const RunResult result = run(scene());
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(result.cycles, 2);
+  EXPECT_LT(result.energy_residue, 1e-3);
+  EXPECT_GT(result.energy_exchanged, 1.0);
+  // Film content settles over some cycles; the second must already lie close beside the first.
+  EXPECT_LT(result.periodicity.at("periodicity_lateral"), 0.5 * 40e-6);
+}
+
+TEST_F(Runs, AResumedRunGivesTheSameBits) {
+  const Scene described = scene();
+  std::optional<Checkpoint> point;
+  RunControl control;
+  control.checkpoint = [&](const Checkpoint& taken) { point = taken; };
+  const RunResult whole = run(described, control);
+  ASSERT_TRUE(point.has_value());
+  const fs::path file = folder_ / "x.checkpoint";
+  write_checkpoint(file, *point, fingerprint(described));
+  RunControl resumed;
+  resumed.resume_from = read_checkpoint(file, fingerprint(described));
+  const RunResult again = run(described, resumed);
+  const auto &a = whole.recorder->samples(), &b = again.recorder->samples();
+  EXPECT_EQ(a.eta(), b.eta());
+  EXPECT_EQ(a.v(), b.v());
+  EXPECT_EQ(a.a(), b.a());
+  EXPECT_EQ(whole.recorder->history().values, again.recorder->history().values);
+  EXPECT_EQ(whole.statistics.accepted, again.statistics.accepted);
+  EXPECT_EQ(whole.energy_residue, again.energy_residue);
+  EXPECT_THROW(read_checkpoint(file, fingerprint(scene("[contact]\nclearance_um = 21.0\n"))),
+               InputError);
+}
+
+TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
+  const Scene described = scene();
+  const LoadedBodies bodies = load_bodies(described);
+  const std::atomic<bool> stop{true};
+  RunControl control;
+  control.stop = &stop;
+  const RunResult result = simulate(described, bodies, control);
+  EXPECT_FALSE(result.complete);
+  H5File file = H5File::create(folder_ / "stopped.run.h5");
+  write_run(file, described, bodies, result);
+  file.commit();
+  const H5File back = open_artefact(folder_ / "stopped.run.h5", "clatter/run/1");
+  EXPECT_EQ(back.get_int("/", "complete"), 0);
+  EXPECT_EQ(back.read_doubles("output/time").size(), 1U);
+}
+
+TEST_F(Runs, WhatIsOffIsNotThere) {
+  const Scene without = scene("[contact]\nlubrication = \"none\"\nfriction = false\n");
+  const auto bodies = load_bodies(without);
+  EXPECT_EQ(bodies.size(), 1U);  // a rigid block is no body
+  const auto model = build_model(without, bodies);
+  EXPECT_EQ(model->system.modes(), 9);           // six of the piston, three of the rod
+  EXPECT_EQ(model->system.interface_size(), 9);  // pin and rod
+  ASSERT_NE(model->contact, nullptr);
+  EXPECT_TRUE(model->contact->save().size() == 1);  // no film content
+  for (const auto& effect : model->effects.effects()) {
+    if (effect.name == "oil film" || effect.name == "cavitation" || effect.name == "friction" ||
+        effect.name == "elastic block") {
+      EXPECT_FALSE(effect.on) << effect.name;
+      EXPECT_FALSE(effect.why.empty());
+    }
+  }
+}
+
+TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
+  const Scene described = scene(R"(
+[time]
+cycles = 1
+[block]
+model = "elastic"
+liner = "liner_4"
+liner_axial = "liner_4_axial"
+bearings = ["main_4", "main_5"]
+gas_load = "head_4_gas"
+mode_limit_hz = 8000.0
+[[mount]]
+sets = ["mounts"]
+stiffness_n_m = [1e5, 1e5, 2e5]
+damping_n_s_m = [1e3, 1e3, 2e3]
+[contact]
+lubrication = "none"
+)");
+  const LoadedBodies bodies = load_bodies(described);
+  const RunResult result = simulate(described, bodies, {});
+  H5File file = H5File::create(folder_ / "slap.run.h5");
+  write_run(file, described, bodies, result);
+  file.commit();
+  const H5File back = open_artefact(folder_ / "slap.run.h5", "clatter/run/1");
+  const auto time = back.read_vector("output/time");
+  const auto n_t = time.size();
+  EXPECT_EQ(n_t, 1201);  // 60 ms at 50 us
+  EXPECT_NEAR(time(n_t - 1), 0.03, 1e-12);
+  EXPECT_NEAR(back.read_vector("output/crank_angle_deg")(0), -360.0, 1e-9);
+  for (const char* name : {"q", "v", "a"}) {
+    const auto shape = back.shape(std::string("bodies/block/") + name);
+    EXPECT_EQ(shape[0], n_t);
+    EXPECT_EQ(shape[1], bodies[1].model.size());
+  }
+  EXPECT_EQ(back.get_string("bodies/block", "rom"), "block.rom.h5");
+  EXPECT_EQ(back.get_string("bodies/block", "rom_sha256"),
+            sha256_of_file(folder_ / "block.rom.h5"));
+  EXPECT_EQ(back.get_string("history/piston_lateral", "unit"), "m");
+  for (const char* name : {"piston_tilt", "side_force", "pin_force_z", "gas_pressure"}) {
+    EXPECT_TRUE(back.has(std::string("history/") + name)) << name;
+  }
+  EXPECT_TRUE(read_certificate(back).count("energy_residue") == 1);
+  EXPECT_LT(result.energy_residue, 1e-3);
+  // v is the derivative of q: trapezoidal sums of v give back q to the sampling's accuracy.
+  const RowMatrix q = back.read_rows("bodies/piston/q"), v = back.read_rows("bodies/piston/v");
+  double worst = 0.0;
+  for (Eigen::Index i = 1; i < n_t; ++i) {
+    const double moved = 0.5 * (time(i) - time(i - 1)) * (v(i, 2) + v(i - 1, 2));
+    worst = std::max(worst, std::abs(q(i, 2) - q(i - 1, 2) - moved));
+  }
+  EXPECT_LT(worst, 1e-2 * q.col(2).cwiseAbs().maxCoeff());
+}
+
+TEST_F(Runs, ASceneWithoutEngineRunsABodyUnderALoad) {
+  std::ofstream(folder_ / "bar.run.toml") << R"(
+[time]
+end_s = 1e-3
+output_step_us = 10.0
+largest_step_us = 2.0
+[[body]]
+name = "bar"
+rom = "bar.rom.h5"
+[[load]]
+body = "bar"
+set = "tip"
+component = "x"
+value = 1000.0
+)";
+  const Scene described = read_scene(folder_ / "bar.run.toml");
+  const LoadedBodies bodies = load_bodies(described);
+  const RunResult result = simulate(described, bodies, {});
+  const RowMatrix q = result.recorder->samples().eta() * bodies[0].modal.shapes.transpose();
+  // The tip of a bar under a step force swings between 0 and twice the static displacement.
+  const double still = 1000.0 / (210e9 * 1e-4);
+  EXPECT_NEAR(q.col(0).maxCoeff(), 2.0 * still, 0.03 * still);  // ten modes of the triangle wave
+  EXPECT_GT(q.col(0).minCoeff(), -0.03 * still);
+}
+
+TEST_F(Runs, BadScenesAreRefusedInOneLine) {
+  const auto refusal = [&](const std::string& changes) -> std::string {
+    try {
+      const Scene described = scene(changes);
+      build_model(described, load_bodies(described));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(refusal("[contact]\nclearance_um = -1.0\n"), "contact.clearance_um: found -1"));
+  EXPECT_TRUE(has(refusal("[contact]\nlubricaton = \"none\"\n"), "did you mean lubrication?"));
+  EXPECT_TRUE(has(refusal("[piston]\npin = \"pinn\"\n"), "pinn"));
+  EXPECT_TRUE(has(refusal("[piston]\ngas_load = \"fire\"\n"), "no unit load \"fire\", found: gas"));
+  EXPECT_TRUE(has(refusal("[engine]\nstroke_mm = 500.0\n"), "expected rod > radius"));
+  EXPECT_TRUE(has(refusal("[[mount]]\nbody = \"pan\"\nsets = [\"x\"]\nstiffness_n_m = [1,1,1]\n"),
+                  "no body \"pan\""));
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
