@@ -20,7 +20,8 @@ def draw(files):
     for row, part in zip(axes, sensors):
         draw_time(row[0], runs, part)
         draw_bands(row[1], runs, part)
-    axes[0, 0].legend()
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper left", ncol=2)
+    figure.suptitle(" ")  # keeps room for the legend
     axes[-1, 0].set_xlabel("time after firing TDC [ms]")
     for axis in axes[:-1, 1]:
         axis.set_xlabel("")

@@ -5,10 +5,10 @@ from ..histories import centred, crank_angle, has, history, last_cycle
 
 
 def draw(files):
-    """Smallest film thickness over crank angle (run files with a film; dry ones are left out)."""
+    """Smallest film thickness over crank angle (run files with a piston-liner contact)."""
     runs = [run for run in style.open_all(files, "run") if has(run, "film_min")]
     if not runs:
-        raise BadArtefact("film: none of these runs has a history film_min")
+        raise BadArtefact("film: none of these runs has a piston-liner contact (history film_min)")
     figure, axes = style.figure(height=3.4)
     axis = axes[0, 0]
     for run in runs:
@@ -19,7 +19,7 @@ def draw(files):
     style.mark_firing(axis)
     style.crank_axis(axis, degrees)
     axis.set_ylim(bottom=0)
-    axis.set_ylabel("smallest film thickness [µm]")
-    axis.set_title("Smallest gap between skirt and liner", loc="left")
-    axis.legend()
+    axis.set_ylabel("smallest gap [µm]")
+    style.headline(figure, "Smallest gap between skirt and liner")
+    style.legend(axis)
     return figure

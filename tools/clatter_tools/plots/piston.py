@@ -20,11 +20,11 @@ def draw(files):
             axes[2].plot(degrees, take("side_force", "N") / 1e3)
     axes[0].set_ylabel("lateral position\nof the pin [µm]")
     axes[1].set_ylabel("tilt [mrad]")
-    axes[0].set_title("Secondary motion of the piston (positive: toward the thrust side)", loc="left")
+    style.headline(figure, "Secondary motion of the piston (positive: toward the thrust side)")
     if with_force:
         axes[2].set_ylabel("side force [kN]")
     for axis in axes:
         style.mark_firing(axis)
     style.crank_axis(axes[-1], degrees)
-    axes[0].legend()
+    style.legend(axes[0])
     return figure

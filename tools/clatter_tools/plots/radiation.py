@@ -29,8 +29,8 @@ def draw_bands(axis, runs):
         drawn.append(levels[()])
     octaves.finish(axis, run, at, drawn)
     axis.set_ylabel(f"ERP [dB re {levels.attrs['reference'] * 1e12:g} pW]")
-    axis.set_title(f"Equivalent radiated power, panel “{where.rpartition('/')[2]}”", loc="left")
-    axis.legend(loc="lower left")
+    style.headline(axis.figure, f"Equivalent radiated power, panel “{where.rpartition('/')[2]}”")
+    style.legend(axis)
 
 
 def draw_lines(axis, runs):

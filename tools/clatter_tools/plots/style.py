@@ -56,6 +56,15 @@ def label(file):
     return own.name.split(".")[0].replace("_", " ")
 
 
+def legend(axis, columns=2):
+    """A legend above the axes, where it covers no curve."""
+    axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncol=columns, borderaxespad=0.2)
+
+
+def headline(figure_, title):
+    figure_.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+
+
 def mark_firing(axis, position=0.0):
     """A thin line at firing top dead centre."""
     axis.axvline(position, color="#888888", linewidth=0.8, linestyle=":")
