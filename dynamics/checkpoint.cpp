@@ -49,14 +49,11 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point
   file.commit();
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& fingerprint) {
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
+                                          const std::string& fingerprint) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
   const H5File file = open_artefact(path, "clatter/checkpoint/1");
-  if (file.get_string("/", "fingerprint") != fingerprint) {
-    throw InputError(
-        fmt::format("{}: the checkpoint is of another scene or other inputs, expected the "
-                    "same; run without --resume",
-                    path.string()));
-  }
+  if (file.get_string("/", "fingerprint") != fingerprint) return std::nullopt;
   Checkpoint point;
   point.cycle = static_cast<int>(file.get_int("/", "cycle"));
   point.rung = static_cast<int>(file.get_int("/", "rung"));

@@ -30,7 +30,9 @@ std::string fingerprint(const Scene& scene);
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point,
                       const std::string& fingerprint);
-/// InputError when the file belongs to another scene or other inputs.
-Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& fingerprint);
+/// Nothing when there is no such file or it belongs to another scene or other inputs; InputError when
+/// it cannot be read.
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
+                                          const std::string& fingerprint);
 
 }  // namespace clatter::dynamics

@@ -29,6 +29,26 @@ void read_shape(const Config& table, film::SkirtShape& shape) {
   }
 }
 
+// [] when the key is absent; both keys or none.
+void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
+  const auto height = scaled(table.numbers_or("bore_height_mm", {}), kMilli);
+  const auto widening = scaled(table.numbers_or("bore_widening_um", {}), kMicro);
+  if (height.size() != widening.size()) {
+    table.fail("bore_widening_um", "expected as many values as bore_height_mm");
+  }
+  if (height.empty()) return;
+  for (size_t k = 0; k < height.size(); ++k) {
+    if (k > 0 && !(height[k] > height[k - 1])) {
+      table.fail("bore_height_mm", "expected ascending heights");
+    }
+    if (!(widening[k] >= 0.0)) table.fail("bore_widening_um", "expected no value below 0");
+  }
+  bore.emplace();
+  bore->angle = Eigen::VectorXd::Zero(1);
+  bore->height = Eigen::Map<const Eigen::VectorXd>(height.data(), std::ssize(height));
+  bore->deviation = Eigen::Map<const Eigen::RowVectorXd>(widening.data(), std::ssize(widening));
+}
+
 void read_oil(const Config& table, film::PistonLinerOptions& options) {
   const Range share{0.0, 1.0, false};
   options.viscosity = table.number_or("viscosity_pa_s", options.viscosity, Range::positive());
@@ -94,6 +114,7 @@ film::PistonLinerOptions read_contact(const Config& table) {
     table.fail("asperities", "found false without a film, expected at least one of both");
   }
   read_shape(table, options.skirt);
+  read_bore(table, options.bore);
   read_oil(table, options);
   read_surfaces(table, options);
   return options;

@@ -54,7 +54,8 @@ struct Arguments {
 void declare(CommandLine& line, Arguments& a) {
   line.positional("scene", a.scene, "the scene, stem.run.toml", false);
   line.option("-o,--output", a.output, "the run file to write; default: the scene's stem.run.h5");
-  line.flag("--resume", a.resume, "go on from the checkpoint beside the output");
+  line.flag("--resume", a.resume,
+            "go on from the checkpoint beside the output, when it is of this very scene");
   line.option("--write-motored-cycle", a.motored, "write a motored cycle's pressure table and end");
   line.option("--bore-mm", a.bore_mm, "motored cycle: bore [mm]");
   line.option("--stroke-mm", a.stroke_mm, "motored cycle: stroke [mm]");
@@ -121,9 +122,11 @@ int run(const Arguments& a, const CommonOptions& common) {
   control.stop = &stop_requested;
   control.checkpoint = [&](const Checkpoint& point) { write_checkpoint(checkpoint, point, mark); };
   control.film_every = scene.film_every;
-  if (a.resume && std::filesystem::exists(checkpoint)) {
-    control.resume_from = read_checkpoint(checkpoint, mark);
+  if (a.resume) control.resume_from = read_checkpoint(checkpoint, mark);
+  if (control.resume_from) {
     say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
+  } else if (a.resume && std::filesystem::exists(checkpoint)) {
+    say(fmt::format("{} is of another scene or other inputs: starting anew", checkpoint.string()));
   }
   std::signal(SIGINT, request_stop);
   const RunResult result = simulate(scene, bodies, control);

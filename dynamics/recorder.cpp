@@ -23,27 +23,34 @@ UniformSamples::UniformSamples(double begin, double end, double step, int modes)
 
 double UniformSamples::time(int i) const { return begin_ + step_ * i; }
 
+void UniformSamples::start(const StageState& state) {
+  eta_.row(0) = state.eta;
+  v_.row(0) = state.v;
+  a_.row(0) = state.a;
+  v_half_ = state.v;
+  count_ = 1;
+}
+
 void UniformSamples::take(const StageState& p, const StageState& n, double t) {
-  const double h = n.time - p.time;
-  if (h <= 0.0) {
-    eta_.row(count_) = n.eta;
-    v_.row(count_) = n.v;
-    a_.row(count_) = n.a;
-  } else {
-    const double s = std::clamp((t - p.time) / h, 0.0, 1.0);
+  const double h = n.time - p.time, s = std::clamp((t - p.time) / h, 0.0, 1.0);
+  const Eigen::VectorXd v = hermite(p.v, p.a, n.v, n.a, h, s);
+  if (++halves_ % 2 == 0) {
     eta_.row(count_) = hermite(p.eta, p.v, n.eta, n.v, h, s);
-    v_.row(count_) = hermite(p.v, p.a, n.v, n.a, h, s);
-    a_.row(count_) = (1.0 - s) * p.a + s * n.a;
+    v_.row(count_) = v;
+    a_.row(count_) = (v - v_half_) / (0.5 * step_);  // until the interval is whole
+    ++count_;
+    return;
   }
-  ++count_;
+  const int last = count_ - 1;
+  a_.row(last) = (v - v_half_) / (last == 0 ? 0.5 * step_ : step_);
+  v_half_ = v;
 }
 
 void UniformSamples::add(const StageState& previous, const StageState& now) {
   // The last sample is at the end itself; rounding must not lose it.
-  const double slack = 1e-6 * step_;
-  while (count_ < eta_.rows() && time(count_) <= now.time + slack) {
-    take(previous, now, time(count_));
-  }
+  const double half = 0.5 * step_, slack = 1e-6 * step_;
+  const auto next = [&] { return begin_ + half * (halves_ + 1); };
+  while (count_ < eta_.rows() && next() <= now.time + slack) take(previous, now, next());
 }
 
 Recorder::Recorder(const Model& model, double begin, double end, double step, double film_every)

@@ -12,12 +12,16 @@ namespace clatter::dynamics {
 
 /// Modal motion at uniform times begin + i (end - begin) / n, i = 0..n.
 ///
-/// Between accepted states q and v are cubic Hermite interpolants (of q, v and of v, a), a is
-/// linear: all three are exact at the states and never overshoot a stiff mode.
+/// Between accepted states q and v are cubic Hermite interpolants (of q, v and of v, a). a is the
+/// mean over one sampling interval around its instant, from v half an interval before and after: an
+/// impact shorter than the interval keeps its momentum and does not fold into lower frequencies.
+/// The first and last sample take the half interval that they have.
 class UniformSamples {
  public:
   UniformSamples(double begin, double end, double step, int modes);
-  /// Takes the samples in (previous, now]; the first call also takes the one at `begin`.
+  /// Takes the sample at `begin`.
+  void start(const StageState& state);
+  /// Takes the samples in (previous, now].
   void add(const StageState& previous, const StageState& now);
 
   int count() const { return count_; }  // samples taken so far
@@ -32,6 +36,8 @@ class UniformSamples {
   void take(const StageState& p, const StageState& n, double t);
   double begin_, step_;
   int count_ = 0;
+  int halves_ = 0;       // half intervals passed since begin
+  Eigen::VectorXd v_half_;  // v at the last half
   RowMatrix eta_, v_, a_;
 };
 
@@ -52,6 +58,9 @@ class Recorder {
  public:
   /// `film_every`: time between film fields [s], 0: none.
   Recorder(const Model& model, double begin, double end, double step, double film_every);
+  /// The state that the span starts from: a sample, no history (elements have not seen it).
+  void start(const StageState& state) { samples_.start(state); }
+  /// After each accepted step.
   void record(const Model& model, const StageState& previous, const StageState& now,
               const EnergyBalance& energy);
 

@@ -55,7 +55,7 @@ class CycleRun {
 
   /// False when it was stopped before the end.
   bool run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
-    recorder_->record(*model_, method_.state(), method_.state(), energy_);
+    recorder_->start(method_.state());
     while (method_.state().time < span_.end) {
       if (stop != nullptr && stop->load()) return false;
       method_.step(span_.end);

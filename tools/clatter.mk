@@ -7,7 +7,8 @@
 # Say which reduced models a scene needs: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other file that
 # a stage read (tables, CAD, base scenes) is known from its dependency file after the first run.
 # CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS goes to every
-# stage (--quiet, --threads 2). An artefact is redone when an input or its stage's program is newer.
+# stage (--quiet, --threads 2). An artefact is redone when an input or its stage's program is newer. A run that was
+# interrupted goes on after its last whole cycle.
 
 clatter_tool := $(lastword $(wildcard $(dir $(lastword $(MAKEFILE_LIST)))clatter \
                                       $(dir $(lastword $(MAKEFILE_LIST)))../../bin/clatter))
@@ -37,7 +38,7 @@ clatter_recover := $(call clatter_program,recover)
 	$(clatter_condense) $< -c $*.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.run.h5: %.run.toml $(clatter_dynamics)
-	$(clatter_dynamics) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(clatter_dynamics) $< -o $@ --resume --depfile $@.d $(CLATTER_FLAGS)
 
 %.field.h5: %.run.h5 %.field.toml $(clatter_recover)
 	$(clatter_recover) $< -c $*.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)

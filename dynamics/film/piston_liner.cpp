@@ -66,7 +66,7 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
       pad.gap_by_y.middleCols(pin_, 6) = -rigid_radial(pad.grid);
     }
     if (bodies_.liner) pad.liner_map.emplace(*bodies_.liner, pad.grid);
-    if (bodies_.liner_shape) pad.liner_shape.emplace(*bodies_.liner_shape, pad.grid);
+    if (options_.bore) pad.liner_shape.emplace(*options_.bore, pad.grid);
     if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open}, on.cavitation);
     if (on.asperities)
       for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})

@@ -36,6 +36,7 @@ struct PistonLinerOptions {
   int cells_around = 14;                              // cells of a pad along the circumference
   int cells_along = 16;                               // cells of a pad along the axis
   SkirtShape skirt;
+  std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
@@ -65,7 +66,6 @@ struct PistonLinerBodies {
   std::optional<ElasticSurface>
       piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin
   std::optional<ElasticSurface> liner;    // bore patches, engine frame; absent: rigid at rest
-  std::optional<LinerShape> liner_shape;  // given deviation of the liner at rest
   bool liner_axial = false;               // a coordinate takes the axial reaction on the liner
   std::function<StrokeState(double time)> stroke;
 };

@@ -118,6 +118,12 @@ class Rules(unittest.TestCase):
         self.assertEqual(made[0], "piston.fe.h5")
         self.assertNotIn("piston.mesh.h5", made)
 
+    def test_an_interrupted_run_is_asked_to_go_on(self):
+        noted = STAND_IN.replace('echo "$output" >> calls', 'echo "$output" >> calls; echo "$all" >> options')
+        (self.bin / "clatter-dynamics").write_text(noted.replace("set -e", 'set -e; all="$*"'))
+        self.make("slap.run.h5")
+        self.assertIn("--resume", (self.folder / "options").read_text())
+
     def test_a_rebuilt_stage_redoes_its_artefacts(self):
         self.make()
         self.touch_later("bin/clatter-recover")

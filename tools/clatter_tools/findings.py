@@ -3,10 +3,10 @@ import pathlib
 
 import numpy as np
 
-from . import artefact, fields
+from . import artefact, fields, slap
 from .histories import last_cycle
 
-RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min film [µm]", "side force [kN]", "energy residue"]
+RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min gap [µm]", "side force [kN]", "energy residue", "from cycle to cycle [µm]"]
 NOTHING = "-"
 
 
@@ -41,37 +41,31 @@ def run_row(run):
     """The cells of RUN_HEAD."""
     angle = artefact.dataset(run, "history/crank_angle_deg")
     window = last_cycle(angle)
-    film = NOTHING
+    gap = NOTHING
     if "history/film_min" in run:
-        film = f"{run['history/film_min'][()][window].min() * 1e6:.2f}"
-    residue = artefact.certificate(run).get("energy_residue")
-    return [spread(run, "piston_lateral", 1e6, window), spread(run, "piston_tilt", 1e3, window), film,
-            spread(run, "side_force", 1e-3, window), NOTHING if residue is None else f"{residue:.2e}"]
+        gap = f"{run['history/film_min'][()][window].min() * 1e6:.2f}"
+    proved = artefact.certificate(run)
+    residue = f"{proved['energy_residue']:.2e}" if "energy_residue" in proved else NOTHING
+    change = f"{proved['periodicity_lateral'] * 1e6:.2f}" if "periodicity_lateral" in proved else NOTHING
+    return [spread(run, "piston_lateral", 1e6, window), spread(run, "piston_tilt", 1e3, window), gap,
+            spread(run, "side_force", 1e-3, window), residue, change]
 
 
-FIELD_HEAD = ["slap after FTDC [ms]", "liner peak [m/s²]", "block peak [m/s²]", "ERP [dB(A) re 1 pW]"]
-ONSET = 0.2  # the slap begins where the liner's acceleration first passes this part of its peak
+FIELD_HEAD = ["slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]",
+              "liner above 2 kHz [%]", "ERP [dB(A) re 1 pW]"]
 
 
 def field_row(field):
-    """The cells of FIELD_HEAD."""
-    around = fields.piece(field, "ftdc", "cycle")
-    peaks = {}
-    onset = NOTHING
-    for part in ("liner", "block"):
-        sensor = fields.pick_sensor(field, around, part)
-        if sensor is None:
-            peaks[part] = NOTHING
-            continue
-        time, values = fields.acceleration(field, sensor, around)
-        after = time >= 0
-        peaks[part] = f"{np.abs(values[after]).max():.3g}"
-        if part == "liner":
-            onset = f"{slap_onset(time[after], np.abs(values[after])) * 1e3:.2f}"
-    panel = field[fields.panel(field, fields.piece(field, "cycle", "ftdc"), "exposed", "skin")]
-    return [onset, peaks["liner"], peaks["block"], f"{panel.attrs['erp_dba']:.1f}"]
-
-
-def slap_onset(time, magnitude):
-    """When |a| first passes ONSET of its peak [s]."""
-    return time[np.argmax(magnitude >= ONSET * magnitude.max())]
+    """The cells of FIELD_HEAD; peaks and times of accelerations above slap.FROM_HZ."""
+    at = fields.piece(field, "cycle")
+    sensors = {part: fields.pick_sensor(field, at, part) for part in ("liner", "block")}
+    row = [NOTHING] * 5
+    if sensors["liner"]:
+        time, values = slap.band_limited(field, sensors["liner"], at)
+        when, height = slap.peak(time, values)
+        row[:3] = f"{when * 1e3:.2f}", f"{slap.rung_out(time, values) * 1e3:.2f}", f"{height:.3g}"
+        row[4] = f"{100 * slap.high_share(field, sensors['liner'], at):.0f}"
+    if sensors["block"]:
+        row[3] = f"{slap.peak(*slap.band_limited(field, sensors['block'], at))[1]:.3g}"
+    panel = field[fields.panel(field, at, "exposed", "skin")]
+    return [*row, f"{panel.attrs['erp_dba']:.1f}"]

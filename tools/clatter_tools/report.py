@@ -1,7 +1,7 @@
 """`clatter report`: what the runs of a folder found, what every stage cost, where pictures lie."""
 import pathlib
 
-from . import artefact, findings
+from . import artefact, findings, slap
 
 STAGES = ["mesh", "fe", "modes", "rom", "run", "field"]
 
@@ -65,7 +65,7 @@ def print_fields(paths):
     for path in paths:
         with artefact.open_artefact(path, "field") as file:
             rows.append([stem(path), *findings.field_row(file)])
-    print_table("sensors and skin (around firing TDC; power over the cycle)", ["run", *findings.FIELD_HEAD], rows)
+    print_table(f"sensors above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], rows)
 
 
 def print_cost(paths):

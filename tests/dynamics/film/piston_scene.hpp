@@ -35,7 +35,7 @@ inline StrokeState crank_stroke(double time) {
 
 /// `elastic`: 8 x 3 skirt patches and 8 x 5 liner patches with an axial liner coordinate and a
 /// resting shape.
-inline std::unique_ptr<PistonLiner> make_element(const PistonLinerOptions& options, bool elastic) {
+inline std::unique_ptr<PistonLiner> make_element(PistonLinerOptions options, bool elastic) {
   PistonLinerBodies bodies;
   bodies.stroke = crank_stroke;
   int n = 6;
@@ -49,7 +49,7 @@ inline std::unique_ptr<PistonLiner> make_element(const PistonLinerOptions& optio
     shape.height = Eigen::VectorXd::LinSpaced(3, 0.05, 0.33);
     shape.deviation =
         1e-6 * (Eigen::MatrixXd(4, 3) << 0, 1, 2, 1, 0, 1, 2, 1, 0, 0, 2, 1).finished();
-    bodies.liner_shape = shape;
+    options.bore = shape;
     n += 24 + 40 + 1;
   }
   std::vector<int> coordinates(static_cast<size_t>(n));

@@ -1,0 +1,53 @@
+"""The slap in a sensor's acceleration: when it comes, how high, how long it rings, how high it sounds.
+
+Below FROM_HZ a sensor feels the block shake on its mounts, which says nothing about an impact: all figures are of the
+acceleration between FROM_HZ and the highest line of the cycle's spectrum.
+"""
+import numpy as np
+
+from . import fields
+from .artefact import dataset
+
+FROM_HZ = 300.0
+AROUND_S = (-2e-3, 5e-3)  # firing TDC: where the slap is looked for
+SMOOTH_S = 0.5e-3         # of the running rms
+QUIET = 0.25              # it has rung out when the running rms is below this part of its peak
+HIGH_HZ = 2000.0
+
+
+def band_limited(field, sensor, at, from_hz=FROM_HZ, to_hz=None):
+    """(time from firing TDC [s], acceleration [m/s2]) of the thrust-side channel; `at` is a whole, periodic cycle."""
+    time, values = fields.acceleration(field, sensor, at)
+    to_hz = to_hz or dataset(field, f"{at}/frequency_hz")[-1]
+    lines = np.fft.rfft(values)
+    frequency = np.fft.rfftfreq(len(values), time[1] - time[0])
+    lines[(frequency < from_hz) | (frequency > to_hz)] = 0.0
+    return time, np.fft.irfft(lines, len(values))
+
+
+def around_firing(time, values):
+    window = (time >= AROUND_S[0]) & (time <= AROUND_S[1])
+    return time[window], values[window]
+
+
+def peak(time, values):
+    """(instant [s], height) of the largest |acceleration| around firing TDC."""
+    time, values = around_firing(time, np.abs(values))
+    top = int(np.argmax(values))
+    return time[top], values[top]
+
+
+def rung_out(time, values):
+    """When the running rms has fallen to QUIET of its peak around firing TDC [s]; nan when it never does."""
+    count = max(1, round(SMOOTH_S / (time[1] - time[0])))
+    running = np.sqrt(np.convolve(values**2, np.ones(count) / count, "same"))
+    top_time, top = peak(time, running)
+    quiet = time[(time > top_time) & (running < QUIET * top)]
+    return quiet[0] if len(quiet) else np.nan
+
+
+def high_share(field, sensor, at):
+    """Part of the band-limited energy around firing TDC that lies above HIGH_HZ, 0 to 1."""
+    energy = [np.sum(around_firing(*band_limited(field, sensor, at, from_hz))[1] ** 2)
+              for from_hz in (FROM_HZ, HIGH_HZ)]
+    return energy[1] / energy[0]
