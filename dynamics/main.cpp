@@ -29,7 +29,7 @@ that a scene does not say itself from another one, so a variant is a few lines:
     lubrication = "none"
 
 dynamics/README.md lists every key, the equations and the error test. Ctrl-C ends at a step with a valid
-file (attribute complete = 0); --resume goes on from the last finished cycle.
+file, stem.run.interrupted.h5 (attribute complete = 0); --resume goes on from the last finished cycle.
 
 sample commands
   clatter-dynamics slap.run.toml -o slap.run.h5
@@ -87,6 +87,13 @@ std::filesystem::path default_output(const std::filesystem::path& scene) {
   return std::filesystem::path(scene).replace_extension(".h5");
 }
 
+// Only a whole run gets the name that was asked for: make and recover take that one for done.
+std::filesystem::path written_file(std::filesystem::path output, const RunResult& result) {
+  if (!result.failure.empty()) return output.replace_extension(".failed.h5");
+  if (!result.complete) return output.replace_extension(".interrupted.h5");
+  return output;
+}
+
 void print_summary(const RunResult& result, const Arguments& a, double seconds) {
   say("effects (seconds of their elements):");
   for (const auto& row : result.model->effects.lines(true)) say(row);
@@ -132,8 +139,7 @@ int run(const Arguments& a, const CommonOptions& common) {
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
 
-  auto output = a.output;
-  if (!result.failure.empty()) output.replace_extension(".failed.h5");  // a state dump
+  const auto output = written_file(a.output, result);
   H5File file = H5File::create(output);
   write_run(file, scene, bodies, result);
   clock.lap("writing");
@@ -143,19 +149,21 @@ int run(const Arguments& a, const CommonOptions& common) {
     throw NumericsError(
         fmt::format("{}; what came before it is in {}", result.failure, output.string()));
   }
-  if (result.complete) std::filesystem::remove(checkpoint);
+  if (!result.complete) {
+    throw NumericsError(
+        fmt::format("{}: interrupted after {} whole cycles, what there is stands in {}; --resume "
+                    "goes on",
+                    a.output.string(), result.cycles, output.string()));
+  }
+  std::filesystem::remove(checkpoint);
+  std::filesystem::remove(written_file(a.output, {}));
   write_depfile(common.depfile, a.output, scene.inputs);
   print_summary(result, a, clock.total_seconds());
   if (common.json) {
     print_json({{"output", json_text(a.output.string())},
-                {"complete", result.complete ? "true" : "false"},
                 {"steps", json_number(static_cast<double>(result.statistics.accepted))},
                 {"energy_residue", json_number(result.energy_residue)},
                 {"seconds", json_number(clock.total_seconds())}});
-  }
-  if (!result.complete) {
-    throw NumericsError(fmt::format("{}: interrupted after {} whole cycles; --resume goes on",
-                                    a.output.string(), result.cycles));
   }
   return 0;
 }
