@@ -1,64 +1,14 @@
-#include "core/config.hpp"
-
+// The values of a configuration, each checked, noted and told with its place when it is wrong.
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include <algorithm>
 #include <cmath>
-#include <deque>
-#include <fstream>
-#include <map>
-#include <set>
 #include <sstream>
 
+#include "core/config_impl.hpp"
 #include "core/error.hpp"
 
 namespace clatter {
-
-struct Config::Document {
-  toml::table root;
-  std::string origin;                        // file name for messages
-  std::filesystem::path folder;              // relative paths start here
-  std::vector<std::filesystem::path> files;  // that were read
-  std::set<const toml::node*> known;         // values and tables that somebody asked for
-  std::map<const toml::table*, std::set<std::string>> asked;  // keys asked for, found or not
-  std::vector<std::pair<std::string, std::string>> resolved;  // in order of asking
-};
-
-struct Config::Node {
-  const toml::table* table;
-  std::string prefix;  // "contact.film." for messages
-};
-
 namespace {
-
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(const std::string& key, const std::set<std::string>& candidates) {
-  std::string best;
-  size_t best_distance = key.size() / 2 + 2;
-  for (const auto& candidate : candidates) {
-    const size_t distance = edit_distance(key, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 std::string shown(const toml::node& node) {
   std::ostringstream stream;
@@ -105,103 +55,12 @@ std::string joined(const std::vector<std::string>& values) {
 Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
     : document_(std::move(document)), node_(std::move(node)) {}
 
-namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path)) {
-    throw InputError(fmt::format("{}: no such file, expected a TOML file", path.string()));
-  }
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-toml::table parsed(std::string_view text, const std::string& origin) {
-  try {
-    return toml::parse(text, std::string_view(origin));
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}:{}: not TOML: {}", origin, error.source().begin.line,
-                                 error.source().begin.column, error.description()));
-  }
-}
-
-/// Moves what `over` says into `base`. Nodes are moved, not copied: they keep file and line.
-void overlay(toml::table& base, toml::table& over) {
-  for (auto&& [key, value] : over) {
-    toml::node* below = base.get(key);
-    if (below != nullptr && below->is_table() && value.is_table()) {
-      overlay(*below->as_table(), *value.as_table());
-    } else {
-      value.visit([&](auto& concrete) { base.insert_or_assign(key, std::move(concrete)); });
-    }
-  }
-}
-
-toml::table with_base(const std::filesystem::path& path,
-                      std::vector<std::filesystem::path>& files) {
-  if (std::find(files.begin(), files.end(), path) != files.end()) {
-    throw InputError(fmt::format("{}: base: the file is its own base", path.string()));
-  }
-  files.push_back(path);
-  toml::table table = parsed(text_of(path), path.string());
-  const toml::node* named = table.get("base");
-  if (named == nullptr) return table;
-  if (!named->is_string()) {
-    throw InputError(fmt::format("{}:{}: base: expected the path of a TOML file in quotes",
-                                 path.string(), named->source().begin.line));
-  }
-  const std::filesystem::path below = *named->value<std::string>();
-  table.erase("base");
-  toml::table base = with_base((path.parent_path() / below).lexically_normal(), files);
-  overlay(base, table);
-  return base;
-}
-
-}  // namespace
-
-Config Config::load(const std::filesystem::path& path) {
-  Config config = parse(text_of(path), path.string());
-  config.document_->folder = path.parent_path();
-  config.document_->files = {path};
-  return config;
-}
-
-Config Config::load_with_base(const std::filesystem::path& path) {
-  auto document = std::make_shared<Document>();
-  document->root = with_base(path, document->files);
-  document->origin = path.string();
-  document->folder = path.parent_path();
-  auto node = std::make_shared<Node>(Node{&document->root, ""});
-  return Config(document, node);
-}
-
-Config Config::parse(std::string_view text, const std::string& origin) {
-  auto document = std::make_shared<Document>();
-  document->origin = origin;
-  document->root = parsed(text, origin);
-  auto node = std::make_shared<Node>(Node{&document->root, ""});
-  return Config(document, node);
-}
-
-const std::vector<std::filesystem::path>& Config::files() const { return document_->files; }
-
-namespace {
-
-std::string place(const std::string& origin, const toml::node* node) {
-  if (node == nullptr || node->source().begin.line == 0) return origin;
-  const auto& file = node->source().path;  // a base's values stand in the base's file
-  return fmt::format("{}:{}", file ? *file : origin, node->source().begin.line);
-}
-
-}  // namespace
-
-std::string Config::where() const { return place(document_->origin, node_->table); }
+std::string Config::where() const { return place_in_file(document_->origin, node_->table); }
 
 void Config::fail(std::string_view key, const std::string& message) const {
   const toml::node* at = node_->table->get(key);
   throw InputError(fmt::format("{}: {}{}: {}",
-                               place(document_->origin, at != nullptr ? at : node_->table),
+                               place_in_file(document_->origin, at != nullptr ? at : node_->table),
                                node_->prefix, key, message));
 }
 
@@ -393,53 +252,6 @@ std::filesystem::path Config::path(std::string_view key) const {
   const auto& file = node_->table->get(key)->source().path;
   const bool from_base = file && *file != document_->origin;
   return (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
-}
-
-namespace {
-
-/// The first key, in order of the file, that nobody asked for.
-struct Unknown {
-  const toml::node* node = nullptr;
-  const toml::table* table = nullptr;
-  std::string key, prefix;
-};
-
-using Asked = std::map<const toml::table*, std::set<std::string>>;
-
-void find_unknown(const toml::table& table, const std::string& prefix, const Asked& asked,
-                  const std::set<const toml::node*>& known, Unknown& first) {
-  const auto at = asked.find(&table);
-  for (const auto& [key, value] : table) {
-    const std::string name(key.str());
-    const bool is_known = at != asked.end() && at->second.count(name) != 0;
-    if (!is_known) {
-      if (first.node == nullptr || value.source().begin < first.node->source().begin) {
-        first = {&value, &table, name, prefix};
-      }
-      continue;
-    }
-    if (value.is_table() && known.count(&value) != 0) {
-      find_unknown(*value.as_table(), prefix + name + ".", asked, known, first);
-    } else if (value.is_array_of_tables() && known.count(&value) != 0) {
-      size_t index = 0;
-      for (const auto& element : *value.as_array()) {
-        find_unknown(*element.as_table(), fmt::format("{}{}[{}].", prefix, name, index++), asked,
-                     known, first);
-      }
-    }
-  }
-}
-
-}  // namespace
-
-void Config::finish() const {
-  Unknown unknown;
-  find_unknown(document_->root, "", document_->asked, document_->known, unknown);
-  if (unknown.node == nullptr) return;
-  const std::string close = nearest(unknown.key, document_->asked[unknown.table]);
-  throw InputError(fmt::format("{}: {}{}: unknown key{}", place(document_->origin, unknown.node),
-                               unknown.prefix, unknown.key,
-                               close.empty() ? "" : fmt::format(", did you mean {}?", close)));
 }
 
 std::string Config::resolved() const {

@@ -35,6 +35,16 @@ struct FileError : Error {
   explicit FileError(const std::string& message) : Error(ExitCode::kFileTrouble, message) {}
 };
 
+/// Runs `body`; an InputError of it gets `place` in front: the file whose words are wrong.
+template <class Body>
+auto with_place(const std::string& place, const Body& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    throw InputError(place + ": " + error.what());
+  }
+}
+
 /// Runs the body of a main: prints any error as one line "`program`: error: ..." on stderr and
 /// returns the exit code. std::string and unknown exceptions are caught as well (hard case G1).
 int run_guarded(std::string_view program, const std::function<int()>& body);

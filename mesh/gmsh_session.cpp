@@ -155,13 +155,19 @@ std::string GmshSession::library_version() {
 }
 
 void GmshSession::generate(const SizeSettings& settings) {
-  gmsh_call("gmsh: meshing", [&] {
-    synchronize();
-    gmsh::model::mesh::clear();
-    set_sizes(settings);
-    gmsh::model::mesh::generate(3);
-    order_ = 1;
-  });
+  try {
+    gmsh_call("gmsh: meshing", [&] {
+      synchronize();
+      gmsh::model::mesh::clear();
+      set_sizes(settings);
+      gmsh::model::mesh::generate(3);
+      order_ = 1;
+    });
+  } catch (const NumericsError& error) {
+    // Faces cut each other where chords leave the wall between them.
+    throw NumericsError(fmt::format(
+        "{}: choose smaller elements or more per turn where walls are thin", error.what()));
+  }
 }
 
 void GmshSession::replace_cells(const RawMesh& raw) {

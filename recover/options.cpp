@@ -89,6 +89,7 @@ SensorRule read_sensor(const Config& table) {
 
 Options read_options(const Config& config) {
   Options options;
+  if (!config.files().empty()) options.origin = config.files().front().string();
   options.body = config.text_or("body", options.body);
   options.cycle_asked = config.has("cycle");
   options.cycle = config.flag_or("cycle", options.cycle);

@@ -100,16 +100,21 @@ Summary recover(const RunBody& body, const ReducedModel& model, const Options& o
   const SkinGeometry geometry = measure_skin(skin.nodes, skin.triangles);
   summary.n_nodes = skin.nodes.rows();
   summary.n_faces = skin.triangles.rows();
-  summary.limit = frequency_limit(options.spectrum, model.valid_to_hz, body.clock().step_s);
+  summary.limit = with_place(options.origin, [&] {
+    return frequency_limit(options.spectrum, model.valid_to_hz, body.clock().step_s);
+  });
   if (model.valid_to_hz <= 0.0)
     warn(body.rom_path().filename().string() +
          ": valid_to_hz is not stated: spectra are not checked against the basis");
   if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
-  summary.sensors = find_sensors(options.sensors, model, geometry);
+  summary.sensors = with_place(options.origin,
+                               [&] { return find_sensors(options.sensors, model, geometry); });
   const std::string origin = body.path().string();
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
   const FrameChoice frames = choose_frames(body.clock(), options, origin);
-  summary.panels = choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry);
+  summary.panels = with_place(options.origin, [&] {
+    return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry);
+  });
   clock.lap("skin and panels");
 
   const std::vector<PanelForm> forms = normal_velocity_forms(skin, geometry, summary.panels);
@@ -120,7 +125,9 @@ Summary recover(const RunBody& body, const ReducedModel& model, const Options& o
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
   const Analysis& first = summary.analyses.front();
   const std::vector<ChosenLine> lines =
-      choose_lines(options.lines, options.spectrum, first, summary.limit);
+      with_place(options.origin, [&] {
+        return choose_lines(options.lines, options.spectrum, first, summary.limit);
+      });
   for (const ChosenLine& line : lines)
     summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
   summary.certificate = certify(body, first, geometry, forms.front());

@@ -102,13 +102,19 @@ class WrongContent(stages.PipelineTest):
         self.edit("beam.mesh.toml", "size = [600.0,", "size = [-600.0,")
         self.assert_refused("mesh", says=["beam.mesh.toml:", "size"])
 
+    def test_a_wall_thinner_than_its_elements_can_follow(self):
+        (self.folder / "beam.mesh.toml").write_text(
+            'name = "tube"\nkind = "cylinder"\nlength_unit = "mm"\n[cylinder]\nradius = 10.0\ninner_radius = 9.9\n'
+            "length = 30.0\n[mesh]\nelement_size_mm = 20.0\n")
+        self.assert_refused("mesh", code=3, says=["mesh", "smaller elements"])
+
     def test_a_region_without_material(self):
         self.edit("beam.fe.toml", 'regions = ["bar"]', "regions = []")
         self.assert_refused("assembly", says=["beam.fe.toml", "bar"])
 
     def test_a_frequency_above_what_the_basis_holds(self):
         self.edit("step.field.toml", "to_hz = 3000.0", "to_hz = 30000.0")
-        self.assert_refused("recover", says=["to_hz", "30000", "4000"])
+        self.assert_refused("recover", says=["step.field.toml: spectrum.to_hz", "30000", "4000"])
 
     def test_a_run_whose_reduced_model_has_changed_since(self):
         with h5py.File(self.folder / "beam.rom.h5", "r+") as model:

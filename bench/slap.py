@@ -1,0 +1,122 @@
+#!/usr/bin/python3
+"""What accuracy costs in piston slap: step tolerance, film grid and elastic effects against seconds.
+
+Runs samples/truck_diesel/slap.run.toml (its reduced models must be there: make demo) again and again, changes one
+thing at a time, and compares each run with the finest of its row: the piston's place, the liner's acceleration (both
+above 300 Hz where the block's shake does not count). Two cycles a run, so that the table takes minutes; seconds are
+what clatter-dynamics itself counts for stepping.
+"""
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+SAMPLE = ROOT / "samples" / "truck_diesel"
+sys.path.insert(0, str(ROOT / "tools"))
+from clatter_tools import fields, slap  # noqa: E402
+
+AT = "analysis/cycle"
+TOLERANCES = [2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]
+GRIDS = [(6, 8), (10, 12), (14, 16), (20, 24), (28, 32), (40, 46)]
+EFFECTS = {
+    "rigid piston, rigid liner": '[piston]\nmodel = "rigid"\n[block]\nmodel = "rigid"\n',
+    "rigid piston": '[piston]\nmodel = "rigid"\n',
+    "no oil film": '[contact]\nlubrication = "none"\n',
+    "no cavitation": "[contact]\ncavitation = false\n",
+    "no friction": "[contact]\nfriction = false\n",
+    "all": "",
+}
+
+
+def scene(folder, name, changes):
+    """A scene of a few lines on the sample's."""
+    text = f'base = "{SAMPLE / "slap.run.toml"}"\ntitle = "{name}"\n'
+    if "[time]" not in changes:
+        text += "[time]\ncycles = 2\n"
+    path = folder / f"{name}.run.toml"
+    path.write_text(text + changes)
+    return path
+
+
+def simulate(folder, binaries, name, changes, recovered=True):
+    """Runs one scene; its numbers as a dict."""
+    path = scene(folder, name, changes)
+    run = folder / f"{name}.run.h5"
+    call([binaries / "clatter-dynamics", path, "-o", run, "--quiet"])
+    result = {"name": name}
+    with h5py.File(run) as file:
+        result["steps"] = int(file["statistics"].attrs["accepted"])
+        result["seconds"] = float(file["statistics"].attrs["total_seconds"])
+        angle = file["history/crank_angle_deg"][()]
+        lateral = file["history/piston_lateral"][()]
+        result["lateral"] = np.interp(np.linspace(angle[-1] - 719.0, angle[-1], 7200), angle, lateral)
+    if recovered:
+        field = folder / f"{name}.field.h5"
+        call([binaries / "clatter-recover", run, "-c", SAMPLE / "field.toml", "-o", field, "--quiet"])
+        with h5py.File(field) as file:
+            sensor = fields.pick_sensor(file, AT, "liner")
+            result["time"], result["values"] = slap.band_limited(file, sensor, AT)
+            result["bands"], _ = fields.acceleration_bands(file, sensor)
+            mid = file[f"{AT}/third_octave/mid_hz"][()]
+            result["heard"] = (mid > 450) & (mid < 4500)
+        field.unlink()
+    run.unlink()
+    return result
+
+
+def call(command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"bench: {done.stderr.strip()}")
+
+
+def print_row(result, finest):
+    shift = np.abs(result["lateral"] - finest["lateral"]).max() * 1e6
+    cells = [f"{result['name']:28s}", f"{result['steps']:7d}", f"{result['seconds']:8.1f}", f"{shift:12.3f}"]
+    if "values" in result:
+        when, height = slap.peak(result["time"], result["values"])
+        cells += [f"{when * 1e3:9.3f}", f"{height:9.1f}"]
+        if "values" in finest:
+            levels = np.abs(result["bands"] - finest["bands"])[result["heard"]].max()
+            cells += [f"{levels:10.2f}"]
+    print(" ".join(cells), flush=True)
+
+
+def table(title, results):
+    """Prints the results beside the last one, which is the finest."""
+    print(f"\n{title}\n{'':28s} {'steps':>7s} {'seconds':>8s} {'lateral [um]':>12s} {'slap [ms]':>9s} {'[m/s2]':>9s} "
+          f"{'bands [dB]':>10s}")
+    for result in results:
+        print_row(result, results[-1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, default=ROOT / "build" / "release" / "bin")
+    options = parser.parse_args()
+    for part in ("block", "piston"):
+        if not (SAMPLE / f"{part}.rom.h5").exists():
+            sys.exit(f"bench: {SAMPLE / part}.rom.h5 is missing: make demo")
+    print("differences are from the last row of each table: of the piston's lateral place, and the largest of the "
+          "liner's\nthird octaves from 500 Hz to 4 kHz; slap: instant and height of the liner's acceleration")
+    with tempfile.TemporaryDirectory() as scratch:
+        def runs(names_and_changes, **more):
+            return [simulate(Path(scratch), options.bin, name, changes, **more) for name, changes in names_and_changes]
+
+        table("step tolerance", runs((f"tolerance {value:g}", f"[accuracy]\ntolerance = {value:g}\n")
+                                     for value in TOLERANCES))
+        table("film grid, cells around x along",
+              runs((f"grid {a} x {b}", f"[contact]\ncells_around = {a}\ncells_along = {b}\n") for a, b in GRIDS))
+        print("\neffects: what each costs (rigid liner: no block to recover)")
+        results = runs(EFFECTS.items(), recovered=False)
+        for result in results:
+            print_row(result, results[-1])
+
+
+if __name__ == "__main__":
+    main()
