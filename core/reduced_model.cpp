@@ -3,29 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/named.hpp"
 
 namespace clatter {
 namespace {
 
 constexpr const char* kSchema = "clatter/rom/1";
-
-template <class Map>
-std::string names_of(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-template <class Map>
-const typename Map::mapped_type& find(const Map& map, const std::string& model,
-                                      const std::string& what, const std::string& name) {
-  const auto at = map.find(name);
-  if (at == map.end()) {
-    throw InputError(
-        fmt::format("{}: no {} named {}, present: {}", model, what, name, names_of(map)));
-  }
-  return at->second;
-}
 
 /// Refuses a matrix whose shape or values are not what the reader expects.
 void check(const H5File& file, const std::string& name, const Eigen::MatrixXd& matrix,
@@ -144,11 +127,11 @@ Skin read_skin(const H5File& file, Eigen::Index size) {
 }  // namespace
 
 const DofSet& ReducedModel::set(const std::string& set_name) const {
-  return find(sets, name, "set", set_name);
+  return find_named(sets, name, "set", set_name);
 }
 
 const ContactGrid& ReducedModel::grid(const std::string& grid_name) const {
-  return find(grids, name, "contact grid", grid_name);
+  return find_named(grids, name, "contact grid", grid_name);
 }
 
 void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,

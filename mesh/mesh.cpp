@@ -6,27 +6,10 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/named.hpp"
 
 namespace clatter::mesh {
 namespace {
-
-template <class Map>
-std::string names_of(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-template <class Map>
-const typename Map::mapped_type& find_named(const Map& map, const std::string& name,
-                                            const std::string& mesh, const char* kind) {
-  const auto found = map.find(name);
-  if (found == map.end()) {
-    throw InputError(fmt::format("mesh '{}': {} '{}' not found, expected one of: {}", mesh, kind,
-                                 name, names_of(map)));
-  }
-  return found->second;
-}
 
 void check_range(const IndexMatrix& ids, int64_t n_nodes, const std::string& where) {
   if (ids.size() == 0) return;
@@ -82,11 +65,11 @@ int64_t Mesh::cell_count() const {
 }
 
 const Surface& Mesh::surface(const std::string& surface_name) const {
-  return find_named(surfaces, surface_name, name, "surface");
+  return find_named(surfaces, "mesh '" + name + "'", "surface", surface_name);
 }
 
 const std::vector<int32_t>& Mesh::node_set(const std::string& set_name) const {
-  return find_named(node_sets, set_name, name, "node set");
+  return find_named(node_sets, "mesh '" + name + "'", "node set", set_name);
 }
 
 std::vector<int32_t> nodes_of(const Surface& surface) {

@@ -12,19 +12,12 @@ namespace clatter::modal {
 namespace {
 
 using Eigen::MatrixXd;
+using test::by_count;
 using test::free_chain;
 using test::free_chain_value;
+using test::kBoth;
 using test::Pencil;
 using test::spring_box;
-
-EigenOptions by_count(int count, EigenMethod method = EigenMethod::kBlockLanczos) {
-  EigenOptions options;
-  options.count = count;
-  options.method = method;
-  return options;
-}
-
-constexpr EigenMethod kBoth[] = {EigenMethod::kBlockLanczos, EigenMethod::kArpack};
 
 TEST(Eigen, FreeChainHasItsClosedFormSpectrum) {
   const int n = 1000;

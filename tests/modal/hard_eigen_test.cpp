@@ -18,19 +18,12 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using test::by_count;
 using test::free_chain;
 using test::free_chain_value;
+using test::kBoth;
 using test::Pencil;
 using test::spring_box;
-
-EigenOptions by_count(int count, EigenMethod method = EigenMethod::kBlockLanczos) {
-  EigenOptions options;
-  options.count = count;
-  options.method = method;
-  return options;
-}
-
-constexpr EigenMethod kBoth[] = {EigenMethod::kBlockLanczos, EigenMethod::kArpack};
 
 /// Shift-invert problem of a pencil for the solvers below solve_modes.
 struct Shifted {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/sparse.hpp"
+#include "modal/eigen/eigen_solver.hpp"
 
 namespace clatter::test {
 
@@ -110,5 +111,16 @@ inline SpringBox spring_box(int nx, int ny, int nz, double pitch = 0.02, double 
   }
   return box;
 }
+
+inline modal::EigenOptions by_count(int count,
+                                    modal::EigenMethod method = modal::EigenMethod::kBlockLanczos) {
+  modal::EigenOptions options;
+  options.count = count;
+  options.method = method;
+  return options;
+}
+
+constexpr modal::EigenMethod kBoth[] = {modal::EigenMethod::kBlockLanczos,
+                                        modal::EigenMethod::kArpack};
 
 }  // namespace clatter::test
