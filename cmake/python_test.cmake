@@ -1,9 +1,15 @@
 # Tests written in Python's unittest.
 
-# clatter_python_test(<file without .py> <label> [class ...]) runs the file, or those classes of it.
+# clatter_python_test(<file without .py> <label> [class ...]) runs the file, or those classes of it;
+# the label `long` is for `make validate` alone.
 function(clatter_python_test file label)
   string(JOIN "_" name ${file} ${ARGN})
   add_test(NAME ${name} COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/${file}.py ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 600 SKIP_RETURN_CODE 77
+  if(label STREQUAL "long")
+    set(seconds 5400)
+  else()
+    set(seconds 600)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT ${seconds} SKIP_RETURN_CODE 77
     ENVIRONMENT "CLATTER_BIN=${PROJECT_BINARY_DIR}/bin;CLATTER_BUILD=${PROJECT_BINARY_DIR};PYTHONPATH=${PROJECT_SOURCE_DIR}/tools:${PROJECT_SOURCE_DIR}/tests/tools;OMP_NUM_THREADS=2")
 endfunction()

@@ -25,14 +25,37 @@ def fingerprint(path):
     return hashlib.sha256(path.read_bytes()).hexdigest(), state.st_ino, state.st_mtime_ns
 
 
+def require_stages():
+    """Skips the test class where the executables are not built."""
+    missing = [stage for stage in STAGES if not (BIN / f"clatter-{stage}").exists()]
+    if missing:
+        raise unittest.SkipTest(f"not built: {', '.join(missing)}")
+
+
+def copy_sample(test_class, name):
+    """A sample's own files in a scratch tree beside the tools; returns its folder."""
+    root = pathlib.Path(tempfile.mkdtemp(prefix=f"clatter-{name}-"))
+    test_class.addClassCleanup(shutil.rmtree, root)
+    (root / "tools").symlink_to(SOURCE / "tools")
+    return shutil.copytree(SOURCE / "samples" / name, root / "samples" / name,
+                           ignore=shutil.ignore_patterns("*.h5", "*.d", "*.xdmf", "*.png", "*.txt", "*.checkpoint"))
+
+
+def make(folder, *arguments):
+    """Runs make there with these executables; returns what it said, AssertionError when it fails."""
+    done = subprocess.run(["make", f"CLATTER_BIN={BIN}", "CLATTER_FLAGS=--quiet", *arguments], cwd=folder, text=True,
+                          capture_output=True, env={**os.environ, "MAKEFLAGS": ""})
+    if done.returncode:
+        raise AssertionError(done.stdout + done.stderr)
+    return done.stdout
+
+
 class PipelineTest(unittest.TestCase):
     """Tests in a fresh copy of a folder in which the beam sample has been brought through all stages."""
 
     @classmethod
     def setUpClass(cls):
-        missing = [stage for stage in STAGES if not (BIN / f"clatter-{stage}").exists()]
-        if missing:
-            raise unittest.SkipTest(f"not built: {', '.join(missing)}")
+        require_stages()
         cls.master = pathlib.Path(tempfile.mkdtemp(prefix="clatter-cli-"))
         cls.addClassCleanup(shutil.rmtree, cls.master)
         for path in (SOURCE / "samples/beam").glob("*.toml"):

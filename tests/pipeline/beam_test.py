@@ -1,10 +1,7 @@
 """samples/beam through make: the answer, what is redone, the same bits twice."""
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
@@ -14,27 +11,17 @@ import stages  # noqa: E402
 class Beam(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        missing = [stage for stage in stages.STAGES if not (stages.BIN / f"clatter-{stage}").exists()]
-        if missing:
-            raise unittest.SkipTest(f"not built: {', '.join(missing)}")
-        cls.root = pathlib.Path(tempfile.mkdtemp(prefix="clatter-beam-"))
-        cls.addClassCleanup(shutil.rmtree, cls.root)
-        cls.folder = cls.root / "samples/beam"
-        (cls.root / "tools").symlink_to(stages.SOURCE / "tools")
-        shutil.copytree(stages.SOURCE / "samples/beam", cls.folder,
-                        ignore=shutil.ignore_patterns("*.h5", "*.d", "*.xdmf", "*.png"))
+        stages.require_stages()
+        cls.folder = stages.copy_sample(cls, "beam")
         cls.first = cls.make()
 
     @classmethod
     def make(cls, *arguments):
         """Runs make; returns (output, artefacts that were written)."""
         before = {path: path.stat().st_mtime_ns for path in cls.folder.glob("*.h5")}
-        done = subprocess.run(["make", f"CLATTER_BIN={stages.BIN}", "CLATTER_FLAGS=--quiet", *arguments],
-                              cwd=cls.folder, text=True, capture_output=True, env={**os.environ, "MAKEFLAGS": ""})
-        if done.returncode:
-            raise AssertionError(done.stdout + done.stderr)
+        output = stages.make(cls.folder, *arguments)
         made = {path.name for path in cls.folder.glob("*.h5") if before.get(path) != path.stat().st_mtime_ns}
-        return done.stdout, made
+        return output, made
 
     def touch(self, name):
         os.utime(self.folder / name)

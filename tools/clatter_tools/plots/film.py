@@ -11,14 +11,17 @@ def draw(files):
         raise BadArtefact("film: none of these runs has a piston-liner contact (history film_min)")
     figure, axes = style.figure(height=3.4)
     axis = axes[0, 0]
+    lowest = 0.0  # asperities of a dry contact press into each other: a gap below 0
     for run in runs:
         angle = crank_angle(run)
         window = last_cycle(angle)
         degrees, order = centred(angle[window])
-        axis.plot(degrees, history(run, "film_min", "m")[window][order] * 1e6, label=style.label(run))
+        gap = history(run, "film_min", "m")[window][order] * 1e6
+        lowest = min(lowest, 2.0 * gap.min())
+        axis.plot(degrees, gap, label=style.label(run))
     style.mark_firing(axis)
     style.crank_axis(axis, degrees)
-    axis.set_ylim(bottom=0)
+    axis.set_ylim(bottom=lowest)
     axis.set_ylabel("smallest gap [µm]")
     style.headline(figure, "Smallest gap between skirt and liner")
     style.legend(axis)

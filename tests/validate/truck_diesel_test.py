@@ -1,0 +1,97 @@
+"""samples/truck_diesel as `make demo` runs it: what it must show, and its full size. Minutes; `make validate`."""
+import pathlib
+import re
+import sys
+import unittest
+
+import h5py
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import stages  # noqa: E402
+from clatter_tools import fields, slap  # noqa: E402
+
+LUBRICATED, DRY = ("slap", "slap_10um"), ("slap_dry", "slap_dry_10um")
+CYCLE = "analysis/cycle"
+
+
+class TruckDiesel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        stages.require_stages()
+        cls.folder = stages.copy_sample(cls, "truck_diesel")
+        stages.make(cls.folder)
+
+    def certificate(self, name):
+        with h5py.File(self.folder / name) as file:
+            return dict(file["certificate"].attrs)
+
+    def liner(self, run):
+        """(instant, height, end of the ringing, share above 2 kHz) of the liner's acceleration."""
+        with h5py.File(self.folder / f"{run}.field.h5") as file:
+            sensor = fields.pick_sensor(file, CYCLE, "liner")
+            signal = slap.band_limited(file, sensor, CYCLE)
+            return (*slap.peak(*signal), slap.rung_out(*signal), slap.high_share(file, sensor, CYCLE))
+
+    def levels(self, run, part):
+        """Third octaves of the acceleration from 1 to 4 kHz [dB]."""
+        with h5py.File(self.folder / f"{run}.field.h5") as file:
+            bands, _ = fields.acceleration_bands(file, fields.pick_sensor(file, CYCLE, part))
+            mid = file[f"{CYCLE}/third_octave/mid_hz"][()]
+            return bands[(mid > 900) & (mid < 4500)]
+
+    def test_sizes_are_those_of_the_demo(self):
+        for part, low, high in (("block", 60_000, 120_000), ("piston", 20_000, 50_000)):
+            dofs = self.certificate(f"{part}.mesh.h5")["dofs"]
+            self.assertTrue(low <= dofs <= high, f"{part}: {dofs}")
+
+    def test_the_free_block_has_six_rigid_modes(self):
+        done = stages.run_stage("modal", "block.fe.h5", "--count", 8, "-o", "free.modes.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.folder / "free.modes.h5") as file:
+            frequency = file["frequency_hz"][()]
+        self.assertLess(abs(frequency[:6]).max(), 1e-3 * frequency[6])
+        self.assertGreater(frequency[6], 10.0)
+
+    def test_reduced_models_keep_the_modes_below_half_their_cut_off_and_the_mass(self):
+        for part in ("block", "piston"):
+            last = (self.folder / f"{part}.compare.txt").read_text().strip().splitlines()[-1]
+            error, mac = re.search(r"largest error (\S+) %, smallest MAC (\S+)", last).groups()
+            self.assertLess(float(error), 0.1, last)
+            self.assertGreater(float(mac), 0.99, last)
+            self.assertLess(self.certificate(f"{part}.rom.h5")["mass_error"], 1e-9)
+
+    def test_energy_is_accounted_for(self):
+        for run in (*LUBRICATED, *DRY):
+            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 0.01)
+
+    def test_lubricated_cycles_repeat(self):
+        for run in LUBRICATED:
+            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], 5e-6)
+
+    def test_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
+        when, _, quiet, _ = self.liner("slap")
+        self.assertTrue(0.2e-3 <= when <= 0.6e-3, when)
+        self.assertTrue(1.5e-3 <= quiet - when <= 3.0e-3, quiet)
+
+    def test_without_oil_it_is_louder_and_sounds_higher(self):
+        for oil, dry in zip(LUBRICATED, DRY):
+            with self.subTest(clearance=oil):
+                _, oil_height, _, oil_high = self.liner(oil)
+                _, dry_height, _, dry_high = self.liner(dry)
+                self.assertGreater(dry_height, 1.3 * oil_height)
+                self.assertGreater(dry_high, oil_high)
+                for part in ("liner", "block"):
+                    self.assertGreater((self.levels(dry, part) - self.levels(oil, part)).mean(), 2.0, part)
+
+    def test_one_number_refines_the_block_to_full_size(self):
+        text = (self.folder / "block.mesh.toml").read_text()
+        fine, count = re.subn(r"(?m)^element_size_mm\s*=.*$", "element_size_mm = 9.2", text)
+        self.assertEqual(count, 1)
+        (self.folder / "fine.mesh.toml").write_text(fine)
+        done = stages.run_stage("mesh", "fine.mesh.toml", "-o", "fine.mesh.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(self.certificate("fine.mesh.h5")["dofs"], 700_000)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
