@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-/// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., found: ..." when absent.
+/// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., expected one of: ..." when absent.
 template <class Map>
 const typename Map::mapped_type& find_named(const Map& map, const std::string& owner,
                                             const std::string& kind, const std::string& name) {
@@ -17,7 +17,7 @@ const typename Map::mapped_type& find_named(const Map& map, const std::string& o
   if (at != map.end()) return at->second;
   std::vector<std::string> names;
   for (const auto& entry : map) names.push_back(entry.first);
-  throw InputError(fmt::format("{}: no {} named {}, found: {}", owner, kind, name,
+  throw InputError(fmt::format("{}: no {} named {}, expected one of: {}", owner, kind, name,
                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 

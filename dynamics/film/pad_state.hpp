@@ -12,16 +12,17 @@ struct PadFilm {
   PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation)
       : reynolds(grid, edges, cavitation) {
     cells.resize(grid.size());
-    for (Eigen::ArrayXd* values : {&content, &before, &stage_content, &inverse, &inverse_slope})
+    for (Eigen::ArrayXd* values :
+         {&content, &fill, &before, &stage_content, &stage_fill, &inverse, &inverse_slope})
       values->setZero(grid.size());
     for (Eigen::ArrayXd& rate : rates) rate.setZero(grid.size());
   }
   Reynolds reynolds;
   FilmCells cells;
-  Eigen::ArrayXd content;               // m of the last accepted step [m]
-  Eigen::ArrayXd before;                // m~ of the running stage [m]
-  Eigen::ArrayXd stage_content;         // m of the last finished stage [m]
-  std::array<Eigen::ArrayXd, 4> rates;  // m' of the stages; [0]: last accepted [m/s]
+  Eigen::ArrayXd content, fill;              // m [m] and theta of the last accepted step
+  Eigen::ArrayXd before;                     // m~ of the running stage [m]
+  Eigen::ArrayXd stage_content, stage_fill;  // m [m] and theta of the last finished stage
+  std::array<Eigen::ArrayXd, 4> rates;       // m' of the stages; [0]: last accepted [m/s]
   int last_stage = 0;
   Eigen::ArrayXd inverse, inverse_slope;  // effective 1/h of the shear
 };

@@ -170,8 +170,8 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   film.before = film.content;
   for (size_t j = 0; j < stage.weights.size(); ++j) film.before += stage.weights[j] * film.rates[j];
   // The liner slides past the grid at -U: the mean wall velocity is half of that.
-  const FilmStage inner{stage.kappa, options_.viscosity,   0.0, -0.5 * speed,
-                        false,       options_.bulk_modulus};
+  FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
+  if (running_) inner.fill_before = &film.fill;
   try {
     film_solves_ += film.reynolds.solve(film.cells, film.before, inner);
   } catch (const NumericsError& error) {

@@ -65,8 +65,8 @@ struct StrokeState {
 struct PistonLinerBodies {
   std::optional<ElasticSurface>
       piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin
-  std::optional<ElasticSurface> liner;    // bore patches, engine frame; absent: rigid at rest
-  bool liner_axial = false;               // a coordinate takes the axial reaction on the liner
+  std::optional<ElasticSurface> liner;  // bore patches, engine frame; absent: rigid at rest
+  bool liner_axial = false;             // a coordinate takes the axial reaction on the liner
   std::function<StrokeState(double time)> stroke;
 };
 

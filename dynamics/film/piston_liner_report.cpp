@@ -17,6 +17,7 @@ void PistonLiner::finish_stage(const dynamics::Stage& stage) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
     film.stage_content = film.reynolds.density() * film.cells.content;
+    film.stage_fill = film.reynolds.fill();
     film.rates.at(static_cast<size_t>(stage.index)) =
         (film.stage_content - film.before) / stage.kappa;
     film.last_stage = stage.index;
@@ -29,6 +30,7 @@ void PistonLiner::accept_step(double) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
     film.content = film.stage_content;
+    film.fill = film.stage_fill;
     if (film.last_stage > 0) film.rates[0] = film.rates[static_cast<size_t>(film.last_stage)];
   }
 }
@@ -96,8 +98,9 @@ std::vector<double> PistonLiner::save() const {
   std::vector<double> state{running_ ? 1.0 : 0.0};
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
-    state.insert(state.end(), pad->film->content.begin(), pad->film->content.end());
-    state.insert(state.end(), pad->film->rates[0].begin(), pad->film->rates[0].end());
+    for (const Eigen::ArrayXd* values :
+         {&pad->film->content, &pad->film->fill, &pad->film->rates[0]})
+      state.insert(state.end(), values->begin(), values->end());
   }
   return state;
 }
@@ -105,7 +108,7 @@ std::vector<double> PistonLiner::save() const {
 void PistonLiner::restore(const std::vector<double>& state) {
   size_t expected = 1;
   for (const auto& pad : pads_)
-    if (pad->film) expected += 2 * static_cast<size_t>(pad->grid.size());
+    if (pad->film) expected += 3 * static_cast<size_t>(pad->grid.size());
   if (state.size() != expected)
     throw InputError(options_.name + ": the saved film state has " + std::to_string(state.size()) +
                      " numbers, expected " + std::to_string(expected));
@@ -113,7 +116,7 @@ void PistonLiner::restore(const std::vector<double>& state) {
   auto next = state.begin() + 1;
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
-    for (Eigen::ArrayXd* values : {&pad->film->content, &pad->film->rates[0]}) {
+    for (Eigen::ArrayXd* values : {&pad->film->content, &pad->film->fill, &pad->film->rates[0]}) {
       std::copy(next, next + values->size(), values->begin());
       next += values->size();
     }

@@ -50,6 +50,7 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
   magnitude_.setZero(n);
   conduct_.resize(faces_.size());
   carry_.resize(faces_.size());
+  lift_.assign(faces_.size(), 0.0);
   rim_conduct_.resize(rims_.size());
   rim_carry_.resize(rims_.size());
   rim_entering_.resize(rims_.size());
@@ -60,12 +61,19 @@ void Reynolds::build_faces() {
   for (int i = 0; i < n_i; ++i)
     for (int j = 0; j + 1 < n_j; ++j)
       faces_.push_back({grid_.cell(i, j), grid_.cell(i, j + 1), grid_.arc(i),
-                        0.5 * (grid_.height(j) + grid_.height(j + 1)), true});
+                        0.5 * (grid_.height(j) + grid_.height(j + 1)), true,
+                        j > 0 ? grid_.cell(i, j - 1) : -1,
+                        j + 2 < n_j ? grid_.cell(i, j + 2) : -1});
+  auto around = [this, n_i](int i, int j) {
+    if (grid_.periodic()) return grid_.cell((i + n_i) % n_i, j);
+    return i >= 0 && i < n_i ? grid_.cell(i, j) : -1;
+  };
   for (int i = 0; i + (grid_.periodic() ? 0 : 1) < n_i; ++i)
     for (int j = 0; j < n_j; ++j) {
       const int next = (i + 1) % n_i;
       faces_.push_back({grid_.cell(i, j), grid_.cell(next, j), grid_.height(j),
-                        0.5 * (grid_.arc(i) + grid_.arc(next)), false});
+                        0.5 * (grid_.arc(i) + grid_.arc(next)), false, around(i - 1, j),
+                        around(i + 2, j)});
     }
   auto add_rim = [this](int cell, double length, double distance, double sign, bool axial,
                         const Edge& edge) {
@@ -104,6 +112,20 @@ void Reynolds::number_cells() {
   lu_ = BandedLu(grid_.size(), band);
 }
 
+// How far the fill on a face stands above that of the cell upstream, in parts of what that cell
+// lacks.
+double Reynolds::lift(const Face& face, double speed) const {
+  if (stage_.fill_before == nullptr || speed == 0.0) return 0.0;
+  const int upstream = speed > 0.0 ? face.a : face.b, downstream = speed > 0.0 ? face.b : face.a;
+  const int beyond = speed > 0.0 ? face.beyond_a : face.beyond_b;
+  const Eigen::ArrayXd& fill = *stage_.fill_before;
+  const double lack = 1.0 - fill[upstream];
+  if (beyond < 0 || lack <= 0.0) return 0.0;
+  const double up = fill[upstream] - fill[beyond], down = fill[downstream] - fill[upstream];
+  if (up * down <= 0.0) return 0.0;
+  return std::clamp(up * down / (up + down) / lack, -1.0, 1.0);
+}
+
 void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before,
                      const FilmStage& stage) {
   const double kappa = stage.steady ? 1.0 : stage.kappa;
@@ -122,6 +144,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     weigh_one(face_conductance(g[face.a], g[face.b]),
               face_carry(film.carry[face.a], film.carry[face.b]), face.length, face.distance,
               face.axial, conduct_[f], carry_[f]);
+    lift_[f] = lift(face, face.axial ? stage.speed_axial : stage.speed_angle);
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
@@ -180,8 +203,11 @@ void Reynolds::assemble() {
       x_[pa] -= carried;
       x_[pb] += carried;
     } else {
-      lu_.at(pa, place(upstream)) += carried;
-      lu_.at(pb, place(upstream)) -= carried;
+      const double lifted = carried * lift_[f], rest = carried - lifted;
+      x_[pa] -= lifted;
+      x_[pb] += lifted;
+      lu_.at(pa, place(upstream)) += rest;
+      lu_.at(pb, place(upstream)) -= rest;
     }
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
@@ -263,7 +289,8 @@ void Reynolds::measure() {
   magnitude_ = storage_ * fill_.abs() + before_.abs();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const int a = faces_[f].a, b = faces_[f].b;
-    const double carried = carry_[f] * fill_[carry_[f] > 0.0 ? a : b];
+    const double upstream = fill_[carry_[f] > 0.0 ? a : b];
+    const double carried = carry_[f] * (upstream + lift_[f] * (1.0 - upstream));
     const double flow = conduct_[f] * (pressure_[a] - pressure_[b]) / pressure_scale_ + carried;
     const double size =
         conduct_[f] * (std::abs(pressure_[a]) + std::abs(pressure_[b])) / pressure_scale_ +

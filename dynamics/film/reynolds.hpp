@@ -57,6 +57,9 @@ struct FilmStage {
   // Bulk modulus of the oil [Pa]: a full cell holds (1 + p / B) s. 0: incompressible. A body of
   // mass m per area stops on a cell that fills within sqrt(m s / B), in place of at once.
   double bulk_modulus = 0.0;
+  // Fill theta at the start of the step, n: where it slopes, a face carries a limited linear
+  // profile in place of the upstream value, second order in the cell size. Null: first order.
+  const Eigen::ArrayXd* fill_before = nullptr;
 };
 
 /// JFO film in stage form, conserving mass for any Runge-Kutta tableau:
@@ -68,7 +71,10 @@ struct FilmStage {
 /// modulus in the storage only). Cell-centred finite volumes. A face conducts 2 a^2 b^2 / (a + b)
 /// in place of g^3 and carries 2 a b / (a + b) in place of c, a and b being its neighbours' values:
 /// exact integrals of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge comes out exact
-/// at the centres. theta is upwinded by U_m.
+/// at the centres. theta is upwinded by U_m; with `fill_before` a face carries
+/// theta + l (1 - theta), l = rise / (1 - theta_before) within -1 and 1, where rise is half of van
+/// Leer's limited slope (J. Comput. Phys. 14, 1974) of the fill before: the lift vanishes as the
+/// upstream cell fills, and the matrix stays an M-matrix.
 ///
 /// The unknown of a full cell is p (theta = 1), of a cavitated cell theta (p = 0). For a given
 /// split into full and cavitated cells the system is linear, and its matrix is a column-diagonally
@@ -108,6 +114,7 @@ class Reynolds {
     double length;    // [m]
     double distance;  // between the centres [m]
     bool axial;
+    int beyond_a, beyond_b;  // the next cells along the same line; -1: none
   };
   struct Rim {
     int cell;
@@ -118,6 +125,7 @@ class Reynolds {
   };
   void build_faces();
   void number_cells();
+  double lift(const Face& face, double speed) const;
   void weigh(const FilmCells& film, const Eigen::ArrayXd& content_before, const FilmStage& stage);
   void assemble();
   bool update_split(bool one_at_a_time);
@@ -135,9 +143,9 @@ class Reynolds {
   bool started_ = false;
 
   // Nondimensional terms of the current stage: storage s, storage by pressure s / B, m~,
-  // conductance and carried volume of faces and rims.
+  // conductance, carried volume and lift of faces, the same of rims.
   Eigen::ArrayXd storage_, squeeze_, before_;
-  std::vector<double> conduct_, carry_, rim_conduct_, rim_carry_, rim_entering_;
+  std::vector<double> conduct_, carry_, lift_, rim_conduct_, rim_carry_, rim_entering_;
   double volume_scale_ = 1.0, pressure_scale_ = 1.0;
   const FilmCells* film_ = nullptr;
   FilmStage stage_;

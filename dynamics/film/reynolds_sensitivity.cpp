@@ -25,13 +25,16 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
     for (int c = 0; c < grid_.size(); ++c)
       row(c) = -(grid_.area()[c] * held[c] * film.d_content[c] / volume_scale_) * dh.row(c);
   }
-  for (const Face& face : faces_) {
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
     const int a = face.a, b = face.b;
     const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;
     const Eigen::ArrayXd& dg = face.axial ? film.d_flow_axial : film.d_flow_angle;
     const double speed = face.axial ? stage_.speed_axial : stage_.speed_angle;
     const double drive = mobility * face.length / face.distance * (pressure_[a] - pressure_[b]);
-    const double drag = kappa * speed * face.length * fill_[speed > 0.0 ? a : b] / volume_scale_;
+    const double upstream = fill_[speed > 0.0 ? a : b];
+    const double drag =
+        kappa * speed * face.length * (upstream + lift_[f] * (1.0 - upstream)) / volume_scale_;
     const double by_a = drive * conductance_slope(g[a], g[b]) * dg[a] +
                         drag * carry_slope(film.carry[a], film.carry[b]) * film.d_carry[a];
     const double by_b = drive * conductance_slope(g[b], g[a]) * dg[b] +

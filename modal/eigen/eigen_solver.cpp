@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +25,8 @@ using Eigen::VectorXd;
 
 constexpr double kRigidRatio = 1e-6;  // |f| < 1e-3 of the first elastic frequency
 constexpr double kSameValue = 1e-7;   // relative distance at which two values count as one
-constexpr int kExtra = 3;             // modes beyond the wanted, to find a gap behind them
+constexpr int kMaxRefinements = 2;
+constexpr int kExtra = 3;  // modes beyond the wanted, to find a gap behind them
 
 /// The problem with all that one request needs.
 class Search {
@@ -45,6 +47,10 @@ class Search {
   /// Solves for `count` modes until as many lie below `limit` as the proof says.
   void match_proof(int count);
   void keep_first(Index count);
+  void measure_residuals();
+  /// One step of subspace iteration with Rayleigh-Ritz: what the factor weakens most, motion of
+  /// high frequency left in the vectors, is what their residuals show most.
+  void refine();
   void finish();
 
   const SparseMatrix& K_;
@@ -249,23 +255,49 @@ void Search::keep_first(Index count) {
   modes_.vectors.conservativeResize(n_, count);
 }
 
-void Search::finish() {
+void Search::measure_residuals() {
   const SymmetricProduct stiffness(K_);
   modes_.residuals.resize(modes_.size());
   for (Index j = 0; j < modes_.size(); ++j) {
-    auto x = modes_.vectors.col(j);
-    Index largest = 0;
-    x.cwiseAbs().maxCoeff(&largest);
-    if (x[largest] < 0.0) x *= -1.0;
-    const VectorXd mass = mass_ * x;
-    const VectorXd r = stiffness * x - modes_.values[j] * mass;
+    const VectorXd mass = mass_ * modes_.vectors.col(j);
+    const VectorXd r = stiffness * modes_.vectors.col(j) - modes_.values[j] * mass;
     modes_.residuals[j] = r.norm() / (std::abs(modes_.values[j] - modes_.sigma) * mass.norm());
+  }
+}
+
+void Search::refine() {
+  const MatrixXd mass = mass_ * modes_.vectors;
+  const MatrixXd x = factor_->solve(mass);  // (K - sigma M) x = M v
+  const MatrixXd reduced_mass = x.transpose() * (mass_ * x), reduced_shifted = x.transpose() * mass;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
+      0.5 * (reduced_mass + reduced_mass.transpose()),
+      0.5 * (reduced_shifted + reduced_shifted.transpose()));
+  const VectorXd nu = ritz.eigenvalues().reverse();
+  modes_.values = modes_.sigma + nu.array().inverse();
+  modes_.vectors =
+      x * (ritz.eigenvectors().rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal());
+  modes_.solves += x.cols();
+}
+
+void Search::finish() {
+  measure_residuals();
+  for (int k = 0; k < kMaxRefinements && !small() && modes_.size() > 0 &&
+                  !(modes_.residuals.maxCoeff() <= options_.max_residual);
+       ++k) {
+    refine();
+    measure_residuals();
+  }
+  for (Index j = 0; j < modes_.size(); ++j) {
     if (!(modes_.residuals[j] <= options_.max_residual)) {
       throw NumericsError(fmt::format(
           "modes: mode {} at {:.6g} Hz has residual {:.1e}, expected "
           "at most {:.1e}",
           j + 1, hz_of_value(modes_.values[j]), modes_.residuals[j], options_.max_residual));
     }
+    auto x = modes_.vectors.col(j);
+    Index largest = 0;
+    x.cwiseAbs().maxCoeff(&largest);
+    if (x[largest] < 0.0) x *= -1.0;
   }
   // The first value that is clearly not rigid is the yardstick for those before it.
   const double shift = modes_.sigma < 0.0 ? -modes_.sigma : 0.0;

@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 class Runs : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "clatter_dynamics_runs";
+    // One folder a test: CTest runs them side by side.
+    folder_ = fs::path(::testing::TempDir()) / "clatter_dynamics_runs" /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::create_directories(folder_);
     testing::write_rom(folder_ / "piston.rom.h5", testing::rigid_piston(1.9, 4e-3, 8.992e-3));
     testing::write_rom(folder_ / "block.rom.h5", testing::elastic_block(0.0535, 8, 6));

@@ -88,7 +88,7 @@ TEST(MeshFile, WrongContentsAreRefusedOneByOne) {
     m.nodes.row(10).setZero();
   });
   refused("found node -1", [](Mesh& m) { m.surfaces["skin"].triangles(0, 0) = -1; });
-  refused("'skin' not found", [](Mesh& m) {
+  refused("no surface named skin", [](Mesh& m) {
     m.surfaces["hull"] = m.surfaces["skin"];
     m.surfaces.erase("skin");
   });

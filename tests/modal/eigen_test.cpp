@@ -19,6 +19,26 @@ using test::kBoth;
 using test::Pencil;
 using test::spring_box;
 
+TEST(Eigen, ResidualsAboveTheirLimitAreRefined) {
+  const Pencil box = spring_box(12, 10, 9);
+  EigenOptions options = by_count(9);
+  options.sigma = 300.0 * default_shift(box.K, box.M);  // far away: all nu lie close together
+  const ModeSet plain = solve_modes(box.K, box.M, options);
+  const double largest = plain.residuals.maxCoeff();
+  ASSERT_GT(largest, 1e-11);  // rounding leaves room for better
+  options.max_residual = 0.1 * largest;
+  const ModeSet refined = solve_modes(box.K, box.M, options);
+  EXPECT_LE(refined.residuals.maxCoeff(), options.max_residual);
+  EXPECT_GT(refined.solves, plain.solves);
+  const double scale = std::abs(plain.sigma);
+  for (int j = 0; j < 9; ++j) EXPECT_NEAR(refined.values[j], plain.values[j], 1e-9 * scale);
+  const MatrixXd mass = dense_symmetric(box.M);
+  const MatrixXd gram = refined.vectors.transpose() * mass * refined.vectors;
+  EXPECT_LT((gram - MatrixXd::Identity(9, 9)).cwiseAbs().maxCoeff(), 1e-10);
+  options.max_residual = 1e-30;
+  EXPECT_THROW(solve_modes(box.K, box.M, options), NumericsError);
+}
+
 TEST(Eigen, FreeChainHasItsClosedFormSpectrum) {
   const int n = 1000;
   const Pencil chain = free_chain(n);

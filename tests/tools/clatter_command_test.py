@@ -87,7 +87,8 @@ class Slap(unittest.TestCase):
                 self.assertAlmostEqual(height, 40.0 * np.exp(-0.139 / 0.9), delta=3.0)
                 # a quarter of the peak: .9 ms ln 4 after it; the window of the rms adds at most its length
                 self.assertAlmostEqual(slap.rung_out(time, values) * 1e3, 0.5 + 0.9 * np.log(4), delta=0.35)
-                self.assertLess(slap.high_share(field, sensor, at), 0.5)
+                # the tail of a decaying 1.8 kHz line above 2 kHz: some of its 40 m/s2, not all
+                self.assertTrue(0.5 < slap.high_rms(field, sensor, at) < 6.0)
 
 
 class Renderer(unittest.TestCase):

@@ -26,11 +26,11 @@ class TruckDiesel(unittest.TestCase):
             return dict(file["certificate"].attrs)
 
     def liner(self, run):
-        """(instant, height, end of the ringing, share above 2 kHz) of the liner's acceleration."""
+        """(instant, height, end of the ringing, rms above 2 kHz) of the liner's acceleration."""
         with h5py.File(self.folder / f"{run}.field.h5") as file:
             sensor = fields.pick_sensor(file, CYCLE, "liner")
             signal = slap.band_limited(file, sensor, CYCLE)
-            return (*slap.peak(*signal), slap.rung_out(*signal), slap.high_share(file, sensor, CYCLE))
+            return (*slap.peak(*signal), slap.rung_out(*signal), slap.high_rms(file, sensor, CYCLE))
 
     def levels(self, run, part):
         """Third octaves of the acceleration from 1 to 4 kHz [dB]."""
@@ -66,20 +66,22 @@ class TruckDiesel(unittest.TestCase):
 
     def test_lubricated_cycles_repeat(self):
         for run in LUBRICATED:
-            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], 5e-6)
+            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], 10e-6)
 
     def test_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
-        when, _, quiet, _ = self.liner("slap")
-        self.assertTrue(0.2e-3 <= when <= 0.6e-3, when)
-        self.assertTrue(1.5e-3 <= quiet - when <= 3.0e-3, quiet)
+        for run in LUBRICATED:
+            with self.subTest(run=run):
+                when, _, quiet, _ = self.liner(run)
+                self.assertTrue(0.2e-3 <= when <= 0.6e-3, when)
+                self.assertTrue(1.5e-3 <= quiet - when <= 3.0e-3, quiet)
 
-    def test_without_oil_it_is_louder_and_sounds_higher(self):
+    def test_without_oil_it_is_louder_and_has_more_high_frequency_content(self):
         for oil, dry in zip(LUBRICATED, DRY):
             with self.subTest(clearance=oil):
                 _, oil_height, _, oil_high = self.liner(oil)
                 _, dry_height, _, dry_high = self.liner(dry)
                 self.assertGreater(dry_height, 1.3 * oil_height)
-                self.assertGreater(dry_high, oil_high)
+                self.assertGreater(dry_high, 1.4 * oil_high)
                 for part in ("liner", "block"):
                     self.assertGreater((self.levels(dry, part) - self.levels(oil, part)).mean(), 2.0, part)
 

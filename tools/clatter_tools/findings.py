@@ -52,7 +52,7 @@ def run_row(run):
 
 
 FIELD_HEAD = ["slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]",
-              "liner above 2 kHz [%]", "ERP [dB(A) re 1 pW]"]
+              f"liner rms above {slap.HIGH_HZ / 1000:g} kHz [m/s²]", "ERP [dB(A) re 1 pW]"]
 
 
 def field_row(field):
@@ -64,7 +64,7 @@ def field_row(field):
         time, values = slap.band_limited(field, sensors["liner"], at)
         when, height = slap.peak(time, values)
         row[:3] = f"{when * 1e3:.2f}", f"{slap.rung_out(time, values) * 1e3:.2f}", f"{height:.3g}"
-        row[4] = f"{100 * slap.high_share(field, sensors['liner'], at):.0f}"
+        row[4] = f"{slap.high_rms(field, sensors['liner'], at):.3g}"
     if sensors["block"]:
         row[3] = f"{slap.peak(*slap.band_limited(field, sensors['block'], at))[1]:.3g}"
     panel = field[fields.panel(field, at, "exposed", "skin")]

@@ -46,8 +46,7 @@ def rung_out(time, values):
     return quiet[0] if len(quiet) else np.nan
 
 
-def high_share(field, sensor, at):
-    """Part of the band-limited energy around firing TDC that lies above HIGH_HZ, 0 to 1."""
-    energy = [np.sum(around_firing(*band_limited(field, sensor, at, from_hz))[1] ** 2)
-              for from_hz in (FROM_HZ, HIGH_HZ)]
-    return energy[1] / energy[0]
+def high_rms(field, sensor, at):
+    """Rms around firing TDC of what lies above HIGH_HZ [m/s2]."""
+    _, values = around_firing(*band_limited(field, sensor, at, HIGH_HZ))
+    return np.sqrt(np.mean(values**2))

@@ -16,6 +16,7 @@ struct Throw {
   double speed, fill, viscosity;
   ContactEffects effects;
 };
+void PrintTo(const Throw& shot, std::ostream* out) { *out << shot.name; }
 
 class Impact : public ::testing::TestWithParam<Throw> {};
 

@@ -21,6 +21,7 @@ struct Regime {
   double layer = INFINITY;  // oil on the liner [m]
   double viscosity = 0.01;  // [Pa s]; little, where asperities are to carry a share
 };
+void PrintTo(const Regime& regime, std::ostream* out) { *out << regime.name; }
 
 std::vector<bool> split_of(const PistonLiner& element) {
   std::vector<bool> split;
