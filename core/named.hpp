@@ -9,7 +9,8 @@
 
 namespace clatter {
 
-/// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., expected one of: ..." when absent.
+/// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., expected one of: ..." when
+/// there is none.
 template <class Map>
 const typename Map::mapped_type& find_named(const Map& map, const std::string& owner,
                                             const std::string& kind, const std::string& name) {

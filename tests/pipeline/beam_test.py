@@ -1,6 +1,7 @@
 """samples/beam through make: the answer, what is redone, the same bits twice."""
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -32,6 +33,12 @@ class Beam(unittest.TestCase):
                                 "step.field.h5"})
         self.assertIn("Timoshenko", output)
         print(output[output.index("  "):], file=sys.stderr)
+
+    def test_1_report_sums_up_a_folder_without_an_engine(self):
+        done = subprocess.run([stages.SOURCE / "tools/clatter", "report", self.folder], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for expected in ("beam", "7353", "step", "in all"):
+            self.assertIn(expected, done.stdout)
 
     def test_2_a_second_make_redoes_nothing(self):
         self.assertEqual(self.make()[1], set())

@@ -6,13 +6,21 @@ from .artefact import BadArtefact, dataset, text
 THRUST = np.array([0.0, 1.0, 0.0])
 
 
+def pieces(field):
+    """Names of the pieces that the file has; at least one."""
+    present = sorted(field["analysis"]) if "analysis" in field else []
+    if not present:
+        raise BadArtefact(f"{field.filename}: analysis: found nothing, expected a cycle or a window")
+    return present
+
+
 def piece(field, *wanted):
     """Path of the first of the wanted pieces that the file has: "analysis/ftdc"."""
-    present = sorted(field["analysis"]) if "analysis" in field else []
+    present = pieces(field)
     for name in wanted:
         if name in present:
             return f"analysis/{name}"
-    raise BadArtefact(f"{field.filename}: analysis: found {', '.join(present) or 'nothing'}, "
+    raise BadArtefact(f"{field.filename}: analysis: found {', '.join(present)}, "
                       f"expected {' or '.join(wanted)}")
 
 

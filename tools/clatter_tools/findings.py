@@ -39,8 +39,9 @@ def spread(run, name, scale, window):
 
 def run_row(run):
     """The cells of RUN_HEAD."""
-    angle = artefact.dataset(run, "history/crank_angle_deg")
-    window = last_cycle(angle)
+    window = slice(None)
+    if "history/crank_angle_deg" in run:
+        window = last_cycle(artefact.dataset(run, "history/crank_angle_deg"))
     gap = NOTHING
     if "history/film_min" in run:
         gap = f"{run['history/film_min'][()][window].min() * 1e6:.2f}"
@@ -57,8 +58,9 @@ FIELD_HEAD = ["slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", 
 
 def field_row(field):
     """The cells of FIELD_HEAD; peaks and times of accelerations above slap.FROM_HZ."""
-    at = fields.piece(field, "cycle")
-    sensors = {part: fields.pick_sensor(field, at, part) for part in ("liner", "block")}
+    pieces = fields.pieces(field)
+    at = f"analysis/{'cycle' if 'cycle' in pieces else pieces[0]}"
+    sensors = {part: fields.pick_sensor(field, at, part) if "cycle" in pieces else None for part in ("liner", "block")}
     row = [NOTHING] * 5
     if sensors["liner"]:
         time, values = slap.band_limited(field, sensors["liner"], at)
