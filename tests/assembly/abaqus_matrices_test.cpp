@@ -10,22 +10,12 @@
 
 #include "assembly/assemble.hpp"
 #include "small_solver.hpp"
+#include "tests/shared_data.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 using Entries = std::unordered_map<int64_t, double>;  // key 2^20 row + column, zero-based, lower
-
-/// The data lie in `shared` beside the source tree, or further up when the tree is a working copy
-/// in a folder of its own.
-std::filesystem::path data_folder() {
-  std::filesystem::path above = std::filesystem::path(CLATTER_SOURCE_DIR).parent_path();
-  for (int level = 0; level < 3; ++level, above = above.parent_path()) {
-    const std::filesystem::path folder = above / "shared" / "data" / "abaqus_beam";
-    if (std::filesystem::exists(folder)) return folder;
-  }
-  return "../shared/data/abaqus_beam";
-}
 
 std::vector<double> numbers_in(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -99,7 +89,7 @@ constexpr int kHeldNodes[] = {3, 4, 6, 7, 293, 395, 511, 512, 514};
 class AbaqusBeam : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::filesystem::path folder = data_folder();
+    const std::filesystem::path folder = test::shared_data("abaqus_beam");
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no reference data at " << folder;
     mesh_ = read_deck(folder / "abq_beam.inp");
     ASSERT_EQ(mesh_.nodes.rows(), 518);
@@ -116,12 +106,12 @@ class AbaqusBeam : public ::testing::Test {
 
 TEST_F(AbaqusBeam, StiffnessAgreesEntryByEntry) {
   // Abaqus takes four points too; its cells are straight to seven digits of the coordinates.
-  const Entries theirs = read_entries(data_folder() / "STIF1_coord_style.mtx");
+  const Entries theirs = read_entries(test::shared_data("abaqus_beam") / "STIF1_coord_style.mtx");
   EXPECT_LT(worst_difference(matrices_.K, theirs, held_), 1e-6);
 }
 
 TEST_F(AbaqusBeam, MassAgreesEntryByEntry) {
-  const Entries theirs = read_entries(data_folder() / "MASS1_coord_style.mtx");
+  const Entries theirs = read_entries(test::shared_data("abaqus_beam") / "MASS1_coord_style.mtx");
   EXPECT_LT(worst_difference(matrices_.M, theirs, std::vector<bool>(held_.size(), false)), 1e-6);
 }
 

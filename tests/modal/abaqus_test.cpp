@@ -7,6 +7,7 @@
 
 #include "modal/analysis.hpp"
 #include "tests/modal/spring_models.hpp"
+#include "tests/shared_data.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -25,9 +26,7 @@ SparseMatrix read_coordinates(const std::filesystem::path& path) {
 }
 
 TEST(AbaqusMatrices, TenFrequenciesOfTheBeamAreFound) {
-  const auto folder = std::filesystem::path(CLATTER_SOURCE_DIR) / ".." / "shared/data/abaqus_beam";
-  const auto elsewhere = std::filesystem::path("/work/shared/data/abaqus_beam");
-  const auto data = std::filesystem::exists(folder) ? folder : elsewhere;
+  const auto data = test::shared_data("abaqus_beam");
   if (!std::filesystem::exists(data)) GTEST_SKIP() << "no " << data;
   const SparseMatrix K = read_coordinates(data / "STIF1_coord_style.mtx");
   const SparseMatrix M = read_coordinates(data / "MASS1_coord_style.mtx");
