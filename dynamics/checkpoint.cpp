@@ -8,7 +8,8 @@
 namespace clatter::dynamics {
 
 std::string fingerprint(const Scene& scene) {
-  std::string text = scene.resolved;
+  // Another program may keep other states or step differently.
+  std::string text = sha256_of_file("/proc/self/exe") + "\n" + scene.resolved;
   for (const auto& input : scene.inputs) {
     if (input.extension() == ".toml") continue;  // its meaning is the configuration
     text += fmt::format("{} {}\n", input.filename().string(), sha256_of_file(input));

@@ -23,15 +23,15 @@ struct Checkpoint {
   StepStatistics statistics;
 };
 
-/// Text that must agree between a checkpoint and the scene that resumes from it: configuration and
-/// hashes of all inputs.
+/// Text that must agree between a checkpoint and the run that resumes from it: the program itself,
+/// configuration and hashes of all inputs.
 std::string fingerprint(const Scene& scene);
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point,
                       const std::string& fingerprint);
-/// Nothing when there is no such file or it belongs to another scene or other inputs; InputError when
-/// it cannot be read.
+/// Nothing when there is no such file or it belongs to another scene, other inputs or another
+/// program; InputError when it cannot be read.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
                                           const std::string& fingerprint);
 

@@ -1,5 +1,7 @@
 #include "dynamics/contact_table.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
 
 namespace clatter::dynamics {
@@ -29,7 +31,7 @@ void read_shape(const Config& table, film::SkirtShape& shape) {
   }
 }
 
-// [] when the key is absent; both keys or none.
+// Nothing when the keys are absent; both or none.
 void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
   const auto height = scaled(table.numbers_or("bore_height_mm", {}), kMilli);
   const auto widening = scaled(table.numbers_or("bore_widening_um", {}), kMicro);
@@ -41,7 +43,9 @@ void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
     if (k > 0 && !(height[k] > height[k - 1])) {
       table.fail("bore_height_mm", "expected ascending heights");
     }
-    if (!(widening[k] >= 0.0)) table.fail("bore_widening_um", "expected no value below 0");
+    if (!(widening[k] >= 0.0))
+      table.fail("bore_widening_um",
+                 fmt::format("found {:g}, expected no value below 0", widening[k] / kMicro));
   }
   bore.emplace();
   bore->angle = Eigen::VectorXd::Zero(1);

@@ -133,7 +133,8 @@ int run(const Arguments& a, const CommonOptions& common) {
   if (control.resume_from) {
     say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
   } else if (a.resume && std::filesystem::exists(checkpoint)) {
-    say(fmt::format("{} is of another scene or other inputs: starting anew", checkpoint.string()));
+    say(fmt::format("{} is of another scene, other inputs or another program: starting anew",
+                    checkpoint.string()));
   }
   std::signal(SIGINT, request_stop);
   const RunResult result = simulate(scene, bodies, control);

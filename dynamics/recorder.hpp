@@ -36,7 +36,7 @@ class UniformSamples {
   void take(const StageState& p, const StageState& n, double t);
   double begin_, step_;
   int count_ = 0;
-  int halves_ = 0;       // half intervals passed since begin
+  int halves_ = 0;          // half intervals passed since begin
   Eigen::VectorXd v_half_;  // v at the last half
   RowMatrix eta_, v_, a_;
 };

@@ -221,7 +221,8 @@ std::map<std::string, double> certify(const Mesh& mesh, const QualityReport& qua
   if (against_surface > kClosedTolerance || open > kClosedTolerance || inward > 0.0) {
     throw NumericsError(fmt::format(
         "mesh: the boundary is not closed and outward: volume differs by {:.3g}, |sum n dS| / area "
-        "= {:.3g}, {} inward normals: choose smaller elements or more per turn where walls are thin",
+        "= {:.3g}, {} inward normals: choose smaller elements or more per turn where walls are "
+        "thin",
         against_surface, open, inward));
   }
   return {{"cells", static_cast<double>(mesh.cell_count())},

@@ -48,7 +48,7 @@ struct LineRule {
 
 struct Options {
   std::string origin = "defaults";  // the file that says the following
-  std::string body;  // empty: "block", or the only reduced body of the run
+  std::string body;                 // empty: "block", or the only reduced body of the run
   Air air;
   LevelReferences references;
   SpectrumBand spectrum;

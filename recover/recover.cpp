@@ -107,8 +107,8 @@ Summary recover(const RunBody& body, const ReducedModel& model, const Options& o
     warn(body.rom_path().filename().string() +
          ": valid_to_hz is not stated: spectra are not checked against the basis");
   if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
-  summary.sensors = with_place(options.origin,
-                               [&] { return find_sensors(options.sensors, model, geometry); });
+  summary.sensors =
+      with_place(options.origin, [&] { return find_sensors(options.sensors, model, geometry); });
   const std::string origin = body.path().string();
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
   const FrameChoice frames = choose_frames(body.clock(), options, origin);
@@ -124,10 +124,9 @@ Summary recover(const RunBody& body, const ReducedModel& model, const Options& o
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
   const Analysis& first = summary.analyses.front();
-  const std::vector<ChosenLine> lines =
-      with_place(options.origin, [&] {
-        return choose_lines(options.lines, options.spectrum, first, summary.limit);
-      });
+  const std::vector<ChosenLine> lines = with_place(options.origin, [&] {
+    return choose_lines(options.lines, options.spectrum, first, summary.limit);
+  });
   for (const ChosenLine& line : lines)
     summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
   summary.certificate = certify(body, first, geometry, forms.front());

@@ -47,7 +47,7 @@ class Search {
   /// Solves for `count` modes until as many lie below `limit` as the proof says.
   void match_proof(int count);
   void keep_first(Index count);
-  void measure_residuals();
+  void measure_residuals(const SymmetricProduct& stiffness);
   /// One step of subspace iteration with Rayleigh-Ritz: what the factor weakens most, motion of
   /// high frequency left in the vectors, is what their residuals show most.
   void refine();
@@ -255,8 +255,7 @@ void Search::keep_first(Index count) {
   modes_.vectors.conservativeResize(n_, count);
 }
 
-void Search::measure_residuals() {
-  const SymmetricProduct stiffness(K_);
+void Search::measure_residuals(const SymmetricProduct& stiffness) {
   modes_.residuals.resize(modes_.size());
   for (Index j = 0; j < modes_.size(); ++j) {
     const VectorXd mass = mass_ * modes_.vectors.col(j);
@@ -280,12 +279,13 @@ void Search::refine() {
 }
 
 void Search::finish() {
-  measure_residuals();
+  const SymmetricProduct stiffness(K_);
+  measure_residuals(stiffness);
   for (int k = 0; k < kMaxRefinements && !small() && modes_.size() > 0 &&
                   !(modes_.residuals.maxCoeff() <= options_.max_residual);
        ++k) {
     refine();
-    measure_residuals();
+    measure_residuals(stiffness);
   }
   for (Index j = 0; j < modes_.size(); ++j) {
     if (!(modes_.residuals[j] <= options_.max_residual)) {

@@ -124,14 +124,16 @@ TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
 }
 
 TEST_F(Runs, AWiderBoreIsMoreClearance) {
-  const RunResult wide = run(scene("[contact]\nclearance_um = 15.0\nbore_height_mm = [0, 400]\n"
-                                   "bore_widening_um = [5, 5]\n"));
+  const RunResult wide =
+      run(scene("[contact]\nclearance_um = 15.0\nbore_height_mm = [0, 400]\n"
+                "bore_widening_um = [5, 5]\n"));
   const RunResult clear = run(scene("[contact]\nclearance_um = 20.0\n"));
   const auto &a = wide.recorder->samples().eta(), &b = clear.recorder->samples().eta();
   EXPECT_LT((a - b).norm(), 1e-6 * b.norm());
   // Wider at the top only: the piston must go further there.
-  const RunResult cone = run(scene("[contact]\nclearance_um = 20.0\nbore_height_mm = [145, 275]\n"
-                                   "bore_widening_um = [0, 20]\n"));
+  const RunResult cone =
+      run(scene("[contact]\nclearance_um = 20.0\nbore_height_mm = [145, 275]\n"
+                "bore_widening_um = [0, 20]\n"));
   EXPECT_GT((cone.recorder->samples().eta() - b).norm(), 1e-3 * b.norm());
 }
 
@@ -270,7 +272,7 @@ TEST_F(Runs, BadScenesAreRefusedInOneLine) {
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [1]\n"),
                   "contact.bore_widening_um: expected as many values as bore_height_mm"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [0, -1]\n"),
-                  "contact.bore_widening_um: expected no value below 0"));
+                  "contact.bore_widening_um: found -1, expected no value below 0"));
   EXPECT_TRUE(has(refusal("[contact]\nlubricaton = \"none\"\n"), "did you mean lubrication?"));
   EXPECT_TRUE(has(refusal("[piston]\npin = \"pinn\"\n"), "pinn"));
   EXPECT_TRUE(has(refusal("[piston]\ngas_load = \"fire\"\n"), "no unit load \"fire\", found: gas"));
