@@ -2,6 +2,7 @@
 // A finite element mesh of one part: nodes, cells by region, named surfaces and node sets.
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,21 +16,34 @@ struct CellBlock {
   CellType type = CellType::kTet10;
   int32_t region = 0;  // index into Mesh::regions
   IndexMatrix nodes;   // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
+  std::vector<int32_t> ids;  // what the imported file calls them; empty: no numbers of their own
 };
 
-/// Boundary triangles of the solid, each a face of exactly one cell or of two in different regions.
+/// Faces of one type.
+struct FaceBlock {
+  FaceType type = FaceType::kTri6;
+  IndexMatrix nodes;  // faces x nodes per face, order of cell.hpp, outward
+};
+
+/// Boundary faces of the solid, each a face of exactly one cell or of two in different regions.
 struct Surface {
-  IndexMatrix triangles;  // f x 6 (f x 3 for a linear mesh), Gmsh order, outward orientation
+  std::vector<FaceBlock> faces;  // each type at most once
+
+  int64_t face_count() const;
+  /// Adds one face; `face` has at least as many entries as the type has nodes.
+  void add(FaceType type, std::span<const int32_t> face);
 };
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {
   std::string name;
   RowMatrix nodes;                   // n x 3 [m]
+  std::vector<int32_t> node_ids;     // what the imported file calls them; empty: index + 1
   std::vector<std::string> regions;  // names; a region is what gets one material
   std::vector<CellBlock> cells;
   std::map<std::string, Surface> surfaces;
   std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
+  std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
 
   int64_t cell_count() const;
   /// InputError that lists the names present when there is none of that name.
@@ -37,7 +51,7 @@ struct Mesh {
   const std::vector<int32_t>& node_set(const std::string& set_name) const;
 };
 
-/// Nodes that the triangles use, ascending.
+/// Nodes that the faces use, ascending.
 std::vector<int32_t> nodes_of(const Surface& surface);
 
 /// Checks sizes, index ranges, finite coordinates and that every node belongs to a cell.

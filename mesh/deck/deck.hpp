@@ -1,0 +1,172 @@
+#pragma once
+// What a Nastran or Abaqus/CalculiX deck says beside its mesh, in one form for both.
+//
+// Readers keep the deck's own units; convert_units() (units.hpp) brings everything to SI at once.
+// recipe.hpp writes it down as the fe.toml of the next stage, so that the user sees all that was
+// understood. What is not understood is an error with file and line, never dropped.
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace clatter::mesh::deck {
+
+/// A node that belongs to no cell: reference node of couplings and masses, six DoFs.
+struct Point {
+  int32_t id = 0;      // number in the deck
+  Eigen::Vector3d at;  // basic frame
+};
+
+/// Nodes and points in one numbering: 0 ... n_nodes - 1 are nodes of the mesh, n_nodes + p is
+/// Deck::points[p].
+using Place = int32_t;
+
+/// Directions x y z rx ry rz as bits 0 to 5.
+using DofMask = uint8_t;
+inline constexpr DofMask kTranslations = 0b000111, kAllDofs = 0b111111;
+
+/// A coordinate system other than the basic one. Columns of `axes` are its x, y, z (for the curved
+/// ones: zero angle, second axis, axis of revolution).
+struct System {
+  enum class Kind { kRectangular, kCylindrical, kSpherical };
+  std::string name, where;
+  Kind kind = Kind::kRectangular;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// Linear elastic material. Constants by kind:
+///   isotropic    E, nu
+///   orthotropic  E1, E2, E3, nu12, nu13, nu23, G12, G13, G23  (nu12/E1 = nu21/E2)
+///   anisotropic  21 of the symmetric 6 x 6 matrix of stresses 11 22 33 12 23 31 to engineering
+///                strains in that order, upper triangle row by row: C11 C12 ... C16 C22 ... C66
+struct Material {
+  enum class Kind { kIsotropic, kOrthotropic, kAnisotropic };
+  std::string name, where;
+  Kind kind = Kind::kIsotropic;
+  std::vector<double> constants;
+  double density = 0.0;           // 0: the deck has none
+  std::vector<double> expansion;  // 1 (isotropic), 3 (along the axes) or none [1/K]
+  double reference_temperature = 0.0;
+};
+
+/// How a cell type of a region is integrated, where the deck says so.
+enum class Formulation { kDefault, kFull, kReduced, kIncompatible };
+
+/// Beside each of Mesh::regions.
+struct Region {
+  std::string material;  // name of a Material
+  std::string system;    // axes of the material; empty: basic
+  std::string where;
+  std::map<CellType, Formulation> formulation;
+};
+
+/// RBE2, kinematic coupling, rigid body: `dofs` of the dependents follow the reference.
+struct Rigid {
+  std::string name, where;
+  Place reference = 0;
+  DofMask dofs = kAllDofs;  // rotations count on points only
+  std::vector<Place> dependents;
+};
+
+/// RBE3, distributing coupling: the reference follows the weighted mean of the others.
+struct Distributing {
+  struct Term {
+    double weight = 1.0;
+    DofMask dofs = kTranslations;
+    std::vector<Place> places;
+  };
+  std::string name, where;
+  Place reference = 0;
+  DofMask dofs = kAllDofs;  // of the reference
+  std::vector<Term> terms;  // by weight; or
+  std::string surface;      // weights are the areas of this surface
+};
+
+struct Tie {
+  std::string name, where;
+  std::string slave, master;  // surfaces of the mesh
+  double distance = -1.0;     // largest gap that is still tied; < 0: default of the assembler
+};
+
+/// sum coefficient * u = 0, or *EQUATION / MPC.
+struct Equation {
+  struct Term {
+    Place place = 0;
+    int direction = 0;  // 0 to 5
+    double coefficient = 0.0;
+  };
+  std::string where;
+  std::vector<Term> terms;  // the first one is the dependent
+};
+
+struct Mass {
+  std::string where;
+  Place place = 0;
+  double mass = 0.0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the mass's own centre, basic axes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // centre minus place, basic axes
+};
+
+/// Displacements held at zero, or in a step at a value.
+struct Support {
+  std::string name, where;
+  std::vector<Place> places;
+  DofMask dofs = kTranslations;
+  std::string system;  // directions; empty: basic
+  double value = 0.0;  // displacement, or rotation [rad]
+};
+
+/// One step or subcase.
+struct Step {
+  struct NodalForce {
+    Place place = 0;
+    int direction = 0;  // 0 to 5
+    double value = 0.0;
+    std::string system;  // of the direction; empty: basic
+  };
+  struct Pressure {
+    std::string surface;  // of the mesh; positive pushes on it
+    double value = 0.0;
+  };
+  enum class Kind { kStatic, kFrequency, kNone };
+  std::string name, where;
+  Kind kind = Kind::kNone;
+  int modes = 0;                  // frequency steps: how many
+  std::vector<Support> supports;  // of this step
+  std::vector<NodalForce> forces;
+  std::vector<Pressure> pressures;
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // body force per mass (gravity)
+  std::string temperature;  // field of the mesh, n x 1, temperature; empty: no thermal load
+};
+
+/// Everything. Mesh::regions and `regions` go in step; nodes without cells stand in `points` only.
+struct Deck {
+  Mesh mesh;
+  std::vector<std::string> files;  // the deck and all that it includes
+  std::vector<Point> points;
+  std::map<std::string, std::vector<Place>> sets;  // node sets that hold points too
+  std::map<std::string, System> systems;
+  std::map<std::string, Material> materials;
+  std::vector<Region> regions;
+  std::vector<Rigid> rigid;
+  std::vector<Distributing> distributing;
+  std::vector<Tie> ties;
+  std::vector<Equation> equations;
+  std::vector<Mass> masses;
+  std::vector<Support> supports;  // of the whole model
+  std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)
+  std::vector<Step> steps;
+  std::map<std::string, int64_t> ignored;  // what the user let go, with how often it came
+};
+
+/// How to read a deck.
+struct ReadOptions {
+  std::vector<std::string> ignore;  // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
+};
+
+}  // namespace clatter::mesh::deck
