@@ -54,8 +54,7 @@ class Builder {
 const SurfaceIntegrals& Builder::surface(const std::string& name) {
   auto found = surfaces_.find(name);
   if (found == surfaces_.end())
-    found = surfaces_.emplace(name, integrate_surface(mesh_.nodes, mesh_.surface(name).triangles))
-                .first;
+    found = surfaces_.emplace(name, integrate_surface(mesh_.nodes, mesh_.surface(name))).first;
   return found->second;
 }
 
@@ -254,7 +253,7 @@ void Builder::run(StepClock& clock) {
   model.nodes = mesh_.nodes;
   model.alpha = recipe_.damping.alpha;
   model.beta = recipe_.damping.beta;
-  for (const auto& [name, surface] : mesh_.surfaces) model.surfaces[name] = surface.triangles;
+  model.surfaces = mesh_.surfaces;
 
   const NodePattern pattern = node_pattern(mesh_);
   clock.lap("pattern");

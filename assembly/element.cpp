@@ -5,41 +5,51 @@
 #include <limits>
 #include <vector>
 
-#include "assembly/quadrature.hpp"
-#include "assembly/shape.hpp"
-#include "mesh/cell.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
 
 namespace clatter::assembly {
 namespace {
 
+using mesh::CellRule;
+
 constexpr double kStraightTolerance = 1e-10;  // of an edge; the error made below it is as small
+
+template <int N>
+struct ShapeAt {
+  Eigen::Matrix<double, N, 1> value;
+  Eigen::Matrix<double, N, 3> gradient;
+};
 
 /// Shape functions at the points of a rule, computed once per program.
 template <int N>
 struct ShapeTable {
-  std::vector<ShapeAt<N, 3>> at;
+  std::vector<ShapeAt<N>> at;
   Eigen::VectorXd weights;
 };
 
 template <int N>
-ShapeTable<N> tabulate(const TetRule& rule) {
+ShapeTable<N> tabulate(const CellRule& rule) {
+  constexpr mesh::CellType kType = N == 4 ? mesh::CellType::kTet4 : mesh::CellType::kTet10;
   ShapeTable<N> table;
   table.weights = rule.weights;
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-    table.at.push_back(tet_shape<N>(rule.points.row(q).transpose()));
+  for (const auto& point : rule.points.rowwise()) {
+    const mesh::CellShape shape = mesh::cell_shape(kType, point.transpose());
+    table.at.push_back({shape.value, shape.gradient});
+  }
   return table;
 }
 
 template <int N>
 const ShapeTable<N>& stiffness_table(bool straight) {
-  static const ShapeTable<N> simple = tabulate<N>(N == 4 ? tet_rule_1() : tet_rule_4());
-  static const ShapeTable<N> curved = tabulate<N>(tet_rule_14());
+  static const ShapeTable<N> simple = tabulate<N>(N == 4 ? mesh::tet_rule_1() : mesh::tet_rule_4());
+  static const ShapeTable<N> curved = tabulate<N>(mesh::tet_rule_14());
   return straight ? simple : curved;
 }
 
 template <int N>
 const ShapeTable<N>& mass_table() {
-  static const ShapeTable<N> table = tabulate<N>(tet_rule_64());
+  static const ShapeTable<N> table = tabulate<N>(mesh::tet_rule_64());
   return table;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/artefact.hpp"
 #include "core/error.hpp"
+#include "mesh/mesh_file.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -41,16 +42,6 @@ void check_lower(const H5File& file, const std::string& place, const SparseMatri
       refuse(file, fmt::format("{}, column {}", place, j),
              fmt::format("diagonal {:g}", entry.value()), "a positive number");
   }
-}
-
-void check_triangles(const H5File& file, const std::string& place, const IndexMatrix& triangles,
-                     Eigen::Index n_nodes) {
-  if (triangles.cols() != 6 && triangles.cols() != 3)
-    refuse(file, place, fmt::format("{} columns", triangles.cols()), "6 or 3");
-  if (triangles.size() == 0) return;
-  if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= n_nodes)
-    refuse(file, place, fmt::format("nodes {} to {}", triangles.minCoeff(), triangles.maxCoeff()),
-           fmt::format("0 to {}", n_nodes - 1));
 }
 
 void check_matrices(const H5File& file, const FeModel& model) {
@@ -105,8 +96,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
     const auto unit = model.load_units.find(load);
     file.set("loads/" + load, "unit", unit == model.load_units.end() ? "1" : unit->second);
   }
-  for (const auto& [surface, triangles] : model.surfaces)
-    file.write("surfaces/" + surface, triangles);
+  mesh::write_surfaces(file, model.surfaces);
   write_mass_properties(file, model.mass);
 }
 
@@ -128,11 +118,7 @@ FeModel read_fe_model(const std::filesystem::path& path) {
            "numbers not below zero");
   read_dof_sets(file, model.size(), model.sets, model.grids);
   read_loads(file, model);
-  for (const std::string& surface : file.list("surfaces")) {
-    IndexMatrix triangles = file.read_index_matrix("surfaces/" + surface);
-    check_triangles(file, "surfaces/" + surface, triangles, model.nodes.rows());
-    model.surfaces[surface] = std::move(triangles);
-  }
+  model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
   model.mass = read_mass_properties(file);
   return model;
 }

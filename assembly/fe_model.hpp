@@ -1,7 +1,8 @@
 #pragma once
-// The assembled model of one part and its file, schema "clatter/fe/1":
+// The assembled model of one part and its file, schema "clatter/fe/2":
 //   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group
-//   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>, mass/.
+//   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face type>,
+//   mass/.
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
@@ -10,10 +11,11 @@
 #include "core/h5_file.hpp"
 #include "core/reduced_model.hpp"
 #include "core/sparse.hpp"
+#include "mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
-inline constexpr const char* kFeSchema = "clatter/fe/1";
+inline constexpr const char* kFeSchema = "clatter/fe/2";
 
 /// The linear elastic model of one part after its couplings and supports were eliminated:
 ///   M q'' + (alpha K + beta M) q' + K q = f,   u = T q.
@@ -32,7 +34,7 @@ struct FeModel {
   std::map<std::string, DofSet> sets;             // what stays visible: contacts, bearings, sensors
   std::map<std::string, ContactGrid> grids;       // keyed like their set
   std::map<std::string, Eigen::VectorXd> loads;   // n, forces of unit load cases
-  std::map<std::string, IndexMatrix> surfaces;    // f x 6 (f x 3 for tet4), outward
+  std::map<std::string, mesh::Surface> surfaces;  // outward
   MassProperties mass;                            // of the elements and point masses
   std::map<std::string, std::string> load_units;  // "gas" -> "Pa": what one unit of the load is
 

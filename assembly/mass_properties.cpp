@@ -2,40 +2,43 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "assembly/element.hpp"
-#include "assembly/quadrature.hpp"
-#include "assembly/shape.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
+#include "mesh/validity.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-template <int N>
-std::vector<ShapeAt<N, 3>> shapes_at(const TetRule& rule) {
-  std::vector<ShapeAt<N, 3>> shapes;
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-    shapes.push_back(tet_shape<N>(rule.points.row(q).transpose()));
-  return shapes;
+/// A rule that integrates x x^T det J exactly: det J has at most the degrees that
+/// cube_bernstein.cpp lists, x adds its own twice.
+const mesh::CellRule& moment_rule(mesh::CellType type) {
+  switch (mesh::traits(type).corners) {
+    case 4:
+      return mesh::tet_rule_64();
+    case 8:
+      return mesh::hex_rule(5);
+    case 6:
+      return mesh::wedge_rule(16, 5);
+    default:
+      return mesh::pyramid_rule(5);
+  }
 }
 
-template <int N>
 void add_block(const mesh::Mesh& mesh, const mesh::CellBlock& block, double density,
                MassMoments& sum) {
-  // x x^T has degree 2 on a straight cell, 4 with det J of degree 3 on a curved one.
-  static const std::vector<ShapeAt<N, 3>> straight = shapes_at<N>(tet_rule_4());
-  static const std::vector<ShapeAt<N, 3>> curved = shapes_at<N>(tet_rule_64());
+  const mesh::CellRule& rule = moment_rule(block.type);
+  std::vector<mesh::CellShape> shapes;
+  for (const auto& point : rule.points.rowwise())
+    shapes.push_back(mesh::cell_shape(block.type, point.transpose()));
   for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-    CellNodes<N> x;
-    for (int a = 0; a < N; ++a) x.row(a) = mesh.nodes.row(block.nodes(c, a));
-    const bool simple = is_straight<N>(x);
-    const std::vector<ShapeAt<N, 3>>& shapes = simple ? straight : curved;
-    const Eigen::VectorXd& weights = simple ? tet_rule_4().weights : tet_rule_64().weights;
+    const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);
     for (size_t q = 0; q < shapes.size(); ++q) {
       const Eigen::Vector3d at = x.transpose() * shapes[q].value;
-      const double dm = density * weights(static_cast<Eigen::Index>(q)) *
-                        (x.transpose() * shapes[q].gradient).determinant();
+      const Eigen::Matrix3d J = x.transpose() * shapes[q].gradient;
+      const double dm = density * rule.weights(static_cast<Eigen::Index>(q)) * J.determinant();
       sum.mass += dm;
       sum.first += dm * at;
       sum.second += dm * at * at.transpose();
@@ -53,10 +56,7 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<Material>& 
   MassMoments sum;
   for (const mesh::CellBlock& block : mesh.cells) {
     const double density = materials.at(static_cast<size_t>(block.region)).density;
-    if (block.type == mesh::CellType::kTet4)
-      add_block<4>(mesh, block, density, sum);
-    else
-      add_block<10>(mesh, block, density, sum);
+    add_block(mesh, block, density, sum);
   }
   return sum;
 }

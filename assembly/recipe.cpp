@@ -89,7 +89,7 @@ std::string Reader::surface(const Config& table) const {
   const std::string name = table.text("surface");
   if (!mesh_.surfaces.contains(name))
     fail_unknown(table, "surface", name, names_of(mesh_.surfaces));
-  if (mesh_.surfaces.at(name).triangles.rows() == 0)
+  if (mesh_.surfaces.at(name).face_count() == 0)
     table.fail("surface", fmt::format("found \"{}\" without faces, expected some", name));
   return name;
 }

@@ -1,10 +1,11 @@
 #pragma once
-// Integrals of shape functions over a surface of linear or quadratic triangles.
+// Integrals of shape functions over a surface.
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "core/h5_file.hpp"
+#include "mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
@@ -17,9 +18,9 @@ struct SurfaceIntegrals {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // [m]
 };
 
-/// `coordinates` n x 3 [m]; `triangles` f x 6 or f x 3. The corner nodes of a flat quadratic
-/// triangle get w = 0 and its middles a third of the area each: this is what reproduces a constant
-/// pressure exactly.
-SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const IndexMatrix& triangles);
+/// `coordinates` n x 3 [m]. The corner nodes of a flat quadratic triangle get w = 0 and its middles
+/// a third of the area each, the corners of a flat 8-node square -1/12 and its middles 1/3: this is
+/// what reproduces a constant pressure exactly.
+SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const mesh::Surface& surface);
 
 }  // namespace clatter::assembly

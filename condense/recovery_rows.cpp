@@ -1,61 +1,10 @@
 #include "condense/recovery_rows.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-
-#include "core/error.hpp"
+#include "condense/skin_faces.hpp"
 #include "core/threads.hpp"
 
 namespace clatter::condense {
 namespace {
-
-const IndexMatrix& quadratic_surface(const assembly::FeModel& model, const std::string& name) {
-  const auto found = model.surfaces.find(name);
-  if (found == model.surfaces.end()) {
-    std::vector<std::string> present;
-    for (const auto& [key, value] : model.surfaces) present.push_back(key);
-    throw InputError(fmt::format("{}: skin: found surface \"{}\", expected one of: {}", model.name,
-                                 name, fmt::join(present, ", ")));
-  }
-  if (found->second.cols() != 6) {
-    throw InputError(
-        fmt::format("{}: skin: surface \"{}\" has linear triangles, expected quadratic "
-                    "ones (tet10)",
-                    model.name, name));
-  }
-  return found->second;
-}
-
-/// Triangles of all surfaces in model node numbers, each face once.
-IndexMatrix join_surfaces(const assembly::FeModel& model, const std::vector<std::string>& names) {
-  std::set<std::array<int32_t, 3>> seen;
-  std::vector<Eigen::Matrix<int32_t, 1, 6>> rows;
-  for (const std::string& name : names) {
-    for (const auto& triangle : quadratic_surface(model, name).rowwise()) {
-      std::array<int32_t, 3> corners = {triangle[0], triangle[1], triangle[2]};
-      std::sort(corners.begin(), corners.end());
-      if (seen.insert(corners).second) rows.emplace_back(triangle);
-    }
-  }
-  IndexMatrix joined(static_cast<Eigen::Index>(rows.size()), 6);
-  for (size_t f = 0; f < rows.size(); ++f) joined.row(static_cast<Eigen::Index>(f)) = rows[f];
-  return joined;
-}
-
-/// Replaces model node numbers by places in the returned ascending list.
-std::vector<int32_t> renumber(IndexMatrix& triangles) {
-  std::vector<int32_t> nodes(triangles.data(), triangles.data() + triangles.size());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  for (int32_t& node : triangles.reshaped()) {
-    node = static_cast<int32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-  }
-  return nodes;
-}
 
 /// V(dof, :) for each model DoF without forming V: where the row stands, and in which block.
 class BasisRows {
@@ -80,15 +29,16 @@ class BasisRows {
 };
 
 RowMatrix recovery_matrix(const assembly::FeModel& model, const DofPartition& partition,
-                          const ReducedBasis& basis, const std::vector<int32_t>& nodes) {
+                          const ReducedBasis& basis, const std::vector<SkinPoint>& points) {
   const BasisRows rows(partition, basis);
   const Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t> by_row = model.T;
-  RowMatrix out = RowMatrix::Zero(3 * static_cast<Eigen::Index>(nodes.size()), basis.size());
+  RowMatrix out = RowMatrix::Zero(3 * static_cast<Eigen::Index>(points.size()), basis.size());
   parallel_pieces(out.rows(), [&](int64_t begin, int64_t end) {
     for (int64_t row = begin; row < end; ++row) {
-      const int64_t source = 3 * int64_t{nodes[static_cast<size_t>(row / 3)]} + row % 3;
       using Iterator = Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t>::InnerIterator;
-      for (Iterator it(by_row, source); it; ++it) rows.add(it.col(), it.value(), out.row(row));
+      for (const auto& [node, weight] : points[static_cast<size_t>(row / 3)])
+        for (Iterator it(by_row, 3 * int64_t{node} + row % 3); it; ++it)
+          rows.add(it.col(), weight * it.value(), out.row(row));
     }
   });
   return out;
@@ -100,10 +50,13 @@ Skin recover_skin(const assembly::FeModel& model, const DofPartition& partition,
                   const ReducedBasis& basis, const std::vector<std::string>& surfaces) {
   Skin skin;
   if (surfaces.empty()) return skin;
-  skin.triangles = join_surfaces(model, surfaces);
-  const std::vector<int32_t> nodes = renumber(skin.triangles);
-  skin.nodes = model.nodes(nodes, Eigen::all);
-  skin.T = recovery_matrix(model, partition, basis, nodes);
+  SkinFaces faces = skin_faces(model, surfaces);
+  skin.triangles.swap(faces.triangles);
+  skin.nodes = RowMatrix::Zero(static_cast<Eigen::Index>(faces.points.size()), 3);
+  for (size_t p = 0; p < faces.points.size(); ++p)
+    for (const auto& [node, weight] : faces.points[p])
+      skin.nodes.row(static_cast<Eigen::Index>(p)) += weight * model.nodes.row(node);
+  skin.T = recovery_matrix(model, partition, basis, faces.points);
   return skin;
 }
 

@@ -8,9 +8,9 @@
 
 namespace clatter::condense {
 
-/// Joins the named surfaces of the model into one skin with its own node numbers and the rows
-/// T_skin = T(skin nodes, :) V that recover it. A face that stands in two of them is taken once.
-/// InputError for an unknown surface, or one of linear triangles.
+/// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp) and
+/// the rows T_skin = T(skin nodes, :) V that recover it. A face that stands in two of them is taken
+/// once. InputError for an unknown surface.
 Skin recover_skin(const assembly::FeModel& model, const DofPartition& partition,
                   const ReducedBasis& basis, const std::vector<std::string>& surfaces);
 

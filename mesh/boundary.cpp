@@ -1,132 +1,166 @@
 #include "mesh/boundary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
 #include "mesh/validity.hpp"
 
 namespace clatter::mesh {
 namespace {
 
-struct Face {
+// Where a face stands; its nodes are looked up when needed, since there are many faces.
+struct FacePlace {
   FaceKey key;
-  std::array<int32_t, 6> nodes;
+  int32_t block, cell, face;
 };
 
-std::vector<Face> all_faces(const Mesh& mesh) {
-  std::vector<Face> faces;
-  faces.reserve(static_cast<size_t>(4 * mesh.cell_count()));
-  for (const CellBlock& block : mesh.cells) {
-    const int per_face = traits(block.type).face_nodes;
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      for (const auto& local : kTetFaces) {
-        Face face{{}, {-1, -1, -1, -1, -1, -1}};
-        for (int i = 0; i < per_face; ++i) face.nodes[i] = block.nodes(c, local[i]);
-        face.key = face_key(face.nodes[0], face.nodes[1], face.nodes[2]);
-        faces.push_back(face);
+BoundaryFace face_at(const Mesh& mesh, const FacePlace& place) {
+  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
+  const CellFace& local = traits(block.type).faces[static_cast<size_t>(place.face)];
+  BoundaryFace face{local.type, {}, place.block, place.cell};
+  face.ids.fill(-1);
+  for (size_t i = 0; i < static_cast<size_t>(traits(local.type).nodes); ++i)
+    face.ids[i] = block.nodes(place.cell, local.nodes[i]);
+  return face;
+}
+
+std::vector<FacePlace> all_faces(const Mesh& mesh) {
+  std::vector<FacePlace> faces;
+  int64_t count = 0;
+  for (const CellBlock& block : mesh.cells)
+    count += block.nodes.rows() * static_cast<int64_t>(traits(block.type).faces.size());
+  faces.reserve(static_cast<size_t>(count));
+  for (size_t b = 0; b < mesh.cells.size(); ++b) {
+    const auto n_faces = static_cast<int32_t>(traits(mesh.cells[b].type).faces.size());
+    for (Eigen::Index c = 0; c < mesh.cells[b].nodes.rows(); ++c)
+      for (int32_t f = 0; f < n_faces; ++f) {
+        FacePlace place{{}, static_cast<int32_t>(b), static_cast<int32_t>(c), f};
+        const BoundaryFace face = face_at(mesh, place);
+        place.key = face_key(face.type, face.nodes());
+        faces.push_back(place);
       }
-    }
   }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::sort(faces.begin(), faces.end(),
+            [](const FacePlace& a, const FacePlace& b) { return a.key < b.key; });
   return faces;
 }
 
-// Quadrature exact to degree 4 on the triangle: n is of degree 2 and so is x; x . n needs 4.
-// Source: Dunavant, Int. J. Numer. Meth. Engng 21 (1985), table II, p = 4.
-struct TrianglePoint {
-  double l1, l2, weight;  // weights sum to 1/2
-};
-constexpr double kA = 0.445948490915965, kB = 0.091576213509771;
-constexpr double kWa = 0.111690794839005, kWb = 0.054975871827661;
-constexpr std::array<TrianglePoint, 6> kTrianglePoints = {{{kA, kA, kWa},
-                                                           {1 - 2 * kA, kA, kWa},
-                                                           {kA, 1 - 2 * kA, kWa},
-                                                           {kB, kB, kWb},
-                                                           {1 - 2 * kB, kB, kWb},
-                                                           {kB, 1 - 2 * kB, kWb}}};
+// "cell 12 (tet10)"
+std::string name_of(const Mesh& mesh, const FacePlace& place) {
+  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
+  return fmt::format("cell {} ({})", cell_label(block, place.cell), traits(block.type).name);
+}
 
-using TriangleNodes = Eigen::Matrix<double, 6, 3>;
+std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
+  std::vector<int32_t> labels;
+  for (const int32_t node : key)
+    if (node >= 0)
+      labels.push_back(mesh.node_ids.empty() ? node : mesh.node_ids[static_cast<size_t>(node)]);
+  return labels;
+}
 
-TriangleNodes triangle_nodes(const Mesh& mesh, const Surface& surface, Eigen::Index f) {
-  TriangleNodes x;
-  const auto columns = surface.triangles.cols();
-  for (Eigen::Index i = 0; i < columns; ++i) x.row(i) = mesh.nodes.row(surface.triangles(f, i));
-  if (columns == 3) {
-    for (int e = 0; e < 3; ++e) {
-      const auto [a, b] = kTriangleEdges[e];
-      x.row(3 + e) = 0.5 * (x.row(a) + x.row(b));
-    }
-  }
+void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b) {
+  const auto sorted = [&](const FacePlace& place) {
+    std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, place).ids;
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  };
+  if (sorted(a) == sorted(b)) return;
+  throw InputError(fmt::format(
+      "mesh '{}': {} and {} share the face with corners {} but not its middle nodes, expected the "
+      "same nodes on both sides",
+      mesh.name, name_of(mesh, a), name_of(mesh, b), fmt::join(corner_labels(mesh, a.key), ", ")));
+}
+
+using FaceNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxFaceNodes, 3>;
+
+template <class Ids>
+FaceNodes face_nodes(const Mesh& mesh, const Ids& ids) {
+  FaceNodes x(static_cast<Eigen::Index>(ids.size()), 3);
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    x.row(i) = mesh.nodes.row(ids[static_cast<size_t>(i)]);
   return x;
 }
 
-struct PointOnTriangle {
+std::span<const int32_t> row_of(const IndexMatrix& faces, Eigen::Index f) {
+  return {faces.data() + f * faces.cols(), static_cast<size_t>(faces.cols())};
+}
+
+struct PointOnFace {
   Eigen::Vector3d x, normal;  // normal = dx/dl1 x dx/dl2, not scaled
 };
 
-PointOnTriangle evaluate(const TriangleNodes& nodes, double l1, double l2) {
-  const double l0 = 1.0 - l1 - l2;
-  Eigen::Matrix<double, 1, 6> n, d1, d2;
-  n << l0 * (2 * l0 - 1), l1 * (2 * l1 - 1), l2 * (2 * l2 - 1), 4 * l0 * l1, 4 * l1 * l2,
-      4 * l2 * l0;
-  d1 << 1 - 4 * l0, 4 * l1 - 1, 0, 4 * (l0 - l1), 4 * l2, -4 * l2;
-  d2 << 1 - 4 * l0, 0, 4 * l2 - 1, -4 * l1, 4 * l1, 4 * (l0 - l2);
-  const Eigen::Vector3d t1 = (d1 * nodes).transpose(), t2 = (d2 * nodes).transpose();
-  return {(n * nodes).transpose(), t1.cross(t2)};
+PointOnFace evaluate(const FaceNodes& nodes, const FaceShape& shape) {
+  const Eigen::Matrix<double, 3, 2> tangent = nodes.transpose() * shape.gradient;
+  return {nodes.transpose() * shape.value, tangent.col(0).cross(tangent.col(1))};
+}
+
+void add_faces(const Mesh& mesh, const FaceBlock& block, SurfaceIntegrals& sum) {
+  const FaceRule& rule = face_rule(block.type);
+  std::vector<FaceShape> shapes;
+  for (const auto& point : rule.points.rowwise())
+    shapes.push_back(face_shape(block.type, point.transpose()));
+  for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+    const FaceNodes nodes = face_nodes(mesh, row_of(block.nodes, f));
+    for (size_t q = 0; q < shapes.size(); ++q) {
+      const PointOnFace p = evaluate(nodes, shapes[q]);
+      const double weight = rule.weights(static_cast<Eigen::Index>(q));
+      const double dS = weight * p.normal.norm();
+      sum.area += dS;
+      sum.centre += dS * p.x;
+      sum.normal += weight * p.normal;
+      sum.enclosed += weight * p.x.dot(p.normal) / 3.0;
+    }
+  }
 }
 
 }  // namespace
 
-FaceKey face_key(int32_t a, int32_t b, int32_t c) {
-  FaceKey key = {a, b, c};
-  std::sort(key.begin(), key.end());
+FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
+  FaceKey key = {-1, -1, -1, -1};
+  const auto corners = static_cast<size_t>(traits(type).corners);
+  for (size_t i = 0; i < corners; ++i) key[4 - corners + i] = nodes[i];
+  std::sort(key.end() - static_cast<std::ptrdiff_t>(corners), key.end());
   return key;
 }
 
 BoundaryFaces boundary_faces(const Mesh& mesh) {
-  const std::vector<Face> faces = all_faces(mesh);
+  const std::vector<FacePlace> faces = all_faces(mesh);
   BoundaryFaces boundary;
   for (size_t i = 0; i < faces.size();) {
     size_t end = i + 1;
     while (end < faces.size() && faces[end].key == faces[i].key) ++end;
     if (end - i > 2) {
-      throw NumericsError(fmt::format("face with corners {}, {}, {} belongs to {} cells",
-                                      faces[i].key[0], faces[i].key[1], faces[i].key[2], end - i));
+      throw InputError(fmt::format(
+          "mesh '{}': the face with corners {} belongs to {} cells, "
+          "expected at most two: {}, {}, {}",
+          mesh.name, fmt::join(corner_labels(mesh, faces[i].key), ", "), end - i,
+          name_of(mesh, faces[i]), name_of(mesh, faces[i + 1]), name_of(mesh, faces[i + 2])));
     }
-    if (end - i == 1) boundary.emplace_hint(boundary.end(), faces[i].key, faces[i].nodes);
+    if (end - i == 1)
+      boundary.emplace_hint(boundary.end(), faces[i].key, face_at(mesh, faces[i]));
+    else
+      require_same_nodes(mesh, faces[i], faces[i + 1]);
     i = end;
   }
   return boundary;
 }
 
-Surface skin_of(const Mesh& mesh, const BoundaryFaces& faces) {
-  const int columns = mesh.cells.empty() ? 6 : traits(mesh.cells.front().type).face_nodes;
-  Surface skin;
-  skin.triangles.resize(static_cast<Eigen::Index>(faces.size()), columns);
-  Eigen::Index row = 0;
-  for (const auto& entry : faces) {
-    for (int i = 0; i < columns; ++i) skin.triangles(row, i) = entry.second[i];
-    ++row;
-  }
-  return skin;
+Surface skin_of(const BoundaryFaces& faces) {
+  SurfaceBuilder skin;
+  for (const auto& [key, face] : faces) skin.add(face.type, face.ids);
+  return skin.finish();
 }
 
 SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface) {
   SurfaceIntegrals sum;
-  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-    const TriangleNodes nodes = triangle_nodes(mesh, surface, f);
-    for (const TrianglePoint& q : kTrianglePoints) {
-      const PointOnTriangle p = evaluate(nodes, q.l1, q.l2);
-      const double dS = q.weight * p.normal.norm();
-      sum.area += dS;
-      sum.centre += dS * p.x;
-      sum.normal += q.weight * p.normal;
-      sum.enclosed += q.weight * p.x.dot(p.normal) / 3.0;
-    }
-  }
+  for (const FaceBlock& block : surface.faces) add_faces(mesh, block, sum);
   if (sum.area > 0.0) sum.centre /= sum.area;
   return sum;
 }
@@ -135,38 +169,35 @@ double cell_volume(const Mesh& mesh, int32_t region) {
   double volume = 0.0;
   for (const CellBlock& block : mesh.cells) {
     if (region >= 0 && block.region != region) continue;
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      volume += volume_of(cell_nodes(mesh, block, c));
-    }
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      volume += volume_of(block.type, cell_nodes(mesh, block, c));
   }
   return volume;
 }
 
 int64_t count_inward(const Mesh& mesh, const Surface& skin) {
-  std::map<FaceKey, int32_t> opposite;  // skin face -> corner of its cell that is not on it
-  for (Eigen::Index f = 0; f < skin.triangles.rows(); ++f) {
-    opposite[face_key(skin.triangles(f, 0), skin.triangles(f, 1), skin.triangles(f, 2))] = -1;
-  }
-  for (const CellBlock& block : mesh.cells) {
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      for (const auto& local : kTetFaces) {
-        const auto found = opposite.find(
-            face_key(block.nodes(c, local[0]), block.nodes(c, local[1]), block.nodes(c, local[2])));
-        if (found == opposite.end()) continue;
-        const int corner = 6 - local[0] - local[1] - local[2];
-        found->second = block.nodes(c, corner);
-      }
-    }
-  }
+  const BoundaryFaces boundary = boundary_faces(mesh);
   int64_t inward = 0;
-  for (Eigen::Index f = 0; f < skin.triangles.rows(); ++f) {
-    const TriangleNodes nodes = triangle_nodes(mesh, skin, f);
-    const int32_t corner =
-        opposite.at(face_key(skin.triangles(f, 0), skin.triangles(f, 1), skin.triangles(f, 2)));
-    const PointOnTriangle middle = evaluate(nodes, 1.0 / 3.0, 1.0 / 3.0);
-    const bool outward =
-        corner >= 0 && middle.normal.dot(middle.x - mesh.nodes.row(corner).transpose()) > 0.0;
-    if (!outward) ++inward;
+  for (const FaceBlock& block : skin.faces) {
+    const Eigen::Vector2d middle = traits(block.type).corners == 3
+                                       ? Eigen::Vector2d::Constant(1.0 / 3.0)
+                                       : Eigen::Vector2d::Zero();
+    const FaceShape shape = face_shape(block.type, middle);
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+      const auto ids = row_of(block.nodes, f);
+      const auto found = boundary.find(face_key(block.type, ids));
+      if (found == boundary.end()) {
+        ++inward;
+        continue;
+      }
+      const CellBlock& cells = mesh.cells[static_cast<size_t>(found->second.block)];
+      const Eigen::Vector3d centre = cell_nodes(mesh, cells, found->second.cell)
+                                         .topRows(traits(cells.type).corners)
+                                         .colwise()
+                                         .mean();
+      const PointOnFace point = evaluate(face_nodes(mesh, ids), shape);
+      if (!(point.normal.dot(point.x - centre) > 0.0)) ++inward;
+    }
   }
   return inward;
 }

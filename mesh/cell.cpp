@@ -10,8 +10,18 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr std::array<Edge, 12> kHexEdges = {{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6},
-                                             {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}};
+constexpr std::array<Edge, 12> kHexEdges = {{{0, 1},
+                                             {0, 3},
+                                             {0, 4},
+                                             {1, 2},
+                                             {1, 5},
+                                             {2, 3},
+                                             {2, 6},
+                                             {3, 7},
+                                             {4, 5},
+                                             {4, 7},
+                                             {5, 6},
+                                             {6, 7}}};
 constexpr std::array<Edge, 9> kWedgeEdges = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}};
 constexpr std::array<Edge, 8> kPyramidEdges = {
@@ -19,10 +29,30 @@ constexpr std::array<Edge, 8> kPyramidEdges = {
 
 // Edges in the order of the other programs' middle nodes.
 constexpr std::array<Edge, 6> kTetElsewhere = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-constexpr std::array<Edge, 12> kHexVtk = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7},
-                                           {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-constexpr std::array<Edge, 12> kHexNastran = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5},
-                                               {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}}};
+constexpr std::array<Edge, 12> kHexVtk = {{{0, 1},
+                                           {1, 2},
+                                           {2, 3},
+                                           {3, 0},
+                                           {4, 5},
+                                           {5, 6},
+                                           {6, 7},
+                                           {7, 4},
+                                           {0, 4},
+                                           {1, 5},
+                                           {2, 6},
+                                           {3, 7}}};
+constexpr std::array<Edge, 12> kHexNastran = {{{0, 1},
+                                               {1, 2},
+                                               {2, 3},
+                                               {3, 0},
+                                               {0, 4},
+                                               {1, 5},
+                                               {2, 6},
+                                               {3, 7},
+                                               {4, 5},
+                                               {5, 6},
+                                               {6, 7},
+                                               {7, 4}}};
 constexpr std::array<Edge, 9> kWedgeVtk = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
 constexpr std::array<Edge, 9> kWedgeNastran = {

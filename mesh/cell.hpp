@@ -42,11 +42,11 @@
 //     3 (0,0,1)  4 (1,0,1)  5 (0,1,1)                 0 (-1,-1,0) 1 (1,-1,0) 2 (1,1,0)
 //                                                     3 (-1,1,0)  4 (0,0,1)
 //
-// A cell is positive when its reference map has det J > 0; for a tet, det(x1 - x0, x2 - x0, x3 - x0).
+// A cell is positive when its map has det J > 0; for a tet, det(x1 - x0, x2 - x0, x3 - x0) > 0.
 //
-// Other programs have the same corners in the same places and other orders of the middle nodes. With
-// p = to_vtk, to_abaqus or to_nastran of the type: a_other[i] = a_gmsh[p[i]]. Example (tet10, all
-// three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19) gives
+// Other programs have the same corners in the same places and other orders of the middle nodes.
+// With p = to_vtk, to_abaqus or to_nastran of the type, a_other[i] = a_gmsh[p[i]]. Example (tet10,
+// all three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19) gives
 // a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their middle nodes:
 //
 //   tet      all      0-1 1-2 2-0 0-3 1-3 2-3
@@ -60,8 +60,8 @@
 // a_vtk = (0 1 2 3 4 5 6 7 8 11 13 9 16 18 19 17 10 12 14 15) and
 // a_nastran = (0 1 2 3 4 5 6 7 8 11 13 9 10 12 14 15 16 18 19 17).
 //
-// Faces: corners 0, 1, ..., then the middles of 0-1, 1-2, ...; all programs agree on them. The normal
-// (x1 - x0) x (x2 - x0) points out of the solid.
+// Faces: corners 0, 1, ..., then the middles of 0-1, 1-2, ...; all programs agree on them. The
+// normal (x1 - x0) x (x2 - x0) points out of the solid.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -70,7 +70,16 @@
 
 namespace clatter::mesh {
 
-enum class CellType : int32_t { kTet4, kTet10, kHex8, kHex20, kWedge6, kWedge15, kPyramid5, kPyramid13 };
+enum class CellType : int32_t {
+  kTet4,
+  kTet10,
+  kHex8,
+  kHex20,
+  kWedge6,
+  kWedge15,
+  kPyramid5,
+  kPyramid13
+};
 inline constexpr int kCellTypes = 8;
 
 enum class FaceType : int32_t { kTri3, kTri6, kQuad4, kQuad8 };
@@ -99,19 +108,19 @@ using Edge = std::array<int, 2>;
 
 /// What is known of a cell type.
 struct CellTraits {
-  std::string_view name;             // "tet4", "hex20", ...: as written in files
-  int nodes;                         // nodes per cell
-  int corners;                       // corner nodes
-  int order;                         // polynomial degree of the shape functions along an edge
-  int vtk_type;                      // VTK cell type
-  int gmsh_type;                     // Gmsh element type
-  std::string_view abaqus_name;      // "C3D4", ...; empty where Abaqus has none
-  std::string_view nastran_name;     // "CTETRA", ...
-  std::span<const int> to_vtk;       // p with a_vtk[i] = a_gmsh[p[i]]
-  std::span<const int> to_abaqus;    // the same for Abaqus and CalculiX
-  std::span<const int> to_nastran;   // the same for Nastran
-  std::span<const Edge> edges;       // corners of the edges; middle node of edge e is corners + e
-  std::span<const CellFace> faces;   // outward
+  std::string_view name;            // "tet4", "hex20", ...: as written in files
+  int nodes;                        // nodes per cell
+  int corners;                      // corner nodes
+  int order;                        // polynomial degree of the shape functions along an edge
+  int vtk_type;                     // VTK cell type
+  int gmsh_type;                    // Gmsh element type
+  std::string_view abaqus_name;     // "C3D4", ...; empty where Abaqus has none
+  std::string_view nastran_name;    // "CTETRA", ...
+  std::span<const int> to_vtk;      // p with a_vtk[i] = a_gmsh[p[i]]
+  std::span<const int> to_abaqus;   // the same for Abaqus and CalculiX
+  std::span<const int> to_nastran;  // the same for Nastran
+  std::span<const Edge> edges;      // corners of the edges; middle node of edge e is corners + e
+  std::span<const CellFace> faces;  // outward
 };
 
 const CellTraits& traits(CellType type);
@@ -122,8 +131,7 @@ CellType cell_type_named(std::string_view name, const std::string& where);
 FaceType face_type_named(std::string_view name, const std::string& where);
 
 /// Corners of the six edges; middle node of edge e is 4 + e.
-inline constexpr std::array<Edge, 6> kTetEdges = {
-    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
+inline constexpr std::array<Edge, 6> kTetEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
 
 /// The four faces of a tet10, outward: corners, then middle nodes. A tet4 uses the first three
 /// entries of each.

@@ -26,12 +26,12 @@ CellGraph::CellGraph(const Mesh& mesh) {
     // Faces between blocks are boundaries of the geometry too.
     Mesh alone;
     alone.cells = {block};
-    for (const auto& [corners, nodes] : boundary_faces(alone)) {
-      const auto [i, j, k] = corners;  // ascending
+    for (const auto& [corners, face] : boundary_faces(alone)) {
+      const auto [none, i, j, k] = corners;  // a triangle's, ascending
       boundary_edges_.insert({i, j});
       boundary_edges_.insert({j, k});
       boundary_edges_.insert({i, k});
-      for (int32_t node : corners) fixed_[static_cast<size_t>(node)] = true;
+      for (int32_t node : {i, j, k}) fixed_[static_cast<size_t>(node)] = true;
     }
   }
 }

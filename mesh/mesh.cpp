@@ -40,20 +40,46 @@ void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& 
   }
 }
 
-void check_sets(const Mesh& mesh, const std::string& where) {
-  for (const auto& [name, surface] : mesh.surfaces) {
-    const auto columns = surface.triangles.cols();
-    if (columns != 3 && columns != 6) {
-      throw InputError(fmt::format("{}: surfaces/{}: found {} nodes a triangle, expected 3 or 6",
-                                   where, name, columns));
-    }
-    check_range(surface.triangles, mesh.nodes.rows(), where + ": surfaces/" + name);
+}  // namespace
+
+void check_surface(const Surface& surface, int64_t n_nodes, const std::string& where) {
+  for (const FaceBlock& block : surface.faces) {
+    const FaceTraits& face = traits(block.type);
+    if (block.nodes.cols() != face.nodes)
+      throw InputError(fmt::format("{}: found {} nodes a face, expected {} for {}", where,
+                                   block.nodes.cols(), face.nodes, face.name));
+    check_range(block.nodes, n_nodes, where);
   }
+}
+
+namespace {
+
+void check_sets(const Mesh& mesh, const std::string& where) {
+  for (const auto& [name, surface] : mesh.surfaces)
+    check_surface(surface, mesh.nodes.rows(), where + ": surfaces/" + name);
   for (const auto& [name, ids] : mesh.node_sets) {
     const IndexMatrix row =
         Eigen::Map<const IndexMatrix>(ids.data(), 1, static_cast<Eigen::Index>(ids.size()));
     check_range(row, mesh.nodes.rows(), where + ": node_sets/" + name);
   }
+  for (const auto& [name, values] : mesh.fields) {
+    if (values.rows() != mesh.nodes.rows() || values.cols() < 1 || !values.allFinite())
+      throw InputError(
+          fmt::format("{}: fields/{}: found {} x {} values, expected finite ones at "
+                      "each of {} nodes",
+                      where, name, values.rows(), values.cols(), mesh.nodes.rows()));
+  }
+}
+
+void check_ids(const Mesh& mesh, const std::string& where) {
+  const auto check = [&](size_t found, Eigen::Index expected, const std::string& place) {
+    if (found != 0 && found != static_cast<size_t>(expected))
+      throw InputError(
+          fmt::format("{}: {}: found {} numbers, expected {}", where, place, found, expected));
+  };
+  check(mesh.node_ids.size(), mesh.nodes.rows(), "node_ids");
+  for (size_t b = 0; b < mesh.cells.size(); ++b)
+    check(mesh.cells[b].ids.size(), mesh.cells[b].nodes.rows(), fmt::format("cells/{}/ids", b));
 }
 
 }  // namespace
@@ -72,9 +98,36 @@ const std::vector<int32_t>& Mesh::node_set(const std::string& set_name) const {
   return find_named(node_sets, "mesh '" + name + "'", "node set", set_name);
 }
 
+int64_t Surface::face_count() const {
+  int64_t count = 0;
+  for (const FaceBlock& block : faces) count += block.nodes.rows();
+  return count;
+}
+
+void SurfaceBuilder::add(FaceType type, std::span<const int32_t> face) {
+  const auto nodes = face.first(static_cast<size_t>(traits(type).nodes));
+  std::vector<int32_t>& all = nodes_[static_cast<size_t>(type)];
+  all.insert(all.end(), nodes.begin(), nodes.end());
+}
+
+Surface SurfaceBuilder::finish() const {
+  Surface surface;
+  for (size_t t = 0; t < nodes_.size(); ++t) {
+    if (nodes_[t].empty()) continue;
+    const auto type = static_cast<FaceType>(t);
+    const Eigen::Index columns = traits(type).nodes;
+    surface.faces.push_back(
+        {type,
+         Eigen::Map<const IndexMatrix>(
+             nodes_[t].data(), static_cast<Eigen::Index>(nodes_[t].size()) / columns, columns)});
+  }
+  return surface;
+}
+
 std::vector<int32_t> nodes_of(const Surface& surface) {
-  const int32_t* first = surface.triangles.data();
-  std::vector<int32_t> ids(first, first + surface.triangles.size());
+  std::vector<int32_t> ids;
+  for (const FaceBlock& block : surface.faces)
+    ids.insert(ids.end(), block.nodes.data(), block.nodes.data() + block.nodes.size());
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
@@ -101,6 +154,7 @@ void check_structure(const Mesh& mesh, const std::string& where) {
     throw InputError(fmt::format("{}: node {} belongs to no cell: it has no stiffness", where,
                                  lone - used.begin()));
   }
+  check_ids(mesh, where);
   check_sets(mesh, where);
   mesh.surface("skin");
 }

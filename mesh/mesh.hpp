@@ -14,8 +14,8 @@ namespace clatter::mesh {
 /// Cells of one type and one region.
 struct CellBlock {
   CellType type = CellType::kTet10;
-  int32_t region = 0;  // index into Mesh::regions
-  IndexMatrix nodes;   // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
+  int32_t region = 0;        // index into Mesh::regions
+  IndexMatrix nodes;         // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
   std::vector<int32_t> ids;  // what the imported file calls them; empty: no numbers of their own
 };
 
@@ -30,8 +30,17 @@ struct Surface {
   std::vector<FaceBlock> faces;  // each type at most once
 
   int64_t face_count() const;
-  /// Adds one face; `face` has at least as many entries as the type has nodes.
+};
+
+/// Collects faces one by one.
+class SurfaceBuilder {
+ public:
+  /// `face` has at least as many entries as the type has nodes.
   void add(FaceType type, std::span<const int32_t> face);
+  Surface finish() const;
+
+ private:
+  std::array<std::vector<int32_t>, kFaceTypes> nodes_;
 };
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
@@ -53,6 +62,9 @@ struct Mesh {
 
 /// Nodes that the faces use, ascending.
 std::vector<int32_t> nodes_of(const Surface& surface);
+
+/// Checks columns and node numbers (0 ... n_nodes - 1); InputError, beginning with `where`.
+void check_surface(const Surface& surface, int64_t n_nodes, const std::string& where);
 
 /// Checks sizes, index ranges, finite coordinates and that every node belongs to a cell.
 /// InputError, beginning with `where`, for the first thing that is wrong.

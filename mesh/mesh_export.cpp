@@ -105,7 +105,7 @@ Text inp_text(const Mesh& mesh) {
       current = &block;
     }
     put(out, "{}", number + 1);
-    for (int i : cell.to_vtk) put(out, ", {}", block.nodes(c, i) + 1);
+    for (int i : cell.to_abaqus) put(out, ", {}", block.nodes(c, i) + 1);
     put(out, "\n");
   });
   for (const auto& [name, surface] : mesh.surfaces) put_nset(out, name, nodes_of(surface));
@@ -125,7 +125,7 @@ Text msh_text(const Mesh& mesh) {
   int64_t elements = mesh.cell_count();
   for (const auto& [name, surface] : mesh.surfaces) {
     put(out, "2 {} \"{}\"\n", ++group, name);
-    elements += surface.triangles.rows();
+    elements += surface.face_count();
   }
   for (const std::string& name : mesh.regions) put(out, "3 {} \"{}\"\n", ++group, name);
   put(out, "$EndPhysicalNames\n$Nodes\n{}\n", mesh.nodes.rows());
@@ -138,12 +138,13 @@ Text msh_text(const Mesh& mesh) {
   group = 0;
   for (const auto& [name, surface] : mesh.surfaces) {
     ++group;
-    const auto columns = surface.triangles.cols();
-    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
-      put(out, "{} {} 2 {} {}", ++id, columns == 6 ? 9 : 2, group, group);
-      for (Eigen::Index i = 0; i < columns; ++i) put(out, " {}", surface.triangles(f, i) + 1);
-      put(out, "\n");
-    }
+    for (const FaceBlock& block : surface.faces)
+      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+        put(out, "{} {} 2 {} {}", ++id, traits(block.type).gmsh_type, group, group);
+        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i)
+          put(out, " {}", block.nodes(f, i) + 1);
+        put(out, "\n");
+      }
   }
   for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t) {
     const size_t region = n_surfaces + static_cast<size_t>(block.region) + 1;

@@ -14,7 +14,15 @@ CellBlock read_block(const H5File& file, const std::string& group, const std::st
   block.type = cell_type_named(file.get_string(group, "type"), where + ": " + group);
   block.region = static_cast<int32_t>(file.get_int(group, "region"));
   block.nodes = file.read_index_matrix(group + "/nodes");
+  if (file.has(group + "/ids")) block.ids = file.read_ints(group + "/ids");
   return block;
+}
+
+void write_block(H5File& file, const CellBlock& block, const std::string& group) {
+  file.write(group + "/nodes", block.nodes);
+  file.set(group, "type", std::string(traits(block.type).name));
+  file.set(group, "region", static_cast<int64_t>(block.region));
+  if (!block.ids.empty()) file.write(group + "/ids", block.ids);
 }
 
 void refuse_invalid_cells(const Mesh& mesh, const std::string& where) {
@@ -32,16 +40,34 @@ void write_mesh(H5File& file, const Mesh& mesh) {
   file.write("nodes", mesh.nodes);
   file.write("regions", mesh.regions);
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
-    const CellBlock& block = mesh.cells[b];
-    const std::string group = fmt::format("cells/{}", b);
-    file.write(group + "/nodes", block.nodes);
-    file.set(group, "type", std::string(traits(block.type).name));
-    file.set(group, "region", static_cast<int64_t>(block.region));
+    write_block(file, mesh.cells[b], fmt::format("cells/{}", b));
   }
-  for (const auto& [name, surface] : mesh.surfaces) {
-    file.write("surfaces/" + name, surface.triangles);
-  }
+  write_surfaces(file, mesh.surfaces);
   for (const auto& [name, ids] : mesh.node_sets) file.write("node_sets/" + name, ids);
+  for (const auto& [name, values] : mesh.fields) file.write("fields/" + name, values);
+  if (!mesh.node_ids.empty()) file.write("node_ids", mesh.node_ids);
+}
+
+void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces) {
+  for (const auto& [name, surface] : surfaces) {
+    file.set("surfaces/" + name, "faces", surface.face_count());
+    for (const FaceBlock& block : surface.faces)
+      file.write(fmt::format("surfaces/{}/{}", name, traits(block.type).name), block.nodes);
+  }
+}
+
+std::map<std::string, Surface> read_surfaces(const H5File& file, int64_t n_nodes,
+                                             const std::string& where) {
+  std::map<std::string, Surface> surfaces;
+  for (const std::string& name : file.list("surfaces")) {
+    const std::string group = "surfaces/" + name;
+    Surface& surface = surfaces[name];
+    for (const std::string& type : file.list(group))
+      surface.faces.push_back({face_type_named(type, where + ": " + group),
+                               file.read_index_matrix(group + "/" + type)});
+    check_surface(surface, n_nodes, where + ": " + group);
+  }
+  return surfaces;
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
@@ -55,12 +81,13 @@ Mesh read_mesh(const std::filesystem::path& path) {
   for (size_t b = 0; b < n_blocks; ++b) {
     mesh.cells.push_back(read_block(file, fmt::format("cells/{}", b), where));
   }
-  for (const std::string& name : file.list("surfaces")) {
-    mesh.surfaces[name].triangles = file.read_index_matrix("surfaces/" + name);
-  }
+  mesh.surfaces = read_surfaces(file, mesh.nodes.rows(), where);
   for (const std::string& name : file.list("node_sets")) {
     mesh.node_sets[name] = file.read_ints("node_sets/" + name);
   }
+  for (const std::string& name : file.list("fields"))
+    mesh.fields[name] = file.read_rows("fields/" + name);
+  if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
   check_structure(mesh, where);
   refuse_invalid_cells(mesh, where);
   return mesh;

@@ -1,7 +1,8 @@
 #pragma once
-// The mesh in a file, schema "clatter/mesh/1":
+// The mesh in a file, schema "clatter/mesh/2":
 //   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region,
-//   surfaces/<name> (f x 6 or f x 3), node_sets/<name>; root attribute name.
+//   surfaces/<name>/<face type> (f x nodes), node_sets/<name>, fields/<name> (n x k);
+//   node_ids and cells/<i>/ids where an imported mesh has numbers of its own; attribute name.
 // Node numbers are zero-based, node orders are those of cell.hpp.
 #include <filesystem>
 
@@ -10,10 +11,16 @@
 
 namespace clatter::mesh {
 
-inline constexpr const char* kMeshSchema = "clatter/mesh/1";
+inline constexpr const char* kMeshSchema = "clatter/mesh/2";
 
 /// Writes `mesh` into an open file; provenance, timing and certificate are the caller's.
 void write_mesh(H5File& file, const Mesh& mesh);
+
+/// Group `surfaces` of meshes and FE models: a dataset a face type.
+void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces);
+/// InputError, beginning with `where`, for unknown face types and node numbers out of range.
+std::map<std::string, Surface> read_surfaces(const H5File& file, int64_t n_nodes,
+                                             const std::string& where);
 
 /// Reads a mesh and checks schema, shapes, index ranges, finite values, and that every cell is
 /// valid (validity.hpp); InputError names the file and the first thing that is wrong.

@@ -69,7 +69,7 @@ Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_uni
   for (const RegionSolids& region : part.regions) {
     Eigen::Index rows = 0;
     for (Solid s : region.solids) rows += raw.cells.at(s).rows();
-    CellBlock block{CellType::kTet10, static_cast<int32_t>(mesh.regions.size()), {}};
+    CellBlock block{CellType::kTet10, static_cast<int32_t>(mesh.regions.size()), {}, {}};
     block.nodes.resize(rows, 10);
     rows = 0;
     for (Solid s : region.solids) {
@@ -95,7 +95,7 @@ Mesh linear_mesh(const RawMesh& raw) {
   Mesh mesh;
   mesh.nodes = raw.nodes;
   for (const auto& entry : raw.cells) {
-    mesh.cells.push_back({CellType::kTet4, 0, entry.second});
+    mesh.cells.push_back({CellType::kTet4, 0, entry.second, {}});
   }
   return mesh;
 }
@@ -187,20 +187,16 @@ Repair make_valid(GmshSession& session, const PartGeometry& part, const MeshSett
 // Gmsh's triangles say which face they lie on; the cell they belong to says where outside is.
 Surface surface_of(const RawMesh& raw, const std::vector<int>& tags,
                    const BoundaryFaces& boundary) {
-  Eigen::Index rows = 0;
-  for (int tag : tags) rows += raw.face_cells.at(tag).rows();
-  Surface surface;
-  surface.triangles.resize(rows, 6);
-  rows = 0;
+  SurfaceBuilder surface;
   for (int tag : tags) {
-    const IndexMatrix& cells = raw.face_cells.at(tag);
-    for (Eigen::Index f = 0; f < cells.rows(); ++f) {
-      const auto& nodes = boundary.at(face_key(cells(f, 0), cells(f, 1), cells(f, 2)));
-      for (int i = 0; i < 6; ++i) surface.triangles(rows, i) = nodes[i];
-      ++rows;
+    const IndexMatrix& faces = raw.face_cells.at(tag);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      const std::array<int32_t, 3> corners = {faces(f, 0), faces(f, 1), faces(f, 2)};
+      const BoundaryFace& face = boundary.at(face_key(FaceType::kTri3, corners));
+      surface.add(face.type, face.ids);
     }
   }
-  return surface;
+  return surface.finish();
 }
 
 std::map<std::string, double> certify(const Mesh& mesh, const QualityReport& quality,
@@ -285,7 +281,7 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   Mesh& mesh = result.mesh;
   mesh.name = name;
   const BoundaryFaces boundary = boundary_faces(mesh);
-  mesh.surfaces["skin"] = skin_of(mesh, boundary);
+  mesh.surfaces["skin"] = skin_of(boundary);
   for (const auto& [surface, faces] : tags) {
     mesh.surfaces[surface] = surface_of(raw, faces, boundary);
     mesh.node_sets[surface] = nodes_of(mesh.surfaces[surface]);

@@ -18,18 +18,76 @@ Measure make_measure(double low, double high, double best) {
   return m;
 }
 
+struct Place {
+  int32_t block, cell, label;
+  Eigen::Vector3d centre;
+};
+
 // `sign` 1: small is bad; -1: large is bad.
-void record(Measure& m, double value, double sign, int32_t block, int32_t cell,
-            const Eigen::Vector3d& centre) {
+void record(Measure& m, double value, double sign, const Place& place) {
   const double bins = static_cast<double>(m.histogram.size());
   const double position = (value - m.low) / (m.high - m.low) * bins;
   const auto bin = static_cast<size_t>(std::clamp(position, 0.0, bins - 1.0));
   ++m.histogram[bin];
   if (sign * value >= sign * m.worst) return;
   m.worst = value;
-  m.block = block;
-  m.cell = cell;
-  m.place = centre;
+  m.block = place.block;
+  m.cell = place.cell;
+  m.label = place.label;
+  m.place = place.centre;
+}
+
+// One end of an edge with the next corner of each of the two faces that meet there.
+struct EdgeEnd {
+  int here, other, left, right;
+};
+
+// The corner that follows `here` in the face on the side away from `other`.
+int beside(const CellFace& face, int here, int other) {
+  const int n = traits(face.type).corners;
+  for (int i = 0; i < n; ++i) {
+    if (face.nodes[static_cast<size_t>(i)] != here) continue;
+    const int next = face.nodes[static_cast<size_t>((i + 1) % n)];
+    return next == other ? face.nodes[static_cast<size_t>((i + n - 1) % n)] : next;
+  }
+  return -1;
+}
+
+bool holds(const CellFace& face, int a, int b) {
+  const int n = traits(face.type).corners;
+  for (int i = 0; i < n; ++i) {
+    const int p = face.nodes[static_cast<size_t>(i)],
+              q = face.nodes[static_cast<size_t>((i + 1) % n)];
+    if ((p == a && q == b) || (p == b && q == a)) return true;
+  }
+  return false;
+}
+
+std::vector<EdgeEnd> edge_ends(CellType type) {
+  std::vector<EdgeEnd> ends;
+  for (const auto& [a, b] : traits(type).edges) {
+    std::vector<const CellFace*> pair;
+    for (const CellFace& face : traits(type).faces)
+      if (holds(face, a, b)) pair.push_back(&face);
+    ends.push_back({a, b, beside(*pair[0], a, b), beside(*pair[1], a, b)});
+    ends.push_back({b, a, beside(*pair[0], b, a), beside(*pair[1], b, a)});
+  }
+  return ends;
+}
+
+double angle_at(const EdgeEnd& end, const CellNodes& x) {
+  const Eigen::Vector3d edge = (x.row(end.other) - x.row(end.here)).normalized();
+  Eigen::Vector3d left = x.row(end.left) - x.row(end.here);
+  Eigen::Vector3d right = x.row(end.right) - x.row(end.here);
+  left -= edge * edge.dot(left);
+  right -= edge * edge.dot(right);
+  return std::atan2(left.cross(right).norm(), left.dot(right)) * 180.0 / std::numbers::pi;
+}
+
+std::pair<double, double> extreme_angles(CellType type, const CellNodes& x) {
+  const std::vector<double> angles = dihedral_angles(type, x);
+  const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+  return {*low, *high};
 }
 
 void write_measure(H5File& file, const std::string& name, const Measure& m) {
@@ -40,6 +98,7 @@ void write_measure(H5File& file, const std::string& name, const Measure& m) {
   file.set(group, "worst", m.worst);
   file.set(group, "worst_block", static_cast<int64_t>(m.block));
   file.set(group, "worst_cell", static_cast<int64_t>(m.cell));
+  file.set(group, "worst_label", static_cast<int64_t>(m.label));
   file.write(group + "/worst_place", Eigen::VectorXd(m.place));
 }
 
@@ -59,6 +118,18 @@ Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& c
     to_d -= edge * edge.dot(to_d);
     angles[e] = std::atan2(to_c.cross(to_d).norm(), to_c.dot(to_d)) * 180.0 / std::numbers::pi;
   }
+  return angles;
+}
+
+std::vector<double> dihedral_angles(CellType type, const CellNodes& x) {
+  static const auto ends = [] {
+    std::array<std::vector<EdgeEnd>, kCellTypes> all;
+    for (int t = 0; t < kCellTypes; ++t)
+      all[static_cast<size_t>(t)] = edge_ends(static_cast<CellType>(t));
+    return all;
+  }();
+  std::vector<double> angles;
+  for (const EdgeEnd& end : ends[static_cast<size_t>(type)]) angles.push_back(angle_at(end, x));
   return angles;
 }
 
@@ -83,17 +154,17 @@ QualityReport measure_quality(const Mesh& mesh) {
                        make_measure(0.0, 1.0, 2.0), make_measure(0.0, 1.0, 2.0)};
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
-    const auto id = static_cast<int32_t>(b);
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const Tet10Nodes x = cell_nodes(mesh, block, c);
-      const Eigen::Matrix<double, 4, 3> corners = x.topRows<4>();
-      const Eigen::Vector3d centre = corners.colwise().mean().transpose();
-      const auto angles = dihedral_angles(corners);
-      const auto cell = static_cast<int32_t>(c);
-      record(report.min_dihedral_deg, angles.minCoeff(), 1.0, id, cell, centre);
-      record(report.max_dihedral_deg, angles.maxCoeff(), -1.0, id, cell, centre);
-      record(report.radius_ratio, radius_ratio(corners), 1.0, id, cell, centre);
-      record(report.scaled_jacobian, jacobian_bounds(x).ratio(), 1.0, id, cell, centre);
+      const CellNodes x = cell_nodes(mesh, block, c);
+      const auto corners = x.topRows(traits(block.type).corners);
+      const Place place{static_cast<int32_t>(b), static_cast<int32_t>(c), cell_label(block, c),
+                        corners.colwise().mean().transpose()};
+      const auto [low, high] = extreme_angles(block.type, x);
+      record(report.min_dihedral_deg, low, 1.0, place);
+      record(report.max_dihedral_deg, high, -1.0, place);
+      if (corners.rows() == 4)
+        record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, place);
+      record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, place);
     }
   }
   return report;

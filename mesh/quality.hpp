@@ -4,16 +4,19 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/h5_file.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/validity.hpp"
 
 namespace clatter::mesh {
 
 /// One measure over all cells.
 struct Measure {
   double worst = 0.0;
-  int32_t block = 0, cell = 0;                                // the worst cell
+  int32_t block = 0, cell = 0;                                // the worst cell: block and row
+  int32_t label = 0;                                          // its cell_label()
   Eigen::Vector3d place = Eigen::Vector3d::Zero();            // its centre [m]
   double low = 0.0, high = 1.0;                               // range of the histogram
   std::vector<int64_t> histogram = std::vector<int64_t>(20);  // equal bins from low to high
@@ -22,10 +25,10 @@ struct Measure {
 /// Angles and shapes belong to the straight cell through the corners (hard case G8); the scaled
 /// Jacobian to the curved one.
 struct QualityReport {
-  Measure min_dihedral_deg;  // smallest of the six angles between faces; 70.53 for a regular cell
+  Measure min_dihedral_deg;  // smallest angle between faces; 70.53 for a regular tetrahedron
   Measure max_dihedral_deg;  // largest
-  Measure radius_ratio;      // 3 r_in / r_circum: 1 for a regular cell, 0 for a flat one
-  Measure scaled_jacobian;   // min det J / mean det J, proved bound (validity.hpp)
+  Measure radius_ratio;     // tetrahedra: 3 r_in / r_circum, 1 for a regular cell, 0 for a flat one
+  Measure scaled_jacobian;  // min det J / mean det J, proved bound (validity.hpp)
 };
 
 QualityReport measure_quality(const Mesh& mesh);
@@ -33,6 +36,9 @@ QualityReport measure_quality(const Mesh& mesh);
 /// Six angles between the faces of a tetrahedron with corners in rows, (4 x 3), edge order of
 /// kTetEdges [deg].
 Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& corners);
+
+/// Angles between the faces at each edge of any cell, at both ends of the edge, (2 edges) [deg].
+std::vector<double> dihedral_angles(CellType type, const CellNodes& x);
 
 /// 3 r_in / r_circum.
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);

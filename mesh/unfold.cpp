@@ -33,15 +33,13 @@ class CurvedCells {
       Mesh alone;
       alone.cells = {block};
       for (const auto& entry : boundary_faces(alone)) {
-        for (int32_t node : entry.second) {
-          if (node >= 0) fixed_[static_cast<size_t>(node)] = true;
-        }
+        for (int32_t node : entry.second.nodes()) fixed_[static_cast<size_t>(node)] = true;
       }
     }
   }
 
   double ratio(const CellId& id) const {
-    return jacobian_bounds(cell_nodes(mesh_, mesh_.cells[id.first], id.second)).ratio();
+    return jacobian_bounds(tet_nodes(mesh_, mesh_.cells[id.first], id.second)).ratio();
   }
 
   std::vector<CellId> below(double target) const {
@@ -59,7 +57,7 @@ class CurvedCells {
   bool improve(const CellId& id, double target) {
     const double before = ratio(id);
     const CellBlock& block = mesh_.cells[id.first];
-    const double size = std::cbrt(6.0 * std::abs(volume_of(cell_nodes(mesh_, block, id.second))));
+    const double size = std::cbrt(6.0 * std::abs(volume_of(tet_nodes(mesh_, block, id.second))));
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;

@@ -5,6 +5,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "mesh/cube_bernstein.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
+
 namespace clatter::mesh {
 namespace {
 
@@ -112,6 +116,48 @@ double lower_bound(const PolarForm& form, int halvings) {
   return std::min(first, lower_bound(half(form, b, a), halvings + 1));
 }
 
+// The same over the cube of the other cells.
+double lower_bound(const CubePolynomial& p, int halvings) {
+  const double low = p.coefficients.minCoeff();
+  if (low > 0.0) return low;
+  if (p.smallest_corner() <= 0.0 || halvings == kMaxHalvings) return low;
+  const int axis = p.steepest_axis();
+  const double first = lower_bound(p.half(axis, false), halvings + 1);
+  if (first <= 0.0) return first;
+  return std::min(first, lower_bound(p.half(axis, true), halvings + 1));
+}
+
+// A rule that integrates det J exactly.
+const CellRule& volume_rule(CellType type) {
+  switch (type) {
+    case CellType::kHex8:
+      return hex_rule(2);
+    case CellType::kHex20:
+      return hex_rule(3);
+    case CellType::kWedge6:
+      return wedge_rule(3, 2);
+    case CellType::kWedge15:
+      return wedge_rule(6, 3);
+    case CellType::kPyramid5:
+      return pyramid_rule(2);
+    default:
+      return pyramid_rule(4);
+  }
+}
+
+bool is_tet(CellType type) { return traits(type).corners == 4; }
+
+Tet10Nodes with_middles(CellType type, const CellNodes& given) {
+  Tet10Nodes x;
+  x.topRows(given.rows()) = given;
+  if (type == CellType::kTet10) return x;
+  for (size_t e = 0; e < kTetEdges.size(); ++e) {
+    const auto [i, j] = kTetEdges[e];
+    x.row(4 + static_cast<int>(e)) = 0.5 * (x.row(i) + x.row(j));
+  }
+  return x;
+}
+
 double mean_of(const PolarForm& form) {
   double sum = 0.0;
   for (int j = 0; j < 4; ++j) {
@@ -133,17 +179,46 @@ JacobianBounds jacobian_bounds(const Tet10Nodes& x) {
 
 double volume_of(const Tet10Nodes& x) { return mean_of(polar_form(x)) / 6.0; }
 
-Tet10Nodes cell_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
-  Tet10Nodes x;
-  const int given = traits(block.type).nodes;
-  for (int i = 0; i < given; ++i) x.row(i) = mesh.nodes.row(block.nodes(cell, i));
-  if (given == 4) {
-    for (size_t e = 0; e < kTetEdges.size(); ++e) {
-      const auto [i, j] = kTetEdges[e];
-      x.row(4 + static_cast<int>(e)) = 0.5 * (x.row(i) + x.row(j));
+JacobianBounds jacobian_bounds(CellType type, const CellNodes& x) {
+  if (is_tet(type)) return jacobian_bounds(with_middles(type, x));
+  const CubePolynomial p = jacobian_polynomial(type, x);
+  const double low = lower_bound(p, 0);
+  const double reference = volume_rule(type).weights.sum();
+  return {low > 0.0 ? low : p.coefficients.minCoeff(), volume_of(type, x) / reference};
+}
+
+double volume_of(CellType type, const CellNodes& x) {
+  if (is_tet(type)) return volume_of(with_middles(type, x));
+  static const auto gradients = [] {
+    std::array<std::vector<CellShape>, kCellTypes> out;
+    for (int t = 2; t < kCellTypes; ++t) {
+      const auto cell = static_cast<CellType>(t);
+      for (const auto& point : volume_rule(cell).points.rowwise())
+        out[static_cast<size_t>(t)].push_back(cell_shape(cell, point.transpose()));
     }
+    return out;
+  }();
+  const std::vector<CellShape>& at = gradients[static_cast<size_t>(type)];
+  double volume = 0.0;
+  for (size_t q = 0; q < at.size(); ++q) {
+    const Eigen::Matrix3d J = x.transpose() * at[q].gradient;
+    volume += volume_rule(type).weights(static_cast<Eigen::Index>(q)) * J.determinant();
   }
+  return volume;
+}
+
+CellNodes cell_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
+  CellNodes x(block.nodes.cols(), 3);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) x.row(i) = mesh.nodes.row(block.nodes(cell, i));
   return x;
+}
+
+Tet10Nodes tet_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
+  return with_middles(block.type, cell_nodes(mesh, block, cell));
+}
+
+int32_t cell_label(const CellBlock& block, Eigen::Index cell) {
+  return block.ids.empty() ? static_cast<int32_t>(cell) : block.ids[static_cast<size_t>(cell)];
 }
 
 ValidityReport check_validity(const Mesh& mesh) {
@@ -151,12 +226,13 @@ ValidityReport check_validity(const Mesh& mesh) {
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const Tet10Nodes x = cell_nodes(mesh, block, c);
-      const double ratio = jacobian_bounds(x).ratio();
+      const CellNodes x = cell_nodes(mesh, block, c);
+      const double ratio = jacobian_bounds(block.type, x).ratio();
       report.min_ratio = std::min(report.min_ratio, ratio);
       if (ratio > 0.0) continue;
-      report.invalid.push_back({static_cast<int32_t>(b), static_cast<int32_t>(c),
-                                x.topRows<4>().colwise().mean().transpose(), ratio});
+      const Eigen::Vector3d centre = x.topRows(traits(block.type).corners).colwise().mean();
+      report.invalid.push_back(
+          {static_cast<int32_t>(b), static_cast<int32_t>(c), cell_label(block, c), centre, ratio});
     }
   }
   std::sort(report.invalid.begin(), report.invalid.end(),
@@ -170,7 +246,7 @@ std::string describe_invalid(const ValidityReport& report, size_t count) {
     const InvalidCell& bad = report.invalid[i];
     text += fmt::format(
         "{}cell {} of block {} at ({:.6g}, {:.6g}, {:.6g}) m: min det J / mean = {:.3g}",
-        i == 0 ? "" : "; ", bad.cell, bad.block, bad.centre.x(), bad.centre.y(), bad.centre.z(),
+        i == 0 ? "" : "; ", bad.label, bad.block, bad.centre.x(), bad.centre.y(), bad.centre.z(),
         bad.ratio);
   }
   return text;

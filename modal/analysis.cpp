@@ -106,7 +106,9 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
   part.name = model.name;
   part.source = "rom";
   part.nodes = model.skin.nodes;
-  if (model.skin.triangles.rows() > 0) part.surfaces["skin"] = model.skin.triangles;
+  if (model.skin.triangles.rows() > 0) {
+    part.surfaces["skin"].faces = {{mesh::FaceType::kTri6, model.skin.triangles}};
+  }
   const std::vector<int32_t> left = dofs_left(model, options.fixed);
   const auto size = static_cast<int>(left.size());
   EigenOptions eigen = eigen_options(options, size);

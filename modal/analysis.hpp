@@ -30,7 +30,7 @@ struct PartModes {
   ModeSet modes;
   RowMatrix nodes;         // n x 3 [m]: all nodes of an FE model, the skin of a reduced one
   Eigen::MatrixXd shapes;  // 3 n x m: row 3 a + d is node a, direction d; unit modal mass
-  std::map<std::string, IndexMatrix> surfaces;  // triangles on `nodes`
+  std::map<std::string, mesh::Surface> surfaces;  // on `nodes`
 };
 
 /// Modes of an assembled part; clamped DoFs are taken out of M and K. InputError for an unknown

@@ -4,6 +4,7 @@
 
 #include "core/artefact.hpp"
 #include "core/error.hpp"
+#include "mesh/mesh_file.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -38,7 +39,7 @@ void write_modes(H5File& file, const PartModes& part) {
   const Eigen::MatrixXf shapes = part.shapes.cast<float>();
   file.write_float("shapes", std::vector<float>(shapes.data(), shapes.data() + shapes.size()),
                    {shapes.cols(), shapes.rows() / 3, 3});
-  for (const auto& [name, triangles] : part.surfaces) file.write("surfaces/" + name, triangles);
+  mesh::write_surfaces(file, part.surfaces);
   write_proof(file, modes);
 }
 

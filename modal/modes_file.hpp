@@ -1,8 +1,8 @@
 #pragma once
-// The modes of a part as a file, schema "clatter/modes/1":
+// The modes of a part as a file, schema "clatter/modes/2":
 //   frequency_hz, eigenvalue [rad2/s2], residual (m); shapes (m x n x 3, single precision, unit
-//   modal mass [1/sqrt(kg)]), nodes (n x 3 [m]), surfaces/<name> (f x 6); attributes name, source,
-//   rigid_modes; certificate with the count that was proved.
+//   modal mass [1/sqrt(kg)]), nodes (n x 3 [m]), surfaces/<name>/<face type>; attributes name,
+//   source, rigid_modes; certificate with the count that was proved.
 #include <filesystem>
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace clatter::modal {
 
-inline constexpr const char* kModesSchema = "clatter/modes/1";
+inline constexpr const char* kModesSchema = "clatter/modes/2";
 
 /// Writes into an open file; provenance and timing are the caller's.
 void write_modes(H5File& file, const PartModes& part);

@@ -166,7 +166,8 @@ struct Deck {
 
 /// How to read a deck.
 struct ReadOptions {
-  std::vector<std::string> ignore;  // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
+  std::vector<std::string>
+      ignore;  // cards or keywords to skip, any case: "CQUAD4", "*SHELL SECTION"
 };
 
 }  // namespace clatter::mesh::deck

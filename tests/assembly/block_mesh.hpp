@@ -17,8 +17,9 @@ struct BlockOptions {
   bool wrap_x = false;  // x = 0 and x = 1 are one place: rings
 };
 
-/// The unit cube cut into n[0] x n[1] x n[2] bricks of six tetrahedra each, then mapped. Surfaces:
-/// skin, x0, x1, y0, y1, z0, z1 (names of the cube's sides); region "body"; node set "all".
+/// The unit cube cut into n[0] x n[1] x n[2] bricks of one hexahedron, two wedges, six tetrahedra
+/// or six pyramids each, then mapped. Surfaces: skin, x0, x1, y0, y1, z0, z1 (names of the cube's
+/// sides); region "body"; node set "all".
 mesh::Mesh block_mesh(const std::array<int, 3>& n, const Map& map,
                       const BlockOptions& options = {});
 

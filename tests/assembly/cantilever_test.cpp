@@ -14,11 +14,11 @@
 #include <Eigen/LU>
 
 #include "assembly/element.hpp"
-#include "assembly/quadrature.hpp"
-#include "assembly/shape.hpp"
 #include "block_mesh.hpp"
 #include "core/log.hpp"
 #include "mesh/mesh_export.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -140,9 +140,10 @@ SparseMatrix four_point_mass(const mesh::Mesh& mesh, const FeModel& model) {
     CellNodes<10> x;
     for (int a = 0; a < 10; ++a) x.row(a) = mesh.nodes.row(cells(c, a));
     for (Eigen::Index q = 0; q < 4; ++q) {
-      const auto shape = tet_shape<10>(tet_rule_4().points.row(q).transpose());
-      const double dm =
-          7800.0 * tet_rule_4().weights(q) * (x.transpose() * shape.gradient).determinant();
+      const auto shape =
+          mesh::cell_shape(mesh::CellType::kTet10, mesh::tet_rule_4().points.row(q).transpose());
+      const double dm = 7800.0 * mesh::tet_rule_4().weights(q) *
+                        Eigen::Matrix3d(x.transpose() * shape.gradient).determinant();
       for (int a = 0; a < 10; ++a)
         for (int b = 0; b < 10; ++b)
           for (int d = 0; d < 3; ++d)

@@ -54,7 +54,7 @@ TEST(ContactPatch, BreathingOfTheBoreMovesEveryPatchOutwards) {
 
   // Row of C from T: q = C u with u = T q, so check through the model's own rigid motions, and
   // the breathing field through the functionals.
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0"));
   const PatchCoupling patches = contact_patches("p", mesh.nodes, s, whole_circle(8, 3), "test");
   for (const Functional& row : patches.coupling.rows) {
     double q = 0.0;
@@ -82,7 +82,7 @@ TEST(ContactPatch, RigidMotionsOfTheGridAreThoseOfThePart) {
 /// Nodal forces of 1 Pa, once through forces on the patches, once consistent: relative difference.
 double pressure_difference(int around) {
   const mesh::Mesh mesh = liner(around, around / 4);
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0"));
   const PatchCoupling patches = contact_patches("p", mesh.nodes, s, whole_circle(4, 2), "test");
   Eigen::VectorXd nodal = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   double shared_area = 0.0;
@@ -110,7 +110,7 @@ TEST(ContactPatch, PatchForcesOfAUniformPressureTendToItsNodalForces) {
 
 TEST(ContactPatch, ANodeBelongsToTheCellWithTheNearestCentre) {
   const mesh::Mesh mesh = liner();
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0"));
   const PatchCoupling patches = contact_patches("p", mesh.nodes, s, whole_circle(7, 5), "test");
   const Eigen::MatrixXd& centre = patches.coupling.set.position;
   for (size_t p = 0; p < patches.coupling.rows.size(); ++p) {
@@ -136,7 +136,7 @@ TEST(ContactPatch, APatchWithoutNodesIsRefusedAndNamed) {
 
 TEST(ContactPatch, ASurfaceThatIsNoCylinderIsRefused) {
   const mesh::Mesh mesh = block_mesh({4, 4, 4}, brick({0.1, 0.1, 0.1}));
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0"));
   EXPECT_THROW(contact_patches("p", mesh.nodes, s, whole_circle(4, 2), "test"), InputError);
 }
 

@@ -32,7 +32,8 @@ Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const Eigen::Vector3d& point) {
 /// Two linear triangles make the square (0,0)-(2,2) in the plane z = 0.
 struct Square {
   RowMatrix nodes = (RowMatrix(4, 3) << 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0).finished();
-  IndexMatrix triangles = (IndexMatrix(2, 3) << 0, 1, 2, 0, 2, 3).finished();
+  mesh::Surface triangles{
+      {{mesh::FaceType::kTri3, (IndexMatrix(2, 3) << 0, 1, 2, 0, 2, 3).finished()}}};
 };
 
 TEST(SurfaceIntegrals, OfASquareByHand) {
@@ -47,7 +48,7 @@ TEST(SurfaceIntegrals, OfASquareByHand) {
 
 TEST(SurfaceIntegrals, CornersOfFlatQuadraticTrianglesGetNoArea) {
   const mesh::Mesh mesh = block_mesh({2, 2, 1}, brick({1, 1, 1}));
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("z1").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("z1"));
   EXPECT_NEAR(s.area, 1.0, 1e-14);
   int corners = 0;
   for (const double w : s.weight) corners += std::abs(w) < 1e-15 ? 1 : 0;
@@ -86,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(RingsOfCells, DistributingCouplingOn, ::testing::Values
 TEST_P(DistributingCouplingOn, ReproducesRigidMotionsAndTransposesToResultants) {
   const mesh::Mesh mesh = ring_mesh(GetParam(), GetParam() / 3);
   const Eigen::Vector3d point(0.01, -0.02, 0.2);
-  const Coupling coupling = distributing_coupling(
-      "b", "bearing", mesh.nodes, integrate_surface(mesh.nodes, mesh.surface("y0").triangles),
-      point, 6, "test");
+  const Coupling coupling =
+      distributing_coupling("b", "bearing", mesh.nodes,
+                            integrate_surface(mesh.nodes, mesh.surface("y0")), point, 6, "test");
   const Eigen::MatrixXd C = dense_rows(coupling, 3 * mesh.nodes.rows());
   const Eigen::MatrixXd rigid = rigid_of(mesh.nodes, point);
   // q of rigid motions about the point is the unit matrix; by transposition the nodal forces
@@ -106,7 +107,7 @@ TEST(DistributingCoupling, RefusesALine) {
 
 TEST(MeanDisplacement, IsTheAreaWeightedMean) {
   const mesh::Mesh mesh = block_mesh({3, 2, 2}, brick({3, 1, 1}));
-  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("z1").triangles);
+  const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("z1"));
   const Coupling mean = mean_displacement("m", mesh.nodes, s, Eigen::Vector3d::UnitZ(), {}, "test");
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
@@ -151,8 +152,8 @@ TEST_P(DistributingCouplingOn, ASolveInGeneralisedCoordinatesEqualsTheNodalOne) 
   const Eigen::VectorXd q = full(model.K).llt().solve(f);
   const Eigen::VectorXd u = model.T * q;
 
-  const SurfaceIntegrals bore = integrate_surface(mesh.nodes, mesh.surface("y0").triangles);
-  const SurfaceIntegrals top = integrate_surface(mesh.nodes, mesh.surface("z1").triangles);
+  const SurfaceIntegrals bore = integrate_surface(mesh.nodes, mesh.surface("y0"));
+  const SurfaceIntegrals top = integrate_surface(mesh.nodes, mesh.surface("z1"));
   const Eigen::Index n = u.size();
   Eigen::MatrixXd C(13, n);
   C << dense_rows(distributing_coupling("a", "node", mesh.nodes, top, {}, 6, ""), n),

@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "assembly/shape.hpp"
 #include "mesh/cell.hpp"
+#include "mesh/shape.hpp"
 #include "mesh/validity.hpp"
 
 namespace clatter::assembly {
@@ -39,7 +39,7 @@ CellNodes<10> curved_tet10() {
 TEST(Shape, QuadraticFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
   const CellNodes<10> nodes = to_tet10(unit_tet4());
   for (int b = 0; b < 10; ++b) {
-    const auto shape = tet_shape<10>(nodes.row(b).transpose());
+    const auto shape = mesh::cell_shape(mesh::CellType::kTet10, nodes.row(b).transpose());
     for (int a = 0; a < 10; ++a) EXPECT_NEAR(shape.value(a), a == b ? 1.0 : 0.0, 1e-15);
   }
 }
@@ -47,11 +47,13 @@ TEST(Shape, QuadraticFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
 TEST(Shape, GradientsAreTheDifferenceQuotientsOfTheValues) {
   const Eigen::Vector3d at(0.2, 0.3, 0.1);
   const double h = 1e-6;
-  const auto shape = tet_shape<10>(at);
+  const auto shape = mesh::cell_shape(mesh::CellType::kTet10, at);
   for (int d = 0; d < 3; ++d) {
     const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(d);
     const Eigen::Matrix<double, 10, 1> slope =
-        (tet_shape<10>(at + step).value - tet_shape<10>(at - step).value) / (2.0 * h);
+        (mesh::cell_shape(mesh::CellType::kTet10, at + step).value -
+         mesh::cell_shape(mesh::CellType::kTet10, at - step).value) /
+        (2.0 * h);
     // Central differences are exact for quadratics; 1e-16 / 1e-6 of rounding remains.
     EXPECT_LT((slope - shape.gradient.col(d)).cwiseAbs().maxCoeff(), 1e-9);
   }

@@ -156,7 +156,7 @@ surface = "y0"
   const FeModel plain = build(mesh, "").model;
   const FeModel coupled = build(mesh, rest).model;
   // A patch load: +-y forces on the outside, balanced, so the free ring needs no support.
-  const SurfaceIntegrals outside = integrate_surface(mesh.nodes, mesh.surface("y1").triangles);
+  const SurfaceIntegrals outside = integrate_surface(mesh.nodes, mesh.surface("y1"));
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   Eigen::Index top = 0, bottom = 0;
   for (size_t k = 0; k < outside.nodes.size(); ++k) {

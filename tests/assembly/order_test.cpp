@@ -8,9 +8,9 @@
 
 #include "assembly/assemble.hpp"
 #include "assembly/element.hpp"
-#include "assembly/quadrature.hpp"
-#include "assembly/shape.hpp"
 #include "block_mesh.hpp"
+#include "mesh/quadrature.hpp"
+#include "mesh/shape.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -41,13 +41,15 @@ Eigen::Vector3d body_force(const Eigen::Vector3d& x) {
 
 template <int N, typename Visit>
 void at_points(const mesh::Mesh& mesh, const Visit& visit) {
-  const TetRule& rule = tet_rule_64();
+  const mesh::CellRule& rule = mesh::tet_rule_64();
+  const mesh::CellType type = mesh.cells[0].type;
   for (Eigen::Index c = 0; c < mesh.cells[0].nodes.rows(); ++c) {
     CellNodes<N> x;
     for (int a = 0; a < N; ++a) x.row(a) = mesh.nodes.row(mesh.cells[0].nodes(c, a));
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const auto shape = tet_shape<N>(rule.points.row(q).transpose());
-      const double dV = rule.weights(q) * (x.transpose() * shape.gradient).determinant();
+      const auto shape = mesh::cell_shape(type, rule.points.row(q).transpose());
+      const double dV =
+          rule.weights(q) * Eigen::Matrix3d(x.transpose() * shape.gradient).determinant();
       visit(c, shape.value, Eigen::Vector3d(x.transpose() * shape.value), dV);
     }
   }

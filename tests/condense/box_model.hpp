@@ -73,7 +73,7 @@ inline assembly::FeModel box_model(int nx = 8, int ny = 6, int nz = 6) {
   for (int f = 0; f < nx / 2; ++f)
     skin.row(f) << id(f, 0, 0), id(f + 2, 0, 0), id(f, 2, 0), id(f + 1, 0, 0), id(f + 1, 1, 0),
         id(f, 1, 0);
-  model.surfaces["skin"] = skin;
+  model.surfaces["skin"].faces = {{mesh::FaceType::kTri6, skin}};
   return model;
 }
 

@@ -44,7 +44,7 @@ TEST(Cell, UnknownNameIsRefusedWithTheKnownOnes) {
 TEST(Boundary, OneCellIsClosedOutwardAndEnclosesASixth) {
   const Mesh mesh = one_cell();
   const SurfaceIntegrals s = integrate(mesh, mesh.surface("skin"));
-  EXPECT_EQ(mesh.surface("skin").triangles.rows(), 4);
+  EXPECT_EQ(mesh.surface("skin").face_count(), 4);
   // Rounding of a few dozen products of order one; the quadrature's constants carry 15 digits.
   EXPECT_NEAR(s.enclosed, 1.0 / 6.0, 1e-14);
   EXPECT_NEAR(s.area, 1.5 + std::sqrt(3.0) / 2.0, 1e-14);
@@ -54,7 +54,7 @@ TEST(Boundary, OneCellIsClosedOutwardAndEnclosesASixth) {
 
 TEST(Boundary, HardG9_ReversedTriangleIsCountedAsInward) {
   Mesh mesh = one_cell();
-  auto& t = mesh.surfaces["skin"].triangles;
+  auto& t = mesh.surfaces["skin"].faces[0].nodes;
   std::swap(t(1, 1), t(1, 2));
   std::swap(t(1, 3), t(1, 5));
   EXPECT_EQ(count_inward(mesh, mesh.surface("skin")), 1);

@@ -44,7 +44,7 @@ TEST(MeshFile, EverythingSurvivesTheRoundTrip) {
   ASSERT_EQ(back.cells.size(), 1u);
   EXPECT_EQ(back.cells[0].type, CellType::kTet10);
   EXPECT_EQ(back.cells[0].nodes, mesh.cells[0].nodes);
-  EXPECT_EQ(back.surface("skin").triangles, mesh.surface("skin").triangles);
+  EXPECT_EQ(back.surface("skin").faces[0].nodes, mesh.surface("skin").faces[0].nodes);
   EXPECT_EQ(back.node_set("tip"), mesh.node_set("tip"));
 }
 
@@ -87,7 +87,7 @@ TEST(MeshFile, WrongContentsAreRefusedOneByOne) {
     m.nodes.conservativeResize(11, 3);
     m.nodes.row(10).setZero();
   });
-  refused("found node -1", [](Mesh& m) { m.surfaces["skin"].triangles(0, 0) = -1; });
+  refused("found node -1", [](Mesh& m) { m.surfaces["skin"].faces[0].nodes(0, 0) = -1; });
   refused("no surface named skin", [](Mesh& m) {
     m.surfaces["hull"] = m.surfaces["skin"];
     m.surfaces.erase("skin");

@@ -76,7 +76,7 @@ TEST(Gmsh, OneSessionAtATimeAndTheNextAfterIt) {
 int64_t count_negative(const Mesh& mesh, const std::vector<Eigen::Vector4d>& points) {
   int64_t count = 0;
   for (Eigen::Index c = 0; c < mesh.cells[0].nodes.rows(); ++c) {
-    const Tet10Nodes x = cell_nodes(mesh, mesh.cells[0], c);
+    const Tet10Nodes x = tet_nodes(mesh, mesh.cells[0], c);
     count += std::any_of(points.begin(), points.end(),
                          [&](const Eigen::Vector4d& l) { return testing::det_at(x, l) <= 0.0; });
   }
@@ -127,7 +127,7 @@ TEST(Gmsh, HardG2_FoldedCellsBehindAThinRoundWallAreFoundAndRepaired) {
 TEST(Gmsh, HardG3_MiddleNodesOfAStraightBoxLieInTheMiddle) {
   const Mesh mesh = mesh_toml(kBeam).part.mesh;
   for (Eigen::Index c = 0; c < mesh.cells[0].nodes.rows(); ++c) {
-    const Tet10Nodes x = cell_nodes(mesh, mesh.cells[0], c);
+    const Tet10Nodes x = tet_nodes(mesh, mesh.cells[0], c);
     for (int e = 0; e < 6; ++e) {
       const auto [a, b] = kTetEdges[e];
       // Gmsh keeps about 12 digits of a 60 mm part.
@@ -145,7 +145,7 @@ TEST(Gmsh, HardG4_NoSolidIsLostBetweenCadAndMesh) {
               1e-4 * m.part.certificate.at("cad_volume_m3"));
   for (const char* name : {"liner_1_bore", "head_1", "bearing_1", "bearing_2", "mount_1", "mount_4",
                            "pan_flange", "deck", "outer", "skin"}) {
-    EXPECT_GT(m.part.mesh.surface(name).triangles.rows(), 0) << name;
+    EXPECT_GT(m.part.mesh.surface(name).face_count(), 0) << name;
   }
   EXPECT_NEAR(integrate(m.part.mesh, m.part.mesh.surface("liner_1_bore")).area, pi * 0.107 * 0.230,
               1e-3 * pi * 0.107 * 0.230);  // facets as above
@@ -220,7 +220,7 @@ TEST(Gmsh, HardG7_TwoRunsGiveTheSameBits) {
   const Mesh first = mesh_toml(tube).part.mesh, second = mesh_toml(tube).part.mesh;
   EXPECT_EQ(first.nodes, second.nodes);
   EXPECT_EQ(first.cells[0].nodes, second.cells[0].nodes);
-  EXPECT_EQ(first.surface("inner").triangles, second.surface("inner").triangles);
+  EXPECT_EQ(first.surface("inner").faces[0].nodes, second.surface("inner").faces[0].nodes);
 }
 
 TEST(Gmsh, HardG8_SmallestDihedralAngleIsAtLeastEightDegrees) {
@@ -253,8 +253,8 @@ TEST(Piston, GasPressureWorksOnTheWholeBoreArea) {
 TEST(Mesher, LocalSizeRefinesItsSurface) {
   const std::string local = "[[mesh.local]]\nsurface = 'x_min'\nfactor = 0.4\n";
   const Meshed plain = mesh_toml(kBeam), finer = mesh_toml(kBeam + local);
-  EXPECT_GT(static_cast<double>(finer.part.mesh.surface("x_min").triangles.rows()),
-            1.5 * static_cast<double>(plain.part.mesh.surface("x_min").triangles.rows()));
+  EXPECT_GT(static_cast<double>(finer.part.mesh.surface("x_min").face_count()),
+            1.5 * static_cast<double>(plain.part.mesh.surface("x_min").face_count()));
   EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_mni'\nfactor = 0.4\n")),
                InputError);
 }

@@ -48,7 +48,7 @@ inline Mesh one_cell(const Tet10Nodes& x = reference_tet10()) {
   block.nodes.resize(1, 10);
   block.nodes << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9;
   mesh.cells = {block};
-  mesh.surfaces["skin"] = skin_of(mesh, boundary_faces(mesh));
+  mesh.surfaces["skin"] = skin_of(boundary_faces(mesh));
   mesh.node_sets["tip"] = {3};
   return mesh;
 }

@@ -129,6 +129,11 @@ class Linking(unittest.TestCase):
                 found = [name for name in loaded(self.executable(stage)) if re.match(r"libhdf5(_serial|_openmpi)?\.so", name)]
                 self.assertEqual(len(found), 1, f"clatter-{stage} loads {found}")
 
+    def test_hardE5_our_eigen_is_not_visible_to_gmsh(self):
+        symbols = subprocess.run(["nm", "-D", "-C", "--defined-only", self.executable("mesh")],
+                                 capture_output=True, text=True, check=True).stdout
+        self.assertEqual([line for line in symbols.splitlines() if "Eigen::" in line], [])
+
     def test_hardE5_one_set_of_flags_for_all_targets(self):
         commands = BUILD / "compile_commands.json"
         if not commands.exists():

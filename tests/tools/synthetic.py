@@ -3,11 +3,12 @@ import pathlib
 
 import h5py
 import numpy as np
+from clatter_tools.artefact import schema_of
 
 
 def new_file(path, kind):
     file = h5py.File(path, "w")
-    file.attrs["schema"] = f"clatter/{kind}/1"
+    file.attrs["schema"] = schema_of(kind)
     file.attrs["version"] = "0.1.0"
     file.attrs["config"] = "speed_rpm = 2000\n"
     text = h5py.string_dtype()
@@ -56,9 +57,9 @@ def write_mesh(path):
     with new_file(path, "mesh") as file:
         file.attrs["name"] = pathlib.Path(path).name.split(".")[0]
         file["nodes"] = nodes
-        file["surfaces/skin"] = faces
-        file["surfaces/deck"] = faces[(nodes[faces[:, :3]][:, :, 2] > 0.2499).all(axis=1)]
-        file["surfaces/mount_1"] = faces[(nodes[faces[:, :3]][:, :, 1] > 0.0999).all(axis=1)]
+        file["surfaces/skin/tri6"] = faces
+        file["surfaces/deck/tri6"] = faces[(nodes[faces[:, :3]][:, :, 2] > 0.2499).all(axis=1)]
+        file["surfaces/mount_1/tri6"] = faces[(nodes[faces[:, :3]][:, :, 1] > 0.0999).all(axis=1)]
         file["cells/0/nodes"] = np.zeros((1, 10), np.int32)
 
 

@@ -14,6 +14,11 @@ def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def schema_of(kind):
+    """The schema of today's files of that kind: "clatter/mesh/2"."""
+    return f"clatter/{kind}/{2 if kind in ('mesh', 'fe', 'modes') else 1}"
+
+
 def open_artefact(path, kind=None):
     """Opens an artefact for reading; `kind` is the middle of its schema, as "run" in clatter/run/1."""
     path = pathlib.Path(path)
@@ -24,8 +29,8 @@ def open_artefact(path, kind=None):
     except OSError as error:
         raise BadArtefact(f"{path}: not a readable HDF5 file") from error
     schema = text(file.attrs.get("schema", "none"))
-    if kind and schema.split("/")[:2] != ["clatter", kind]:
-        raise BadArtefact(f"{path}: schema: found {schema}, expected clatter/{kind}/1")
+    if kind and schema != schema_of(kind):
+        raise BadArtefact(f"{path}: schema: found {schema}, expected {schema_of(kind)}")
     return file
 
 

@@ -9,15 +9,26 @@ from . import raster, style
 METAL = np.array([0.80, 0.82, 0.84])
 SECTION = np.array([0.55, 0.36, 0.33])  # cut material
 
+# Columns of each face type that make its triangles. Corners stand in for middles that do not exist: then one of the
+# four parts that are drawn has all the area, and the diagonal of a square is no edge.
+AS_TRIANGLES = {
+    "tri3": ([0, 1, 2, 1, 2, 2],),
+    "tri6": ([0, 1, 2, 3, 4, 5],),
+    "quad4": ([1, 2, 0, 2, 0, 0], [3, 0, 2, 0, 2, 2]),
+    "quad8": ([0, 1, 2, 4, 5, 0], [0, 2, 3, 0, 6, 7]),
+}
+
 
 def rgb(hexadecimal):
     return np.array([int(hexadecimal[i:i + 2], 16) / 255 for i in (1, 3, 5)])
 
 
 def surface(mesh, name):
-    """tri6 of a named surface, (f, 6)."""
+    """Faces of a named surface as quadratic triangles, (f, 6)."""
     group = mesh["surfaces"][name]
-    return group["triangles"][()] if hasattr(group, "keys") else group[()]
+    parts = [faces[:, columns] for kind in AS_TRIANGLES if kind in group
+             for faces in [group[kind][()]] for columns in AS_TRIANGLES[kind]]
+    return np.concatenate(parts) if parts else np.zeros((0, 6), np.int32)
 
 
 def draw_mesh(files):

@@ -1,16 +1,16 @@
-#include "assembly/quadrature.hpp"
+#include "mesh/quadrature.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
-namespace clatter::assembly {
+namespace clatter::mesh {
 namespace {
 
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
-double worst_tet_error(const TetRule& rule, int degree) {
+double worst_tet_error(const CellRule& rule, int degree) {
   double worst = 0.0;
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j)
@@ -41,7 +41,7 @@ TEST(Quadrature, TetRulesAreNotExactBeyondTheirDegree) {
 }
 
 TEST(Quadrature, AllWeightsArePositiveAndAllPointsInside) {
-  for (const TetRule* rule : {&tet_rule_1(), &tet_rule_4(), &tet_rule_14(), &tet_rule_64()}) {
+  for (const CellRule* rule : {&tet_rule_1(), &tet_rule_4(), &tet_rule_14(), &tet_rule_64()}) {
     EXPECT_GT(rule->weights.minCoeff(), 0.0);
     EXPECT_GT(rule->points.minCoeff(), 0.0);
     EXPECT_LT(rule->points.rowwise().sum().maxCoeff(), 1.0);
@@ -49,7 +49,7 @@ TEST(Quadrature, AllWeightsArePositiveAndAllPointsInside) {
 }
 
 TEST(Quadrature, TriangleRuleIntegratesDegreeSeven) {
-  const TriangleRule& rule = triangle_rule_16();
+  const FaceRule& rule = triangle_rule_16();
   for (int i = 0; i <= 7; ++i)
     for (int j = 0; i + j <= 7; ++j) {
       double sum = 0.0;
@@ -61,4 +61,4 @@ TEST(Quadrature, TriangleRuleIntegratesDegreeSeven) {
 }
 
 }  // namespace
-}  // namespace clatter::assembly
+}  // namespace clatter::mesh
