@@ -1,0 +1,86 @@
+#include "mesh/deck/abaqus_reader.hpp"
+
+#include <algorithm>
+
+#include "mesh/deck/abaqus_parser.hpp"
+#include "mesh/deck/abaqus_reading.hpp"
+
+namespace clatter::mesh::deck {
+namespace abaqus {
+
+// Sets of the deck and surfaces of nodes. A set that holds points stands in Deck::sets with all its
+// places; its nodes of the mesh, if any, in Mesh::node_sets as well.
+void read_node_sets(Reading* reading) {
+  const Model& model = *reading->model;
+  const auto add = [&](const std::string& name, const std::vector<int32_t>& rows) {
+    std::vector<Place> nodes, all;
+    for (const int32_t row : rows) {
+      const int32_t node = reading->places->mesh_node(row);
+      const Place place = reading->places->find(row);
+      if (node != Places::kNone) nodes.push_back(node);
+      if (node != Places::kNone || place != Places::kNone) {
+        all.push_back(node != Places::kNone ? node : place);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    if (all.size() > nodes.size()) reading->deck->sets[name] = all;
+    if (!nodes.empty() || rows.empty()) reading->deck->mesh.node_sets[name] = std::move(nodes);
+  };
+  for (size_t use = 0; use < model.uses().size(); ++use) {
+    for (const auto& [key, set] : model.uses()[use].scope->node_sets) {
+      add(model.public_name(use, set.name),
+          reading->sets->nodes(use, set.name, set.chunks.front().spot));
+    }
+  }
+  for_each_card(*reading, {"SURFACE"}, [&](size_t use, const Card& card) {
+    const std::string& name = *card.keyword().find("NAME");
+    const std::string shown = model.public_name(use, name);
+    const auto* rows = node_surface(*reading, use, name);
+    if (rows != nullptr && !reading->deck->mesh.node_sets.contains(shown)) add(shown, *rows);
+  });
+}
+
+namespace {
+
+Deck read(Source* source, const std::string& name, const ReadOptions& options) {
+  Ignore ignore(options);
+  const Model model(parse(source, &ignore), *source);
+  Sets sets(&model);
+  Deck deck;
+  deck.mesh.name = name;
+  Reading reading{*source, &ignore, &model, &sets, &deck, nullptr, {}, {}, {}, {}};
+  read_materials(&reading);
+  read_orientations(&reading);
+  Places places(&model, &deck, build_mesh(&reading));
+  reading.places = &places;
+  read_surfaces(&reading);
+  read_transforms(&reading);
+  read_initial_conditions(&reading);
+  read_rigid(&reading);
+  read_distributing(&reading);
+  read_ties(&reading);
+  read_masses(&reading);
+  read_equations(&reading);
+  finish_rigid(&reading);
+  read_steps(&reading);
+  read_node_sets(&reading);
+  deck.files = source->files();
+  deck.ignored = ignore.counted();
+  std::erase_if(deck.ignored, [](const auto& entry) { return entry.second == 0; });
+  return deck;
+}
+
+}  // namespace
+}  // namespace abaqus
+
+Deck read_abaqus(const std::filesystem::path& path, const ReadOptions& options) {
+  abaqus::Source source(path);
+  return abaqus::read(&source, path.stem().string(), options);
+}
+
+Deck read_abaqus_text(std::string_view text, const std::string& name, const ReadOptions& options) {
+  abaqus::Source source(text, name);
+  return abaqus::read(&source, std::filesystem::path(name).stem().string(), options);
+}
+
+}  // namespace clatter::mesh::deck

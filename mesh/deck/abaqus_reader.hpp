@@ -1,0 +1,66 @@
+#pragma once
+// Reads an Abaqus or CalculiX input deck.
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "mesh/deck/deck.hpp"
+
+namespace clatter::mesh::deck {
+
+/// What is read, in the deck's own units:
+///
+///   mesh        *NODE, *ELEMENT of C3D4 C3D5 C3D6 C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R,
+///               *NSET, *ELSET, *SURFACE, *PART, *INSTANCE, *INCLUDE
+///   material    *ELASTIC, *DENSITY, *EXPANSION, *SOLID SECTION, *ORIENTATION
+///   constraints *TIE, *COUPLING, *DISTRIBUTING COUPLING, *RIGID BODY, *EQUATION, *MPC of PIN, TIE
+///   and
+///               BEAM, *MASS, *ROTARY INERTIA
+///   steps       *STATIC, *FREQUENCY with *BOUNDARY, *TRANSFORM, *CLOAD, *DLOAD, *DSLOAD,
+///   *TEMPERATURE
+///
+/// Names are kept as first written and compared without case and blanks. Output requests are
+/// skipped; any other keyword, parameter or element type is an InputError "deck.inp:12: ..." unless
+/// the user ignores it by name. These choices are not in the deck's text:
+///
+/// - A region is an element set with a section and has its name; a deck without any section has the
+///   sets of *ELEMENT as regions, without material. Element sets have no place in the mesh
+///   otherwise.
+/// - Nodes without elements are left out unless a constraint, a mass or an equation needs them:
+/// then
+///   they are points. A support of such a node holds nothing and is left out.
+/// - A deck of instances: a scope's numbers are kept where they lie above those of the scopes
+/// before,
+///   else a multiple of a power of ten is added (node 17 of the second instance: 1017). What a part
+///   names is "instance.name" when there are several instances or the assembly uses the name as
+///   well.
+/// - C3D8 and C3D20 are kFull, C3D8R and C3D20R kReduced, C3D8I kIncompatible.
+/// - Strains of a temperature start at that of *INITIAL CONDITIONS; ZERO of *EXPANSION has no
+/// effect
+///   on constant coefficients.
+/// - A reference node that belongs to an element becomes a point as well, which moves that node; a
+/// ROT
+///   NODE's translations are the rotations of its reference point.
+/// - *DISTRIBUTING COUPLING with its node at the weighted centre of the others means the same in
+/// all
+///   programs. Off the centre it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
+///   weighted mean, the moment of a force is lost.
+/// - An element line with too many nodes is refused; ignore = ["EXTRA NODES"] takes the first ones,
+/// as
+///   CalculiX does.
+/// - A *TIE or *COUPLING surface of TYPE=NODE stands for the outer faces whose nodes are all in it.
+/// - Equations between nodes with *TRANSFORM are turned into the basic axes.
+/// - *STEP, PERTURBATION behind a loaded *STATIC step is refused (its stiffness depends on the
+/// loads);
+///   ignore = ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step as
+///   linear, ignore = ["AMPLITUDE"] loads as they stand.
+/// - Steps take over loads and supports from the step before (OP=MOD); within one step loads on the
+///   same place add up. A *STEP, PERTURBATION has only its own loads.
+///
+/// InputError for what is wrong in the deck, FileError when it cannot be read.
+Deck read_abaqus(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The same from memory, called `name` in messages; *INCLUDE is refused.
+Deck read_abaqus_text(std::string_view text, const std::string& name, const ReadOptions& options);
+
+}  // namespace clatter::mesh::deck
