@@ -1,0 +1,17 @@
+// Any text is either a deck or an InputError: no crash, no hang, no runaway memory.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "mesh/deck/abaqus_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const clatter::mesh::deck::ReadOptions options{{"NLGEOM", "S3", "*SHELL SECTION", "MOMENT"}};
+  try {
+    clatter::mesh::deck::read_abaqus_text(text, "fuzz.inp", options);
+  } catch (const clatter::InputError&) {
+  }
+  return 0;
+}
