@@ -16,7 +16,7 @@ int64_t offset_above(int32_t taken, int32_t lowest, int32_t own) {
   if (lowest > taken) return 0;
   int64_t power = 10;
   while (power <= own) power *= 10;
-  return (taken / power + 1) * power;
+  return (taken + power - 1) / power * power;
 }
 
 }  // namespace

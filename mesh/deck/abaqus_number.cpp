@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -40,23 +42,24 @@ Decimal decimal_of(double value, int precision) {
 
 // 123.45, .0012345 or 12345e-9, whichever is shortest.
 std::string shortest(const Decimal& decimal) {
-  const int n = static_cast<int>(decimal.digits.size());
+  const std::string& digits = decimal.digits;
+  const int n = static_cast<int>(digits.size());
   const int e = decimal.exponent;
-  const std::string sign = decimal.negative ? "-" : "";
   const int shift = e - n + 1;  // of the digits as a whole number
-  std::string best = sign + decimal.digits + (shift == 0 ? "." : "e" + std::to_string(shift));
+  const char* sign = decimal.negative ? "-" : "";
+  const std::string whole =
+      shift == 0 ? fmt::format("{}{}.", sign, digits) : fmt::format("{}{}e{}", sign, digits, shift);
+  constexpr int kMost = static_cast<int>(kWidth);
   std::string fixed;
   if (e >= 0 && e < n) {
-    fixed = decimal.digits.substr(0, static_cast<size_t>(e + 1)) + "." +
-            decimal.digits.substr(static_cast<size_t>(e + 1));
-  } else if (e < 0 && e > -static_cast<int>(kWidth)) {
-    fixed = "." + std::string(static_cast<size_t>(-e - 1), '0') + decimal.digits;
-  } else if (e < static_cast<int>(kWidth)) {
-    fixed = decimal.digits + std::string(static_cast<size_t>(e > 0 ? shift : 0), '0') + ".";
+    const auto before = static_cast<size_t>(e + 1);
+    fixed = fmt::format("{}{}.{}", sign, digits.substr(0, before), digits.substr(before));
+  } else if (e < 0 && e > -kMost) {
+    fixed = fmt::format("{}.{:0<{}}{}", sign, "", -e - 1, digits);
+  } else if (e > 0 && e < kMost) {
+    fixed = fmt::format("{}{}{:0<{}}.", sign, digits, "", shift);
   }
-  const bool fits = !fixed.empty() && e > -static_cast<int>(kWidth);
-  if (fits && sign.size() + fixed.size() <= std::max(best.size(), kWidth)) best = sign + fixed;
-  return best;
+  return !fixed.empty() && fixed.size() <= std::max(whole.size(), kWidth) ? fixed : whole;
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ class SurfaceReader {
 
 std::string add_surface(Reading* reading, const std::string& name,
                         const std::vector<CellFaceId>& faces) {
-  Surface surface;
+  SurfaceBuilder surface;
   std::set<CellFaceId> known;
   for (const CellFaceId& id : faces) {
     if (!known.insert(id).second) continue;
@@ -173,7 +173,7 @@ std::string add_surface(Reading* reading, const std::string& name,
   auto& surfaces = reading->deck->mesh.surfaces;
   std::string free_name = name;
   for (int i = 2; surfaces.contains(free_name); ++i) free_name = fmt::format("{}_{}", name, i);
-  surfaces[free_name] = std::move(surface);
+  surfaces[free_name] = surface.finish();
   return free_name;
 }
 

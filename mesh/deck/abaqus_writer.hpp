@@ -20,7 +20,7 @@ void write_abaqus(const Mesh& mesh, const std::filesystem::path& path);
 
 /// A number in at most 20 characters, all that CalculiX reads: the shortest text that gives the
 /// same double again, or, where that is longer, as many digits as fit. Above 0.01 nothing is lost;
-/// smaller numbers of 17 digits lose up to 5e-15 of their value.
+/// smaller numbers of 17 digits lose up to 5e-15 of their value (5e-14 below 1e-80).
 std::string abaqus_number(double value);
 
 }  // namespace clatter::mesh::deck

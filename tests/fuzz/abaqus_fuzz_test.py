@@ -1,0 +1,14 @@
+"""A minute of libFuzzer over the Abaqus reader."""
+import sys
+import unittest
+
+from fuzz_run import run_fuzzer
+
+
+class AbaqusFuzz(unittest.TestCase):
+    def test_no_text_breaks_the_reader(self):
+        run_fuzzer(self, 'abaqus')
+
+
+if __name__ == '__main__':
+    sys.exit(unittest.main())
