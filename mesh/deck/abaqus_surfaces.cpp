@@ -10,29 +10,64 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of a face of a cell, in our order.
-std::vector<int32_t> face_rows(const Model& model, CellFaceId id) {
+// Rows of a face of a cell, in our order: the first `count` of them.
+struct FaceRows {
+  std::array<int32_t, kMaxFaceNodes> rows;
+  size_t count, corners;
+  auto begin() const { return rows.begin(); }
+  auto end() const { return rows.begin() + static_cast<long>(count); }
+};
+
+FaceRows face_rows(const Model& model, CellFaceId id) {
   const CellType type = model.table_of(id.first).type;
   const CellFace& face = traits(type).faces[static_cast<size_t>(id.second)];
   const std::span<const int> p = traits(type).to_abaqus;
   const auto rows = model.nodes_of(id.first);
-  std::vector<int32_t> out;
-  for (int i = 0; i < traits(face.type).nodes; ++i) {
-    const auto at = std::find(p.begin(), p.end(), face.nodes[static_cast<size_t>(i)]) - p.begin();
-    out.push_back(rows[static_cast<size_t>(at)]);
+  FaceRows out{{},
+               static_cast<size_t>(traits(face.type).nodes),
+               static_cast<size_t>(traits(face.type).corners)};
+  for (size_t i = 0; i < out.count; ++i) {
+    out.rows[i] =
+        rows[static_cast<size_t>(std::find(p.begin(), p.end(), face.nodes[i]) - p.begin())];
   }
   return out;
 }
 
-// Corners, ascending: the same for both cells that share a face.
-using Corners = std::array<int32_t, 4>;
-Corners corners_of(const Model& model, CellFaceId id) {
-  const CellType type = model.table_of(id.first).type;
-  const int n = traits(traits(type).faces[static_cast<size_t>(id.second)].type).corners;
-  const auto rows = face_rows(model, id);
-  Corners corners = {rows[0], rows[1], rows[2], n == 4 ? rows[3] : -1};
-  std::sort(corners.begin(), corners.end());
-  return corners;
+// A face that may be free, by its corners, ascending: the same for both cells that share it.
+struct Candidate {
+  std::array<int32_t, 4> corners;
+  CellFaceId id;
+  bool chosen;
+};
+
+Candidate candidate(const FaceRows& face, CellFaceId id, bool chosen) {
+  Candidate out{{-1, -1, -1, -1}, id, chosen};
+  std::copy_n(face.rows.begin(), face.corners, out.corners.begin());
+  std::sort(out.corners.begin(), out.corners.end());
+  return out;
+}
+
+int32_t face_count(const Model& model, int32_t cell) {
+  return static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
+}
+
+// Faces of all other cells whose nodes are all touched.
+void add_neighbours(const Model& model, const std::vector<bool>& chosen,
+                    const std::vector<bool>& touched, std::vector<Candidate>* faces) {
+  const auto is_touched = [&](int32_t row) { return touched[static_cast<size_t>(row)]; };
+  for (int32_t cell = 0; cell < model.cells(); ++cell) {
+    const auto nodes = model.nodes_of(cell);
+    if (chosen[static_cast<size_t>(cell)] ||
+        std::count_if(nodes.begin(), nodes.end(), is_touched) < 3) {
+      continue;
+    }
+    for (int32_t f = 0; f < face_count(model, cell); ++f) {
+      const FaceRows face = face_rows(model, {cell, f});
+      if (std::all_of(face.begin(), face.end(), is_touched)) {
+        faces->push_back(candidate(face, {cell, f}, false));
+      }
+    }
+  }
 }
 
 // Of the faces of those cells, those for which `wanted` is true of all rows and that no other cell
@@ -40,35 +75,26 @@ Corners corners_of(const Model& model, CellFaceId id) {
 template <class Wanted>
 std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t>& cells,
                                    const Wanted& wanted) {
-  std::map<Corners, CellFaceId> candidates;
-  for (const int32_t cell : cells) {
-    const auto n = static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
-    for (int32_t f = 0; f < n; ++f) {
-      const auto rows = face_rows(model, {cell, f});
-      if (std::all_of(rows.begin(), rows.end(), wanted)) {
-        candidates[corners_of(model, {cell, f})] = {cell, f};
-      }
-    }
-  }
+  std::vector<Candidate> all;
+  std::vector<bool> chosen(static_cast<size_t>(model.cells()), false);
   std::vector<bool> touched(static_cast<size_t>(model.nodes()), false);
-  for (const auto& [corners, id] : candidates) {
-    for (const int32_t row : corners) {
-      if (row >= 0) touched[static_cast<size_t>(row)] = true;
+  for (const int32_t cell : cells) {
+    chosen[static_cast<size_t>(cell)] = true;
+    for (int32_t f = 0; f < face_count(model, cell); ++f) {
+      const FaceRows face = face_rows(model, {cell, f});
+      if (!std::all_of(face.begin(), face.end(), wanted)) continue;
+      all.push_back(candidate(face, {cell, f}, true));
+      for (const int32_t row : face) touched[static_cast<size_t>(row)] = true;
     }
   }
-  for (int32_t cell = 0; cell < model.cells(); ++cell) {
-    const auto rows = model.nodes_of(cell);
-    const auto n_touched = std::count_if(
-        rows.begin(), rows.end(), [&](int32_t row) { return touched[static_cast<size_t>(row)]; });
-    if (n_touched < 3) continue;
-    const auto n = static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
-    for (int32_t f = 0; f < n; ++f) {
-      const auto at = candidates.find(corners_of(model, {cell, f}));
-      if (at != candidates.end() && at->second != CellFaceId{cell, f}) candidates.erase(at);
-    }
-  }
+  add_neighbours(model, chosen, touched, &all);
+  std::sort(all.begin(), all.end(),
+            [](const Candidate& a, const Candidate& b) { return a.corners < b.corners; });
   std::vector<CellFaceId> faces;
-  for (const auto& [corners, id] : candidates) faces.push_back(id);
+  for (size_t i = 0, end = 0; i < all.size(); i = end) {
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1 && all[i].chosen) faces.push_back(all[i].id);
+  }
   std::sort(faces.begin(), faces.end());
   return faces;
 }
@@ -165,10 +191,10 @@ std::string add_surface(Reading* reading, const std::string& name,
   std::set<CellFaceId> known;
   for (const CellFaceId& id : faces) {
     if (!known.insert(id).second) continue;
-    std::vector<int32_t> nodes = face_rows(*reading->model, id);
-    for (int32_t& node : nodes) node = reading->places->mesh_node(node);
+    FaceRows face = face_rows(*reading->model, id);
+    for (int32_t& row : face.rows) row = reading->places->mesh_node(row);
     const CellType type = reading->model->table_of(id.first).type;
-    surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, nodes);
+    surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
   }
   auto& surfaces = reading->deck->mesh.surfaces;
   std::string free_name = name;

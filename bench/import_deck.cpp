@@ -1,0 +1,35 @@
+// import_deck FILE: reads a deck and prints nodes, cells, seconds and the megabytes of the mesh
+// itself.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "mesh/deck/abaqus_reader.hpp"
+
+namespace {
+
+double megabytes(const clatter::mesh::Mesh& mesh) {
+  auto bytes = static_cast<size_t>(mesh.nodes.size()) * sizeof(double) +
+               mesh.node_ids.size() * sizeof(int32_t);
+  for (const auto& block : mesh.cells) {
+    bytes += (static_cast<size_t>(block.nodes.size()) + block.ids.size()) * sizeof(int32_t);
+  }
+  for (const auto& [name, nodes] : mesh.node_sets) bytes += nodes.size() * sizeof(int32_t);
+  return static_cast<double>(bytes) / 1e6;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return clatter::run_guarded("import_deck", [&] {
+    if (argc != 2) throw clatter::InputError("expected one file");
+    const auto begin = std::chrono::steady_clock::now();
+    const auto deck = clatter::mesh::deck::read_abaqus(argv[1], {});
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    fmt::print("{} {} {:.3f} {:.1f}\n", deck.mesh.nodes.rows(), deck.mesh.cell_count(),
+               seconds.count(), megabytes(deck.mesh));
+    return 0;
+  });
+}
