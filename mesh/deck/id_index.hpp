@@ -1,0 +1,49 @@
+#pragma once
+// Numbers of a deck to rows of a table.
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace clatter::mesh::deck {
+
+/// A table by number where the numbers are dense, a sorted list elsewhere: never more than 16 bytes
+/// a number and a quarter of a megabyte.
+class IdIndex {
+ public:
+  IdIndex() = default;
+  /// Numbers from 1; row i is that of ids[i]. Of numbers that come twice the first row counts.
+  explicit IdIndex(const std::vector<int32_t>& ids);
+
+  /// Row of a number, -1 when there is none.
+  int32_t find(int32_t id) const;
+  /// Calls body(row) for the numbers first, first + step, ... up to last that there are, ascending.
+  template <class Body>
+  void for_each(int32_t first, int32_t last, int32_t step, const Body& body) const;
+  /// How many places for_each looks at.
+  int64_t effort(int32_t first, int32_t last) const;
+  /// Rows (first, further) of numbers that come twice.
+  const std::vector<std::pair<int32_t, int32_t>>& duplicates() const { return duplicates_; }
+
+ private:
+  std::vector<int32_t> table_;                       // by number; or
+  std::vector<std::pair<int32_t, int32_t>> sorted_;  // (number, row)
+  std::vector<std::pair<int32_t, int32_t>> duplicates_;
+};
+
+template <class Body>
+void IdIndex::for_each(int32_t first, int32_t last, int32_t step, const Body& body) const {
+  if (!table_.empty()) {
+    const int64_t end = std::min<int64_t>(last, static_cast<int64_t>(table_.size()) - 1);
+    for (int64_t id = first; id <= end; id += step) {
+      if (const int32_t row = table_[static_cast<size_t>(id)]; row >= 0) body(row);
+    }
+    return;
+  }
+  auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<int32_t, int32_t>(first, 0));
+  for (; at != sorted_.end() && at->first <= last; ++at) {
+    if ((at->first - first) % step == 0) body(at->second);
+  }
+}
+
+}  // namespace clatter::mesh::deck

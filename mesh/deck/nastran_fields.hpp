@@ -1,0 +1,40 @@
+#pragma once
+// One physical line of bulk data split into its fields, and the numbers in them.
+//
+//   small   name of 8 columns, 8 data fields of 8, continuation name in columns 73 to 80
+//   large   the same with 4 data fields of 16: the name ends, or a continuation begins, with *
+//   free    fields between commas, 8 (large: 4) and the continuation name; a line that goes on
+//           behind its continuation name holds the next line of the card as well
+//
+// Tabs stand for blanks up to the next column of eight. Comments ($) end a line.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clatter::mesh::deck::nastran {
+
+/// Views into the line that was split, or into `expanded`.
+struct LineFields {
+  std::string_view head;  // card name without *; of a continuation: its name without + or *
+  bool continuation = false;
+  bool large = false;
+  std::vector<std::string_view> data;  // trimmed; 8 or 4 for each line of the card
+  std::string_view next;               // name of the continuation, without + or *; often empty
+  std::string expanded;                // the line without tabs, where there were some
+};
+
+/// Splits `line` (neither blank nor a comment). Returns what is wrong with it, empty when nothing.
+std::string split_line(std::string_view line, LineFields& out);
+
+/// The line without a $ and what follows it, and without blanks at its end.
+std::string_view without_comment(std::string_view line);
+std::string_view trimmed(std::string_view text);
+
+/// A real number as Nastran writes it (1.5, .5, 1.5-3, 1.+5, 1D3) or a whole one; finite.
+std::optional<double> parse_real(std::string_view text);
+/// A whole number of 32 bits.
+std::optional<int32_t> parse_integer(std::string_view text);
+
+}  // namespace clatter::mesh::deck::nastran

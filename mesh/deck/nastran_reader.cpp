@@ -1,0 +1,40 @@
+#include "mesh/deck/nastran_reader.hpp"
+
+#include "mesh/deck/nastran_cards.hpp"
+#include "mesh/deck/nastran_control.hpp"
+#include "mesh/deck/nastran_model.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+using namespace nastran;
+
+Deck read(Source& source, const std::string& name, const ReadOptions& options) {
+  Ignored ignored(options.ignore);
+  Control control = read_control(source, ignored);
+  Model model(source, read_bulk(source, std::move(control), ignored));
+  model.deck.mesh.name = name;
+  build_mesh(model);
+  build_couplings(model);
+  build_supports(model);
+  build_sets(model);
+  build_steps(model);
+  model.deck.ignored = ignored.counts();
+  count_unused(model);
+  model.deck.files = source.files();
+  return std::move(model.deck);
+}
+
+}  // namespace
+
+Deck read_nastran(const std::filesystem::path& path, const ReadOptions& options) {
+  Source source(path);
+  return read(source, path.stem().string(), options);
+}
+
+Deck read_nastran_text(const std::string& name, std::string_view text, const ReadOptions& options) {
+  Source source(name, text);
+  return read(source, name, options);
+}
+
+}  // namespace clatter::mesh::deck
