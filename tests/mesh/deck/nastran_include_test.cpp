@@ -1,5 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -17,8 +20,8 @@ class NastranInclude : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              ("clatter_include_" + std::to_string(::getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
+              fmt::format("clatter_include_{}_{}", ::getpid(),
+                          testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "sub" / "deep");
   }
@@ -96,13 +99,12 @@ TEST_F(NastranInclude, CyclesAreRefused) {
 
 TEST_F(NastranInclude, DepthAndNumberAreLimited) {
   for (int i = 0; i < 70; ++i) {
-    write("f" + std::to_string(i), "INCLUDE f" + std::to_string(i + 1) + "\n");
+    write(fmt::format("f{}", i), fmt::format("INCLUDE f{}\n", i + 1));
   }
   EXPECT_THAT(refusal_of("f0"), HasSubstr("more than 64 files deep"));
   // Each file includes the next one twice: 2^40 lines without a limit.
   for (int i = 0; i < 40; ++i) {
-    const std::string line = "INCLUDE f" + std::to_string(i + 1) + "\n";
-    write("f" + std::to_string(i), line + line);
+    write(fmt::format("f{}", i), fmt::format("INCLUDE f{0}\nINCLUDE f{0}\n", i + 1));
   }
   write("f40", "$\n");
   EXPECT_THAT(refusal_of("f0"), HasSubstr("more than 10000 INCLUDE"));

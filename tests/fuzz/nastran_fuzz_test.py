@@ -1,0 +1,14 @@
+"""A minute of libFuzzer over the Nastran reader."""
+import sys
+import unittest
+
+from fuzz_run import run_fuzzer
+
+
+class NastranFuzz(unittest.TestCase):
+    def test_no_text_breaks_the_reader(self):
+        run_fuzzer(self, 'nastran')
+
+
+if __name__ == '__main__':
+    sys.exit(unittest.main())
