@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "assembly/mass_properties.hpp"
@@ -16,14 +17,28 @@ constexpr double kRigidTolerance = 1e-9;  // rounding leaves 1e-12 at 1e6 DoF
 constexpr double kLargeGrowth = 1e6;      // loses six digits in every pivot displacement
 
 /// |K R| over |K| |R|, column by column: the force that a rigid motion should not need.
-double rigid_force(const SparseMatrix& K, const Eigen::MatrixXd& rigid) {
-  const Eigen::MatrixXd force = multiply_symmetric(K, rigid);
-  const double stiffness = Eigen::VectorXd(K.diagonal()).maxCoeff();
+double rigid_force(const FeModel& model, const Eigen::MatrixXd& motions) {
+  const FeSupports& supports = model.supports;
+  const Eigen::MatrixXd rigid = model.rigid * motions;
+  const Eigen::MatrixXd held = supports.rigid * motions;
+  Eigen::MatrixXd force = multiply_symmetric(model.K, rigid);
+  if (supports.size() > 0) force += supports.K_sq.transpose() * held;
+  const double stiffness = Eigen::VectorXd(model.K.diagonal()).maxCoeff();
   double worst = 0.0;
-  for (Eigen::Index c = 0; c < rigid.cols(); ++c)
-    worst = std::max(worst, force.col(c).cwiseAbs().maxCoeff() /
-                                (stiffness * rigid.col(c).cwiseAbs().maxCoeff()));
+  for (Eigen::Index c = 0; c < rigid.cols(); ++c) {
+    const double motion = std::max(rigid.col(c).cwiseAbs().maxCoeff(),
+                                   held.rows() > 0 ? held.col(c).cwiseAbs().maxCoeff() : 0.0);
+    worst = std::max(worst, force.col(c).cwiseAbs().maxCoeff() / (stiffness * motion));
+  }
   return worst;
+}
+
+/// Rigid motions (columns) that no equation holds.
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& grounded) {
+  if (grounded.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(grounded);
+  if (lu.dimensionOfKernel() == 0) return Eigen::MatrixXd(6, 0);
+  return lu.kernel();
 }
 
 void require_below(const std::string& name, const char* what, double found, double limit) {
@@ -35,14 +50,15 @@ void require_below(const std::string& name, const char* what, double found, doub
 
 }  // namespace
 
-std::map<std::string, double> certify(const FeModel& model, const Eigen::MatrixXd& nodal_rigid,
-                                      const Elimination& elimination, int n_fixed) {
+std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained) {
+  const Elimination& elimination = constrained.elimination;
   std::map<std::string, double> numbers;
   numbers["dofs"] = model.size();
-  numbers["dofs_fixed"] = n_fixed;
+  numbers["dofs_fixed"] = elimination.supports();
   numbers["dofs_pivot"] = static_cast<double>(elimination.pivots.size());
   numbers["nonzeros_K"] = static_cast<double>(model.K.nonZeros());
   numbers["nonzeros_M"] = static_cast<double>(model.M.nonZeros());
+  numbers["nonzeros_T"] = static_cast<double>(model.T.nonZeros());
   numbers["largest_T_entry"] = elimination.growth;
   if (elimination.growth > kLargeGrowth)
     warn(
@@ -50,16 +66,21 @@ std::map<std::string, double> certify(const FeModel& model, const Eigen::MatrixX
                     "to one another",
                     model.name, elimination.growth));
 
-  const double recovery = (model.T * model.rigid - nodal_rigid).cwiseAbs().maxCoeff() /
-                          nodal_rigid.cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd motions = free_motions(constrained.grounded);
+  numbers["rigid_motions_held_by_equations"] = static_cast<double>(6 - motions.cols());
+  if (motions.cols() == 0) return numbers;
+  const Eigen::MatrixXd nodal = constrained.nodal_rigid.topRows(model.T.rows()) * motions;
+  Eigen::MatrixXd recovered = model.T * (model.rigid * motions);
+  if (model.supports.size() > 0) recovered += model.supports.T * (model.supports.rigid * motions);
+  const double recovery = (recovered - nodal).cwiseAbs().maxCoeff() / nodal.cwiseAbs().maxCoeff();
   numbers["rigid_recovery_error"] = recovery;
   require_below(model.name, "rigid motions recovered by T, relative error", recovery,
                 kRigidTolerance);
-  if (n_fixed > 0) return numbers;  // a supported model has no rigid motion to compare with
-
-  numbers["rigid_force_residue"] = rigid_force(model.K, model.rigid);
+  numbers["rigid_force_residue"] = rigid_force(model, motions);
   require_below(model.name, "force of rigid motions, |K R| / |K| |R|",
                 numbers["rigid_force_residue"], kRigidTolerance);
+  // A supported model's M lacks what the supports hold.
+  if (elimination.supports() > 0 || motions.cols() < 6) return numbers;
   const MassDifference error = compare(properties_of(model.M, model.rigid), model.mass);
   numbers["mass_error"] = error.mass;
   numbers["centre_error"] = error.centre;

@@ -4,17 +4,16 @@
 #include <map>
 #include <string>
 
-#include "assembly/elimination.hpp"
+#include "assembly/constrain.hpp"
 #include "assembly/fe_model.hpp"
 
 namespace clatter::assembly {
 
 /// Checks M, K, T and `rigid` of `model` against each other and against the integrals over the
-/// elements (model.mass); returns the numbers. `nodal_rigid` (3 n_nodes x 6) are unit rigid
-/// motions with supported displacements at zero. NumericsError when mass, centre or inertia are
-/// off by more than 1e-9 (hard case B5), or when rigid motions are not free of force or not
-/// recovered to 1e-9.
-std::map<std::string, double> certify(const FeModel& model, const Eigen::MatrixXd& nodal_rigid,
-                                      const Elimination& elimination, int n_fixed);
+/// elements (model.mass); returns the numbers. Supported coordinates count with their own blocks,
+/// so that a supported model is checked too; rigid motions that an equation holds are left out.
+/// NumericsError when mass, centre or inertia are off by more than 1e-9 (hard case B5), or when
+/// rigid motions are not free of force or not recovered to 1e-9.
+std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained);
 
 }  // namespace clatter::assembly

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
+#include <numeric>
 
-#include "assembly/cluster.hpp"
+#include "assembly/dof_numbers.hpp"
+#include "assembly/member_group.hpp"
 #include "core/error.hpp"
 
 namespace clatter::assembly {
@@ -17,82 +15,63 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kNoRotation = 1e-8;  // smallest over largest eigenvalue of the scaled A
-constexpr double kRounding = 1e-14;   // of a row's largest entry: weights that are zero in theory
+constexpr double kUndefined = 1e-8;  // smallest over largest eigenvalue of the scaled A
+constexpr double kTakesPart = 1e-6;  // of an undefined motion in a wanted direction
 
-constexpr std::array<const char*, 6> kSuffix = {"x", "y", "z", "rx", "ry", "rz"};
+/// Motion of a place with the reference: rows x y z rx ry rz.
+Matrix6 place_motion(const Eigen::Vector3d& place, const Eigen::Vector3d& centre) {
+  Matrix6 motion = Matrix6::Identity();
+  motion.topRows<3>() = rigid_motion(place, centre);
+  return motion;
+}
 
-/// Area-weighted groups of a face's nodes; single nodes on a small face.
-struct Group {
-  std::vector<int32_t> nodes;
-  std::vector<double> weights;  // sum to one
-  double area = 0.0;
+/// Weighted centre of the members and their root mean square distance from it.
+struct Extent {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+  double weight = 0.0;
 };
 
-std::vector<Group> group_nodes(const RowMatrix& coordinates, const std::vector<int32_t>& nodes,
-                               const std::vector<double>& areas) {
-  std::map<int32_t, double> area_of;
-  double largest = 0.0;
-  for (size_t k = 0; k < nodes.size(); ++k) largest = std::max(largest, std::abs(areas[k]));
-  std::vector<int32_t> loaded;  // corners of flat quadratic faces carry nothing
-  for (size_t k = 0; k < nodes.size(); ++k) {
-    if (std::abs(areas[k]) <= kRounding * largest) continue;
-    area_of[nodes[k]] = areas[k];
-    loaded.push_back(nodes[k]);
+Extent extent_of(const std::vector<Member>& members) {
+  Extent extent;
+  for (const Member& member : members) {
+    extent.centre += member.weight * member.place;
+    extent.weight += member.weight;
   }
-  const size_t limit = loaded.size() > kLargeFace ? kGroupNodes : 1;
-  std::vector<Group> groups;
-  for (const std::vector<int32_t>& members : cluster_nodes(coordinates, loaded, limit)) {
-    Group group;
-    group.nodes = members;
-    for (const int32_t node : members) group.area += area_of[node];
-    for (const int32_t node : members) group.weights.push_back(area_of[node] / group.area);
-    groups.push_back(std::move(group));
-  }
-  return groups;
+  extent.centre /= extent.weight;
+  for (const Member& member : members)
+    extent.radius += member.weight * (member.place - extent.centre).squaredNorm();
+  extent.radius = std::sqrt(extent.radius / extent.weight);
+  if (!(extent.radius > 0.0)) extent.radius = 1.0;
+  return extent;
 }
 
-/// The rows C (m x 3 groups) as a coupling; direct when each group is one node.
-void set_rows(const Eigen::MatrixXd& C, const std::vector<Group>& groups, Coupling& coupling) {
-  const bool direct = std::all_of(groups.begin(), groups.end(),
-                                  [](const Group& group) { return group.nodes.size() == 1; });
-  std::vector<int32_t> id(static_cast<size_t>(C.cols()), -1);
-  for (Eigen::Index c = 0; c < C.cols(); ++c) {
-    const Group& group = groups[static_cast<size_t>(c / 3)];
-    const auto d = static_cast<int32_t>(c % 3);
-    if (C.col(c).isZero(0.0)) continue;  // a direction that no row asks for
-    id[static_cast<size_t>(c)] =
-        direct ? 3 * group.nodes[0] + d : static_cast<int32_t>(coupling.means.size());
-    if (direct) continue;
-    Functional mean;
-    for (const int32_t node : group.nodes) mean.dofs.push_back(3 * node + d);
-    mean.values = group.weights;
-    coupling.means.push_back(std::move(mean));
-  }
-  for (Eigen::Index r = 0; r < C.rows(); ++r) {
-    const double least = kRounding * C.row(r).cwiseAbs().maxCoeff();
-    Functional row;
-    for (Eigen::Index c = 0; c < C.cols(); ++c) {
-      if (std::abs(C(r, c)) <= least) continue;
-      row.dofs.push_back(id[static_cast<size_t>(c)]);
-      row.values.push_back(C(r, c));
-    }
-    coupling.rows.push_back(std::move(row));
-  }
-}
-
-/// A weighted with the face's own length, so that displacements and rotations compare.
-void require_definite(const Matrix6& A, double area, const std::string& where) {
-  const double length = std::sqrt(area);
+/// A^+ of the normal equations; motions that the members leave undefined must not take part in the
+/// wanted rows of `shift`.
+Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& shift,
+                         const std::vector<int>& directions, const std::string& where) {
+  // Scaled by the members' own extent, so that displacements and rotations compare.
   Eigen::Matrix<double, 6, 1> scale;
-  scale << 1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length;
-  const Matrix6 scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled, Eigen::EigenvaluesOnly);
-  if (eigen.eigenvalues()(0) > kNoRotation * eigen.eigenvalues()(5)) return;
-  throw InputError(
-      fmt::format("{}: found a face that defines no rotation (a line or a point), expected a face "
-                  "with area",
-                  where));
+  scale << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / extent.radius);
+  scale /= std::sqrt(extent.weight);
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  Eigen::Matrix<double, 6, 1> inverse = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()(k) > kUndefined * eigen.eigenvalues()(5)) {
+      inverse(k) = 1.0 / eigen.eigenvalues()(k);
+      continue;
+    }
+    const Eigen::Matrix<double, 6, 1> loose =
+        shift * (scale.asDiagonal() * eigen.eigenvectors().col(k)).eval();
+    for (const int d : directions)
+      if (std::abs(loose(d)) > kTakesPart * scale(d))
+        throw InputError(fmt::format(
+            "{}: found places that do not define {} of the reference (a line or a point), "
+            "expected a face with area or places that span it",
+            where, kDofNames[static_cast<size_t>(d)]));
+  }
+  return scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
+         eigen.eigenvectors().transpose() * scale.asDiagonal();
 }
 
 }  // namespace
@@ -122,36 +101,56 @@ Eigen::Matrix<double, 3, 6> rigid_motion(const Eigen::Vector3d& x, const Eigen::
   return motion;
 }
 
+Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& point,
+                    const std::vector<int>& directions, const std::string& where) {
+  const Extent extent = extent_of(members);
+  const std::vector<MemberGroup> groups = group_members(members);
+  Eigen::MatrixXd weighted = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(groups.size()), 6);
+  Matrix6 A = Matrix6::Zero();
+  for (size_t p = 0; p < groups.size(); ++p) {
+    Matrix6 R = Matrix6::Zero();
+    for (size_t k = 0; k < groups[p].members.size(); ++k)
+      R += groups[p].shares[k] * place_motion(members[groups[p].members[k]].place, extent.centre);
+    for (int d = 0; d < 6; ++d) {
+      if (!members[groups[p].members[0]].has(d)) continue;
+      const double arm = d < 3 ? 1.0 : extent.radius;
+      weighted.row(6 * static_cast<Eigen::Index>(p) + d) = groups[p].weight * arm * arm * R.row(d);
+      A += groups[p].weight * arm * arm * R.row(d).transpose() * R.row(d);
+    }
+  }
+  const Matrix6 shift = place_motion(point, extent.centre);
+  const Eigen::MatrixXd C =
+      shift * inverse_on_range(A, extent, shift, directions, where) * weighted.transpose();
+  Coupling coupling;
+  set_rows(C(directions, Eigen::all), groups, members, coupling);
+  return coupling;
+}
+
+DofSet reference_set(const std::string& name, const std::string& kind, const Eigen::Vector3d& point,
+                     const std::vector<int>& directions) {
+  DofSet set;
+  const auto count = static_cast<Eigen::Index>(directions.size());
+  set.kind = kind;
+  set.position = point.transpose().replicate(count, 1);
+  set.direction = Eigen::MatrixXd::Zero(count, 3);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int d = directions[static_cast<size_t>(k)];
+    set.labels.push_back(name + "." + kDofNames[static_cast<size_t>(d)]);
+    set.direction(k, d % 3) = 1.0;
+    set.is_rotation.push_back(d < 3 ? 0 : 1);
+  }
+  return set;
+}
+
 Coupling distributing_coupling(const std::string& name, const std::string& kind,
                                const RowMatrix& coordinates, const SurfaceIntegrals& surface,
                                const std::optional<Eigen::Vector3d>& point, int n_dofs,
                                const std::string& where) {
   const Eigen::Vector3d centre = point.value_or(surface.centroid);
-  const std::vector<Group> groups =
-      group_nodes(coordinates, surface.nodes, {surface.weight.begin(), surface.weight.end()});
-  Eigen::MatrixXd weighted(3 * static_cast<Eigen::Index>(groups.size()), 6);  // W_p R_p
-  Matrix6 A = Matrix6::Zero();
-  for (size_t p = 0; p < groups.size(); ++p) {
-    Eigen::Matrix<double, 3, 6> R = Eigen::Matrix<double, 3, 6>::Zero();
-    for (size_t k = 0; k < groups[p].nodes.size(); ++k)
-      R += groups[p].weights[k] *
-           rigid_motion(coordinates.row(groups[p].nodes[k]).transpose(), centre);
-    weighted.middleRows<3>(3 * static_cast<Eigen::Index>(p)) = groups[p].area * R;
-    A += groups[p].area * R.transpose() * R;
-  }
-  require_definite(A, surface.area, where);
-
-  Coupling coupling;
-  const Eigen::MatrixXd C = A.ldlt().solve(weighted.transpose());
-  set_rows(C.topRows(n_dofs), groups, coupling);
-  coupling.set.kind = kind;
-  coupling.set.position = centre.transpose().replicate(n_dofs, 1);
-  coupling.set.direction = Eigen::MatrixXd::Zero(n_dofs, 3);
-  for (int d = 0; d < n_dofs; ++d) {
-    coupling.set.labels.push_back(name + "." + kSuffix[static_cast<size_t>(d)]);
-    coupling.set.direction(d, d % 3) = 1.0;
-    coupling.set.is_rotation.push_back(d < 3 ? 0 : 1);
-  }
+  std::vector<int> directions(static_cast<size_t>(n_dofs));
+  std::iota(directions.begin(), directions.end(), 0);
+  Coupling coupling = distribute(members_of(coordinates, surface), centre, directions, where);
+  coupling.set = reference_set(name, kind, centre, directions);
   return coupling;
 }
 
@@ -159,32 +158,25 @@ Coupling mean_displacement(const std::string& name, const RowMatrix& coordinates
                            const SurfaceIntegrals& surface, const Eigen::Vector3d& direction,
                            const std::optional<std::pair<double, double>>& range,
                            const std::string& where) {
-  std::vector<int32_t> nodes;
-  std::vector<double> areas;
-  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
-  double area = 0.0;
-  for (size_t k = 0; k < surface.nodes.size(); ++k) {
-    const Eigen::RowVector3d x = coordinates.row(surface.nodes[k]);
-    const double along = x.dot(direction);
-    if (range && (along < range->first || along > range->second)) continue;
-    nodes.push_back(surface.nodes[k]);
-    areas.push_back(surface.weight(static_cast<Eigen::Index>(k)));
-    centre += areas.back() * x;
-    area += areas.back();
+  std::vector<Member> members;
+  for (const Member& member : members_of(coordinates, surface)) {
+    const double along = member.place.dot(direction);
+    if (!range || (along >= range->first && along <= range->second)) members.push_back(member);
   }
-  if (!(area > 0.0))
+  if (members.empty())
     throw InputError(
         fmt::format("{}: found no node of the surface in the range, expected some", where));
-  const std::vector<Group> groups = group_nodes(coordinates, nodes, areas);
-  Eigen::MatrixXd row(1, 3 * static_cast<Eigen::Index>(groups.size()));
+  const Extent extent = extent_of(members);
+  const std::vector<MemberGroup> groups = group_members(members);
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, 6 * static_cast<Eigen::Index>(groups.size()));
   for (size_t p = 0; p < groups.size(); ++p)
-    row.middleCols<3>(3 * static_cast<Eigen::Index>(p)) =
-        groups[p].area / area * direction.transpose();
+    row.middleCols<3>(6 * static_cast<Eigen::Index>(p)) =
+        groups[p].weight / extent.weight * direction.transpose();
   Coupling coupling;
-  set_rows(row, groups, coupling);
+  set_rows(row, groups, members, coupling);
   coupling.set.kind = "mean";
   coupling.set.labels = {name};
-  coupling.set.position = centre / area;
+  coupling.set.position = extent.centre.transpose();
   coupling.set.direction = direction.transpose();
   coupling.set.is_rotation = {0};
   return coupling;

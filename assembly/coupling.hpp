@@ -39,15 +39,30 @@ struct Coupling {
 inline constexpr size_t kLargeFace = 100;
 inline constexpr size_t kGroupNodes = 24;
 
+struct Member;
+
+/// Rows q = C u for `directions` (0 ... 5: x y z rx ry rz) of a reference node at `point` that fits
+/// the motion of the members best (RBE3):
+///   minimise sum_p W_p sum_d (u_pd - (R_p q)_d)^2,  d the DoFs by which member p takes part,
+///   C = A^-1 [W_p R_p^T ...],  A = sum_p W_p R_p^T R_p,  R = [I, -(x - point) x].
+/// A rotation of a member counts with W_p L^2, L the members' root mean square distance from their
+/// centre. Large faces go by group means. The coupling's set is the caller's. InputError, beginning
+/// with `where`, when the members do not define one of the directions.
+Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& point,
+                    const std::vector<int>& directions, const std::string& where);
+
+/// Labels, place and directions of a reference node's coordinates; no dofs yet.
+DofSet reference_set(const std::string& name, const std::string& kind, const Eigen::Vector3d& point,
+                     const std::vector<int>& directions);
+
 /// The motion of a reference node at `point` (the centroid when absent) that fits the motion of a
 /// face best (distributing coupling, RBE3):
-///   minimise sum_p W_p |u_p - (u_ref + theta x (x - point)_p)|^2   over u_ref, theta,
-///   q_ref = A^-1 sum_p W_p R_p^T u_p,  A = sum_p W_p R_p^T R_p,  R = [I, -(x - point) x].
-/// p counts the nodes of the face with their consistent areas W_p = int N_p dA; on a large face
-/// groups of nodes with area-weighted means u_p, R_p. Rigid motions are reproduced exactly; a force
-/// on q_ref is spread over the face like a traction and adds nothing to its stiffness (hard case
-/// B6: an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only). InputError,
-/// beginning with `where`, when the face does not define a rotation (all nodes on a line).
+/// distribute() with the nodes of the face and their consistent areas W_p = int N_p dA; on a large
+/// face groups of nodes with area-weighted means u_p, R_p. Rigid motions are reproduced exactly; a
+/// force on q_ref is spread over the face like a traction and adds nothing to its stiffness (hard
+/// case B6: an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only).
+/// InputError, beginning with `where`, when the face does not define a rotation (all nodes on a
+/// line).
 Coupling distributing_coupling(const std::string& name, const std::string& kind,
                                const RowMatrix& coordinates, const SurfaceIntegrals& surface,
                                const std::optional<Eigen::Vector3d>& point, int n_dofs,

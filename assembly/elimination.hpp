@@ -1,12 +1,15 @@
 #pragma once
-// Puts generalised coordinates into the model in the place of nodal displacements, and takes
-// supported displacements out.
+// Linear constraints by elimination: expresses every displacement by the model's coordinates.
 //
-// For a coupling q = C u as many pivot displacements are chosen as it has rows (column-pivoted QR
-// of C; a displacement is a pivot at most once) and expressed by
-//   u_piv = C_piv^-1 (q - C_rest u_rest),
-// which gives u = T q, K' = T^T K T, M' = T^T M T, f' = T^T f. No displacement pattern is lost, so
-// K' and M' describe the same body, stay as definite as before, and recovery is exact.
+// A DoF has a number (id): nodal displacements 3 a + d first, then six a reference point, then the
+// generalised coordinates in order of addition. Three kinds of relations take DoFs out:
+//   dependence   u_d = sum_k c_k u_k: rigid couplings, equations, ties;
+//   coupling     q = C u: as many pivot displacements as it has rows (column-pivoted QR of C; a
+//                displacement is a pivot at most once) give way to the coordinates q,
+//                  u_piv = C_piv^-1 (q - C_rest u_rest);
+//   support      s = u, or s = D u in a direction of its own: a coordinate that is held.
+// Together u = T q + T_s s; with s = 0: K' = T^T K T, M' = T^T M T, f' = T^T f. A coupling loses no
+// displacement pattern, so K' and M' describe the same body; recovery is exact in each case.
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
@@ -18,58 +21,100 @@
 
 namespace clatter::assembly {
 
-/// The transformation from all nodal displacements to the model's coordinates: first the nodal
-/// displacements that remain, in their old order, then the generalised ones in order of addition
-/// (means of groups that gave way to a coupling's rows are gone).
+/// The transformation from all displacements to the model's coordinates q: first the displacements
+/// that remain, by id, then the generalised ones in order of addition (means of groups that gave
+/// way to a coupling's rows are gone); and to the supported coordinates s, likewise.
 struct Elimination {
-  SparseMatrix T;                   // 3 n_nodes x n
-  std::vector<int32_t> reduced_of;  // coordinate of id 0 ... 3 n_nodes - 1 (displacements) and
-                                    // 3 n_nodes + g (generalised), or -1
-  std::vector<int32_t> pivots;      // displacements that gave way, ascending
+  SparseMatrix T;                   // n_dofs x n
+  SparseMatrix T_s;                 // n_dofs x n_s
+  std::vector<int32_t> reduced_of;  // coordinate of each id, or -1
+  std::vector<int32_t> support_of;  // supported coordinate of each id, or -1
+  std::vector<int32_t> pivots;      // displacements and point DoFs that gave way, ascending
   SparseMatrix pivot_rows;          // pivots x n: their rows of T
-  double growth = 1.0;              // largest |entry| of T that multiplies a displacement
+  SparseMatrix pivot_rows_s;        // pivots x n_s: their rows of T_s
+  double growth = 1.0;              // largest |entry| of T between displacements
 
   int size() const { return static_cast<int>(T.cols()); }
+  int supports() const { return static_cast<int>(T_s.cols()); }
 };
 
-/// Collects supports and couplings, then builds the transformation.
+/// Collects the relations, then builds the transformation.
 class Eliminator {
  public:
-  /// `n_dofs` nodal displacements; `fixed` are zero and leave the model; `kept` stay coordinates
-  /// (sensors, plain nodes) and are never pivots.
+  /// `n_dofs` displacements of nodes and points; `fixed` are supported; `kept` stay coordinates
+  /// (sensors, plain nodes, points) and are never pivots.
   Eliminator(int64_t n_dofs, const std::vector<int32_t>& fixed, const std::vector<int32_t>& kept);
 
-  /// Adds a coupling: its means, then its rows, which get the next generalised numbers g in this
-  /// order; returns the number of its first row. InputError,
-  /// beginning with `where`, when its rows depend on supports or earlier couplings, or when it
-  /// would fill the matrices beyond 32-bit indices.
-  int add(const Coupling& coupling, const std::string& where);
+  /// New coordinates without a relation (a reference node of its own); returns the first id.
+  int32_t add_coordinates(int count);
+
+  /// u[dof] = sum values[k] u[dofs[k]]. The caller has seen to it that `dof` depends on nothing yet
+  /// and that no chain of dependences closes (ConstraintGraph).
+  void depend(int32_t dof, const Functional& on);
+
+  /// Adds a coupling: its means, then its rows, which get the next generalised ids in this order;
+  /// returns the id of its first row. InputError, beginning with `where`, when its rows depend on
+  /// supports or earlier couplings, or when it would fill the matrices beyond 32-bit indices.
+  int32_t add(const Coupling& coupling, const std::string& where);
+
+  /// The same with existing DoFs `ids` in the place of new coordinates: they stay in the model and
+  /// displacements of the face give way. False when too few can: nothing has changed then but the
+  /// means.
+  bool add_onto(const Coupling& coupling, const std::vector<int32_t>& ids,
+                const std::string& where);
+
+  /// Supports s = rows u; returns the id of the first s. InputError, beginning with `where`, when
+  /// no displacement is left to give way. Points' DoFs may, though they are kept otherwise.
+  int32_t hold(const std::vector<Functional>& rows, const std::string& where);
+
+  /// Takes a coordinate that occurs in no relation out of the model.
+  void drop(int32_t id);
+
+  /// The functional in terms of what is still in the model.
+  Functional express(const Functional& functional);
+  bool is_coordinate(int32_t id) const;
+  bool is_held(int32_t id) const;
+  bool gave_way(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
+  /// Ids that nodal displacements depend on, and those displacements themselves, as flags.
+  std::vector<bool> moves_nodes(int64_t nodal_dofs) const;
 
   Elimination finish() const;
 
  private:
-  using SparseRow = std::vector<std::pair<int32_t, double>>;  // ids ascending; q_g is n_dofs_ + g
+  using SparseRow = std::vector<std::pair<int32_t, double>>;  // ids ascending
 
+  int32_t allocate(int count, int32_t state);
   SparseRow expand(const Functional& functional);
   void add_mean(const Functional& mean, const std::string& where);
-  void eliminate(const std::vector<Functional>& functionals, int32_t state,
-                 const std::string& where);
-  std::vector<int32_t> choose_pivots(const Eigen::MatrixXd& C, const std::vector<int32_t>& ids,
-                                     const std::string& where) const;
+  std::vector<Functional> add_means(const Coupling& coupling, const std::string& where);
+  bool eliminate(const std::vector<Functional>& functionals, const std::vector<int32_t>& q_ids);
+  [[noreturn]] static void refuse(const std::string& where, size_t count);
+  void check_fill(const std::string& where) const;
+  std::vector<int32_t> choose_pivots(const Eigen::MatrixXd& C,
+                                     const std::vector<int32_t>& ids) const;
+  void give_way(int32_t id, SparseRow row);
   void substitute(const std::vector<int32_t>& fresh);
   SparseRow gather();
 
   int64_t n_dofs_;
-  int64_t fill_ = 0;  // entries that the couplings may add to K
-  int generalised_ = 0;
-  std::vector<int32_t> state_;       // per id: kFree, kKept, kFixed or pivot number
-  std::vector<int32_t> pivot_dofs_;  // by pivot number
+  int64_t fill_ = 0;            // entries that the couplings may add to K
+  std::vector<int32_t> state_;  // per id: kFree, kKept, kFixed, kDropped or pivot number
   std::vector<SparseRow> pivot_rows_;
-  std::vector<double> sum_;  // scatter space of expand()
+  std::vector<std::vector<int32_t>> users_;  // per id: pivot numbers whose rows (may) hold it
+  std::vector<double> sum_;                  // scatter space of expand()
   std::vector<int32_t> touched_;
 };
 
-/// Replaces symmetric A (lower triangle) by T^T A T (lower triangle).
-void transform(SparseMatrix& lower, const Elimination& elimination);
+/// What supports add to the stiffness: with s, the equations are K q + K_sq^T s = f and
+/// K_sq q + K_ss s = f_s + reactions.
+struct SupportBlocks {
+  SparseMatrix sq;  // n_s x n
+  SparseMatrix ss;  // n_s x n_s, lower triangle
+};
+
+/// Replaces symmetric A (lower triangle, on the first A.cols() DoFs) by T^T A T (lower triangle);
+/// fills the blocks of the supported coordinates when asked for.
+void transform(SparseMatrix& lower, const Elimination& elimination,
+               SupportBlocks* supports = nullptr);
 
 }  // namespace clatter::assembly

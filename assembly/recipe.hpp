@@ -1,12 +1,15 @@
 #pragma once
 // What a part's fe.toml says. assembly/README.md shows the file; lengths are in metres here.
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "assembly/axes.hpp"
 #include "assembly/contact_patch.hpp"
+#include "assembly/dof_numbers.hpp"
 #include "assembly/material.hpp"
 #include "core/config.hpp"
 #include "mesh/mesh.hpp"
@@ -19,23 +22,53 @@ struct DampingSpec {
   double beta = 0.0;   // [1/s]
 };
 
-/// A surface or a node set of the mesh.
+/// A surface or a node set of the mesh, or a point.
 struct Place {
-  std::string surface, node_set;  // one of them is empty
-  std::string where;              // for messages: "file:line: table"
+  std::string surface, node_set, point;  // all but one are empty
+  std::string where;                     // for messages: "file:line: table"
 };
 
-/// [[support]]: displacements held at zero.
+/// [[point]]: a reference node with six DoFs of its own.
+struct PointSpec {
+  ReferencePoint point;
+  std::string where;
+};
+
+/// [[support]]: displacements held at zero, or at the values of a [[load]].
 struct SupportSpec {
+  std::string name;
   Place place;
+  std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
+  Axes axes;
+};
+
+/// [[coupling.term]]: places by which a reference node moves.
+struct TermSpec {
+  Place place;
+  double weight = 1.0;  // of each node; of each m2 on a surface
   std::vector<int> directions = {0, 1, 2};
 };
 
-/// [[coupling]]: a reference node that rides on a face (RBE3).
+/// [[coupling]]: a reference node that rides on a face (distributing, RBE3), or that others follow
+/// (rigid, RBE2).
 struct CouplingSpec {
-  std::string name, kind, surface, where;
-  std::optional<Eigen::Vector3d> point;  // absent: the face's centroid
-  int dofs = 6;                          // 6 or 3
+  std::string name, kind, where;
+  bool rigid = false;
+  std::optional<Eigen::Vector3d> at;  // of its own reference node; absent: the face's centroid
+  std::string on_point;               // or a [[point]] as the reference
+  std::vector<TermSpec> terms;  // rigid: what follows; directions count only when distributing
+  std::vector<int> directions = {0, 1, 2, 3, 4, 5};  // rigid: of the followers; else: reference
+};
+
+/// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
+struct EquationSpec {
+  struct Term {
+    Place place;  // one node, or a point
+    int direction = 0;
+    double coefficient = 1.0;
+  };
+  std::string where;
+  std::vector<Term> terms;
 };
 
 /// [[contact]]: a grid of patches on a cylinder surface.
@@ -58,33 +91,41 @@ struct NodeSpec {
   std::optional<Eigen::Vector3d> near;
 };
 
-/// [[point_mass]] on a reference node or plain nodes.
+/// [[point_mass]] on a reference node, a point or plain nodes.
 struct PointMassSpec {
   std::string on, where;
   double mass = 0.0;                                  // [kg]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the node [kg m2]
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // of its centre from the node [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre [kg m2]
 };
 
 /// [[load]]: a unit load case.
 struct LoadSpec {
-  enum class Kind { kPressure, kResultant, kForce, kGravity };
+  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
-  std::string surface, set;
+  std::string surface, set;                          // set: also the name of a point
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
+  Place place;                                       // prescribed displacement:
+  std::vector<int> directions;                       // of `axes`
+  Axes axes;
+  double value = 0.0;  // [m] or [rad]
 };
 
 struct Recipe {
   std::vector<Material> materials;  // one a region of the mesh
   DampingSpec damping;
+  std::vector<PointSpec> points;
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;
+  std::vector<EquationSpec> equations;
   std::vector<ContactSpec> contacts;
   std::vector<MeanSpec> means;
   std::vector<NodeSpec> nodes;
   std::vector<PointMassSpec> point_masses;
   std::vector<LoadSpec> loads;
+  std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads
 };
 
 /// Reads and checks the whole file against the mesh; InputError with "file:line: key: found ...,

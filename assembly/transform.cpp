@@ -1,4 +1,10 @@
 // T^T A T for a transformation that is the identity but for a few pivot rows.
+//
+// With u = [u_f; u_p; u_s], f the displacements that remain, p the pivots, s the supported ones,
+// and u_p = P q + P_s s, the form 1/2 u^T A u has the blocks
+//   qq:  A_ff + X + X^T,  X = P^T (A_pf + 1/2 A_pp P)
+//   sq:  A_sf + A_sp P + P_s^T (A_pf + A_pp P)
+//   ss:  A_ss + Y + Y^T,  Y = P_s^T (A_ps + 1/2 A_pp P_s).
 #include <algorithm>
 #include <vector>
 
@@ -9,12 +15,14 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double, int32_t>>;
 
-/// A split by displacements that remain (f) and pivots (p).
+/// A split by displacements that remain (f), pivots (p) and supported ones (s).
 struct Split {
   SparseMatrix storage;        // holds the entries of A_ff, moved together
   std::vector<int32_t> outer;  // column starts of A_ff in the new numbering
   SparseMatrix A_pf;           // pivots x n
   SparseMatrix A_pp;           // pivots x pivots, both triangles
+  SparseMatrix A_sf, A_sp;     // supports x n, supports x pivots; empty unless asked for
+  SparseMatrix A_ss;           // supports x supports, lower triangle
 
   /// A_ff, n x n, lower, without a copy.
   Eigen::Map<const SparseMatrix> kept() const {
@@ -23,13 +31,21 @@ struct Split {
   }
 };
 
-/// Sends one entry of the lower triangle to its part; entries of fixed displacements vanish.
+SparseMatrix from_triplets(Eigen::Index rows, Eigen::Index cols, const Triplets& entries) {
+  SparseMatrix matrix(rows, cols);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Sends one entry of the lower triangle to its part.
 struct Sorter {
   const Elimination& elimination;
+  bool with_supports;
   std::vector<int32_t> pivot_number;
-  Triplets pf, pp;
+  Triplets pf, pp, sf, sp, ss;
 
-  explicit Sorter(const Elimination& e) : elimination(e), pivot_number(e.reduced_of.size(), -1) {
+  Sorter(const Elimination& e, bool supports)
+      : elimination(e), with_supports(supports), pivot_number(e.reduced_of.size(), -1) {
     for (size_t p = 0; p < e.pivots.size(); ++p)
       pivot_number[static_cast<size_t>(e.pivots[p])] = static_cast<int32_t>(p);
   }
@@ -46,13 +62,20 @@ struct Sorter {
       pp.emplace_back(pi, pj, value);
       if (i != j) pp.emplace_back(pj, pi, value);
     }
+    if (!with_supports) return false;
+    const int32_t si = elimination.support_of[i], sj = elimination.support_of[j];
+    if (si >= 0 && rj >= 0) sf.emplace_back(si, rj, value);
+    if (sj >= 0 && ri >= 0) sf.emplace_back(sj, ri, value);
+    if (si >= 0 && pj >= 0) sp.emplace_back(si, pj, value);
+    if (sj >= 0 && pi >= 0) sp.emplace_back(sj, pi, value);
+    if (si >= 0 && sj >= 0) ss.emplace_back(std::max(si, sj), std::min(si, sj), value);
     return false;
   }
 };
 
 /// The new numbers ascend with the old ones, so the kept entries are moved up in place.
-Split split(SparseMatrix& lower, const Elimination& elimination) {
-  Sorter sorter(elimination);
+Split split(SparseMatrix& lower, const Elimination& elimination, bool with_supports) {
+  Sorter sorter(elimination, with_supports);
   Split parts;
   parts.storage.swap(lower);  // Eigen 3.4 copies where std::move is asked for
   parts.storage.makeCompressed();
@@ -75,18 +98,37 @@ Split split(SparseMatrix& lower, const Elimination& elimination) {
   for (size_t c = 1; c < parts.outer.size(); ++c)
     parts.outer[c] = std::max(parts.outer[c], parts.outer[c - 1]);
   const auto pivots = static_cast<Eigen::Index>(elimination.pivots.size());
-  parts.A_pf.resize(pivots, n);
-  parts.A_pf.setFromTriplets(sorter.pf.begin(), sorter.pf.end());
-  parts.A_pp.resize(pivots, pivots);
-  parts.A_pp.setFromTriplets(sorter.pp.begin(), sorter.pp.end());
+  const Eigen::Index supports = elimination.supports();
+  parts.A_pf = from_triplets(pivots, n, sorter.pf);
+  parts.A_pp = from_triplets(pivots, pivots, sorter.pp);
+  if (!with_supports) return parts;
+  parts.A_sf = from_triplets(supports, n, sorter.sf);
+  parts.A_sp = from_triplets(supports, pivots, sorter.sp);
+  parts.A_ss = from_triplets(supports, supports, sorter.ss);
   return parts;
 }
 
-/// Lower triangle of X + X^T, X = P^T (A_pf + 1/2 A_pp P): what the pivots bring in.
+SparseMatrix lower_of_sum(const SparseMatrix& X) {
+  return SparseMatrix(X + SparseMatrix(X.transpose())).triangularView<Eigen::Lower>();
+}
+
+/// Lower triangle of X + X^T: what the pivots bring in.
 SparseMatrix change_by_pivots(const Split& parts, const SparseMatrix& P) {
   const SparseMatrix right = parts.A_pf + SparseMatrix(0.5 * (parts.A_pp * P));
-  const SparseMatrix X = SparseMatrix(P.transpose()) * right;
-  return SparseMatrix(X + SparseMatrix(X.transpose())).triangularView<Eigen::Lower>();
+  return lower_of_sum(SparseMatrix(P.transpose()) * right);
+}
+
+SupportBlocks support_blocks(const Split& parts, const Elimination& elimination) {
+  const SparseMatrix& P = elimination.pivot_rows;
+  const SparseMatrix& P_s = elimination.pivot_rows_s;
+  const SparseMatrix P_st = P_s.transpose();
+  SupportBlocks blocks;
+  blocks.sq = parts.A_sf + SparseMatrix(parts.A_sp * P);
+  blocks.sq += SparseMatrix(P_st * SparseMatrix(parts.A_pf + SparseMatrix(parts.A_pp * P)));
+  const SparseMatrix right =
+      SparseMatrix(parts.A_sp.transpose()) + SparseMatrix(0.5 * (parts.A_pp * P_s));
+  blocks.ss = parts.A_ss + lower_of_sum(P_st * right);
+  return blocks;
 }
 
 /// Calls visit(row, value) for the union of two sorted columns, equal rows added.
@@ -125,10 +167,11 @@ SparseMatrix sum_of(const A& a, const B& b) {
 
 }  // namespace
 
-void transform(SparseMatrix& lower, const Elimination& elimination) {
-  if (elimination.size() == lower.cols() && elimination.pivots.empty()) return;
-  const Split parts = split(lower, elimination);
-  // u_p = P q: 1/2 u^T A u = 1/2 (kept) + q^T X q, whose second derivative is kept + X + X^T.
+void transform(SparseMatrix& lower, const Elimination& elimination, SupportBlocks* supports) {
+  const bool same = elimination.size() == lower.cols() && elimination.pivots.empty();
+  if (same && supports == nullptr) return;
+  const Split parts = split(lower, elimination, supports != nullptr);
+  if (supports != nullptr) *supports = support_blocks(parts, elimination);
   SparseMatrix result = sum_of(parts.kept(), change_by_pivots(parts, elimination.pivot_rows));
   lower.swap(result);
 }

@@ -112,6 +112,10 @@ std::vector<Config> Config::tables(std::string_view key) const {
   return result;
 }
 
+bool Config::is_list(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_array();
+}
+
 double Config::number(std::string_view key, Range range) const {
   if (!has(key)) fail(key, "found nothing, expected " + expectation(range));
   const toml::node* node = node_->table->get(key);

@@ -34,6 +34,8 @@ class Config {
   static Config parse(std::string_view text, const std::string& origin);
 
   bool has(std::string_view key) const;
+  /// True when the key is there and its value is a list.
+  bool is_list(std::string_view key) const;
   /// Keys of this table in order of the file; for tables whose keys are the user's own names.
   std::vector<std::string> keys() const;
 

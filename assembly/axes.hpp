@@ -1,0 +1,27 @@
+#pragma once
+// Systems of axes for directions: [system.NAME] of a part's fe.toml.
+#include <Eigen/Core>
+#include <string>
+
+#include "core/config.hpp"
+
+namespace clatter::assembly {
+
+/// Rectangular, cylindrical or spherical axes. In a rectangular system the directions are x, y, z;
+/// in a cylindrical one radial, tangential, axial; in a spherical one radial, along the meridian
+/// (away from +z), along the circle of latitude.
+struct Axes {
+  enum class Kind { kRectangular, kCylindrical, kSpherical };
+  Kind kind = Kind::kRectangular;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();     // [m]
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: x, y, z
+
+  /// The three directions at a place [m], as columns; right-handed and orthonormal. On the axis of
+  /// revolution the zero angle is taken.
+  Eigen::Matrix3d at(const Eigen::Vector3d& place) const;
+};
+
+/// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x lies along z.
+Axes read_axes(const Config& table, double metre);
+
+}  // namespace clatter::assembly

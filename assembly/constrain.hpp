@@ -1,0 +1,35 @@
+#pragma once
+// From a recipe's couplings, equations and supports to the transformation and the named sets.
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assembly/dof_numbers.hpp"
+#include "assembly/elimination.hpp"
+#include "assembly/recipe.hpp"
+#include "assembly/support.hpp"
+#include "assembly/surface_cache.hpp"
+#include "core/reduced_model.hpp"
+#include "mesh/mesh.hpp"
+
+namespace clatter::assembly {
+
+/// The constrained model's coordinates.
+struct Constrained {
+  Elimination elimination;
+  Eigen::MatrixXd nodal_rigid;  // n_dofs x 6: unit rigid motions of nodes and points
+  Eigen::MatrixXd rigid;        // n x 6: the same in coordinates q
+  Eigen::MatrixXd rigid_s;      // n_s x 6: in supported coordinates
+  Eigen::MatrixXd grounded;     // k x 6: rigid motions c with grounded c = 0 satisfy all equations
+  std::map<std::string, DofSet> sets;
+  std::map<std::string, ContactGrid> grids;
+  std::vector<HeldDof> held;  // n_s, in the order of the supported coordinates
+};
+
+/// InputError for what does not fit the mesh, for conflicts and cycles (both sides are named) and
+/// for points that nothing is attached to.
+Constrained constrain(const mesh::Mesh& mesh, const Recipe& recipe, const DofNumbers& numbers,
+                      SurfaceCache& surfaces);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,77 @@
+#pragma once
+// The steps of constrain(); what they hand on. Relations are gathered and checked first
+// (constrainer_relations.cpp), then eliminated (constrain.cpp).
+#include <memory>
+#include <set>
+#include <unordered_map>
+
+#include "assembly/constrain.hpp"
+#include "assembly/constraint_graph.hpp"
+#include "assembly/member_group.hpp"
+#include "assembly/rigid_coupling.hpp"
+
+namespace clatter::assembly {
+
+class Constrainer {
+ public:
+  Constrainer(const mesh::Mesh& mesh, const Recipe& recipe, const DofNumbers& numbers,
+              SurfaceCache& surfaces);
+
+  Constrained run();
+
+ private:
+  /// A distributing coupling onto a [[point]].
+  struct Onto {
+    Coupling coupling;
+    std::vector<int32_t> ids;
+    std::string where;
+  };
+
+  // Relations.
+  void gather_supports();
+  void gather_node_sets();
+  void gather_couplings();
+  void gather_equations();
+  void add_rigid(const CouplingSpec& spec);
+  void add_onto_point(const CouplingSpec& spec);
+  void depend(int32_t dof, Functional on, int relation);
+  Functional term(const EquationSpec::Term& term) const;
+  std::vector<Member> members(const CouplingSpec& spec);
+  ReferenceDofs point_dofs(int32_t point) const;
+  int32_t point_named(const std::string& name) const;
+  Eigen::Vector3d own_place(const CouplingSpec& spec, const std::vector<Member>& members);
+
+  // Elimination.
+  void start_elimination();
+  void hold_oblique(bool points);
+  void ride_onto_points();
+  void add_generalised_sets();
+  void add_generalised(const std::string& name, const Coupling& coupling, const std::string& where);
+  void append_motion(const std::vector<Functional>& functionals);
+  void drop_loose();
+  void drop_loose(const std::string& name, const std::string& where, const ReferenceDofs& reference,
+                  const std::vector<bool>& moves, const std::vector<bool>& massive);
+  std::vector<bool> massive_ids();
+  void number_sets();
+  void number_node_sets();
+  void finish();
+
+  const mesh::Mesh& mesh_;
+  const Recipe& recipe_;
+  const DofNumbers& numbers_;
+  SurfaceCache& surfaces_;
+  Constrained out_;
+  ConstraintGraph graph_;
+  std::unordered_map<int32_t, Functional> dependences_;
+  std::vector<HeldGroup> supports_;
+  std::unordered_map<int32_t, HeldDof> held_of_;  // by id of the supported coordinate
+  std::vector<std::vector<int32_t>> set_nodes_;   // like recipe_.nodes
+  std::vector<int32_t> kept_;
+  std::vector<Onto> onto_;
+  std::map<std::string, ReferenceDofs> own_references_;  // of rigid couplings, by set
+  int32_t next_own_ = 0;                                 // first id of the next one
+  std::vector<Eigen::RowVectorXd> motion_;               // of generalised ids
+  std::unique_ptr<Eliminator> eliminator_;
+};
+
+}  // namespace clatter::assembly

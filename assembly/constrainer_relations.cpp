@@ -1,0 +1,200 @@
+// What depends on what: supports, sensors, rigid couplings, equations and couplings onto points.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "assembly/constrainer.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+constexpr double kGrounded = 1e-9;  // of the motion that an equation's terms make by themselves
+
+}  // namespace
+
+Constrainer::Constrainer(const mesh::Mesh& mesh, const Recipe& recipe, const DofNumbers& numbers,
+                         SurfaceCache& surfaces)
+    : mesh_(mesh),
+      recipe_(recipe),
+      numbers_(numbers),
+      surfaces_(surfaces),
+      graph_([this](int32_t id) { return numbers_.name(id, {}); }),
+      next_own_(static_cast<int32_t>(numbers.count())) {}
+
+int32_t Constrainer::point_named(const std::string& name) const {
+  return places_of({"", "", name, ""}, mesh_, numbers_)[0].point();
+}
+
+ReferenceDofs Constrainer::point_dofs(int32_t point) const {
+  ReferenceDofs dofs;
+  for (int d = 0; d < 6; ++d) dofs.ids[static_cast<size_t>(d)] = numbers_.of_point(point, d);
+  dofs.place = numbers_.position(DofPlace::of_point(point));
+  return dofs;
+}
+
+void Constrainer::depend(int32_t dof, Functional on, int relation) {
+  graph_.depend(dof, on.dofs, relation);
+  dependences_[dof] = std::move(on);
+}
+
+void Constrainer::gather_supports() {
+  std::vector<int> relations;
+  for (const SupportSpec& spec : recipe_.supports)
+    relations.push_back(graph_.add_relation(spec.place.where));
+  supports_ = plan_supports(recipe_, mesh_, numbers_);
+  for (const HeldGroup& group : supports_)
+    for (const HeldDof& held : group.held)
+      for (const int32_t dof : held_functional(held, numbers_).dofs)
+        graph_.hold(dof, relations[static_cast<size_t>(held.support)]);
+}
+
+/// Sensors take the nearest node of their surface. All these displacements stay coordinates.
+void Constrainer::gather_node_sets() {
+  for (const NodeSpec& spec : recipe_.nodes) {
+    const int relation = graph_.add_relation(spec.place.where);
+    std::vector<int32_t> nodes;
+    for (const DofPlace place : places_of(spec.place, mesh_, numbers_))
+      nodes.push_back(place.index);
+    if (spec.near) {
+      const auto distance = [&](int32_t node) {
+        return (mesh_.nodes.row(node).transpose() - *spec.near).norm();
+      };
+      const int32_t nearest =
+          *std::min_element(nodes.begin(), nodes.end(),
+                            [&](int32_t a, int32_t b) { return distance(a) < distance(b); });
+      nodes = {nearest};
+      say(fmt::format("{}: node {} at ({:.4f}, {:.4f}, {:.4f}) m, {:.4f} m from the wanted place",
+                      spec.name, nearest, mesh_.nodes(nearest, 0), mesh_.nodes(nearest, 1),
+                      mesh_.nodes(nearest, 2), distance(nearest)));
+    }
+    for (const int32_t node : nodes)
+      for (int d = 0; d < 3; ++d) {
+        graph_.keep(3 * node + d, relation);
+        kept_.push_back(3 * node + d);
+      }
+    set_nodes_.push_back(std::move(nodes));
+  }
+}
+
+/// What a distributing coupling rides on.
+std::vector<Member> Constrainer::members(const CouplingSpec& spec) {
+  std::vector<Member> all;
+  for (const TermSpec& term : spec.terms) {
+    std::vector<Member> found;
+    if (!term.place.surface.empty()) {
+      found = members_of(mesh_.nodes, surfaces_.at(term.place.surface));
+    } else {
+      for (const DofPlace place : places_of(term.place, mesh_, numbers_)) {
+        Member member;
+        for (int d = 0; d < 6; ++d) member.dofs[static_cast<size_t>(d)] = numbers_.of(place, d);
+        member.place = numbers_.position(place);
+        member.weight = 1.0;
+        found.push_back(member);
+      }
+    }
+    for (Member& member : found) {
+      member.weight *= term.weight;
+      for (int d = 0; d < 6; ++d) {
+        const bool wanted = std::count(term.directions.begin(), term.directions.end(), d) > 0;
+        if (wanted && !member.has(d))
+          throw InputError(
+              fmt::format("{}: found {} of a node, expected displacements (nodes have "
+                          "no rotations)",
+                          term.place.where, kDofNames[static_cast<size_t>(d)]));
+        if (!wanted) member.dofs[static_cast<size_t>(d)] = -1;
+      }
+    }
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+/// The given place of a coupling's own reference node, or the centre of what it couples.
+Eigen::Vector3d Constrainer::own_place(const CouplingSpec& spec,
+                                       const std::vector<Member>& members) {
+  if (spec.at) return *spec.at;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  for (const Member& member : members) {
+    centre += member.weight * member.place;
+    weight += member.weight;
+  }
+  return centre / weight;
+}
+
+void Constrainer::add_rigid(const CouplingSpec& spec) {
+  const int relation = graph_.add_relation(spec.where);
+  ReferenceDofs reference;
+  if (spec.on_point.empty()) {
+    for (int32_t& id : reference.ids) id = next_own_++;
+    reference.place = own_place(spec, members(spec));
+    own_references_[spec.name] = reference;
+    out_.sets[spec.name] = reference_set(spec.name, spec.kind, reference.place, {0, 1, 2, 3, 4, 5});
+  } else {
+    reference = point_dofs(point_named(spec.on_point));
+  }
+  std::set<int32_t> done;  // a node of two places follows once
+  for (const TermSpec& followers : spec.terms)
+    for (const DofPlace place : places_of(followers.place, mesh_, numbers_))
+      for (Dependence& one : rigid_dependences(numbers_, place, spec.directions, reference))
+        if (done.insert(one.dof).second) depend(one.dof, std::move(one.on), relation);
+}
+
+void Constrainer::add_onto_point(const CouplingSpec& spec) {
+  const int relation = graph_.add_relation(spec.where);
+  const ReferenceDofs reference = point_dofs(point_named(spec.on_point));
+  Onto onto;
+  onto.where = spec.where;
+  onto.coupling = distribute(members(spec), reference.place, spec.directions, spec.where);
+  std::set<int32_t> on;
+  for (const Functional& row : onto.coupling.nodal_rows())
+    on.insert(row.dofs.begin(), row.dofs.end());
+  for (const int d : spec.directions) {
+    onto.ids.push_back(reference.ids[static_cast<size_t>(d)]);
+    graph_.depend(onto.ids.back(), {on.begin(), on.end()}, relation, true);
+  }
+  onto_.push_back(std::move(onto));
+}
+
+void Constrainer::gather_couplings() {
+  for (const CouplingSpec& spec : recipe_.couplings) {
+    if (spec.rigid)
+      add_rigid(spec);
+    else if (!spec.on_point.empty())
+      add_onto_point(spec);
+  }
+}
+
+Functional Constrainer::term(const EquationSpec::Term& term) const {
+  const DofPlace place = places_of(term.place, mesh_, numbers_)[0];
+  return {{numbers_.of(place, term.direction)}, {term.coefficient}};
+}
+
+void Constrainer::gather_equations() {
+  std::vector<Eigen::RowVectorXd> grounded;
+  for (const EquationSpec& spec : recipe_.equations) {
+    const int relation = graph_.add_relation(spec.where);
+    const int32_t dof = term(spec.terms[0]).dofs[0];
+    Functional on;
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6), alone = sum;
+    for (const EquationSpec::Term& part : spec.terms) {
+      const Functional one = term(part);
+      const Eigen::RowVectorXd motion = one.values[0] * out_.nodal_rigid.row(one.dofs[0]);
+      sum += motion;
+      alone += motion.cwiseAbs();
+      if (&part == &spec.terms[0]) continue;
+      on.dofs.push_back(one.dofs[0]);
+      on.values.push_back(-one.values[0] / spec.terms[0].coefficient);
+    }
+    depend(dof, std::move(on), relation);
+    if ((sum.cwiseAbs().array() > kGrounded * alone.maxCoeff()).any())
+      grounded.push_back(sum / alone.maxCoeff());
+  }
+  out_.grounded.resize(static_cast<Eigen::Index>(grounded.size()), 6);
+  for (size_t r = 0; r < grounded.size(); ++r)
+    out_.grounded.row(static_cast<Eigen::Index>(r)) = grounded[r];
+}
+
+}  // namespace clatter::assembly

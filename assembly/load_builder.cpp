@@ -1,0 +1,131 @@
+#include "assembly/load_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "assembly/load_case.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+constexpr double kSameDirection = 1e-9;
+
+}  // namespace
+
+int32_t LoadBuilder::point_named(const std::string& name) const {
+  for (size_t p = 0; p < recipe_.points.size(); ++p)
+    if (recipe_.points[p].point.name == name) return static_cast<int32_t>(p);
+  return -1;
+}
+
+/// rho a on the elements, m a on the masses of points.
+void LoadBuilder::add_body_force(const Eigen::Vector3d& acceleration,
+                                 Eigen::VectorXd& forces) const {
+  forces.head(momentum_.rows()) += momentum_ * acceleration;
+  for (const PointMassSpec& spec : recipe_.point_masses) {
+    const int32_t point = point_named(spec.on);
+    if (point < 0) continue;
+    const Eigen::Vector3d weight = spec.mass * acceleration;
+    const Eigen::Vector3d moment = spec.offset.cross(weight);
+    for (int d = 0; d < 3; ++d) {
+      forces(numbers_.of_point(point, d)) += weight(d);
+      forces(numbers_.of_point(point, d + 3)) += moment(d);
+    }
+  }
+}
+
+/// Forces on nodes and points (n_dofs).
+Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(numbers_.count());
+  const Eigen::Index n_nodes = mesh_.nodes.rows();
+  switch (load.kind) {
+    case LoadSpec::Kind::kPressure:
+      forces.head(3 * n_nodes) = pressure_load(n_nodes, surfaces_.at(load.surface));
+      break;
+    case LoadSpec::Kind::kResultant:
+      forces.head(3 * n_nodes) = resultant_load(n_nodes, surfaces_.at(load.surface), load.force);
+      break;
+    case LoadSpec::Kind::kForce:
+      if (const int32_t point = point_named(load.set); point >= 0) {
+        for (int d = 0; d < 3; ++d) {
+          forces(numbers_.of_point(point, d)) = load.force(d);
+          forces(numbers_.of_point(point, d + 3)) = load.moment(d);
+        }
+      }
+      break;
+    case LoadSpec::Kind::kGravity:
+      add_body_force(load.force, forces);
+      break;
+    case LoadSpec::Kind::kDisplacement:
+      break;
+  }
+  return forces;
+}
+
+/// What acts on sets: a force, and the weight of point masses.
+void LoadBuilder::add_to_sets(const FeModel& model, const LoadSpec& load,
+                              Eigen::VectorXd& f) const {
+  if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) < 0)
+    f += set_load(f.size(), model.sets.at(load.set), load.force, load.moment, load.where);
+  if (load.kind != LoadSpec::Kind::kGravity) return;
+  for (const PointMassSpec& spec : recipe_.point_masses) {
+    if (point_named(spec.on) >= 0) continue;
+    const Eigen::Vector3d weight = spec.mass * load.force;
+    f += set_load(f.size(), model.sets.at(spec.on), weight, spec.offset.cross(weight), load.where);
+  }
+}
+
+/// s of a prescribed displacement; each wanted direction must be one that a support holds.
+Eigen::VectorXd LoadBuilder::prescribed(const LoadSpec& load) const {
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(constrained_.elimination.supports());
+  for (const DofPlace place : places_of(load.place, mesh_, numbers_)) {
+    const Eigen::Matrix3d axes = load.axes.at(numbers_.position(place));
+    for (const int d : load.directions) {
+      const int32_t id = numbers_.of(place, d);
+      Eigen::Index match = -1;
+      for (size_t k = 0; k < constrained_.held.size(); ++k) {
+        const HeldDof& held = constrained_.held[k];
+        if (numbers_.of(held.place, held.is_rotation ? 3 + d % 3 : d % 3) != id) continue;
+        const double along = held.direction.dot(axes.col(d % 3));
+        if (std::abs(along) < 1.0 - kSameDirection) continue;
+        match = static_cast<Eigen::Index>(k);
+        s(match) = along > 0.0 ? load.value : -load.value;
+      }
+      if (match < 0)
+        throw InputError(fmt::format("{}: found {}, which no support holds, expected one that does",
+                                     load.where, numbers_.name(id, {})));
+    }
+  }
+  return s;
+}
+
+void LoadBuilder::build(FeModel& model) {
+  const Elimination& e = constrained_.elimination;
+  for (const LoadSpec& load : recipe_.loads) {
+    const Eigen::VectorXd all = forces(load);
+    Eigen::VectorXd f = e.T.transpose() * all;
+    const Eigen::VectorXd f_s = e.T_s.transpose() * all;
+    add_to_sets(model, load, f);
+    const Eigen::VectorXd resultant =
+        model.rigid.transpose() * f + constrained_.rigid_s.transpose() * f_s;
+    const Eigen::VectorXd want = constrained_.nodal_rigid.transpose() * all;
+    if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) >= 0 &&
+        (resultant - want).norm() > 1e-9 * want.norm())
+      throw InputError(fmt::format(
+          "{}: found a load on a direction of {} that nothing is attached to, expected a coupling",
+          load.where, load.set));
+    say(fmt::format("load {}: resultant ({:.5g}, {:.5g}, {:.5g}) N a unit of {}", load.name,
+                    resultant(0), resultant(1), resultant(2), load.unit));
+    model.loads[load.name] = std::move(f);
+    model.load_units[load.name] = load.unit;
+    if (e.supports() > 0) model.support_loads[load.name] = f_s;
+    if (load.kind == LoadSpec::Kind::kDisplacement) model.prescribed[load.name] = prescribed(load);
+  }
+  model.cases = recipe_.cases;
+}
+
+}  // namespace clatter::assembly

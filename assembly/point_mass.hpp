@@ -1,0 +1,31 @@
+#pragma once
+// Point masses with offset and inertia.
+#include <Eigen/Core>
+#include <vector>
+
+#include "assembly/mass_properties.hpp"
+#include "assembly/recipe.hpp"
+#include "core/reduced_model.hpp"
+#include "core/sparse.hpp"
+
+namespace clatter::assembly {
+
+/// Mass on x y z rx ry rz of a node whose mass centre lies at `offset`: m R^T R + [0, J],
+/// R = [I, -offset x].
+Eigen::Matrix<double, 6, 6> mass_block(const PointMassSpec& spec);
+
+/// Adds a point mass to M on the coordinates of a set: a reference node, or plain nodes that share
+/// it. InputError when the set lacks what the mass moves.
+void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const DofSet& set);
+
+/// Adds the masses on points: M += T_p^T block T_p, T_p (6 x n) the rows of `T` from `row` on.
+void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix& T,
+                  Eigen::Index row);
+
+/// Adds what it weighs to the moments; places of a set share it.
+void add_moments(MassMoments& moments, const PointMassSpec& spec, const DofSet& set);
+
+/// True for a set of one reference node with rotations.
+bool turns(const DofSet& set);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,135 @@
+// [[point]], [[support]], [[coupling]], [[equation]].
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "assembly/recipe_reader.hpp"
+
+namespace clatter::assembly {
+
+void RecipeReader::points(Recipe& recipe) {
+  for (const Config& table : config_.tables("point")) {
+    PointSpec spec;
+    spec.point.name = new_set(table);
+    points_.insert(spec.point.name);
+    spec.where = where(table, "point " + spec.point.name);
+    if (table.has("node_set")) {
+      if (table.has("at")) table.fail("at", "found a node_set as well, expected one");
+      const std::vector<int32_t>& nodes = mesh_.node_set(node_set(table));
+      if (nodes.size() != 1)
+        table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
+      spec.point.node = nodes[0];
+      spec.point.place = mesh_.nodes.row(nodes[0]).transpose();
+    } else {
+      spec.point.place = point(table, "at");
+    }
+    recipe.points.push_back(spec);
+  }
+}
+
+void RecipeReader::supports(Recipe& recipe) const {
+  for (const Config& table : config_.tables("support")) {
+    SupportSpec spec;
+    spec.name = table.text_or("name", fmt::format("support_{}", recipe.supports.size() + 1));
+    for (const SupportSpec& other : recipe.supports)
+      if (other.name == spec.name)
+        table.fail("name", fmt::format("found \"{}\" twice, expected different names", spec.name));
+    spec.place = place(table, "support " + spec.name, true);
+    spec.directions = directions(table, "directions", {0, 1, 2}, spec.place.point.empty() ? 3 : 6);
+    spec.axes = axes(table);
+    recipe.supports.push_back(spec);
+  }
+}
+
+/// `point`: coordinates of its own reference node, or the name of a [[point]].
+void RecipeReader::reference(const Config& table, CouplingSpec& spec) {
+  if (table.has("point") && !table.is_list("point")) {
+    spec.on_point = known_point(table, "point", table.text("point"));
+    spec.name = table.text_or("name", "on " + spec.on_point);
+  } else {
+    spec.name = new_set(table);
+    spec.kind = table.choice("kind", {"node", "bearing", "mount"});
+    if (table.has("point")) spec.at = point(table, "point");
+  }
+  spec.where = where(table, "coupling " + spec.name);
+}
+
+/// What the table itself names, then its [[coupling.term]] tables.
+std::vector<TermSpec> RecipeReader::terms(const Config& table, const CouplingSpec& spec) const {
+  std::vector<TermSpec> terms;
+  const auto read_places = [&](const Config& from, const TermSpec& like) {
+    TermSpec term = like;
+    term.place.where = spec.where;
+    if (from.has("surface") || from.has("node_set")) {
+      term.place = place(from, "coupling " + spec.name);
+      terms.push_back(term);
+    }
+    for (const std::string& name : from.texts_or("points", {})) {
+      term.place = Place{"", "", known_point(from, "points", name), spec.where};
+      terms.push_back(term);
+    }
+  };
+  read_places(table, {});
+  for (const Config& part : table.tables("term")) {
+    if (spec.rigid) table.fail("term", "found terms in a rigid coupling, expected none");
+    TermSpec like;
+    like.weight = part.number_or("weight", 1.0, Range::positive());
+    like.directions = directions(part, "directions", {0, 1, 2}, 6);
+    const size_t before = terms.size();
+    read_places(part, like);
+    if (terms.size() == before)
+      part.fail("term", "found no place, expected a surface, node_set or points");
+  }
+  if (terms.empty())
+    table.fail("surface", "found nothing to couple, expected a surface, node_set, points or terms");
+  return terms;
+}
+
+void RecipeReader::couplings(Recipe& recipe) {
+  for (const Config& table : config_.tables("coupling")) {
+    CouplingSpec spec;
+    reference(table, spec);
+    spec.rigid = table.choice("type", {"distributing", "rigid"}) == "rigid";
+    spec.terms = terms(table, spec);
+    if (table.has("dofs")) {
+      if (spec.rigid || table.has("directions"))
+        table.fail("dofs", "found a rigid coupling or directions as well, expected directions");
+      const int64_t dofs = table.integer("dofs");
+      if (dofs != 6 && dofs != 3)
+        table.fail("dofs", fmt::format("found {}, expected 6 or 3", dofs));
+      if (dofs == 3) spec.directions = {0, 1, 2};
+    }
+    spec.directions = directions(table, "directions", spec.directions, 6);
+    std::sort(spec.directions.begin(), spec.directions.end());
+    recipe.couplings.push_back(spec);
+  }
+}
+
+void RecipeReader::equations(Recipe& recipe) const {
+  for (const Config& table : config_.tables("equation")) {
+    EquationSpec spec;
+    spec.where = where(table, fmt::format("equation {}", recipe.equations.size() + 1));
+    for (const Config& part : table.tables("terms")) {
+      EquationSpec::Term term;
+      term.place = place(part, "equation", true);
+      if (!term.place.surface.empty())
+        part.fail("surface", "found a surface, expected a node_set of one node or a point");
+      const bool node = term.place.point.empty();
+      if (node && mesh_.node_set(term.place.node_set).size() != 1)
+        part.fail("node_set", fmt::format("found {} nodes, expected one",
+                                          mesh_.node_set(term.place.node_set).size()));
+      const std::string name = part.text("direction");
+      const auto last = kDofNames.begin() + (node ? 3 : 6);
+      const auto at = std::find(kDofNames.begin(), last, name);
+      if (at == last) fail_unknown(part, "direction", name, {kDofNames.begin(), last});
+      term.direction = static_cast<int>(at - kDofNames.begin());
+      term.coefficient = part.number("coefficient");
+      spec.terms.push_back(term);
+    }
+    if (spec.terms.empty() || spec.terms[0].coefficient == 0.0)
+      table.fail("terms", "found none or a first one of zero, expected a dependent term first");
+    recipe.equations.push_back(spec);
+  }
+}
+
+}  // namespace clatter::assembly

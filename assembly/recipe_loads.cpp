@@ -1,0 +1,88 @@
+// [[load]], [[case]].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "assembly/recipe_reader.hpp"
+
+namespace clatter::assembly {
+
+LoadSpec RecipeReader::load(const Config& table) const {
+  LoadSpec spec;
+  spec.name = table.text("name");
+  if (spec.name.empty() || spec.name.find('/') != std::string::npos)
+    table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
+  spec.where = where(table, "load " + spec.name);
+  const std::string kind = table.choice(
+      "kind", {"pressure", "resultant", "force", "gravity", "acceleration", "displacement"});
+  if (kind == "pressure") {
+    spec.surface = surface(table);
+    spec.unit = "Pa";
+  } else if (kind == "resultant") {
+    spec.kind = LoadSpec::Kind::kResultant;
+    spec.surface = surface(table);
+    spec.force = table.number_or("total", 1.0) * unit_vector(table, "direction");
+    spec.unit = table.text_or("unit", "N");
+  } else if (kind == "force") {
+    spec.kind = LoadSpec::Kind::kForce;
+    spec.set = known_set(table, "set");
+    if (table.has("force")) spec.force = vector(table, "force");
+    if (table.has("moment")) spec.moment = vector(table, "moment");
+    if (spec.force.isZero(0.0) && spec.moment.isZero(0.0))
+      table.fail("force", "found neither a force [N] nor a moment [N m], expected one");
+    spec.unit = table.text_or("unit", "1");
+  } else if (kind == "displacement") {
+    spec.kind = LoadSpec::Kind::kDisplacement;
+    spec.place = place(table, "load " + spec.name, true);
+    spec.directions = directions(table, "directions", {}, spec.place.point.empty() ? 3 : 6);
+    if (spec.directions.empty())
+      table.fail("directions", "found nothing, expected the directions that move");
+    spec.axes = axes(table);
+    const bool turns = spec.directions.back() >= 3;
+    for (const int d : spec.directions)
+      if ((d >= 3) != turns)
+        table.fail("directions", "found displacements and rotations, expected one of them");
+    spec.value = (turns ? 1.0 : metre_) * table.number("value");
+    spec.unit = table.text_or("unit", "1");
+  } else {
+    spec.kind = LoadSpec::Kind::kGravity;
+    spec.force = unit_vector(table, "direction");
+    spec.unit = "m/s2";
+  }
+  return spec;
+}
+
+void RecipeReader::loads(Recipe& recipe) const {
+  std::set<std::string> names;
+  for (const Config& table : config_.tables("load")) {
+    recipe.loads.push_back(load(table));
+    if (!names.insert(recipe.loads.back().name).second)
+      table.fail("name", fmt::format("found \"{}\" twice, expected different names",
+                                     recipe.loads.back().name));
+  }
+}
+
+void RecipeReader::cases(Recipe& recipe) const {
+  std::vector<std::string> names;
+  for (const LoadSpec& load : recipe.loads) names.push_back(load.name);
+  for (const Config& table : config_.tables("case")) {
+    const std::string name = table.text("name");
+    if (name.empty() || name.find('/') != std::string::npos)
+      table.fail("name", fmt::format("found \"{}\", expected a name without '/'", name));
+    const bool taken = std::find(names.begin(), names.end(), name) != names.end();
+    if (taken || recipe.cases.contains(name))
+      table.fail("name", fmt::format("found \"{}\" twice, expected different names of loads and "
+                                     "cases",
+                                     name));
+    const Config factors = table.table("loads");
+    for (const std::string& load : factors.keys()) {
+      if (std::find(names.begin(), names.end(), load) == names.end())
+        fail_unknown(factors, load, load, names);
+      recipe.cases[name][load] = factors.number(load);
+    }
+    if (!recipe.cases.contains(name)) table.fail("loads", "found none, expected at least one");
+  }
+}
+
+}  // namespace clatter::assembly

@@ -1,0 +1,30 @@
+#pragma once
+// Rigid couplings (RBE2): nodes and points that follow a reference like a rigid body.
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "assembly/coupling.hpp"
+#include "assembly/dof_numbers.hpp"
+
+namespace clatter::assembly {
+
+/// Ids and place of a reference node's DoFs x y z rx ry rz.
+struct ReferenceDofs {
+  std::array<int32_t, 6> ids{};
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+};
+
+/// One dependence u[dof] = on.
+struct Dependence {
+  int32_t dof = -1;
+  Functional on;
+};
+
+/// The place's DoFs in `directions` (0 ... 5; rotations of nodes do not exist and are passed over):
+///   u = u_ref + theta_ref x (x - x_ref),  theta = theta_ref.
+std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, DofPlace place,
+                                          const std::vector<int>& directions,
+                                          const ReferenceDofs& reference);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,43 @@
+#pragma once
+// Supports as coordinates that are held: what a model's reactions belong to.
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "assembly/coupling.hpp"
+#include "assembly/dof_numbers.hpp"
+#include "assembly/recipe.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::assembly {
+
+/// One held displacement or rotation.
+struct HeldDof {
+  int support = 0;  // index into Recipe::supports
+  DofPlace place;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  bool is_rotation = false;
+  std::string label;  // "foot.17.x": support, node or point, direction of its system
+};
+
+/// Held directions of one node or point, displacements or rotations; along the axes when each is
+/// one DoF by itself.
+struct HeldGroup {
+  bool along_axes = true;
+  std::vector<HeldDof> held;  // independent directions
+};
+
+/// What the supports hold. A direction that another support holds at the same place already is
+/// passed over: holding twice is holding.
+std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mesh,
+                                     const DofNumbers& numbers);
+
+/// Nodes or the point of a place.
+std::vector<DofPlace> places_of(const Place& place, const mesh::Mesh& mesh,
+                                const DofNumbers& numbers);
+
+/// The displacement along (rotation about) the direction, in terms of DoF ids.
+Functional held_functional(const HeldDof& held, const DofNumbers& numbers);
+
+}  // namespace clatter::assembly
