@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "assembly/fe_statics_file.hpp"
 #include "core/artefact.hpp"
 #include "core/error.hpp"
 #include "mesh/mesh_file.hpp"
@@ -98,6 +99,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
   }
   mesh::write_surfaces(file, model.surfaces);
   write_mass_properties(file, model.mass);
+  write_statics(file, model);
 }
 
 FeModel read_fe_model(const std::filesystem::path& path) {
@@ -120,6 +122,7 @@ FeModel read_fe_model(const std::filesystem::path& path) {
   read_loads(file, model);
   model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
   model.mass = read_mass_properties(file);
+  read_statics(file, model);
   return model;
 }
 

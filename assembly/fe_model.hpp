@@ -2,7 +2,7 @@
 // The assembled model of one part and its file, schema "clatter/fe/2":
 //   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group
 //   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face type>,
-//   mass/.
+//   mass/, and what statics need (fe_statics_file.hpp).
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "modal/eigen/dense_solver.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -104,7 +105,7 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r) {
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
              int dropped) {
   auto& out = reduced.certificate;
-  const Eigen::MatrixXd motions = free_motions(model);
+  const Eigen::MatrixXd motions = modal::free_motions(model);
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
   const MassProperties found = mass_properties_of(reduced_mass);
   const MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));

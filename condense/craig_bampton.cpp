@@ -4,6 +4,7 @@
 
 #include "condense/constraint_modes.hpp"
 #include "core/error.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -72,7 +73,7 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
   clock.lap(
       fmt::format("factor of K_ii ({:.3g} entries)", static_cast<double>(out.factor.entries)));
   Eigen::MatrixXd Psi_ib = constraint_modes(factor, K.ib);
-  const Eigen::MatrixXd motions = model.rigid * free_motions(model);
+  const Eigen::MatrixXd motions = model.rigid * modal::free_motions(model);
   out.rigid_error = restore_rigid_motions(Psi_ib, motions(partition.boundary, Eigen::all),
                                           motions(partition.interior, Eigen::all));
   clock.lap(fmt::format("{} constraint modes", Psi_ib.cols()));

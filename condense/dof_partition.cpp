@@ -2,54 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
-namespace {
-
-/// Distances of rotations are measured at the body's own size.
-double characteristic_length(const assembly::FeModel& model) {
-  const Eigen::RowVector3d span =
-      model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff();
-  return std::max(0.5 * span.norm(), 1e-12);
-}
-
-/// Rotations about a far point look like displacements, so any turn at all is called a rotation.
-std::string motion_name(const Eigen::VectorXd& motion, double length) {
-  const Eigen::Vector3d shift = motion.head(3), turn = motion.tail(3);
-  const bool turns = turn.norm() * length > 1e-3 * shift.norm();
-  Eigen::Index axis = 0;
-  (turns ? turn : shift).cwiseAbs().maxCoeff(&axis);
-  return fmt::format("{} {}", turns ? "rotation about" : "displacement along", "xyz"[axis]);
-}
-
-}  // namespace
-
-Eigen::MatrixXd free_motions(const assembly::FeModel& model) {
-  // An M-orthonormal basis of the motions first: a row of points has no rotation about itself.
-  const Eigen::MatrixXd mass = model.rigid.transpose() * multiply_symmetric(model.M, model.rigid);
-  const Eigen::VectorXd scale =
-      mass.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(scale.asDiagonal() * mass *
-                                                            scale.asDiagonal());
-  const Eigen::Index moving = (gram.eigenvalues().array() > 1e-12).count();
-  const Eigen::MatrixXd unit =
-      scale.asDiagonal() * gram.eigenvectors().rightCols(moving) *
-      gram.eigenvalues().tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
-
-  const Eigen::MatrixXd motion = model.rigid * unit;
-  const Eigen::MatrixXd energy = motion.transpose() * multiply_symmetric(model.K, motion);
-  // Rounding leaves about 1e-15 of the energy that the DoFs would have each by itself.
-  const Eigen::VectorXd alone = motion.cwiseAbs2().transpose() * model.K.diagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eig(0.5 * (energy + energy.transpose()));
-  const Eigen::Index count = (eig.eigenvalues().array() < 1e-10 * alone.maxCoeff()).count();
-  return unit * eig.eigenvectors().leftCols(count);
-}
-
 DofPartition partition_dofs(const assembly::FeModel& model,
                             const std::vector<std::string>& set_names) {
   DofPartition partition;
@@ -127,7 +86,7 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
 }
 
 void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition) {
-  const Eigen::MatrixXd motions = free_motions(model);
+  const Eigen::MatrixXd motions = modal::free_motions(model);
   if (motions.cols() == 0) return;
   const Eigen::MatrixXd held = model.rigid(partition.boundary, Eigen::all) * motions;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
@@ -141,7 +100,7 @@ void check_boundary_holds(const assembly::FeModel& model, const DofPartition& pa
       "boundary: its {} coordinates hold {} of the body's {} rigid motions; free is a {}: add a "
       "set that holds it",
       partition.boundary.size(), rank, motions.cols(),
-      motion_name(loose, characteristic_length(model))));
+      modal::motion_name(loose, modal::characteristic_length(model))));
 }
 
 }  // namespace clatter::condense

@@ -36,11 +36,7 @@ struct PartitionedMatrix {
 /// @param lower n x n, lower triangle.
 PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition);
 
-/// The rigid motions that cost no energy in K, as combinations of the six unit motions: 6 x m, with
-/// m = 6 for a free body and 0 for one on its own supports.
-Eigen::MatrixXd free_motions(const assembly::FeModel& model);
-
-/// Refuses a boundary that leaves the body free to move by one of its `free_motions`:
+/// Refuses a boundary that leaves the body free to move by one of its modal::free_motions:
 /// InputError naming the motion.
 void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition);
 

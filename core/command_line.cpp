@@ -60,6 +60,11 @@ void CommandLine::option(const std::string& flags, std::vector<std::filesystem::
   impl_->app.add_option(flags, value, help);
 }
 
+void CommandLine::option(const std::string& flags, std::vector<std::string>& value,
+                         const std::string& help) {
+  impl_->app.add_option(flags, value, help)->allow_extra_args(false);
+}
+
 void CommandLine::option(const std::string& flags, std::string& value, const std::string& help) {
   impl_->app.add_option(flags, value, help)->capture_default_str();
 }

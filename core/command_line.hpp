@@ -33,6 +33,7 @@ class CommandLine {
   void option(const std::string& flags, std::vector<std::filesystem::path>& value,
               const std::string& help);
   void option(const std::string& flags, std::string& value, const std::string& help);
+  void option(const std::string& flags, std::vector<std::string>& value, const std::string& help);
   void option(const std::string& flags, double& value, const std::string& help);
   void option(const std::string& flags, int& value, const std::string& help);
   void flag(const std::string& flags, bool& value, const std::string& help);

@@ -1,10 +1,11 @@
-// clatter-modal: modes of a part, with a proof that none is missing; and how well a reduced model
-// keeps them.
+// clatter-modal: modes of a part, with a proof that none is missing; how well a reduced model keeps
+// them; static solution of its load cases.
 //
 // Sample runs:
 //   clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5
 //   clatter-modal block.rom.h5 --count 40 -o block_rom.modes.h5
 //   clatter-modal --compare block.fe.h5 block.rom.h5
+//   clatter-modal block.fe.h5 --static -o block.static.h5
 #include <fmt/format.h>
 
 #include "core/artefact.hpp"
@@ -14,6 +15,7 @@
 #include "core/log.hpp"
 #include "modal/compare.hpp"
 #include "modal/modes_file.hpp"
+#include "modal/statics.hpp"
 
 namespace {
 
@@ -26,6 +28,8 @@ struct Arguments {
   int count = 0;
   double fmax_hz = 0.0;
   bool compare = false;
+  bool statics = false;
+  std::vector<std::string> cases;  // of --static
 };
 
 std::string number(double value) { return json_number(value); }
@@ -83,6 +87,31 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
   return 0;
 }
 
+int solve_static(const Arguments& arguments, const CommonOptions& common) {
+  if (arguments.inputs.size() != 1 || arguments.output.empty()) {
+    throw InputError("command line: --static expects one model and -o output.static.h5");
+  }
+  StepClock clock;
+  const Path& input = arguments.inputs.front();
+  const assembly::FeModel model = assembly::read_fe_model(input);
+  clock.lap(fmt::format("read {} DoF", model.size()));
+  const modal::StaticSolution solution = modal::solve_static(model, arguments.cases);
+  clock.lap(fmt::format("{} cases", solution.cases.size()));
+  for (const std::string& line : modal::describe(model, solution)) say(line);
+  H5File file = H5File::create(arguments.output);
+  modal::write_static(file, model, solution);
+  write_provenance(file, {modal::kStaticSchema, "", {input}});
+  write_timing(file, clock);
+  file.commit();
+  write_depfile(common.depfile, arguments.output, {input});
+  if (common.json) {
+    print_json({{"output", json_text(arguments.output.string())},
+                {"cases", number(static_cast<double>(solution.cases.size()))},
+                {"seconds", number(clock.total_seconds())}});
+  }
+  return 0;
+}
+
 int compare(const Arguments& arguments, const CommonOptions& common) {
   if (arguments.inputs.size() != 2) {
     throw InputError("command line: --compare expects full.fe.h5 and reduced.rom.h5");
@@ -106,16 +135,21 @@ int run(int argc, char** argv) {
   Arguments arguments;
   CommandLine line("clatter-modal",
                    "Modes of an assembled or reduced part, with a proof that none is missing; "
-                   "--compare shows how well a reduced model keeps them.",
+                   "--compare shows how well a reduced model keeps them; --static solves its load "
+                   "cases for displacements and reactions.",
                    "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"
-                   "         clatter-modal --compare block.fe.h5 block.rom.h5");
+                   "         clatter-modal --compare block.fe.h5 block.rom.h5\n"
+                   "         clatter-modal block.fe.h5 --static --case weight -o block.static.h5");
   line.positional("model", arguments.inputs, "assembled (.fe.h5) or reduced (.rom.h5) part");
   line.option("-c,--config", arguments.config, "what to compute (.modes.toml)");
   line.option("-o,--output", arguments.output, "modes (.modes.h5)");
   line.option("--count", arguments.count, "the lowest modes, this many (default 20)");
   line.option("--fmax-hz", arguments.fmax_hz, "all modes below this frequency");
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");
+  line.flag("--static", arguments.statics, "solve the load cases of an assembled part");
+  line.option("--case", arguments.cases, "load or case to solve, any number; default: all");
   if (!line.parse(argc, argv)) return line.exit_code();
+  if (arguments.statics) return solve_static(arguments, line.common());
   if (arguments.count < 0 || arguments.fmax_hz < 0.0) {
     throw InputError(
         fmt::format("command line: found --count {} --fmax-hz {}, expected positive "

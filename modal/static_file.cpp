@@ -1,0 +1,58 @@
+// The file of a static solution, schema "clatter/static/1".
+#include <algorithm>
+
+#include "core/artefact.hpp"
+#include "mesh/mesh_file.hpp"
+#include "modal/statics.hpp"
+
+namespace clatter::modal {
+namespace {
+
+/// A vector of `width` numbers a place as rows.
+RowMatrix rows_of(const Eigen::VectorXd& values, Eigen::Index width) {
+  return Eigen::Map<const RowMatrix>(values.data(), values.size() / width, width);
+}
+
+}  // namespace
+
+void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution) {
+  file.set("/", "name", model.name);
+  file.write("nodes", model.nodes);
+  mesh::write_surfaces(file, model.surfaces);
+  const assembly::FeSupports& supports = model.supports;
+  if (supports.size() > 0) {
+    file.write("supports/names", supports.names);
+    file.write("supports/support", supports.support);
+    file.write("supports/labels", supports.set.labels);
+    file.write("supports/position", supports.set.position);
+    file.write("supports/direction", supports.set.direction);
+    file.write("supports/is_rotation", supports.set.is_rotation);
+  }
+  if (!model.points.names.empty()) {
+    file.write("points/names", model.points.names);
+    file.write("points/position", model.points.position);
+  }
+  double residual = 0.0, balance = 0.0;
+  for (const StaticCase& one : solution.cases) {
+    const std::string place = "cases/" + one.name + "/";
+    file.write(place + "displacement", rows_of(one.displacement, 3));
+    if (one.points.size() > 0) file.write(place + "points", rows_of(one.points, 6));
+    if (one.reactions.size() > 0) {
+      file.write(place + "reactions", one.reactions);
+      file.write(place + "support_sums", one.support_sums);
+    }
+    file.write(place + "applied", one.applied);
+    file.set("cases/" + one.name, "energy", one.energy);
+    file.set("cases/" + one.name, "residual", one.residual);
+    file.set("cases/" + one.name, "balance", one.balance);
+    residual = std::max(residual, one.residual);
+    balance = std::max(balance, one.balance);
+  }
+  write_certificate(file, {{"cases", static_cast<double>(solution.cases.size())},
+                           {"residual_max", residual},
+                           {"balance_max", balance},
+                           {"factor_entries", static_cast<double>(solution.factor.entries)},
+                           {"factor_rcond", solution.factor.rcond}});
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,47 @@
+#pragma once
+// Static solution of load cases with reactions.
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assembly/fe_model.hpp"
+#include "modal/factor/cholmod_factor.hpp"
+
+namespace clatter::modal {
+
+inline constexpr const char* kStaticSchema = "clatter/static/1";
+
+/// The answer to one load case.
+struct StaticCase {
+  std::string name;
+  Eigen::VectorXd displacement;  // 3 n_nodes [m]: row 3 a + d is node a, direction d
+  Eigen::VectorXd points;        // 6 n_points: x y z [m], rx ry rz [rad] of each
+  Eigen::VectorXd reactions;     // n_s [N, N m]: what the supports do to the part
+  Eigen::MatrixXd support_sums;  // supports x 6: their force [N] and moment about the origin [N m]
+  Eigen::VectorXd applied;       // 6: force and moment about the origin of all loads
+  double energy = 0.0;           // strain energy [J]
+  double residual = 0.0;         // |K q + K_sq^T s - f| / |f|
+  double balance = 0.0;          // |applied + reactions| over the forces that cancel; moments over
+                                 // half the part's diagonal
+};
+
+struct StaticSolution {
+  std::vector<StaticCase> cases;
+  FactorReport factor;
+};
+
+/// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
+///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s.
+/// One factorisation serves all. InputError for an unknown name, a model without loads, and a part
+/// whose supports leave rigid motions free (they are named); NumericsError when the stiffness is
+/// singular otherwise, or when residual or balance exceed 1e-8.
+StaticSolution solve_static(const assembly::FeModel& model, const std::vector<std::string>& wanted);
+
+/// Writes the cases, nodes, surfaces, points and supports; provenance and timing are the caller's.
+void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution);
+
+/// A few lines for the user.
+std::vector<std::string> describe(const assembly::FeModel& model, const StaticSolution& solution);
+
+}  // namespace clatter::modal
