@@ -48,13 +48,18 @@ void Constrainer::start_elimination() {
   for (size_t p = 0; p < numbers_.points().size(); ++p)  // displacements of points on nodes
     for (int d = 0; d < 3 && numbers_.points()[p].node >= 0; ++d)
       eliminator_->drop(static_cast<int32_t>(numbers_.nodal() + 6 * static_cast<int64_t>(p)) + d);
-  for (const CouplingSpec& spec : recipe_.couplings) {  // in the order of add_rigid()
+  for (const CouplingSpec& spec : recipe_.couplings) {  // in the order of their ids
     if (!spec.rigid || !spec.on_point.empty()) continue;
     eliminator_->add_coordinates(6);
     const Eigen::Vector3d& place = own_references_.at(spec.name).place;
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
     motion.topRows<3>() = rigid_motion(place);
     for (int d = 0; d < 6; ++d) motion_.emplace_back(motion.row(d));
+  }
+  for (const TieSpec& spec : recipe_.ties) {
+    if (!spec.bolt) continue;
+    eliminator_->add_coordinates(1);
+    motion_.push_back(Eigen::RowVectorXd::Zero(6));
   }
   for (const int32_t dof : order) {
     const auto found = dependences_.find(dof);
@@ -273,6 +278,7 @@ Constrained Constrainer::run() {
   gather_node_sets();
   gather_couplings();
   gather_equations();
+  gather_ties();
   start_elimination();
   hold_oblique(false);
   ride_onto_points();

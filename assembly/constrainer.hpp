@@ -32,6 +32,8 @@ class Constrainer {
   void gather_node_sets();
   void gather_couplings();
   void gather_equations();
+  void gather_ties();
+  void add_tie(const TieSpec& spec, int32_t jump);
   void add_rigid(const CouplingSpec& spec);
   void add_onto_point(const CouplingSpec& spec);
   void depend(int32_t dof, Functional on, int relation);

@@ -26,6 +26,8 @@ class ConstraintGraph {
   void hold(int32_t dof, int relation);
   void keep(int32_t dof, int relation);
 
+  /// True when a support holds the DoF.
+  bool is_held(int32_t dof) const { return held_.contains(dof); }
   /// True when the DoF depends on others.
   bool depends(int32_t dof) const { return links_.contains(dof); }
   /// The relation by which it does.

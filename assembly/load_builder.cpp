@@ -60,6 +60,12 @@ Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
     case LoadSpec::Kind::kGravity:
       add_body_force(load.force, forces);
       break;
+    case LoadSpec::Kind::kNodal: {
+      const RowMatrix& field = mesh_.fields.at(load.field);
+      forces.head(3 * n_nodes) =
+          load.value * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+      break;
+    }
     case LoadSpec::Kind::kDisplacement:
       break;
   }

@@ -25,6 +25,11 @@ Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& sur
 
 Eigen::VectorXd set_load(Eigen::Index n, const DofSet& set, const Eigen::Vector3d& force,
                          const Eigen::Vector3d& moment, const std::string& where) {
+  if (set.kind == "bolt") {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+    out(set.dofs.at(0)) = set.direction.row(0) * force;
+    return out;
+  }
   // Places are counted by what they can take along each axis, so that each axis gets its sum.
   Eigen::Vector3d can_push = Eigen::Vector3d::Zero(), can_turn = Eigen::Vector3d::Zero();
   for (size_t k = 0; k < set.dofs.size(); ++k) {

@@ -67,12 +67,11 @@ std::vector<int> RecipeReader::directions(const Config& table, std::string_view 
   return found;
 }
 
-std::string RecipeReader::surface(const Config& table) const {
-  const std::string name = table.text("surface");
-  if (!mesh_.surfaces.contains(name))
-    fail_unknown(table, "surface", name, names_of(mesh_.surfaces));
+std::string RecipeReader::surface(const Config& table, std::string_view key) const {
+  const std::string name = table.text(key);
+  if (!mesh_.surfaces.contains(name)) fail_unknown(table, key, name, names_of(mesh_.surfaces));
   if (mesh_.surfaces.at(name).face_count() == 0)
-    table.fail("surface", fmt::format("found \"{}\" without faces, expected some", name));
+    table.fail(key, fmt::format("found \"{}\" without faces, expected some", name));
   return name;
 }
 
@@ -139,6 +138,7 @@ Recipe RecipeReader::read() {
   supports(recipe);
   couplings(recipe);
   equations(recipe);
+  ties(recipe);
   contacts(recipe);
   means(recipe);
   nodes(recipe);

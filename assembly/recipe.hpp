@@ -60,6 +60,14 @@ struct CouplingSpec {
   std::vector<int> directions = {0, 1, 2, 3, 4, 5};  // rigid: of the followers; else: reference
 };
 
+/// [[tie]] and [[bolt]]: a slave surface that follows a master surface.
+struct TieSpec {
+  std::string name, slave, master, where;
+  std::optional<double> distance;  // largest gap [m]; absent: a tenth of the mean slave face size
+  bool bolt = false;               // one relative displacement along `direction` stays free
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector from slave to master
+};
+
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
 struct EquationSpec {
   struct Term {
@@ -101,16 +109,17 @@ struct PointMassSpec {
 
 /// [[load]]: a unit load case.
 struct LoadSpec {
-  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement };
+  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement, kNodal };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
   std::string surface, set;                          // set: also the name of a point
+  std::string field;                                 // of the mesh, n x 3 [N], times `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   Place place;                                       // prescribed displacement:
   std::vector<int> directions;                       // of `axes`
   Axes axes;
-  double value = 0.0;  // [m] or [rad]
+  double value = 0.0;  // [m] or [rad]; factor of a field
 };
 
 struct Recipe {
@@ -120,6 +129,7 @@ struct Recipe {
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;
   std::vector<EquationSpec> equations;
+  std::vector<TieSpec> ties;  // bolts too
   std::vector<ContactSpec> contacts;
   std::vector<MeanSpec> means;
   std::vector<NodeSpec> nodes;

@@ -1,4 +1,4 @@
-// [[point]], [[support]], [[coupling]], [[equation]].
+// [[point]], [[support]], [[coupling]], [[equation]], [[tie]], [[bolt]].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -130,6 +130,26 @@ void RecipeReader::equations(Recipe& recipe) const {
       table.fail("terms", "found none or a first one of zero, expected a dependent term first");
     recipe.equations.push_back(spec);
   }
+}
+
+void RecipeReader::ties(Recipe& recipe) {
+  for (const char* kind : {"tie", "bolt"})
+    for (const Config& table : config_.tables(kind)) {
+      TieSpec spec;
+      spec.bolt = std::string_view(kind) == "bolt";
+      // A tie has no set, yet a name of its own in messages.
+      spec.name = spec.bolt ? new_set(table)
+                            : table.text_or("name", fmt::format("tie_{}", recipe.ties.size() + 1));
+      spec.where = where(table, fmt::format("{} {}", kind, spec.name));
+      spec.slave = surface(table, "slave");
+      spec.master = surface(table, "master");
+      if (spec.slave == spec.master)
+        table.fail("master", "found the slave surface, expected another one");
+      if (table.has("distance"))
+        spec.distance = metre_ * table.number("distance", Range::not_negative());
+      if (spec.bolt) spec.direction = unit_vector(table, "direction");
+      recipe.ties.push_back(spec);
+    }
 }
 
 }  // namespace clatter::assembly

@@ -8,14 +8,50 @@
 
 namespace clatter::assembly {
 
+void RecipeReader::force_load(const Config& table, LoadSpec& spec) const {
+  spec.kind = LoadSpec::Kind::kForce;
+  spec.set = known_set(table, "set");
+  if (table.has("force")) spec.force = vector(table, "force");
+  if (table.has("moment")) spec.moment = vector(table, "moment");
+  if (spec.force.isZero(0.0) && spec.moment.isZero(0.0))
+    table.fail("force", "found neither a force [N] nor a moment [N m], expected one");
+  spec.unit = table.text_or("unit", "1");
+}
+
+void RecipeReader::displacement_load(const Config& table, LoadSpec& spec) const {
+  spec.kind = LoadSpec::Kind::kDisplacement;
+  spec.place = place(table, "load " + spec.name, true);
+  spec.directions = directions(table, "directions", {}, spec.place.point.empty() ? 3 : 6);
+  if (spec.directions.empty())
+    table.fail("directions", "found nothing, expected the directions that move");
+  spec.axes = axes(table);
+  const bool turns = spec.directions.back() >= 3;
+  for (const int d : spec.directions)
+    if ((d >= 3) != turns)
+      table.fail("directions", "found displacements and rotations, expected one of them");
+  spec.value = (turns ? 1.0 : metre_) * table.number("value");
+  spec.unit = table.text_or("unit", "1");
+}
+
+/// The name of a field of the mesh with `columns` values a node.
+std::string RecipeReader::field(const Config& table, Eigen::Index columns) const {
+  const std::string name = table.text("field");
+  if (!mesh_.fields.contains(name)) fail_unknown(table, "field", name, names_of(mesh_.fields));
+  const RowMatrix& values = mesh_.fields.at(name);
+  if (values.rows() != mesh_.nodes.rows() || values.cols() != columns)
+    table.fail("field", fmt::format("found {} x {} values, expected {} x {}", values.rows(),
+                                    values.cols(), mesh_.nodes.rows(), columns));
+  return name;
+}
+
 LoadSpec RecipeReader::load(const Config& table) const {
   LoadSpec spec;
   spec.name = table.text("name");
   if (spec.name.empty() || spec.name.find('/') != std::string::npos)
     table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
   spec.where = where(table, "load " + spec.name);
-  const std::string kind = table.choice(
-      "kind", {"pressure", "resultant", "force", "gravity", "acceleration", "displacement"});
+  const std::string kind = table.choice("kind", {"pressure", "resultant", "force", "gravity",
+                                                 "acceleration", "displacement", "nodal"});
   if (kind == "pressure") {
     spec.surface = surface(table);
     spec.unit = "Pa";
@@ -25,25 +61,13 @@ LoadSpec RecipeReader::load(const Config& table) const {
     spec.force = table.number_or("total", 1.0) * unit_vector(table, "direction");
     spec.unit = table.text_or("unit", "N");
   } else if (kind == "force") {
-    spec.kind = LoadSpec::Kind::kForce;
-    spec.set = known_set(table, "set");
-    if (table.has("force")) spec.force = vector(table, "force");
-    if (table.has("moment")) spec.moment = vector(table, "moment");
-    if (spec.force.isZero(0.0) && spec.moment.isZero(0.0))
-      table.fail("force", "found neither a force [N] nor a moment [N m], expected one");
-    spec.unit = table.text_or("unit", "1");
+    force_load(table, spec);
   } else if (kind == "displacement") {
-    spec.kind = LoadSpec::Kind::kDisplacement;
-    spec.place = place(table, "load " + spec.name, true);
-    spec.directions = directions(table, "directions", {}, spec.place.point.empty() ? 3 : 6);
-    if (spec.directions.empty())
-      table.fail("directions", "found nothing, expected the directions that move");
-    spec.axes = axes(table);
-    const bool turns = spec.directions.back() >= 3;
-    for (const int d : spec.directions)
-      if ((d >= 3) != turns)
-        table.fail("directions", "found displacements and rotations, expected one of them");
-    spec.value = (turns ? 1.0 : metre_) * table.number("value");
+    displacement_load(table, spec);
+  } else if (kind == "nodal") {
+    spec.kind = LoadSpec::Kind::kNodal;
+    spec.field = field(table, 3);
+    spec.value = table.number_or("scale", 1.0);
     spec.unit = table.text_or("unit", "1");
   } else {
     spec.kind = LoadSpec::Kind::kGravity;

@@ -30,7 +30,7 @@ class RecipeReader {
   /// "xyz" or ["x", "rz"]; the first `allowed` of x y z rx ry rz may occur, each once.
   static std::vector<int> directions(const Config& table, std::string_view key,
                                      const std::vector<int>& fallback, int allowed);
-  std::string surface(const Config& table) const;
+  std::string surface(const Config& table, std::string_view key = "surface") const;
   std::string node_set(const Config& table) const;
   /// A place by `surface` or `node_set`; by `point` too where one may stand.
   Place place(const Config& table, const std::string& what, bool or_point = false) const;
@@ -48,6 +48,7 @@ class RecipeReader {
   void reference(const Config& table, CouplingSpec& spec);
   std::vector<TermSpec> terms(const Config& table, const CouplingSpec& spec) const;
   void equations(Recipe& recipe) const;
+  void ties(Recipe& recipe);
   void contacts(Recipe& recipe);
   static std::vector<Sector> sectors(const Config& table);
   Eigen::VectorXd axial_edges(const Config& table) const;
@@ -56,6 +57,9 @@ class RecipeReader {
   void point_masses(Recipe& recipe) const;
   void loads(Recipe& recipe) const;
   LoadSpec load(const Config& table) const;
+  void force_load(const Config& table, LoadSpec& spec) const;
+  void displacement_load(const Config& table, LoadSpec& spec) const;
+  std::string field(const Config& table, Eigen::Index columns) const;
   void cases(Recipe& recipe) const;
 
   const Config& config_;

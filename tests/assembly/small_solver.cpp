@@ -77,8 +77,10 @@ Eigen::MatrixXd full(const SparseMatrix& lower) {
 
 BuiltModel build(const mesh::Mesh& mesh, const std::string& toml) {
   set_quiet(true);
+  std::string regions;
+  for (const std::string& region : mesh.regions) regions += "\"" + region + "\", ";
   const std::string steel =
-      "[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
+      "[material.steel]\nregions = [" + regions + "]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
   const Config config = Config::parse(steel + toml, "test.fe.toml");
   const Recipe recipe = read_recipe(config, mesh);
   StepClock clock;
