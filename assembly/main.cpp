@@ -27,16 +27,22 @@ The smallest fe.toml names a material for each region of the mesh:
 
 Further tables, any number of each:
   [damping]       ratio at at_hz, or alpha and beta:  D = alpha K + beta M
-  [[support]]     surface or node_set held at zero
-  [[coupling]]    reference node (6 or 3 DoFs) that rides on a surface: bearings, mounts, pins
+  [system.NAME]   rectangular, cylindrical or spherical axes for directions
+  [[point]]       reference node with 6 DoFs of its own
+  [[support]]     surface, node_set or point held at zero
+  [[coupling]]    reference node that rides on a surface (RBE3) or that nodes follow (RBE2)
+  [[equation]]    linear relation of displacements
+  [[tie]]         surfaces that do not match;  [[bolt]]  a cut shank with its tension
   [[contact]]     grid of patches on a cylinder surface, one radial DoF each
   [[mean]]        mean displacement of a surface along a direction
   [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
-  [[point_mass]]  mass and inertia on a coupling, sensor or node set
-  [[load]]        pressure, resultant, force or gravity
+  [[point_mass]]  mass and inertia on a point, coupling, sensor or node set
+  [[load]]        pressure, resultant, force, gravity, nodal field, prescribed displacement
+  [[case]]        a sum of loads
 
 assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
-Next: clatter-modal block.fe.h5, clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
+Next: clatter-modal block.fe.h5 (modes; --static for load cases),
+ clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
 
 void print_summary(const clatter::assembly::FeModel& model, double seconds, bool json) {
   const clatter::MassProperties& mass = model.mass;

@@ -11,6 +11,7 @@
 #include "block_mesh.hpp"
 #include "core/error.hpp"
 #include "small_solver.hpp"
+#include "two_parts.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -91,6 +92,30 @@ TEST(AssemblyHard, HardE3_CouplingsOneByOneEqualAllAtOnce) {
       EXPECT_LT((c * T - unit).cwiseAbs().maxCoeff(), 1e-12 * T.cwiseAbs().maxCoeff());
     }
   }
+}
+
+TEST(AssemblyHard, HardE3_SupportedBlocksEqualTheDenseProductsOfCopies) {
+  // Dependences, couplings, plain and oblique supports together, against [T T_s]^T A [T T_s].
+  RandomModel model = random_model(40);
+  Eliminator eliminator(40, model.fixed, {2, 7});
+  eliminator.depend(30, {{31, 33, 17}, {0.5, -2.0, 0.3}});
+  eliminator.hold({{{34, 35, 36}, {0.6, 0.0, 0.8}}}, "test");
+  eliminator.add(model.coupling, "test");
+  eliminator.depend(33, {{38, 39}, {1.0, 0.25}});  // what 30 depends on already
+  const Elimination e = eliminator.finish();
+  Eigen::MatrixXd T(40, e.size() + e.supports());
+  T << Eigen::MatrixXd(e.T), Eigen::MatrixXd(e.T_s);
+  const Eigen::MatrixXd want = T.transpose() * full(model.A) * T;
+  SparseMatrix got = model.A;
+  SupportBlocks blocks;
+  transform(got, e, &blocks);
+  const Eigen::Index n = e.size(), n_s = e.supports();
+  ASSERT_EQ(n_s, 4);
+  const double tolerance = 1e-12 * want.cwiseAbs().maxCoeff();
+  EXPECT_LT((full(got) - want.topLeftCorner(n, n)).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT((Eigen::MatrixXd(blocks.sq) - want.bottomLeftCorner(n_s, n)).cwiseAbs().maxCoeff(),
+            tolerance);
+  EXPECT_LT((full(blocks.ss) - want.bottomRightCorner(n_s, n_s)).cwiseAbs().maxCoeff(), tolerance);
 }
 
 TEST(AssemblyHard, HardE4_AMatrixBeyond32BitIndicesIsRefusedBeforeMemoryIsTaken) {
@@ -237,6 +262,74 @@ surface = "y0"
   const FeModel stiff =
       build(mesh, "[[coupling]]\nname = \"bore\"\ntype = \"rigid\"\nsurface = \"y0\"\n").model;
   EXPECT_LT(std::abs(ovalisation(stiff.K, Eigen::MatrixXd(stiff.T)) / want), 0.05);
+}
+
+/// A beam along x, whole or cut at the middle into halves that do not match.
+mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end) {
+  return block_mesh(n, [=](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return {begin + (end - begin) * x(0), 0.05 * x(1), 0.04 * x(2)};
+  });
+}
+
+TEST(AssemblyHard, HardB7_ABeamCutInTwoHasTheModesOfTheWholeAndNoMore) {
+  const FeModel whole = build(beam({12, 2, 2}, 0.0, 0.4), "[[support]]\nsurface = \"x0\"\n").model;
+  const mesh::Mesh halves = two_parts(beam({6, 2, 2}, 0.0, 0.2), beam({7, 3, 2}, 0.2, 0.4));
+  for (const auto& [slave, master] : {std::pair{"a_x1", "b_x0"}, std::pair{"b_x0", "a_x1"}}) {
+    const BuiltModel built =
+        build(halves, std::string("[[support]]\nsurface = \"a_x0\"\n[[tie]]\nslave = \"") + slave +
+                          "\"\nmaster = \"" + master + "\"\n");
+    const Eigen::VectorXd want = lowest_hz(whole.K, whole.M, 10);
+    const Eigen::VectorXd got = lowest_hz(built.model.K, built.model.M, 10);
+    for (Eigen::Index k = 0; k < 10; ++k)
+      EXPECT_NEAR(got(k) / want(k), 1.0, 0.005) << "mode " << k + 1 << ", slave " << slave;
+  }
+}
+
+TEST(AssemblyHard, HardB7_ConstantStressCrossesTheJoint) {
+  mesh::Mesh mesh = two_parts(beam({3, 2, 2}, 0.0, 0.2), beam({2, 3, 1}, 0.2, 0.4));
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
+    const Eigen::Vector3d x = mesh.nodes.row(a).transpose();
+    const auto name = [&](double y, double z) {
+      return (x - Eigen::Vector3d(0, y, z)).norm() < 1e-9;
+    };
+    if (name(0.0, 0.0)) mesh.node_sets["o"] = {static_cast<int32_t>(a)};
+    if (name(0.05, 0.0)) mesh.node_sets["y"] = {static_cast<int32_t>(a)};
+    if (name(0.0, 0.04)) mesh.node_sets["z"] = {static_cast<int32_t>(a)};
+  }
+  for (const auto& [slave, master] : {std::pair{"a_x1", "b_x0"}, std::pair{"b_x0", "a_x1"}}) {
+    const FeModel model = build(mesh, std::string(R"(
+[[support]]
+node_set = "o"
+[[support]]
+node_set = "y"
+directions = "xz"
+[[support]]
+node_set = "z"
+directions = "x"
+[[load]]
+name = "pull"
+kind = "pressure"
+surface = "b_x1"
+[[load]]
+name = "hold"
+kind = "pressure"
+surface = "a_x0"
+[[tie]]
+)") + "slave = \"" + slave + "\"\nmaster = \"" +
+                                          master + "\"\n")
+                              .model;
+    const double strain = -1.0 / 2.1e11;  // of 1 Pa that pushes on both ends
+    const Eigen::VectorXd f = model.loads.at("pull") + model.loads.at("hold");
+    const Eigen::LLT<Eigen::MatrixXd> factor(full(model.K));
+    Eigen::VectorXd q = factor.solve(f);
+    q += factor.solve(f - multiply_symmetric(model.K, q));
+    const Eigen::VectorXd u = model.T * q;
+    for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
+      const Eigen::Vector3d x = mesh.nodes.row(a).transpose();
+      const Eigen::Vector3d want = strain * Eigen::Vector3d(x(0), -0.3 * x(1), -0.3 * x(2));
+      EXPECT_LT((u.segment<3>(3 * a) - want).norm(), 1e-10 * std::abs(strain) * 0.4);
+    }
+  }
 }
 
 }  // namespace
