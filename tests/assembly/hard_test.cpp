@@ -272,8 +272,8 @@ mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end) {
 }
 
 TEST(AssemblyHard, HardB7_ABeamCutInTwoHasTheModesOfTheWholeAndNoMore) {
-  const FeModel whole = build(beam({12, 2, 2}, 0.0, 0.4), "[[support]]\nsurface = \"x0\"\n").model;
-  const mesh::Mesh halves = two_parts(beam({6, 2, 2}, 0.0, 0.2), beam({7, 3, 2}, 0.2, 0.4));
+  const FeModel whole = build(beam({16, 3, 3}, 0.0, 0.4), "[[support]]\nsurface = \"x0\"\n").model;
+  const mesh::Mesh halves = two_parts(beam({8, 3, 3}, 0.0, 0.2), beam({9, 4, 3}, 0.2, 0.4));
   for (const auto& [slave, master] : {std::pair{"a_x1", "b_x0"}, std::pair{"b_x0", "a_x1"}}) {
     const BuiltModel built =
         build(halves, std::string("[[support]]\nsurface = \"a_x0\"\n[[tie]]\nslave = \"") + slave +
