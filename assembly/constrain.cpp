@@ -102,7 +102,7 @@ void Constrainer::ride_onto_points() {
         throw InputError(
             fmt::format("{}: found {} held by a support although other couplings determine it "
                         "already, expected one of them",
-                        onto.where, numbers_.name(onto.ids[k], {})));
+                        onto.where, numbers_.name(onto.ids[k], mesh_.node_ids)));
       eliminator_->depend(onto.ids[k], rows[k]);
     }
   }

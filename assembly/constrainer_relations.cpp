@@ -20,7 +20,7 @@ Constrainer::Constrainer(const mesh::Mesh& mesh, const Recipe& recipe, const Dof
       recipe_(recipe),
       numbers_(numbers),
       surfaces_(surfaces),
-      graph_([this](int32_t id) { return numbers_.name(id, {}); }),
+      graph_([this](int32_t id) { return numbers_.name(id, mesh_.node_ids); }),
       next_own_(static_cast<int32_t>(numbers.count())) {}
 
 int32_t Constrainer::point_named(const std::string& name) const {

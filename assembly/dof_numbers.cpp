@@ -23,7 +23,7 @@ Eigen::Vector3d DofNumbers::position(DofPlace place) const {
 std::string DofNumbers::name(int32_t id, const std::vector<int32_t>& node_ids) const {
   if (id < nodal()) {
     const auto node = static_cast<size_t>(id / 3);
-    const int32_t number = node < node_ids.size() ? node_ids[node] : id / 3;
+    const int32_t number = node < node_ids.size() ? node_ids[node] : id / 3 + 1;
     return fmt::format("node {} {}", number, kDofNames[static_cast<size_t>(id % 3)]);
   }
   if (id >= count()) return fmt::format("generalised coordinate {}", id - count());

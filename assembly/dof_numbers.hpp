@@ -43,7 +43,8 @@ class DofNumbers {
   /// DoF d of a place, -1 for a rotation of a node.
   int32_t of(DofPlace place, int d) const;
   Eigen::Vector3d position(DofPlace place) const;
-  /// "node 17 x", "point hub rx"; `node_ids`, if any, are the numbers that the user knows.
+  /// "node 17 x", "point hub rx"; `node_ids` (Mesh::node_ids) are the numbers that the user knows,
+  /// none: counted from one.
   std::string name(int32_t id, const std::vector<int32_t>& node_ids) const;
   const std::vector<ReferencePoint>& points() const { return points_; }
 

@@ -103,7 +103,7 @@ Eigen::VectorXd LoadBuilder::prescribed(const LoadSpec& load) const {
       }
       if (match < 0)
         throw InputError(fmt::format("{}: found {}, which no support holds, expected one that does",
-                                     load.where, numbers_.name(id, {})));
+                                     load.where, numbers_.name(id, mesh_.node_ids)));
     }
   }
   return s;

@@ -25,9 +25,10 @@ bool is_new(const HeldGroup& group, const Eigen::Vector3d& direction) {
   return rest.norm() > kSameDirection;
 }
 
-std::string place_name(DofPlace place, const DofNumbers& numbers) {
+std::string place_name(DofPlace place, const mesh::Mesh& mesh, const DofNumbers& numbers) {
   if (place.is_point()) return numbers.points()[static_cast<size_t>(place.point())].name;
-  return fmt::format("{}", place.index);
+  const auto node = static_cast<size_t>(place.index);
+  return fmt::format("{}", node < mesh.node_ids.size() ? mesh.node_ids[node] : place.index + 1);
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mes
         held.place = place;
         held.is_rotation = d >= 3;
         held.direction = axes.col(d % 3);
-        held.label = fmt::format("{}.{}.{}", spec.name, place_name(place, numbers),
+        held.label = fmt::format("{}.{}.{}", spec.name, place_name(place, mesh, numbers),
                                  kDofNames[static_cast<size_t>(d)]);
         HeldGroup& group = groups[numbers.of(place, held.is_rotation ? 3 : 0)];
         if (!is_new(group, held.direction)) continue;
