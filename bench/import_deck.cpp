@@ -1,5 +1,5 @@
-// import_deck FILE: reads a deck and prints nodes, cells, seconds and the megabytes of the mesh
-// itself.
+// import_deck FILE: reads a deck (.inp Abaqus, else Nastran) and prints nodes, cells, seconds and
+// the megabytes of the mesh itself.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -7,8 +7,14 @@
 
 #include "core/error.hpp"
 #include "mesh/deck/abaqus_reader.hpp"
+#include "mesh/deck/nastran_reader.hpp"
 
 namespace {
+
+clatter::mesh::deck::Deck read(const std::filesystem::path& path) {
+  if (path.extension() == ".inp") return clatter::mesh::deck::read_abaqus(path, {});
+  return clatter::mesh::deck::read_nastran(path, {});
+}
 
 double megabytes(const clatter::mesh::Mesh& mesh) {
   auto bytes = static_cast<size_t>(mesh.nodes.size()) * sizeof(double) +
@@ -26,7 +32,7 @@ int main(int argc, char** argv) {
   return clatter::run_guarded("import_deck", [&] {
     if (argc != 2) throw clatter::InputError("expected one file");
     const auto begin = std::chrono::steady_clock::now();
-    const auto deck = clatter::mesh::deck::read_abaqus(argv[1], {});
+    const auto deck = read(argv[1]);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     fmt::print("{} {} {:.3f} {:.1f}\n", deck.mesh.nodes.rows(), deck.mesh.cell_count(),
                seconds.count(), megabytes(deck.mesh));

@@ -60,13 +60,6 @@ void build_mesh(Model& model) {
     model.place_of_row[row] = model.node_count++;
     model.row_of_place_.push_back(static_cast<int32_t>(row));
   }
-  mesh.nodes.resize(model.node_count, 3);
-  mesh.node_ids.resize(static_cast<size_t>(model.node_count));
-  for (Place node = 0; node < model.node_count; ++node) {
-    const auto row = static_cast<size_t>(model.row_of_place_[static_cast<size_t>(node)]);
-    mesh.nodes.row(node) << grids.at[3 * row], grids.at[3 * row + 1], grids.at[3 * row + 2];
-    mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
-  }
   for (RawBlock& block : model.bulk.blocks) {
     CellBlock cells;
     cells.type = block.type;
@@ -74,11 +67,16 @@ void build_mesh(Model& model) {
     cells.region = static_cast<int32_t>(at - properties.begin());
     cells.ids = std::move(block.ids);
     cells.nodes.resize(static_cast<Eigen::Index>(cells.ids.size()), traits(block.type).nodes);
-    for (size_t i = 0; i < block.nodes.size(); ++i) {
-      cells.nodes.data()[i] = model.place_of_row[static_cast<size_t>(block.nodes[i])];
-    }
-    block.nodes = {};
+    int32_t* node = cells.nodes.data();
+    block.nodes.drain([&](int32_t row) { *node++ = model.place_of_row[static_cast<size_t>(row)]; });
     mesh.cells.push_back(std::move(cells));
+  }
+  mesh.nodes.resize(model.node_count, 3);
+  mesh.node_ids.resize(static_cast<size_t>(model.node_count));
+  for (Place node = 0; node < model.node_count; ++node) {
+    const auto row = static_cast<size_t>(model.row_of_place_[static_cast<size_t>(node)]);
+    mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
+    mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
   }
 }
 

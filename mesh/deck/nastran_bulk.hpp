@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/deck/chunked.hpp"
 #include "mesh/deck/nastran_card.hpp"
 #include "mesh/deck/nastran_control.hpp"
 
@@ -19,7 +20,7 @@ inline constexpr DofMask kNoneHeld = 0x80;
 /// GRID cards, beside each other. Columns that no card uses so far are empty or short (column_at).
 struct Grids {
   std::vector<int32_t> ids;
-  std::vector<double> at;  // 3 each, in the system of cp
+  Chunked<std::array<double, 3>> at;  // in the system of cp
   std::vector<Origin> origins;
   std::vector<int32_t> cp, cd;  // systems of coordinates and of displacements
   std::vector<DofMask> held;    // permanent constraints
@@ -44,7 +45,7 @@ struct RawBlock {
   CellType type = CellType::kTet4;
   int32_t property = 0;
   std::vector<int32_t> ids;
-  std::vector<int32_t> nodes;  // GRID numbers, nodes per cell each, order of cell.hpp
+  Chunked<int32_t> nodes;  // GRID numbers, nodes per cell each, order of cell.hpp
   std::vector<Origin> origins;
 };
 

@@ -100,7 +100,7 @@ RawBlock& block_of(Bulk& bulk, CellType type, int32_t property) {
 constexpr double kColumnPrecision = 1e-10;
 
 // Coordinates in full, as a comment gives them, as long as the card says the same in fewer digits.
-void take_exact(Bulk& bulk, int32_t id, double* at) {
+void take_exact(Bulk& bulk, int32_t id, std::array<double, 3>& at) {
   if (bulk.exact.empty()) return;
   const auto found = bulk.exact.find(id);
   if (found == bulk.exact.end()) return;
@@ -118,8 +118,10 @@ void read_grid(const Card& card, Bulk& bulk) {
   const size_t row = grids.size();
   grids.ids.push_back(card.id(0, "ID"));
   grids.origins.push_back(card.origin());
-  for (size_t k = 0; k < 3; ++k) grids.at.push_back(card.real_or(2 + k, "coordinate", 0.0));
-  take_exact(bulk, grids.ids.back(), &grids.at[3 * row]);
+  std::array<double, 3> at{};
+  for (size_t k = 0; k < 3; ++k) at[k] = card.real_or(2 + k, "coordinate", 0.0);
+  take_exact(bulk, grids.ids.back(), at);
+  grids.at.push_back(at);
   const auto system = [&](size_t i, const char* what) {
     if (card.blank(i)) return kBlank;
     if (card.text(i) == "-1") card.fail(i, "CD -1 (fluid) is not supported");
@@ -173,19 +175,15 @@ void read_cell(const Card& card, Bulk& bulk) {
   const CellType type = type_of(card, id);
   RawBlock& block = block_of(bulk, type, card.id_or(1, "PID", id));
   const CellTraits& cell = traits(type);
-  const size_t first = block.nodes.size();
-  block.nodes.resize(first + static_cast<size_t>(cell.nodes));
-  int32_t* nodes = block.nodes.data() + first;
-  for (int i = 0; i < cell.nodes; ++i) {
-    const size_t at = static_cast<size_t>(i);
-    const int32_t node = card.id(kFirstNode + at, "G");
-    for (int j = 0; j < i; ++j) {
-      if (nodes[cell.to_nastran[static_cast<size_t>(j)]] == node) {
-        card.fail(kFirstNode + at, fmt::format("cell {}: found node {} twice", id, node));
-      }
+  std::array<int32_t, kMaxCellNodes> nodes{};
+  for (size_t i = 0; i < cell.to_nastran.size(); ++i) {
+    const int32_t node = card.id(kFirstNode + i, "G");
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
+      card.fail(kFirstNode + i, fmt::format("cell {}: found node {} twice", id, node));
     }
-    nodes[cell.to_nastran[at]] = node;
+    nodes[static_cast<size_t>(cell.to_nastran[i])] = node;
   }
+  for (int i = 0; i < cell.nodes; ++i) block.nodes.push_back(nodes[static_cast<size_t>(i)]);
   block.ids.push_back(id);
   block.origins.push_back(card.origin());
 }

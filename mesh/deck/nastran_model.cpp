@@ -26,7 +26,7 @@ IdIndex index_of(const Grids& grids, const Source& source) {
   IdIndex index(grids.ids);
   for (const auto& [a, b] : index.duplicates()) {
     const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-    const bool same = std::equal(&grids.at[3 * i], &grids.at[3 * i] + 3, &grids.at[3 * j]) &&
+    const bool same = grids.at[i] == grids.at[j] &&
                       column_at(grids.cp, i) == column_at(grids.cp, j) &&
                       column_at(grids.cd, i) == column_at(grids.cd, j) &&
                       column_at(grids.held, i) == column_at(grids.held, j);
@@ -51,7 +51,7 @@ Model::Model(const Source& deck_source, Bulk cards)
       systems(bulk, grids, source),
       place_of_row(bulk.grids.size(), -1) {
   for (size_t row = 0; row < bulk.grids.cp.size(); ++row) {
-    Eigen::Map<Eigen::Vector3d> at(&bulk.grids.at[3 * row]);
+    Eigen::Map<Eigen::Vector3d> at(bulk.grids.at[row].data());
     at = systems.to_basic(bulk.grids.cp[row], at, bulk.grids.origins[row]);
   }
 }
@@ -67,7 +67,7 @@ Place Model::place_of(size_t row, Origin origin, bool make_points) {
   if (place >= 0 || !make_points) return place;
   spend(16, origin);
   place = node_count + static_cast<Place>(deck.points.size());
-  const double* at = &bulk.grids.at[3 * row];
+  const auto& at = bulk.grids.at[row];
   deck.points.push_back({bulk.grids.ids[row], {at[0], at[1], at[2]}});
   row_of_place_.push_back(static_cast<int32_t>(row));
   return place;
