@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "mesh/deck/nastran_writer.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -181,8 +182,12 @@ void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   if (extension == ".vtu") return write_whole(path, vtu_text(mesh));
   if (extension == ".inp") return write_whole(path, inp_text(mesh));
   if (extension == ".msh") return write_whole(path, msh_text(mesh));
-  throw InputError(fmt::format("{}: found extension '{}', expected .vtu, .inp or .msh",
-                               path.string(), extension));
+  if (extension == ".bdf" || extension == ".nas" || extension == ".dat") {
+    return deck::write_nastran(mesh, path);
+  }
+  throw InputError(
+      fmt::format("{}: found extension '{}', expected .vtu, .inp, .msh, .bdf, .nas or .dat",
+                  path.string(), extension));
 }
 
 }  // namespace clatter::mesh

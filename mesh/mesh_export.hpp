@@ -11,6 +11,7 @@ namespace clatter::mesh {
 ///  .inp  Abaqus and CalculiX: *NODE, *ELEMENT by region (ELSET), *NSET for each surface and node
 ///        set, one-based, node order of Abaqus
 ///  .msh  Gmsh MSH 2.2 text: regions and surfaces as physical groups, one-based
+///  .bdf, .nas, .dat  Nastran bulk data without loss (deck/nastran_writer.hpp)
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace clatter::mesh

@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 // Sine of the smallest angle between the z axis and the point of the xz plane.
 constexpr double kLeastSine = 1e-10;
+// Of the distance from the origin: nearer to the axis there is no angle about it.
+constexpr double kOnAxis = 1e-12;
 
 Vector3d cartesian(System::Kind kind, const Vector3d& p) {
   switch (kind) {
@@ -157,15 +159,16 @@ Matrix3d Systems::directions(int32_t system, const Vector3d& at, Origin origin) 
   const System& s = get(system, origin);
   if (s.kind == System::Kind::kRectangular) return s.axes;
   const Vector3d p = s.axes.transpose() * (at - s.origin);
-  // On the axis the angle phi is taken as zero.
-  const double rho = std::hypot(p[0], p[1]);
-  const double c = rho > 0.0 ? p[0] / rho : 1.0, sn = rho > 0.0 ? p[1] / rho : 0.0;
+  // As in assembly/axes.cpp: on the axis the angle about it is taken as zero, in the origin theta
+  // as 90.
+  const double rho = std::hypot(p[0], p[1]), r = std::hypot(rho, p[2]);
+  const bool on_axis = !(rho > kOnAxis * r);
+  const double c = on_axis ? 1.0 : p[0] / rho, sn = on_axis ? 0.0 : p[1] / rho;
   Matrix3d local;
   if (s.kind == System::Kind::kCylindrical) {
     local << c, -sn, 0, sn, c, 0, 0, 0, 1;
   } else {
-    const double r = std::hypot(rho, p[2]);
-    const double ct = r > 0.0 ? p[2] / r : 1.0, st = r > 0.0 ? rho / r : 0.0;
+    const double ct = r > 0.0 ? p[2] / r : 0.0, st = r > 0.0 ? rho / r : 1.0;
     local << st * c, ct * c, -sn, st * sn, ct * sn, c, ct, -st, 0;
   }
   return s.axes * local;

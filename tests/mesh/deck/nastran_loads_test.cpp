@@ -39,6 +39,14 @@ TEST(NastranLoads, ForcesAreScaledAndTurned) {
   EXPECT_LT((total(deck.steps[0], 2) - Vector3d(-1, 2, 0)).norm(), kRounding);
 }
 
+TEST(NastranLoads, OnTheAxisTheAngleIsZero) {
+  const std::string points = ",0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n";
+  const Deck deck = read_deck(kTet + "CORD2C,5,0" + points + "CORD2S,6,0" + points +
+                              "FORCE,3,4,5,1.,1.,2.,3.\nFORCE,3,1,6,1.,1.,2.,3.\n");
+  EXPECT_EQ(total(deck.steps[0], 3), Vector3d(1, 2, 3));   // r, theta, z
+  EXPECT_EQ(total(deck.steps[0], 0), Vector3d(1, 3, -2));  // r along x, theta downward, phi along y
+}
+
 TEST(NastranLoads, MomentsNeedAPoint) {
   const std::string point = "GRID,9,,3.,4.,5.\nRBE2,7,9,123456,1\n";
   const Deck deck = read_deck(kTet + point + "MOMENT,3,9,,10.,0.,0.,2.\n");

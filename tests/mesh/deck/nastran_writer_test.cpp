@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "mesh/deck/nastran_fields.hpp"
+#include "mesh/mesh_export.hpp"
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/mesh/deck/nastran_support.hpp"
 
@@ -155,6 +156,14 @@ TEST(NastranWriter, ACardThatWasChangedCountsMoreThanItsComment) {
   EXPECT_EQ(read_deck(deck).mesh.nodes(0, 0), 0.10000000000000003);
   deck.replace(deck.find(",.1,"), 4, ",.2,");
   EXPECT_EQ(read_deck(deck).mesh.nodes(0, 0), 0.2);
+}
+
+TEST(NastranWriter, IsTheExportToBdf) {
+  const auto file = std::filesystem::temp_directory_path() / "clatter_export.bdf";
+  const Mesh mesh = read_deck(kTet).mesh;
+  mesh::export_mesh(mesh, file);
+  expect_same(mesh, mesh::deck::read_nastran(file).mesh);
+  std::filesystem::remove(file);
 }
 
 TEST(NastranWriter, WritesWholeFilesOrNone) {
