@@ -122,10 +122,8 @@ void read_materials(Reading* reading) {
         }
         keyword.allow({"NAME"}, reading->source, reading->ignore);
         const std::string& name = keyword.required("NAME", reading->source);
-        for (const auto& [known, unused] : reading->deck->materials) {
-          if (folded(known) == folded(name)) {
-            reading->source.fail(card.spot(), fmt::format("found a second material {}", name));
-          }
+        if (!reading->material_names.emplace(folded(name), name).second) {
+          reading->source.fail(card.spot(), fmt::format("found a second material {}", name));
         }
         material = &reading->deck->materials[name];
         material->name = name;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/deck/abaqus_reading.hpp"
 
@@ -33,11 +34,14 @@ class Sections {
   }
 
  private:
-  int32_t new_region(size_t use, const std::string& name, const std::string& where) {
-    reading_.deck->mesh.regions.push_back(
-        reading_.model->public_name(use, set_name(reading_, use, name)));
+  int32_t new_region(size_t use, const std::string& name, Spot spot) {
+    const std::string shown = reading_.model->public_name(use, set_name(reading_, use, name));
+    if (!names_.insert(shown).second) {
+      reading_.source.fail(spot, fmt::format("found a second region {}", shown));
+    }
+    reading_.deck->mesh.regions.push_back(shown);
     reading_.deck->regions.emplace_back();
-    reading_.deck->regions.back().where = where;
+    reading_.deck->regions.back().where = reading_.source.where(spot);
     return static_cast<int32_t>(reading_.deck->regions.size()) - 1;
   }
 
@@ -54,7 +58,7 @@ class Sections {
     if (material.constants.empty()) {
       reading_.source.fail(card.spot(), fmt::format("material {} has no *ELASTIC", material.name));
     }
-    const int32_t region = new_region(use, name, reading_.source.where(card.spot()));
+    const int32_t region = new_region(use, name, card.spot());
     reading_.deck->regions.back().material = material.name;
     if (const std::string* orientation = keyword.find("ORIENTATION")) {
       reading_.deck->regions.back().system = system_named(reading_, use, *orientation, card.spot());
@@ -72,9 +76,8 @@ class Sections {
   }
 
   const Material& material_named(const std::string& name, Spot spot) const {
-    for (const auto& [known, material] : reading_.deck->materials) {
-      if (folded(known) == folded(name)) return material;
-    }
+    const auto known = reading_.material_names.find(folded(name));
+    if (known != reading_.material_names.end()) return reading_.deck->materials.at(known->second);
     reading_.source.fail(spot, fmt::format("there is no material '{}'", name));
   }
 
@@ -91,12 +94,11 @@ class Sections {
       }
     }
     for (const auto& [place, set] : sets) {
-      const int32_t region =
-          new_region(place.first, set->name, reading_.source.where(place.second));
+      const int32_t region = new_region(place.first, set->name, place.second);
       for (const SetChunk& chunk : set->chunks) fill(place.first, chunk, region);
     }
     if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
-    const int32_t rest = new_region(reading_.model->main_use(), "solid", "");
+    const int32_t rest = new_region(reading_.model->main_use(), "solid", 0);
     std::replace(region_.begin(), region_.end(), kNoRegion, rest);
   }
 
@@ -136,6 +138,7 @@ class Sections {
 
   Reading& reading_;
   std::vector<int32_t> region_;
+  std::set<std::string> names_;
 };
 
 // Numbers the nodes that cells use, in the order of the deck, and copies them.

@@ -9,6 +9,8 @@ namespace clatter::mesh::deck::abaqus {
 namespace {
 
 constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
+// A few gigabytes: a small deck can have instances without end.
+constexpr int64_t kMostNodes = int64_t{1} << 26, kMostCells = int64_t{1} << 26;
 
 // Added to numbers up to `own` so that they lie above `taken`: a multiple of a power of ten, which
 // leaves the own number readable. 0 where they lie there already.
@@ -26,16 +28,17 @@ Model::Model(RawDeck deck, const Source& source) : source_(source), deck_(std::m
   element_index_.reserve(deck_.parts.size() + 1);
   for (const Scope& part : deck_.parts) index_scope(part);
   index_scope(deck_.model);
+  std::map<std::string, size_t> part_of;
+  for (size_t p = 0; p < deck_.parts.size(); ++p) part_of[folded(deck_.parts[p].name)] = p;
   for (const InstanceLine& line : deck_.instances) {
     if (find_use(line.name) >= 0) {
       source_.fail(line.spot, fmt::format("found a second instance {}", line.name));
     }
-    size_t part = 0;
-    while (part < deck_.parts.size() && folded(deck_.parts[part].name) != folded(line.part)) ++part;
-    if (part == deck_.parts.size()) {
+    const auto part = part_of.find(folded(line.part));
+    if (part == part_of.end()) {
       source_.fail(line.spot, fmt::format("there is no part '{}'", line.part));
     }
-    add_use(&deck_.parts[part], &line, static_cast<int32_t>(part));
+    add_use(&deck_.parts[part->second], &line, static_cast<int32_t>(part->second));
   }
   if (!deck_.parts.empty() && deck_.instances.empty()) {
     source_.fail(deck_.parts.front().spot, "found parts, expected instances of them (*INSTANCE)");
@@ -88,6 +91,7 @@ void Model::add_use(Scope* scope, const InstanceLine* line, int32_t index) {
   }
   add_nodes(scope, &use);
   add_cells(scope, &use);
+  if (line != nullptr) use_of_[folded(use.name)] = static_cast<int>(uses_.size());
   uses_.push_back(use);
 }
 
@@ -98,15 +102,16 @@ void Model::add_nodes(Scope* scope, Use* use) {
   if (nodes.ids.empty()) return;
   const auto [low, high] = std::minmax_element(nodes.ids.begin(), nodes.ids.end());
   const int64_t offset = offset_above(highest_node_, *low, *high);
-  if (offset + *high > kMost || node_ids_.size() + nodes.ids.size() > kMost / 3) {
+  if (offset + *high > kMost ||
+      static_cast<int64_t>(node_ids_.size() + nodes.ids.size()) > kMostNodes) {
     source_.fail(nodes.spots.front(), "found too many or too high node numbers");
   }
   use->node_offset = static_cast<int32_t>(offset);
   highest_node_ = std::max(highest_node_, use->node_offset + *high);
-  node_ids_.reserve(node_ids_.size() + nodes.ids.size());
+  if (main) node_ids_.reserve(node_ids_.size() + nodes.ids.size());
   for (const int32_t id : nodes.ids) node_ids_.push_back(id + use->node_offset);
-  xyz_.reserve(xyz_.size() + nodes.xyz.size());
   if (main) {
+    xyz_.reserve(xyz_.size() + nodes.xyz.size());
     xyz_.insert(xyz_.end(), nodes.xyz.begin(), nodes.xyz.end());
     return;
   }
@@ -134,7 +139,7 @@ void Model::add_cells(Scope* scope, Use* use) {
     count += static_cast<int64_t>(table.ids.size());
   }
   const int64_t offset = offset_above(highest_element_, low, high);
-  if (offset + high > kMost || cells_ + count > kMost / 20) {
+  if (offset + high > kMost || cells_ + count > kMostCells) {
     source_.fail(scope->spot, "found too many or too high element numbers");
   }
   use->element_offset = static_cast<int32_t>(offset);
@@ -164,10 +169,8 @@ void Model::add_cells(Scope* scope, Use* use) {
 }
 
 int Model::find_use(const std::string& name) const {
-  for (size_t u = 0; u < uses_.size(); ++u) {
-    if (!uses_[u].name.empty() && folded(uses_[u].name) == folded(name)) return static_cast<int>(u);
-  }
-  return -1;
+  const auto use = use_of_.find(folded(name));
+  return use != use_of_.end() ? use->second : -1;
 }
 
 std::string Model::public_name(size_t use, const std::string& name) const {
@@ -178,8 +181,10 @@ std::string Model::public_name(size_t use, const std::string& name) const {
   if (use != main_use() && (deck_.instances.size() > 1 || taken)) {
     out = uses_[use].name + "." + name;
   }
-  std::replace(out.begin(), out.end(), '/', '_');
-  return out;
+  for (char& c : out) {
+    if (c == '/' || (c >= 0 && c < ' ')) c = '_';
+  }
+  return out == "." ? "_" : out;
 }
 
 int32_t Model::find_node(size_t use, int32_t id) const {

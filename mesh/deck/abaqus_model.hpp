@@ -3,6 +3,7 @@
 // of the deck replaced by rows.
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,8 +70,8 @@ class Model {
   /// Of an instance by its name; -1 where there is none.
   int find_use(const std::string& name) const;
   /// The name of what a use calls `name`: the same, with "instance." in front where there are
-  /// several instances or the assembly has that name too. A slash, which HDF5 does not allow,
-  /// becomes _.
+  /// several instances or the assembly has that name too. What HDF5
+  /// does not allow in names becomes _.
   std::string public_name(size_t use, const std::string& name) const;
 
   int32_t nodes() const { return static_cast<int32_t>(node_ids_.size()); }
@@ -106,6 +107,7 @@ class Model {
   RawDeck deck_;
   std::vector<IdIndex> node_index_, element_index_;
   std::vector<Use> uses_;
+  std::map<std::string, int> use_of_;  // by folded name
   std::vector<int32_t> node_ids_;
   std::vector<double> xyz_;
   std::vector<FlatTable> tables_;

@@ -1,5 +1,7 @@
 #include "mesh/deck/abaqus_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "mesh/deck/abaqus_parser.hpp"
@@ -12,7 +14,10 @@ namespace abaqus {
 // places; its nodes of the mesh, if any, in Mesh::node_sets as well.
 void read_node_sets(Reading* reading) {
   const Model& model = *reading->model;
-  const auto add = [&](const std::string& name, const std::vector<int32_t>& rows) {
+  const auto add = [&](const std::string& name, const std::vector<int32_t>& rows, Spot spot) {
+    if (reading->deck->mesh.node_sets.contains(name) || reading->deck->sets.contains(name)) {
+      reading->source.fail(spot, fmt::format("found a second node set {}", name));
+    }
     std::vector<Place> nodes, all;
     for (const int32_t row : rows) {
       const int32_t node = reading->places->mesh_node(row);
@@ -28,15 +33,16 @@ void read_node_sets(Reading* reading) {
   };
   for (size_t use = 0; use < model.uses().size(); ++use) {
     for (const auto& [key, set] : model.uses()[use].scope->node_sets) {
-      add(model.public_name(use, set.name),
-          reading->sets->nodes(use, set.name, set.chunks.front().spot));
+      const Spot spot = set.chunks.front().spot;
+      add(model.public_name(use, set.name), reading->sets->nodes(use, set.name, spot), spot);
     }
   }
   for_each_card(*reading, {"SURFACE"}, [&](size_t use, const Card& card) {
     const std::string& name = *card.keyword().find("NAME");
     const std::string shown = model.public_name(use, name);
     const auto* rows = node_surface(*reading, use, name);
-    if (rows != nullptr && !reading->deck->mesh.node_sets.contains(shown)) add(shown, *rows);
+    const bool is_new = !reading->deck->mesh.node_sets.contains(shown);
+    if (rows != nullptr && is_new) add(shown, *rows, card.spot());
   });
 }
 
@@ -48,7 +54,19 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   Sets sets(&model);
   Deck deck;
   deck.mesh.name = name;
-  Reading reading{*source, &ignore, &model, &sets, &deck, nullptr, {}, {}, {}, {}};
+  Reading reading{.source = *source,
+                  .ignore = &ignore,
+                  .model = &model,
+                  .sets = &sets,
+                  .deck = &deck,
+                  .places = nullptr,
+                  .initial = {},
+                  .surface_names = {},
+                  .node_surfaces = {},
+                  .dependents = {},
+                  .material_names = {},
+                  .system_names = {},
+                  .amplitudes = {}};
   read_materials(&reading);
   read_orientations(&reading);
   Places places(&model, &deck, build_mesh(&reading));

@@ -64,6 +64,9 @@ struct Reading {
   std::map<std::string, std::string> surface_names;  // "use:FOLDED" -> name in the mesh
   std::map<std::string, std::vector<int32_t>> node_surfaces;        // the same -> rows
   std::vector<std::pair<size_t, std::vector<int32_t>>> dependents;  // of Deck::rigid, as rows
+  std::map<std::string, std::string> material_names, system_names;  // folded -> name in the deck
+  std::map<std::string, const Card*> amplitudes;                    // by folded name
+  int64_t faces = 0;                                                // of all surfaces
 };
 
 /// Calls body(use, card) for each card with one of those keys, use by use, in the order of the

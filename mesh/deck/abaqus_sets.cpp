@@ -9,6 +9,8 @@ namespace {
 
 // Sets within sets within sets; far beyond what people write.
 constexpr int kDeepest = 64;
+// A gigabyte of members: small decks can name large sets without end.
+constexpr size_t kMostMembers = size_t{1} << 28;
 
 void sort_unique(std::vector<int32_t>* values) {
   if (!std::is_sorted(values->begin(), values->end())) std::sort(values->begin(), values->end());
@@ -78,6 +80,10 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Spot spot) 
   for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, &members);
   --depth_;
   sort_unique(&members);
+  members_ += members.size();
+  if (members_ > kMostMembers) {
+    model_->source().fail(spot, fmt::format("all sets have more than {} members", kMostMembers));
+  }
   entry.members = std::move(members);
   entry.done = true;
   return entry.members;
@@ -93,13 +99,15 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
   }
   add_rows(kind, use, chunk, out);
   add_numbers(kind, use, chunk, out);
-  for (const SetChunk::Range& range : chunk.ranges) add_range(kind, use, range, out);
+  compact(out);
+  for (const SetChunk::Range& range : chunk.ranges) {
+    add_range(kind, use, range, out);
+    compact(out);
+  }
   for (const auto& [name, spot] : chunk.names) {
     const auto other = at(kind, Fields(name, model_->source(), spot), 0, use);
     out->insert(out->end(), other.begin(), other.end());
-    if (chunk.names.size() > 1 && out->size() > 4 * size_t(model_->nodes() + model_->cells())) {
-      sort_unique(out);
-    }
+    compact(out);
   }
   for (const std::string& name : chunk.elements_of) {
     for (const int32_t element : elements(use, name, chunk.spot)) {
@@ -110,6 +118,20 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
       const auto rows = model_->nodes_of(element);
       out->insert(out->end(), rows.begin(), rows.end());
     }
+  }
+}
+
+// Parts that say the same again and again take no more memory than a few whole sets, and no more
+// time than it takes to look at each member.
+void Sets::compact(std::vector<int32_t>* out) const {
+  const size_t all = static_cast<size_t>(model_->nodes()) + static_cast<size_t>(model_->cells()) +
+                     model_->points().size();
+  if (out->size() <= 4 * all + 4096) return;
+  std::vector<bool> is_member(all, false);
+  for (const int32_t member : *out) is_member[static_cast<size_t>(member)] = true;
+  out->clear();
+  for (size_t member = 0; member < all; ++member) {
+    if (is_member[member]) out->push_back(static_cast<int32_t>(member));
   }
 }
 

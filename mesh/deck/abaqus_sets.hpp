@@ -49,10 +49,12 @@ class Sets {
   void add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const;
   int32_t find(Kind kind, size_t use, int32_t id) const;
   std::vector<int32_t> at(Kind kind, const Fields& fields, size_t i, size_t use);
+  void compact(std::vector<int32_t>* out) const;
 
   const Model* model_;
   std::map<Key, Entry> done_[2];
   int depth_ = 0;
+  size_t members_ = 0;  // of all sets
 };
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -132,10 +132,28 @@ class Steps {
     loaded_ = loaded_ || (general && (moved || !loads_.empty()));
     if (perturbation_) loads_ = *base_loads_;
     open_ = false;
+    check_memory();
     reading_.deck->steps.push_back(std::move(step_));
   }
 
+  // Steps repeat what they take over.
+  void check_memory() {
+    constexpr int64_t kMostEntries = int64_t{1} << 25;  // two gigabytes
+    entries_ += static_cast<int64_t>(step_.forces.size());
+    for (const Support& support : step_.supports) {
+      entries_ += static_cast<int64_t>(support.places.size());
+    }
+    if (!step_.temperature.empty()) entries_ += reading_.model->nodes() / 8;
+    if (entries_ > kMostEntries) {
+      throw InputError(
+          fmt::format("{}: steps have more than {} loads and supports, with those that "
+                      "they take over",
+                      step_.where, kMostEntries));
+    }
+  }
+
   Reading& reading_;
+  int64_t entries_ = 0;
   Supports model_, held_;
   Loads loads_;
   std::unique_ptr<Loads> base_loads_;
@@ -180,6 +198,11 @@ void read_initial_conditions(Reading* reading) {
   std::fill(reading->initial.begin(), reading->initial.end(), known.front());
 }
 
-void read_steps(Reading* reading) { Steps(reading).run(); }
+void read_steps(Reading* reading) {
+  for_each_card(*reading, {"AMPLITUDE"}, [&](size_t, const Card& card) {
+    reading->amplitudes[card.keyword().choice("NAME", "")] = &card;
+  });
+  Steps(reading).run();
+}
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -20,23 +20,16 @@ constexpr std::array<std::pair<std::string_view, DofMask>, 8> kNamed = {{
     {"ENCASTRE", 0b111111},
 }};
 
-const Card* amplitude_card(const Reading& reading, const std::string& name) {
-  const Card* found = nullptr;
-  for_each_card(reading, {"AMPLITUDE"}, [&](size_t, const Card& card) {
-    if (card.keyword().choice("NAME", "") == folded(name)) found = &card;
-  });
-  return found;
-}
-
 }  // namespace
 
 double amplitude_factor(const Reading& reading, const Card& card) {
   const std::string* name = card.keyword().find("AMPLITUDE");
   if (name == nullptr) return 1.0;
-  const Card* amplitude = amplitude_card(reading, *name);
-  if (amplitude == nullptr) {
+  const auto known = reading.amplitudes.find(folded(*name));
+  if (known == reading.amplitudes.end()) {
     reading.source.fail(card.spot(), fmt::format("there is no amplitude '{}'", *name));
   }
+  const Card* amplitude = known->second;
   std::vector<double> values;
   const bool table = amplitude->keyword().choice("DEFINITION", "TABULAR") == "TABULAR";
   for (size_t i = 0; table && i < amplitude->size(); ++i) {

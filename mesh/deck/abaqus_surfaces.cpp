@@ -187,6 +187,12 @@ class SurfaceReader {
 
 std::string add_surface(Reading* reading, const std::string& name,
                         const std::vector<CellFaceId>& faces) {
+  constexpr int64_t kMostFaces = int64_t{1} << 25;  // of all surfaces: a gigabyte
+  reading->faces += static_cast<int64_t>(faces.size());
+  if (reading->faces > kMostFaces) {
+    throw InputError(fmt::format("{}: surface {}: all surfaces have more than {} faces",
+                                 reading->source.files().front(), name, kMostFaces));
+  }
   SurfaceBuilder surface;
   std::set<CellFaceId> known;
   for (const CellFaceId& id : faces) {

@@ -104,16 +104,17 @@ void read_orientations(Reading* reading) {
     if (card.size() == 2) turn(card.line(1, reading->source), &system);
     move(reading->model->uses()[use], &system);
     system.name = reading->model->public_name(use, keyword.required("NAME", reading->source));
-    if (!reading->deck->systems.emplace(system.name, system).second) {
+    const bool is_new = reading->system_names.emplace(folded(system.name), system.name).second;
+    if (!is_new || !reading->deck->systems.emplace(system.name, system).second) {
       reading->source.fail(card.spot(), fmt::format("found a second orientation {}", system.name));
     }
   });
 }
 
 std::string system_named(const Reading& reading, size_t use, const std::string& name, Spot spot) {
-  const std::string wanted = folded(reading.model->public_name(use, name));
-  for (const auto& [known, unused] : reading.deck->systems) {
-    if (folded(known) == wanted || folded(known) == folded(name)) return known;
+  for (const std::string& wanted : {reading.model->public_name(use, name), name}) {
+    const auto known = reading.system_names.find(folded(wanted));
+    if (known != reading.system_names.end()) return known->second;
   }
   reading.source.fail(spot, fmt::format("there is no orientation '{}'", name));
 }
