@@ -52,15 +52,16 @@ Model::Model(RawDeck deck, const Source& source) : source_(source), deck_(std::m
 
 void Model::index_scope(const Scope& scope) {
   const NodeTable& nodes = scope.nodes;
-  node_index_.emplace_back(nodes.ids, [&](int32_t first, int32_t second) {
+  node_index_.emplace_back(nodes.ids);
+  for (const auto& [first, second] : node_index_.back().duplicates()) {
     const double* a = nodes.xyz.data() + 3 * int64_t{first};
     const double* b = nodes.xyz.data() + 3 * int64_t{second};
-    if (std::equal(a, a + 3, b)) return;
+    if (std::equal(a, a + 3, b)) continue;
     source_.fail(nodes.spots[static_cast<size_t>(second)],
                  fmt::format("node {} is defined again in another place; the first time: {}",
                              nodes.ids[static_cast<size_t>(first)],
                              source_.where(nodes.spots[static_cast<size_t>(first)])));
-  });
+  }
   std::vector<int32_t> ids;
   std::vector<Spot> spots;
   for (const CellTable& table : scope.cells) {
@@ -72,12 +73,13 @@ void Model::index_scope(const Scope& scope) {
     spots.push_back(point.spot);
   }
   ids.insert(ids.end(), scope.let_go.begin(), scope.let_go.end());
-  element_index_.emplace_back(ids, [&](int32_t first, int32_t second) {
-    const auto known = static_cast<int32_t>(spots.size());
-    if (first >= known && second >= known) return;
+  element_index_.emplace_back(ids);
+  const auto known = static_cast<int32_t>(spots.size());
+  for (const auto& [first, second] : element_index_.back().duplicates()) {
+    if (first >= known && second >= known) continue;
     source_.fail(spots[static_cast<size_t>(second < known ? second : first)],
                  fmt::format("element {} is defined twice", ids[static_cast<size_t>(first)]));
-  });
+  }
 }
 
 void Model::add_use(Scope* scope, const InstanceLine* line, int32_t index) {
@@ -192,9 +194,12 @@ int32_t Model::find_node(size_t use, int32_t id) const {
   return local < 0 ? -1 : uses_[use].first_node + local;
 }
 
-std::vector<int32_t> Model::find_nodes(size_t use, const IdIndex::Range& range) const {
-  std::vector<int32_t> rows = node_index_[static_cast<size_t>(uses_[use].index)].find(range);
-  for (int32_t& row : rows) row += uses_[use].first_node;
+std::vector<int32_t> Model::find_nodes(size_t use, const IdRange& range) const {
+  const Use& at = uses_[use];
+  std::vector<int32_t> rows;
+  node_index_[static_cast<size_t>(at.index)].for_each(
+      range.first, range.last, range.step,
+      [&](int32_t local) { rows.push_back(at.first_node + local); });
   return rows;
 }
 
@@ -211,11 +216,14 @@ int32_t Model::find_element(size_t use, int32_t id) const {
   return element_at(at, element_index_[static_cast<size_t>(at.index)].find(id));
 }
 
-std::vector<int32_t> Model::find_elements(size_t use, const IdIndex::Range& range) const {
+std::vector<int32_t> Model::find_elements(size_t use, const IdRange& range) const {
   const Use& at = uses_[use];
-  std::vector<int32_t> found = element_index_[static_cast<size_t>(at.index)].find(range);
-  for (int32_t& element : found) element = element_at(at, element);
-  std::erase(found, kLetGo);
+  std::vector<int32_t> found;
+  element_index_[static_cast<size_t>(at.index)].for_each(
+      range.first, range.last, range.step, [&](int32_t local) {
+        const int32_t element = element_at(at, local);
+        if (element != kLetGo) found.push_back(element);
+      });
   return found;
 }
 

@@ -9,27 +9,13 @@
 #include <vector>
 
 #include "mesh/deck/abaqus_scope.hpp"
+#include "mesh/deck/id_index.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
-/// Finds the place of a number: a table by number where they lie close, else a sorted list.
-class IdIndex {
- public:
-  /// Calls twice(first, second) with the places of a number that stands there again; the first
-  /// counts.
-  IdIndex(const std::vector<int32_t>& ids, const std::function<void(int32_t, int32_t)>& twice);
-  /// -1 for a number that is not there.
-  int32_t find(int32_t id) const;
-  /// first, first + step, ... up to last.
-  struct Range {
-    int32_t first, last, step;
-  };
-  /// Places of the numbers of a range that are there.
-  std::vector<int32_t> find(const Range& range) const;
-
- private:
-  std::vector<int32_t> table_;                       // place by number; or
-  std::vector<std::pair<int32_t, int32_t>> sorted_;  // number, place
+/// Numbers first, first + step, ... up to last.
+struct IdRange {
+  int32_t first, last, step;
 };
 
 /// A scope in its place. Its elements are numbered: cells in the order of its tables, then points,
@@ -80,7 +66,7 @@ class Model {
   Eigen::Vector3d at(int32_t row) const { return Eigen::Vector3d(xyz_.data() + 3 * int64_t{row}); }
   /// Row of node `id` of a use; -1 where there is none.
   int32_t find_node(size_t use, int32_t id) const;
-  std::vector<int32_t> find_nodes(size_t use, const IdIndex::Range& range) const;
+  std::vector<int32_t> find_nodes(size_t use, const IdRange& range) const;
 
   int32_t cells() const { return cells_; }
   const std::vector<FlatTable>& tables() const { return tables_; }
@@ -92,7 +78,7 @@ class Model {
   /// Element `id` of a use: a cell, cells() + a point, kLetGo for one that the user ignores, or -1.
   int32_t find_element(size_t use, int32_t id) const;
   /// Without those that the user ignores.
-  std::vector<int32_t> find_elements(size_t use, const IdIndex::Range& range) const;
+  std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;
   static constexpr int32_t kLetGo = -2;
 
  private:

@@ -167,7 +167,7 @@ void Sets::add_numbers(Kind kind, size_t use, const SetChunk& chunk,
 // Numbers of a range that do not exist are no mistake: programs write ranges over gaps.
 void Sets::add_range(Kind kind, size_t use, const SetChunk::Range& range,
                      std::vector<int32_t>* out) const {
-  const IdIndex::Range ids{range.first, range.last, range.step};
+  const IdRange ids{range.first, range.last, range.step};
   const auto found =
       kind == Kind::kNodes ? model_->find_nodes(use, ids) : model_->find_elements(use, ids);
   out->insert(out->end(), found.begin(), found.end());
