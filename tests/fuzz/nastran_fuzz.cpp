@@ -1,15 +1,46 @@
-// Any text is either a deck or an InputError: no crash, no hang, no runaway memory.
+// Any text is either a deck or an InputError: no crash, no hang, no runaway memory. What is read
+// comes back from the writer.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <sstream>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "mesh/deck/nastran_reader.hpp"
+#include "mesh/deck/nastran_writer.hpp"
+
+namespace {
+
+using clatter::mesh::Mesh;
+
+bool same(const Mesh& a, const Mesh& b) {
+  if (a.nodes.rows() != b.nodes.rows() || a.cells.size() != b.cells.size()) return false;
+  bool equal = a.nodes == b.nodes && a.node_ids == b.node_ids && a.regions == b.regions &&
+               a.node_sets == b.node_sets && a.surfaces.size() == b.surfaces.size();
+  for (size_t i = 0; i < a.cells.size(); ++i) {
+    equal = equal && a.cells[i].type == b.cells[i].type && a.cells[i].region == b.cells[i].region &&
+            a.cells[i].ids == b.cells[i].ids && a.cells[i].nodes == b.cells[i].nodes;
+  }
+  return equal;
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    clatter::mesh::deck::read_nastran_text("fuzz.bdf", text, {{"CQUAD4", "BCSET"}});
+    const Mesh mesh =
+        clatter::mesh::deck::read_nastran_text("fuzz.bdf", text, {{"CQUAD4", "BCSET"}}).mesh;
+    std::ostringstream written;
+    clatter::mesh::deck::write_nastran(mesh, written);
+    try {
+      if (!same(mesh, clatter::mesh::deck::read_nastran_text("back.bdf", written.str()).mesh)) {
+        std::abort();
+      }
+    } catch (const clatter::InputError&) {
+      std::abort();
+    }
   } catch (const clatter::InputError&) {
   }
   return 0;
