@@ -7,7 +7,8 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-constexpr int64_t kMostEffort = 2'000'000'000;
+// What the lists of a deck may cost: about a second of visits, or half a gigabyte of entries.
+constexpr int64_t kMostEffort = 500'000'000, kMostEffortPerGrid = 2000;
 
 // Blank fields of GRID take GRDSET's values.
 void fill_defaults(Bulk& bulk) {
@@ -108,7 +109,8 @@ std::string Model::system_name(int32_t system, Origin origin) {
 
 void Model::spend(int64_t effort, Origin origin) {
   effort_ += effort;
-  if (effort_ > kMostEffort) {
+  const auto grid_count = static_cast<int64_t>(bulk.grids.size());
+  if (effort_ > std::max(kMostEffort, kMostEffortPerGrid * grid_count)) {
     source.fail(origin, "the lists of this deck name the same grids too many times over");
   }
 }
