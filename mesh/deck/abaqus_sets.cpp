@@ -38,18 +38,6 @@ int32_t Sets::find(Kind kind, size_t use, int32_t id) const {
   return kind == Kind::kNodes ? model_->find_node(use, id) : model_->find_element(use, id);
 }
 
-bool Sets::has_nodes(size_t use, const std::string& name) const {
-  if (sets_of(Kind::kNodes, use).contains(folded(name))) return true;
-  const Key key = key_of(use, name);
-  return sets_of(Kind::kNodes, key.first).contains(key.second);
-}
-
-bool Sets::has_elements(size_t use, const std::string& name) const {
-  if (sets_of(Kind::kElements, use).contains(folded(name))) return true;
-  const Key key = key_of(use, name);
-  return sets_of(Kind::kElements, key.first).contains(key.second);
-}
-
 const std::vector<int32_t>& Sets::nodes(size_t use, const std::string& name, Spot spot) {
   const bool here = sets_of(Kind::kNodes, use).contains(folded(name));
   return resolve(Kind::kNodes, here ? Key{use, folded(name)} : key_of(use, name), spot);

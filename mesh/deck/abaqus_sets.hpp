@@ -21,9 +21,6 @@ class Sets {
   /// The same for elements; those of one node come behind the cells (Model::points).
   const std::vector<int32_t>& elements(size_t use, const std::string& name, Spot spot);
 
-  bool has_nodes(size_t use, const std::string& name) const;
-  bool has_elements(size_t use, const std::string& name) const;
-
   /// What stands in field `i`: a number or the name of a set.
   std::vector<int32_t> nodes_at(const Fields& fields, size_t i, size_t use);
   std::vector<int32_t> elements_at(const Fields& fields, size_t i, size_t use);
