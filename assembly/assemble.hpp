@@ -15,6 +15,9 @@ struct NodalMatrices {
   SparseMatrix K;  // [N/m], singular: six rigid motions
 };
 
+/// Consistent mass, or its diagonal scaled to the same total (lump_hrz): M is diagonal then.
+enum class MassForm { kConsistent, kHrz };
+
 /// Assembles all cells; `materials` has one entry a region of the mesh.
 ///
 /// Cells go through in chunks: their matrices are computed in parallel, then added in parallel,
@@ -22,6 +25,6 @@ struct NodalMatrices {
 /// summed in one order, and the bits do not depend on the thread count. Beyond M, K and the
 /// pattern only one chunk is held. InputError names an inverted cell.
 NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                       const NodePattern& pattern);
+                       const NodePattern& pattern, MassForm mass = MassForm::kConsistent);
 
 }  // namespace clatter::assembly

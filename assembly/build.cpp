@@ -156,7 +156,7 @@ void Builder::run(StepClock& clock) {
 
   const NodePattern pattern = node_pattern(mesh_);
   clock.lap("pattern");
-  NodalMatrices matrices = assemble(mesh_, recipe_.materials, pattern);
+  NodalMatrices matrices = assemble(mesh_, recipe_.materials, pattern, recipe_.mass);
   clock.lap("assemble");
   constrained_ = constrain(mesh_, recipe_, numbers_, surfaces_);
   take_coordinates();

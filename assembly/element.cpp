@@ -1,149 +1,213 @@
 #include "assembly/element.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <vector>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
+#include "assembly/cell_points.hpp"
+#include "assembly/tet_stiffness.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-using mesh::CellRule;
+using mesh::CellNodes;
+using mesh::CellType;
 
 constexpr double kStraightTolerance = 1e-10;  // of an edge; the error made below it is as small
 
-template <int N>
-struct ShapeAt {
-  Eigen::Matrix<double, N, 1> value;
-  Eigen::Matrix<double, N, 3> gradient;
-};
+constexpr int kModes = 3;                               // incompatible displacement modes
+constexpr int kMaxStrains = 3 * (mesh::kMaxCellNodes);  // columns of B
 
-/// Shape functions at the points of a rule, computed once per program.
-template <int N>
-struct ShapeTable {
-  std::vector<ShapeAt<N>> at;
-  Eigen::VectorXd weights;
-};
+using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, mesh::kMaxCellNodes, 3>;
+using StrainMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStrains>;
 
-template <int N>
-ShapeTable<N> tabulate(const CellRule& rule) {
-  constexpr mesh::CellType kType = N == 4 ? mesh::CellType::kTet4 : mesh::CellType::kTet10;
-  ShapeTable<N> table;
-  table.weights = rule.weights;
-  for (const auto& point : rule.points.rowwise()) {
-    const mesh::CellShape shape = mesh::cell_shape(kType, point.transpose());
-    table.at.push_back({shape.value, shape.gradient});
+Eigen::Matrix3d jacobian(const CellNodes& x, const CellPoint& point) {
+  return x.transpose() * point.shape.gradient;  // J(i, k) = dx_i / dxi_k
+}
+
+/// Gradients on x of a cell's displacement modes: its shape functions, then the incompatible modes
+/// of a hex8 that has them.
+class Modes {
+ public:
+  Modes(const CellNodes& x, bool incompatible) : x_(x), incompatible_(incompatible) {
+    if (!incompatible) return;
+    const Eigen::Matrix3d J =
+        x.transpose() * mesh::cell_shape(CellType::kHex8, Eigen::Vector3d::Zero()).gradient;
+    centre_inverse_ = J.inverse();
+    centre_det_ = J.determinant();
   }
-  return table;
-}
 
-template <int N>
-const ShapeTable<N>& stiffness_table(bool straight) {
-  static const ShapeTable<N> simple = tabulate<N>(N == 4 ? mesh::tet_rule_1() : mesh::tet_rule_4());
-  static const ShapeTable<N> curved = tabulate<N>(mesh::tet_rule_14());
-  return straight ? simple : curved;
-}
+  Eigen::Index count() const { return x_.rows() + (incompatible_ ? kModes : 0); }
 
-template <int N>
-const ShapeTable<N>& mass_table() {
-  static const ShapeTable<N> table = tabulate<N>(mesh::tet_rule_64());
-  return table;
-}
+  /// det J; row a of `gradient` is mode a's, not set where det J <= 0.
+  double at(const CellPoint& point, Gradient& gradient) const {
+    const Eigen::Matrix3d J = jacobian(x_, point);
+    const double det = J.determinant();
+    if (!(det > 0.0)) return det;
+    gradient.resize(count(), 3);
+    gradient.topRows(x_.rows()).noalias() = point.shape.gradient * J.inverse();
+    for (int k = 0; incompatible_ && k < kModes; ++k)
+      gradient.row(x_.rows() + k) =
+          (-2.0 * point.xi(k) * centre_det_ / det) * centre_inverse_.row(k);
+    return det;
+  }
 
-/// int N_a N_b over the reference cell.
-template <int N>
-const Eigen::Matrix<double, N, N>& reference_mass() {
-  static const Eigen::Matrix<double, N, N> mass = [] {
-    Eigen::Matrix<double, N, N> sum = Eigen::Matrix<double, N, N>::Zero();
-    const ShapeTable<N>& table = mass_table<N>();
-    for (size_t q = 0; q < table.at.size(); ++q)
-      sum += table.weights(static_cast<Eigen::Index>(q)) * table.at[q].value *
-             table.at[q].value.transpose();
-    return sum;
-  }();
-  return mass;
-}
+ private:
+  const CellNodes& x_;
+  bool incompatible_;
+  Eigen::Matrix3d centre_inverse_ = Eigen::Matrix3d::Zero();
+  double centre_det_ = 0.0;
+};
 
-/// Spreads H = int g g^T, g = (dN_1/dx, dN_1/dy, ...), to the isotropic stiffness:
-///   K(a i, b j) = lambda H(a i, b j) + mu H(a j, b i) + mu delta_ij sum_k H(a k, b k).
-template <int N>
-void isotropic_stiffness(const Eigen::Matrix<double, 3 * N, 3 * N>& H, const Material& material,
-                         Eigen::Matrix<double, 3 * N, 3 * N>& K) {
-  const double lambda = material.lambda(), mu = material.mu();
-  for (int b = 0; b < N; ++b) {
-    for (int a = 0; a < N; ++a) {
-      const Eigen::Matrix3d block = H.template block<3, 3>(3 * a, 3 * b);
-      Eigen::Matrix3d stiffness = lambda * block + mu * block.transpose();
-      stiffness.diagonal().array() += mu * block.trace();
-      K.template block<3, 3>(3 * a, 3 * b) = stiffness;
+/// Strains 11 22 33 12 23 31 of the modes' displacements.
+StrainMatrix strain_matrix(const Gradient& g) {
+  StrainMatrix B = StrainMatrix::Zero(6, 3 * g.rows());
+  for (Eigen::Index a = 0; a < g.rows(); ++a) {
+    for (int d = 0; d < 3; ++d) {
+      const int next = (d + 1) % 3;
+      B(d, 3 * a + d) = g(a, d);
+      B(3 + d, 3 * a + d) = g(a, next);
+      B(3 + d, 3 * a + next) = g(a, d);
     }
   }
+  return B;
 }
 
-template <int N>
-void compute_stiffness(const CellNodes<N>& x, const Material& material, bool straight,
-                       ElementMatrices<N>& out) {
-  const ShapeTable<N>& table = stiffness_table<N>(straight);
-  Eigen::Matrix<double, 3 * N, 3 * N> H = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
-  out.min_jacobian = std::numeric_limits<double>::infinity();
-  for (size_t q = 0; q < table.at.size(); ++q) {
-    const Eigen::Matrix3d J = x.transpose() * table.at[q].gradient;  // J(i, k) = dx_i / dxi_k
-    const double det = J.determinant();
-    out.min_jacobian = std::min(out.min_jacobian, det);
-    if (!(det > 0.0)) return;
-    // Row-major so that the rows (dN_a/dx, dN_a/dy, dN_a/dz) follow one another in memory.
-    const Eigen::Matrix<double, N, 3, Eigen::RowMajor> g = table.at[q].gradient * J.inverse();
-    const Eigen::Map<const Eigen::Matrix<double, 3 * N, 1>> flat(g.data());
-    H.noalias() += (table.weights(static_cast<Eigen::Index>(q)) * det) * flat * flat.transpose();
+/// K on all modes; the smallest det J, where it is not positive K is not finished.
+double integrate_stiffness(const Modes& modes, const CellNodes& x, const Material& material,
+                           const CellPoints& points, Eigen::MatrixXd& K) {
+  const auto n_points = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index columns = 3 * modes.count();
+  Eigen::MatrixXd strain(6 * n_points, columns), stress(6 * n_points, columns);
+  double smallest = std::numeric_limits<double>::infinity();
+  Gradient g;
+  Elasticity C = material.elasticity_at(x.row(0));
+  for (Eigen::Index q = 0; q < n_points; ++q) {
+    const CellPoint& point = points[static_cast<size_t>(q)];
+    const double det = modes.at(point, g);
+    smallest = std::min(smallest, det);
+    if (!(det > 0.0)) return smallest;
+    if (material.axes) C = material.elasticity_at(x.transpose() * point.shape.value);
+    const StrainMatrix B = strain_matrix(g);
+    strain.middleRows<6>(6 * q) = B;
+    stress.middleRows<6>(6 * q).noalias() = (point.weight * det * C).lazyProduct(B);
   }
-  isotropic_stiffness<N>(H, material, out.stiffness);
+  K.noalias() = strain.transpose() * stress;
+  return smallest;
 }
 
-template <int N>
-void compute_mass(const CellNodes<N>& x, const Material& material, bool straight,
-                  ElementMatrices<N>& out) {
-  if (straight) {
+Eigen::VectorXd integrate_thermal(const Modes& modes, const CellNodes& x, const Material& material,
+                                  const CellPoints& points, const Eigen::VectorXd& dT) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * modes.count());
+  Gradient g;
+  for (const CellPoint& point : points) {
+    const double det = modes.at(point, g);
+    const Eigen::Vector3d place = x.transpose() * point.shape.value;
+    const Voigt stress = material.elasticity_at(place) * material.expansion_at(place);
+    force.noalias() +=
+        (point.weight * det * point.linear.dot(dT)) * (strain_matrix(g).transpose() * stress);
+  }
+  return force;
+}
+
+/// Takes the incompatible modes out: K_uu - K_ua K_aa^-1 K_au.
+Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
+  constexpr int kInner = 3 * kModes;
+  const Eigen::Index n = extended.rows() - kInner;
+  const Eigen::Matrix<double, kInner, kInner> aa = extended.bottomRightCorner<kInner, kInner>();
+  const Eigen::MatrixXd au = extended.bottomLeftCorner(kInner, n);
+  return extended.topLeftCorner(n, n) - au.transpose() * aa.llt().solve(au);
+}
+
+/// int N_a N_b over the reference tetrahedron, from the points of its mass.
+const Eigen::MatrixXd& reference_mass(CellType type) {
+  static const auto all = [] {
+    std::array<Eigen::MatrixXd, 2> out;
+    for (const CellType tet : {CellType::kTet4, CellType::kTet10}) {
+      const Eigen::Index n = mesh::traits(tet).nodes;
+      Eigen::MatrixXd& sum = out[static_cast<size_t>(tet)];
+      sum = Eigen::MatrixXd::Zero(n, n);
+      for (const CellPoint& point : mass_points(tet, true))
+        sum += point.weight * point.shape.value * point.shape.value.transpose();
+    }
+    return out;
+  }();
+  return all[static_cast<size_t>(type)];
+}
+
+void compute_mass(CellType type, const CellNodes& x, const Material& material, bool straight,
+                  ElementMatrices& out) {
+  if (mesh::traits(type).corners == 4 && straight) {
     // One Jacobian for the whole cell: from the corners alone.
     Eigen::Matrix3d J;
     for (int k = 0; k < 3; ++k) J.col(k) = x.row(k + 1) - x.row(0);
-    out.mass = material.density * J.determinant() * reference_mass<N>();
+    out.mass = material.density * J.determinant() * reference_mass(type);
     return;
   }
-  const ShapeTable<N>& table = mass_table<N>();
-  out.mass.setZero();
-  for (size_t q = 0; q < table.at.size(); ++q) {
-    const double det = (x.transpose() * table.at[q].gradient).determinant();
+  out.mass.setZero(x.rows(), x.rows());
+  for (const CellPoint& point : mass_points(type, straight)) {
+    const double det = jacobian(x, point).determinant();
     out.min_jacobian = std::min(out.min_jacobian, det);
-    out.mass.noalias() += (material.density * det * table.weights(static_cast<Eigen::Index>(q))) *
-                          table.at[q].value * table.at[q].value.transpose();
+    out.mass.noalias() +=
+        (material.density * det * point.weight * point.shape.value) * point.shape.value.transpose();
   }
+}
+
+bool has_modes(CellType type, const Material& material) {
+  return type == CellType::kHex8 && material.integration.hex8 == Integration::kIncompatible;
 }
 
 }  // namespace
 
-template <int N>
-bool is_straight(const CellNodes<N>& x) {
-  for (int e = 0; e < N - 4; ++e) {
-    const auto [i, j] = mesh::kTetEdges[static_cast<size_t>(e)];
-    const double sag = (x.row(4 + e) - 0.5 * (x.row(i) + x.row(j))).norm();
+bool is_straight(CellType type, const CellNodes& x) {
+  const mesh::CellTraits& cell = mesh::traits(type);
+  for (int e = 0; e < cell.nodes - cell.corners; ++e) {
+    const auto [i, j] = cell.edges[static_cast<size_t>(e)];
+    const double sag = (x.row(cell.corners + e) - 0.5 * (x.row(i) + x.row(j))).norm();
     if (sag > kStraightTolerance * (x.row(i) - x.row(j)).norm()) return false;
   }
   return true;
 }
 
-template <int N>
-void compute_element(const CellNodes<N>& x, const Material& material, ElementMatrices<N>& out) {
-  const bool straight = is_straight<N>(x);
-  compute_stiffness<N>(x, material, straight, out);
-  if (out.min_jacobian > 0.0) compute_mass<N>(x, material, straight, out);
+void compute_element(CellType type, const CellNodes& x, const Material& material,
+                     ElementMatrices& out) {
+  const bool straight = is_straight(type, x);
+  const CellPoints& points =
+      stiffness_points(type, integration_of(type, material.integration), straight);
+  out.stiffness.resize(3 * x.rows(), 3 * x.rows());
+  if (mesh::traits(type).corners == 4 && material.is_isotropic()) {
+    out.min_jacobian = tet_stiffness(type, x, material, points, out.stiffness);
+  } else if (has_modes(type, material)) {
+    Eigen::MatrixXd extended;
+    out.min_jacobian = integrate_stiffness(Modes(x, true), x, material, points, extended);
+    if (out.min_jacobian > 0.0) out.stiffness = without_modes(extended);
+  } else {
+    out.min_jacobian = integrate_stiffness(Modes(x, false), x, material, points, out.stiffness);
+  }
+  if (out.min_jacobian > 0.0) compute_mass(type, x, material, straight, out);
 }
 
-template bool is_straight<4>(const CellNodes<4>&);
-template bool is_straight<10>(const CellNodes<10>&);
-template void compute_element<4>(const CellNodes<4>&, const Material&, ElementMatrices<4>&);
-template void compute_element<10>(const CellNodes<10>&, const Material&, ElementMatrices<10>&);
+Eigen::VectorXd thermal_force(CellType type, const CellNodes& x, const Material& material,
+                              const Eigen::VectorXd& dT) {
+  const CellPoints& points =
+      stiffness_points(type, integration_of(type, material.integration), is_straight(type, x));
+  const Modes modes(x, has_modes(type, material));
+  const Eigen::VectorXd force = integrate_thermal(modes, x, material, points, dT);
+  const Eigen::Index n = 3 * x.rows();
+  if (force.size() == n) return force;
+  Eigen::MatrixXd extended;
+  integrate_stiffness(modes, x, material, points, extended);
+  const Eigen::Index inner = force.size() - n;
+  return force.head(n) -
+         extended.topRightCorner(n, inner) *
+             extended.bottomRightCorner(inner, inner).llt().solve(force.tail(inner));
+}
+
+void lump_hrz(Eigen::MatrixXd& m) {
+  const Eigen::VectorXd diagonal = m.diagonal() * (m.sum() / m.trace());
+  m = diagonal.asDiagonal();
+}
 
 }  // namespace clatter::assembly

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "assembly/load_case.hpp"
+#include "assembly/thermal_load.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
@@ -38,6 +39,12 @@ void LoadBuilder::add_body_force(const Eigen::Vector3d& acceleration,
   }
 }
 
+/// Above the state without stress, at the nodes [K].
+Eigen::VectorXd LoadBuilder::temperature_rise(const LoadSpec& load) const {
+  if (load.field.empty()) return Eigen::VectorXd::Constant(mesh_.nodes.rows(), load.value);
+  return mesh_.fields.at(load.field).col(0).array() - load.value;
+}
+
 /// Forces on nodes and points (n_dofs).
 Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(numbers_.count());
@@ -66,6 +73,9 @@ Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
           load.value * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
       break;
     }
+    case LoadSpec::Kind::kTemperature:
+      forces.head(3 * n_nodes) = thermal_load(mesh_, recipe_.materials, temperature_rise(load));
+      break;
     case LoadSpec::Kind::kDisplacement:
       break;
   }

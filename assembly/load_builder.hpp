@@ -31,6 +31,7 @@ class LoadBuilder {
 
  private:
   Eigen::VectorXd forces(const LoadSpec& load) const;
+  Eigen::VectorXd temperature_rise(const LoadSpec& load) const;
   void add_body_force(const Eigen::Vector3d& acceleration, Eigen::VectorXd& forces) const;
   void add_to_sets(const FeModel& model, const LoadSpec& load, Eigen::VectorXd& f) const;
   Eigen::VectorXd prescribed(const LoadSpec& load) const;

@@ -21,7 +21,7 @@ const mesh::CellRule& moment_rule(mesh::CellType type) {
     case 8:
       return mesh::hex_rule(5);
     case 6:
-      return mesh::wedge_rule(16, 5);
+      return mesh::wedge_rule(25, 5);
     default:
       return mesh::pyramid_rule(5);
   }

@@ -133,6 +133,7 @@ Recipe RecipeReader::read() {
   Recipe recipe;
   systems();
   materials(recipe);
+  mass(recipe);
   damping(recipe);
   points(recipe);
   supports(recipe);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/assemble.hpp"
 #include "assembly/axes.hpp"
 #include "assembly/contact_patch.hpp"
 #include "assembly/dof_numbers.hpp"
@@ -109,21 +110,30 @@ struct PointMassSpec {
 
 /// [[load]]: a unit load case.
 struct LoadSpec {
-  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement, kNodal };
+  enum class Kind {
+    kPressure,
+    kResultant,
+    kForce,
+    kGravity,
+    kDisplacement,
+    kNodal,
+    kTemperature
+  };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
   std::string surface, set;                          // set: also the name of a point
-  std::string field;                                 // of the mesh, n x 3 [N], times `value`
+  std::string field;  // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   Place place;                                       // prescribed displacement:
   std::vector<int> directions;                       // of `axes`
   Axes axes;
-  double value = 0.0;  // [m] or [rad]; factor of a field
+  double value = 0.0;  // [m] or [rad]; of a field see there; without one the rise [K]
 };
 
 struct Recipe {
   std::vector<Material> materials;  // one a region of the mesh
+  MassForm mass = MassForm::kConsistent;
   DampingSpec damping;
   std::vector<PointSpec> points;
   std::vector<SupportSpec> supports;

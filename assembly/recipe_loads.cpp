@@ -44,6 +44,20 @@ std::string RecipeReader::field(const Config& table, Eigen::Index columns) const
   return name;
 }
 
+/// A rise everywhere, or a field of temperatures above `reference`.
+void RecipeReader::temperature_load(const Config& table, LoadSpec& spec) const {
+  spec.kind = LoadSpec::Kind::kTemperature;
+  if (table.has("field")) {
+    if (table.has("value")) table.fail("value", "found a field as well, expected one");
+    spec.field = field(table, 1);
+    spec.value = table.number_or("reference", 0.0);
+    spec.unit = table.text_or("unit", "1");
+  } else {
+    spec.value = table.number_or("value", 1.0);
+    spec.unit = table.text_or("unit", spec.value == 1.0 ? "K" : "1");
+  }
+}
+
 LoadSpec RecipeReader::load(const Config& table) const {
   LoadSpec spec;
   spec.name = table.text("name");
@@ -51,7 +65,8 @@ LoadSpec RecipeReader::load(const Config& table) const {
     table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
   spec.where = where(table, "load " + spec.name);
   const std::string kind = table.choice("kind", {"pressure", "resultant", "force", "gravity",
-                                                 "acceleration", "displacement", "nodal"});
+                                                 "acceleration", "displacement", "nodal",
+                                                 "temperature"});
   if (kind == "pressure") {
     spec.surface = surface(table);
     spec.unit = "Pa";
@@ -64,6 +79,8 @@ LoadSpec RecipeReader::load(const Config& table) const {
     force_load(table, spec);
   } else if (kind == "displacement") {
     displacement_load(table, spec);
+  } else if (kind == "temperature") {
+    temperature_load(table, spec);
   } else if (kind == "nodal") {
     spec.kind = LoadSpec::Kind::kNodal;
     spec.field = field(table, 3);

@@ -1,4 +1,4 @@
-// [system], [material], [damping].
+// [system], [material], [mass], [damping].
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,7 +21,7 @@ void RecipeReader::materials(Recipe& recipe) const {
   recipe.materials.resize(mesh_.regions.size());
   for (const std::string& name : all.keys()) {
     const Config table = all.table(name);
-    const Material material = read_material(table);
+    const Material material = read_material(table, systems_);
     for (const std::string& region : table.texts("regions")) {
       const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
       if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
@@ -37,6 +37,12 @@ void RecipeReader::materials(Recipe& recipe) const {
       config_.fail("material",
                    fmt::format("found none for region \"{}\", expected one for each of: {}",
                                mesh_.regions[r], fmt::join(mesh_.regions, ", ")));
+}
+
+void RecipeReader::mass(Recipe& recipe) const {
+  const auto table = config_.find_table("mass");
+  if (table && table->choice("lumping", {"consistent", "hrz"}) == "hrz")
+    recipe.mass = MassForm::kHrz;
 }
 
 /// zeta = alpha w / 2 + beta / (2 w): `ratio` at `at_hz` gives alpha for the beta beside it.

@@ -41,6 +41,7 @@ class RecipeReader {
 
   void systems();
   void materials(Recipe& recipe) const;
+  void mass(Recipe& recipe) const;
   void damping(Recipe& recipe) const;
   void points(Recipe& recipe);
   void supports(Recipe& recipe) const;
@@ -58,6 +59,7 @@ class RecipeReader {
   void loads(Recipe& recipe) const;
   LoadSpec load(const Config& table) const;
   void force_load(const Config& table, LoadSpec& spec) const;
+  void temperature_load(const Config& table, LoadSpec& spec) const;
   void displacement_load(const Config& table, LoadSpec& spec) const;
   std::string field(const Config& table, Eigen::Index columns) const;
   void cases(Recipe& recipe) const;

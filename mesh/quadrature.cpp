@@ -162,14 +162,15 @@ CellRule make_rule_64() {
   return rule;
 }
 
-FaceRule make_triangle_rule_16() {
-  const std::array<LineRule, 2> line = {gauss_jacobi(4, 1), gauss_jacobi(4, 0)};
+/// n^2 points, exact for degree 2 n - 1.
+FaceRule make_conical_triangle_rule(int n) {
+  const std::array<LineRule, 2> line = {gauss_jacobi(n, 1), gauss_jacobi(n, 0)};
   FaceRule rule;
-  rule.points.resize(16, 2);
-  rule.weights.resize(16);
+  rule.points.resize(n * n, 2);
+  rule.weights.resize(n * n);
   Eigen::Index at = 0;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
       const double x = line[0].points(i);
       rule.points.row(at) << x, line[1].points(j) * (1.0 - x);
       rule.weights(at++) = line[0].weights(i) * line[1].weights(j);
@@ -226,7 +227,7 @@ const CellRule& wedge_rule(int triangle, int n) {
   };
   static const std::array<Along, 4> rules = {
       along(make_triangle_rule(1)), along(make_triangle_rule(3)), along(make_triangle_rule(6)),
-      along(triangle_rule_16())};
+      along(make_conical_triangle_rule(5))};
   const size_t row = triangle == 1 ? 0 : triangle == 3 ? 1 : triangle == 6 ? 2 : 3;
   return rules[row].at(static_cast<size_t>(n - 1));
 }
@@ -251,7 +252,7 @@ const FaceRule& face_rule(FaceType type) {
 }
 
 const FaceRule& triangle_rule_16() {
-  static const FaceRule rule = make_triangle_rule_16();
+  static const FaceRule rule = make_conical_triangle_rule(4);
   return rule;
 }
 

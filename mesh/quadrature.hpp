@@ -34,7 +34,7 @@ const CellRule& tet_rule_64();
 /// n points a direction (Gauss-Legendre, 1 <= n <= 5): exact for degree 2 n - 1 in each coordinate.
 const CellRule& hex_rule(int n);
 /// Triangle rule times n points along the axis. `triangle` 1, 3 or 6 points: exact for degree 1, 2
-/// or 4 (the last by Dunavant, Int. J. Numer. Meth. Engng 21, 1985); 16: degree 7.
+/// or 4 (the last by Dunavant, Int. J. Numer. Meth. Engng 21, 1985); 25: degree 9.
 const CellRule& wedge_rule(int triangle, int n);
 /// n^3 points (1 <= n <= 5), conical product with Gauss-Jacobi points toward the apex: exact for
 /// xi^i eta^j zeta^k with i, j <= 2 n - 1 and i + j + k <= 2 n - 1, and for the rational functions

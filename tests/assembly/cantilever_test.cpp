@@ -137,7 +137,7 @@ SparseMatrix four_point_mass(const mesh::Mesh& mesh, const FeModel& model) {
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   const IndexMatrix& cells = mesh.cells[0].nodes;
   for (Eigen::Index c = 0; c < cells.rows(); ++c) {
-    CellNodes<10> x;
+    Eigen::Matrix<double, 10, 3> x;
     for (int a = 0; a < 10; ++a) x.row(a) = mesh.nodes.row(cells(c, a));
     for (Eigen::Index q = 0; q < 4; ++q) {
       const auto shape =

@@ -4,65 +4,28 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <cmath>
 
-#include "mesh/cell.hpp"
 #include "mesh/shape.hpp"
-#include "mesh/validity.hpp"
+#include "one_cell.hpp"
 
-namespace clatter::assembly {
+namespace clatter::assembly::testing {
 namespace {
 
-CellNodes<4> unit_tet4() {
-  CellNodes<4> x;
-  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  return x;
-}
+using mesh::CellNodes;
+using mesh::CellType;
 
-CellNodes<10> to_tet10(const CellNodes<4>& corners) {
-  CellNodes<10> x;
-  x.topRows<4>() = corners;
-  for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = mesh::kTetEdges[static_cast<size_t>(e)];
-    x.row(4 + e) = 0.5 * (corners.row(i) + corners.row(j));
-  }
-  return x;
-}
+const Material kUnit{1.0, 0.3, 1.0};
 
-CellNodes<10> curved_tet10() {
-  CellNodes<10> x = to_tet10(unit_tet4());
-  x.row(4) += Eigen::RowVector3d(0.02, -0.08, 0.01);
-  x.row(8) += Eigen::RowVector3d(0.05, 0.06, 0.07);
-  x.row(9) += Eigen::RowVector3d(0.04, -0.03, 0.05);
-  return x;
-}
-
-TEST(Shape, QuadraticFunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
-  const CellNodes<10> nodes = to_tet10(unit_tet4());
-  for (int b = 0; b < 10; ++b) {
-    const auto shape = mesh::cell_shape(mesh::CellType::kTet10, nodes.row(b).transpose());
-    for (int a = 0; a < 10; ++a) EXPECT_NEAR(shape.value(a), a == b ? 1.0 : 0.0, 1e-15);
-  }
-}
-
-TEST(Shape, GradientsAreTheDifferenceQuotientsOfTheValues) {
-  const Eigen::Vector3d at(0.2, 0.3, 0.1);
-  const double h = 1e-6;
-  const auto shape = mesh::cell_shape(mesh::CellType::kTet10, at);
-  for (int d = 0; d < 3; ++d) {
-    const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(d);
-    const Eigen::Matrix<double, 10, 1> slope =
-        (mesh::cell_shape(mesh::CellType::kTet10, at + step).value -
-         mesh::cell_shape(mesh::CellType::kTet10, at - step).value) /
-        (2.0 * h);
-    // Central differences are exact for quadratics; 1e-16 / 1e-6 of rounding remains.
-    EXPECT_LT((slope - shape.gradient.col(d)).cwiseAbs().maxCoeff(), 1e-9);
-  }
+ElementMatrices element(CellType type, const CellNodes& x, const Material& material = kUnit) {
+  ElementMatrices out;
+  compute_element(type, x, material, out);
+  return out;
 }
 
 TEST(Element, MassOfALinearTetrahedronIsTheTextbookOne) {
   // rho V / 20 (1 + delta_ab): 120 * (1/6) / 20 = 1.
-  ElementMatrices<4> cell;
-  compute_element<4>(unit_tet4(), {1.0, 0.0, 120.0}, cell);
+  const ElementMatrices cell = element(CellType::kTet4, reference(CellType::kTet4), {1, 0, 120});
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) EXPECT_NEAR(cell.mass(a, b), a == b ? 2.0 : 1.0, 1e-13);
 }
@@ -70,8 +33,8 @@ TEST(Element, MassOfALinearTetrahedronIsTheTextbookOne) {
 TEST(Element, MassOfAStraightQuadraticTetrahedronIsTheTextbookOne) {
   // rho V / 420: corners 6 and 1, corner-middle -4 on its edges and -6 off them, middles 32, 16
   // (edges that share a corner), 8 (opposite edges). Zienkiewicz and Taylor by exact integration.
-  ElementMatrices<10> cell;
-  compute_element<10>(to_tet10(unit_tet4()), {1.0, 0.0, 6.0 * 420.0}, cell);
+  const ElementMatrices cell =
+      element(CellType::kTet10, reference(CellType::kTet10), {1.0, 0.0, 6.0 * 420.0});
   EXPECT_NEAR(cell.mass(0, 0), 6.0, 1e-12);
   EXPECT_NEAR(cell.mass(0, 1), 1.0, 1e-12);
   EXPECT_NEAR(cell.mass(0, 4), -4.0, 1e-12);
@@ -82,12 +45,20 @@ TEST(Element, MassOfAStraightQuadraticTetrahedronIsTheTextbookOne) {
   EXPECT_NEAR(cell.mass(4, 8), 8.0, 1e-12);
 }
 
+TEST(Element, MassOfALinearHexahedronIsTheTextbookOne) {
+  // The cube of edge 2, rho = 27: a product of line masses (2/3, 1/3): 8, 4, 2, 1.
+  const ElementMatrices cell = element(CellType::kHex8, reference(CellType::kHex8), {1, 0, 27});
+  EXPECT_NEAR(cell.mass(0, 0), 8.0, 1e-13);
+  EXPECT_NEAR(cell.mass(0, 1), 4.0, 1e-13);
+  EXPECT_NEAR(cell.mass(0, 2), 2.0, 1e-13);
+  EXPECT_NEAR(cell.mass(0, 6), 1.0, 1e-13);
+}
+
 TEST(Element, StiffnessOfTheUnitTetrahedronByHand) {
   // E = 1, nu = 0: lambda = 0, mu = 1/2. Node 1 has the gradient (1, 0, 0), node 0 (-1, -1, -1).
   // K(1x, 1x) = V (lambda + 2 mu) = 1/6, K(1y, 1y) = V mu = 1/12,
   // K(0x, 0x) = V (mu (1 + 3)) = 1/3, K(0x, 0y) = V mu = 1/12, K(1x, 2y) = 0, K(1y, 2x) = V mu.
-  ElementMatrices<4> cell;
-  compute_element<4>(unit_tet4(), {1.0, 0.0, 1.0}, cell);
+  const ElementMatrices cell = element(CellType::kTet4, reference(CellType::kTet4), {1, 0, 1});
   const auto& K = cell.stiffness;
   EXPECT_NEAR(K(3, 3), 1.0 / 6.0, 1e-15);
   EXPECT_NEAR(K(4, 4), 1.0 / 12.0, 1e-15);
@@ -98,45 +69,113 @@ TEST(Element, StiffnessOfTheUnitTetrahedronByHand) {
   EXPECT_DOUBLE_EQ(cell.min_jacobian, 1.0);
 }
 
-TEST(Element, CurvedMassHoldsTheExactVolume) {
-  ElementMatrices<10> cell;
-  const CellNodes<10> x = curved_tet10();
-  compute_element<10>(x, {1.0, 0.3, 1.0}, cell);
-  EXPECT_FALSE(is_straight<10>(x));
-  // Volume by Bezier coefficients of det J: another formula. 1e-13: rounding of 64 points.
-  EXPECT_NEAR(cell.mass.sum() / mesh::volume_of(x), 1.0, 1e-13);
+TEST(Element, OneIncompatibleHexahedronBendsAsABeamDoes) {
+  // Pure bending of the cube of edge 2, nu = 0: u_x = x z, u_z = -x^2 / 2 + ... has the energy
+  // 1/2 E int z^2 dV = 1/2 * 8/3. A full hex8 adds the shear of its missing curvature.
+  const CellNodes x = reference(CellType::kHex8);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(24);
+  for (int a = 0; a < 8; ++a) u(3 * a) = x(a, 0) * x(a, 2);
+  Material material{1.0, 0.0, 1.0};
+  const Eigen::MatrixXd bends = element(CellType::kHex8, x, material).stiffness;
+  EXPECT_NEAR(0.5 * u.dot(bends * u), 4.0 / 3.0, 1e-13);
+  material.integration.hex8 = Integration::kFull;
+  const Eigen::MatrixXd locks = element(CellType::kHex8, x, material).stiffness;
+  EXPECT_NEAR(0.5 * u.dot(locks * u), 4.0 / 3.0 + 2.0 / 3.0, 1e-13);  // + 1/2 mu int x^2
 }
 
-TEST(Element, ACellHasExactlySixMotionsWithoutEnergy) {
-  for (const CellNodes<10>& x : {to_tet10(unit_tet4()), curved_tet10()}) {
-    ElementMatrices<10> cell;
-    compute_element<10>(x, {1.0, 0.3, 1.0}, cell);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(cell.stiffness));
-    const double top = eigen.eigenvalues()(29);
-    EXPECT_LT(std::abs(eigen.eigenvalues()(5)), 1e-14 * top);
-    EXPECT_GT(eigen.eigenvalues()(6), 1e-4 * top);
+TEST(Element, AnOrthotropicCellWithIsotropicConstantsIsTheIsotropicOne) {
+  Material material = kUnit;
+  material.elasticity = kUnit.elasticity_at(Eigen::Vector3d::Zero());
+  material.axes = Axes{Axes::Kind::kCylindrical, {0.1, 0.2, -3.0}, Eigen::Matrix3d::Identity()};
+  for (const CellType type : kAllCells) {
+    const CellNodes x = distorted(type);
+    const Eigen::MatrixXd one = element(type, x).stiffness;
+    const Eigen::MatrixXd other = element(type, x, material).stiffness;
+    EXPECT_LT((one - other).cwiseAbs().maxCoeff(), 1e-13 * one.cwiseAbs().maxCoeff())
+        << mesh::traits(type).name;
   }
 }
 
-TEST(Element, StiffnessTurnsWithTheCell) {
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  ElementMatrices<10> here, there;
-  compute_element<10>(curved_tet10(), {1.0, 0.3, 1.0}, here);
-  compute_element<10>(curved_tet10() * turn.transpose(), {1.0, 0.3, 1.0}, there);
-  Eigen::Matrix<double, 30, 30> Q = Eigen::Matrix<double, 30, 30>::Zero();
-  for (int a = 0; a < 10; ++a) Q.block<3, 3>(3 * a, 3 * a) = turn;
-  EXPECT_LT((Q * here.stiffness * Q.transpose() - there.stiffness).cwiseAbs().maxCoeff(),
-            1e-13 * here.stiffness.cwiseAbs().maxCoeff());
+class EveryCell : public ::testing::TestWithParam<CellType> {};
+INSTANTIATE_TEST_SUITE_P(Element, EveryCell, ::testing::ValuesIn(kAllCells), [](const auto& info) {
+  return std::string(mesh::traits(info.param).name);
+});
+
+TEST_P(EveryCell, MassHoldsTheExactVolumeOfADistortedCell) {
+  const CellNodes x = distorted(GetParam());
+  const ElementMatrices cell = element(GetParam(), x);
+  // The volume comes from another rule, for tetrahedra from Bezier coefficients.
+  EXPECT_NEAR(cell.mass.sum() / mesh::volume_of(GetParam(), x), 1.0, 1e-12);
+  // Each entry is a moment of two polynomials: twice as fine points change nothing. Checked by the
+  // exact first moments: sum_ab m_ab x_a = int x dV, for which the divergence theorem is another
+  // way.
+  const Eigen::Vector3d first = x.transpose() * cell.mass.rowwise().sum();
+  EXPECT_LT((first - first_moment(GetParam(), x)).norm(), 1e-12);
 }
 
-TEST(Element, AnInvertedCellIsReported) {
-  CellNodes<10> x = to_tet10(unit_tet4());
+TEST_P(EveryCell, HasExactlySixMotionsWithoutEnergy) {
+  for (const CellNodes& x : {reference(GetParam()), distorted(GetParam())}) {
+    const Eigen::MatrixXd K = element(GetParam(), x).stiffness;
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    const double top = values(values.size() - 1);
+    EXPECT_LT(std::abs(values(5)), 1e-13 * top);
+    EXPECT_GT(values(6), 1e-4 * top);
+  }
+}
+
+TEST_P(EveryCell, StiffnessTurnsWithTheCell) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const CellNodes x = distorted(GetParam());
+  const Eigen::MatrixXd here = element(GetParam(), x).stiffness;
+  const Eigen::MatrixXd there = element(GetParam(), x * turn.transpose()).stiffness;
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(here.rows(), here.rows());
+  for (Eigen::Index a = 0; a < x.rows(); ++a) Q.block<3, 3>(3 * a, 3 * a) = turn;
+  EXPECT_LT((Q * here * Q.transpose() - there).cwiseAbs().maxCoeff(),
+            1e-12 * here.cwiseAbs().maxCoeff());
+}
+
+TEST_P(EveryCell, AnInvertedCellIsReported) {
+  CellNodes x = reference(GetParam());
   x.col(0) *= -1.0;
-  ElementMatrices<10> cell;
-  compute_element<10>(x, {1.0, 0.3, 1.0}, cell);
-  EXPECT_LE(cell.min_jacobian, 0.0);
+  EXPECT_LE(element(GetParam(), x).min_jacobian, 0.0);
+}
+
+TEST_P(EveryCell, LumpedMassIsPositiveWithTheSameTotal) {
+  const Eigen::MatrixXd consistent = element(GetParam(), distorted(GetParam())).mass;
+  Eigen::MatrixXd lumped = consistent;
+  lump_hrz(lumped);
+  EXPECT_NEAR(lumped.sum() / consistent.sum(), 1.0, 1e-14);
+  EXPECT_GT(lumped.diagonal().minCoeff(), 0.0);
+  EXPECT_TRUE(lumped.isDiagonal(0.0));
+}
+
+TEST_P(EveryCell, FreeThermalExpansionNeedsNoForce) {
+  // u = alpha dT x: the forces that hold it are the thermal ones. dT is uniform.
+  Material material{2.0, 0.25, 1.0};
+  material.expansion.head<3>().setConstant(0.01);
+  const CellNodes x = distorted(GetParam());
+  const Eigen::MatrixXd K = element(GetParam(), x, material).stiffness;
+  const Eigen::VectorXd f =
+      thermal_force(GetParam(), x, material, Eigen::VectorXd::Constant(x.rows(), 5.0));
+  Eigen::VectorXd u(3 * x.rows());
+  for (Eigen::Index a = 0; a < x.rows(); ++a) u.segment<3>(3 * a) = 0.05 * x.row(a).transpose();
+  EXPECT_LT((K * u - f).norm(), 1e-12 * f.norm());
+}
+
+TEST(Element, AnOrthotropicCellExpandsAlongItsAxes) {
+  // Axes turned by 30 degrees about z, expansion only along the first: strain a c^2, a s^2, 2 a s
+  // c.
+  Material material{2.0, 0.25, 1.0};
+  material.expansion(0) = 0.01;
+  const double angle = M_PI / 6.0, c = std::cos(angle), s = std::sin(angle);
+  material.axes = Axes{Axes::Kind::kRectangular, Eigen::Vector3d::Zero(),
+                       Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix()};
+  const Voigt strain = material.expansion_at(Eigen::Vector3d::Zero());
+  EXPECT_NEAR(strain(0), 0.01 * c * c, 1e-16);
+  EXPECT_NEAR(strain(1), 0.01 * s * s, 1e-16);
+  EXPECT_NEAR(strain(3), 0.02 * s * c, 1e-16);
 }
 
 }  // namespace
-}  // namespace clatter::assembly
+}  // namespace clatter::assembly::testing

@@ -103,7 +103,7 @@ TEST(AssemblyInvariant, TwoRegionsAddUp) {
   mesh::Mesh mesh = block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1}));
   const IndexMatrix all = mesh.cells[0].nodes;
   mesh.regions = {"body", "liner"};
-  mesh.cells.push_back({mesh::CellType::kTet10, 1, all.bottomRows(6)});
+  mesh.cells.push_back({mesh::CellType::kTet10, 1, all.bottomRows(6), {}});
   mesh.cells[0].nodes = all.topRows(6);
   const std::vector<Material> two = {{2e11, 0.3, 8000.0}, {1e11, 0.3, 2000.0}};
   EXPECT_NEAR(integrate_mass(mesh, two).mass, 0.001 * (8000.0 + 2000.0), 1e-12);
