@@ -110,19 +110,11 @@ struct PointMassSpec {
 
 /// [[load]]: a unit load case.
 struct LoadSpec {
-  enum class Kind {
-    kPressure,
-    kResultant,
-    kForce,
-    kGravity,
-    kDisplacement,
-    kNodal,
-    kTemperature
-  };
+  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement, kNodal, kTemperature };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
-  std::string surface, set;                          // set: also the name of a point
-  std::string field;  // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
+  std::string surface, set;  // set: also the name of a point
+  std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   Place place;                                       // prescribed displacement:

@@ -64,9 +64,9 @@ LoadSpec RecipeReader::load(const Config& table) const {
   if (spec.name.empty() || spec.name.find('/') != std::string::npos)
     table.fail("name", fmt::format("found \"{}\", expected a name without '/'", spec.name));
   spec.where = where(table, "load " + spec.name);
-  const std::string kind = table.choice("kind", {"pressure", "resultant", "force", "gravity",
-                                                 "acceleration", "displacement", "nodal",
-                                                 "temperature"});
+  const std::string kind =
+      table.choice("kind", {"pressure", "resultant", "force", "gravity", "acceleration",
+                            "displacement", "nodal", "temperature"});
   if (kind == "pressure") {
     spec.surface = surface(table);
     spec.unit = "Pa";

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <functional>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
+#include "mesh/deck/abaqus_writer.hpp"
 #include "mesh/deck/nastran_writer.hpp"
 
 namespace clatter::mesh {
@@ -82,40 +83,6 @@ Text vtu_text(const Mesh& mesh) {
   return out;
 }
 
-void put_nset(Text& out, const std::string& name, const std::vector<int32_t>& nodes) {
-  put(out, "*NSET, NSET={}\n", name);
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    put(out, "{}{}", nodes[i] + 1, i % 16 == 15 || i + 1 == nodes.size() ? "\n" : ", ");
-  }
-}
-
-Text inp_text(const Mesh& mesh) {
-  Text out;
-  put(out, "*HEADING\n{} (lengths in metres)\n*NODE, NSET=NALL\n", mesh.name);
-  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
-    // CalculiX refuses numbers of more than 20 characters.
-    put(out, "{}, {:.12e}, {:.12e}, {:.12e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
-        mesh.nodes(n, 2));
-  }
-  const CellBlock* current = nullptr;
-  for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t number) {
-    const CellTraits& cell = traits(block.type);
-    if (current != &block) {
-      put(out, "*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
-          mesh.regions[static_cast<size_t>(block.region)]);
-      current = &block;
-    }
-    put(out, "{}", number + 1);
-    for (int i : cell.to_abaqus) put(out, ", {}", block.nodes(c, i) + 1);
-    put(out, "\n");
-  });
-  for (const auto& [name, surface] : mesh.surfaces) put_nset(out, name, nodes_of(surface));
-  for (const auto& [name, nodes] : mesh.node_sets) {
-    if (!mesh.surfaces.contains(name)) put_nset(out, name, nodes);
-  }
-  return out;
-}
-
 // Physical groups: surfaces 1.., regions after them.
 Text msh_text(const Mesh& mesh) {
   Text out;
@@ -157,36 +124,18 @@ Text msh_text(const Mesh& mesh) {
   return out;
 }
 
-void write_whole(const std::filesystem::path& path, const Text& text) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code trouble;
-  {
-    std::ofstream file(part, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(part, trouble);
-      throw FileError(
-          fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
-    }
-  }
-  std::filesystem::rename(part, path, trouble);
-  if (trouble) throw FileError(fmt::format("{}: {}", path.string(), trouble.message()));
-}
-
 }  // namespace
 
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  if (extension == ".vtu") return write_whole(path, vtu_text(mesh));
-  if (extension == ".inp") return write_whole(path, inp_text(mesh));
-  if (extension == ".msh") return write_whole(path, msh_text(mesh));
-  if (extension == ".bdf" || extension == ".nas" || extension == ".dat") {
+  const auto whole = [&](const Text& text) { write_whole_file(path, {text.data(), text.size()}); };
+  if (extension == ".vtu") return whole(vtu_text(mesh));
+  if (extension == ".msh") return whole(msh_text(mesh));
+  if (extension == ".inp") return deck::write_abaqus(mesh, path);
+  if (extension == ".bdf" || extension == ".nas" || extension == ".dat")
     return deck::write_nastran(mesh, path);
-  }
   throw InputError(
-      fmt::format("{}: found extension '{}', expected .vtu, .inp, .msh, .bdf, .nas or .dat",
+      fmt::format("{}: found extension '{}', expected .vtu, .msh, .inp, .bdf, .nas or .dat",
                   path.string(), extension));
 }
 

@@ -8,10 +8,10 @@ namespace clatter::mesh {
 
 /// Writes what the extension says; lengths in metres; InputError for another extension.
 ///  .vtu  ParaView: all cells with cell data `region`; node order of VTK
-///  .inp  Abaqus and CalculiX: *NODE, *ELEMENT by region (ELSET), *NSET for each surface and node
-///        set, one-based, node order of Abaqus
 ///  .msh  Gmsh MSH 2.2 text: regions and surfaces as physical groups, one-based
-///  .bdf, .nas, .dat  Nastran bulk data without loss (deck/nastran_writer.hpp)
+///  .inp  Abaqus and CalculiX (deck/abaqus_writer.hpp)
+///  .bdf, .nas, .dat  Nastran (deck/nastran_writer.hpp)
+/// The decks carry the numbers of an imported mesh, its sets and surfaces, and read back the same.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace clatter::mesh

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "core/error.hpp"
 
 namespace clatter::recover {
@@ -109,19 +107,6 @@ std::filesystem::path frame_export_path(const std::filesystem::path& field_file)
 
 std::filesystem::path line_export_path(const std::filesystem::path& field_file) {
   return std::filesystem::path(field_file).replace_extension(".lines.xdmf");
-}
-
-void write_text_file(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path part = path.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.flush();
-    if (!out) throw FileError(part.string() + ": cannot be written");
-  }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) throw FileError(path.string() + ": cannot be put in place: " + error.message());
 }
 
 }  // namespace clatter::recover

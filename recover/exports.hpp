@@ -42,7 +42,4 @@ XdmfSeries line_series(const std::filesystem::path& field_file, int64_t n_nodes,
 std::filesystem::path frame_export_path(const std::filesystem::path& field_file);
 std::filesystem::path line_export_path(const std::filesystem::path& field_file);
 
-/// Writes through a part file and a rename. @throws FileError
-void write_text_file(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace clatter::recover

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/whole_file.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -154,7 +155,7 @@ void write_exports(const std::filesystem::path& field_file, const Summary& summa
     if (series.values.empty())
       std::filesystem::remove(path, ignored);
     else
-      write_text_file(path, xdmf_text(series));
+      write_whole_file(path, xdmf_text(series));
   };
   write(frame_export_path(field_file),
         frame_series(field_file, summary.n_nodes, summary.n_faces, summary.frames));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/deck/abaqus_reading.hpp"
+#include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {

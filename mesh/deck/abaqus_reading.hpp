@@ -119,9 +119,6 @@ void read_node_sets(Reading* reading);
 
 /// Name in Deck::systems of an orientation; InputError at `spot` for one that is not there.
 std::string system_named(const Reading& reading, size_t use, const std::string& name, Spot spot);
-/// The axes at a point: columns are the directions there. The axis of a cylindrical system itself
-/// has no direction: its zero angle then.
-Eigen::Matrix3d axes_at(const System& system, const Eigen::Vector3d& x);
 
 /// Adds a surface of faces (cell, face of its traits), each once, under a name not yet used that
 /// begins with `name`; returns the name.

@@ -140,14 +140,4 @@ void read_transforms(Reading* reading) {
   });
 }
 
-Eigen::Matrix3d axes_at(const System& system, const Eigen::Vector3d& x) {
-  if (system.kind == System::Kind::kRectangular) return system.axes;
-  const Eigen::Vector3d z = system.axes.col(2), from = x - system.origin;
-  Eigen::Vector3d radial = from - from.dot(z) * z;
-  if (!(radial.norm() > 1e-12 * from.norm())) radial = system.axes.col(0);
-  Eigen::Matrix3d axes;
-  axes << radial.normalized(), z.cross(radial.normalized()), z;
-  return axes;
-}
-
 }  // namespace clatter::mesh::deck::abaqus

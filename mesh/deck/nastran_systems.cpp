@@ -1,4 +1,5 @@
 #include "mesh/deck/nastran_systems.hpp"
+#include "mesh/deck/system_axes.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +17,6 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 // Sine of the smallest angle between the z axis and the point of the xz plane.
 constexpr double kLeastSine = 1e-10;
-// Of the distance from the origin: nearer to the axis there is no angle about it.
-constexpr double kOnAxis = 1e-12;
 
 Vector3d cartesian(System::Kind kind, const Vector3d& p) {
   switch (kind) {
@@ -35,7 +34,9 @@ Vector3d cartesian(System::Kind kind, const Vector3d& p) {
   }
 }
 
-Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+Vector3d point(const std::vector<double>& at, size_t i) {
+  return {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+}
 
 }  // namespace
 
@@ -106,7 +107,7 @@ class SystemsBuilder {
       if (raw.by_grids) {
         const size_t row = grid_row(raw.grids[i], raw, id);
         abc.col(k) =
-            out_.to_basic(column_at(bulk_.grids.cp, row), vector(bulk_.grids.at[row]), raw.origin);
+            out_.to_basic(column_at(bulk_.grids.cp, row), point(bulk_.grids.at, row), raw.origin);
       } else {
         const Vector3d local(raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]);
         abc.col(k) = out_.to_basic(raw.reference, local, raw.origin);
@@ -156,22 +157,7 @@ Vector3d Systems::to_basic(int32_t system, const Vector3d& local, Origin origin)
 }
 
 Matrix3d Systems::directions(int32_t system, const Vector3d& at, Origin origin) const {
-  const System& s = get(system, origin);
-  if (s.kind == System::Kind::kRectangular) return s.axes;
-  const Vector3d p = s.axes.transpose() * (at - s.origin);
-  // As in assembly/axes.cpp: on the axis the angle about it is taken as zero, in the origin theta
-  // as 90.
-  const double rho = std::hypot(p[0], p[1]), r = std::hypot(rho, p[2]);
-  const bool on_axis = !(rho > kOnAxis * r);
-  const double c = on_axis ? 1.0 : p[0] / rho, sn = on_axis ? 0.0 : p[1] / rho;
-  Matrix3d local;
-  if (s.kind == System::Kind::kCylindrical) {
-    local << c, -sn, 0, sn, c, 0, 0, 0, 1;
-  } else {
-    const double ct = r > 0.0 ? p[2] / r : 0.0, st = r > 0.0 ? rho / r : 1.0;
-    local << st * c, ct * c, -sn, st * sn, ct * sn, c, ct, -st, 0;
-  }
-  return s.axes * local;
+  return axes_at(get(system, origin), at);
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,54 @@
+#include "mesh/deck/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/deck/abaqus_reader.hpp"
+#include "mesh/deck/nastran_reader.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+bool is_nastran(const std::string& extension) {
+  return extension == ".bdf" || extension == ".nas" || extension == ".dat";
+}
+
+}  // namespace
+
+bool is_deck(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".inp" || is_nastran(extension);
+}
+
+Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
+               const ReadOptions& options) {
+  const std::string extension = extension_of(path);
+  if (!is_deck(path))
+    throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
+                                 path.string(), extension));
+  Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
+  if (deck.mesh.cell_count() == 0)
+    throw InputError(fmt::format("{}: found no solid cells, expected some", path.string()));
+  convert_units(deck, units);
+  deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
+  check_structure(deck.mesh, path.string());
+  const ValidityReport validity = check_validity(deck.mesh);
+  if (!validity.invalid.empty())
+    throw InputError(fmt::format(
+        "{}: {} of {} cells are inverted or folded, expected det J > 0: {}", path.string(),
+        validity.invalid.size(), deck.mesh.cell_count(), describe_invalid(validity, 3)));
+  return deck;
+}
+
+}  // namespace clatter::mesh::deck

@@ -1,0 +1,54 @@
+#pragma once
+// Names of places for recipe_text.hpp: points, and node sets of the mesh that are made on demand.
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/deck/deck.hpp"
+
+namespace clatter::mesh::deck {
+
+/// Places of one kind each: a node set of the mesh (empty: none) and points by name.
+struct NamedPlaces {
+  std::string node_set;
+  std::vector<std::string> points;
+};
+
+/// Names places of a deck; new node sets go into its mesh.
+class RecipeNames {
+ public:
+  explicit RecipeNames(Deck& deck);
+
+  bool is_point(Place place) const { return place >= n_nodes_; }
+  /// "point_12": its number in the deck.
+  std::string point(Place place) const;
+  /// "node_12": the node set of that node alone.
+  std::string node(Place place);
+  /// A node set of exactly these nodes: one that the mesh has already, else a new one whose name
+  /// begins with `wish`.
+  std::string node_set(std::vector<int32_t> nodes, const std::string& wish);
+  NamedPlaces places(const std::vector<Place>& places, const std::string& wish);
+  /// The name of a point that sits on a mesh node; remembers that it is needed.
+  std::string point_on_node(Place place);
+  const std::map<std::string, std::string>& points_on_nodes() const { return on_nodes_; }
+
+ private:
+  int32_t label(int32_t node) const;
+
+  Deck& deck_;
+  int32_t n_nodes_;
+  std::map<std::vector<int32_t>, std::string> sets_;
+  std::map<std::string, std::string> on_nodes_;  // point -> node set
+};
+
+/// A TOML string, quoted and escaped.
+std::string toml_text(std::string_view text);
+/// A TOML key: bare where it may be.
+std::string toml_key(std::string_view text);
+/// "[1, 2.5, 0]", numbers that read back to the same double.
+std::string toml_list(const std::vector<double>& values);
+/// ["x", "rz"] of the mask.
+std::string toml_directions(DofMask mask);
+
+}  // namespace clatter::mesh::deck

@@ -1,0 +1,87 @@
+#include "mesh/deck/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "core/error.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+constexpr double kInch = 25.4e-3;                // [m]
+constexpr double kPoundForce = 4.4482216152605;  // [N]
+constexpr double kSlinch = kPoundForce / kInch;  // lbf s2 / in [kg]
+
+void convert_materials(Deck& deck, const UnitSystem& units) {
+  for (auto& [name, material] : deck.materials) {
+    material.density *= units.mass / (units.length * units.length * units.length);
+    for (size_t i = 0; i < material.constants.size(); ++i) {
+      const bool ratio = (material.kind == Material::Kind::kIsotropic && i == 1) ||
+                         (material.kind == Material::Kind::kOrthotropic && i >= 3 && i <= 5);
+      if (!ratio) material.constants[i] *= units.pressure();
+    }
+  }
+}
+
+/// A rotation in an equation goes with a length, so that sum c u stays a sum of lengths.
+void convert_equations(Deck& deck, const UnitSystem& units) {
+  for (Equation& equation : deck.equations)
+    for (Equation::Term& term : equation.terms)
+      if (term.direction >= 3) term.coefficient *= units.length;
+}
+
+bool is_rotation(const Support& support) { return (support.dofs & kTranslations) == 0; }
+
+void convert_supports(std::vector<Support>& supports, const UnitSystem& units) {
+  for (Support& support : supports)
+    if (!is_rotation(support)) support.value *= units.length;
+}
+
+void convert_step(Step& step, const UnitSystem& units) {
+  convert_supports(step.supports, units);
+  for (Step::NodalForce& force : step.forces)
+    force.value *= units.force() * (force.direction >= 3 ? units.length : 1.0);
+  for (Step::Pressure& pressure : step.pressures) pressure.value *= units.pressure();
+  step.acceleration *= units.length / (units.time * units.time);
+}
+
+}  // namespace
+
+UnitSystem unit_system_named(std::string_view name, const std::string& where) {
+  static const std::array<UnitSystem, 6> known = {{
+      {"m-kg-s", 1.0, 1.0, 1.0},
+      {"mm-t-s", 1e-3, 1e3, 1.0},
+      {"mm-kg-ms", 1e-3, 1.0, 1e-3},
+      {"mm-kg-s", 1e-3, 1.0, 1.0},
+      {"cm-g-s", 1e-2, 1e-3, 1.0},
+      {"in-lbfs2/in-s", kInch, kSlinch, 1.0},
+  }};
+  std::vector<std::string> names;
+  for (const UnitSystem& units : known) {
+    if (units.name == name) return units;
+    names.push_back(units.name);
+  }
+  throw InputError(fmt::format("{}: found units '{}', expected one of: {}", where, name,
+                               fmt::join(names, ", ")));
+}
+
+void convert_units(Deck& deck, const UnitSystem& units) {
+  deck.mesh.nodes *= units.length;
+  for (Point& point : deck.points) point.at *= units.length;
+  for (auto& [name, system] : deck.systems) system.origin *= units.length;
+  convert_materials(deck, units);
+  convert_equations(deck, units);
+  for (Tie& tie : deck.ties)
+    if (tie.distance > 0.0) tie.distance *= units.length;
+  for (Mass& mass : deck.masses) {
+    mass.mass *= units.mass;
+    mass.inertia *= units.mass * units.length * units.length;
+    mass.offset *= units.length;
+  }
+  convert_supports(deck.supports, units);
+  for (Step& step : deck.steps) convert_step(step, units);
+}
+
+}  // namespace clatter::mesh::deck
