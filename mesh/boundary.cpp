@@ -7,49 +7,13 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "mesh/cell_faces.hpp"
 #include "mesh/quadrature.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/validity.hpp"
 
 namespace clatter::mesh {
 namespace {
-
-// Where a face stands; its nodes are looked up when needed, since there are many faces.
-struct FacePlace {
-  FaceKey key;
-  int32_t block, cell, face;
-};
-
-BoundaryFace face_at(const Mesh& mesh, const FacePlace& place) {
-  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
-  const CellFace& local = traits(block.type).faces[static_cast<size_t>(place.face)];
-  BoundaryFace face{local.type, {}, place.block, place.cell};
-  face.ids.fill(-1);
-  for (size_t i = 0; i < static_cast<size_t>(traits(local.type).nodes); ++i)
-    face.ids[i] = block.nodes(place.cell, local.nodes[i]);
-  return face;
-}
-
-std::vector<FacePlace> all_faces(const Mesh& mesh) {
-  std::vector<FacePlace> faces;
-  int64_t count = 0;
-  for (const CellBlock& block : mesh.cells)
-    count += block.nodes.rows() * static_cast<int64_t>(traits(block.type).faces.size());
-  faces.reserve(static_cast<size_t>(count));
-  for (size_t b = 0; b < mesh.cells.size(); ++b) {
-    const auto n_faces = static_cast<int32_t>(traits(mesh.cells[b].type).faces.size());
-    for (Eigen::Index c = 0; c < mesh.cells[b].nodes.rows(); ++c)
-      for (int32_t f = 0; f < n_faces; ++f) {
-        FacePlace place{{}, static_cast<int32_t>(b), static_cast<int32_t>(c), f};
-        const BoundaryFace face = face_at(mesh, place);
-        place.key = face_key(face.type, face.nodes());
-        faces.push_back(place);
-      }
-  }
-  std::sort(faces.begin(), faces.end(),
-            [](const FacePlace& a, const FacePlace& b) { return a.key < b.key; });
-  return faces;
-}
 
 // "cell 12 (tet10)"
 std::string name_of(const Mesh& mesh, const FacePlace& place) {
@@ -133,22 +97,18 @@ FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
 BoundaryFaces boundary_faces(const Mesh& mesh) {
   const std::vector<FacePlace> faces = all_faces(mesh);
   BoundaryFaces boundary;
-  for (size_t i = 0; i < faces.size();) {
-    size_t end = i + 1;
-    while (end < faces.size() && faces[end].key == faces[i].key) ++end;
-    if (end - i > 2) {
-      throw InputError(fmt::format(
-          "mesh '{}': the face with corners {} belongs to {} cells, "
-          "expected at most two: {}, {}, {}",
-          mesh.name, fmt::join(corner_labels(mesh, faces[i].key), ", "), end - i,
-          name_of(mesh, faces[i]), name_of(mesh, faces[i + 1]), name_of(mesh, faces[i + 2])));
-    }
-    if (end - i == 1)
-      boundary.emplace_hint(boundary.end(), faces[i].key, face_at(mesh, faces[i]));
+  for_each_face(faces, [&](auto first, auto last) {
+    if (last - first > 2)
+      throw InputError(
+          fmt::format("mesh '{}': the face with corners {} belongs to {} cells, "
+                      "expected at most two: {}, {}, {}",
+                      mesh.name, fmt::join(corner_labels(mesh, first->key), ", "), last - first,
+                      name_of(mesh, first[0]), name_of(mesh, first[1]), name_of(mesh, first[2])));
+    if (last - first == 1)
+      boundary.emplace_hint(boundary.end(), first->key, face_at(mesh, *first));
     else
-      require_same_nodes(mesh, faces[i], faces[i + 1]);
-    i = end;
-  }
+      require_same_nodes(mesh, first[0], first[1]);
+  });
   return boundary;
 }
 

@@ -15,6 +15,7 @@
 #include "mesh/mesh_export.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher.hpp"
+#include "mesh/metis_partition.hpp"
 
 namespace {
 
@@ -59,6 +60,7 @@ struct Arguments {
   std::vector<std::filesystem::path> exports;
   std::string units;
   std::vector<std::string> ignore;
+  int parts = 0;
 };
 
 /// A mesh with what is written beside it.
@@ -127,6 +129,7 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
   Outcome out;
   out.recipe = deck::recipe_text(found);
   out.mesh = std::move(found.mesh);
+  check_structure(out.mesh, source.string());
   out.quality = measure_quality(out.mesh);
   out.certificate = certify_mesh(out.mesh, out.quality);
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
@@ -161,6 +164,13 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
   return out;
 }
 
+void write_partition(H5File& file, const Partition& partition) {
+  say(fmt::format("mesh: {} parts, {} faces between them", partition.parts, partition.cut));
+  file.write("partition/part", partition.part);
+  file.set("partition", "parts", partition.parts);
+  file.set("partition", "cut_faces", partition.cut);
+}
+
 int run(const Arguments& a, const CommonOptions& common) {
   StepClock clock;
   const Outcome result = make_mesh(a, clock);
@@ -170,6 +180,7 @@ int run(const Arguments& a, const CommonOptions& common) {
   H5File file = H5File::create(a.output);
   write_mesh(file, result.mesh);
   write_quality(file, result.quality);
+  if (a.parts > 0) write_partition(file, partition_cells(result.mesh, a.parts));
   write_provenance(file, result.provenance);
   write_certificate(file, result.certificate);
   write_timing(file, clock);
@@ -202,6 +213,7 @@ int main(int argc, char** argv) {
     line.option("--units", a.units, "of a deck: mm-t-s, m-kg-s, ... (see below)");
     line.option("--ignore", a.ignore, "card or keyword of a deck to skip; may be repeated");
     line.option("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
+    line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
     line.option("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.option("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .inp, .bdf); may be repeated");

@@ -54,7 +54,19 @@ void check_surface(const Surface& surface, int64_t n_nodes, const std::string& w
 
 namespace {
 
+/// Names are places in a file.
+template <class Map>
+void check_names(const Map& named, const std::string& what, const std::string& where) {
+  for (const auto& [name, value] : named)
+    if (name.empty() || name.find('/') != std::string::npos)
+      throw InputError(
+          fmt::format("{}: {}: found the name '{}', expected one without '/'", where, what, name));
+}
+
 void check_sets(const Mesh& mesh, const std::string& where) {
+  check_names(mesh.surfaces, "surfaces", where);
+  check_names(mesh.node_sets, "node_sets", where);
+  check_names(mesh.fields, "fields", where);
   for (const auto& [name, surface] : mesh.surfaces)
     check_surface(surface, mesh.nodes.rows(), where + ": surfaces/" + name);
   for (const auto& [name, ids] : mesh.node_sets) {

@@ -2,7 +2,8 @@
 // The mesh in a file, schema "clatter/mesh/2":
 //   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region,
 //   surfaces/<name>/<face type> (f x nodes), node_sets/<name>, fields/<name> (n x k);
-//   node_ids and cells/<i>/ids where an imported mesh has numbers of its own; attribute name.
+//   partition/part (cells) on request; node_ids and cells/<i>/ids where an imported mesh has
+//   numbers of its own; attribute name.
 // Node numbers are zero-based, node orders are those of cell.hpp.
 #include <filesystem>
 

@@ -1,5 +1,4 @@
 #include "mesh/deck/nastran_systems.hpp"
-#include "mesh/deck/system_axes.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,8 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
+
+#include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -34,9 +35,7 @@ Vector3d cartesian(System::Kind kind, const Vector3d& p) {
   }
 }
 
-Vector3d point(const std::vector<double>& at, size_t i) {
-  return {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
-}
+Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
@@ -107,7 +106,7 @@ class SystemsBuilder {
       if (raw.by_grids) {
         const size_t row = grid_row(raw.grids[i], raw, id);
         abc.col(k) =
-            out_.to_basic(column_at(bulk_.grids.cp, row), point(bulk_.grids.at, row), raw.origin);
+            out_.to_basic(column_at(bulk_.grids.cp, row), vector(bulk_.grids.at[row]), raw.origin);
       } else {
         const Vector3d local(raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]);
         abc.col(k) = out_.to_basic(raw.reference, local, raw.origin);

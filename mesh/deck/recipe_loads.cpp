@@ -12,6 +12,10 @@
 namespace clatter::mesh::deck {
 namespace {
 
+std::string set_name(const Support& support) {
+  return support.name.empty() ? "support" : support.name;
+}
+
 /// The same places and directions, whatever the value.
 bool same_hold(const Support& a, const Support& b) {
   return a.places == b.places && a.dofs == b.dofs && a.system == b.system;
@@ -124,7 +128,7 @@ class StepWriter {
     for (const Support& support : step_.supports) all.push_back(&support);
     for (const Support* support : all) {
       if (support->value == 0.0) continue;
-      const NamedPlaces named = names_.places(support->places, support->name);
+      const NamedPlaces named = names_.places(support->places, set_name(*support));
       if (!named.node_set.empty())
         prescribe(*support, support->dofs & kTranslations,
                   fmt::format("node_set = {}\n", toml_text(named.node_set)));
@@ -165,7 +169,7 @@ class StepWriter {
 }  // namespace
 
 std::string support_text(const Support& support, RecipeNames& names) {
-  const NamedPlaces named = names.places(support.places, support.name);
+  const NamedPlaces named = names.places(support.places, set_name(support));
   std::string out;
   const DofMask shifts = support.dofs & kTranslations;
   if (!named.node_set.empty() && shifts != 0)

@@ -30,8 +30,9 @@ std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string&
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto known = sets_.find(nodes);
   if (known != sets_.end()) return known->second;
-  std::string name = wish;
-  for (int k = 2; deck_.mesh.node_sets.contains(name); ++k) name = fmt::format("{}_{}", wish, k);
+  const std::string base = wish.empty() ? "nodes" : wish;
+  std::string name = base;
+  for (int k = 2; deck_.mesh.node_sets.contains(name); ++k) name = fmt::format("{}_{}", base, k);
   deck_.mesh.node_sets[name] = nodes;
   sets_[std::move(nodes)] = name;
   return name;

@@ -121,7 +121,9 @@ std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("clatter_ccx_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
-  mesh::export_mesh(mesh, folder / "beam.inp");
+  mesh::Mesh clamped = mesh;
+  clamped.node_sets["x0"] = mesh::nodes_of(mesh.surface("x0"));
+  mesh::export_mesh(clamped, folder / "beam.inp");
   write_deck(folder);
   const std::string command =
       "cd '" + folder.string() + "' && OMP_NUM_THREADS=1 ccx modes > ccx.log 2>&1";

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "mesh/deck/abaqus_reading.hpp"
+#include "mesh/deck/system_axes.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 
 namespace clatter::mesh::deck {
@@ -127,7 +128,7 @@ TEST(AbaqusSystems, ACylindricalOneTurnsWithThePlace) {
   EXPECT_EQ(s.origin, Eigen::Vector3d(1, 0, 0));
   EXPECT_EQ(s.axes.col(2), Eigen::Vector3d(0, 0, 1));
   EXPECT_NEAR(s.axes.determinant(), 1.0, 1e-15);
-  const Eigen::Matrix3d axes = abaqus::axes_at(s, {1, 3, 7});
+  const Eigen::Matrix3d axes = axes_at(s, {1, 3, 7});
   EXPECT_EQ(axes.col(0), Eigen::Vector3d(0, 1, 0));
   EXPECT_EQ(axes.col(1), Eigen::Vector3d(-1, 0, 0));
 }

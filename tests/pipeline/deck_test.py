@@ -1,0 +1,154 @@
+"""A deck goes through mesh, assembly and modal by itself; CalculiX solves the same deck."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import stages  # noqa: E402
+
+CELLS = (4, 1, 1)
+SIZE = (80.0, 10.0, 12.0)  # mm
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+UNIT = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)])
+
+
+def beam_deck():
+    """C3D20 cantilever in mm, t, s: clamped at x = 0, pushed at x = 80, heated, then its frequencies."""
+    ids, nodes, lines = {}, [], []
+
+    def node(at):
+        if at not in ids:
+            ids[at] = len(ids) + 1
+            nodes.append(np.array(at) / (2 * np.array(CELLS)) * SIZE)
+        return ids[at]
+
+    for x in range(CELLS[0]):
+        corners = UNIT + (2 * x, 0, 0)
+        cell = [node(tuple(c)) for c in corners]
+        cell += [node(tuple((corners[a] + corners[b]) // 2)) for a, b in EDGES]
+        lines.append(f"{x + 1}, " + ", ".join(map(str, cell[:10])) + ",\n" + ", ".join(map(str, cell[10:])))
+    x = np.array(nodes)[:, 0]
+    ends = [", ".join(str(i + 1) for i in np.flatnonzero(x == at)) for at in (0.0, SIZE[0])]
+    coordinates = "\n".join(f"{i + 1}, {', '.join(map(repr, map(float, at)))}" for i, at in enumerate(nodes))
+    return f"""*NODE, NSET=NALL
+{coordinates}
+*ELEMENT, TYPE=C3D20, ELSET=BEAM
+{chr(10).join(lines)}
+*NSET, NSET=CLAMP
+{ends[0]}
+*NSET, NSET=TIP
+{ends[1]}
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000., .3
+*DENSITY
+7.85e-9
+*EXPANSION
+1.2e-5
+*SOLID SECTION, ELSET=BEAM, MATERIAL=STEEL
+*BOUNDARY
+CLAMP, 1, 3
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+NALL, 20.
+*STEP
+*STATIC
+*CLOAD
+TIP, 3, 25.
+*TEMPERATURE
+NALL, 70.
+*NODE PRINT, NSET=NALL
+U
+*NODE PRINT, NSET=CLAMP, TOTALS=ONLY
+RF
+*END STEP
+"""
+
+
+FREQUENCY = """*STEP
+*FREQUENCY
+6
+*END STEP
+"""
+
+
+def printed(text, title):
+    """Rows below the first line with `title` in a .dat file."""
+    rows = []
+    for line in text[text.index(title):].splitlines()[1:]:
+        words = line.split()
+        if words and all(re.fullmatch(r"[-+0-9.E]+", word) for word in words):
+            rows.append([float(word) for word in words])
+        elif rows:
+            break
+    return np.array(rows)
+
+
+class Deck(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        stages.require_stages()
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-deck-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "beam.inp").write_text(beam_deck())
+        for stage, arguments in (
+                ("mesh", ["beam.inp", "--units", "mm-t-s", "-o", "beam.mesh.h5", "--recipe", "beam.fe.toml"]),
+                ("assembly", ["beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5"]),
+                ("modal", ["beam.fe.h5", "--static", "-o", "beam.static.h5"]),
+                ("modal", ["beam.fe.h5", "--count", "6", "-o", "beam.modes.h5"])):
+            done = stages.run_stage(stage, *arguments, folder=cls.folder)
+            if done.returncode:
+                raise AssertionError(f"{stage}: {done.stderr}")
+
+    def calculix(self, name, text):
+        (self.folder / f"{name}.inp").write_text(text)
+        subprocess.run(["ccx", name], cwd=self.folder, capture_output=True, timeout=120, check=True)
+        return (self.folder / f"{name}.dat").read_text()
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX (package calculix-ccx) is not installed")
+    def test_displacements_are_those_of_calculix(self):
+        theirs = printed(self.calculix("static", beam_deck()), "displacements")
+        with h5py.File(self.folder / "beam.static.h5") as file:
+            case = next(iter(file["cases"].values()))
+            ours = case["displacement"][()].reshape(-1, 3) * 1e3
+        self.assertEqual(len(theirs), len(ours))
+        # Six digits are printed.
+        self.assertLess(np.abs(ours - theirs[:, 1:]).max(), 2e-6 * np.abs(ours).max())
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX (package calculix-ccx) is not installed")
+    def test_frequencies_are_those_of_calculix(self):
+        head = beam_deck().split("*STEP")[0]
+        theirs = printed(self.calculix("modes", head + FREQUENCY), "(RAD/TIME)")[:6, 3]
+        with h5py.File(self.folder / "beam.modes.h5") as file:
+            ours = file["frequency_hz"][()]
+        # Seven digits are printed.
+        self.assertLess(np.abs(ours / theirs - 1).max(), 2e-7)
+
+    def test_the_deck_comes_back_from_both_exports(self):
+        done = stages.run_stage("mesh", "beam.inp", "--units", "m-kg-s", "-o", "a.mesh.h5", "--export", "again.inp",
+                                "--export", "again.bdf", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.folder / "a.mesh.h5") as first:
+            nodes, cells = first["nodes"][()], first["cells/0/nodes"][()]
+            tip = first["node_sets/TIP"][()]
+        for name in ("again.inp", "again.bdf"):
+            done = stages.run_stage("mesh", name, "--units", "m-kg-s", "-o", "b.mesh.h5", folder=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.folder / "b.mesh.h5") as second:
+                np.testing.assert_array_equal(second["cells/0/nodes"][()], cells)
+                np.testing.assert_array_equal(second["nodes"][()], nodes)
+                np.testing.assert_array_equal(second["node_sets/TIP"][()], tip)
+
+    def test_a_deck_without_units_is_refused(self):
+        done = stages.run_stage("mesh", "beam.inp", "-o", "c.mesh.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--units", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
