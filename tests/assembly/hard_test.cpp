@@ -265,10 +265,14 @@ surface = "y0"
 }
 
 /// A beam along x, whole or cut at the middle into halves that do not match.
-mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end) {
-  return block_mesh(n, [=](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end,
+                mesh::CellType type = mesh::CellType::kTet10) {
+  BlockOptions options;
+  options.type = type;
+  const auto map = [=](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return {begin + (end - begin) * x(0), 0.05 * x(1), 0.04 * x(2)};
-  });
+  };
+  return block_mesh(n, map, options);
 }
 
 TEST(AssemblyHard, HardB7_ABeamCutInTwoHasTheModesOfTheWholeAndNoMore) {
@@ -285,8 +289,17 @@ TEST(AssemblyHard, HardB7_ABeamCutInTwoHasTheModesOfTheWholeAndNoMore) {
   }
 }
 
-TEST(AssemblyHard, HardB7_ConstantStressCrossesTheJoint) {
-  mesh::Mesh mesh = two_parts(beam({3, 2, 2}, 0.0, 0.2), beam({2, 3, 1}, 0.2, 0.4));
+class JointOf : public ::testing::TestWithParam<std::tuple<mesh::CellType, mesh::CellType>> {};
+INSTANTIATE_TEST_SUITE_P(
+    AllCells, JointOf,
+    ::testing::Combine(::testing::Values(mesh::CellType::kTet4, mesh::CellType::kTet10,
+                                         mesh::CellType::kHex8, mesh::CellType::kHex20),
+                       ::testing::Values(mesh::CellType::kTet4, mesh::CellType::kTet10,
+                                         mesh::CellType::kHex8, mesh::CellType::kHex20)));
+
+TEST_P(JointOf, HardB7_ConstantStressCrossesIt) {
+  const auto [left, right] = GetParam();
+  mesh::Mesh mesh = two_parts(beam({3, 2, 2}, 0.0, 0.2, left), beam({2, 3, 1}, 0.2, 0.4, right));
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
     const Eigen::Vector3d x = mesh.nodes.row(a).transpose();
     const auto name = [&](double y, double z) {

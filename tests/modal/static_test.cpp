@@ -197,6 +197,45 @@ TEST(Statics, APrescribedDirectionMustBeHeld) {
                InputError);
 }
 
+TEST(Statics, AWarmBarGrowsFreelyAndPushesWhenItIsHeld) {
+  mesh::Mesh mesh = block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4}));
+  mesh.fields["kelvin"] = RowMatrix::Constant(mesh.nodes.rows(), 1, 393.15);
+  const std::string material =
+      "[material.steel]\nregions = [\"body\"]\nE = 2.0e11\nnu = 0.3\nrho = 7800.0\n"
+      "expansion = 1.2e-5\n";
+  const std::string loads = R"(
+[[load]]
+name = "warm"
+kind = "temperature"
+value = 100.0
+[[load]]
+name = "field"
+kind = "temperature"
+field = "kelvin"
+reference = 293.15
+)";
+  const auto model_of = [&](const std::string& toml) {
+    StepClock clock;
+    const Config config = Config::parse(toml, "warm.fe.toml");
+    return assembly::build_fe_model(mesh, assembly::read_recipe(config, mesh), clock).model;
+  };
+  const FeModel free = model_of(material + kSlide + loads);
+  const StaticSolution grown = solve_static(free, {"warm", "field"});
+  for (const StaticCase& found : grown.cases) {
+    for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
+      for (int d = 0; d < 3; ++d)
+        EXPECT_NEAR(found.displacement(3 * a + d), 1.2e-3 * mesh.nodes(a, d), 1e-14);
+    // Against the 4.8e6 N that held ends feel.
+    EXPECT_LT(found.reactions.cwiseAbs().maxCoeff(), 1e-4);
+  }
+  // Between two floors: stress E alpha dT.
+  const FeModel held = model_of(material + kSlide + loads +
+                                "[[support]]\nname = \"roof\"\nsurface = \"z1\"\ndirections = "
+                                "\"z\"\n");
+  const double force = 2.0e11 * 1.2e-3 * 0.02;
+  EXPECT_NEAR(solve_static(held, {"warm"}).cases[0].support_sums(3, 2), -force, 1e-9 * force);
+}
+
 /// Files of one test in a folder of its own.
 class StaticFiles : public ::testing::Test {
  protected:
