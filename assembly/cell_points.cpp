@@ -10,28 +10,11 @@ namespace {
 using mesh::CellRule;
 using mesh::CellType;
 
-CellType linear_type(CellType type) {
-  switch (mesh::traits(type).corners) {
-    case 4:
-      return CellType::kTet4;
-    case 5:
-      return CellType::kPyramid5;
-    case 6:
-      return CellType::kWedge6;
-    default:
-      return CellType::kHex8;
-  }
-}
-
 CellPoints tabulate(CellType type, const CellRule& rule) {
   CellPoints points;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::Vector3d xi = rule.points.row(q);
-    const auto corners = mesh::cell_shape(linear_type(type), xi).value;
-    CellPoint point{mesh::cell_shape(type, xi), Eigen::VectorXd::Zero(mesh::traits(type).nodes), xi,
-                    rule.weights(q)};
-    point.linear.head(corners.size()) = corners;
-    points.push_back(point);
+    points.push_back({mesh::cell_shape(type, xi), xi, rule.weights(q)});
   }
   return points;
 }

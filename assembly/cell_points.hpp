@@ -11,7 +11,6 @@ namespace clatter::assembly {
 /// One point of a rule on the reference cell.
 struct CellPoint {
   mesh::CellShape shape;
-  Eigen::VectorXd linear;  // n values of the corners' linear functions; zero at middle nodes
   Eigen::Vector3d xi;
   double weight;
 };

@@ -107,7 +107,7 @@ Eigen::VectorXd integrate_thermal(const Modes& modes, const CellNodes& x, const 
     const Eigen::Vector3d place = x.transpose() * point.shape.value;
     const Voigt stress = material.elasticity_at(place) * material.expansion_at(place);
     force.noalias() +=
-        (point.weight * det * point.linear.dot(dT)) * (strain_matrix(g).transpose() * stress);
+        (point.weight * det * point.shape.value.dot(dT)) * (strain_matrix(g).transpose() * stress);
   }
   return force;
 }

@@ -47,8 +47,7 @@ void compute_element(mesh::CellType type, const mesh::CellNodes& x, const Materi
                      ElementMatrices& out);
 
 /// Nodal forces (3n) that a temperature rise `dT` (n) [K] causes when all displacements are held:
-/// int B^T C alpha dT dV [N]. dT is interpolated linearly from the corners, so that the thermal
-/// strain has the degree of the strain of displacements (as Abaqus and CalculiX do).
+/// int B^T C alpha dT dV [N], dT interpolated by the cell's shape functions (as CalculiX does).
 Eigen::VectorXd thermal_force(mesh::CellType type, const mesh::CellNodes& x,
                               const Material& material, const Eigen::VectorXd& dT);
 
