@@ -16,8 +16,8 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
 def sources(reader):
     """The reader and what it stands on."""
     deck = sorted((ROOT / 'mesh/deck').glob(f'{reader}_*.cpp'))
-    shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/cell.cpp', ROOT / 'mesh/mesh.cpp',
-              ROOT / 'core/error.cpp', HERE / f'{reader}_fuzz.cpp']
+    shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'mesh/cell.cpp',
+              ROOT / 'mesh/mesh.cpp', ROOT / 'core/error.cpp', HERE / f'{reader}_fuzz.cpp']
     return [str(path) for path in deck + shared if path.exists()]
 
 

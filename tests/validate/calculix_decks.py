@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+"""Decks of package calculix-ccx-test through clatter, against the reference output that comes with them.
+
+    tests/validate/calculix_decks.py            prints the table
+    tests/validate/calculix_decks.py --write    puts it into docs/validation.md
+
+Each deck is read, assembled and solved by the executables alone; what they find is compared with the frequencies or
+the nodal displacements printed in the .dat.ref (or .frd.ref) file: the largest difference over the largest value.
+"""
+import gzip
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+import reduced_mass
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
+DECKS = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
+PRINTED = 6e-7  # seven digits are printed
+
+# name, what it shows, largest error allowed, words for one that is larger than the digits printed
+CASES = [
+    ("beam8p", "C3D8, forces", PRINTED, ""),
+    ("beam10p", "C3D10, forces", PRINTED, ""),
+    ("beam20p", "C3D20, forces", PRINTED, ""),
+    ("c3d15", "C3D15, pressure, orientation", PRINTED, ""),
+    ("beamp", "C3D20R, forces", 1e-6, "six digits in the .frd file"),
+    ("beamd", "C3D20R, pressure", PRINTED, ""),
+    ("beamidset", "sets within sets", PRINTED, ""),
+    ("beampset", "sets of nodes", PRINTED, ""),
+    ("beamp2stage", "two stages of loading", PRINTED, ""),
+    ("beampis", "iterative solver of CalculiX", PRINTED, ""),
+    ("beampic", "iterative solver of CalculiX", 2e-3, "their solver stops early: beampis, the same deck with the other one, agrees"),
+    ("beampo1", "orthotropic, orientation", PRINTED, ""),
+    ("beampo2", "orthotropic, orientation", PRINTED, ""),
+    ("aniso", "anisotropic, 21 constants", PRINTED, ""),
+    ("achteld", "prescribed displacement", PRINTED, ""),
+    ("achtelp", "forces, symmetry planes", PRINTED, ""),
+    ("achtelg", "gravity", PRINTED, ""),
+    ("achtel2", "equations", PRINTED, ""),
+    ("achtel29", "equations", PRINTED, ""),
+    ("achtel9", "equations", PRINTED, ""),
+    ("achtelcas", "equations", PRINTED, ""),
+    ("beampdepmpc", "dependent equations", PRINTED, ""),
+    ("segmentf", "transform, cylindrical", PRINTED, ""),
+    ("beamprb", "rigid body with rotation node", 3e-6, "six digits in the .frd file"),
+    ("beamptied1", "tie", PRINTED, ""),
+    ("beamptied2", "tie", PRINTED, ""),
+    ("beam8t", "C3D8, temperature", PRINTED, ""),
+    ("beamt", "C3D20R, temperature", PRINTED, ""),
+    ("beamt2", "C3D20R, temperature", PRINTED, ""),
+    ("beamt3", "C3D20R, temperature of middle nodes", PRINTED, ""),
+    ("beam8f", "C3D8, frequencies", PRINTED, ""),
+    ("beamf", "C3D20R, frequencies", 2e-3, "clatter's mass is exact, CalculiX takes the eight points of K"),
+    ("beamf, eight-point mass", "the same with CalculiX's mass", PRINTED, "what explains the line above (reduced_mass.py)"),
+]
+
+
+def reference(name, suffix):
+    """Lines of a reference file, packed or not; none when there is no such file."""
+    for path in (DECKS / f"{name}{suffix}", DECKS / f"{name}{suffix}.gz"):
+        if path.exists():
+            data = gzip.decompress(path.read_bytes()) if path.suffix == ".gz" else path.read_bytes()
+            return data.decode(errors="replace").splitlines()
+    return []
+
+
+def numbers(line):
+    try:
+        return [float(word) for word in line.split()]
+    except ValueError:
+        return []
+
+
+def frequencies(name):
+    found = []
+    for line in reference(name, ".dat.ref"):
+        if "P A R T I C I P A T I O N" in line:
+            break
+        row = numbers(line)
+        if len(row) == 5:
+            found.append(row[3])
+    return np.array(found)
+
+
+def displacements(name):
+    """{node: (x, y, z)} of the first step that prints them."""
+    found = {}
+    inside = False
+    for line in reference(name, ".dat.ref"):
+        row = numbers(line)
+        if "displacements (vx,vy,vz)" in line:
+            if found:
+                break
+            inside = True
+        elif inside and len(row) == 4:
+            found[int(row[0])] = row[1:]
+        elif line.strip():
+            inside = False
+    if found:
+        return found
+    for line in reference(name, ".frd.ref"):
+        if line.startswith(" -4  DISP"):
+            if found:
+                break
+            inside = True
+        elif line.startswith((" -3", " -4")):
+            inside = False
+        elif inside and line.startswith(" -1"):
+            found[int(line[3:13])] = [float(line[13 + 12 * k:25 + 12 * k]) for k in range(3)]
+    return found
+
+
+def run(stage, *arguments, folder):
+    done = subprocess.run([BIN / f"clatter-{stage}", *map(str, arguments), "--quiet"], cwd=folder, text=True,
+                          capture_output=True, timeout=300)
+    if done.returncode:
+        raise RuntimeError(f"clatter-{stage}: {done.stderr.strip()}")
+
+
+def compare(name, folder):
+    """(what was compared, how many values, largest difference over the largest value)."""
+    name, _, mass = name.partition(", ")
+    deck = folder / f"{name}.inp"
+    deck.write_text("\n".join(reference(name, ".inp")) + "\n")
+    run("mesh", deck.name, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
+    run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+    theirs = frequencies(name)
+    if len(theirs):
+        run("modal", "a.fe.h5", "--count", len(theirs), "-o", "a.modes.h5", folder=folder)
+        with h5py.File(folder / "a.modes.h5") as file:
+            ours = file["frequency_hz"][()]
+        if mass:
+            ours = reduced_mass.frequencies(folder / "a.mesh.h5", folder / "a.fe.h5", 7.8e-9, len(theirs))
+        return "frequencies", len(theirs), float(np.abs(ours / theirs - 1).max())
+    run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
+    with h5py.File(folder / "a.mesh.h5") as file:
+        row_of = {int(label): row for row, label in enumerate(file["node_ids"][()])}
+    with h5py.File(folder / "a.static.h5") as file:
+        ours = file["cases/step_1/displacement"][()].reshape(-1, 3)
+    printed = {node: value for node, value in displacements(name).items() if node in row_of}
+    if not printed:
+        raise RuntimeError("no displacements in the reference files")
+    want = np.array(list(printed.values()))
+    have = ours[[row_of[node] for node in printed]]
+    return "displacements", len(printed), float(np.abs(have - want).max() / np.abs(want).max())
+
+
+def table():
+    """Rows (name, shows, quantity, count, error, limit, remark)."""
+    rows = []
+    for name, shows, limit, remark in CASES:
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-ccx-"))
+        try:
+            rows.append((name, shows, *compare(name, folder), limit, remark))
+        finally:
+            shutil.rmtree(folder)
+    return rows
+
+
+def markdown(rows):
+    lines = ["| deck | shows | compared | largest difference | |", "|---|---|---|---|---|"]
+    lines += [f"| {name} | {shows} | {count} {quantity} | {error:.1e} | {remark} |"
+              for name, shows, quantity, count, error, _, remark in rows]
+    return "\n".join(lines)
+
+
+def main():
+    text = markdown(table())
+    print(text)
+    if "--write" in sys.argv[1:]:
+        page = SOURCE / "docs/validation.md"
+        before, rest = page.read_text().split("<!-- calculix_decks -->\n", 1)
+        after = rest.split("<!-- end -->", 1)[1]
+        page.write_text(f"{before}<!-- calculix_decks -->\n{text}\n<!-- end -->{after}")
+
+
+if __name__ == "__main__":
+    main()
