@@ -174,7 +174,7 @@ void Builder::run(StepClock& clock) {
   check_points();
   LoadBuilder(mesh_, recipe_, numbers_, constrained_, surfaces_, body_force).build(model);
   clock.lap("masses and loads");
-  out_.certificate = certify(model, constrained_);
+  out_.certificate = certify(model, constrained_, recipe_.mass);
   clock.lap("certificate");
 }
 

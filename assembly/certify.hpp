@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "assembly/assemble.hpp"
 #include "assembly/constrain.hpp"
 #include "assembly/fe_model.hpp"
 
@@ -14,6 +15,8 @@ namespace clatter::assembly {
 /// so that a supported model is checked too; rigid motions that an equation holds are left out.
 /// NumericsError when mass, centre or inertia are off by more than 1e-9 (hard case B5), or when
 /// rigid motions are not free of force or not recovered to 1e-9.
-std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained);
+/// A lumped mass keeps the total only: centre and inertia are measured, not required.
+std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained,
+                                      MassForm mass);
 
 }  // namespace clatter::assembly

@@ -158,5 +158,20 @@ TEST(Damping, ARatioAtAFrequencyGivesAlpha) {
   EXPECT_EQ(model.beta, 0.0);
 }
 
+TEST(LumpedMass, AFreeModelKeepsItsMassAndSaysHowFarItsInertiaIsOff) {
+  const mesh::Mesh mesh = block_mesh({2, 2, 2}, brick({0.3, 0.2, 0.1}));
+  const Config config = Config::parse(
+      "[material.iron]\nregions = ['body']\nE = 1e11\nnu = 0.3\nrho = 7200.0\n"
+      "[mass]\nlumping = 'hrz'\n",
+      "iron.fe.toml");
+  StepClock clock;
+  const BuiltModel built = build_fe_model(mesh, read_recipe(config, mesh), clock);
+  EXPECT_EQ(built.model.M.nonZeros(), built.model.size());
+  EXPECT_LT(built.certificate.at("mass_error"), 1e-12);
+  // Two cells along each side: the mass points stand nearer to the outside than the mass.
+  EXPECT_GT(built.certificate.at("inertia_error"), 1e-3);
+  EXPECT_LT(built.certificate.at("inertia_error"), 0.2);
+}
+
 }  // namespace
 }  // namespace clatter::assembly::testing
