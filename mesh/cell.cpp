@@ -53,8 +53,10 @@ constexpr std::array<Edge, 12> kHexNastran = {{{0, 1},
                                                {5, 6},
                                                {6, 7},
                                                {7, 4}}};
-constexpr std::array<Edge, 9> kWedgeVtk = {
+constexpr std::array<Edge, 9> kWedgeAbaqus = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+constexpr std::array<Edge, 9> kWedgeVtk = {
+    {{0, 2}, {2, 1}, {1, 0}, {3, 5}, {5, 4}, {4, 3}, {0, 3}, {2, 5}, {1, 4}}};
 constexpr std::array<Edge, 9> kWedgeNastran = {
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4}, {2, 5}, {3, 4}, {4, 5}, {5, 3}}};
 constexpr std::array<Edge, 8> kPyramidElsewhere = {
@@ -83,7 +85,14 @@ constexpr std::array<int, Corners + E> permutation(const std::array<Edge, E>& ou
 constexpr auto kTetP = permutation<4>(kTetEdges, kTetElsewhere);
 constexpr auto kHexVtkP = permutation<8>(kHexEdges, kHexVtk);
 constexpr auto kHexNastranP = permutation<8>(kHexEdges, kHexNastran);
-constexpr auto kWedgeVtkP = permutation<6>(kWedgeEdges, kWedgeVtk);
+// VTK's triangle 0-1-2 of a wedge points outward, ours and the others' inward: two corners swap.
+constexpr auto with_corners(std::array<int, 15> p, const std::array<int, 6>& corners) {
+  for (size_t i = 0; i < 6; ++i) p[i] = corners[i];
+  return p;
+}
+constexpr auto kWedgeVtkP =
+    with_corners(permutation<6>(kWedgeEdges, kWedgeVtk), {0, 2, 1, 3, 5, 4});
+constexpr auto kWedgeAbaqusP = permutation<6>(kWedgeEdges, kWedgeAbaqus);
 constexpr auto kWedgeNastranP = permutation<6>(kWedgeEdges, kWedgeNastran);
 constexpr auto kPyramidP = permutation<5>(kPyramidEdges, kPyramidElsewhere);
 
@@ -140,9 +149,9 @@ const std::array<CellTraits, kCellTypes> kCells = {{
      first(kHexNastranP, 8), kHexEdges, kHex8Faces},
     {"hex20", 20, 8, 2, 25, 17, "C3D20", "CHEXA", kHexVtkP, kHexVtkP, kHexNastranP, kHexEdges,
      kHex20Faces},
-    {"wedge6", 6, 6, 1, 13, 6, "C3D6", "CPENTA", first(kWedgeVtkP, 6), first(kWedgeVtkP, 6),
+    {"wedge6", 6, 6, 1, 13, 6, "C3D6", "CPENTA", first(kWedgeVtkP, 6), first(kWedgeAbaqusP, 6),
      first(kWedgeNastranP, 6), kWedgeEdges, kWedge6Faces},
-    {"wedge15", 15, 6, 2, 26, 18, "C3D15", "CPENTA", kWedgeVtkP, kWedgeVtkP, kWedgeNastranP,
+    {"wedge15", 15, 6, 2, 26, 18, "C3D15", "CPENTA", kWedgeVtkP, kWedgeAbaqusP, kWedgeNastranP,
      kWedgeEdges, kWedge15Faces},
     {"pyramid5", 5, 5, 1, 14, 7, "C3D5", "CPYRAM", first(kPyramidP, 5), first(kPyramidP, 5),
      first(kPyramidP, 5), kPyramidEdges, kPyramid5Faces},

@@ -44,7 +44,9 @@
 //
 // A cell is positive when its map has det J > 0; for a tet, det(x1 - x0, x2 - x0, x3 - x0) > 0.
 //
-// Other programs have the same corners in the same places and other orders of the middle nodes.
+// Other programs have the same corners in the same places and other orders of the middle nodes;
+// only VTK's wedge is turned over: its triangle 0-1-2 points outward, its corners are ours 0 2 1
+// 3 5 4 (measured: VTK 9.1).
 // With p = to_vtk, to_abaqus or to_nastran of the type, a_other[i] = a_gmsh[p[i]]. Example (tet10,
 // all three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19) gives
 // a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their middle nodes:
@@ -52,7 +54,7 @@
 //   tet      all      0-1 1-2 2-0 0-3 1-3 2-3
 //   hex      VTK, Abaqus  0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7
 //            Nastran      0-1 1-2 2-3 3-0  0-4 1-5 2-6 3-7  4-5 5-6 6-7 7-4
-//   wedge    VTK, Abaqus  0-1 1-2 2-0  3-4 4-5 5-3  0-3 1-4 2-5
+//   wedge    VTK, Abaqus  0-1 1-2 2-0  3-4 4-5 5-3  0-3 1-4 2-5  (of their corners)
 //            Nastran      0-1 1-2 2-0  0-3 1-4 2-5  3-4 4-5 5-3
 //   pyramid  all      0-1 1-2 2-3 3-0  0-4 1-4 2-4 3-4
 //

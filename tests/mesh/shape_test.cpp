@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "mesh/cube_bernstein.hpp"
@@ -98,11 +99,16 @@ TEST_P(EveryCell, OrdersOfOtherProgramsPutMiddlesWhereTheirManualsSay) {
   const CellNodes x = reference_nodes(GetParam());
   const auto check = [&](std::span<const int> p, const Edges& edges) {
     ASSERT_EQ(p.size(), static_cast<size_t>(cell.nodes));
-    for (int i = 0; i < cell.corners; ++i) EXPECT_EQ(p[static_cast<size_t>(i)], i);
+    std::vector<int> corners(static_cast<size_t>(cell.corners));
+    std::iota(corners.begin(), corners.end(), 0);
+    // vtkWedge and vtkQuadraticWedge are turned over (tests/pipeline/vtk_test.py asks VTK).
+    if (cell.corners == 6 && p.data() == cell.to_vtk.data()) corners = {0, 2, 1, 3, 5, 4};
+    EXPECT_EQ(std::vector<int>(p.begin(), p.begin() + cell.corners), corners);
     for (int e = 0; cell.corners + e < cell.nodes; ++e) {
       const auto [a, b] = edges[static_cast<size_t>(e)];
       EXPECT_EQ(x.row(p[static_cast<size_t>(cell.corners + e)]),
-                0.5 * (x.row(a - 1) + x.row(b - 1)));
+                0.5 * (x.row(corners[static_cast<size_t>(a - 1)]) +
+                       x.row(corners[static_cast<size_t>(b - 1)])));
     }
   };
   check(cell.to_vtk, vtk);
