@@ -84,6 +84,25 @@ void add_faces(const Mesh& mesh, const FaceBlock& block, SurfaceIntegrals& sum) 
   }
 }
 
+// Image at the middle of a cell's face of the straight way out of its reference cell. Where det J
+// is positive it leaves the cell however curved that is; the way from the middle of the real
+// corners need not.
+Eigen::Vector3d way_out(const Mesh& mesh, const BoundaryFace& face) {
+  const CellBlock& cells = mesh.cells[static_cast<size_t>(face.block)];
+  const auto reference = reference_nodes(cells.type);
+  const auto cell = cells.nodes.row(face.cell);
+  const int corners = traits(face.type).corners;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const int32_t id : face.nodes().first(static_cast<size_t>(corners)))
+    middle += reference.row(std::find(cell.begin(), cell.end(), id) - cell.begin()).transpose();
+  middle /= corners;
+  const Eigen::Vector3d centre =
+      reference.topRows(traits(cells.type).corners).colwise().mean().transpose();
+  const Eigen::Matrix3d jacobian =
+      cell_nodes(mesh, cells, face.cell).transpose() * cell_shape(cells.type, middle).gradient;
+  return jacobian * (middle - centre);
+}
+
 }  // namespace
 
 FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
@@ -150,13 +169,8 @@ int64_t count_inward(const Mesh& mesh, const Surface& skin) {
         ++inward;
         continue;
       }
-      const CellBlock& cells = mesh.cells[static_cast<size_t>(found->second.block)];
-      const Eigen::Vector3d centre = cell_nodes(mesh, cells, found->second.cell)
-                                         .topRows(traits(cells.type).corners)
-                                         .colwise()
-                                         .mean();
       const PointOnFace point = evaluate(face_nodes(mesh, ids), shape);
-      if (!(point.normal.dot(point.x - centre) > 0.0)) ++inward;
+      if (!(point.normal.dot(way_out(mesh, found->second)) > 0.0)) ++inward;
     }
   }
   return inward;

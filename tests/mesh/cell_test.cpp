@@ -61,6 +61,20 @@ TEST(Boundary, HardG9_ReversedTriangleIsCountedAsInward) {
   EXPECT_GT(integrate(mesh, mesh.surface("skin")).normal.norm(), 0.1);
 }
 
+// A thin cell bent over a bore: the middle of its curved face lies on the other side of the middle
+// of its corners, and yet the cell is valid and its normal points out.
+TEST(Boundary, HardG9_NormalOfAStronglyBentThinCellPointsOut) {
+  Mesh mesh = one_cell();
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
+    auto x = mesh.nodes.row(n);
+    const double bump = x(0) * x(1) + (x(0) + x(1)) * (1.0 - x(0) - x(1));
+    x(2) = 0.1 * x(2) + bump;  // keeps det J
+  }
+  const CellNodes x = cell_nodes(mesh, mesh.cells[0], 0);
+  ASSERT_GT(jacobian_bounds(CellType::kTet10, x).min, 0.0);
+  EXPECT_EQ(count_inward(mesh, mesh.surface("skin")), 0);
+}
+
 TEST(Validity, StraightCellHasScaledJacobianOne) {
   const JacobianBounds b = jacobian_bounds(reference_tet10());
   EXPECT_NEAR(b.min, 1.0, 1e-14);   // det J of the reference cell
