@@ -11,12 +11,12 @@ namespace {
 constexpr std::array kSolids = {
     SolidType{"C3D4", CellType::kTet4, Formulation::kDefault},
     SolidType{"C3D5", CellType::kPyramid5, Formulation::kDefault},
-    SolidType{"C3D6", CellType::kWedge6, Formulation::kDefault},
+    SolidType{"C3D6", CellType::kWedge6, Formulation::kReduced},
     SolidType{"C3D8", CellType::kHex8, Formulation::kFull},
     SolidType{"C3D8I", CellType::kHex8, Formulation::kIncompatible},
     SolidType{"C3D8R", CellType::kHex8, Formulation::kReduced},
     SolidType{"C3D10", CellType::kTet10, Formulation::kDefault},
-    SolidType{"C3D15", CellType::kWedge15, Formulation::kDefault},
+    SolidType{"C3D15", CellType::kWedge15, Formulation::kReduced},
     SolidType{"C3D20", CellType::kHex20, Formulation::kFull},
     SolidType{"C3D20R", CellType::kHex20, Formulation::kReduced},
 };

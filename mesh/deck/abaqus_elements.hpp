@@ -9,7 +9,7 @@
 namespace clatter::mesh::deck::abaqus {
 
 /// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R
-/// stands for reduced integration; the others are taken as they are.
+/// stands for reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
 struct SolidType {
   std::string_view name;
   CellType type;

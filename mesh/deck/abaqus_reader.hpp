@@ -27,33 +27,26 @@ namespace clatter::mesh::deck {
 ///   sets of *ELEMENT as regions, without material. Element sets have no place in the mesh
 ///   otherwise.
 /// - Nodes without elements are left out unless a constraint, a mass or an equation needs them:
-/// then
-///   they are points. A support of such a node holds nothing and is left out.
+///   then they are points. A support of such a node holds nothing and is left out.
 /// - A deck of instances: a scope's numbers are kept where they lie above those of the scopes
-/// before,
-///   else a multiple of a power of ten is added (node 17 of the second instance: 1017). What a part
-///   names is "instance.name" when there are several instances or the assembly uses the name as
-///   well.
-/// - C3D8 and C3D20 are kFull, C3D8R and C3D20R kReduced, C3D8I kIncompatible.
+///   before, else a multiple of a power of ten is added (node 17 of the second instance: 1017).
+///   What a part names is "instance.name" when there are several instances or the assembly uses the
+///   name as well.
+/// - C3D8 and C3D20 are kFull, C3D6, C3D15, C3D8R and C3D20R kReduced, C3D8I kIncompatible.
 /// - Strains of a temperature start at that of *INITIAL CONDITIONS; ZERO of *EXPANSION has no
-/// effect
-///   on constant coefficients.
+///   effect on constant coefficients.
 /// - A reference node that belongs to an element becomes a point as well, which moves that node; a
-/// ROT
-///   NODE's translations are the rotations of its reference point.
+///   ROT NODE's translations are the rotations of its reference point.
 /// - *DISTRIBUTING COUPLING with its node at the weighted centre of the others means the same in
-/// all
-///   programs. Off the centre it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
+///   all programs. Off the centre it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
 ///   weighted mean, the moment of a force is lost.
 /// - An element line with too many nodes is refused; ignore = ["EXTRA NODES"] takes the first ones,
-/// as
-///   CalculiX does.
+///   as CalculiX does.
 /// - A *TIE or *COUPLING surface of TYPE=NODE stands for the outer faces whose nodes are all in it.
 /// - Equations between nodes with *TRANSFORM are turned into the basic axes.
 /// - *STEP, PERTURBATION behind a loaded *STATIC step is refused (its stiffness depends on the
-/// loads);
-///   ignore = ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step as
-///   linear, ignore = ["AMPLITUDE"] loads as they stand.
+///   loads); ignore = ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step
+///   as linear, ignore = ["AMPLITUDE"] loads as they stand.
 /// - Steps take over loads and supports from the step before (OP=MOD); within one step loads on the
 ///   same place add up. A *STEP, PERTURBATION has only its own loads.
 ///
