@@ -153,6 +153,7 @@ void Builder::run(StepClock& clock) {
   model.alpha = recipe_.damping.alpha;
   model.beta = recipe_.damping.beta;
   model.surfaces = mesh_.surfaces;
+  model.cells = {mesh_.regions, recipe_.materials, mesh_.cells, mesh_.node_ids};
 
   const NodePattern pattern = node_pattern(mesh_);
   clock.lap("pattern");

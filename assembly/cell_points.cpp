@@ -1,5 +1,6 @@
 #include "assembly/cell_points.hpp"
 
+#include <Eigen/QR>
 #include <array>
 
 #include "mesh/quadrature.hpp"
@@ -74,6 +75,43 @@ const CellRule& mass_rule(CellType type, bool straight) {
   }
 }
 
+const CellRule& stress_rule(CellType type) {
+  switch (mesh::traits(type).corners) {
+    case 4:
+      return type == CellType::kTet4 ? mesh::tet_rule_1() : mesh::tet_rule_4();
+    case 5:
+      return mesh::pyramid_rule(2);
+    case 6:
+      return mesh::wedge_rule(3, 2);
+    default:
+      return mesh::hex_rule(2);
+  }
+}
+
+/// The cell of the same corners without middle nodes.
+CellType linear_cell(CellType type) {
+  switch (mesh::traits(type).corners) {
+    case 4:
+      return CellType::kTet4;
+    case 5:
+      return CellType::kPyramid5;
+    case 6:
+      return CellType::kWedge6;
+    default:
+      return CellType::kHex8;
+  }
+}
+
+Eigen::MatrixXd fit_corners(CellType type) {
+  const CellRule& rule = stress_rule(type);
+  const Eigen::Index n = rule.weights.size(), corners = mesh::traits(type).corners;
+  if (n == 1) return Eigen::MatrixXd::Ones(corners, 1);
+  Eigen::MatrixXd N(n, corners);
+  for (Eigen::Index q = 0; q < n; ++q)
+    N.row(q) = mesh::cell_shape(linear_cell(type), rule.points.row(q)).value.transpose();
+  return N.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+}
+
 /// Tables of all cell types.
 class Tables {
  public:
@@ -113,6 +151,20 @@ const CellPoints& stiffness_points(CellType type, Integration integration, bool 
   static const Tables reduced(reduced_rule);
   if (integration == Integration::kReduced) return reduced.of(type);
   return straight ? simple.of(type) : curved.of(type);
+}
+
+const CellPoints& stress_points(CellType type) {
+  static const Tables tables(stress_rule);
+  return tables.of(type);
+}
+
+const Eigen::MatrixXd& stress_smoothing(CellType type) {
+  static const auto all = [] {
+    std::array<Eigen::MatrixXd, mesh::kCellTypes> out;
+    for (size_t t = 0; t < out.size(); ++t) out[t] = fit_corners(static_cast<CellType>(t));
+    return out;
+  }();
+  return all[static_cast<size_t>(type)];
 }
 
 const CellPoints& mass_points(CellType type, bool straight) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "assembly/cell_points.hpp"
+#include "assembly/cell_strain.hpp"
 #include "assembly/tet_stiffness.hpp"
 
 namespace clatter::assembly {
@@ -17,72 +18,14 @@ using mesh::CellType;
 
 constexpr double kStraightTolerance = 1e-10;  // of an edge; the error made below it is as small
 
-constexpr int kModes = 3;                               // incompatible displacement modes
-constexpr int kMaxStrains = 3 * (mesh::kMaxCellNodes);  // columns of B
-
-using Gradient = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, mesh::kMaxCellNodes, 3>;
-using StrainMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStrains>;
-
-Eigen::Matrix3d jacobian(const CellNodes& x, const CellPoint& point) {
-  return x.transpose() * point.shape.gradient;  // J(i, k) = dx_i / dxi_k
-}
-
-/// Gradients on x of a cell's displacement modes: its shape functions, then the incompatible modes
-/// of a hex8 that has them.
-class Modes {
- public:
-  Modes(const CellNodes& x, bool incompatible) : x_(x), incompatible_(incompatible) {
-    if (!incompatible) return;
-    const Eigen::Matrix3d J =
-        x.transpose() * mesh::cell_shape(CellType::kHex8, Eigen::Vector3d::Zero()).gradient;
-    centre_inverse_ = J.inverse();
-    centre_det_ = J.determinant();
-  }
-
-  Eigen::Index count() const { return x_.rows() + (incompatible_ ? kModes : 0); }
-
-  /// det J; row a of `gradient` is mode a's, not set where det J <= 0.
-  double at(const CellPoint& point, Gradient& gradient) const {
-    const Eigen::Matrix3d J = jacobian(x_, point);
-    const double det = J.determinant();
-    if (!(det > 0.0)) return det;
-    gradient.resize(count(), 3);
-    gradient.topRows(x_.rows()).noalias() = point.shape.gradient * J.inverse();
-    for (int k = 0; incompatible_ && k < kModes; ++k)
-      gradient.row(x_.rows() + k) =
-          (-2.0 * point.xi(k) * centre_det_ / det) * centre_inverse_.row(k);
-    return det;
-  }
-
- private:
-  const CellNodes& x_;
-  bool incompatible_;
-  Eigen::Matrix3d centre_inverse_ = Eigen::Matrix3d::Zero();
-  double centre_det_ = 0.0;
-};
-
-/// Strains 11 22 33 12 23 31 of the modes' displacements.
-StrainMatrix strain_matrix(const Gradient& g) {
-  StrainMatrix B = StrainMatrix::Zero(6, 3 * g.rows());
-  for (Eigen::Index a = 0; a < g.rows(); ++a) {
-    for (int d = 0; d < 3; ++d) {
-      const int next = (d + 1) % 3;
-      B(d, 3 * a + d) = g(a, d);
-      B(3 + d, 3 * a + d) = g(a, next);
-      B(3 + d, 3 * a + next) = g(a, d);
-    }
-  }
-  return B;
-}
-
 /// K on all modes; the smallest det J, where it is not positive K is not finished.
-double integrate_stiffness(const Modes& modes, const CellNodes& x, const Material& material,
+double integrate_stiffness(const CellModes& modes, const CellNodes& x, const Material& material,
                            const CellPoints& points, Eigen::MatrixXd& K) {
   const auto n_points = static_cast<Eigen::Index>(points.size());
   const Eigen::Index columns = 3 * modes.count();
   Eigen::MatrixXd strain(6 * n_points, columns), stress(6 * n_points, columns);
   double smallest = std::numeric_limits<double>::infinity();
-  Gradient g;
+  ModeGradient g;
   Elasticity C = material.elasticity_at(x.row(0));
   for (Eigen::Index q = 0; q < n_points; ++q) {
     const CellPoint& point = points[static_cast<size_t>(q)];
@@ -98,10 +41,11 @@ double integrate_stiffness(const Modes& modes, const CellNodes& x, const Materia
   return smallest;
 }
 
-Eigen::VectorXd integrate_thermal(const Modes& modes, const CellNodes& x, const Material& material,
-                                  const CellPoints& points, const Eigen::VectorXd& dT) {
+Eigen::VectorXd integrate_thermal(const CellModes& modes, const CellNodes& x,
+                                  const Material& material, const CellPoints& points,
+                                  const Eigen::VectorXd& dT) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * modes.count());
-  Gradient g;
+  ModeGradient g;
   for (const CellPoint& point : points) {
     const double det = modes.at(point, g);
     const Eigen::Vector3d place = x.transpose() * point.shape.value;
@@ -114,7 +58,7 @@ Eigen::VectorXd integrate_thermal(const Modes& modes, const CellNodes& x, const 
 
 /// Takes the incompatible modes out: K_uu - K_ua K_aa^-1 K_au.
 Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
-  constexpr int kInner = 3 * kModes;
+  constexpr int kInner = 3 * kIncompatibleModes;
   const Eigen::Index n = extended.rows() - kInner;
   const Eigen::Matrix<double, kInner, kInner> aa = extended.bottomRightCorner<kInner, kInner>();
   const Eigen::MatrixXd au = extended.bottomLeftCorner(kInner, n);
@@ -155,10 +99,6 @@ void compute_mass(CellType type, const CellNodes& x, const Material& material, b
   }
 }
 
-bool has_modes(CellType type, const Material& material) {
-  return type == CellType::kHex8 && material.integration.hex8 == Integration::kIncompatible;
-}
-
 }  // namespace
 
 bool is_straight(CellType type, const CellNodes& x) {
@@ -179,12 +119,12 @@ void compute_element(CellType type, const CellNodes& x, const Material& material
   out.stiffness.resize(3 * x.rows(), 3 * x.rows());
   if (mesh::traits(type).corners == 4 && material.is_isotropic()) {
     out.min_jacobian = tet_stiffness(type, x, material, points, out.stiffness);
-  } else if (has_modes(type, material)) {
+  } else if (has_incompatible_modes(type, material.integration)) {
     Eigen::MatrixXd extended;
-    out.min_jacobian = integrate_stiffness(Modes(x, true), x, material, points, extended);
+    out.min_jacobian = integrate_stiffness(CellModes(x, true), x, material, points, extended);
     if (out.min_jacobian > 0.0) out.stiffness = without_modes(extended);
   } else {
-    out.min_jacobian = integrate_stiffness(Modes(x, false), x, material, points, out.stiffness);
+    out.min_jacobian = integrate_stiffness(CellModes(x, false), x, material, points, out.stiffness);
   }
   if (out.min_jacobian > 0.0) compute_mass(type, x, material, straight, out);
 }
@@ -193,16 +133,31 @@ Eigen::VectorXd thermal_force(CellType type, const CellNodes& x, const Material&
                               const Eigen::VectorXd& dT) {
   const CellPoints& points =
       stiffness_points(type, integration_of(type, material.integration), is_straight(type, x));
-  const Modes modes(x, has_modes(type, material));
+  const CellModes modes(x, has_incompatible_modes(type, material.integration));
   const Eigen::VectorXd force = integrate_thermal(modes, x, material, points, dT);
-  const Eigen::Index n = 3 * x.rows();
-  if (force.size() == n) return force;
+  if (modes.inner() == 0) return force;
   Eigen::MatrixXd extended;
   integrate_stiffness(modes, x, material, points, extended);
-  const Eigen::Index inner = force.size() - n;
+  const Eigen::Index n = 3 * x.rows(), inner = 3 * modes.inner();
   return force.head(n) -
          extended.topRightCorner(n, inner) *
              extended.bottomRightCorner(inner, inner).llt().solve(force.tail(inner));
+}
+
+Eigen::VectorXd with_inner_modes(CellType type, const CellNodes& x, const Material& material,
+                                 const Eigen::VectorXd& u, const Eigen::VectorXd& dT) {
+  const CellModes modes(x, has_incompatible_modes(type, material.integration));
+  if (modes.inner() == 0) return u;
+  const CellPoints& points =
+      stiffness_points(type, integration_of(type, material.integration), is_straight(type, x));
+  const Eigen::Index n = 3 * x.rows(), inner = 3 * modes.inner();
+  Eigen::MatrixXd K;
+  if (!(integrate_stiffness(modes, x, material, points, K) > 0.0)) return u;
+  Eigen::VectorXd force = -(K.bottomLeftCorner(inner, n) * u);
+  if (dT.size() > 0) force += integrate_thermal(modes, x, material, points, dT).tail(inner);
+  Eigen::VectorXd all(n + inner);
+  all << u, K.bottomRightCorner(inner, inner).llt().solve(force);
+  return all;
 }
 
 void lump_hrz(Eigen::MatrixXd& m) {

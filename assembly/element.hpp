@@ -51,6 +51,12 @@ void compute_element(mesh::CellType type, const mesh::CellNodes& x, const Materi
 Eigen::VectorXd thermal_force(mesh::CellType type, const mesh::CellNodes& x,
                               const Material& material, const Eigen::VectorXd& dT);
 
+/// Displacements `u` (3n) [m] of one cell with those of its incompatible modes (3 x 3) behind them,
+/// where it has any: K_aa a = f_a(dT) - K_au u. `dT` (n) [K], or empty.
+Eigen::VectorXd with_inner_modes(mesh::CellType type, const mesh::CellNodes& x,
+                                 const Material& material, const Eigen::VectorXd& u,
+                                 const Eigen::VectorXd& dT);
+
 /// The consistent mass `m` scaled to its diagonal with the same total (Hinton, Rock, Zienkiewicz,
 /// Earthq. Eng. Struct. Dyn. 4, 1976): positive for every cell, where row sums are not.
 void lump_hrz(Eigen::MatrixXd& m);

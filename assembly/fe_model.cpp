@@ -100,6 +100,7 @@ void write_fe_model(H5File& file, const FeModel& model) {
   mesh::write_surfaces(file, model.surfaces);
   write_mass_properties(file, model.mass);
   write_statics(file, model);
+  write_cells(file, model.cells);
 }
 
 FeModel read_fe_model(const std::filesystem::path& path) {
@@ -123,6 +124,7 @@ FeModel read_fe_model(const std::filesystem::path& path) {
   model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
   model.mass = read_mass_properties(file);
   read_statics(file, model);
+  model.cells = read_cells(file, model.nodes);
   return model;
 }
 

@@ -2,12 +2,13 @@
 // The assembled model of one part and its file, schema "clatter/fe/2":
 //   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group
 //   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face type>,
-//   mass/, and what statics need (fe_statics_file.hpp).
+//   mass/, what statics need (fe_statics_file.hpp), and the cells (fe_cells.hpp).
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <string>
 
+#include "assembly/fe_cells.hpp"
 #include "core/h5_file.hpp"
 #include "core/reduced_model.hpp"
 #include "core/sparse.hpp"
@@ -60,8 +61,10 @@ struct FeModel {
   std::map<std::string, Eigen::VectorXd> loads;  // n, forces of unit load cases
   std::map<std::string, Eigen::VectorXd> support_loads;  // n_s: the loads' forces on s itself
   std::map<std::string, Eigen::VectorXd> prescribed;     // n_s: s of the loads that prescribe any
+  std::map<std::string, Eigen::VectorXd> temperature_rise;     // n_nodes [K], of loads with one
   std::map<std::string, std::map<std::string, double>> cases;  // sums of loads
   std::map<std::string, mesh::Surface> surfaces;               // outward
+  FeCells cells;                                               // for stresses
   MassProperties mass;                                         // of the elements and point masses
   std::map<std::string, std::string> load_units;  // "gas" -> "Pa": what one unit of the load is
 

@@ -98,13 +98,14 @@ void read_points(const H5File& file, FeModel& model) {
   check_shape(file, "points/T_s", points.T_s, 6 * n, model.supports.size());
 }
 
-void read_loads_of_supports(const H5File& file, const std::string& group, const FeModel& model,
-                            std::map<std::string, Eigen::VectorXd>& out) {
+/// What some loads have beside their forces.
+void read_of_loads(const H5File& file, const std::string& group, const FeModel& model,
+                   Eigen::Index size, std::map<std::string, Eigen::VectorXd>& out) {
   for (const std::string& load : file.list(group)) {
     const std::string place = group + "/" + load;
     if (!model.loads.contains(load)) refuse(file, place, "no load of that name", "one");
     out[load] = file.read_vector(place);
-    check_dense(file, place, out[load], model.supports.size(), 1);
+    check_dense(file, place, out[load], size, 1);
   }
 }
 
@@ -121,6 +122,8 @@ void write_statics(H5File& file, const FeModel& model) {
   for (const auto& [load, values] : model.support_loads)
     file.write("support_loads/" + load, values);
   for (const auto& [load, values] : model.prescribed) file.write("prescribed/" + load, values);
+  for (const auto& [load, values] : model.temperature_rise)
+    file.write("temperature_rise/" + load, values);
   for (const auto& [name, factors] : model.cases)
     for (const auto& [load, factor] : factors) file.set("cases/" + name, load, factor);
 }
@@ -128,8 +131,9 @@ void write_statics(H5File& file, const FeModel& model) {
 void read_statics(const H5File& file, FeModel& model) {
   read_supports(file, model);
   read_points(file, model);
-  read_loads_of_supports(file, "support_loads", model, model.support_loads);
-  read_loads_of_supports(file, "prescribed", model, model.prescribed);
+  read_of_loads(file, "support_loads", model, model.supports.size(), model.support_loads);
+  read_of_loads(file, "prescribed", model, model.supports.size(), model.prescribed);
+  read_of_loads(file, "temperature_rise", model, model.nodes.rows(), model.temperature_rise);
   for (const std::string& name : file.list("cases"))
     for (const std::string& load : file.attributes("cases/" + name)) {
       const std::string place = "cases/" + name;

@@ -1,13 +1,13 @@
 #pragma once
 // The part of a model's file that statics need: supports, points, forces on supports, prescribed
-// displacements, cases.
+// displacements, temperatures, cases.
 #include "assembly/fe_model.hpp"
 #include "core/h5_file.hpp"
 
 namespace clatter::assembly {
 
-/// Groups `supports`, `points`, `support_loads`, `prescribed`, `cases`; each only when there is
-/// any.
+/// Groups `supports`, `points`, `support_loads`, `prescribed`, `temperature_rise`, `cases`; each
+/// only when there is any.
 void write_statics(H5File& file, const FeModel& model);
 
 /// Reads them into a model that has its matrices and loads; checks shapes, ranges, finite values

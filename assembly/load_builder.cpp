@@ -140,6 +140,8 @@ void LoadBuilder::build(FeModel& model) {
     model.load_units[load.name] = load.unit;
     if (e.supports() > 0) model.support_loads[load.name] = f_s;
     if (load.kind == LoadSpec::Kind::kDisplacement) model.prescribed[load.name] = prescribed(load);
+    if (load.kind == LoadSpec::Kind::kTemperature)
+      model.temperature_rise[load.name] = temperature_rise(load);
   }
   model.cases = recipe_.cases;
 }

@@ -39,13 +39,23 @@ void write_mesh(H5File& file, const Mesh& mesh) {
   file.set("/", "name", mesh.name);
   file.write("nodes", mesh.nodes);
   file.write("regions", mesh.regions);
-  for (size_t b = 0; b < mesh.cells.size(); ++b) {
-    write_block(file, mesh.cells[b], fmt::format("cells/{}", b));
-  }
+  write_cells(file, mesh.cells);
   write_surfaces(file, mesh.surfaces);
   for (const auto& [name, ids] : mesh.node_sets) file.write("node_sets/" + name, ids);
   for (const auto& [name, values] : mesh.fields) file.write("fields/" + name, values);
   if (!mesh.node_ids.empty()) file.write("node_ids", mesh.node_ids);
+}
+
+void write_cells(H5File& file, const std::vector<CellBlock>& cells) {
+  for (size_t b = 0; b < cells.size(); ++b) write_block(file, cells[b], fmt::format("cells/{}", b));
+}
+
+std::vector<CellBlock> read_cells(const H5File& file) {
+  std::vector<CellBlock> cells;
+  const size_t n_blocks = file.list("cells").size();
+  for (size_t b = 0; b < n_blocks; ++b)
+    cells.push_back(read_block(file, fmt::format("cells/{}", b), file.path().string()));
+  return cells;
 }
 
 void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces) {
@@ -77,10 +87,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   mesh.name = file.get_string("/", "name");
   mesh.nodes = file.read_rows("nodes");
   mesh.regions = file.read_strings("regions");
-  const size_t n_blocks = file.list("cells").size();
-  for (size_t b = 0; b < n_blocks; ++b) {
-    mesh.cells.push_back(read_block(file, fmt::format("cells/{}", b), where));
-  }
+  mesh.cells = read_cells(file);
   mesh.surfaces = read_surfaces(file, mesh.nodes.rows(), where);
   for (const std::string& name : file.list("node_sets")) {
     mesh.node_sets[name] = file.read_ints("node_sets/" + name);

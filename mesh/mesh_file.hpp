@@ -17,6 +17,11 @@ inline constexpr const char* kMeshSchema = "clatter/mesh/2";
 /// Writes `mesh` into an open file; provenance, timing and certificate are the caller's.
 void write_mesh(H5File& file, const Mesh& mesh);
 
+/// Group `cells` of meshes and FE models.
+void write_cells(H5File& file, const std::vector<CellBlock>& cells);
+/// InputError for unknown cell types; node numbers and regions are not checked.
+std::vector<CellBlock> read_cells(const H5File& file);
+
 /// Group `surfaces` of meshes and FE models: a dataset a face type.
 void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces);
 /// InputError, beginning with `where`, for unknown face types and node numbers out of range.

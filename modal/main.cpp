@@ -29,7 +29,8 @@ struct Arguments {
   double fmax_hz = 0.0;
   bool compare = false;
   bool statics = false;
-  std::vector<std::string> cases;  // of --static
+  std::vector<std::string> cases;      // of --static
+  std::vector<std::string> stress_at;  // of --static
 };
 
 std::string number(double value) { return json_number(value); }
@@ -95,9 +96,14 @@ int solve_static(const Arguments& arguments, const CommonOptions& common) {
   const Path& input = arguments.inputs.front();
   const assembly::FeModel model = assembly::read_fe_model(input);
   clock.lap(fmt::format("read {} DoF", model.size()));
+  const std::vector<int32_t> stress_nodes = modal::nodes_at(model, arguments.stress_at);
   const modal::StaticSolution solution = modal::solve_static(model, arguments.cases);
   clock.lap(fmt::format("{} cases", solution.cases.size()));
   for (const std::string& line : modal::describe(model, solution)) say(line);
+  for (const int32_t node : stress_nodes)
+    for (const modal::StaticCase& solved : solution.cases)
+      for (const std::string& line : modal::describe_stress(model, solved, node))
+        fmt::print("{}\n", line);
   H5File file = H5File::create(arguments.output);
   modal::write_static(file, model, solution);
   write_provenance(file, {modal::kStaticSchema, "", {input}});
@@ -136,10 +142,12 @@ int run(int argc, char** argv) {
   CommandLine line("clatter-modal",
                    "Modes of an assembled or reduced part, with a proof that none is missing; "
                    "--compare shows how well a reduced model keeps them; --static solves its load "
-                   "cases for displacements and reactions.",
+                   "cases for displacements, stresses and reactions.",
                    "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"
                    "         clatter-modal --compare block.fe.h5 block.rom.h5\n"
-                   "         clatter-modal block.fe.h5 --static --case weight -o block.static.h5");
+                   "         clatter-modal block.fe.h5 --static --case weight -o block.static.h5\n"
+                   "         clatter-modal block.fe.h5 --static --stress-at 0.1,0,0.25 -o "
+                   "block.static.h5");
   line.positional("model", arguments.inputs, "assembled (.fe.h5) or reduced (.rom.h5) part");
   line.option("-c,--config", arguments.config, "what to compute (.modes.toml)");
   line.option("-o,--output", arguments.output, "modes (.modes.h5)");
@@ -148,6 +156,9 @@ int run(int argc, char** argv) {
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");
   line.flag("--static", arguments.statics, "solve the load cases of an assembled part");
   line.option("--case", arguments.cases, "load or case to solve, any number; default: all");
+  line.option("--stress-at", arguments.stress_at,
+              "print stresses of --static here, any number: node number, x,y,z in metres, or a "
+              "sensor's name");
   if (!line.parse(argc, argv)) return line.exit_code();
   if (arguments.statics) return solve_static(arguments, line.common());
   if (arguments.count < 0 || arguments.fmax_hz < 0.0) {

@@ -13,12 +13,23 @@ RowMatrix rows_of(const Eigen::VectorXd& values, Eigen::Index width) {
   return Eigen::Map<const RowMatrix>(values.data(), values.size() / width, width);
 }
 
+void write_stress(H5File& file, const assembly::FeModel& model, const StaticCase& solved) {
+  for (size_t r = 0; r < solved.stress.size(); ++r) {
+    const std::string& region = model.cells.regions[r];
+    const assembly::RegionStress& stress = solved.stress[r];
+    if (!file.has("stress_nodes/" + region)) file.write("stress_nodes/" + region, stress.nodes);
+    file.write("cases/" + solved.name + "/stress/" + region, RowMatrix(stress.stress));
+    file.write("cases/" + solved.name + "/von_mises/" + region, stress.von_mises);
+  }
+}
+
 }  // namespace
 
 void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution) {
   file.set("/", "name", model.name);
   file.write("nodes", model.nodes);
   mesh::write_surfaces(file, model.surfaces);
+  if (!model.cells.node_ids.empty()) file.write("node_ids", model.cells.node_ids);
   const assembly::FeSupports& supports = model.supports;
   if (supports.size() > 0) {
     file.write("supports/names", supports.names);
@@ -42,6 +53,7 @@ void write_static(H5File& file, const assembly::FeModel& model, const StaticSolu
       file.write(place + "support_sums", one.support_sums);
     }
     file.write(place + "applied", one.applied);
+    write_stress(file, model, one);
     file.set("cases/" + one.name, "energy", one.energy);
     file.set("cases/" + one.name, "residual", one.residual);
     file.set("cases/" + one.name, "balance", one.balance);

@@ -37,6 +37,18 @@ std::vector<std::string> all_names(const assembly::FeModel& model) {
   return names;
 }
 
+/// Of all loads of a case [K] (n_nodes); empty when none has a temperature.
+Eigen::VectorXd temperature_rise(const assembly::FeModel& model, const Factors& loads) {
+  Eigen::VectorXd sum;
+  for (const auto& [load, factor] : loads) {
+    const auto found = model.temperature_rise.find(load);
+    if (found == model.temperature_rise.end()) continue;
+    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(model.nodes.rows());
+    sum += factor * found->second;
+  }
+  return sum;
+}
+
 /// Columns: f (n), f_s (n_s) and s (n_s) of each case.
 struct RightSides {
   Eigen::MatrixXd f, f_s, s;
@@ -147,11 +159,14 @@ StaticSolution solve_static(const assembly::FeModel& model,
     StaticCase found = recover(model, q.col(col), sides.f.col(col), sides.f_s.col(col),
                                sides.s.col(col), balanced);
     found.name = names[c];
+    found.loads = factors_of(model, names[c]);
     // Written so that NaN is refused too.
     if (!(found.residual <= kTolerance && found.balance <= kTolerance))
       throw NumericsError(fmt::format(
           "{}: {}: found residual {:.3g} and balance of forces {:.3g}, expected at most {:.0e}",
           model.name, found.name, found.residual, found.balance, kTolerance));
+    found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
+                                          temperature_rise(model, found.loads));
     solution.cases.push_back(std::move(found));
   }
   return solution;
@@ -174,6 +189,7 @@ std::vector<std::string> describe(const assembly::FeModel& model, const StaticSo
                     "{:.1e}, balance {:.1e}",
                     one.name, most, model.nodes(largest, 0), model.nodes(largest, 1),
                     model.nodes(largest, 2), one.energy, one.residual, one.balance));
+    if (!one.stress.empty()) lines.push_back(describe_largest_stress(model, one));
     for (Eigen::Index s = 0; s < one.support_sums.rows(); ++s)
       lines.push_back(
           fmt::format("  {}: force ({:.6g}, {:.6g}, {:.6g}) N, moment about the origin "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/fe_model.hpp"
+#include "assembly/stress.hpp"
 #include "modal/factor/cholmod_factor.hpp"
 
 namespace clatter::modal {
@@ -15,15 +16,17 @@ inline constexpr const char* kStaticSchema = "clatter/static/1";
 /// The answer to one load case.
 struct StaticCase {
   std::string name;
-  Eigen::VectorXd displacement;  // 3 n_nodes [m]: row 3 a + d is node a, direction d
-  Eigen::VectorXd points;        // 6 n_points: x y z [m], rx ry rz [rad] of each
-  Eigen::VectorXd reactions;     // n_s [N, N m]: what the supports do to the part
+  std::map<std::string, double> loads;  // factor of each
+  Eigen::VectorXd displacement;         // 3 n_nodes [m]: row 3 a + d is node a, direction d
+  Eigen::VectorXd points;               // 6 n_points: x y z [m], rx ry rz [rad] of each
+  Eigen::VectorXd reactions;            // n_s [N, N m]: what the supports do to the part
   Eigen::MatrixXd support_sums;  // supports x 6: their force [N] and moment about the origin [N m]
   Eigen::VectorXd applied;       // 6: force and moment about the origin of all loads
   double energy = 0.0;           // strain energy [J]
   double residual = 0.0;         // |K q + K_sq^T s - f| / |f|
   double balance = 0.0;          // |applied + reactions| over the forces that cancel; moments over
                                  // half the part's diagonal
+  std::vector<assembly::RegionStress> stress;  // a region each; none when the model has no cells
 };
 
 struct StaticSolution {
@@ -32,11 +35,36 @@ struct StaticSolution {
 };
 
 /// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
-///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s.
-/// One factorisation serves all. InputError for an unknown name, a model without loads, and a part
-/// whose supports leave rigid motions free (they are named); NumericsError when the stiffness is
-/// singular otherwise, or when residual or balance exceed 1e-8.
+///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s,
+/// and stresses from u (assembly/stress.hpp). One factorisation serves all. InputError for an
+/// unknown name, a model without loads, and a part whose supports leave rigid motions free (they
+/// are named); NumericsError when the stiffness is singular otherwise, or when residual or balance
+/// exceed 1e-8.
 StaticSolution solve_static(const assembly::FeModel& model, const std::vector<std::string>& wanted);
+
+/// Stresses at the nodes of one region and case.
+struct NodeStress {
+  std::string region;
+  int32_t node = 0;
+  assembly::Voigt stress;  // xx yy zz xy yz zx [Pa]
+  double von_mises = 0.0;  // [Pa]
+};
+
+/// The largest von Mises stress of a case that has stresses.
+NodeStress largest_stress(const assembly::FeModel& model, const StaticCase& solved);
+
+/// Says it in a line.
+std::string describe_largest_stress(const assembly::FeModel& model, const StaticCase& solved);
+
+/// Nodes at places: a node by its number ("17"), the node nearest to a place in metres
+/// ("2,0,0.6"), or a sensor by its name. InputError for a place that is none of these and for a
+/// model without cells.
+std::vector<int32_t> nodes_at(const assembly::FeModel& model,
+                              const std::vector<std::string>& places);
+
+/// The stresses at a node: a line for each region there.
+std::vector<std::string> describe_stress(const assembly::FeModel& model, const StaticCase& solved,
+                                         int32_t node);
 
 /// Writes the cases, nodes, surfaces, points and supports; provenance and timing are the caller's.
 void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution);

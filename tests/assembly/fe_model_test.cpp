@@ -73,6 +73,52 @@ TEST_F(FeModelFile, ReturnsWhatWasWritten) {
   EXPECT_THROW(back.set("edn"), InputError);
 }
 
+TEST_F(FeModelFile, ReturnsTheCellsAndTheirMaterials) {
+  FeModel model = sample();
+  Axes axes;
+  axes.kind = Axes::Kind::kCylindrical;
+  axes.origin << 1.0, 2.0, 3.0;
+  axes.frame << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  Material wood{0.0, 0.0, 450.0};
+  wood.elasticity = Elasticity::Identity() * 1e10;
+  wood.expansion << 1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6;
+  wood.axes = axes;
+  wood.integration.hex20 = Integration::kReduced;
+  model.cells.materials = {wood};
+  for (int32_t a = 0; a < model.nodes.rows(); ++a) model.cells.node_ids.push_back(3 * a + 5);
+  model.temperature_rise["gas"] = Eigen::VectorXd::LinSpaced(model.nodes.rows(), 0.0, 9.0);
+  save(model);
+  const FeModel back = read_fe_model(path_);
+  EXPECT_EQ(back.cells.regions, model.cells.regions);
+  EXPECT_EQ(back.cells.node_ids, model.cells.node_ids);
+  ASSERT_EQ(back.cells.blocks.size(), model.cells.blocks.size());
+  EXPECT_EQ(back.cells.blocks[0].type, model.cells.blocks[0].type);
+  EXPECT_EQ(back.cells.blocks[0].nodes, model.cells.blocks[0].nodes);
+  const Material& read = back.cells.materials.at(0);
+  const Eigen::Vector3d place(0.3, 0.1, 0.2);
+  EXPECT_EQ(read.elasticity_at(place), wood.elasticity_at(place));
+  EXPECT_EQ(read.expansion_at(place), wood.expansion_at(place));
+  EXPECT_EQ(read.density, 450.0);
+  EXPECT_EQ(read.integration.hex20, Integration::kReduced);
+  EXPECT_EQ(read.integration.hex8, Integration::kIncompatible);
+  EXPECT_EQ(back.temperature_rise.at("gas"), model.temperature_rise.at("gas"));
+}
+
+TEST_F(FeModelFile, RefusesCellsOnNodesThatDoNotExist) {
+  FeModel model = sample();
+  model.cells.blocks[0].nodes(0, 1) = static_cast<int32_t>(model.nodes.rows());
+  save(model);
+  EXPECT_NE(refusal().find("node"), std::string::npos) << refusal();
+}
+
+TEST_F(FeModelFile, RefusesAMaterialWithoutElasticEnergy) {
+  FeModel model = sample();
+  model.cells.materials[0].poisson = 0.5;
+  save(model);
+  EXPECT_NE(refusal().find("materials/0: found E = 2.1e+11, nu = 0.5"), std::string::npos)
+      << refusal();
+}
+
 TEST_F(FeModelFile, RefusesMatricesOfDifferentSize) {
   FeModel model = sample();
   model.M.conservativeResize(model.M.rows() - 1, model.M.cols() - 1);

@@ -60,6 +60,12 @@ loads = { pull = 2.0 }
     EXPECT_NEAR(pull.displacement(3 * a + 2), strain * model.nodes(a, 2), 1e-10 * strain);
     EXPECT_NEAR(pull.displacement(3 * a), -0.3 * strain * model.nodes(a, 0), 1e-10 * strain);
   }
+  ASSERT_EQ(pull.stress.size(), 1u);
+  EXPECT_EQ(pull.stress[0].nodes.size(), static_cast<size_t>(model.nodes.rows()));
+  const assembly::Voigt tension = (assembly::Voigt() << 0, 0, 2000.0 / A, 0, 0, 0).finished();
+  const assembly::StressRows off = pull.stress[0].stress.rowwise() - tension.transpose();
+  EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-9 * tension(2));
+  EXPECT_NEAR(largest_stress(model, pull).von_mises, 2000.0 / A, 1e-9 * tension(2));
   EXPECT_NEAR(pull.energy, 0.5 * 2000.0 * strain * 0.4, 1e-9 * pull.energy);
   // The floor pulls down with all of it, at the middle of the face: M_x = y F, M_y = -x F.
   EXPECT_NEAR(pull.support_sums(0, 2), -2000.0, 1e-7);
@@ -225,15 +231,52 @@ reference = 293.15
     for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
       for (int d = 0; d < 3; ++d)
         EXPECT_NEAR(found.displacement(3 * a + d), 1.2e-3 * mesh.nodes(a, d), 1e-14);
-    // Against the 4.8e6 N that held ends feel.
+    // Against the 4.8e6 N and 2.4e8 Pa that held ends feel.
     EXPECT_LT(found.reactions.cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT(found.stress[0].stress.cwiseAbs().maxCoeff(), 1e-2);
   }
   // Between two floors: stress E alpha dT.
   const FeModel held = model_of(material + kSlide + loads +
                                 "[[support]]\nname = \"roof\"\nsurface = \"z1\"\ndirections = "
                                 "\"z\"\n");
   const double force = 2.0e11 * 1.2e-3 * 0.02;
-  EXPECT_NEAR(solve_static(held, {"warm"}).cases[0].support_sums(3, 2), -force, 1e-9 * force);
+  const StaticCase pressed = solve_static(held, {"warm"}).cases[0];
+  EXPECT_NEAR(pressed.support_sums(3, 2), -force, 1e-9 * force);
+  EXPECT_NEAR(pressed.stress[0].stress.col(2).mean(), -2.4e8, 1e-9 * 2.4e8);
+  EXPECT_NEAR(pressed.stress[0].von_mises.maxCoeff(), 2.4e8, 1e-9 * 2.4e8);
+}
+
+TEST(Statics, StressIsSaidAtANodeNumberAPlaceAndASensor) {
+  FeModel model = bar(std::string(kSlide) + R"(
+[[sensor]]
+name = "gauge"
+surface = "z1"
+near = [0.1, 0.2, 0.4]
+[[load]]
+name = "pull"
+kind = "resultant"
+surface = "z1"
+direction = [0.0, 0.0, 1.0]
+total = 2000.0
+)");
+  for (int32_t a = 0; a < model.nodes.rows(); ++a) model.cells.node_ids.push_back(1000 + a);
+  const StaticSolution solution = solve_static(model, {});
+  const auto said = [&](const std::string& place) {
+    std::string lines;
+    for (const int32_t node : nodes_at(model, {place}))
+      for (const std::string& line : describe_stress(model, solution.cases[0], node)) lines += line;
+    return lines;
+  };
+  EXPECT_NE(said("1007").find("pull: node 1007 at"), std::string::npos) << said("1007");
+  EXPECT_NE(said("1007").find("zz 100000 "), std::string::npos) << said("1007");
+  const std::string corner = said("0.09,0.2,0.4");
+  EXPECT_NE(corner.find("at (0.1000, 0.2000, 0.4000) m, body"), std::string::npos) << corner;
+  EXPECT_EQ(corner, said("gauge"));
+  for (const char* wrong : {"7", "gaug", "0.1,0.2", "1,2,x", ""})
+    EXPECT_THROW(nodes_at(model, {wrong}), InputError) << wrong;
+  model.cells = {};
+  EXPECT_TRUE(solve_static(model, {}).cases[0].stress.empty());
+  EXPECT_THROW(nodes_at(model, {"gauge"}), InputError);
 }
 
 /// Files of one test in a folder of its own.
@@ -294,8 +337,21 @@ TEST_F(StaticFiles, TheModelReadFromItsFileGivesTheSameSolution) {
   EXPECT_EQ((got.displacement - want.displacement).norm(), 0.0);
   EXPECT_EQ((got.reactions - want.reactions).norm(), 0.0);
   EXPECT_EQ((got.points - want.points).norm(), 0.0);
+  EXPECT_EQ((got.stress[0].stress - want.stress[0].stress).norm(), 0.0);
   EXPECT_DOUBLE_EQ(got.points(2), 2.0e-5);
   EXPECT_EQ(back.supports.names, model_.supports.names);
+}
+
+TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAPlaceThatIsNone) {
+  EXPECT_EQ(run("bar.fe.h5 --static --stress-at nowhere -o bar.static.h5"), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "bar.static.h5"));
+  ASSERT_EQ(run("bar.fe.h5 --static --case both --stress-at 1 -o bar.static.h5"), 0);
+  const StaticCase want = solve_static(model_, {"both"}).cases[0];
+  const H5File file = open_artefact(folder_ / "bar.static.h5", kStaticSchema);
+  EXPECT_EQ(file.read_ints("stress_nodes/body"), want.stress[0].nodes);
+  EXPECT_LT((file.read_rows("cases/both/stress/body") - want.stress[0].stress).norm(),
+            1e-12 * want.stress[0].stress.norm());
+  EXPECT_EQ(file.read_vector("cases/both/von_mises/body").size(), model_.nodes.rows());
 }
 
 TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {

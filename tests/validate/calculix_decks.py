@@ -8,20 +8,18 @@ Each deck is read, assembled and solved by the executables alone; what they find
 the nodal displacements printed in the .dat.ref (or .frd.ref) file: the largest difference over the largest value.
 """
 import gzip
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
 import h5py
 import numpy as np
 
+import docs_table
 import reduced_mass
+from stage_run import run
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
 DECKS = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
 PRINTED = 6e-7  # seven digits are printed
 
@@ -118,11 +116,16 @@ def displacements(name):
     return found
 
 
-def run(stage, *arguments, folder):
-    done = subprocess.run([BIN / f"clatter-{stage}", *map(str, arguments), "--quiet"], cwd=folder, text=True,
-                          capture_output=True, timeout=300)
-    if done.returncode:
-        raise RuntimeError(f"clatter-{stage}: {done.stderr.strip()}")
+def assemble(deck, folder):
+    """a.mesh.h5, a.fe.toml and a.fe.h5 of a deck in `folder`."""
+    run("mesh", deck, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
+    run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+
+
+def row_of_node(folder):
+    """{number in the deck: row in our files}."""
+    with h5py.File(folder / "a.mesh.h5") as file:
+        return {int(label): row for row, label in enumerate(file["node_ids"][()])}
 
 
 def compare(name, folder):
@@ -130,8 +133,7 @@ def compare(name, folder):
     name, _, mass = name.partition(", ")
     deck = folder / f"{name}.inp"
     deck.write_text("\n".join(reference(name, ".inp")) + "\n")
-    run("mesh", deck.name, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
-    run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
+    assemble(deck.name, folder)
     theirs = frequencies(name)
     if len(theirs):
         run("modal", "a.fe.h5", "--count", len(theirs), "-o", "a.modes.h5", folder=folder)
@@ -141,8 +143,7 @@ def compare(name, folder):
             ours = reduced_mass.frequencies(folder / "a.mesh.h5", folder / "a.fe.h5", 7.8e-9, len(theirs))
         return "frequencies", len(theirs), float(np.abs(ours / theirs - 1).max())
     run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
-    with h5py.File(folder / "a.mesh.h5") as file:
-        row_of = {int(label): row for row, label in enumerate(file["node_ids"][()])}
+    row_of = row_of_node(folder)
     with h5py.File(folder / "a.static.h5") as file:
         ours = file["cases/step_1/displacement"][()].reshape(-1, 3)
     printed = {node: value for node, value in displacements(name).items() if node in row_of}
@@ -165,21 +166,11 @@ def table():
     return rows
 
 
-def markdown(rows):
-    lines = ["| deck | shows | compared | largest difference | |", "|---|---|---|---|---|"]
-    lines += [f"| {name} | {shows} | {count} {quantity} | {error:.1e} | {remark} |"
-              for name, shows, quantity, count, error, _, remark in rows]
-    return "\n".join(lines)
-
-
 def main():
-    text = markdown(table())
-    print(text)
-    if "--write" in sys.argv[1:]:
-        page = SOURCE / "docs/validation.md"
-        before, rest = page.read_text().split("<!-- calculix_decks -->\n", 1)
-        after = rest.split("<!-- end -->", 1)[1]
-        page.write_text(f"{before}<!-- calculix_decks -->\n{text}\n<!-- end -->{after}")
+    rows = [(name, shows, f"{count} {quantity}", f"{error:.1e}", remark)
+            for name, shows, quantity, count, error, _, remark in table()]
+    head = ("deck", "shows", "compared", "largest difference", "")
+    docs_table.finish("calculix_decks", docs_table.markdown(head, rows), sys.argv[1:])
 
 
 if __name__ == "__main__":

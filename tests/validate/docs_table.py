@@ -1,0 +1,24 @@
+"""Tables of docs/validation.md that commands write: each stands between <!-- name --> and <!-- end -->."""
+from stage_run import SOURCE
+
+PAGE = SOURCE / "docs/validation.md"
+
+
+def markdown(head, rows):
+    """A table: `head` and each of `rows` are lists of words."""
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def put(name, text):
+    """Puts `text` in the place of that name."""
+    before, rest = PAGE.read_text().split(f"<!-- {name} -->\n", 1)
+    after = rest.split("<!-- end -->", 1)[1]
+    PAGE.write_text(f"{before}<!-- {name} -->\n{text}\n<!-- end -->{after}")
+
+
+def finish(name, text, arguments):
+    """Prints the table; --write among the arguments puts it into the page."""
+    print(text)
+    if "--write" in arguments:
+        put(name, text)
