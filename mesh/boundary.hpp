@@ -48,7 +48,7 @@ SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface);
 /// Volume of all cells of a region, -1 for all [m3]; exact.
 double cell_volume(const Mesh& mesh, int32_t region = -1);
 
-/// How many skin faces have a normal that points into their cell; 0 in a proper mesh.
+/// How many skin faces have a normal that points into their cell, or no cell; 0 in a proper mesh.
 int64_t count_inward(const Mesh& mesh, const Surface& skin);
 
 }  // namespace clatter::mesh

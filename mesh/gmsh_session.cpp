@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mesh/gmsh_call.hpp"
+#include "mesh/skin_crossing.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 // OpenCASCADE's STEP reader keeps some memory for the life of the process; that is not ours to
@@ -155,19 +156,54 @@ std::string GmshSession::library_version() {
 }
 
 void GmshSession::generate(const SizeSettings& settings) {
+  order_ = 1;
   try {
     gmsh_call("gmsh: meshing", [&] {
       synchronize();
       gmsh::model::mesh::clear();
       set_sizes(settings);
       gmsh::model::mesh::generate(3);
-      order_ = 1;
     });
   } catch (const NumericsError& error) {
-    // Faces cut each other where chords leave the wall between them.
-    throw NumericsError(fmt::format(
-        "{}: choose smaller elements or more per turn where walls are thin", error.what()));
+    throw NumericsError(
+        fmt::format("{}: choose smaller elements or more per turn where walls are thin{}",
+                    error.what(), reason_of_failure()));
   }
+}
+
+RawMesh GmshSession::generate_skin(const SizeSettings& settings) {
+  return gmsh_call("gmsh: meshing faces", [&] {
+    synchronize();
+    gmsh::model::mesh::clear();
+    set_sizes(settings);
+    gmsh::model::mesh::generate(2);
+    gmsh::model::mesh::setOrder(2);
+    order_ = 2;
+    return extract_skin();
+  });
+}
+
+RawMesh GmshSession::extract_skin() const {
+  const int type = order_ == 2 ? kTri6 : kTri3, columns = order_ == 2 ? 6 : 3;
+  RawMesh mesh;
+  NodeNumbers numbers;
+  gmsh::vectorpair faces;
+  gmsh::model::getEntities(faces, 2);
+  for (const auto& [dim, tag] : faces) numbers.use(element_nodes(type, tag));
+  numbers.close();
+  for (const auto& [dim, tag] : faces)
+    mesh.face_cells[tag] = table_of(element_nodes(type, tag), columns, numbers);
+  mesh.nodes = coordinates_of(numbers);
+  mesh.node_tags = numbers.tags();
+  return mesh;
+}
+
+// Faces cut each other where chords leave no wall between them.
+std::string GmshSession::reason_of_failure() const {
+  const RawMesh skin = gmsh_call("gmsh: reading the faces", [&] { return extract_skin(); });
+  const std::string crossings = describe_crossings(find_crossings(skin.nodes, skin.face_cells));
+  return crossings.empty() ? ""
+                           : fmt::format("; to blame, as their triangles cross: {}", crossings);
 }
 
 void GmshSession::replace_cells(const RawMesh& raw) {

@@ -45,6 +45,22 @@ struct RawMesh {
       face_cells;  // by face tag: tri3 or tri6, orientation as the face has it
 };
 
+/// Elements of one kind in one entity of a Gmsh file.
+struct MshElements {
+  int dim = 0, gmsh_type = 0, nodes_each = 0;
+  std::string kind;                 // Gmsh's name: "Tetrahedron 10"
+  std::vector<int> groups;          // physical groups of the entity
+  std::vector<size_t> tags, nodes;  // numbers in the file; nodes_each a row
+};
+
+/// A Gmsh file as Gmsh has read it.
+struct MshContents {
+  std::vector<size_t> node_tags;
+  std::vector<double> coordinates;  // three a node
+  std::vector<MshElements> elements;
+  std::vector<std::string> warnings;
+};
+
 class GmshSession {
  public:
   explicit GmshSession(const std::string& model_name);
@@ -86,8 +102,13 @@ class GmshSession {
   std::vector<FaceFacts> boundary_faces();
 
   // --- mesh (gmsh_session.cpp) ---
-  /// Linear tetrahedra in all solids, anew at each call. NumericsError when Gmsh fails.
+  /// Linear tetrahedra in all solids, anew at each call. NumericsError, with the faces that cut
+  /// each other, when Gmsh fails; it then stays locked ("I'm busy", 4.8.4), so the session can mesh
+  /// no more.
   void generate(const SizeSettings& settings);
+  /// Quadratic triangles on all faces, no cells: nodes and face_cells of a mesh for integrals over
+  /// the geometry. Forgets the mesh before.
+  RawMesh generate_skin(const SizeSettings& settings);
   /// Replaces the cells and inner nodes of a linear mesh by those of `raw`; rows of `nodes` beyond
   /// `node_tags` are new nodes. The boundary stays.
   void replace_cells(const RawMesh& raw);
@@ -98,8 +119,15 @@ class GmshSession {
   RawMesh extract() const;
   static std::string library_version();
 
+  // --- Gmsh's own files (gmsh_file.cpp) ---
+  /// Reads an MSH file. It is read in a child process first: where a damaged file makes Gmsh crash,
+  /// that is an InputError, as all that Gmsh reports.
+  MshContents import_msh(const std::filesystem::path& path);
+
  private:
   void synchronize();
+  RawMesh extract_skin() const;
+  std::string reason_of_failure() const;
   bool synchronized_ = false;
   int order_ = 1;
 };

@@ -16,6 +16,7 @@
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/metis_partition.hpp"
+#include "mesh/msh_reader.hpp"
 
 namespace {
 
@@ -42,6 +43,8 @@ A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read as it
 beside its mesh (materials, couplings, supports, loads) goes to the fe.toml of the next stage:
   clatter-mesh part.inp --units mm-t-s -o part.mesh.h5 --recipe part.fe.toml
   clatter-mesh part.bdf --units m-kg-s --ignore CQUAD4 -o part.mesh.h5
+  clatter-mesh part.msh --units mm-t-s -o part.mesh.h5     (Gmsh, MSH 2 or 4: groups are regions,
+                                                            surfaces and node sets)
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 
@@ -121,7 +124,8 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
 Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitSystem& units,
                           const std::vector<std::string>& ignore, const std::string& name,
                           StepClock& clock) {
-  deck::Deck found = deck::read_deck(source, units, {ignore});
+  deck::Deck found =
+      is_msh(source) ? read_msh(source, units, {ignore}) : deck::read_deck(source, units, {ignore});
   clock.lap("read");
   for (const auto& [card, count] : found.ignored)
     say(fmt::format("{}: ignored {} ({} times)", source.string(), card, count));
@@ -141,7 +145,7 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
 }
 
 Outcome make_mesh(const Arguments& a, StepClock& clock) {
-  if (deck::is_deck(a.input)) {
+  if (deck::is_deck(a.input) || is_msh(a.input)) {
     if (a.units.empty())
       throw InputError(
           fmt::format("{}: found no --units, expected one (decks do not say: clatter "
@@ -207,11 +211,13 @@ int main(int argc, char** argv) {
                      "Builds or imports a part's geometry and meshes it with quadratic "
                      "tetrahedra, or reads the mesh of a deck; proves it and names its surfaces.",
                      kEpilog);
-    line.positional("part", a.input,
-                    "description of the part (.mesh.toml), or a deck (.inp, .bdf, .nas, .dat)");
+    line.positional(
+        "part", a.input,
+        "description of the part (.mesh.toml), or a deck (.inp, .bdf, .nas, .dat, .msh)");
     line.option("-o,--output", a.output, "mesh file to write (.mesh.h5)", true);
     line.option("--units", a.units, "of a deck: mm-t-s, m-kg-s, ... (see below)");
-    line.option("--ignore", a.ignore, "card or keyword of a deck to skip; may be repeated");
+    line.option("--ignore", a.ignore,
+                "card, keyword, element kind or group of a deck to skip; may be repeated");
     line.option("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
     line.option("--write-step", a.step, "also write the geometry (.step or .brep)");

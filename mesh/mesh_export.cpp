@@ -8,6 +8,7 @@
 #include "core/whole_file.hpp"
 #include "mesh/deck/abaqus_writer.hpp"
 #include "mesh/deck/nastran_writer.hpp"
+#include "mesh/msh_writer.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -83,54 +84,13 @@ Text vtu_text(const Mesh& mesh) {
   return out;
 }
 
-// Physical groups: surfaces 1.., regions after them.
-Text msh_text(const Mesh& mesh) {
-  Text out;
-  const size_t n_surfaces = mesh.surfaces.size();
-  put(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
-      n_surfaces + mesh.regions.size());
-  size_t group = 0;
-  int64_t elements = mesh.cell_count();
-  for (const auto& [name, surface] : mesh.surfaces) {
-    put(out, "2 {} \"{}\"\n", ++group, name);
-    elements += surface.face_count();
-  }
-  for (const std::string& name : mesh.regions) put(out, "3 {} \"{}\"\n", ++group, name);
-  put(out, "$EndPhysicalNames\n$Nodes\n{}\n", mesh.nodes.rows());
-  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
-    put(out, "{} {:.16e} {:.16e} {:.16e}\n", n + 1, mesh.nodes(n, 0), mesh.nodes(n, 1),
-        mesh.nodes(n, 2));
-  }
-  put(out, "$EndNodes\n$Elements\n{}\n", elements);
-  int64_t id = 0;
-  group = 0;
-  for (const auto& [name, surface] : mesh.surfaces) {
-    ++group;
-    for (const FaceBlock& block : surface.faces)
-      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
-        put(out, "{} {} 2 {} {}", ++id, traits(block.type).gmsh_type, group, group);
-        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i)
-          put(out, " {}", block.nodes(f, i) + 1);
-        put(out, "\n");
-      }
-  }
-  for_each_cell(mesh, [&](const CellBlock& block, Eigen::Index c, int64_t) {
-    const size_t region = n_surfaces + static_cast<size_t>(block.region) + 1;
-    put(out, "{} {} 2 {} {}", ++id, traits(block.type).gmsh_type, region, region);
-    for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) put(out, " {}", block.nodes(c, i) + 1);
-    put(out, "\n");
-  });
-  put(out, "$EndElements\n");
-  return out;
-}
-
 }  // namespace
 
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   const auto whole = [&](const Text& text) { write_whole_file(path, {text.data(), text.size()}); };
   if (extension == ".vtu") return whole(vtu_text(mesh));
-  if (extension == ".msh") return whole(msh_text(mesh));
+  if (extension == ".msh") return write_whole_file(path, msh_text(mesh));
   if (extension == ".inp") return deck::write_abaqus(mesh, path);
   if (extension == ".bdf" || extension == ".nas" || extension == ".dat")
     return deck::write_nastran(mesh, path);

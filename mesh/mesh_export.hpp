@@ -8,10 +8,11 @@ namespace clatter::mesh {
 
 /// Writes what the extension says; lengths in metres; InputError for another extension.
 ///  .vtu  ParaView: all cells with cell data `region`; node order of VTK
-///  .msh  Gmsh MSH 2.2 text: regions and surfaces as physical groups, one-based
+///  .msh  Gmsh MSH 2.2 text (msh_writer.hpp)
 ///  .inp  Abaqus and CalculiX (deck/abaqus_writer.hpp)
 ///  .bdf, .nas, .dat  Nastran (deck/nastran_writer.hpp)
-/// The decks carry the numbers of an imported mesh, its sets and surfaces, and read back the same.
+/// Decks and .msh carry the numbers of an imported mesh, its sets and surfaces, and read back the
+/// same.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace clatter::mesh

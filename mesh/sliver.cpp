@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 
+#include "mesh/boundary.hpp"
 #include "mesh/cell_graph.hpp"
 #include "mesh/pattern_search.hpp"
+#include "mesh/quality.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -14,6 +17,7 @@ using Eigen::Vector3d;
 constexpr int kSweeps = 8;
 constexpr double kFirstStep = 0.25;  // of the mean edge around the node
 constexpr double kWorthwhile = 0.5;  // degrees that an edit must gain
+constexpr double kBlunt = 100.0;     // degrees: clear of boxes' edges
 
 double smallest_angle(const CellGraph& graph, const std::vector<TetCorners>& cells) {
   double smallest = 180.0;
@@ -85,6 +89,12 @@ Split try_split(CellGraph& graph, size_t cell, const std::vector<Edge>& edges) {
   return split;
 }
 
+void apply(CellGraph& graph, const Split& split, int block) {
+  graph.add_node(split.place);
+  for (size_t c : split.removed) graph.remove_cell(c);
+  for (const TetCorners& corners : split.added) graph.add_cell(corners, block);
+}
+
 std::vector<std::vector<Edge>> splittable(const CellGraph& graph, size_t cell) {
   constexpr std::array<std::array<int, 2>, 3> kOpposite = {{{0, 4}, {1, 3}, {2, 5}}};
   const TetCorners& x = graph.cell(cell);
@@ -108,10 +118,7 @@ bool split_cell(CellGraph& graph, size_t cell) {
     if (split.angle > best.angle) best = std::move(split);
   }
   if (best.angle < before + kWorthwhile) return false;
-  const int block = graph.block_of(cell);
-  graph.add_node(best.place);
-  for (size_t c : best.removed) graph.remove_cell(c);
-  for (const TetCorners& corners : best.added) graph.add_cell(corners, block);
+  apply(graph, best, graph.block_of(cell));
   return true;
 }
 
@@ -139,7 +146,61 @@ bool sweep(CellGraph& graph, const std::vector<size_t>& bad, double target_deg) 
   return changed;
 }
 
+// The cell's numbers in the graph, and the edge opposite to the one between its boundary faces.
+struct Blunt {
+  size_t cell;
+  Edge opposite;
+};
+
+// Each block has a boundary of its own: regions share curved faces too.
+std::vector<Blunt> blunt_corners(const Mesh& mesh) {
+  std::vector<Blunt> found;
+  size_t first = 0;
+  for (const CellBlock& block : mesh.cells) {
+    Mesh alone;
+    alone.cells = {block};
+    std::map<int32_t, std::vector<FaceKey>> faces;
+    for (const auto& [key, face] : boundary_faces(alone)) faces[face.cell].push_back(key);
+    for (const auto& [c, keys] : faces) {
+      if (keys.size() != 2) continue;
+      Eigen::Matrix<double, 4, 3> x;
+      for (int i = 0; i < 4; ++i) x.row(i) = mesh.nodes.row(block.nodes(c, i));
+      const auto angles = dihedral_angles(x);
+      const auto in_both = [&](int32_t node) {
+        return std::all_of(keys.begin(), keys.end(), [&](const FaceKey& key) {
+          return std::find(key.begin(), key.end(), node) != key.end();
+        });
+      };
+      for (int e = 0; e < 6; ++e) {
+        const int32_t a = block.nodes(c, kTetEdges[e][0]), b = block.nodes(c, kTetEdges[e][1]);
+        if (angles[e] < kBlunt || !in_both(a) || !in_both(b)) continue;
+        Edge opposite;
+        std::copy_if(block.nodes.row(c).begin(), block.nodes.row(c).end(), opposite.begin(),
+                     [&](int32_t node) { return node != a && node != b; });
+        found.push_back({first + static_cast<size_t>(c), opposite});
+      }
+    }
+    first += static_cast<size_t>(block.nodes.rows());
+  }
+  return found;
+}
+
 }  // namespace
+
+int64_t split_blunt_corners(Mesh& mesh, double least_deg) {
+  CellGraph graph(mesh);
+  int64_t count = 0;
+  for (const Blunt& blunt : blunt_corners(mesh)) {
+    const auto [c, d] = blunt.opposite;
+    if (!graph.alive(blunt.cell) || graph.boundary_edge(c, d)) continue;
+    const Split split = try_split(graph, blunt.cell, {blunt.opposite});
+    if (split.angle < least_deg) continue;
+    apply(graph, split, graph.block_of(blunt.cell));
+    ++count;
+  }
+  graph.store(mesh);
+  return count;
+}
 
 SliverReport lift_slivers(Mesh& mesh, double target_deg) {
   CellGraph graph(mesh);

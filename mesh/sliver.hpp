@@ -26,4 +26,10 @@ struct SliverReport {
 /// valid, cells are renumbered within their block. InputError for another cell type.
 SliverReport lift_slivers(Mesh& mesh, double target_deg);
 
+/// Divides cells that have two faces on the boundary with more than a right angle between them:
+/// both would lie in one round face, and once curved to it such a cell is flat there. The edge
+/// opposite gets a node, placed as above. Only where no cell gets an angle below `least_deg`.
+/// tet4 meshes; returns how many were divided.
+int64_t split_blunt_corners(Mesh& mesh, double least_deg);
+
 }  // namespace clatter::mesh

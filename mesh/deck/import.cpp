@@ -38,17 +38,21 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
     throw InputError(fmt::format("{}: found extension '{}', expected .inp, .bdf, .nas or .dat",
                                  path.string(), extension));
   Deck deck = is_nastran(extension) ? read_nastran(path, options) : read_abaqus(path, options);
+  finish_deck(deck, units, path.string());
+  return deck;
+}
+
+void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where) {
   if (deck.mesh.cell_count() == 0)
-    throw InputError(fmt::format("{}: found no solid cells, expected some", path.string()));
+    throw InputError(fmt::format("{}: found no solid cells, expected some", where));
   convert_units(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
-  check_structure(deck.mesh, path.string());
+  check_structure(deck.mesh, where);
   const ValidityReport validity = check_validity(deck.mesh);
   if (!validity.invalid.empty())
     throw InputError(fmt::format(
-        "{}: {} of {} cells are inverted or folded, expected det J > 0: {}", path.string(),
+        "{}: {} of {} cells are inverted or folded, expected det J > 0: {}", where,
         validity.invalid.size(), deck.mesh.cell_count(), describe_invalid(validity, 3)));
-  return deck;
 }
 
 }  // namespace clatter::mesh::deck

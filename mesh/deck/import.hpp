@@ -18,4 +18,8 @@ bool is_deck(const std::filesystem::path& path);
 Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options);
 
+/// What read_deck() does to any reader's deck: to SI, surface "skin", proof. `where` begins
+/// messages.
+void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where);
+
 }  // namespace clatter::mesh::deck

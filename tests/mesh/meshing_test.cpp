@@ -102,7 +102,7 @@ TEST(Gmsh, HardG2_FoldedCellsBehindAThinRoundWallAreFoundAndRepaired) {
     Mesh mesh;
     mesh.nodes = raw.nodes;
     mesh.regions = {"solid"};
-    mesh.cells = {{CellType::kTet10, 0, raw.cells.begin()->second}};
+    mesh.cells = {{CellType::kTet10, 0, raw.cells.begin()->second, {}}};
     return mesh;
   };
   Mesh mesh = as_mesh();

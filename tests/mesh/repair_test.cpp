@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "mesh/quality.hpp"
+#include "mesh/skin_crossing.hpp"
 #include "mesh/sliver.hpp"
+#include "mesh/straighten.hpp"
 #include "mesh/unfold.hpp"
 #include "support.hpp"
 
@@ -57,6 +59,69 @@ TEST(Unfold, BoundaryStaysAndFreeNodesAloneMove) {
   EXPECT_EQ(mesh.nodes(4, 0), 0.2);
   EXPECT_EQ(mesh.nodes.row(9), before.row(9));
   EXPECT_EQ(check_validity(mesh).invalid.size(), 1u);
+}
+
+// The middle of edge 0-1 pushed in by half the edge: with a bow of 1/4 of it left, 1 - 4 x 0.125
+// (the derivative of the edge's map at corner 0) stays positive.
+TEST(Straighten, HalvesTheBowUntilTheCellIsValidAndTellsHowFar) {
+  Mesh mesh = testing::one_cell();
+  mesh.nodes(4, 0) -= 0.5;
+  ASSERT_EQ(check_validity(mesh).invalid.size(), 1u);
+  const std::vector<PulledNode> pulled = straighten_cells(mesh, 0.05);
+  EXPECT_TRUE(check_validity(mesh).invalid.empty());
+  ASSERT_EQ(pulled.size(), 1u);  // the other edges are straight: nothing to pull
+  EXPECT_EQ(pulled[0].node, 4);
+  EXPECT_EQ(pulled[0].edge, 1.0);
+  EXPECT_EQ(pulled[0].distance, 0.375);
+  EXPECT_EQ(mesh.nodes(4, 0), 0.375);
+}
+
+TEST(Straighten, ValidCellsKeepTheirBow) {
+  Mesh mesh = testing::one_cell();
+  mesh.nodes(4, 2) -= 0.05;
+  const RowMatrix before = mesh.nodes;
+  EXPECT_TRUE(straighten_cells(mesh, 0.05).empty());
+  EXPECT_EQ(mesh.nodes, before);
+}
+
+// An octahedron, flat at its top edges: cell 0 has two faces on the boundary with a blunt angle at
+// the edge between them, and its opposite edge, the axis 4-5, is inside.
+TEST(Sliver, ACellWithTwoFacesInOneRoundFaceIsDivided) {
+  Mesh mesh;
+  mesh.nodes.resize(6, 3);
+  mesh.nodes << 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 0.5, 0, 0, -0.5;
+  mesh.regions = {"solid"};
+  CellBlock block;
+  block.type = CellType::kTet4;
+  block.nodes.resize(4, 4);
+  block.nodes << 4, 5, 1, 0, 4, 5, 2, 1, 4, 5, 3, 2, 4, 5, 0, 3;
+  mesh.cells = {block};
+  const double volume = cell_volume(mesh);
+  ASSERT_GT(volume, 0.0);
+  EXPECT_EQ(split_blunt_corners(mesh, 89.0), 0);  // the pieces would have sharper angles
+  EXPECT_EQ(split_blunt_corners(mesh, 8.0), 0);   // 70.5 degrees at the equator: not blunt
+  mesh.nodes.col(2) *= 3.0;
+  EXPECT_EQ(split_blunt_corners(mesh, 8.0), 1);  // one node on the axis serves all four cells
+  EXPECT_EQ(mesh.cell_count(), 8);
+  EXPECT_NEAR(cell_volume(mesh), 3.0 * volume, 1e-15);
+}
+
+// Face 1 lies in z = 0; an edge of face 2 goes through it, face 3 stands beside.
+TEST(SkinCrossing, NamesTheFacesAndThePlace) {
+  RowMatrix nodes(9, 3);
+  nodes << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, 9, 9, 1, 3, 3, -1, 3, 3, 1, 9, 9, 2;
+  std::map<int, IndexMatrix> triangles;
+  for (int face : {1, 2, 3}) triangles[face].resize(1, 3);
+  triangles[1] << 0, 1, 2;
+  triangles[2] << 3, 4, 5;
+  triangles[3] << 6, 7, 8;
+  const auto found = find_crossings(nodes, triangles);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].face, 1);
+  EXPECT_EQ(found[0].other, 2);
+  EXPECT_EQ(found[0].place, Eigen::Vector3d(1, 1, 0));
+  triangles.erase(2);
+  EXPECT_TRUE(find_crossings(nodes, triangles).empty());
 }
 
 }  // namespace

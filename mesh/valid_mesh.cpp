@@ -1,0 +1,192 @@
+#include "mesh/valid_mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/sliver.hpp"
+#include "mesh/straighten.hpp"
+#include "mesh/unfold.hpp"
+#include "mesh/validity.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kSpotFactor = 0.6;    // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;    // and where cells folded
+constexpr double kLargestPull = 0.05;  // of the edge
+constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
+
+Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_unit) {
+  Mesh mesh;
+  mesh.nodes = raw.nodes * metres_per_unit;
+  for (const RegionSolids& region : part.regions) {
+    Eigen::Index rows = 0;
+    for (Solid s : region.solids) rows += raw.cells.at(s).rows();
+    CellBlock block{CellType::kTet10, static_cast<int32_t>(mesh.regions.size()), {}, {}};
+    block.nodes.resize(rows, 10);
+    rows = 0;
+    for (Solid s : region.solids) {
+      const IndexMatrix& cells = raw.cells.at(s);
+      block.nodes.middleRows(rows, cells.rows()) = cells;
+      rows += cells.rows();
+    }
+    mesh.regions.push_back(region.name);
+    mesh.cells.push_back(std::move(block));
+  }
+  return mesh;
+}
+
+// Four corner rows of a cell.
+Eigen::Matrix<double, 4, 3> corners_of(const Mesh& mesh, const CellBlock& block, Eigen::Index c) {
+  Eigen::Matrix<double, 4, 3> x;
+  for (int i = 0; i < 4; ++i) x.row(i) = mesh.nodes.row(block.nodes(c, i));
+  return x;
+}
+
+// The session's linear mesh, one block a solid, in the session's unit.
+Mesh linear_mesh(const RawMesh& raw) {
+  Mesh mesh;
+  mesh.nodes = raw.nodes;
+  for (const auto& entry : raw.cells) {
+    mesh.cells.push_back({CellType::kTet4, 0, entry.second, {}});
+  }
+  return mesh;
+}
+
+// Where slivers cannot be lifted, the size does not fit a thin wall or a sharp corner. Finer cells
+// there make room for better ones.
+std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
+  std::vector<FineSpot> spots;
+  for (const CellBlock& block : mesh.cells) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
+      if (dihedral_angles(x).minCoeff() >= limit_deg) continue;
+      double mean = 0.0;
+      for (const auto& [a, b] : kTetEdges) mean += (x.row(a) - x.row(b)).norm() / 6.0;
+      spots.push_back({x.colwise().mean().transpose(), mean, kSpotFactor * mean});
+    }
+  }
+  return spots;
+}
+
+// Meshes and lifts slivers; while some stay, meshes again with finer spots. Leaves the attempt with
+// the fewest in the session, made quadratic, and its sizes in `sizes`.
+void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
+                              SizeSettings& sizes, bool split_corners) {
+  const double target = settings.min_dihedral_deg;
+  const auto attempt = [&](const SizeSettings& trial) {
+    session.generate(trial);
+    RawMesh raw = session.extract();
+    Mesh linear = linear_mesh(raw);
+    int64_t edits = lift_slivers(linear, target).before;
+    if (split_corners) edits += split_blunt_corners(linear, target);
+    if (edits > 0) {
+      raw.nodes = linear.nodes;
+      size_t b = 0;
+      for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
+      session.replace_cells(raw);
+    }
+    return spots_at_slivers(linear, target);
+  };
+  SizeSettings trial = sizes;
+  std::vector<FineSpot> spots = attempt(trial);
+  size_t fewest = spots.size();
+  for (int pass = 0; !spots.empty() && pass < settings.refine_passes; ++pass) {
+    say(fmt::format("mesh: {} cells have a dihedral angle below {:.1f} deg, refining there",
+                    spots.size(), target));
+    trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
+    spots = attempt(trial);
+    if (spots.size() >= fewest) continue;
+    fewest = spots.size();
+    sizes = trial;
+  }
+  if (!spots.empty()) attempt(sizes);
+  session.make_quadratic();
+}
+
+// Where cells stay folded, the size does not fit the curvature.
+void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityReport& folded,
+                        double metres_per_unit) {
+  for (const InvalidCell& cell : folded.invalid) {
+    const auto x = corners_of(mesh, mesh.cells[static_cast<size_t>(cell.block)], cell.cell);
+    double mean = 0.0;
+    for (const auto& [a, b] : kTetEdges) mean += (x.row(a) - x.row(b)).norm() / 6.0;
+    mean /= metres_per_unit;
+    sizes.spots.push_back({cell.centre / metres_per_unit, mean, kFoldFactor * mean});
+  }
+}
+
+// "face 7 (Plane, centre (1, 2, 3))" of those that hold any of the nodes, in the part's unit.
+std::string describe_faces_at(GmshSession& session, const std::set<int32_t>& nodes) {
+  constexpr size_t kMost = 8;
+  const RawMesh raw = session.extract();
+  std::vector<std::string> faces;
+  for (const FaceFacts& face : session.boundary_faces()) {
+    const IndexMatrix& cells = raw.face_cells.at(face.tag);
+    const bool holds = std::any_of(cells.data(), cells.data() + cells.size(),
+                                   [&](int32_t node) { return nodes.contains(node); });
+    if (!holds || faces.size() == kMost) continue;
+    faces.push_back(fmt::format("face {} ({}, centre ({:.5g}, {:.5g}, {:.5g}))", face.tag,
+                                face.kind == "Unknown" ? "spline" : face.kind, face.centre.x(),
+                                face.centre.y(), face.centre.z()));
+  }
+  return fmt::format("{}", fmt::join(faces, ", "));
+}
+
+// The last means; `mesh` has cells that stay folded.
+void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mesh, Repair& repair) {
+  const std::vector<PulledNode> pulled = straighten_cells(mesh, kPulledRatio);
+  std::set<int32_t> too_far;
+  for (const PulledNode& p : pulled)
+    if (p.distance > kLargestPull * p.edge) too_far.insert(p.node);
+  if (!too_far.empty())
+    throw NumericsError(fmt::format(
+        "mesh: {} of {} cells stay invalid after repair and {} nodes would have to leave the "
+        "geometry by more than {:g} of their edge; to blame: {}; choose smaller elements or "
+        "more per turn there: {}",
+        folded.invalid.size(), mesh.cell_count(), too_far.size(), kLargestPull,
+        describe_faces_at(session, too_far), describe_invalid(folded, 5)));
+  repair.pulled = static_cast<int64_t>(pulled.size());
+  if (!pulled.empty()) repair.largest_pull = pulled.front().distance;
+  say(fmt::format("mesh: {} middle nodes leave the geometry, by {:.2g} m at most", repair.pulled,
+                  repair.largest_pull));
+}
+
+}  // namespace
+
+Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                       SizeSettings sizes, double metres_per_unit, Mesh& mesh) {
+  Repair repair;
+  ValidityReport folded;
+  for (int pass = 0;; ++pass) {
+    generate_without_slivers(session, settings, sizes, pass > 0);
+    mesh = convert(session.extract(), part, metres_per_unit);
+    const ValidityReport before = check_validity(mesh);
+    repair.invalid_before = before.invalid.size();
+    repair.min_ratio_before = before.min_ratio;
+    unfold_cells(mesh, settings.min_scaled_jacobian);
+    folded = check_validity(mesh);
+    if (folded.invalid.empty()) return repair;
+    if (pass >= settings.refine_passes) break;
+    say(fmt::format("mesh: {} curved cells stay folded, refining there", folded.invalid.size()));
+    add_spots_at_folds(sizes, mesh, folded, metres_per_unit);
+  }
+  say(fmt::format("mesh: {} curved cells stay folded, smoothing the whole mesh",
+                  folded.invalid.size()));
+  session.repair_curved_cells();
+  mesh = convert(session.extract(), part, metres_per_unit);
+  unfold_cells(mesh, settings.min_scaled_jacobian);
+  repair.elastic = true;
+  folded = check_validity(mesh);
+  if (!folded.invalid.empty()) pull_straight(session, folded, mesh, repair);
+  return repair;
+}
+
+}  // namespace clatter::mesh
