@@ -61,12 +61,35 @@ double spot_size(const std::vector<FineSpot>& spots, double size, const Eigen::V
   return size;
 }
 
+// Gmsh's fields: the distance from points all over the face, and a size that grows with it.
+void set_gradations(const SizeSettings& settings) {
+  constexpr double kSampling = 40;  // points along each direction of a face
+  namespace field = gmsh::model::mesh::field;
+  std::vector<double> thresholds;
+  for (const Gradation& g : settings.gradations) {
+    const int distance = field::add("Distance"), threshold = field::add("Threshold");
+    field::setNumbers(distance, "FacesList", {static_cast<double>(g.face)});
+    field::setNumber(distance, "NNodesByEdge", kSampling);
+    field::setNumber(threshold, "IField", distance);
+    field::setNumber(threshold, "LcMin", g.size);
+    field::setNumber(threshold, "LcMax", settings.size);
+    field::setNumber(threshold, "DistMin", 0.0);
+    field::setNumber(threshold, "DistMax", (settings.size - g.size) / g.growth);
+    thresholds.push_back(threshold);
+  }
+  if (thresholds.empty()) return;
+  const int smallest = field::add("Min");
+  field::setNumbers(smallest, "FieldsList", thresholds);
+  field::setAsBackgroundMesh(smallest);
+}
+
 void set_sizes(const SizeSettings& settings) {
   gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
   gmsh::option::setNumber("Mesh.MeshSizeMin", settings.min_size);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", settings.per_turn);
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
   gmsh::model::mesh::removeSizeCallback();
+  set_gradations(settings);
   if (settings.face_sizes.empty() && settings.spots.empty()) return;
   gmsh::model::mesh::setSizeCallback([settings, curves = curve_sizes(settings.face_sizes)](
                                          int dim, int tag, double x, double y, double z) {
@@ -153,6 +176,14 @@ GmshSession::~GmshSession() {
 
 std::string GmshSession::library_version() {
   return fmt::format("{}.{}", GMSH_API_VERSION_MAJOR, GMSH_API_VERSION_MINOR);
+}
+
+std::string GmshSession::running_version() const {
+  return gmsh_call("gmsh: version", [] {
+    std::string version;
+    gmsh::option::getString("General.Version", version);
+    return version;
+  });
 }
 
 void GmshSession::generate(const SizeSettings& settings) {

@@ -27,12 +27,19 @@ struct FineSpot {
   double radius, size;
 };
 
+/// Around a face the size grows from its own with the distance.
+struct Gradation {
+  int face;
+  double size, growth;  // on the face; per length
+};
+
 /// How fine a mesh is wanted.
 struct SizeSettings {
   double size = 1.0;                 // target edge length
   double min_size = 0.0;             // curvature asks for nothing below
   int per_turn = 0;                  // elements on a full circle; 0: curvature is not looked at
   std::map<int, double> face_sizes;  // by face tag
+  std::vector<Gradation> gradations;
   std::vector<FineSpot> spots;
 };
 
@@ -100,6 +107,8 @@ class GmshSession {
   void write_cad(const std::filesystem::path& path, const std::string& unit);
   /// Faces that bound exactly one solid, by ascending tag.
   std::vector<FaceFacts> boundary_faces();
+  /// Smallest radius of curvature among samples of the face; 0 for a plane one.
+  double smallest_radius(int face);
 
   // --- mesh (gmsh_session.cpp) ---
   /// Linear tetrahedra in all solids, anew at each call. NumericsError, with the faces that cut
@@ -117,7 +126,8 @@ class GmshSession {
   /// Moves middle nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
   void repair_curved_cells();
   RawMesh extract() const;
-  static std::string library_version();
+  static std::string library_version();  // of the header: "4.8"
+  std::string running_version() const;   // of the library: "4.8.4"
 
   // --- Gmsh's own files (gmsh_file.cpp) ---
   /// Reads an MSH file. It is read in a child process first: where a damaged file makes Gmsh crash,

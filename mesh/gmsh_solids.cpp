@@ -288,6 +288,10 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
   gmsh_call<InputError>(path.string(), [&] {
     const QuietStdout quiet;
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
+    // IGES mostly holds loose faces: those are sewn to solids.
+    const double sew = extension == ".iges" || extension == ".igs" ? 1.0 : 0.0;
+    gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
+    gmsh::option::setNumber("Geometry.OCCMakeSolids", sew);
     occ::importShapes(path.string(), out);
   });
   synchronized_ = false;
@@ -314,6 +318,20 @@ void GmshSession::write_cad(const std::filesystem::path& path, const std::string
   std::error_code trouble;
   std::filesystem::rename(part, path, trouble);
   if (trouble) throw FileError(fmt::format("{}: {}", path.string(), trouble.message()));
+}
+
+double GmshSession::smallest_radius(int face) {
+  return gmsh_call("curvature", [&] {
+    synchronize();
+    std::vector<double> largest, smallest, direction_1, direction_2;
+    gmsh::model::getPrincipalCurvatures(face, surface_parameters(face), largest, smallest,
+                                        direction_1, direction_2);
+    double curvature = 0.0;
+    for (const auto* list : {&largest, &smallest})
+      for (double k : *list)
+        if (std::isfinite(k)) curvature = std::max(curvature, std::abs(k));
+    return curvature > 0.0 ? 1.0 / curvature : 0.0;
+  });
 }
 
 std::vector<FaceFacts> GmshSession::boundary_faces() {

@@ -36,6 +36,8 @@ constexpr const char* kEpilog =
   [[mesh.local]]
   surface = "x_min"
   factor = 0.5                    # of the element size
+  elements_per_turn = 24          # and / or: on the surface's smallest radius (fillets, bores)
+  growth = 0.3                    # of the size per distance from the surface
   [surface.clamp]                 # surfaces by where they lie; filters combine
   plane = { normal = [1, 0, 0], height = 0.0 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -39,8 +40,18 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
   return tags;
 }
 
-SizeSettings size_settings(const MeshSettings& settings, const FaceTags& surfaces,
-                           double metres_per_unit, const std::string& where) {
+// A face's own size: the smaller of what the factor and the curvature ask for.
+double size_on(GmshSession& session, int face, const LocalSize& local, const SizeSettings& sizes) {
+  double size = local.factor * sizes.size;
+  const double radius = local.elements_per_turn > 0 ? session.smallest_radius(face) : 0.0;
+  if (radius > 0.0)
+    size = std::min(size, 2.0 * std::numbers::pi * radius / local.elements_per_turn);
+  return std::max(size, sizes.min_size);
+}
+
+SizeSettings size_settings(GmshSession& session, const MeshSettings& settings,
+                           const FaceTags& surfaces, double metres_per_unit,
+                           const std::string& where) {
   SizeSettings sizes;
   sizes.size = settings.element_size / metres_per_unit;
   sizes.min_size = settings.min_size / metres_per_unit;
@@ -53,7 +64,13 @@ SizeSettings size_settings(const MeshSettings& settings, const FaceTags& surface
       throw InputError(fmt::format("{}: mesh.local: surface '{}' not found, expected one of: {}",
                                    where, local.surface, names.empty() ? "none" : names));
     }
-    for (int tag : found->second) sizes.face_sizes[tag] = local.factor * sizes.size;
+    for (int tag : found->second) {
+      const double size = size_on(session, tag, local, sizes);
+      const auto [at, is_new] = sizes.face_sizes.emplace(tag, size);
+      at->second = std::min(at->second, size);
+      if (local.growth > 0.0 && size < sizes.size)
+        sizes.gradations.push_back({tag, size, local.growth});
+    }
   }
   return sizes;
 }
@@ -88,6 +105,7 @@ double volume_of_finer_skin(GmshSession& session, const RawMesh& raw, const Boun
   sizes.min_size /= 2.0;
   sizes.per_turn *= 2;
   for (auto& entry : sizes.face_sizes) entry.second /= 2.0;
+  for (Gradation& gradation : sizes.gradations) gradation.size /= 2.0;
   const std::vector<FaceFacts> faces = session.boundary_faces();
   const RawMesh fine = session.generate_skin(sizes);
   Mesh mesh;
@@ -151,7 +169,14 @@ MeshSettings read_mesh_settings(const Config& config) {
   }
   for (const Config& local : table->tables("local")) {
     const std::string surface = local.text("surface");
-    settings.local.push_back({surface, local.number("factor", {0.0, 1.0, true})});
+    LocalSize size{surface};
+    size.factor = local.number_or("factor", 1.0, {0.0, 1.0, true});
+    size.elements_per_turn =
+        static_cast<int>(local.integer_or("elements_per_turn", 0, {0.0, 1000.0}));
+    size.growth = local.number_or("growth", 0.0, {0.0, 10.0});
+    if (!local.has("factor") && size.elements_per_turn == 0)
+      local.fail("factor", "found neither factor nor elements_per_turn, expected one of them");
+    settings.local.push_back(size);
   }
   return settings;
 }
@@ -159,7 +184,7 @@ MeshSettings read_mesh_settings(const Config& config) {
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
                    double metres_per_unit, const std::string& name, const std::string& where) {
   const FaceTags tags = find_surfaces(session.boundary_faces(), part, where);
-  const SizeSettings sizes = size_settings(settings, tags, metres_per_unit, where);
+  const SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
   PartMesh result;
   const Repair repair =
       make_valid_mesh(session, part, settings, sizes, metres_per_unit, result.mesh);

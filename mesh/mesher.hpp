@@ -12,7 +12,9 @@ namespace clatter::mesh {
 /// Finer cells on one named surface.
 struct LocalSize {
   std::string surface;
-  double factor;  // of the element size, so that the one number still refines everything
+  double factor = 1.0;  // of the element size, so that the one number still refines everything
+  int elements_per_turn = 0;  // on a full circle of the surface's smallest radius; 0: not asked for
+  double growth = 0.0;        // of the size per distance from the surface; 0: left to Gmsh
 };
 
 /// Table [mesh].
@@ -23,7 +25,7 @@ struct MeshSettings {
   double min_dihedral_deg = 8.0;     // aimed at: cells below are meshed anew with finer neighbours
   double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
   int refine_passes = 4;             // at most so many times; 0: never
-  std::vector<LocalSize> local;      // [[mesh.local]] surface = "...", factor = 0.5
+  std::vector<LocalSize> local;      // [[mesh.local]]
 };
 MeshSettings read_mesh_settings(const Config& config);
 

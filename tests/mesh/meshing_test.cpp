@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "iges_box.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/unfold.hpp"
@@ -213,6 +214,23 @@ TEST(Gmsh, HardG6_UnitsOfAStepFileAreKeptAndGuarded) {
   EXPECT_THROW(mesh_toml(head + source + "expected_box = [2.36, 0.79, 0.39]\n" + size), InputError);
 }
 
+// Gmsh reads IGES and does not write it: the file is six loose bilinear patches, in millimetres.
+TEST(Gmsh, HardG6_UnitsOfAnIgesFileAreKeptAndGuardedAndItsFacesSewn) {
+  const Folder folder;
+  std::ofstream(folder / "beam.igs") << testing::iges_box({60, 20, 10});
+  const std::string head = "name = 'beam'\nkind = 'cad'\n";
+  const std::string source = "[cad]\nsource = '" + (folder / "beam.igs").string() + "'\n";
+  const std::string size = "[mesh]\nelement_size_mm = 12\n";
+  const Meshed in_mm = mesh_toml(head + source + "expected_box = [60, 20, 10]\n" + size +
+                                 "[surface.end]\nplane = { normal = [1, 0, 0], height = 60 }\n");
+  EXPECT_NEAR(in_mm.volume("solid") / 12e-6, 1.0, 1e-9);  // flat faces, sewn within OCC's tolerance
+  EXPECT_NEAR(integrate(in_mm.part.mesh, in_mm.part.mesh.surface("end")).area, 2e-4, 1e-12);
+  const Meshed in_m = mesh_toml(head + "length_unit = 'm'\n" + source +
+                                "expected_box = [0.06, 0.02, 0.01]\n" + size);
+  EXPECT_NEAR(in_m.volume("solid") / 12e-6, 1.0, 1e-9);
+  EXPECT_THROW(mesh_toml(head + source + "expected_box = [0.06, 0.02, 0.01]\n" + size), InputError);
+}
+
 TEST(Gmsh, HardG7_TwoRunsGiveTheSameBits) {
   const std::string tube =
       "name = 'tube'\nkind = 'cylinder'\n[cylinder]\nradius = 20\ninner_radius = 16\nlength = 60\n"
@@ -233,6 +251,15 @@ TEST(Gmsh, HardG9_SurfaceIntegralGivesTheVolumeAndNormalsPointOut) {
   EXPECT_LT(c.at("volume_against_surface_integral"), 1e-12);  // rounding of 1e4 sums
   EXPECT_LT(c.at("closed_surface_residue"), 1e-12);
   EXPECT_EQ(c.at("inward_normals"), 0.0);
+}
+
+// gmsh_call.hpp refuses to compile against another major version or one before 4.8; what runs is
+// what was compiled against.
+TEST(Gmsh, HardG10_LibraryIsTheOneThatTheHeaderSays) {
+  EXPECT_TRUE(GmshSession::library_version().starts_with("4.")) << GmshSession::library_version();
+  const GmshSession session("g10");
+  EXPECT_TRUE(session.running_version().starts_with(GmshSession::library_version() + "."))
+      << session.running_version();
 }
 
 TEST(Piston, GasPressureWorksOnTheWholeBoreArea) {
@@ -256,6 +283,50 @@ TEST(Mesher, LocalSizeRefinesItsSurface) {
   EXPECT_GT(static_cast<double>(finer.part.mesh.surface("x_min").face_count()),
             1.5 * static_cast<double>(plain.part.mesh.surface("x_min").face_count()));
   EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_mni'\nfactor = 0.4\n")),
+               InputError);
+}
+
+constexpr const char* kTube =
+    "name = 'tube'\nkind = 'cylinder'\n[cylinder]\nradius = 40\ninner_radius = 10\nlength = 40\n"
+    "[mesh]\nelement_size_mm = 20\n";
+
+double longest_edge(const Mesh& mesh, const std::string& surface) {
+  double longest = 0.0;
+  for (const FaceBlock& block : mesh.surface(surface).faces)
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f)
+      for (int i = 0; i < 3; ++i)
+        longest = std::max(longest, (mesh.nodes.row(block.nodes(f, i)) -
+                                     mesh.nodes.row(block.nodes(f, (i + 1) % 3)))
+                                        .norm());
+  return longest;
+}
+
+TEST(Mesher, ElementsPerTurnOnOneSurfaceRefineThatBoreOnly) {
+  const Meshed plain = mesh_toml(kTube);
+  const Meshed finer =
+      mesh_toml(kTube + std::string("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n"));
+  const double asked = 2.0 * pi * 0.010 / 24.0;
+  EXPECT_GT(longest_edge(plain.part.mesh, "inner"), 2.0 * asked);
+  // Gmsh's edges are up to about 1.5 times as long as asked for.
+  EXPECT_LT(longest_edge(finer.part.mesh, "inner"), 1.6 * asked);
+  EXPECT_GT(longest_edge(finer.part.mesh, "outer"), 4.0 * asked);
+}
+
+// Cells whose centre lies within 6 mm of the bore: their mean edge follows size + growth *
+// distance.
+TEST(Mesher, GrowthSaysHowFastCellsCoarsenAwayFromASurface) {
+  const auto count = [](double growth) {
+    return mesh_toml(kTube +
+                     ("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 16\ngrowth = " +
+                      std::to_string(growth) + "\n"))
+        .part.mesh.cell_count();
+  };
+  const int64_t slow = count(0.1), fast = count(0.6);
+  EXPECT_GT(static_cast<double>(slow), 2.0 * static_cast<double>(fast));
+}
+
+TEST(Mesher, ALocalSizeThatAsksForNothingIsRefused) {
+  EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_min'\ngrowth = 0.2\n")),
                InputError);
 }
 
