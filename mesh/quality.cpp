@@ -1,5 +1,7 @@
 #include "mesh/quality.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <numbers>
@@ -19,6 +21,7 @@ Measure make_measure(double low, double high, double best) {
 }
 
 struct Place {
+  CellType type;
   int32_t block, cell, label;
   Eigen::Vector3d centre;
 };
@@ -29,6 +32,18 @@ void record(Measure& m, double value, double sign, const Place& place) {
   const double position = (value - m.low) / (m.high - m.low) * bins;
   const auto bin = static_cast<size_t>(std::clamp(position, 0.0, bins - 1.0));
   ++m.histogram[bin];
+  auto& of_type = m.by_type[place.type];
+  of_type.resize(m.histogram.size());
+  ++of_type[bin];
+  const auto worse = [&](const WorstCell& a, const WorstCell& b) {
+    return sign * a.value < sign * b.value;
+  };
+  const WorstCell here{value, place.block, place.cell, place.label, place.centre};
+  if (m.worst_cells.size() < kWorstCells || worse(here, m.worst_cells.back())) {
+    m.worst_cells.insert(std::upper_bound(m.worst_cells.begin(), m.worst_cells.end(), here, worse),
+                         here);
+    if (m.worst_cells.size() > kWorstCells) m.worst_cells.pop_back();
+  }
   if (sign * value >= sign * m.worst) return;
   m.worst = value;
   m.block = place.block;
@@ -100,6 +115,19 @@ void write_measure(H5File& file, const std::string& name, const Measure& m) {
   file.set(group, "worst_cell", static_cast<int64_t>(m.cell));
   file.set(group, "worst_label", static_cast<int64_t>(m.label));
   file.write(group + "/worst_place", Eigen::VectorXd(m.place));
+  for (const auto& [type, histogram] : m.by_type)
+    file.write(fmt::format("{}/by_type/{}", group, traits(type).name), histogram);
+  std::vector<int32_t> labels;
+  std::vector<double> values;
+  RowMatrix places(static_cast<Eigen::Index>(m.worst_cells.size()), 3);
+  for (const WorstCell& cell : m.worst_cells) {
+    places.row(static_cast<Eigen::Index>(labels.size())) = cell.place.transpose();
+    labels.push_back(cell.label);
+    values.push_back(cell.value);
+  }
+  file.write(group + "/worst_cells", labels);
+  file.write(group + "/worst_values", values);
+  file.write(group + "/worst_places", places);
 }
 
 }  // namespace
@@ -150,15 +178,15 @@ double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners) {
 }
 
 QualityReport measure_quality(const Mesh& mesh) {
-  QualityReport report{make_measure(0.0, 80.0, 180.0), make_measure(60.0, 180.0, 0.0),
+  QualityReport report{make_measure(0.0, 90.0, 180.0), make_measure(60.0, 180.0, 0.0),
                        make_measure(0.0, 1.0, 2.0), make_measure(0.0, 1.0, 2.0)};
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const CellNodes x = cell_nodes(mesh, block, c);
       const auto corners = x.topRows(traits(block.type).corners);
-      const Place place{static_cast<int32_t>(b), static_cast<int32_t>(c), cell_label(block, c),
-                        corners.colwise().mean().transpose()};
+      const Place place{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
+                        cell_label(block, c), corners.colwise().mean().transpose()};
       const auto [low, high] = extreme_angles(block.type, x);
       record(report.min_dihedral_deg, low, 1.0, place);
       record(report.max_dihedral_deg, high, -1.0, place);

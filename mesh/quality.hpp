@@ -12,6 +12,15 @@
 
 namespace clatter::mesh {
 
+/// A cell among the worst by some measure.
+struct WorstCell {
+  double value = 0.0;
+  int32_t block = 0, cell = 0;  // block and row
+  int32_t label = 0;            // its cell_label()
+  Eigen::Vector3d place;        // its centre [m]
+};
+inline constexpr size_t kWorstCells = 10;
+
 /// One measure over all cells.
 struct Measure {
   double worst = 0.0;
@@ -20,6 +29,8 @@ struct Measure {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();            // its centre [m]
   double low = 0.0, high = 1.0;                               // range of the histogram
   std::vector<int64_t> histogram = std::vector<int64_t>(20);  // equal bins from low to high
+  std::map<CellType, std::vector<int64_t>> by_type;           // the same of each cell type
+  std::vector<WorstCell> worst_cells;                         // kWorstCells at most, worst first
 };
 
 /// Angles and shapes belong to the straight cell through the corners (hard case G8); the scaled
@@ -43,7 +54,8 @@ std::vector<double> dihedral_angles(CellType type, const CellNodes& x);
 /// 3 r_in / r_circum.
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);
 
-/// Writes group `quality`: per measure the histogram and the worst cell.
+/// Writes group `quality`: per measure the histogram, that of each cell type (by_type/<name>), the
+/// worst cell, and the worst cells (worst_cells: labels, worst_values, worst_places).
 void write_quality(H5File& file, const QualityReport& report);
 
 }  // namespace clatter::mesh

@@ -11,6 +11,7 @@
 #include "mesh/gmsh_session.hpp"
 #include "mesh/mesh_export.hpp"
 #include "mesh/msh_reader.hpp"
+#include "mesh/quality.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {
@@ -82,6 +83,27 @@ void expect_same(const Mesh& found, const Mesh& expected) {
     EXPECT_EQ(found.surface(name).face_count(), surface.face_count()) << name;
     EXPECT_LT((a.normal - b.normal).norm(), 1e-15) << name;  // sums in another order
   }
+}
+
+TEST(Quality, EachCellTypeHasAHistogramAndTheWorstCellsComeFirst) {
+  for (int t = 0; t < kCellTypes; ++t) {
+    const auto type = static_cast<CellType>(t);
+    Mesh mesh = numbered_mesh(type);
+    const QualityReport report = measure_quality(mesh);
+    ASSERT_EQ(report.scaled_jacobian.by_type.size(), 1u);
+    EXPECT_EQ(report.scaled_jacobian.by_type.at(type), report.scaled_jacobian.histogram);
+    EXPECT_EQ(report.scaled_jacobian.histogram.back(), mesh.cell_count()) << traits(type).name;
+  }
+  Mesh mesh = numbered_mesh(CellType::kHex8);
+  const int32_t node = mesh.cells[1].nodes(5, 6);  // a corner of the last cell, pushed inward
+  mesh.nodes.row(node) += 0.4 * (mesh.nodes.row(mesh.cells[1].nodes(5, 0)) - mesh.nodes.row(node));
+  const Measure found = measure_quality(mesh).scaled_jacobian;
+  ASSERT_EQ(found.worst_cells.size(), kWorstCells);
+  EXPECT_EQ(found.worst_cells[0].label, mesh.cells[1].ids[5]);
+  EXPECT_EQ(found.worst_cells[0].value, found.worst);
+  EXPECT_LT(found.worst, 0.7);
+  for (size_t i = 1; i < kWorstCells; ++i)
+    EXPECT_GE(found.worst_cells[i].value, found.worst_cells[i - 1].value);
 }
 
 class MshOfAll : public ::testing::TestWithParam<int> {};

@@ -42,13 +42,14 @@ class Command(unittest.TestCase):
         done = clatter("report", ".", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         # The synthetic slap starts 0.3 ms after firing TDC with 40 m/s2 on the liner.
-        for expected in ("slap_dry", "block.mesh.h5", "in all", "2.00", "0.44"):
+        for expected in ("slap_dry", "block.mesh.h5", "in all", "2.00", "0.44", "417", "12.5"):
             self.assertIn(expected, done.stdout)
 
     def test_each_picture_is_drawn_and_is_not_blank(self):
         runs = ["slap.run.h5", "slap_dry.run.h5"]
         fields = ["slap.field.h5"]
-        for kind, files in (("piston", runs), ("film", runs), ("mesh", ["block.mesh.h5"]), ("acceleration", fields),
+        for kind, files in (("piston", runs), ("film", runs), ("mesh", ["block.mesh.h5"]),
+                            ("quality", ["block.mesh.h5"]), ("acceleration", fields),
                             ("erp", fields), ("shape", fields)):
             with self.subTest(kind=kind):
                 done = clatter("plot", kind, *files, "-o", f"{kind}.png", folder=self.folder)

@@ -61,6 +61,20 @@ def write_mesh(path):
         file["surfaces/deck/tri6"] = faces[(nodes[faces[:, :3]][:, :, 2] > 0.2499).all(axis=1)]
         file["surfaces/mount_1/tri6"] = faces[(nodes[faces[:, :3]][:, :, 1] > 0.0999).all(axis=1)]
         file["cells/0/nodes"] = np.zeros((1, 10), np.int32)
+        for name, low, high, worst in (("min_dihedral_deg", 0.0, 80.0, 12.5), ("scaled_jacobian", 0.0, 1.0, 0.31)):
+            write_measure(file, f"quality/{name}", low, high, worst)
+
+
+def write_measure(file, group, low, high, worst):
+    """Two cell types with the same counts; cell 417 is the worst."""
+    counts = np.minimum(np.arange(20), 8) * 2
+    file[f"{group}/histogram"] = counts * 2
+    file[f"{group}/by_type/hex8"] = file[f"{group}/by_type/wedge6"] = counts
+    file[group].attrs.update({"low": low, "high": high, "worst": worst, "worst_label": 417})
+    file[f"{group}/worst_place"] = [0.1, 0.2, 0.3]
+    file[f"{group}/worst_cells"] = np.array([417, 12], np.int32)
+    file[f"{group}/worst_values"] = [worst, 1.1 * worst]
+    file[f"{group}/worst_places"] = np.full((2, 3), 0.1)
 
 
 def slap_signal(time, amplitude, ring_hz=1800.0):

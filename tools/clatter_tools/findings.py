@@ -71,3 +71,14 @@ def field_row(field):
         row[3] = f"{slap.peak(*slap.band_limited(field, sensors['block'], at))[1]:.3g}"
     panel = field[fields.panel(field, at, "exposed", "skin")]
     return [*row, f"{panel.attrs['erp_dba']:.1f}"]
+
+
+def mesh_quality(file):
+    """Measure, worst value, number and place of that cell, a row a measure; none where the mesh has no quality."""
+    rows = []
+    for name in ("min_dihedral_deg", "scaled_jacobian"):
+        if f"quality/{name}" in file:
+            measure = file[f"quality/{name}"]
+            place = " ".join(f"{1e3 * x:.1f}" for x in measure["worst_place"][()])
+            rows.append([name, f"{measure.attrs['worst']:.3g}", str(measure.attrs["worst_label"]), place])
+    return rows

@@ -13,6 +13,7 @@ def print_report(folder):
     if not any(files.values()):
         raise artefact.BadArtefact(f"{folder}: no artefacts; `clatter run {folder}` makes them")
     print_models(files["fe"], files["rom"])
+    print_quality(files["mesh"])
     print_comparisons(folder)
     print_runs(files["run"])
     print_fields(files["field"])
@@ -41,6 +42,15 @@ def print_models(fe_files, rom_files):
         with artefact.open_artefact(path, "fe") as file:
             rows.append([stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
     print_table("parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], rows)
+
+
+def print_quality(paths):
+    """The worst cell of each mesh by its angle and by its scaled Jacobian."""
+    rows = []
+    for path in paths:
+        with artefact.open_artefact(path, "mesh") as file:
+            rows += [[stem(path), *row] for row in findings.mesh_quality(file)]
+    print_table("worst cells of the meshes", ["part", "measure", "worst", "cell", "at [mm]"], rows)
 
 
 def print_comparisons(folder):
