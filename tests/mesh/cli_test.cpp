@@ -63,6 +63,26 @@ TEST(CliMesh, MakesTheMeshTheStepFileAndTheExports) {
   EXPECT_GT(read_mesh(folder / "again.mesh.h5").surface("clamp").face_count(), 0);
 }
 
+TEST(CliMesh, ReadsItsOwnGmshFileBackAndRefusesWhatNoGroupClaims) {
+  const Folder folder;
+  const std::string msh = (folder / "beam.msh").string(), again = (folder / "again.h5").string();
+  ASSERT_EQ(run(folder, put(folder, kBeam) + " -o " + (folder / "beam.h5").string() +
+                            " --quiet --export " + msh)
+                .code,
+            0);
+  const Outcome no_units = run(folder, msh + " -o " + again + " --quiet");
+  EXPECT_EQ(no_units.code, 2);
+  EXPECT_NE(no_units.err.find("--units"), std::string::npos) << no_units.err;
+  EXPECT_EQ(run(folder, msh + " --units m-kg-s -o " + again + " --quiet").code, 0);
+  const Mesh first = read_mesh(folder / "beam.h5"), second = read_mesh(again);
+  EXPECT_EQ(first.nodes, second.nodes);
+  EXPECT_EQ(first.node_sets, second.node_sets);
+  EXPECT_EQ(first.cells[0].nodes, second.cells[0].nodes);
+  const Outcome skipped =
+      run(folder, msh + " --units m-kg-s --ignore solid -o " + again + " --quiet");
+  EXPECT_EQ(skipped.code, 2);  // nothing is left
+}
+
 void expect_refused(const std::string& toml, int code, const std::string& text) {
   const Folder folder;
   std::ofstream(folder / "old.mesh.h5") << "precious";

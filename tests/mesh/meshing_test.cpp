@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "iges_box.hpp"
@@ -242,7 +243,12 @@ TEST(Gmsh, HardG7_TwoRunsGiveTheSameBits) {
 }
 
 TEST(Gmsh, HardG8_SmallestDihedralAngleIsAtLeastEightDegrees) {
-  EXPECT_GE(mesh_toml(kOneCylinder).part.quality.min_dihedral_deg.worst, 8.0);
+  const Meshed block = mesh_toml(kOneCylinder);
+  EXPECT_GE(block.part.quality.min_dihedral_deg.worst, 8.0);
+  const Measure& ratio = block.part.quality.radius_ratio;
+  EXPECT_EQ(std::accumulate(ratio.histogram.begin(), ratio.histogram.end(), int64_t{0}),
+            block.part.mesh.cell_count());
+  EXPECT_GT(ratio.worst, 0.02);
   EXPECT_GE(mesh_toml(kBeam).part.quality.min_dihedral_deg.worst, 8.0);
 }
 
