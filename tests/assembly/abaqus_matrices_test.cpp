@@ -5,10 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <unordered_map>
 
 #include "assembly/assemble.hpp"
+#include "mesh/deck/abaqus_reader.hpp"
 #include "small_solver.hpp"
 #include "tests/shared_data.hpp"
 
@@ -16,45 +16,6 @@ namespace clatter::assembly::testing {
 namespace {
 
 using Entries = std::unordered_map<int64_t, double>;  // key 2^20 row + column, zero-based, lower
-
-std::vector<double> numbers_in(std::string line) {
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream stream(line);
-  std::vector<double> values;
-  for (double value; stream >> value;) values.push_back(value);
-  return values;
-}
-
-/// *NODE and *ELEMENT of this one deck: millimetres, one-based, Abaqus order.
-mesh::Mesh read_deck(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::vector<std::vector<double>> nodes, cells;
-  std::vector<std::vector<double>>* target = nullptr;
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("*", 0) == 0) {
-      target = line.rfind("*Node", 0) == 0       ? &nodes
-               : line.rfind("*Element,", 0) == 0 ? &cells
-                                                 : nullptr;
-      continue;
-    }
-    if (target != nullptr) target->push_back(numbers_in(line));
-  }
-  mesh::Mesh mesh;
-  mesh.name = "abaqus_beam";
-  mesh.regions = {"solid"};
-  mesh.nodes.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-  for (size_t a = 0; a < nodes.size(); ++a)
-    for (Eigen::Index d = 0; d < 3; ++d)
-      mesh.nodes(static_cast<Eigen::Index>(a), d) = nodes[a][static_cast<size_t>(d) + 1];
-  mesh::CellBlock block;
-  block.nodes.resize(static_cast<Eigen::Index>(cells.size()), 10);
-  const auto order = mesh::traits(block.type).to_vtk;
-  for (size_t c = 0; c < cells.size(); ++c)
-    for (size_t a = 0; a < 10; ++a)
-      block.nodes(static_cast<Eigen::Index>(c), order[a]) = static_cast<int>(cells[c][a + 1]) - 1;
-  mesh.cells.push_back(block);
-  return mesh;
-}
 
 Entries read_entries(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -84,20 +45,22 @@ double worst_difference(const SparseMatrix& ours, const Entries& theirs,
 }
 
 const Material kAbaqusSteel{208000.0, 0.3, 7.85e-9};  // N, mm, t
-constexpr int kHeldNodes[] = {3, 4, 6, 7, 293, 395, 511, 512, 514};
 
 class AbaqusBeam : public ::testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path folder = test::shared_data("abaqus_beam");
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no reference data at " << folder;
-    mesh_ = read_deck(folder / "abq_beam.inp");
+    mesh_ = mesh::deck::read_abaqus(folder / "abq_beam.inp", {}).mesh;
     ASSERT_EQ(mesh_.nodes.rows(), 518);
     ASSERT_EQ(mesh_.cells[0].nodes.rows(), 233);
+    for (int32_t n = 0; n < 518; ++n)  // so that rows are Abaqus' rows
+      ASSERT_TRUE(mesh_.node_ids.empty() || mesh_.node_ids[static_cast<size_t>(n)] == n + 1);
     matrices_ = assemble(mesh_, materials_of(mesh_, kAbaqusSteel), node_pattern(mesh_));
     held_.assign(3 * 518, false);
-    for (const int node : kHeldNodes)
-      for (int d = 0; d < 3; ++d) held_[static_cast<size_t>(3 * (node - 1) + d)] = true;
+    ASSERT_EQ(mesh_.node_sets.at("fixed").size(), 9U);
+    for (const int32_t node : mesh_.node_sets.at("fixed"))
+      for (int d = 0; d < 3; ++d) held_[static_cast<size_t>(3 * node + d)] = true;
   }
   mesh::Mesh mesh_;
   NodalMatrices matrices_;
