@@ -40,6 +40,9 @@ function(clatter_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE ${ARG_DEFINES}
     CLATTER_BIN_DIR="${PROJECT_BINARY_DIR}/bin" CLATTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+  # Tests named after an entry of the hard cases are labelled so wherever they stand.
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "*Hard??_*:*Hard???_*"
+    TEST_LIST ${name}_hard PROPERTIES LABELS hard TIMEOUT ${ARG_TIMEOUT})
 endfunction()
