@@ -94,10 +94,21 @@ LoadSpec RecipeReader::load(const Config& table) const {
   return spec;
 }
 
+namespace {
+
+bool expands(const std::vector<Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& material) { return !material.expansion.isZero(0.0); });
+}
+
+}  // namespace
+
 void RecipeReader::loads(Recipe& recipe) const {
   std::set<std::string> names;
   for (const Config& table : config_.tables("load")) {
     recipe.loads.push_back(load(table));
+    if (recipe.loads.back().kind == LoadSpec::Kind::kTemperature && !expands(recipe.materials))
+      table.fail("kind", "found temperature, no material has an expansion");
     if (!names.insert(recipe.loads.back().name).second)
       table.fail("name", fmt::format("found \"{}\" twice, expected different names",
                                      recipe.loads.back().name));

@@ -1,16 +1,21 @@
 #include "core/stopwatch.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
+
+#include <fstream>
 
 #include "core/log.hpp"
 
 namespace clatter {
 
 long long peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<long long>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  // Not getrusage: its peak begins with what the parent held when it forked.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    long long kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib * 1024;
+  }
+  return 0;
 }
 
 void StepClock::lap(const std::string& name) {

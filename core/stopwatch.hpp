@@ -17,7 +17,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Peak resident memory of this process so far [bytes].
+/// Peak resident memory of this process so far [bytes]; 0 where there is no /proc.
 long long peak_memory_bytes();
 
 /// Records the named steps of a stage, prints each as it ends.

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "mesh/deck/abaqus_elements.hpp"
 
 namespace clatter::mesh::deck {
@@ -31,10 +31,9 @@ FaceCorners turned(std::span<const int32_t> nodes, size_t corners) {
 
 class Writer {
  public:
-  Writer(const Mesh& mesh, std::FILE* file) : mesh_(mesh), file_(file) {}
+  Writer(const Mesh& mesh, std::ostream& out) : mesh_(mesh), out_(out) {}
 
-  // False when a write failed.
-  bool run() {
+  void run() {
     number_nodes();
     number_cells();
     put("*HEADING\n{} (lengths in metres)\n*NODE\n", one_line(mesh_.name));
@@ -53,7 +52,7 @@ class Writer {
     check_names(names);
     if (!mesh_.surfaces.empty()) index_faces();
     for (const auto& [name, surface] : mesh_.surfaces) write_surface(name, surface);
-    return flush();
+    flush();
   }
 
  private:
@@ -63,10 +62,9 @@ class Writer {
     if (text_.size() > (size_t{1} << 20)) flush();
   }
 
-  bool flush() {
-    good_ = good_ && std::fwrite(text_.data(), 1, text_.size(), file_) == text_.size();
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
     text_.clear();
-    return good_;
   }
 
   static std::string one_line(std::string text) {
@@ -217,8 +215,7 @@ class Writer {
   }
 
   const Mesh& mesh_;
-  std::FILE* file_;
-  bool good_ = true;
+  std::ostream& out_;
   fmt::memory_buffer text_;
   std::vector<int32_t> node_ids_;
   std::vector<std::vector<int32_t>> cell_ids_;
@@ -228,24 +225,9 @@ class Writer {
 }  // namespace
 
 void write_abaqus(const Mesh& mesh, const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code trouble;
-  std::FILE* file = std::fopen(part.c_str(), "wb");
-  bool good = file != nullptr;
-  try {
-    good = good && Writer(mesh, file).run();
-  } catch (const InputError&) {
-    std::fclose(file);
-    std::filesystem::remove(part, trouble);
-    throw;
-  }
-  if (file != nullptr) good = std::fclose(file) == 0 && good;
-  if (good) std::filesystem::rename(part, path, trouble);
-  if (good && !trouble) return;
-  std::filesystem::remove(part, trouble);
-  throw FileError(
-      fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
+  WholeFile file(path);
+  Writer(mesh, file.stream()).run();
+  file.commit();
 }
 
 }  // namespace clatter::mesh::deck

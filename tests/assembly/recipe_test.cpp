@@ -55,6 +55,12 @@ TEST(Recipe, UnknownNamesListWhatThereIs) {
   expect_parts(refusal(std::string(kSteel) + "[[suport]]\nsurface = \"z0\"\n"), {"suport"});
 }
 
+TEST(Recipe, TemperatureNeedsAMaterialThatExpands) {
+  expect_parts(refusal(std::string(kSteel) +
+                       "[[load]]\nname = \"hot\"\nkind = \"temperature\"\nvalue = 20.0\n"),
+               {"part.fe.toml:", "temperature", "no material has an expansion"});
+}
+
 TEST(Recipe, EachRegionNeedsOneMaterial) {
   expect_parts(refusal("[material]\n"), {"body"});
   expect_parts(refusal(std::string(kSteel) +
