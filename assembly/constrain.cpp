@@ -278,6 +278,7 @@ Constrained Constrainer::run() {
   gather_node_sets();
   gather_couplings();
   gather_equations();
+  gather_straight_edges();
   gather_ties();
   start_elimination();
   hold_oblique(false);

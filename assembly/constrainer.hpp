@@ -32,6 +32,7 @@ class Constrainer {
   void gather_node_sets();
   void gather_couplings();
   void gather_equations();
+  void gather_straight_edges();
   void gather_ties();
   void add_tie(const TieSpec& spec, int32_t jump);
   void add_rigid(const CouplingSpec& spec);

@@ -6,6 +6,7 @@
 #include "assembly/constrainer.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "mesh/middles.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -195,6 +196,17 @@ void Constrainer::gather_equations() {
   out_.grounded.resize(static_cast<Eigen::Index>(grounded.size()), 6);
   for (size_t r = 0; r < grounded.size(); ++r)
     out_.grounded.row(static_cast<Eigen::Index>(r)) = grounded[r];
+}
+
+void Constrainer::gather_straight_edges() {
+  for (const StraightEdgesSpec& spec : recipe_.straight_edges) {
+    const int relation = graph_.add_relation(spec.where);
+    const std::vector<int32_t>& nodes = mesh_.node_set(spec.node_set);
+    const auto ends = mesh::ends_of_middles(mesh_, nodes, spec.where);
+    for (size_t n = 0; n < nodes.size(); ++n)
+      for (int d = 0; d < 3; ++d)
+        depend(3 * nodes[n] + d, {{3 * ends[n][0] + d, 3 * ends[n][1] + d}, {0.5, 0.5}}, relation);
+  }
 }
 
 }  // namespace clatter::assembly

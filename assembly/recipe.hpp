@@ -80,6 +80,11 @@ struct EquationSpec {
   std::vector<Term> terms;
 };
 
+/// [[straight_edges]]: middle nodes that move with the ends of their edge, the mean of both.
+struct StraightEdgesSpec {
+  std::string node_set, where;
+};
+
 /// [[contact]]: a grid of patches on a cylinder surface.
 struct ContactSpec {
   std::string name, surface, where;
@@ -131,6 +136,7 @@ struct Recipe {
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;
   std::vector<EquationSpec> equations;
+  std::vector<StraightEdgesSpec> straight_edges;
   std::vector<TieSpec> ties;  // bolts too
   std::vector<ContactSpec> contacts;
   std::vector<MeanSpec> means;

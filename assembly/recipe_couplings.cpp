@@ -1,4 +1,4 @@
-// [[point]], [[support]], [[coupling]], [[equation]], [[tie]], [[bolt]].
+// [[point]], [[support]], [[coupling]], [[equation]], [[straight_edges]], [[tie]], [[bolt]].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -130,6 +130,20 @@ void RecipeReader::equations(Recipe& recipe) const {
       table.fail("terms", "found none or a first one of zero, expected a dependent term first");
     recipe.equations.push_back(spec);
   }
+}
+
+void RecipeReader::straight_edges(Recipe& recipe) const {
+  bool hanging = mesh_.node_sets.contains(mesh::kHangingMiddles);
+  for (const Config& table : config_.tables("straight_edges")) {
+    const std::string set = node_set(table);
+    recipe.straight_edges.push_back({set, where(table, "straight edges " + set)});
+    if (set == mesh::kHangingMiddles) hanging = false;
+  }
+  if (hanging)
+    config_.fail("straight_edges",
+                 fmt::format("found none, the mesh has the node set \"{0}\": expected "
+                             "[[straight_edges]] with node_set = \"{0}\"",
+                             mesh::kHangingMiddles));
 }
 
 void RecipeReader::ties(Recipe& recipe) {

@@ -49,6 +49,7 @@ class RecipeReader {
   void reference(const Config& table, CouplingSpec& spec);
   std::vector<TermSpec> terms(const Config& table, const CouplingSpec& spec) const;
   void equations(Recipe& recipe) const;
+  void straight_edges(Recipe& recipe) const;
   void ties(Recipe& recipe);
   void contacts(Recipe& recipe);
   static std::vector<Sector> sectors(const Config& table);

@@ -29,6 +29,16 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
   return labels;
 }
 
+/// A linear face and a quadratic one whose middle nodes all hang move alike.
+bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
+  const auto hanging = mesh.node_sets.find(kHangingMiddles);
+  if (hanging == mesh.node_sets.end()) return false;
+  const auto middles = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
+  return std::all_of(middles.begin(), middles.end(), [&](int32_t node) {
+    return std::binary_search(hanging->second.begin(), hanging->second.end(), node);
+  });
+}
+
 void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b) {
   const auto sorted = [&](const FacePlace& place) {
     std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, place).ids;
@@ -36,6 +46,9 @@ void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b
     return ids;
   };
   if (sorted(a) == sorted(b)) return;
+  const BoundaryFace one = face_at(mesh, a), other = face_at(mesh, b);
+  if (one.type != other.type && linear_along_edges(mesh, one) && linear_along_edges(mesh, other))
+    return;
   throw InputError(fmt::format(
       "mesh '{}': {} and {} share the face with corners {} but not its middle nodes, expected the "
       "same nodes on both sides",

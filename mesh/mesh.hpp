@@ -43,6 +43,11 @@ class SurfaceBuilder {
   std::array<std::vector<int32_t>, kFaceTypes> nodes_;
 };
 
+/// Node set of the middle nodes that some cell has only to be whole: the deck's cell was linear
+/// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
+/// fe.toml), so that such a cell fits linear cells beside it.
+inline constexpr const char* kHangingMiddles = "hanging_middles";
+
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {
   std::string name;

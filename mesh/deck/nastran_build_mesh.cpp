@@ -29,6 +29,10 @@ void find_rows(Model& model) {
   for (RawBlock& block : model.bulk.blocks) {
     const auto per_cell = static_cast<size_t>(traits(block.type).nodes);
     for (size_t i = 0; i < block.nodes.size(); ++i) {
+      if (block.nodes[i] == 0) {
+        block.nodes[i] = kNoRow;
+        continue;
+      }
       const int32_t row = model.grids.find(block.nodes[i]);
       if (row < 0) {
         const size_t cell = i / per_cell;
@@ -52,6 +56,7 @@ void build_mesh(Model& model) {
   properties.assign(found.begin(), found.end());
   build_regions(model, properties);
   find_rows(model);
+  complete_cells(model);
 
   Grids& grids = model.bulk.grids;
   Mesh& mesh = model.deck.mesh;
@@ -78,6 +83,8 @@ void build_mesh(Model& model) {
     mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
     mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
   }
+  for (const int32_t row : model.hanging_rows)
+    mesh.node_sets[kHangingMiddles].push_back(model.place_of_row[static_cast<size_t>(row)]);
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -15,6 +15,7 @@ namespace clatter::mesh::deck::nastran {
 /// What a GRID field that may take its value from GRDSET holds while cards are read: nothing, or a
 /// zero that is meant.
 inline constexpr int32_t kBlank = 0, kZero = -2;
+inline constexpr int32_t kNoRow = -1;  // of a middle node that the card leaves out
 inline constexpr DofMask kNoneHeld = 0x80;
 
 /// GRID cards, beside each other. Columns that no card uses so far are empty or short (column_at).
@@ -45,7 +46,8 @@ struct RawBlock {
   CellType type = CellType::kTet4;
   int32_t property = 0;
   std::vector<int32_t> ids;
-  Chunked<int32_t> nodes;  // GRID numbers, nodes per cell each, order of cell.hpp
+  Chunked<int32_t>
+      nodes;  // GRID numbers, nodes per cell each, order of cell.hpp; 0: no middle node
   std::vector<Origin> origins;
 };
 

@@ -57,29 +57,16 @@ constexpr size_t kFirstNode = 2;
 
 bool has_node(const Card& card, size_t i) { return !card.blank(i) && card.text(i) != "0"; }
 
-// Linear when no middle node is there, quadratic when all are.
-CellType type_of(const Card& card, int32_t id) {
+// Linear when no middle node is there, else quadratic.
+CellType type_of(const Card& card) {
   const Family& family = *std::find_if(std::begin(kFamilies), std::end(kFamilies),
                                        [&](const Family& f) { return f.card == card.name(); });
   const auto corners = static_cast<size_t>(traits(family.linear).nodes);
   const auto all = static_cast<size_t>(traits(family.quadratic).nodes);
   card.expect_end(kFirstNode + all);
-  size_t middles = 0, missing = 0;
-  for (size_t i = corners; i < all; ++i) {
-    if (has_node(card, kFirstNode + i)) {
-      ++middles;
-    } else if (missing == 0) {
-      missing = i;
-    }
-  }
-  if (middles == 0) return family.linear;
-  if (missing > 0) {
-    card.fail(kFirstNode + missing,
-              fmt::format("cell {}: found {} of {} middle nodes (G{} is missing), expected all or "
-                          "none",
-                          id, middles, all - corners, missing + 1));
-  }
-  return family.quadratic;
+  for (size_t i = corners; i < all; ++i)
+    if (has_node(card, kFirstNode + i)) return family.quadratic;
+  return family.linear;
 }
 
 RawBlock& block_of(Bulk& bulk, CellType type, int32_t property) {
@@ -172,11 +159,13 @@ void read_cord2(const Card& card, Bulk& bulk) {
 
 void read_cell(const Card& card, Bulk& bulk) {
   const int32_t id = card.id(0, "EID");
-  const CellType type = type_of(card, id);
+  const CellType type = type_of(card);
   RawBlock& block = block_of(bulk, type, card.id_or(1, "PID", id));
   const CellTraits& cell = traits(type);
   std::array<int32_t, kMaxCellNodes> nodes{};
   for (size_t i = 0; i < cell.to_nastran.size(); ++i) {
+    const bool middle = static_cast<int>(i) >= cell.corners;
+    if (middle && !has_node(card, kFirstNode + i)) continue;  // complete_cells() adds it
     const int32_t node = card.id(kFirstNode + i, "G");
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
       card.fail(kFirstNode + i, fmt::format("cell {}: found node {} twice", id, node));

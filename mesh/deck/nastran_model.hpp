@@ -39,6 +39,7 @@ class Model {
   Systems systems;
   Deck deck;
   std::vector<Place> place_of_row;
+  std::vector<int32_t> hanging_rows;  // grids that complete_cells() added
   Place node_count = 0;
   IdIndex cells;  // numbered through all blocks of the mesh
 
@@ -53,6 +54,8 @@ class Model {
 
 /// Cells, nodes, regions, materials. Grids without cells get no place yet.
 void build_mesh(Model& model);
+/// Adds the middle nodes that cards leave out of a quadratic cell; rows of cells must be known.
+void complete_cells(Model& model);
 void build_regions(Model& model, const std::vector<int32_t>& properties);
 /// RBE2, RBE3, MPC, CONM2: the grids they name get places.
 void build_couplings(Model& model);

@@ -9,7 +9,7 @@
 //                         coupling, a mass or an MPC names is a Point; others are left out, with
 //                         their number in Deck::ignored
 //   CORD1R/C/S CORD2R/C/S systems "cord_5", those that something in the Deck refers to
-//   CTETRA CPYRAM CPENTA CHEXA  with no or all middle nodes
+//   CTETRA CPYRAM CPENTA CHEXA  with any middle nodes or none
 //   PSOLID                region "pid_5"; CORDM counts with MAT9. A deck without any PSOLID has
 //   regions
 //                         without material

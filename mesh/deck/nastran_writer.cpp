@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "mesh/deck/nastran_fields.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
 
 constexpr int kLargeField = 16, kSmallField = 8;
+constexpr int32_t kNoField = -1;  // left blank
 constexpr int32_t kMostInSmallField = 99999999;
 constexpr size_t kFlushAt = 1 << 20;
 
@@ -96,7 +97,7 @@ class Writer {
     for (const CellBlock& block : mesh_.cells) cells(block);
     size_t number = 0;
     for (const auto& [name, nodes] : mesh_.node_sets) {
-      if (!nodes.empty()) node_set(++number, name, nodes);
+      if (!nodes.empty() && name != kHangingMiddles) node_set(++number, name, nodes);
     }
     for (const auto& [name, surface] : mesh_.surfaces) faces(name, surface);
     put(text_, "ENDDATA\n");
@@ -106,6 +107,7 @@ class Writer {
  private:
   void nodes() {
     for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
+      if (hangs(static_cast<int32_t>(n))) continue;
       const int32_t id = numbers_.node(static_cast<int32_t>(n));
       const auto at = mesh_.nodes.row(n);
       std::string fields[3];
@@ -126,9 +128,18 @@ class Writer {
     std::vector<int32_t> fields;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       fields = {numbers_.cell(block, c), block.region + 1};
-      for (int i : cell.to_nastran) fields.push_back(numbers_.node(block.nodes(c, i)));
+      for (int i : cell.to_nastran)
+        fields.push_back(hangs(block.nodes(c, i)) ? kNoField : numbers_.node(block.nodes(c, i)));
+      while (fields.back() == kNoField) fields.pop_back();
       card(cell.nastran_name, fields);
     }
+  }
+
+  /// Middle nodes that hang are left out of their cells: the reader adds them again.
+  bool hangs(int32_t node) const {
+    const auto set = mesh_.node_sets.find(kHangingMiddles);
+    return set != mesh_.node_sets.end() &&
+           std::binary_search(set->second.begin(), set->second.end(), node);
   }
 
   void node_set(size_t number, const std::string& name, const std::vector<int32_t>& nodes) {
@@ -159,7 +170,10 @@ class Writer {
     const size_t per_line = large ? 4 : 8;
     for (size_t i = 0; i < fields.size(); ++i) {
       if (i > 0 && i % per_line == 0) put(text_, "{0}\n{0:<8}", large ? '*' : '+');
-      put(text_, "{:<{}}", fields[i], width_);
+      if (fields[i] == kNoField)
+        put(text_, "{:<{}}", "", width_);
+      else
+        put(text_, "{:<{}}", fields[i], width_);
     }
     put(text_, "\n");
     flush_when_full();
@@ -203,23 +217,9 @@ std::string nastran_real(double value, int width) {
 void write_nastran(const Mesh& mesh, std::ostream& out) { Writer(mesh, out).run(); }
 
 void write_nastran(const Mesh& mesh, const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code trouble;
-  try {
-    std::ofstream file(part, std::ios::binary);
-    write_nastran(mesh, file);
-    file.close();
-    if (!file) {
-      throw FileError(
-          fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
-    }
-  } catch (const Error&) {
-    std::filesystem::remove(part, trouble);
-    throw;
-  }
-  std::filesystem::rename(part, path, trouble);
-  if (trouble) throw FileError(fmt::format("{}: {}", path.string(), trouble.message()));
+  WholeFile file(path);
+  write_nastran(mesh, file.stream());
+  file.commit();
 }
 
 }  // namespace clatter::mesh::deck

@@ -88,12 +88,20 @@ TEST(NastranCell, MiddleNodesOfAHexLieBetweenTheirCorners) {
   }
 }
 
-TEST(NastranCell, SomeMiddleNodesMissingIsRefusedByNameAndLine) {
-  EXPECT_EQ(
-      refusal(grids(1, 10) + "CTETRA,7,1,1,2,3,4,5,6,+\n+,7,8,,10\n"),
-      "t.bdf:12: CTETRA: cell 7: found 5 of 6 middle nodes (G9 is missing), expected all or none");
-  EXPECT_THAT(refusal(grids(1, 10) + "CTETRA,7,1,1,2,3,4,0,6,+\n+,7,8,9,10\n"),
-              StartsWith("t.bdf:11: CTETRA: cell 7: found 5 of 6 middle nodes (G5 is missing)"));
+TEST(NastranCell, MiddleNodesThatACardLeavesOutAreAddedOnceAndHang) {
+  // Two tetrahedra share edge 2-3, whose middle node both leave out: G6 of one, G5 of the other.
+  const Deck deck = read_deck(grids(1, 14) +
+                              "CTETRA,7,1,1,2,3,4,5,,+\n+,7,8,9,10\n"
+                              "CTETRA,8,1,2,3,11,4,,12,+\n+,13,9,10,14\n");
+  ASSERT_EQ(deck.mesh.cells.size(), 1U);
+  const auto& block = deck.mesh.cells[0];
+  EXPECT_EQ(block.type, CellType::kTet10);
+  EXPECT_EQ(deck.mesh.nodes.rows(), 14);  // 1 to 5, 7 to 14 and the new one
+  EXPECT_EQ(deck.mesh.node_ids.back(), 15);
+  EXPECT_THAT(deck.mesh.node_sets.at(mesh::kHangingMiddles), ElementsAre(13));
+  EXPECT_EQ(block.nodes(0, 5), 13);
+  EXPECT_EQ(block.nodes(1, 4), 13);
+  EXPECT_EQ(deck.mesh.nodes.row(13), Eigen::RowVector3d(2.5, 6.5, 0.0));
 }
 
 TEST(NastranCell, WrongNodesAreRefused) {

@@ -180,5 +180,22 @@ TEST(NastranWriter, WritesWholeFilesOrNone) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
+  const Mesh mesh = read_deck(
+                        "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+                        "GRID,5,,.5,0.,0.\nGRID,6,,.5,.5,0.\nGRID,7,,0.,.5,0.\nGRID,8,,0.,0.,.5\n"
+                        "CTETRA,7,1,1,2,3,4,5,6,+\n+,7,8\n")
+                        .mesh;
+  ASSERT_EQ(mesh.node_sets.at(mesh::kHangingMiddles).size(), 2U);
+  std::ostringstream out;
+  mesh::deck::write_nastran(mesh, out);
+  EXPECT_EQ(out.str().find("hanging"), std::string::npos);
+  const Mesh again = read_deck(out.str()).mesh;
+  EXPECT_EQ(again.nodes, mesh.nodes);
+  EXPECT_EQ(again.node_ids, mesh.node_ids);
+  EXPECT_EQ(again.cells.at(0).nodes, mesh.cells.at(0).nodes);
+  EXPECT_EQ(again.node_sets, mesh.node_sets);
+}
+
 }  // namespace
 }  // namespace clatter::test

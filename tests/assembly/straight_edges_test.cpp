@@ -1,0 +1,114 @@
+// Quadratic cells whose middle nodes follow the ends of their edges.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "assembly/build.hpp"
+#include "core/error.hpp"
+#include "mesh/boundary.hpp"
+#include "one_cell.hpp"
+#include "small_solver.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+using mesh::CellType;
+
+constexpr const char* kStraight = "[[straight_edges]]\nnode_set = \"hanging_middles\"\n";
+
+mesh::Mesh one_cell(CellType type) {
+  mesh::Mesh mesh;
+  mesh.name = "one";
+  mesh.regions = {"solid"};
+  mesh.nodes = mesh::reference_nodes(type);
+  mesh::CellBlock block;
+  block.type = type;
+  block.nodes.resize(1, mesh.nodes.rows());
+  std::iota(block.nodes.data(), block.nodes.data() + block.nodes.size(), 0);
+  mesh.cells.push_back(block);
+  return mesh;
+}
+
+/// A cube (hex8) under a pyramid13 that has no middle nodes on its base.
+mesh::Mesh cube_under_pyramid() {
+  mesh::Mesh mesh = one_cell(CellType::kPyramid13);
+  const Eigen::Index first = mesh.nodes.rows();
+  mesh.nodes.conservativeResize(first + 4, 3);
+  mesh::CellBlock cube;
+  cube.type = CellType::kHex8;
+  cube.nodes.resize(1, 8);
+  for (int i = 0; i < 4; ++i) {
+    mesh.nodes.row(first + i) = mesh.nodes.row(i) - Eigen::RowVector3d(0.0, 0.0, 2.0);
+    cube.nodes(0, i) = static_cast<int32_t>(first) + i;
+    cube.nodes(0, 4 + i) = i;
+  }
+  mesh.cells.push_back(cube);
+  const mesh::CellTraits& pyramid = mesh::traits(CellType::kPyramid13);
+  for (int e = 0; e < 8; ++e)
+    if (pyramid.edges[static_cast<size_t>(e)][0] < 4 &&
+        pyramid.edges[static_cast<size_t>(e)][1] < 4)
+      mesh.node_sets[mesh::kHangingMiddles].push_back(5 + e);
+  mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh));
+  return mesh;
+}
+
+class StraightEdges : public ::testing::TestWithParam<std::pair<CellType, CellType>> {};
+
+TEST_P(StraightEdges, OfAllEdgesMakeTheLinearCell) {
+  const auto [linear, quadratic] = GetParam();
+  const mesh::Mesh corners = one_cell(linear);
+  mesh::Mesh whole = one_cell(quadratic);
+  for (auto n = static_cast<int32_t>(corners.nodes.rows()); n < whole.nodes.rows(); ++n)
+    whole.node_sets[mesh::kHangingMiddles].push_back(n);
+  whole.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(whole));
+  const FeModel model = build(whole, kStraight).model;
+  const NodalMatrices want = assemble(corners,
+                                      materials_of(corners,
+                                                   [] {
+                                                     Material full = kSteel;
+                                                     full.integration.hex8 = Integration::kFull;
+                                                     return full;
+                                                   }()),
+                                      node_pattern(corners));
+  // Rounding; both rules integrate these cells exactly.
+  EXPECT_LT((full(model.K) - full(want.K)).cwiseAbs().maxCoeff(), 1e-12 * full(want.K).maxCoeff());
+  EXPECT_LT((full(model.M) - full(want.M)).cwiseAbs().maxCoeff(), 1e-12 * full(want.M).maxCoeff());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, StraightEdges,
+                         ::testing::Values(std::pair(CellType::kTet4, CellType::kTet10),
+                                           std::pair(CellType::kHex8, CellType::kHex20),
+                                           std::pair(CellType::kWedge6, CellType::kWedge15),
+                                           std::pair(CellType::kPyramid5, CellType::kPyramid13)));
+
+TEST(StraightEdgesOfAMesh, JoinAQuadraticCellToALinearOne) {
+  const mesh::Mesh mesh = cube_under_pyramid();
+  EXPECT_EQ(mesh.surface("skin").face_count(), 5 + 4);  // the common face is inside
+  const FeModel model = build(mesh, kStraight).model;
+  EXPECT_EQ(model.size(), 3 * (mesh.nodes.rows() - 4));
+  // A stretch along x: its energy is E / 2 (1 - nu) / ((1 + nu) (1 - 2 nu)) times the volume.
+  const Eigen::MatrixXd T = model.T;
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(T.rows());
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) u(3 * n) = 1e-3 * mesh.nodes(n, 0);
+  const Eigen::VectorXd q = T.colPivHouseholderQr().solve(u);
+  EXPECT_LT((T * q - u).norm(), 1e-15);
+  const double volume = 8.0 + 4.0 / 3.0;
+  const double want = 0.5 * 1e-6 * volume * (kSteel.lambda() + 2.0 * kSteel.mu());
+  EXPECT_NEAR(0.5 * q.dot(full(model.K) * q), want, 1e-12 * want);
+}
+
+TEST(StraightEdgesOfAMesh, AreNotForgotten) {
+  mesh::Mesh mesh = cube_under_pyramid();
+  EXPECT_THROW(build(mesh, ""), InputError);
+  mesh.node_sets[mesh::kHangingMiddles] = {0};  // a corner
+  EXPECT_THROW(build(mesh, kStraight), InputError);
+}
+
+TEST(StraightEdgesOfAMesh, AreWhatLetsALinearFaceMeetAQuadraticOne) {
+  mesh::Mesh mesh = cube_under_pyramid();
+  mesh.node_sets.clear();
+  EXPECT_THROW(mesh::boundary_faces(mesh), InputError);
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing
