@@ -12,24 +12,11 @@
 namespace clatter::assembly {
 namespace {
 
-/// A rule that integrates x x^T det J exactly: det J has at most the degrees that
-/// cube_bernstein.cpp lists, x adds its own twice.
-const mesh::CellRule& moment_rule(mesh::CellType type) {
-  switch (mesh::traits(type).corners) {
-    case 4:
-      return mesh::tet_rule_64();
-    case 8:
-      return mesh::hex_rule(5);
-    case 6:
-      return mesh::wedge_rule(25, 5);
-    default:
-      return mesh::pyramid_rule(5);
-  }
-}
-
 void add_block(const mesh::Mesh& mesh, const mesh::CellBlock& block, double density,
                MassMoments& sum) {
-  const mesh::CellRule& rule = moment_rule(block.type);
+  // Exact for x x^T det J: det J has at most the degrees that cube_bernstein.cpp lists, x adds its
+  // own twice.
+  const mesh::CellRule& rule = mesh::fine_rule(block.type);
   std::vector<mesh::CellShape> shapes;
   for (const auto& point : rule.points.rowwise())
     shapes.push_back(mesh::cell_shape(block.type, point.transpose()));

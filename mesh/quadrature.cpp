@@ -232,6 +232,19 @@ const CellRule& wedge_rule(int triangle, int n) {
   return rules[row].at(static_cast<size_t>(n - 1));
 }
 
+const CellRule& fine_rule(CellType type) {
+  switch (traits(type).corners) {
+    case 4:
+      return tet_rule_64();
+    case 8:
+      return hex_rule(5);
+    case 6:
+      return wedge_rule(25, 5);
+    default:
+      return pyramid_rule(5);
+  }
+}
+
 const FaceRule& quad_rule_16() {
   static const FaceRule rule = [] {
     const LineRule line = gauss_legendre(4);

@@ -41,6 +41,9 @@ const CellRule& wedge_rule(int triangle, int n);
 /// of shape.hpp, which are polynomials in xi / (1 - zeta), eta / (1 - zeta), zeta.
 const CellRule& pyramid_rule(int n);
 
+/// The finest rule of the cell type: 64 points of a tetrahedron, five each way in the others.
+const CellRule& fine_rule(CellType type);
+
 /// Sixteen points, exact for degree 7: everything on surfaces (N_a n has degree 4 on a curved
 /// triangle, N_a dA is not polynomial there). Conical product of Gauss-Jacobi rules.
 const FaceRule& triangle_rule_16();

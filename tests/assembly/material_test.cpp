@@ -10,6 +10,7 @@
 #include "block_mesh.hpp"
 #include "core/error.hpp"
 #include "small_solver.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -22,12 +23,7 @@ Material parse(const std::string& text, const std::map<std::string, Axes>& syste
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of([&] { parse(text); });
 }
 
 TEST(Material, IsotropicConstantsInBothUnits) {

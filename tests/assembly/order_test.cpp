@@ -40,23 +40,10 @@ Eigen::Vector3d body_force(const Eigen::Vector3d& x) {
   return b;
 }
 
-const mesh::CellRule& fine_rule(mesh::CellType type) {
-  switch (mesh::traits(type).corners) {
-    case 4:
-      return mesh::tet_rule_64();
-    case 8:
-      return mesh::hex_rule(5);
-    case 6:
-      return mesh::wedge_rule(25, 5);
-    default:
-      return mesh::pyramid_rule(5);
-  }
-}
-
 template <typename Visit>
 void at_points(const mesh::Mesh& mesh, const Visit& visit) {
   const mesh::CellBlock& block = mesh.cells[0];
-  const mesh::CellRule& rule = fine_rule(block.type);
+  const mesh::CellRule& rule = mesh::fine_rule(block.type);
   std::vector<mesh::CellShape> shapes;
   for (const auto& point : rule.points.rowwise())
     shapes.push_back(mesh::cell_shape(block.type, point.transpose()));

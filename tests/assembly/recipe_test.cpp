@@ -4,6 +4,7 @@
 
 #include "block_mesh.hpp"
 #include "core/error.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -16,20 +17,11 @@ Recipe read(const std::string& toml) {
   return read_recipe(Config::parse(toml, "part.fe.toml"), mesh);
 }
 
+using test::expect_parts;
+
 /// The message of the InputError that the text must raise.
 std::string refusal(const std::string& toml) {
-  try {
-    read(toml);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
-  EXPECT_EQ(text.find('\n'), std::string::npos) << "one line: " << text;
+  return test::refusal_of([&] { read(toml); });
 }
 
 TEST(Recipe, ReadsUnitsByName) {

@@ -1,0 +1,156 @@
+// Loose points, supports in any directions, equations that hold a rigid motion.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "assembly/axes.hpp"
+#include "assembly/dof_numbers.hpp"
+#include "bar_model.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::assembly::testing {
+namespace {
+
+using test::expect_parts;
+
+std::string refusal(const mesh::Mesh& mesh, const std::string& toml) {
+  return test::refusal_of([&] { build(mesh, toml); });
+}
+
+TEST(Points, LooseDirectionsAreLeftOutAndWhollyLoosePointsRefused) {
+  const mesh::Mesh mesh = bar();
+  const std::string point = "[[point]]\nname = \"a\"\nat = [0.05, 0.05, 0.3]\n";
+  const FeModel model = build(mesh, point + R"(
+[[coupling]]
+point = "a"
+surface = "z1"
+directions = "xyz"
+)")
+                            .model;
+  EXPECT_EQ(model.set("a").dofs.size(), 3u);
+  EXPECT_EQ(full(model.K).rows(), 3 * mesh.nodes.rows());
+  expect_parts(refusal(mesh, point), {"point a", "nothing attached"});
+  const std::string loaded = point +
+                             "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
+                             "\"xyz\"\n[[point_mass]]\non = \"a\"\nmass = 1.0\n";
+  EXPECT_EQ(refusal(mesh, loaded), "accepted");
+  expect_parts(refusal(mesh, loaded + "inertia = [1.0, 1.0, 1.0]\n"),
+               {"point a", "mass on rx", "nothing holds"});
+  expect_parts(refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
+                                     "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
+                                     "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
+               {"load m", "nothing is attached"});
+}
+
+TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
+  // Rotation about the line from the point to its one follower moves nothing.
+  expect_parts(refusal(bar(),
+                       "[[point]]\nname = \"a\"\nat = [0.0, 0.1, 0.45]\n[[coupling]]\ntype "
+                       "= \"rigid\"\npoint = \"a\"\nnode_set = \"n0\"\n"),
+               {"motion of a that moves nothing"});
+}
+
+TEST(Points, OnAMeshNodeMoveWithIt) {
+  const mesh::Mesh mesh = bar();
+  const FeModel model = build(mesh, R"(
+[[point]]
+name = "a"
+node_set = "n0"
+[[coupling]]
+type = "rigid"
+point = "a"
+node_set = "z1"
+)")
+                            .model;
+  const Eigen::VectorXd q = some_forces(model.size());
+  const Eigen::VectorXd u = model.T * q, p = model.points.T * q;
+  const int32_t node = mesh.node_sets.at("n0")[0];
+  EXPECT_EQ((u.segment<3>(3 * node) - p.head<3>()).norm(), 0.0);
+  const int32_t follower = mesh.node_sets.at("z1")[2];
+  const Eigen::Vector3d want =
+      rigid_motion(mesh.nodes.row(follower).transpose(), mesh.nodes.row(node).transpose()) * p;
+  EXPECT_LT((u.segment<3>(3 * follower) - want).norm(), 1e-12 * want.norm());
+}
+
+TEST(Axes, CylindricalAndSphericalDirectionsByHand) {
+  Axes axes;
+  axes.kind = Axes::Kind::kCylindrical;
+  axes.origin = {1.0, 0.0, 0.0};
+  const Eigen::Matrix3d c = axes.at({1.0, 2.0, 5.0});
+  EXPECT_LT((c.col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LT((c.col(1) + Eigen::Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_LT((c.col(2) - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+  axes.kind = Axes::Kind::kSpherical;
+  const Eigen::Matrix3d s = axes.at({4.0, 0.0, 4.0});  // 3 along x, 4 along z
+  EXPECT_LT((s.col(0) - Eigen::Vector3d(0.6, 0.0, 0.8)).norm(), 1e-15);
+  EXPECT_LT((s.col(1) - Eigen::Vector3d(0.8, 0.0, -0.6)).norm(), 1e-15);
+  EXPECT_LT((s.col(2) - Eigen::Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_NEAR(s.determinant(), 1.0, 1e-15);
+}
+
+TEST(Supports, InACylindricalSystemHoldTheRadialDirectionOnly) {
+  BlockOptions options;
+  options.curved = options.wrap_x = true;
+  const mesh::Mesh mesh = block_mesh({6, 1, 1}, ring(0.04, 0.06, 0.05), options);
+  const BuiltModel built = build(mesh, R"(
+[system.axis]
+kind = "cylindrical"
+[[support]]
+name = "bore"
+surface = "y0"
+directions = "x"
+system = "axis"
+[[support]]
+name = "foot"
+surface = "z0"
+directions = "z"
+)");
+  const FeModel& model = built.model;
+  EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
+  Saddle saddle(mesh, 0);
+  const std::vector<int32_t> foot = mesh::nodes_of(mesh.surface("z0"));
+  for (const int32_t node : foot) saddle.add(Functional{{3 * node + 2}, {1.0}});
+  const std::vector<int32_t> bore = mesh::nodes_of(mesh.surface("y0"));
+  for (const int32_t node : bore) {
+    const Eigen::Vector2d r = mesh.nodes.row(node).head<2>().transpose().normalized();
+    saddle.add(Functional{{3 * node, 3 * node + 1}, {r.x(), r.y()}});
+  }
+  ASSERT_EQ(model.supports.size(), static_cast<int>(foot.size() + bore.size()));
+  // A turn about z is free: take its part out of the load, and out of both answers.
+  Eigen::VectorXd turn(3 * mesh.nodes.rows());
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
+    turn.segment<3>(3 * a) << -mesh.nodes(a, 1), mesh.nodes(a, 0), 0.0;
+  turn.normalize();
+  Eigen::VectorXd f = some_forces(turn.size());
+  f -= turn.dot(f) * turn;
+  Eigen::VectorXd want = saddle.solve(f);
+  Eigen::MatrixXd K = full(model.K);
+  const Eigen::VectorXd free = model.rigid.col(5);
+  K += K.diagonal().mean() / free.squaredNorm() * free * free.transpose();
+  Eigen::VectorXd got = model.T * K.llt().solve(model.T.transpose() * f);
+  got -= turn.dot(got) * turn;
+  want -= turn.dot(want) * turn;
+  EXPECT_LT((got - want).norm(), kSolve * want.norm());
+}
+
+TEST(Supports, HoldingADirectionTwiceIsHoldingIt) {
+  const mesh::Mesh mesh = bar();
+  const FeModel twice = build(mesh, std::string(kFoot) + "[[support]]\nnode_set = \"z0\"\n").model;
+  const FeModel once = build(mesh, kFoot).model;
+  EXPECT_EQ((twice.K - once.K).norm(), 0.0);
+  EXPECT_EQ(twice.supports.size(), once.supports.size());
+}
+
+TEST(Equations, ThatHoldARigidMotionAreLeftOutOfItsProof) {
+  // x of two nodes sums to zero: x itself is held, turns about the middle are not.
+  const BuiltModel built = build(bar(), R"(
+[[equation]]
+terms = [ { node_set = "n0", direction = "x", coefficient = 1.0 },
+          { node_set = "n100", direction = "x", coefficient = 1.0 } ]
+)");
+  EXPECT_EQ(built.certificate.at("rigid_motions_held_by_equations"), 1.0);
+  EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
+}
+
+}  // namespace
+}  // namespace clatter::assembly::testing

@@ -1,0 +1,30 @@
+#pragma once
+// What bad input is told.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace clatter::test {
+
+/// The message of the InputError that `action` ends with; "accepted" when it does not.
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// One line that holds all the parts.
+inline void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << "one line: " << text;
+}
+
+}  // namespace clatter::test
