@@ -7,11 +7,11 @@
 namespace clatter::mesh {
 
 /// Writes what the extension says; lengths in metres; InputError for another extension.
-///  .vtu  ParaView: all cells with cell data `region`; node order of VTK
+///  .vtu  ParaView: cells, numbers, regions, sets, surfaces, fields (vtu_writer.hpp)
 ///  .msh  Gmsh MSH 2.2 text (msh_writer.hpp)
 ///  .inp  Abaqus and CalculiX (deck/abaqus_writer.hpp)
 ///  .bdf, .nas, .dat  Nastran (deck/nastran_writer.hpp)
-/// Decks and .msh carry the numbers of an imported mesh, its sets and surfaces, and read back the
+/// All carry the numbers of an imported mesh, its sets and surfaces; decks and .msh read back the
 /// same.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);
 

@@ -6,11 +6,13 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 try:
     import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
 except ImportError:
     vtk = None
 
@@ -40,23 +42,53 @@ def deck():
             lines = [fields[:9]] + [["", *fields[k:k + 8]] for k in range(9, len(fields), 8)]
             cells.append("\n".join(",".join(map(str, line)) for line in lines))
             place += 1
-    return "\n".join(["BEGIN BULK", *grids, *cells, "PSOLID,1,1", "MAT1,1,1.0,,0.3,1.0", "ENDDATA", ""])
+    return "\n".join(["BEGIN BULK", "$ clatter set 7 FEW & <OTHERS>", "SET1,7,1,5,9", *grids, *cells, "PSOLID,1,1", "MAT1,1,1.0,,0.3,1.0", "ENDDATA", ""])
+
+
+def grid_of(path):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def arrays(data):
+    return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
 
 
 @unittest.skipIf(vtk is None, "VTK (package python3-vtk9) is not installed")
 class Vtk(unittest.TestCase):
-    def test_every_face_of_every_cell_points_outward_with_its_middles_on_its_edges(self):
+    @classmethod
+    def setUpClass(cls):
         stages.require_stages()
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-vtk-"))
-        self.addCleanup(shutil.rmtree, folder)
-        (folder / "cells.bdf").write_text(deck())
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-vtk-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "cells.bdf").write_text(deck())
         done = stages.run_stage("mesh", "cells.bdf", "--units", "m-kg-s", "-o", "cells.mesh.h5",
-                                "--export", "cells.vtu", folder=folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        reader = vtk.vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(folder / "cells.vtu"))
-        reader.Update()
-        grid = reader.GetOutput()
+                                "--export", "cells.vtu", folder=cls.folder)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        cls.grid = grid_of(cls.folder / "cells.vtu")
+
+    def test_nodes_ids_sets_surfaces_and_regions_are_those_of_the_mesh(self):
+        points, fields = arrays(self.grid.GetPointData()), arrays(self.grid.GetFieldData())
+        cells = arrays(self.grid.GetCellData())
+        with h5py.File(self.folder / "cells.mesh.h5") as mesh:
+            np.testing.assert_array_equal(vtk_to_numpy(self.grid.GetPoints().GetData()), mesh["nodes"][()])
+            np.testing.assert_array_equal(points["id"], mesh["node_ids"][()])
+            self.assertEqual(list(mesh["node_sets"]), ["FEW & <OTHERS>"])
+            for name, nodes in mesh["node_sets"].items():
+                np.testing.assert_array_equal(np.flatnonzero(points[name]), nodes[()])
+            self.assertEqual(list(mesh["surfaces"]), ["skin"])
+            for kind, faces in mesh["surfaces/skin"].items():
+                np.testing.assert_array_equal(fields[f"surface skin {kind}"], faces[()])
+            names = [name.decode() for name in mesh["regions"][()]]
+        self.assertEqual([int(fields[f"region {name}"][0]) for name in names], [0])
+        np.testing.assert_array_equal(cells["region"], 0)
+        self.assertEqual(sorted(cells["id"]), list(range(1, 9)))
+
+    def test_every_face_of_every_cell_points_outward_with_its_middles_on_its_edges(self):
+        grid = self.grid
         self.assertEqual(grid.GetNumberOfCells(), 8)
         for number in range(8):
             cell = grid.GetCell(number)
