@@ -125,6 +125,19 @@ FaceFacts facts_of(int face) {
   return facts;
 }
 
+// gmsh 4.8 sets the unit before it makes OpenCASCADE's IGES reader, which knows no units until one
+// was made: the first file of a process is read twice.
+void wake_iges_units(const std::filesystem::path& path) {
+  std::string current;
+  gmsh::model::getCurrent(current);
+  gmsh::option::setString("Geometry.OCCTargetUnit", "");
+  gmsh::model::add("iges");
+  gmsh::vectorpair unused;
+  occ::importShapes(path.string(), unused);
+  gmsh::model::remove();
+  gmsh::model::setCurrent(current);
+}
+
 }  // namespace
 
 void GmshSession::synchronize() {
@@ -284,14 +297,15 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
                     "or .igs",
                     path.string(), extension));
   }
+  const bool iges = extension == ".iges" || extension == ".igs";
   gmsh::vectorpair out;
   gmsh_call<InputError>(path.string(), [&] {
     const QuietStdout quiet;
+    if (iges) wake_iges_units(path);
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
     // IGES mostly holds loose faces: those are sewn to solids.
-    const double sew = extension == ".iges" || extension == ".igs" ? 1.0 : 0.0;
-    gmsh::option::setNumber("Geometry.OCCSewFaces", sew);
-    gmsh::option::setNumber("Geometry.OCCMakeSolids", sew);
+    gmsh::option::setNumber("Geometry.OCCSewFaces", iges);
+    gmsh::option::setNumber("Geometry.OCCMakeSolids", iges);
     occ::importShapes(path.string(), out);
   });
   synchronized_ = false;
