@@ -4,31 +4,10 @@
 
 #include <span>
 
+#include "core/xml.hpp"
+
 namespace clatter::mesh {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 // Appended raw arrays: one after the other, each behind its length in bytes.
 class RawArrays {
@@ -42,7 +21,7 @@ class RawArrays {
     return fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" "
         "format=\"appended\" offset=\"{}\"/>\n",
-        kName<T>, escaped(name), components, values.size() / static_cast<size_t>(components),
+        kName<T>, escape_xml(name), components, values.size() / static_cast<size_t>(components),
         offset);
   }
   template <class T>

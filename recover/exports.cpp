@@ -3,30 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/xml.hpp"
 
 namespace clatter::recover {
 namespace {
-
-std::string escape_xml(const std::string& text) {
-  std::string out;
-  for (char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 std::string data_item(const XdmfSeries& series, const std::string& dataset,
                       const std::string& shape, const char* type, int precision) {

@@ -9,9 +9,7 @@ the nodal displacements printed in the .dat.ref (or .frd.ref) file: the largest 
 """
 import gzip
 import pathlib
-import shutil
 import sys
-import tempfile
 
 import h5py
 import numpy as np
@@ -156,14 +154,7 @@ def compare(name, folder):
 
 def table():
     """Rows (name, shows, quantity, count, error, limit, remark)."""
-    rows = []
-    for name, shows, limit, remark in CASES:
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-ccx-"))
-        try:
-            rows.append((name, shows, *compare(name, folder), limit, remark))
-        finally:
-            shutil.rmtree(folder)
-    return rows
+    return docs_table.compared(CASES, compare)
 
 
 def main():

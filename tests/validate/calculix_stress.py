@@ -7,11 +7,8 @@
 Each deck gets *EL FILE, S in its first step and is run by the installed ccx; the six components at every node are
 compared: the largest difference over the largest component.
 """
-import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 
 import h5py
 import numpy as np
@@ -70,14 +67,7 @@ def compare(name, folder):
 
 def table():
     """Rows (name, shows, nodes, difference, limit, remark)."""
-    rows = []
-    for name, shows, limit, remark in CASES:
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-ccx-"))
-        try:
-            rows.append((name, shows, *compare(name, folder), limit, remark))
-        finally:
-            shutil.rmtree(folder)
-    return rows
+    return docs_table.compared(CASES, compare)
 
 
 def main():

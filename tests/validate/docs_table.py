@@ -1,4 +1,7 @@
 """Tables of docs/validation.md that commands write: each stands between <!-- name --> and <!-- end -->."""
+import pathlib
+import tempfile
+
 from stage_run import SOURCE
 
 PAGE = SOURCE / "docs/validation.md"
@@ -22,3 +25,13 @@ def finish(name, text, arguments):
     print(text)
     if "--write" in arguments:
         put(name, text)
+
+
+def compared(cases, compare):
+    """A row for each case (name, shows, limit, remark), with what compare(name, folder) returns in the middle; each in
+    a folder of its own."""
+    rows = []
+    for name, shows, limit, remark in cases:
+        with tempfile.TemporaryDirectory(prefix="clatter-ccx-") as folder:
+            rows.append((name, shows, *compare(name, pathlib.Path(folder)), limit, remark))
+    return rows
