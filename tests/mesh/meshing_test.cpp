@@ -11,6 +11,7 @@
 #include "mesh/mesher.hpp"
 #include "mesh/unfold.hpp"
 #include "mesh/validity.hpp"
+#include "mesh_toml.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {
@@ -19,6 +20,8 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 using testing::Folder;
+using testing::mesh_toml;
+using testing::Meshed;
 
 PartGeometry part_of(const Solids& solids) { return {{{"solid", solids}}, {}}; }
 
@@ -27,26 +30,6 @@ MeshSettings coarse(double size_mm, int per_turn) {
   settings.element_size = 1e-3 * size_mm;
   settings.elements_per_turn = per_turn;
   return settings;
-}
-
-struct Meshed {
-  PartMesh part;
-  double volume(const std::string& region) const {
-    for (size_t r = 0; r < part.mesh.regions.size(); ++r) {
-      if (part.mesh.regions[r] == region) return cell_volume(part.mesh, static_cast<int32_t>(r));
-    }
-    return 0.0;
-  }
-};
-
-Meshed mesh_toml(const std::string& text) {
-  const Config config = Config::parse(text, "part.toml");
-  GmshSession session(config.text("name"));
-  const LengthUnit unit = read_length_unit(config);
-  const MeshSettings settings = read_mesh_settings(config);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
-  return {mesh_part(session, part, settings, unit.metres, config.text("name"), "part.toml")};
 }
 
 constexpr const char* kBeam =
