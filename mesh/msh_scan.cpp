@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -19,10 +20,7 @@ constexpr std::array<int, 31> kNodes = {2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10
 
 class Scanner {
  public:
-  explicit Scanner(const std::filesystem::path& path)
-      : path_(path.string()), file_(path, std::ios::binary) {
-    if (!file_) throw InputError(fmt::format("{}: file not found", path_));
-  }
+  Scanner(std::istream& file, const std::string& path) : path_(path), file_(file) {}
 
   MshScan run() {
     read_format();
@@ -83,10 +81,11 @@ class Scanner {
     double version = 0.0;
     int kind = -1, bytes = 0;
     line >> version >> kind >> bytes;
-    scan_.version = static_cast<int>(version);
-    if ((scan_.version != 2 && scan_.version != 4) || (kind != 0 && kind != 1))
+    const bool known = (version >= 2.0 && version < 3.0) || (version >= 4.0 && version < 5.0);
+    if (!known || (kind != 0 && kind != 1))
       fail(fmt::format("found MSH version {} of kind {}, expected 2 or 4, 0 (text) or 1 (binary)",
                        version, kind));
+    scan_.version = static_cast<int>(version);
     scan_.binary = kind == 1;
     if (scan_.binary && read_int() != 1)
       fail("found binary numbers of another byte order, expected those of this machine");
@@ -108,8 +107,11 @@ class Scanner {
     }
   }
 
-  void add(uint64_t element, int group) {
-    const auto [at, is_new] = scan_.group_of.emplace(element, std::abs(group));
+  void add(uint64_t element, long long group) {
+    if (group < -std::numeric_limits<int>::max() || group > std::numeric_limits<int>::max())
+      fail(
+          fmt::format("element {}: found the group {}, expected a smaller number", element, group));
+    const auto [at, is_new] = scan_.group_of.emplace(element, static_cast<int>(std::abs(group)));
     if (!is_new) fail(fmt::format("found two elements with the number {}", element));
   }
 
@@ -131,7 +133,7 @@ class Scanner {
       next();  // type
       const long long tags = next();
       if (element <= 0) fail(fmt::format("found element {}, expected a number > 0", element));
-      add(static_cast<uint64_t>(element), tags > 0 ? static_cast<int>(next()) : 0);
+      add(static_cast<uint64_t>(element), tags > 0 ? next() : 0);
     }
   }
 
@@ -162,12 +164,18 @@ class Scanner {
   }
 
   std::string path_;
-  std::ifstream file_;
+  std::istream& file_;
   MshScan scan_;
 };
 
 }  // namespace
 
-MshScan scan_msh(const std::filesystem::path& path) { return Scanner(path).run(); }
+MshScan scan_msh(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("{}: file not found", path.string()));
+  return scan_msh(file, path.string());
+}
+
+MshScan scan_msh(std::istream& file, const std::string& name) { return Scanner(file, name).run(); }
 
 }  // namespace clatter::mesh

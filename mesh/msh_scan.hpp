@@ -7,6 +7,7 @@
 // groups without elements are lost in Gmsh too. Source: Gmsh reference manual 4.8, section 9.
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -29,5 +30,7 @@ struct MshScan {
 
 /// InputError for another format, another version, a truncated or contradictory file.
 MshScan scan_msh(const std::filesystem::path& path);
+/// The same from an open file, called `name` in messages.
+MshScan scan_msh(std::istream& file, const std::string& name);
 
 }  // namespace clatter::mesh

@@ -15,9 +15,12 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
 
 def sources(reader):
     """The reader and what it stands on."""
+    if reader == 'msh':
+        return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/error.cpp', HERE / 'msh_fuzz.cpp')]
     deck = sorted((ROOT / 'mesh/deck').glob(f'{reader}_*.cpp'))
     shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'mesh/cell.cpp',
-              ROOT / 'mesh/mesh.cpp', ROOT / 'core/error.cpp', HERE / f'{reader}_fuzz.cpp']
+              ROOT / 'mesh/mesh.cpp', ROOT / 'core/error.cpp', ROOT / 'core/whole_file.cpp',
+              HERE / f'{reader}_fuzz.cpp']
     return [str(path) for path in deck + shared if path.exists()]
 
 

@@ -38,7 +38,7 @@ def draw_measure(axis, measure, title):
     axis.axvline(float(measure.attrs["worst"]), ymax=0.7, color="#000000", linewidth=1.0,
                  linestyle=":")
     axis.set_yscale("symlog", linthresh=1)  # the few bad ones are what matters
-    axis.set_ylim(0, 60 * most)  # room for the text above the bars
+    axis.set_ylim(0, most * 10 ** (1.6 + 0.25 * len(kinds)))  # room for text and legend above the bars
     axis.set_xlabel(title)
     axis.set_ylabel("cells")
     axis.legend(loc="upper right")

@@ -1,0 +1,17 @@
+// Any text is either a Gmsh file or an InputError: no crash, no hang, no runaway memory.
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "mesh/msh_scan.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));
+  try {
+    clatter::mesh::scan_msh(file, "fuzz.msh");
+  } catch (const clatter::InputError&) {
+  }
+  return 0;
+}
