@@ -1,7 +1,10 @@
 // clatter-assembly: from a mesh to sparse mass and stiffness matrices.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "assembly/build.hpp"
+#include "assembly/matrix_import.hpp"
 #include "core/artefact.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
@@ -40,6 +43,13 @@ Further tables, any number of each:
   [[load]]        pressure, resultant, force, gravity, nodal field, prescribed displacement
   [[case]]        a sum of loads
 
+Matrices that another program assembled, instead of all that:
+  [matrices]
+  K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
+  M = "mass.mtx"
+  dofs = "dofs.tsv"    # what row i is (docs/formats.md); without it x y z of a mesh's nodes
+  units = "mm-t-s"     # of K and M, default "m-kg-s"
+
 assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
 Next: clatter-modal block.fe.h5 (modes; --static for load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
@@ -64,31 +74,58 @@ void print_summary(const clatter::assembly::FeModel& model, double seconds, bool
                        {"seconds", clatter::json_number(seconds)}});
 }
 
+/// From matrices of others, or assembled on the mesh; `inputs` gets the files that were read.
+clatter::assembly::BuiltModel make_model(const std::filesystem::path& mesh_path,
+                                         const clatter::Config& config,
+                                         std::vector<std::filesystem::path>& inputs,
+                                         clatter::StepClock& clock) {
+  using namespace clatter;
+  std::optional<mesh::Mesh> mesh;
+  if (!mesh_path.empty()) {
+    mesh = mesh::read_mesh(mesh_path);
+    inputs.push_back(mesh_path);
+  }
+  if (const auto files = assembly::read_matrix_files(config)) {
+    if (mesh.has_value() != files->dofs.empty())
+      throw InputError(fmt::format("{}: [matrices]: found {}, expected a mesh or dofs",
+                                   config.where(), mesh ? "a mesh and dofs" : "neither"));
+    inputs.insert(inputs.end(), {files->K, files->M});
+    if (!files->dofs.empty()) inputs.push_back(files->dofs);
+    assembly::BuiltModel built = assembly::import_matrices(*files, mesh ? &*mesh : nullptr);
+    clock.lap("import");
+    return built;
+  }
+  if (!mesh) throw InputError("command line: expected a mesh (.mesh.h5)");
+  const assembly::Recipe recipe = assembly::read_recipe(config, *mesh);
+  clock.lap("read");
+  return assembly::build_fe_model(*mesh, recipe, clock);
+}
+
 int run(int argc, char** argv) {
   using namespace clatter;
   std::filesystem::path mesh_path, config_path, output_path;
   CommandLine line("clatter-assembly", kSummary, kEpilog);
-  line.positional("mesh", mesh_path, "mesh of the part (.mesh.h5)");
+  line.positional("mesh", mesh_path, "mesh of the part (.mesh.h5); none with [matrices] and dofs",
+                  false);
   line.option("-c,--config", config_path, "materials, couplings, sets, loads (.fe.toml)", true);
   line.option("-o,--output", output_path, "the model to write (.fe.h5)", true);
   if (!line.parse(argc, argv)) return line.exit_code();
 
   StepClock clock;
-  const mesh::Mesh mesh = mesh::read_mesh(mesh_path);
   const Config config = Config::load(config_path);
-  const assembly::Recipe recipe = assembly::read_recipe(config, mesh);
-  clock.lap("read");
-  const assembly::BuiltModel built = assembly::build_fe_model(mesh, recipe, clock);
+  std::vector<std::filesystem::path> inputs;
+  const assembly::BuiltModel built = make_model(mesh_path, config, inputs, clock);
+  inputs.push_back(config_path);
   print_summary(built.model, clock.total_seconds(), line.common().json);
 
   H5File file = H5File::create(output_path);
-  write_provenance(file, {assembly::kFeSchema, config.resolved(), {mesh_path, config_path}});
+  write_provenance(file, {assembly::kFeSchema, config.resolved(), inputs});
   assembly::write_fe_model(file, built.model);
   write_certificate(file, built.certificate);
   clock.lap("write");
   write_timing(file, clock);
   file.commit();
-  write_depfile(line.common().depfile, output_path, {mesh_path, config_path});
+  write_depfile(line.common().depfile, output_path, inputs);
   return 0;
 }
 

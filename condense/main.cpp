@@ -3,10 +3,13 @@
 // Sample runs:
 //   clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5
 //   clatter-condense piston.fe.h5 -c piston.rom.toml -o piston.rom.h5 --json
+//   clatter-condense piston.rom.h5 --export piston.mtx
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/fe_model.hpp"
 #include "condense/condense.hpp"
+#include "condense/export/export.hpp"
 #include "core/artefact.hpp"
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
@@ -19,6 +22,7 @@ using namespace clatter;
 
 struct Paths {
   std::filesystem::path model, config, output;
+  std::vector<std::filesystem::path> exports;
 };
 
 void write(const Paths& paths, const ReducedModel& reduced, const std::string& resolved,
@@ -41,16 +45,38 @@ void print_summary(const Paths& paths, const ReducedModel& reduced, const StepCl
               {"seconds", json_number(clock.total_seconds())}});
 }
 
+int write_exports(const Paths& paths, const CommonOptions& common) {
+  if (!paths.config.empty() || !paths.output.empty())
+    throw InputError("command line: --export takes a reduced model alone, without -c and -o");
+  const ReducedModel reduced = read_reduced_model(paths.model, false);
+  std::vector<std::string> files;
+  for (const std::filesystem::path& path : paths.exports)
+    for (const std::filesystem::path& file : condense::export_reduced(reduced, path))
+      files.push_back(json_text(file.string()));
+  say(fmt::format("{}: {} coordinates to {}", reduced.name, reduced.size(),
+                  fmt::join(files, ", ")));
+  write_depfile(common.depfile, paths.exports.front(), {paths.model});
+  if (common.json) print_json({{"files", fmt::format("[{}]", fmt::join(files, ", "))}});
+  return 0;
+}
+
 int run(int argc, char** argv) {
   Paths paths;
   CommandLine line(
       "clatter-condense",
-      "Reduces an assembled part by Craig-Bampton (or Guyan) and certifies the result.",
-      "sample: clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5");
-  line.positional("model", paths.model, "assembled part (.fe.h5)");
-  line.option("-c,--config", paths.config, "what to retain (.rom.toml)", true);
-  line.option("-o,--output", paths.output, "reduced model (.rom.h5)", true);
+      "Reduces an assembled part by Craig-Bampton (or Guyan) and certifies the result; --export "
+      "writes a reduced part for other programs.",
+      "samples: clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5\n"
+      "         clatter-condense block.rom.h5 --export block.mtx");
+  line.positional("model", paths.model, "assembled part (.fe.h5); with --export reduced (.rom.h5)");
+  line.option("-c,--config", paths.config, "what to retain (.rom.toml)");
+  line.option("-o,--output", paths.output, "reduced model (.rom.h5)");
+  line.option("--export", paths.exports,
+              "write a reduced part, any number: part.mtx (Matrix Market)");
   if (!line.parse(argc, argv)) return line.exit_code();
+  if (!paths.exports.empty()) return write_exports(paths, line.common());
+  if (paths.config.empty() || paths.output.empty())
+    throw InputError("command line: expected -c part.rom.toml and -o part.rom.h5, or --export");
 
   StepClock clock;
   const Config config = Config::load(paths.config);

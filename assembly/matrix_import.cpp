@@ -1,0 +1,138 @@
+#include "assembly/matrix_import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/mass_properties.hpp"
+#include "assembly/matrix_places.hpp"
+#include "core/error.hpp"
+#include "core/matrix_text.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+using Kind = MappedDof::Kind;
+
+/// To SI: a rotation's rows and columns are forces times a length.
+void scale(SparseMatrix& matrix, double unit, double length, const std::vector<MappedDof>& dofs) {
+  const auto arm = [&](Eigen::Index j) {
+    return dofs[static_cast<size_t>(j)].kind == Kind::kRotation ? length : 1.0;
+  };
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      entry.valueRef() *= unit * arm(entry.row()) * arm(j);
+}
+
+SparseMatrix read_sized(const std::filesystem::path& path, size_t dofs, const std::string& source) {
+  SparseMatrix matrix = read_matrix_text(path);
+  if (static_cast<size_t>(matrix.rows()) != dofs)
+    throw InputError(fmt::format("{}: found {} rows, expected {} as in {}", path.string(),
+                                 matrix.rows(), dofs, source));
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    const double diagonal = matrix.coeff(j, j);
+    if (!(diagonal > 0.0))
+      throw InputError(
+          fmt::format("{}: row {}: found {:.6g} on the diagonal, expected a positive "
+                      "number",
+                      path.string(), j + 1, diagonal));
+  }
+  return matrix;
+}
+
+/// |K r| over |K| |r|, with rows of K measured by the sum of their entries' sizes.
+double rigid_residue(const SparseMatrix& K, const Eigen::MatrixXd& rigid) {
+  const Eigen::MatrixXd force = multiply_symmetric(K, rigid);
+  const Eigen::MatrixXd size = multiply_symmetric(K.cwiseAbs(), rigid.cwiseAbs());
+  double worst = 0.0;
+  for (Eigen::Index m = 0; m < rigid.cols(); ++m) {
+    const double scale = size.col(m).maxCoeff();
+    if (scale > 0.0) worst = std::max(worst, force.col(m).cwiseAbs().maxCoeff() / scale);
+  }
+  return worst;
+}
+
+/// Mass, centre and inertia are known when every rigid motion is.
+MassProperties mass_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+  for (Eigen::Index d = 0; d < 3; ++d)
+    if (rigid.col(d).isZero(0.0)) return {};
+  return properties_of(M, rigid);
+}
+
+SparseMatrix rows_and_columns(const SparseMatrix& lower, const std::vector<int32_t>& place,
+                              int32_t size) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(lower.nonZeros()));
+  for (Eigen::Index j = 0; j < lower.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
+      const int32_t p = place[static_cast<size_t>(entry.row())], q = place[static_cast<size_t>(j)];
+      if (p >= 0 && q >= 0) entries.emplace_back(p, q, entry.value());
+    }
+  }
+  SparseMatrix part(size, size);
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
+}  // namespace
+
+std::optional<MatrixFiles> read_matrix_files(const Config& config) {
+  const auto table = config.find_table("matrices");
+  if (!table) return std::nullopt;
+  MatrixFiles files;
+  files.K = table->path("K");
+  files.M = table->path("M");
+  if (table->has("dofs")) files.dofs = table->path("dofs");
+  files.name = table->text_or("name", "");
+  const std::string units = table->choice("units", {"m-kg-s", "mm-t-s", "mm-kg-ms"});
+  if (units == "mm-t-s") files.units = {1e-3, 1e3, 1.0};
+  if (units == "mm-kg-ms") files.units = {1e-3, 1.0, 1e-3};
+  files.alpha = table->number_or("alpha", 0.0, Range::not_negative());
+  files.beta = table->number_or("beta", 0.0, Range::not_negative());
+  config.finish();
+  return files;
+}
+
+BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
+  const MatrixPlaces places =
+      mesh ? places_of(*mesh) : places_of(read_dof_map(files.dofs), files.dofs.string());
+  const std::string source = mesh ? "the mesh (three a node)" : files.dofs.string();
+  SparseMatrix K = read_sized(files.K, places.dofs.size(), source);
+  SparseMatrix M = read_sized(files.M, places.dofs.size(), source);
+
+  std::vector<int32_t> place(places.dofs.size(), -1), kept;
+  for (size_t j = 0; j < place.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    if (K.coeff(row, row) >= kHeldStiffness) continue;
+    place[j] = static_cast<int32_t>(kept.size());
+    kept.push_back(static_cast<int32_t>(j));
+  }
+  if (kept.empty())
+    throw InputError(fmt::format("{}: every degree of freedom is held", files.K.string()));
+  const auto size = static_cast<int32_t>(kept.size());
+  const double unit = files.units.mass / (files.units.time * files.units.time);
+  scale(K, unit, files.units.length, places.dofs);
+  scale(M, files.units.mass, files.units.length, places.dofs);
+
+  BuiltModel built;
+  FeModel& model = built.model;
+  model.name = !files.name.empty() ? files.name : mesh ? mesh->name : files.K.stem().string();
+  model.alpha = files.alpha;
+  model.beta = files.beta;
+  const Eigen::MatrixXd rigid = rigid_motions(places.dofs);
+  model.mass = mass_of(M, rigid);
+  model.K = rows_and_columns(K, place, size);
+  model.M = rows_and_columns(M, place, size);
+  model.rigid = rigid(kept, Eigen::all);
+  model.nodes = places.nodes;
+  model.T = displacement_of(places, place, size);
+  model.sets = sets_of(places, place);
+  if (mesh) model.surfaces = mesh->surfaces;
+  const auto held = static_cast<double>(place.size() - kept.size());
+  built.certificate = {{"dofs", size}, {"held_dofs", held}};
+  if (held == 0.0) built.certificate["rigid_force_residue"] = rigid_residue(K, rigid);
+  return built;
+}
+
+}  // namespace clatter::assembly

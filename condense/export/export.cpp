@@ -1,0 +1,18 @@
+#include "condense/export/export.hpp"
+
+#include <fmt/format.h>
+
+#include "condense/export/matrix_market.hpp"
+#include "core/error.hpp"
+
+namespace clatter::condense {
+
+std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
+                                                  const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".mtx") return export_matrix_market(model, path);
+  throw InputError(fmt::format("{}: found extension \"{}\", expected .mtx (Matrix Market)",
+                               path.string(), extension));
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,16 @@
+#pragma once
+// Reduced models as text files of other programs.
+#include <filesystem>
+#include <vector>
+
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// Writes `model` in the format that the extension of `path` names; returns the files written.
+///   part.mtx  part.K.mtx, part.M.mtx (Matrix Market) and part.dofs.tsv (DoF map)
+/// InputError for another extension, FileError when a file cannot be written.
+std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
+                                                  const std::filesystem::path& path);
+
+}  // namespace clatter::condense

@@ -1,0 +1,34 @@
+#include "condense/export/matrix_market.hpp"
+
+#include <fmt/format.h>
+
+#include "core/artefact.hpp"
+#include "core/dof_map.hpp"
+#include "core/matrix_text.hpp"
+
+namespace clatter::condense {
+
+std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
+                                                        const std::filesystem::path& path) {
+  const auto beside = [&](const char* ending) {
+    return std::filesystem::path(path).replace_extension(ending);
+  };
+  const std::filesystem::path K = beside(".K.mtx"), M = beside(".M.mtx"), map = beside(".dofs.tsv");
+  const std::string rows = fmt::format(
+      "{} boundary coordinates, then {} modal ones; row i is line "
+      "i of {}",
+      model.n_boundary, model.size() - model.n_boundary, map.filename().string());
+  const auto head = [&](const char* what) {
+    return fmt::format("clatter {}: {} of \"{}\" ({}), SI", version(), what, model.name,
+                       model.method);
+  };
+  write_dof_map(map, map_of(model));
+  write_matrix_market(M, model.M_rr, {head("mass"), rows});
+  write_matrix_market(K, model.K_rr,
+                      {head("stiffness"), rows,
+                       fmt::format("damping D = alpha K + beta M, alpha {} s, beta {} 1/s",
+                                   model.alpha, model.beta)});
+  return {K, M, map};
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,16 @@
+#pragma once
+// Reduced matrices in Matrix Market files (Boisvert, Pozo, Remington 1996).
+#include <filesystem>
+#include <vector>
+
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits: they read back
+/// to the last bit) and part.dofs.tsv, which says what row i is (core/dof_map.hpp). Damping stands
+/// in the head of K. Returns the files; FileError when one cannot be written.
+std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
+                                                        const std::filesystem::path& path);
+
+}  // namespace clatter::condense

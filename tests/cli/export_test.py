@@ -1,0 +1,139 @@
+"""Reduced parts written for other programs, and matrices of others taken in."""
+import json
+import unittest
+
+import h5py
+import numpy as np
+import scipy.io
+import scipy.linalg
+import scipy.sparse as sp
+import stages
+
+
+def reduced_matrices(path):
+    """K_rr, M_rr of a reduced part."""
+    with h5py.File(path) as rom:
+        return rom["K_rr"][()], rom["M_rr"][()]
+
+
+def frequencies(K, M):
+    """[Hz], ascending; rigid motions may come out imaginary and count as zero."""
+    return np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2.0 * np.pi)
+
+
+class Exported(stages.PipelineTest):
+    def run_stage(self, stage, *arguments):
+        done = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def export(self, name):
+        """The files that the export of the beam's reduced part to `name` wrote."""
+        return json.loads(self.run_stage("condense", "beam.rom.h5", "--export", name, "--json"))["files"]
+
+
+class MatrixMarket(Exported):
+    def test_scipy_reads_the_same_bits(self):
+        self.assertEqual(self.export("part.mtx"), ["part.K.mtx", "part.M.mtx", "part.dofs.tsv"])
+        for name, matrix in zip("KM", reduced_matrices(self.folder / "beam.rom.h5")):
+            read = scipy.io.mmread(self.folder / f"part.{name}.mtx").toarray()
+            np.testing.assert_array_equal(read, matrix)
+
+    def test_the_map_names_every_row(self):
+        self.export("part.mtx")
+        rows = [line.split("\t") for line in (self.folder / "part.dofs.tsv").read_text().splitlines()
+                if not line.startswith("#")]
+        with h5py.File(self.folder / "beam.rom.h5") as rom:
+            n_b, size = rom.attrs["n_boundary"], rom["K_rr"].shape[0]
+            self.assertEqual([int(row[0]) for row in rows], list(range(1, size + 1)))
+            self.assertEqual([row[3] for row in rows[n_b:]], ["modal"] * (size - n_b))
+            for name, dofs in rom["sets"].items():
+                for k, j in enumerate(dofs["dofs"][()]):
+                    row = rows[j]
+                    self.assertEqual(row[10:], [name, dofs["labels"].asstr()[k]])
+                    np.testing.assert_array_equal([float(x) for x in row[4:7]], dofs["position"][k])
+                    np.testing.assert_array_equal([float(x) for x in row[7:10]], dofs["direction"][k])
+
+    def test_what_was_exported_can_be_taken_in_again(self):
+        self.export("part.mtx")
+        (self.folder / "back.fe.toml").write_text(
+            '[matrices]\nK = "part.K.mtx"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\nname = "back"\n')
+        self.run_stage("assembly", "-c", "back.fe.toml", "-o", "back.fe.h5")
+        with h5py.File(self.folder / "back.fe.h5") as back, h5py.File(self.folder / "beam.rom.h5") as rom:
+            for name in "KM":
+                g = back[name]
+                lower = sp.csc_matrix((g["data"][()], g["indices"][()], g["indptr"][()]), shape=g.attrs["shape"])
+                np.testing.assert_array_equal(lower.toarray(), np.tril(rom[f"{name}_rr"][()]))
+            self.assertEqual(set(back["sets"]), set(rom["sets"]))
+            # The same rigid motions, made of the positions and directions of the map.
+            np.testing.assert_allclose(back["rigid"][()], rom["rigid"][()], atol=1e-12)
+        self.run_stage("modal", "back.fe.h5", "--count", 12, "-o", "back.modes.h5")
+        self.run_stage("modal", "beam.rom.h5", "--count", 12, "-o", "rom.modes.h5")
+        with h5py.File(self.folder / "back.modes.h5") as back, h5py.File(self.folder / "rom.modes.h5") as rom:
+            self.assertEqual(back.attrs["rigid_modes"], rom.attrs["rigid_modes"])
+            elastic = slice(int(rom.attrs["rigid_modes"]), None)
+            # The same matrices, two eigen-solvers: their residuals are 1e-9 at most.
+            np.testing.assert_allclose(back["frequency_hz"][elastic], rom["frequency_hz"][elastic], rtol=1e-8)
+
+    def test_a_model_taken_in_can_be_condensed(self):
+        self.export("part.mtx")
+        (self.folder / "back.fe.toml").write_text(
+            '[matrices]\nK = "part.K.mtx"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
+        self.run_stage("assembly", "-c", "back.fe.toml", "-o", "back.fe.h5")
+        text = (self.folder / "beam.rom.toml").read_text()
+        (self.folder / "back.rom.toml").write_text(
+            "\n".join(line for line in text.splitlines() if line.startswith("boundary")) + "\ncount = 6\nskin = []\n")
+        self.run_stage("condense", "back.fe.h5", "-c", "back.rom.toml", "-o", "back.rom.h5")
+        ours = frequencies(*reduced_matrices(self.folder / "back.rom.h5"))
+        full = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
+        # Far below the cut-off, where the certificate aims at 5e-4; a reduction can only raise frequencies.
+        np.testing.assert_allclose(ours[:4], full[:4], rtol=5e-4)
+        self.assertTrue(np.all(ours >= full[:len(ours)] * (1.0 - 1e-9)))
+
+
+class MatricesOfOthers(Exported):
+    def assembly(self, says, toml, mesh=()):
+        (self.folder / "other.fe.toml").write_text("[matrices]\n" + toml)
+        self.assert_refused("assembly", [*mesh, "-c", "other.fe.toml", "-o", "other.fe.h5"], says=says)
+
+    def test_what_does_not_fit_together_is_refused(self):
+        self.export("part.mtx")
+        files = 'K = "part.K.mtx"\nM = "part.M.mtx"\n'
+        self.assembly(["expected a mesh or dofs"], files)
+        self.assembly(["expected a mesh or dofs"], files + 'dofs = "part.dofs.tsv"\n', ["beam.mesh.h5"])
+        self.assembly(["part.K.mtx", "as in the mesh"], files, ["beam.mesh.h5"])
+        self.assembly(["absent.tsv", "no such file"], files + 'dofs = "absent.tsv"\n')
+        self.assembly(["unit", "units"], files + 'dofs = "part.dofs.tsv"\nunit = "mm-t-s"\n')
+        self.assembly(["dofs.tsv"], 'K = "part.dofs.tsv"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
+        (self.folder / "none.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 -2.0\n")
+        (self.folder / "one.tsv").write_text("1\t1\t1\tdisplacement\t0\t0\t0\t1\t0\t0\ts\ts.x\n")
+        self.assembly(["none.mtx", "row 1", "-2", "positive"], 'K = "none.mtx"\nM = "none.mtx"\ndofs = "one.tsv"\n')
+
+    def test_the_matrices_that_abaqus_wrote_have_their_frequencies(self):
+        data = next((up / "shared/data/abaqus_beam" for up in stages.SOURCE.parents
+                     if (up / "shared/data/abaqus_beam").exists()), None)
+        if data is None:
+            self.skipTest("no shared/data/abaqus_beam")
+        self.run_stage("mesh", data / "abq_beam.inp", "--units", "mm-t-s", "-o", "abq.mesh.h5")
+        (self.folder / "abq.fe.toml").write_text(
+            f'[matrices]\nK = "{data}/STIF1_coord_style.mtx"\nM = "{data}/MASS1_coord_style.mtx"\nunits = "mm-t-s"\n')
+        self.run_stage("assembly", "abq.mesh.h5", "-c", "abq.fe.toml", "-o", "abq.fe.h5")
+        self.run_stage("modal", "abq.fe.h5", "--count", 10, "-o", "abq.modes.h5")
+        with h5py.File(self.folder / "abq.fe.h5") as fe:
+            self.assertEqual(fe["certificate"].attrs["held_dofs"], 27)  # nine nodes carry 1e36
+            self.assertAlmostEqual(fe["mass"].attrs["mass"], 1.57, delta=1e-9)  # 20 x 20 x 500 mm of 7.85 t/m3
+        with h5py.File(self.folder / "abq.modes.h5") as modes:
+            # Abaqus printed seven digits.
+            np.testing.assert_allclose(modes["frequency_hz"][()], [
+                66.79947, 66.81689, 416.1196, 416.2134, 1154.0607, 1154.3076, 1596.5447, 2235.0158, 2235.2421,
+                2578.8752], rtol=1e-6)
+
+    def test_a_wrong_export_is_refused(self):
+        self.assert_refused("condense", ["beam.rom.h5", "--export", "part.docx"], says=["part.docx", ".mtx"])
+        self.assert_refused("condense", ["beam.fe.h5", "--export", "part.mtx"], says=["beam.fe.h5", "schema"])
+        self.assert_refused("condense", ["beam.rom.h5", "-c", "beam.rom.toml", "--export", "part.mtx"], says=["-c"])
+        self.assert_refused("condense", ["beam.fe.h5", "-c", "beam.rom.toml"], says=["-o"])
+
+
+if __name__ == "__main__":
+    unittest.main()
