@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "condense/export/calculix.hpp"
 #include "condense/export/matrix_market.hpp"
 #include "core/error.hpp"
 
@@ -11,8 +12,10 @@ std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
                                                   const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".mtx") return export_matrix_market(model, path);
-  throw InputError(fmt::format("{}: found extension \"{}\", expected .mtx (Matrix Market)",
-                               path.string(), extension));
+  if (extension == ".inp") return export_calculix(model, path);
+  throw InputError(
+      fmt::format("{}: found extension \"{}\", expected .mtx (Matrix Market) or .inp (CalculiX)",
+                  path.string(), extension));
 }
 
 }  // namespace clatter::condense

@@ -1,5 +1,7 @@
 """Reduced parts written for other programs, and matrices of others taken in."""
 import json
+import shutil
+import subprocess
 import unittest
 
 import h5py
@@ -89,6 +91,66 @@ class MatrixMarket(Exported):
         # Far below the cut-off, where the certificate aims at 5e-4; a reduction can only raise frequencies.
         np.testing.assert_allclose(ours[:4], full[:4], rtol=5e-4)
         self.assertTrue(np.all(ours >= full[:len(ours)] * (1.0 - 1e-9)))
+
+
+class Calculix(Exported):
+    """CalculiX 2.20 knows no *MATRIX ASSEMBLE; the deck says the same with springs, masses and equations."""
+
+    def setUp(self):
+        super().setUp()
+        if shutil.which("ccx") is None:
+            self.skipTest("CalculiX is not installed")
+        self.assertEqual(self.export("part.inp"), ["part.inp", "part.K.txt", "part.M.txt"])
+
+    def calculix_hz(self, cards="", count=4):
+        """The lowest frequencies that CalculiX finds [Hz]; of the beam's 23 equations it can give four, no more."""
+        (self.folder / "job.inp").write_text(f"*INCLUDE,INPUT=part.inp\n{cards}*STEP\n*FREQUENCY\n{count}\n*END STEP\n")
+        done = subprocess.run(["ccx", "job"], cwd=self.folder, text=True, capture_output=True, timeout=100)
+        self.assertIn("Job finished", done.stdout, done.stdout[-600:])
+        lines = (self.folder / "job.dat").read_text().splitlines()
+        rows = [line.split() for line in lines if len(line.split()) == 5 and line.split()[0].isdigit()]
+        return np.array([float(row[3]) for row in rows[:count]])
+
+    def places(self):
+        """(node, component) of each row as the head of the deck lists them."""
+        head = [line.split() for line in (self.folder / "part.inp").read_text().splitlines() if line.startswith("** ")]
+        return [(int(row[2]), int(row[3])) for row in head if len(row) > 3 and all(w.isdigit() for w in row[1:4])]
+
+    def test_calculix_finds_our_frequencies(self):
+        ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
+        np.testing.assert_allclose(self.calculix_hz(), ours[:4], rtol=1e-6)  # seven digits are printed
+
+    def test_a_free_body_has_its_rigid_motions_at_a_thousandth_of_a_hertz(self):
+        self.edit("beam.fe.toml", '[[support]]\nsurface = "x_min"\n', "")
+        self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 45")
+        self.edit("beam.rom.toml", '["tip", "sensor_tip"]', '["tip", "sensor_tip"]\nfrequency_error = 0.0')
+        self.run_stage("assembly", "beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5")
+        self.run_stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
+        self.export("part.inp")
+        ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
+        found = self.calculix_hz(count=10)
+        np.testing.assert_allclose(found[:6], 1e-3, rtol=1e-6)
+        np.testing.assert_allclose(found[6:], ours[6:10], rtol=1e-6)
+
+    def test_what_is_joined_to_the_part_in_calculix_acts_on_our_coordinate(self):
+        K, M = reduced_matrices(self.folder / "beam.rom.h5")
+        row = next(j for j, place in enumerate(self.places()) if place[1] == 3)  # a displacement along z
+        node, component = self.places()[row]
+        K[row, row] += 2.0e6
+        spring = f"*ELEMENT,TYPE=SPRING1,ELSET=EXTRA\n99999,{node}\n*SPRING,ELSET=EXTRA\n{component}\n2.e6\n"
+        ours = frequencies(K, M)
+        self.assertGreater(abs(ours[0] / frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))[0] - 1.0), 0.01)
+        np.testing.assert_allclose(self.calculix_hz(spring), ours[:4], rtol=1e-6)
+
+    def test_the_matrix_lists_hold_the_same_bits(self):
+        row_of = {place: j for j, place in enumerate(self.places())}
+        for name, matrix in zip("KM", reduced_matrices(self.folder / "beam.rom.h5")):
+            read = np.zeros_like(matrix)
+            for line in (self.folder / f"part.{name}.txt").read_text().splitlines():
+                a, d, b, e, value = line.split(",")
+                i, j = row_of[int(a), int(d)], row_of[int(b), int(e)]
+                read[i, j] = read[j, i] = float(value)
+            np.testing.assert_array_equal(read, matrix)
 
 
 class MatricesOfOthers(Exported):

@@ -1,0 +1,147 @@
+#include "condense/export/calculix.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/artefact.hpp"
+#include "core/dof_map.hpp"
+#include "core/error.hpp"
+#include "core/whole_file.hpp"
+
+namespace clatter::condense {
+namespace {
+
+/// A node and its component 1, 2 or 3.
+struct Place {
+  int node = 0, component = 0;
+};
+
+/// Displacements keep the map's places; rotations and modal coordinates get nodes behind them.
+std::vector<Place> places_of(const std::vector<MappedDof>& map) {
+  int last = 0;
+  for (const MappedDof& dof : map) last = std::max(last, dof.node);
+  std::vector<Place> places;
+  for (const MappedDof& dof : map) {
+    const bool along_axis = dof.component >= 1 && dof.component <= 3;
+    const bool rotation = dof.component > 3;
+    places.push_back({rotation ? ++last : dof.node, along_axis ? dof.component : 1});
+  }
+  return places;
+}
+
+/// Phi and Lambda of the pencil, unit modal masses, ascending.
+Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes_of(const ReducedModel& model) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(model.M_rr);
+  if (factor.info() != Eigen::Success)
+    throw InputError(
+        fmt::format("{}: M_rr: found a matrix that is not positive definite, expected "
+                    "positive masses",
+                    model.name));
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(model.K_rr, model.M_rr);
+}
+
+void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matrix,
+                  const std::vector<Place>& places) {
+  WholeFile file(path);
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = j; i < matrix.rows(); ++i) {
+      if (matrix(i, j) == 0.0) continue;
+      const Place &row = places[static_cast<size_t>(i)], &column = places[static_cast<size_t>(j)];
+      file.stream() << fmt::format("{},{},{},{},{:.16e}\n", row.node, row.component, column.node,
+                                   column.component, matrix(i, j));
+    }
+  }
+  file.commit();
+}
+
+void write_head(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map,
+                const std::vector<Place>& places, const std::string& stem) {
+  out << fmt::format("** clatter {}: \"{}\" ({}), SI: m, kg, s, N\n", version(), model.name,
+                     model.method);
+  out << fmt::format(
+      "** {} boundary coordinates, then {} modal ones. The same K and M as matrices:\n"
+      "** *MATRIX ASSEMBLE,NAME=PART,STIFFNESSFILE={}.K.txt,MASSFILE={}.M.txt (CalculiX from "
+      "2.21)\n"
+      "** *MATRIX INPUT,NAME=K,INPUT={}.K.txt (Abaqus)\n"
+      "** Modes are springs and unit masses below; a rigid motion is held at {} Hz.\n"
+      "** row  node  component  what\n",
+      model.n_boundary, model.size() - model.n_boundary, stem, stem, stem, kRigidHoldHz);
+  for (size_t j = 0; j < map.size(); ++j)
+    out << fmt::format("** {}  {}  {}  {} {}\n", j + 1, places[j].node, places[j].component,
+                       map[j].kind == MappedDof::Kind::kRotation ? "rotation of" : "",
+                       map[j].label);
+}
+
+/// Nodes of the boundary coordinates; node j of the modes is `first` + j / 3, component j % 3 + 1.
+void write_nodes(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map,
+                 const std::vector<Place>& places, int first) {
+  out << "*NODE,NSET=CLATTER_BOUNDARY\n";
+  std::vector<bool> done(static_cast<size_t>(first), false);
+  for (int j = 0; j < model.n_boundary; ++j) {
+    const auto node = static_cast<size_t>(places[static_cast<size_t>(j)].node);
+    if (done[node]) continue;
+    done[node] = true;
+    const Eigen::Vector3d& p = map[static_cast<size_t>(j)].position;
+    out << fmt::format("{},{:.12e},{:.12e},{:.12e}\n", node, p[0], p[1], p[2]);
+  }
+  out << "*NODE,NSET=CLATTER_MODES\n";
+  for (int k = 0; 3 * k < model.size(); ++k) out << fmt::format("{},0.,0.,0.\n", first + k);
+}
+
+/// Unit masses and springs; CalculiX reads 20 columns of a number, so 14 digits of a spring.
+void write_modes(std::ostream& out, const Eigen::VectorXd& eigenvalues, int first) {
+  const auto size = static_cast<int>(eigenvalues.size());
+  const int nodes = (size + 2) / 3;
+  out << "*ELEMENT,TYPE=MASS,ELSET=CLATTER_MASS\n";
+  for (int k = 0; k < nodes; ++k) out << fmt::format("{},{}\n", first + k, first + k);
+  out << "*MASS,ELSET=CLATTER_MASS\n1.\n";
+  const double hold = std::pow(2.0 * std::numbers::pi * kRigidHoldHz, 2);
+  // What rounding leaves of a zero, n eps lambda_max, and some.
+  const double zero = 1e-14 * size * eigenvalues.maxCoeff();
+  for (int j = 0; j < size; ++j)
+    out << fmt::format(
+        "*ELEMENT,TYPE=SPRING1,ELSET=CLATTER_{}\n{},{}\n*SPRING,ELSET=CLATTER_{}\n{}\n{:.13e}\n",
+        j + 1, first + nodes + j, first + j / 3, j + 1, j % 3 + 1,
+        eigenvalues[j] > zero ? eigenvalues[j] : hold);
+  if (size % 3 != 0) out << fmt::format("*BOUNDARY\n{},{},3\n", first + nodes - 1, size % 3 + 1);
+}
+
+void write_equations(std::ostream& out, const ReducedModel& model, const Eigen::MatrixXd& Phi,
+                     const std::vector<Place>& places, int first) {
+  for (int i = 0; i < model.n_boundary; ++i) {
+    const Place& place = places[static_cast<size_t>(i)];
+    out << fmt::format("*EQUATION\n{}\n{},{},-1.\n", Phi.cols() + 1, place.node, place.component);
+    for (int j = 0; j < Phi.cols(); ++j)
+      out << fmt::format("{},{},{:.12e}\n", first + j / 3, j % 3 + 1, Phi(i, j));
+  }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
+                                                   const std::filesystem::path& path) {
+  const auto modes = modes_of(model);
+  const std::vector<MappedDof> map = map_of(model);
+  const std::vector<Place> places = places_of(map);
+  int first = 1;  // node of the modes
+  for (const Place& place : places) first = std::max(first, place.node + 1);
+  const auto K = std::filesystem::path(path).replace_extension(".K.txt");
+  const auto M = std::filesystem::path(path).replace_extension(".M.txt");
+  write_matrix(K, model.K_rr, places);
+  write_matrix(M, model.M_rr, places);
+  WholeFile deck(path);
+  std::ostream& out = deck.stream();
+  write_head(out, model, map, places, path.stem().string());
+  write_nodes(out, model, map, places, first);
+  write_modes(out, modes.eigenvalues(), first);
+  write_equations(out, model, modes.eigenvectors(), places, first);
+  deck.commit();
+  return {path, K, M};
+}
+
+}  // namespace clatter::condense
