@@ -72,7 +72,8 @@ int run(int argc, char** argv) {
   line.option("-c,--config", paths.config, "what to retain (.rom.toml)");
   line.option("-o,--output", paths.output, "reduced model (.rom.h5)");
   line.option("--export", paths.exports,
-              "write a reduced part, any number: part.mtx (Matrix Market), part.inp (CalculiX)");
+              "write a reduced part, any number: part.mtx (Matrix Market), part.inp (CalculiX), "
+              "part.pch (Nastran DMIG)");
   if (!line.parse(argc, argv)) return line.exit_code();
   if (!paths.exports.empty()) return write_exports(paths, line.common());
   if (paths.config.empty() || paths.output.empty())

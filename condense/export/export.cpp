@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condense/export/calculix.hpp"
+#include "condense/export/dmig.hpp"
 #include "condense/export/matrix_market.hpp"
 #include "core/error.hpp"
 
@@ -13,9 +14,11 @@ std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
   const std::string extension = path.extension().string();
   if (extension == ".mtx") return export_matrix_market(model, path);
   if (extension == ".inp") return export_calculix(model, path);
-  throw InputError(
-      fmt::format("{}: found extension \"{}\", expected .mtx (Matrix Market) or .inp (CalculiX)",
-                  path.string(), extension));
+  if (extension == ".pch") return export_dmig(model, path);
+  throw InputError(fmt::format(
+      "{}: found extension \"{}\", expected .mtx (Matrix Market), .inp (CalculiX) or .pch "
+      "(Nastran)",
+      path.string(), extension));
 }
 
 }  // namespace clatter::condense

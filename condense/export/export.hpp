@@ -10,6 +10,7 @@ namespace clatter::condense {
 /// Writes `model` in the format that the extension of `path` names; returns the files written.
 ///   part.mtx  part.K.mtx, part.M.mtx (Matrix Market) and part.dofs.tsv (DoF map)
 ///   part.inp  CalculiX (calculix.hpp), part.K.txt, part.M.txt
+///   part.pch  Nastran bulk data with DMIG (dmig.hpp)
 /// InputError for another extension, FileError when a file cannot be written.
 std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
                                                   const std::filesystem::path& path);

@@ -153,6 +153,65 @@ class Calculix(Exported):
             np.testing.assert_array_equal(read, matrix)
 
 
+def read_bulk(text):
+    """A small reader of large-field bulk data: ({DMIG name: {(column, row): value}}, {grid: (position, PS)}, spoints)."""
+    matrices, grids, spoints, column, lines = {}, {}, [], None, text.splitlines()
+    number = lambda field: float(field.replace("D", "E"))
+    for k, line in enumerate(lines):
+        fields = [line[8 + 16 * f:24 + 16 * f].strip() for f in range(4)]
+        if line.startswith("DMIG    "):
+            matrices[line[8:16].strip()] = {}
+            assert [line[16 + 8 * f:24 + 8 * f].strip() for f in range(3)] == ["0", "6", "2"], line  # symmetric, double
+        elif line.startswith("DMIG*"):
+            column = (fields[0], (int(fields[1]), int(fields[2])))
+        elif line.startswith("GRID*"):
+            column, following = None, lines[k + 1]
+            place = [number(fields[2]), number(fields[3]), number(following[8:24])]
+            grids[int(fields[0])] = (place, following[40:56].strip())
+        elif line.startswith("SPOINT"):
+            spoints.append(int(line[8:16]))
+        elif line.startswith("*") and column:
+            matrices[column[0]][column[1], (int(fields[0]), int(fields[1]))] = number(fields[2])
+    return matrices, grids, spoints
+
+
+class NastranDmig(Exported):
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.export("part.pch"), ["part.pch"])
+        self.text = (self.folder / "part.pch").read_text()
+        self.export("part.mtx")
+        lines = (self.folder / "part.dofs.tsv").read_text().splitlines()
+        self.map = [line.split("\t") for line in lines if not line.startswith("#")]
+
+    def test_both_matrices_read_back_to_ten_digits(self):
+        matrices, _, _ = read_bulk(self.text)
+        row_of = {(int(row[1]), int(row[2])): j for j, row in enumerate(self.map)}
+        for name, matrix in zip(("KCLATTR", "MCLATTR"), reduced_matrices(self.folder / "beam.rom.h5")):
+            read = np.zeros_like(matrix)
+            for (column, row), value in matrices[name].items():
+                i, j = row_of[row], row_of[column]
+                self.assertEqual(read[i, j], 0.0, "one triangle, each entry once")
+                read[i, j] = read[j, i] = value
+            np.testing.assert_allclose(read, matrix, rtol=5e-10, atol=1e-99)  # ten digits beside a sign
+
+    def test_every_coordinate_is_a_component_of_a_grid_or_a_scalar_point(self):
+        _, grids, spoints = read_bulk(self.text)
+        self.assertEqual(spoints, [int(row[1]) for row in self.map if row[2] == "0"])
+        moved = {}
+        for row in self.map:
+            if row[2] != "0":
+                moved.setdefault(int(row[1]), set()).add(row[2])
+                place, constrained = grids[int(row[1])]
+                np.testing.assert_allclose(place, [float(x) for x in row[4:7]], rtol=5e-10)
+        self.assertEqual(moved.keys(), grids.keys())
+        for node, components in moved.items():
+            self.assertEqual(set("123456") - components, set(grids[node][1]))
+
+    def test_no_line_is_longer_than_bulk_data_may_be(self):
+        self.assertLessEqual(max(map(len, self.text.splitlines())), 80)
+
+
 class MatricesOfOthers(Exported):
     def assembly(self, says, toml, mesh=()):
         (self.folder / "other.fe.toml").write_text("[matrices]\n" + toml)

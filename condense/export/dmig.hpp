@@ -1,0 +1,23 @@
+#pragma once
+// Reduced parts as Nastran bulk data.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// For "part.pch": a bulk data file for INCLUDE, with K2GG = KCLATTR and M2GG = MCLATTR in the case
+/// control. GRIDs at the nodes of the DoF map with permanent constraints (PS) on the components
+/// that no coordinate has, SPOINTs for coordinates along other directions and the modal ones, and
+/// DMIG* of the lower triangles in double precision (type 2, form 6). A field of 16 columns holds
+/// 10 to 12 digits of a negative or small number: entries are off by 5e-10 of themselves at most.
+/// Comments at the head list row, node and component. FileError when it cannot be written.
+std::vector<std::filesystem::path> export_dmig(const ReducedModel& model,
+                                               const std::filesystem::path& path);
+
+/// A number in a field of 16 columns, with a D exponent, as many digits as go in.
+std::string nastran_number(double value);
+
+}  // namespace clatter::condense
