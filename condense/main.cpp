@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
   line.option("-o,--output", paths.output, "reduced model (.rom.h5)");
   line.option("--export", paths.exports,
               "write a reduced part, any number: part.mtx (Matrix Market), part.inp (CalculiX), "
-              "part.pch (Nastran DMIG)");
+              "part.pch (Nastran DMIG), part.fem (MBDyn)");
   if (!line.parse(argc, argv)) return line.exit_code();
   if (!paths.exports.empty()) return write_exports(paths, line.common());
   if (paths.config.empty() || paths.output.empty())

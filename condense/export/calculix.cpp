@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "condense/export/pencil_modes.hpp"
 #include "core/artefact.hpp"
 #include "core/dof_map.hpp"
-#include "core/error.hpp"
 #include "core/whole_file.hpp"
 
 namespace clatter::condense {
@@ -32,17 +30,6 @@ std::vector<Place> places_of(const std::vector<MappedDof>& map) {
     places.push_back({rotation ? ++last : dof.node, along_axis ? dof.component : 1});
   }
   return places;
-}
-
-/// Phi and Lambda of the pencil, unit modal masses, ascending.
-Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes_of(const ReducedModel& model) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(model.M_rr);
-  if (factor.info() != Eigen::Success)
-    throw InputError(
-        fmt::format("{}: M_rr: found a matrix that is not positive definite, expected "
-                    "positive masses",
-                    model.name));
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(model.K_rr, model.M_rr);
 }
 
 void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matrix,
@@ -94,20 +81,18 @@ void write_nodes(std::ostream& out, const ReducedModel& model, const std::vector
 }
 
 /// Unit masses and springs; CalculiX reads 20 columns of a number, so 14 digits of a spring.
-void write_modes(std::ostream& out, const Eigen::VectorXd& eigenvalues, int first) {
-  const auto size = static_cast<int>(eigenvalues.size());
+void write_modes(std::ostream& out, const PencilModes& modes, int first) {
+  const auto size = static_cast<int>(modes.Lambda.size());
   const int nodes = (size + 2) / 3;
   out << "*ELEMENT,TYPE=MASS,ELSET=CLATTER_MASS\n";
   for (int k = 0; k < nodes; ++k) out << fmt::format("{},{}\n", first + k, first + k);
   out << "*MASS,ELSET=CLATTER_MASS\n1.\n";
   const double hold = std::pow(2.0 * std::numbers::pi * kRigidHoldHz, 2);
-  // What rounding leaves of a zero, n eps lambda_max, and some.
-  const double zero = 1e-14 * size * eigenvalues.maxCoeff();
   for (int j = 0; j < size; ++j)
     out << fmt::format(
         "*ELEMENT,TYPE=SPRING1,ELSET=CLATTER_{}\n{},{}\n*SPRING,ELSET=CLATTER_{}\n{}\n{:.13e}\n",
         j + 1, first + nodes + j, first + j / 3, j + 1, j % 3 + 1,
-        eigenvalues[j] > zero ? eigenvalues[j] : hold);
+        j < modes.rigid ? hold : modes.Lambda[j]);
   if (size % 3 != 0) out << fmt::format("*BOUNDARY\n{},{},3\n", first + nodes - 1, size % 3 + 1);
 }
 
@@ -125,7 +110,7 @@ void write_equations(std::ostream& out, const ReducedModel& model, const Eigen::
 
 std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
                                                    const std::filesystem::path& path) {
-  const auto modes = modes_of(model);
+  const PencilModes modes = modes_of(model);
   const std::vector<MappedDof> map = map_of(model);
   const std::vector<Place> places = places_of(map);
   int first = 1;  // node of the modes
@@ -138,8 +123,8 @@ std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
   std::ostream& out = deck.stream();
   write_head(out, model, map, places, path.stem().string());
   write_nodes(out, model, map, places, first);
-  write_modes(out, modes.eigenvalues(), first);
-  write_equations(out, model, modes.eigenvectors(), places, first);
+  write_modes(out, modes, first);
+  write_equations(out, model, modes.Phi, places, first);
   deck.commit();
   return {path, K, M};
 }

@@ -5,6 +5,7 @@
 #include "condense/export/calculix.hpp"
 #include "condense/export/dmig.hpp"
 #include "condense/export/matrix_market.hpp"
+#include "condense/export/mbdyn.hpp"
 #include "core/error.hpp"
 
 namespace clatter::condense {
@@ -15,9 +16,10 @@ std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
   if (extension == ".mtx") return export_matrix_market(model, path);
   if (extension == ".inp") return export_calculix(model, path);
   if (extension == ".pch") return export_dmig(model, path);
+  if (extension == ".fem") return export_mbdyn(model, path);
   throw InputError(fmt::format(
-      "{}: found extension \"{}\", expected .mtx (Matrix Market), .inp (CalculiX) or .pch "
-      "(Nastran)",
+      "{}: found extension \"{}\", expected .mtx (Matrix Market), .inp (CalculiX), .pch "
+      "(Nastran) or .fem (MBDyn)",
       path.string(), extension));
 }
 

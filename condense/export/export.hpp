@@ -11,6 +11,7 @@ namespace clatter::condense {
 ///   part.mtx  part.K.mtx, part.M.mtx (Matrix Market) and part.dofs.tsv (DoF map)
 ///   part.inp  CalculiX (calculix.hpp), part.K.txt, part.M.txt
 ///   part.pch  Nastran bulk data with DMIG (dmig.hpp)
+///   part.fem  MBDyn's modal joint (mbdyn.hpp)
 /// InputError for another extension, FileError when a file cannot be written.
 std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
                                                   const std::filesystem::path& path);

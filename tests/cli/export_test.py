@@ -33,6 +33,14 @@ class Exported(stages.PipelineTest):
         """The files that the export of the beam's reduced part to `name` wrote."""
         return json.loads(self.run_stage("condense", "beam.rom.h5", "--export", name, "--json"))["files"]
 
+    def let_go(self):
+        """The beam without its support, with enough modes for CalculiX to find ten."""
+        self.edit("beam.fe.toml", '[[support]]\nsurface = "x_min"\n', "")
+        self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 45")
+        self.edit("beam.rom.toml", '["tip", "sensor_tip"]', '["tip", "sensor_tip"]\nfrequency_error = 0.0')
+        self.run_stage("assembly", "beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5")
+        self.run_stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
+
 
 class MatrixMarket(Exported):
     def test_scipy_reads_the_same_bits(self):
@@ -121,11 +129,7 @@ class Calculix(Exported):
         np.testing.assert_allclose(self.calculix_hz(), ours[:4], rtol=1e-6)  # seven digits are printed
 
     def test_a_free_body_has_its_rigid_motions_at_a_thousandth_of_a_hertz(self):
-        self.edit("beam.fe.toml", '[[support]]\nsurface = "x_min"\n', "")
-        self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 45")
-        self.edit("beam.rom.toml", '["tip", "sensor_tip"]', '["tip", "sensor_tip"]\nfrequency_error = 0.0')
-        self.run_stage("assembly", "beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5")
-        self.run_stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
+        self.let_go()
         self.export("part.inp")
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         found = self.calculix_hz(count=10)
@@ -210,6 +214,63 @@ class NastranDmig(Exported):
 
     def test_no_line_is_longer_than_bulk_data_may_be(self):
         self.assertLessEqual(max(map(len, self.text.splitlines())), 80)
+
+
+def read_fem(text):
+    """MBDyn's records: {group: list of numbers}; group 1 without its revision."""
+    groups, group = {}, None
+    for line in text.splitlines():
+        if line.startswith("** RECORD GROUP"):
+            group = int(line.split()[3].rstrip(","))
+            groups[group] = []
+        elif not line.startswith("**"):
+            groups[group] += [float(word) for word in line.split() if word != "REV0"]
+    return groups
+
+
+class Mbdyn(Exported):
+    def records(self):
+        self.assertEqual(self.export("part.fem"), ["part.fem"])
+        groups = read_fem((self.folder / "part.fem").read_text())
+        nodes, modes = int(groups[1][0]), int(groups[1][1])
+        counts = {1: 5, 2: nodes, 3: modes, 4: modes, 5: nodes, 6: nodes, 7: nodes, 8: 6 * nodes * modes,
+                  9: modes ** 2, 10: modes ** 2, 12: 13, 13: modes ** 2}
+        self.assertEqual({group: len(numbers) for group, numbers in groups.items()}, counts)
+        return groups, nodes, modes
+
+    def test_the_modes_are_those_of_the_reduced_part(self):
+        groups, _, modes = self.records()
+        K, M = reduced_matrices(self.folder / "beam.rom.h5")
+        self.assertEqual(modes, len(K))  # the beam is held
+        stiffness, mass, damping = (np.reshape(groups[g], (modes, modes)) for g in (10, 9, 13))
+        np.testing.assert_array_equal(mass, np.eye(modes))
+        # Two dense solvers: eps lambda_max of the lowest eigenvalue, 1e-16 * (2e5 Hz / 70 Hz)^2 = 1e-9.
+        np.testing.assert_allclose(frequencies(stiffness, mass), frequencies(K, M), rtol=1e-7)
+        with h5py.File(self.folder / "beam.rom.h5") as rom:
+            alpha, beta = rom.attrs["alpha"], rom.attrs["beta"]
+            np.testing.assert_allclose(damping, alpha * stiffness + beta * mass, rtol=1e-14)
+            found = [groups[12][0], groups[12][1:4], np.reshape(groups[12][4:], (3, 3))]
+            for value, expected in zip(found, (rom["mass"].attrs["mass"], rom["mass/centre"], rom["mass/inertia"])):
+                np.testing.assert_array_equal(value, expected)
+
+    def test_the_rigid_motions_of_a_free_body_are_left_to_the_joint(self):
+        self.let_go()
+        groups, _, modes = self.records()
+        ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
+        self.assertEqual(modes, len(ours) - 6)
+        found = np.sqrt(np.diag(np.reshape(groups[10], (modes, modes)))) / (2.0 * np.pi)
+        np.testing.assert_allclose(found, ours[6:], rtol=1e-7)
+
+    def test_shapes_and_frequencies_together_give_flexibility_and_inverse_mass_at_the_boundary(self):
+        groups, nodes, modes = self.records()
+        shapes = np.reshape(groups[8], (modes, 6 * nodes))  # tip: x y z rx ry rz; sensor: x y z, no rotations
+        np.testing.assert_array_equal(shapes[:, 9:], 0.0)
+        Phi, eigenvalue = shapes[:, :9].T, np.diag(np.reshape(groups[10], (modes, modes)))
+        for matrix, found in zip(reduced_matrices(self.folder / "beam.rom.h5"),
+                                 (Phi / eigenvalue @ Phi.T, Phi @ Phi.T)):
+            expected = np.linalg.inv(matrix)[:9, :9]
+            scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+            np.testing.assert_allclose(found / scale, expected / scale, atol=1e-7)  # as the frequencies above
 
 
 class MatricesOfOthers(Exported):

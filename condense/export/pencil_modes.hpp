@@ -1,0 +1,19 @@
+#pragma once
+// Modes of a reduced part, for formats that want them.
+#include <Eigen/Core>
+
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// K_rr Phi = M_rr Phi Lambda, ascending, Phi^T M_rr Phi = I.
+struct PencilModes {
+  Eigen::MatrixXd Phi;
+  Eigen::VectorXd Lambda;  // [rad2/s2]
+  int rigid = 0;           // how many first ones are zero to rounding
+};
+
+/// All modes by a dense solution; InputError when M_rr is not positive definite.
+PencilModes modes_of(const ReducedModel& model);
+
+}  // namespace clatter::condense
