@@ -85,9 +85,7 @@ std::optional<MatrixFiles> read_matrix_files(const Config& config) {
   files.M = table->path("M");
   if (table->has("dofs")) files.dofs = table->path("dofs");
   files.name = table->text_or("name", "");
-  const std::string units = table->choice("units", {"m-kg-s", "mm-t-s", "mm-kg-ms"});
-  if (units == "mm-t-s") files.units = {1e-3, 1e3, 1.0};
-  if (units == "mm-kg-ms") files.units = {1e-3, 1.0, 1e-3};
+  files.units = mesh::deck::unit_system_named(table->text_or("units", "m-kg-s"), table->where());
   files.alpha = table->number_or("alpha", 0.0, Range::not_negative());
   files.beta = table->number_or("beta", 0.0, Range::not_negative());
   config.finish();
@@ -111,8 +109,7 @@ BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   if (kept.empty())
     throw InputError(fmt::format("{}: every degree of freedom is held", files.K.string()));
   const auto size = static_cast<int32_t>(kept.size());
-  const double unit = files.units.mass / (files.units.time * files.units.time);
-  scale(K, unit, files.units.length, places.dofs);
+  scale(K, files.units.force() / files.units.length, files.units.length, places.dofs);
   scale(M, files.units.mass, files.units.length, places.dofs);
 
   BuiltModel built;

@@ -6,6 +6,7 @@
 
 #include "assembly/build.hpp"
 #include "core/config.hpp"
+#include "mesh/deck/units.hpp"
 #include "mesh/mesh.hpp"
 
 namespace clatter::assembly {
@@ -13,19 +14,12 @@ namespace clatter::assembly {
 /// A diagonal entry of K from which on its DoF counts as held: Abaqus writes 1e36.
 inline constexpr double kHeldStiffness = 1e30;
 
-/// A consistent system of units: K in mass / time^2.
-struct MatrixUnits {
-  double length = 1.0;  // [m] a unit
-  double mass = 1.0;    // [kg]
-  double time = 1.0;    // [s]
-};
-
 /// Table [matrices] of the fe.toml: what to read instead of assembling.
 struct MatrixFiles {
   std::filesystem::path K, M;      // Matrix Market or "i j value" (core/matrix_text.hpp)
   std::filesystem::path dofs;      // DoF map (core/dof_map.hpp); empty: the nodes of the mesh
   std::string name;                // of the part; empty: the mesh's
-  MatrixUnits units;               // of K and M; positions of a map or mesh are in m
+  mesh::deck::UnitSystem units;    // of K and M; positions of a map or mesh are in m
   double alpha = 0.0, beta = 0.0;  // D = alpha K + beta M [s], [1/s]
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/whole_file.hpp"
 #include "mesh/deck/abaqus_writer.hpp"
 #include "mesh/deck/nastran_writer.hpp"
@@ -10,9 +11,24 @@
 #include "mesh/vtu_writer.hpp"
 
 namespace clatter::mesh {
+namespace {
+
+/// These formats have the cells whole; only clatter knows what the set is for.
+void warn_of_hanging_middles(const Mesh& mesh, const std::filesystem::path& path) {
+  const auto set = mesh.node_sets.find(kHangingMiddles);
+  if (set == mesh.node_sets.end()) return;
+  warn(
+      fmt::format("{}: the {} middle nodes of the set \"{}\" move freely in other programs: tie "
+                  "each to the mean of its edge's ends there",
+                  path.string(), set->second.size(), kHangingMiddles));
+}
+
+}  // namespace
+
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".vtu") return write_whole_file(path, vtu_text(mesh));
+  if (extension == ".msh" || extension == ".inp") warn_of_hanging_middles(mesh, path);
   if (extension == ".msh") return write_whole_file(path, msh_text(mesh));
   if (extension == ".inp") return deck::write_abaqus(mesh, path);
   if (extension == ".bdf" || extension == ".nas" || extension == ".dat")

@@ -52,8 +52,8 @@ void write_head(std::ostream& out, const ReducedModel& model, const std::vector<
                      model.method);
   out << fmt::format(
       "** {} boundary coordinates, then {} modal ones. The same K and M as matrices:\n"
-      "** *MATRIX ASSEMBLE,NAME=PART,STIFFNESSFILE={}.K.txt,MASSFILE={}.M.txt (CalculiX from "
-      "2.21)\n"
+      "** *MATRIX ASSEMBLE,NAME=PART,STIFFNESSFILE={}.K.txt,MASSFILE={}.M.txt (CalculiX after "
+      "2.20)\n"
       "** *MATRIX INPUT,NAME=K,INPUT={}.K.txt (Abaqus)\n"
       "** Modes are springs and unit masses below; a rigid motion is held at {} Hz.\n"
       "** row  node  component  what\n",

@@ -286,6 +286,7 @@ class MatricesOfOthers(Exported):
         self.assembly(["part.K.mtx", "as in the mesh"], files, ["beam.mesh.h5"])
         self.assembly(["absent.tsv", "no such file"], files + 'dofs = "absent.tsv"\n')
         self.assembly(["unit", "units"], files + 'dofs = "part.dofs.tsv"\nunit = "mm-t-s"\n')
+        self.assembly(["mm-kN-s", "mm-t-s"], files + 'dofs = "part.dofs.tsv"\nunits = "mm-kN-s"\n')
         self.assembly(["dofs.tsv"], 'K = "part.dofs.tsv"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
         (self.folder / "none.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 -2.0\n")
         (self.folder / "one.tsv").write_text("1\t1\t1\tdisplacement\t0\t0\t0\t1\t0\t0\ts\ts.x\n")

@@ -195,6 +195,13 @@ TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
   EXPECT_EQ(again.node_ids, mesh.node_ids);
   EXPECT_EQ(again.cells.at(0).nodes, mesh.cells.at(0).nodes);
   EXPECT_EQ(again.node_sets, mesh.node_sets);
+
+  // Elsewhere they are nodes like others: that is told.
+  const auto deck = std::filesystem::path(testing::TempDir()) / "clatter_hanging.inp";
+  testing::internal::CaptureStderr();
+  mesh::export_mesh(mesh, deck);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the 2 middle nodes of the set"));
+  std::filesystem::remove(deck);
 }
 
 }  // namespace
