@@ -50,6 +50,12 @@ Eigen::Matrix<double, 4, 3> corners_of(const Mesh& mesh, const CellBlock& block,
   return x;
 }
 
+double mean_edge(const Eigen::Matrix<double, 4, 3>& x) {
+  double sum = 0.0;
+  for (const auto& [a, b] : kTetEdges) sum += (x.row(a) - x.row(b)).norm();
+  return sum / 6.0;
+}
+
 // The session's linear mesh, one block a solid, in the session's unit.
 Mesh linear_mesh(const RawMesh& raw) {
   Mesh mesh;
@@ -68,8 +74,7 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
       if (dihedral_angles(x).minCoeff() >= limit_deg) continue;
-      double mean = 0.0;
-      for (const auto& [a, b] : kTetEdges) mean += (x.row(a) - x.row(b)).norm() / 6.0;
+      const double mean = mean_edge(x);
       spots.push_back({x.colwise().mean().transpose(), mean, kSpotFactor * mean});
     }
   }
@@ -116,9 +121,7 @@ void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityRep
                         double metres_per_unit) {
   for (const InvalidCell& cell : folded.invalid) {
     const auto x = corners_of(mesh, mesh.cells[static_cast<size_t>(cell.block)], cell.cell);
-    double mean = 0.0;
-    for (const auto& [a, b] : kTetEdges) mean += (x.row(a) - x.row(b)).norm() / 6.0;
-    mean /= metres_per_unit;
+    const double mean = mean_edge(x) / metres_per_unit;
     sizes.spots.push_back({cell.centre / metres_per_unit, mean, kFoldFactor * mean});
   }
 }
