@@ -1,0 +1,182 @@
+// What a reduced body must answer beside its frequencies (hard case B2), how many rigid motions it
+// has (B4), and where a loose part is (C1).
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <complex>
+#include <numbers>
+
+#include "condense/condense.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "modal/eigen/dense_solver.hpp"
+#include "tests/condense/box_model.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using test::box_model;
+
+/// A box whose fixed-interface modes number 50, 100 and 200 end at 3.5, 4.6 and 5.8 kHz.
+assembly::FeModel heavy_box() {
+  assembly::FeModel model = box_model(10, 6, 6);
+  model.M *= 3.0;
+  model.mass.mass *= 3.0;
+  model.mass.inertia *= 3.0;
+  model.alpha = 1e-6;
+  model.beta = 40.0;
+  return model;
+}
+
+ReducedModel reduce(const assembly::FeModel& model, int count, double frequency_error) {
+  CondenseOptions options;
+  options.boundary = {"left", "right", "point"};
+  options.modes.count = count;
+  options.modes.frequency_error = frequency_error;
+  set_quiet(true);
+  StepClock clock;
+  return condense(model, options, clock);
+}
+
+/// Answers of a body, held at its boundary, to the load "pull" at each frequency: velocities of
+/// the skin, one column a frequency, and the forces that hold the boundary.
+struct Response {
+  Eigen::MatrixXcd velocity, force;
+};
+
+Response respond(const MatrixXd& K, const MatrixXd& M, double alpha, double beta,
+                 const VectorXd& load, const std::vector<int32_t>& held, const MatrixXd& T_skin,
+                 const VectorXd& hz) {
+  std::vector<int32_t> left;
+  for (int32_t dof = 0; dof < K.rows(); ++dof) {
+    if (std::find(held.begin(), held.end(), dof) == held.end()) left.push_back(dof);
+  }
+  Response out{Eigen::MatrixXcd(T_skin.rows(), hz.size()),
+               Eigen::MatrixXcd(static_cast<Eigen::Index>(held.size()), hz.size())};
+  for (Eigen::Index j = 0; j < hz.size(); ++j) {
+    const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz[j]);
+    const Eigen::MatrixXcd Z = (1.0 + alpha * s) * K + (s * s + beta * s) * M;
+    const Eigen::MatrixXcd Z_ll = Z(left, left);
+    const VectorXcd load_l = load(left);
+    VectorXcd q = VectorXcd::Zero(K.rows());
+    const VectorXcd moved = Z_ll.partialPivLu().solve(load_l);
+    q(left) = moved;
+    out.velocity.col(j) = s * (T_skin * q);
+    out.force.col(j) = (Z * q)(held)-load(held);
+  }
+  return out;
+}
+
+VectorXd band() { return VectorXd::LinSpaced(13, 120.0, 3000.0); }
+
+Response full_response(const assembly::FeModel& model, const RowMatrix& skin_nodes) {
+  MatrixXd T_skin = MatrixXd::Zero(3 * skin_nodes.rows(), model.size());
+  for (Eigen::Index a = 0; a < skin_nodes.rows(); ++a) {
+    Eigen::Index node = 0;
+    (model.nodes.rowwise() - skin_nodes.row(a)).rowwise().norm().minCoeff(&node);
+    T_skin.block<3, 3>(3 * a, 3 * node).setIdentity();  // the box's DoFs are its displacements
+  }
+  return respond(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M), model.alpha,
+                 model.beta, model.loads.at("pull"), model.sets.at("left").dofs, T_skin, band());
+}
+
+Response reduced_response(const ReducedModel& reduced) {
+  return respond(reduced.K_rr, reduced.M_rr, reduced.alpha, reduced.beta, reduced.loads.at("pull"),
+                 reduced.set("left").dofs, reduced.skin.T, band());
+}
+
+/// Root mean square of the difference over the band and all rows, over that of the answer.
+double error_of(const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected) {
+  return (found - expected).norm() / expected.norm();
+}
+
+TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
+  const assembly::FeModel model = heavy_box();
+  const Response full = full_response(model, reduce(model, 50, 0.0).skin.nodes);
+  double velocity = 1.0, force = 1.0;
+  for (const int count : {50, 100, 200}) {
+    const Response plain = reduced_response(reduce(model, count, 0.0));
+    const double v = error_of(plain.velocity, full.velocity);
+    const double f = error_of(plain.force, full.force);
+    EXPECT_LT(v, 0.5 * velocity) << count;
+    EXPECT_LT(f, 0.5 * force) << count;
+    const Response corrected = reduced_response(reduce(model, count, 5e-4));  // residual modes
+    EXPECT_LT(error_of(corrected.velocity, full.velocity), 0.8 * v) << count;
+    EXPECT_LT(error_of(corrected.force, full.force), 0.5 * f) << count;
+    velocity = v;
+    force = f;
+  }
+  EXPECT_LT(velocity, 5e-3);
+  EXPECT_LT(force, 5e-4);
+}
+
+TEST(HardB4, ExactlySixEigenvaluesVanish) {
+  const assembly::FeModel model = box_model();
+  for (const int count : {1, 25}) {
+    const ReducedModel reduced = reduce(model, count, 5e-4);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> all(reduced.K_rr, reduced.M_rr,
+                                                                 Eigen::EigenvaluesOnly);
+    const VectorXd& values = all.eigenvalues();
+    // Rounding of a dense solver is eps of the largest, 1e4 times the first elastic value.
+    EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-9 * values[6]);
+    EXPECT_GT(values[6], 1e-6 * values.tail(1)[0]);
+  }
+}
+
+/// The box and beside it two masses that hang on each other and on nothing else.
+assembly::FeModel with_loose_pair(const assembly::FeModel& box) {
+  assembly::FeModel model = box;
+  const int n = box.size(), all = n + 6;
+  std::vector<Eigen::Triplet<double>> stiffness, mass, identity;
+  for (int j = 0; j < n; ++j) {
+    for (SparseMatrix::InnerIterator it(box.K, j); it; ++it)
+      stiffness.emplace_back(static_cast<int>(it.row()), j, it.value());
+    for (SparseMatrix::InnerIterator it(box.M, j); it; ++it)
+      mass.emplace_back(static_cast<int>(it.row()), j, it.value());
+  }
+  for (int d = 0; d < 3; ++d) {
+    stiffness.emplace_back(n + d, n + d, 1e8);
+    stiffness.emplace_back(n + 3 + d, n + 3 + d, 1e8);
+    stiffness.emplace_back(n + 3 + d, n + d, -1e8);
+  }
+  for (int j = n; j < all; ++j) mass.emplace_back(j, j, 0.05);
+  model.K = test::from_triplets(all, stiffness);
+  model.M = test::from_triplets(all, mass);
+  model.T.resize(all, all);
+  model.T.setIdentity();
+  const Eigen::Index nodes = box.nodes.rows();
+  model.nodes.conservativeResize(nodes + 2, Eigen::NoChange);
+  model.nodes.row(nodes) << 0.7, 0.8, 0.9;
+  model.nodes.row(nodes + 1) << 0.71, 0.8, 0.9;
+  model.rigid.conservativeResize(all, Eigen::NoChange);
+  for (Eigen::Index a = nodes; a < nodes + 2; ++a) {
+    const Eigen::RowVector3d r = model.nodes.row(a);
+    model.rigid.block<3, 3>(3 * a, 0).setIdentity();
+    model.rigid.block<3, 3>(3 * a, 3) << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
+  }
+  model.loads.clear();
+  model.load_units.clear();
+  return model;
+}
+
+TEST(HardC1, APartThatHangsOnNothingIsNamedByItsNode) {
+  const assembly::FeModel model = with_loose_pair(box_model());
+  const Eigen::Index loose = model.nodes.rows() - 2;
+  try {
+    (void)reduce(model, 10, 0.0);
+    FAIL() << "accepted";
+  } catch (const NumericsError& error) {
+    const std::string text = error.what();
+    const bool first = text.find("node " + std::to_string(loose)) != std::string::npos;
+    const bool second = text.find("node " + std::to_string(loose + 1)) != std::string::npos;
+    EXPECT_TRUE(first || second) << text;
+    EXPECT_NE(text.find("0.8, 0.9"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace clatter::condense
