@@ -2,27 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "assembly/dof_place.hpp"
 #include "condense/constraint_modes.hpp"
 #include "core/error.hpp"
 #include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
-
-/// "node 12 (0.1, 0.2, 0.3) direction y" of an interior DoF, from the row of T that it moves most.
-std::string place_of(const assembly::FeModel& model, int32_t dof) {
-  Eigen::Index row = -1;
-  double largest = 0.0;
-  for (SparseMatrix::InnerIterator it(model.T, dof); it; ++it) {
-    if (std::abs(it.value()) <= largest) continue;
-    largest = std::abs(it.value());
-    row = it.row();
-  }
-  if (row < 0) return fmt::format("DoF {}", dof);
-  const Eigen::RowVector3d at = model.nodes.row(row / 3);
-  return fmt::format("node {} ({:.4g}, {:.4g}, {:.4g}) direction {}", row / 3, at.x(), at.y(),
-                     at.z(), "xyz"[row % 3]);
-}
 
 modal::CholmodFactor factorise_interior(const assembly::FeModel& model,
                                         const DofPartition& partition, const SparseMatrix& K_ii) {
@@ -32,7 +18,8 @@ modal::CholmodFactor factorise_interior(const assembly::FeModel& model,
     const std::string where =
         error.column < 0
             ? std::string{}
-            : ", at " + place_of(model, partition.interior[static_cast<size_t>(error.column)]);
+            : ", at " +
+                  assembly::place_of(model, partition.interior[static_cast<size_t>(error.column)]);
     throw modal::NotPositiveDefinite(
         fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
                     "look for a part of the mesh that is not connected",

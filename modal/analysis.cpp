@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "assembly/dof_place.hpp"
 #include "core/error.hpp"
 
 namespace clatter::modal {
@@ -42,6 +43,22 @@ Eigen::MatrixXd spread(const Eigen::MatrixXd& vectors, const std::vector<int32_t
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, vectors.cols());
   all(left, Eigen::all) = vectors;
   return all;
+}
+
+/// solve_modes of the rows `left` of a model; a factor that fails names the node.
+ModeSet solve_named(const assembly::FeModel& model, const std::vector<int32_t>& left,
+                    const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options) {
+  try {
+    return solve_modes(K, M, options);
+  } catch (const NotPositiveDefinite& error) {
+    if (error.column < 0) throw;
+    const int32_t dof = left[static_cast<size_t>(error.column)];
+    throw NotPositiveDefinite(
+        fmt::format("{}: K - sigma M: {}, at {}; look for a part of the mesh that is not connected "
+                    "or for matrices that are not of one body",
+                    model.name, error.what(), assembly::place_of(model, dof)),
+        error.column);
+  }
 }
 
 }  // namespace
@@ -88,14 +105,15 @@ PartModes analyse(const assembly::FeModel& model, const ModesOptions& options) {
   part.source = "fe";
   part.nodes = model.nodes;
   part.surfaces = model.surfaces;
+  const std::vector<int32_t> left = dofs_left(model, options.fixed);
+  const EigenOptions eigen = eigen_options(options, static_cast<int>(left.size()));
   if (options.fixed.empty()) {
-    part.modes = solve_modes(model.K, model.M, eigen_options(options, model.size()));
+    part.modes = solve_named(model, left, model.K, model.M, eigen);
     part.shapes = model.T * part.modes.vectors;
     return part;
   }
-  const std::vector<int32_t> left = dofs_left(model, options.fixed);
-  part.modes = solve_modes(principal_submatrix(model.K, left), principal_submatrix(model.M, left),
-                           eigen_options(options, static_cast<int>(left.size())));
+  part.modes = solve_named(model, left, principal_submatrix(model.K, left),
+                           principal_submatrix(model.M, left), eigen);
   part.modes.vectors = spread(part.modes.vectors, left, model.size());
   part.shapes = model.T * part.modes.vectors;
   return part;

@@ -178,16 +178,19 @@ TEST_F(InFolder, HardC6_TooLittleMemoryEndsWithCode3AndNeverWithASignal) {
   const std::string toml =
       write_text("box.rom.toml", "boundary = [\"left\", \"right\"]\ncount = 60\n").string();
   const std::string rom = (folder_ / "box.rom.h5").string();
-  const std::string program = "clatter-condense " + fe + " -c " + toml + " -o " + rom;
-  // Address space that holds the program and the matrices, but not the factor.
-  const std::string command = "bash -c 'export OPENBLAS_NUM_THREADS=1; ulimit -v 420000; exec " +
-                              std::string(CLATTER_BIN_DIR) + "/" + program + "' >" +
-                              (folder_ / "log").string() + " 2>&1";
-  const int status = std::system(command.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 3) << log();
-  EXPECT_NE(log().find("memory"), std::string::npos) << log();
-  EXPECT_FALSE(fs::exists(rom));
+  for (const std::string& program : {"clatter-condense " + fe + " -c " + toml + " -o " + rom,
+                                     "clatter-modal " + fe + " --count 60 -o " + rom}) {
+    // Address space that holds the program and the matrices, but not the factor.
+    const std::string command = "bash -c 'export OPENBLAS_NUM_THREADS=1; ulimit -v 420000; exec " +
+                                std::string(CLATTER_BIN_DIR) + "/" + program + "' >" +
+                                (folder_ / "log").string() + " 2>&1";
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status)) << program;
+    EXPECT_EQ(WEXITSTATUS(status), 3) << log();
+    EXPECT_NE(log().find("memory"), std::string::npos) << log();
+    EXPECT_FALSE(fs::exists(rom));
+    EXPECT_FALSE(fs::exists(rom + ".part"));
+  }
 }
 
 }  // namespace
