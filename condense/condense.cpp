@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condense/certificate.hpp"
+#include "condense/modal_damping.hpp"
 #include "condense/recovery_rows.hpp"
 #include "core/log.hpp"
 
@@ -71,6 +72,7 @@ CondenseOptions read_condense_options(const Config& config) {
   const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
   options.modes.method =
       solver == "arpack" ? modal::EigenMethod::kArpack : modal::EigenMethod::kBlockLanczos;
+  options.modal_damping = read_modal_damping(config);
   config.finish();
   return options;
 }
@@ -90,6 +92,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   reduced.n_boundary = static_cast<int>(partition.boundary.size());
   reduced.alpha = model.alpha;
   reduced.beta = model.beta;
+  reduced.modal_damping = options.modal_damping;
   reduced.sets = partition.sets;
   reduced.grids = partition.grids;
   reduced.mass = model.mass;
@@ -140,6 +143,14 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
   }
   lines.push_back(fmt::format("condition of M_rr {:.1e}, highest frequency {:.4g} Hz",
                               c.at("condition_M_rr"), c.at("max_frequency_hz")));
+  if (!reduced.modal_damping.empty()) {
+    const DampingTable& table = reduced.modal_damping;
+    lines.push_back(fmt::format("modal damping by table, {} rows, ratios {:g} to {:g}{}",
+                                table.hz.size(), table.ratio.minCoeff(), table.ratio.maxCoeff(),
+                                reduced.alpha > 0.0 || reduced.beta > 0.0
+                                    ? "; alpha and beta add to it"
+                                    : ""));
+  }
   return lines;
 }
 

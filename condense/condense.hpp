@@ -6,6 +6,7 @@
 #include "assembly/fe_model.hpp"
 #include "condense/craig_bampton.hpp"
 #include "core/config.hpp"
+#include "core/damping_table.hpp"
 #include "core/reduced_model.hpp"
 #include "core/stopwatch.hpp"
 
@@ -17,6 +18,7 @@ struct CondenseOptions {
   std::vector<std::string> boundary;         // set names; their order is that of the coordinates
   ModeRequest modes;                         // fixed-interface modes by fmax_hz or count
   std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
+  DampingTable modal_damping;                // by eigenmodes of the body, beside alpha and beta
 };
 
 /// Reads the options; InputError for unknown keys and senseless values.

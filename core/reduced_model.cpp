@@ -186,6 +186,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   file.set("/", "alpha", model.alpha);
   file.set("/", "beta", model.beta);
   file.set("/", "valid_to_hz", model.valid_to_hz);
+  write_damping_table(file, model.modal_damping);
   file.write("M_rr", model.M_rr);
   file.write("K_rr", model.K_rr);
   file.write("rigid", model.rigid);
@@ -206,6 +207,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   model.alpha = file.get_double("/", "alpha");
   model.beta = file.get_double("/", "beta");
   model.valid_to_hz = file.get_double("/", "valid_to_hz");
+  model.modal_damping = read_damping_table(file);
   const auto size = file.shape("M_rr").at(0);
   model.M_rr = read_symmetric(file, "M_rr", size);
   model.K_rr = read_symmetric(file, "K_rr", size);

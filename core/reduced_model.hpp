@@ -1,7 +1,8 @@
 #pragma once
 // The hand-off between the two wings: a condensed elastic body, eq. (13) and (14).
 //
-//   M_rr q'' + D_rr q' + K_rr q = f_r,   D_rr = alpha K_rr + beta M_rr,   u_skin = T_skin q
+//   M_rr q'' + D_rr q' + K_rr q = f_r,   D_rr = alpha K_rr + beta M_rr + D_table,
+//   u_skin = T_skin q,   D_table by damping_table.hpp
 //
 // q = [boundary coordinates q_b; modal coordinates q_k]. A boundary coordinate is a displacement
 // [m] or rotation [rad] at a named place: a sensor, a mount, a bearing centre, or the mean radial
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/artefact.hpp"
+#include "core/damping_table.hpp"
 #include "core/h5_file.hpp"
 
 namespace clatter {
@@ -64,6 +66,7 @@ struct ReducedModel {
   Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles filled [SI]
   double alpha = 0.0;          // stiffness-proportional damping [s]
   double beta = 0.0;           // mass-proportional damping [1/s]
+  DampingTable modal_damping;  // adds to both
   Eigen::MatrixXd rigid;  // r x 6: q of unit rigid motions x, y, z, rx, ry, rz about the origin
   std::map<std::string, DofSet> sets;        // boundary sets
   std::map<std::string, ContactGrid> grids;  // contact grids, keyed like their set

@@ -115,6 +115,7 @@ ModalBody make_modal_body(const ReducedModel& model, const ModalBodyOptions& opt
   body.omega_squared = spectrum.omega_squared;
   body.rigid_modes = static_cast<int>(free.cols());
   body.damping = model.alpha * body.omega_squared.array() + model.beta;
+  body.damping += model.modal_damping.rates(body.omega_squared);
   body.damping.head(body.rigid_modes).setZero();
   body.inertia = VectorXd::Ones(body.modes());
   if (options.mode_limit_hz > 0.0) {

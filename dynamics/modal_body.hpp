@@ -17,7 +17,7 @@ struct ModalBody {
   std::string name;
   Eigen::MatrixXd shapes;         // r x n_m, mass-normalised
   Eigen::VectorXd omega_squared;  // n_m [1/s2], ascending; exactly 0 for rigid modes
-  Eigen::VectorXd damping;        // n_m [1/s], alpha omega^2 + beta; 0 for rigid modes
+  Eigen::VectorXd damping;        // n_m [1/s], alpha omega^2 + beta + 2 zeta omega; rigid: 0
   Eigen::VectorXd inertia;        // n_m, 1 or 0
   Eigen::MatrixXd rigid;          // n_m x 6, M-weighted: shapes^T M_rr r of the unit rigid motions
   std::vector<int32_t> is_rotation;  // r, 1 where the coordinate is a rotation

@@ -24,10 +24,14 @@ std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& mode
   };
   write_dof_map(map, map_of(model));
   write_matrix_market(M, model.M_rr, {head("mass"), rows});
-  write_matrix_market(K, model.K_rr,
-                      {head("stiffness"), rows,
-                       fmt::format("damping D = alpha K + beta M, alpha {} s, beta {} 1/s",
-                                   model.alpha, model.beta)});
+  std::vector<std::string> lines{
+      head("stiffness"), rows,
+      fmt::format("damping D = alpha K + beta M, alpha {} s, beta {} 1/s", model.alpha,
+                  model.beta)};
+  for (Eigen::Index k = 0; k < model.modal_damping.hz.size(); ++k)
+    lines.push_back(fmt::format("and of eigenmodes at {} Hz a ratio of {}, linear between",
+                                model.modal_damping.hz[k], model.modal_damping.ratio[k]));
+  write_matrix_market(K, model.K_rr, lines);
   return {K, M, map};
 }
 

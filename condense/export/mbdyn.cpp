@@ -116,7 +116,8 @@ std::vector<std::filesystem::path> export_mbdyn(const ReducedModel& model,
   write_numbers(out, model.mass.centre);
   for (int d = 0; d < 3; ++d) write_numbers(out, model.mass.inertia.row(d));
   write_matrix(out, 13, "MODAL DAMPING MATRIX",
-               Eigen::VectorXd(model.alpha * Lambda.array() + model.beta));
+               Eigen::VectorXd(model.alpha * Lambda.array() + model.beta) +
+                   model.modal_damping.rates(Lambda));
   file.commit();
   return {path};
 }

@@ -1,0 +1,38 @@
+// What a .rom.toml may say beyond boundary and modes.
+#include <gtest/gtest.h>
+
+#include "condense/condense.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::condense {
+namespace {
+
+CondenseOptions parse(const std::string& text) {
+  return read_condense_options(
+      Config::parse("boundary = [\"left\"]\ncount = 4\n" + text, "box.rom.toml"));
+}
+
+TEST(ModalDampingRows, AreReadInOrder) {
+  const DampingTable table = parse("[[modal_damping]]\nhz = 500\nratio = 0.01\n"
+                                   "[[modal_damping]]\nhz = 2000\nratio = 0.03\n")
+                                 .modal_damping;
+  EXPECT_EQ(table.hz, Eigen::VectorXd(Eigen::Vector2d(500.0, 2000.0)));
+  EXPECT_EQ(table.ratio, Eigen::VectorXd(Eigen::Vector2d(0.01, 0.03)));
+  EXPECT_TRUE(parse("").modal_damping.empty());
+}
+
+TEST(BadInput, ModalDampingOutOfOrderOrOverCriticalIsRefusedAtItsLine) {
+  const auto refusal = [](const std::string& rows) {
+    return test::refusal_of([&] { parse(rows); });
+  };
+  test::expect_parts(refusal("[[modal_damping]]\nhz = 500\nratio = 0.01\n"
+                             "[[modal_damping]]\nhz = 400\nratio = 0.03\n"),
+                     {"box.rom.toml:7", "hz", "400", "ascend"});
+  test::expect_parts(refusal("[[modal_damping]]\nhz = 500\nratio = 1.0\n"), {"ratio", "critical"});
+  test::expect_parts(refusal("[[modal_damping]]\nhz = 500\n"), {"ratio"});
+  test::expect_parts(refusal("[[modal_damping]]\nhz = 500\nratio = 0.01\nzeta = 2\n"), {"zeta"});
+  test::expect_parts(refusal("[[modal_damping]]\nhz = 0\nratio = 0.01\n"), {"hz"});
+}
+
+}  // namespace
+}  // namespace clatter::condense

@@ -1,0 +1,110 @@
+// Modal damping by table: what the body's oscillators get, and how free vibration dies away.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/artefact.hpp"
+#include "core/error.hpp"
+#include "dynamics/modal_body.hpp"
+#include "tests/dynamics/fixtures.hpp"
+#include "tests/dynamics/synthetic.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using testing::clamped_bar;
+
+constexpr double kPi = std::numbers::pi;
+
+ReducedModel bar_with_table() {
+  ReducedModel bar = clamped_bar(1.0, 100, 10);
+  bar.modal_damping.hz = Eigen::Vector2d(1000.0, 5000.0);
+  bar.modal_damping.ratio = Eigen::Vector2d(0.01, 0.03);
+  return bar;
+}
+
+/// Logarithmic decrement a period of mode `k` of a body that is released from its shape: ln of the
+/// ratio of two deflections that lie `periods` whole damped periods apart, over `periods`.
+double decrement(const ModalBody& body, int k, double zeta, int periods) {
+  System system;
+  system.add_body(body);
+  const double omega = std::sqrt(body.omega_squared(k));
+  const double period = 2.0 * kPi / (omega * std::sqrt(1.0 - zeta * zeta));
+  StepOptions options;
+  options.largest = period / 2000;
+  options.first = 1e-7 * period;
+  options.fixed = true;
+  Dirk method(system, options);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.modes());
+  method.start(-options.first, Eigen::VectorXd::Unit(system.modes(), k) * 1e-3, rest);
+  for (int step = 0; step < 2000; ++step) method.step(1e9);
+  const double first = method.state().eta(k);
+  for (int step = 0; step < 2000 * periods; ++step) method.step(1e9);
+  return std::log(first / method.state().eta(k)) / periods;
+}
+
+TEST(DampingTable, IsLinearBetweenItsRowsAndConstantOutside) {
+  const DampingTable table = bar_with_table().modal_damping;
+  EXPECT_DOUBLE_EQ(table.at(10.0), 0.01);
+  EXPECT_DOUBLE_EQ(table.at(1000.0), 0.01);
+  EXPECT_DOUBLE_EQ(table.at(2000.0), 0.015);
+  EXPECT_DOUBLE_EQ(table.at(5000.0), 0.03);
+  EXPECT_DOUBLE_EQ(table.at(1e6), 0.03);
+  EXPECT_EQ(DampingTable{}.at(100.0), 0.0);
+}
+
+TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
+  const ModalBody body = make_modal_body(bar_with_table(), {});
+  const DampingTable table = bar_with_table().modal_damping;
+  for (const int k : {0, 1, 2}) {
+    const double hz = std::sqrt(body.omega_squared(k)) / (2.0 * kPi);
+    const double zeta = table.at(hz);
+    const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
+    // Second order with 2000 steps a period: (2 pi / 2000)^2 = 1e-5 of the motion.
+    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected) << hz;
+  }
+}
+
+TEST(ModalDamping, RayleighAndTableAddUp) {
+  ReducedModel bar = bar_with_table();
+  bar.alpha = 5e-7;
+  bar.beta = 40.0;
+  const ModalBody body = make_modal_body(bar, {});
+  for (const int k : {0, 2}) {
+    const double omega = std::sqrt(body.omega_squared(k));
+    const double zeta = bar.modal_damping.at(omega / (2.0 * kPi)) +
+                        0.5 * (bar.alpha * omega + bar.beta / omega);
+    EXPECT_NEAR(body.damping(k), 2.0 * zeta * omega, 1e-12 * body.damping(k));
+    const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
+    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected);
+  }
+}
+
+TEST(ModalDamping, RigidMotionsAreNotDamped) {
+  ReducedModel block = testing::elastic_block(0.0535, 6, 4);
+  block.modal_damping.hz = Eigen::VectorXd::Constant(1, 500.0);
+  block.modal_damping.ratio = Eigen::VectorXd::Constant(1, 0.02);
+  const ModalBody body = make_modal_body(block, {});
+  EXPECT_EQ(body.damping.head(6).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_GT(body.damping(6), 2.0 * 0.02 * std::sqrt(body.omega_squared(6)));  // alpha adds
+}
+
+TEST(ModalDamping, TheTableRoundTripsAndASenselessOneIsRefused) {
+  const std::filesystem::path path =
+      std::filesystem::path(::testing::TempDir()) / "clatter_damping.rom.h5";
+  ReducedModel bar = bar_with_table();
+  testing::write_rom(path, bar);
+  const DampingTable back = read_reduced_model(path).modal_damping;
+  EXPECT_EQ(back.hz, bar.modal_damping.hz);
+  EXPECT_EQ(back.ratio, bar.modal_damping.ratio);
+  bar.modal_damping.hz[1] = 500.0;
+  testing::write_rom(path, bar);
+  EXPECT_THROW(read_reduced_model(path), InputError);
+  bar.modal_damping = {Eigen::VectorXd::Constant(1, 500.0), Eigen::VectorXd::Constant(1, 1.5)};
+  testing::write_rom(path, bar);
+  EXPECT_THROW(read_reduced_model(path), InputError);
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
