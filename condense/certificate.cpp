@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "condense/frame_inertia.hpp"
 #include "core/error.hpp"
 #include "modal/eigen/dense_solver.hpp"
 #include "modal/free_motions.hpp"
@@ -55,13 +56,18 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   out["residual_modes"] = static_cast<double>(source.residual.hz.size());
   out["frequency_error_estimate"] = source.residual.error_estimate;
   out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
-  out["eigen_residual_max"] = source.residuals.size() > 0 ? source.residuals.maxCoeff() : 0.0;
-  out["fixed_interface_modes"] = static_cast<double>(n_k - source.residual.hz.size());
-  out["count_proved"] = source.proof.proved ? 1.0 : 0.0;
-  out["count_below"] = static_cast<double>(source.proof.below);
-  out["count_limit_hz"] = modal::hz_of_value(source.proof.limit);
-  out["cutoff_hz"] = source.cutoff_hz;
-  out["accurate_to_hz"] = 0.5 * source.cutoff_hz;
+  const InteriorModes& interior = source.interior;
+  const Eigen::VectorXd& residuals = interior.residuals;
+  out["eigen_residual_max"] = residuals.size() > 0 ? residuals.maxCoeff() : 0.0;
+  out["load_shapes"] = interior.load_shapes;
+  out["own_modes"] = interior.own_modes;
+  const Eigen::Index modes = n_k - source.residual.hz.size() - interior.load_shapes;
+  out["fixed_interface_modes"] = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
+  out["count_proved"] = interior.proof.proved ? 1.0 : 0.0;
+  out["count_below"] = static_cast<double>(interior.proof.below);
+  out["count_limit_hz"] = modal::hz_of_value(interior.proof.limit);
+  out["cutoff_hz"] = interior.cutoff_hz;
+  out["accurate_to_hz"] = interior.accurate_to_hz;
 }
 
 }  // namespace
@@ -117,9 +123,10 @@ void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigB
     out["mass_error_elements"] = compare_mass(found, model.mass).largest();
   }
   out["condition_M_rr"] = scaled_condition(reduced.M_rr);
-  out["dropped_vectors"] = dropped;
+  out["dropped_vectors"] = dropped + source.interior.dropped;
   out["K_ii_rcond"] = source.factor.rcond;
   out["K_ii_probe_residual"] = source.factor.probe_residual;
+  if (!reduced.inertia.empty()) out["inertia_invariants_error"] = inertia_error(reduced, free_body);
   certify_spectrum(reduced);
   certify_modes(reduced, source);
   if (free_body && !(out["mass_error"] <= kMassLimit)) {
@@ -127,6 +134,12 @@ void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigB
         fmt::format("reduced model: mass properties differ by {:.1e} from the full "
                     "model's, expected at most {:.0e}",
                     out["mass_error"], kMassLimit));
+  }
+  if (!reduced.inertia.empty() && !(out["inertia_invariants_error"] <= kMassLimit)) {
+    throw NumericsError(fmt::format(
+        "reduced model: inertia invariants differ by {:.1e} from what M_rr and the rigid "
+        "motions say, expected at most {:.0e}",
+        out["inertia_invariants_error"], kMassLimit));
   }
   if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||
       out["rigid_modes"] != static_cast<double>(motions.cols())) {

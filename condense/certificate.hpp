@@ -32,10 +32,12 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 /// (K_rr, M_rr); first_elastic_hz; for a free body mass_error (against r^T M r of the FE matrices)
 /// and mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
 /// diagonal; max_frequency_hz; eigen_residual_max; modal_mass_error; count_proved, count_below and
-/// count_limit_hz; cutoff_hz, accurate_to_hz (half of it) and frequency_error_estimate, the largest
-/// estimated relative error of the body's own modes below accurate_to_hz; residual_modes;
-/// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual.
-/// Throws NumericsError when the rigid motions or the mass did not survive the reduction.
+/// count_limit_hz; fixed_interface_modes, own_modes, load_shapes; cutoff_hz, accurate_to_hz (half
+/// of it, with own modes all of it) and frequency_error_estimate, the largest estimated relative
+/// error of the body's own modes below accurate_to_hz; residual_modes; inertia_invariants_error of
+/// frame_inertia.hpp when the model has them; rigid_shape_error of the plain solve;
+/// dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws NumericsError when the rigid motions or
+/// the mass did not survive the reduction.
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
              int dropped);
 

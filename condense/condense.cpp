@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condense/certificate.hpp"
+#include "condense/frame_inertia.hpp"
 #include "condense/modal_damping.hpp"
 #include "condense/recovery_rows.hpp"
 #include "core/log.hpp"
@@ -47,7 +48,7 @@ Eigen::MatrixXd reduced_rigid(const assembly::FeModel& model, const DofPartition
 
 CondenseOptions read_condense_options(const Config& config) {
   CondenseOptions options;
-  options.method = config.choice("method", {"craig-bampton", "guyan"});
+  options.method = config.choice("method", {"craig-bampton", "craig-chang", "guyan"});
   options.boundary = config.texts("boundary");
   if (options.boundary.empty()) config.fail("boundary", "found no set, expected one or more names");
   options.skin = config.texts_or("skin", options.skin);
@@ -68,10 +69,13 @@ CondenseOptions read_condense_options(const Config& config) {
   }
   options.modes.frequency_error =
       config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
+  options.modes.own_modes = options.method == "craig-chang";
+  options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);
   const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
   options.modes.method =
       solver == "arpack" ? modal::EigenMethod::kArpack : modal::EigenMethod::kBlockLanczos;
+  options.inertia_invariants = config.flag_or("inertia_invariants", false);
   options.modal_damping = read_modal_damping(config);
   config.finish();
   return options;
@@ -105,8 +109,12 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   }
   reduced.skin = recover_skin(model, partition, source.basis, options.skin);
   clock.lap("loads and skin rows");
+  if (options.inertia_invariants) {
+    reduced.inertia = frame_inertia(model, partition, source.basis);
+    clock.lap("inertia invariants");
+  }
   reduced.fixed_interface_hz = source.fixed_interface_hz;
-  reduced.valid_to_hz = source.cutoff_hz;
+  reduced.valid_to_hz = source.interior.cutoff_hz;
   certify(reduced, model, source, dropped);
   clock.lap("certificate");
   return reduced;
@@ -116,11 +124,15 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
   const auto& c = reduced.certificate;
   const auto n_k = reduced.size() - reduced.n_boundary;
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("{}: {} boundary coordinates + {:.0f} fixed-interface modes + {:.0f} residual "
-                  "modes = {} ({})",
-                  reduced.name, reduced.n_boundary, c.at("fixed_interface_modes"),
-                  c.at("residual_modes"), reduced.size(), reduced.method));
+  const bool own = reduced.method == "craig-chang";
+  const std::string loads = c.at("load_shapes") > 0.0
+                                ? fmt::format(" + {:.0f} load shapes", c.at("load_shapes"))
+                                : std::string{};
+  const double shapes = static_cast<double>(n_k) - c.at("residual_modes") - c.at("load_shapes");
+  lines.push_back(fmt::format(
+      "{}: {} boundary coordinates + {:.0f} {}{} + {:.0f} residual modes = {} ({})", reduced.name,
+      reduced.n_boundary, shapes, own ? "shapes of own modes" : "fixed-interface modes", loads,
+      c.at("residual_modes"), reduced.size(), reduced.method));
   lines.push_back(fmt::format(
       "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
       c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
@@ -130,7 +142,8 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
             ? fmt::format("none is missing (inertia counts {:.0f} below {:.1f} Hz)",
                           c.at("count_below"), c.at("count_limit_hz"))
             : std::string("their number is not proved (prove_count = false)");
-    lines.push_back(fmt::format("fixed-interface modes: {}; largest residual {:.1e}", proof,
+    lines.push_back(fmt::format("{} modes: {}; largest residual {:.1e}",
+                                own ? "own" : "fixed-interface", proof,
                                 c.at("eigen_residual_max")));
   }
   lines.push_back(
@@ -145,11 +158,10 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
                               c.at("condition_M_rr"), c.at("max_frequency_hz")));
   if (!reduced.modal_damping.empty()) {
     const DampingTable& table = reduced.modal_damping;
-    lines.push_back(fmt::format("modal damping by table, {} rows, ratios {:g} to {:g}{}",
-                                table.hz.size(), table.ratio.minCoeff(), table.ratio.maxCoeff(),
-                                reduced.alpha > 0.0 || reduced.beta > 0.0
-                                    ? "; alpha and beta add to it"
-                                    : ""));
+    lines.push_back(
+        fmt::format("modal damping by table, {} rows, ratios {:g} to {:g}{}", table.hz.size(),
+                    table.ratio.minCoeff(), table.ratio.maxCoeff(),
+                    reduced.alpha > 0.0 || reduced.beta > 0.0 ? "; alpha and beta add to it" : ""));
   }
   return lines;
 }

@@ -14,19 +14,20 @@ namespace clatter::condense {
 
 /// The `.rom.toml`; defaults stand here.
 struct CondenseOptions {
-  std::string method = "craig-bampton";      // or "guyan"
+  std::string method = "craig-bampton";      // or "craig-chang", "guyan"
   std::vector<std::string> boundary;         // set names; their order is that of the coordinates
-  ModeRequest modes;                         // fixed-interface modes by fmax_hz or count
+  ModeRequest modes;                         // shapes of the interior
   std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
+  bool inertia_invariants = false;           // of a body that rotates, eq. (9)
   DampingTable modal_damping;                // by eigenmodes of the body, beside alpha and beta
 };
 
 /// Reads the options; InputError for unknown keys and senseless values.
 CondenseOptions read_condense_options(const Config& config);
 
-/// Reduces `model` by Guyan or Craig-Bampton (eq. 13, 14) and certifies the result. Steps and their
-/// times go to `clock`. Throws InputError (boundary, surfaces) and NumericsError (eigen-solver,
-/// count of modes, rigid motions or mass lost).
+/// Reduces `model` by Guyan, Craig-Bampton (eq. 13, 14) or Craig-Chang and certifies the result.
+/// Steps and their times go to `clock`. Throws InputError (boundary, surfaces) and NumericsError
+/// (eigen-solver, count of modes, rigid motions or mass lost).
 ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& options,
                       StepClock& clock);
 

@@ -28,16 +28,6 @@ modal::CholmodFactor factorise_interior(const assembly::FeModel& model,
   }
 }
 
-modal::EigenOptions eigen_options(const ModeRequest& request) {
-  modal::EigenOptions options;
-  options.count = request.count;
-  options.fmax_hz = request.fmax_hz;
-  options.prove_count = request.prove_count;
-  options.method = request.method;
-  options.sigma = 0.0;  // K_ii itself is definite, and its factor is there
-  return options;
-}
-
 void assemble_basis(CraigBampton& out, Eigen::MatrixXd&& Psi_ib, const Eigen::MatrixXd& Phi_ik) {
   const Eigen::Index n_b = Psi_ib.cols();
   const Eigen::Index r = n_b + Phi_ik.cols();
@@ -65,26 +55,15 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
                                           motions(partition.interior, Eigen::all));
   clock.lap(fmt::format("{} constraint modes", Psi_ib.cols()));
 
-  const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
-  ModeRequest search = request;
-  if (guyan) search.count = 1;
-  modal::ModeSet modes = modal::solve_modes(K.ii, M.ii, eigen_options(search), &factor);
-  clock.lap(fmt::format("{} fixed-interface modes", modes.size()));
-  out.proof = modes.proof;
-  out.cutoff_hz =
-      request.fmax_hz > 0.0 ? request.fmax_hz : modal::hz_of_value(modes.values.tail(1)[0]);
-  if (guyan) {
-    modes.values.resize(0);
-    modes.vectors.resize(K.ii.rows(), 0);
-    modes.residuals.resize(0);
-  }
-  out.fixed_interface_hz = modes.values.unaryExpr(&modal::hz_of_value);
-  out.residuals = modes.residuals;
-  assemble_basis(out, std::move(Psi_ib), modes.vectors);
+  out.interior = interior_modes(model, partition, K, M, factor, request, clock);
+  out.fixed_interface_hz = out.interior.hz;
+  assemble_basis(out, std::move(Psi_ib), out.interior.vectors);
+  out.interior.vectors.resize(0, 0);
   out.M_rr = project(M, out.basis);
   out.K_rr = project(K, out.basis);
   clock.lap("reduced matrices");
-  out.residual = add_residual_modes(out, factor, K, M, 0.5 * out.cutoff_hz,
+  const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
+  out.residual = add_residual_modes(out, factor, K, M, out.interior.accurate_to_hz,
                                     guyan ? 0.0 : request.frequency_error);
   const Eigen::Index kept = out.fixed_interface_hz.size();
   out.fixed_interface_hz.conservativeResize(kept + out.residual.hz.size());

@@ -1,4 +1,4 @@
-// clatter-condense: reduces an assembled part to boundary coordinates and fixed-interface modes.
+// clatter-condense: reduces an assembled part to boundary coordinates and modes.
 //
 // Sample runs:
 //   clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5
@@ -62,12 +62,12 @@ int write_exports(const Paths& paths, const CommonOptions& common) {
 
 int run(int argc, char** argv) {
   Paths paths;
-  CommandLine line(
-      "clatter-condense",
-      "Reduces an assembled part by Craig-Bampton (or Guyan) and certifies the result; --export "
-      "writes a reduced part for other programs.",
-      "samples: clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5\n"
-      "         clatter-condense block.rom.h5 --export block.mtx");
+  CommandLine line("clatter-condense",
+                   "Reduces an assembled part by Craig-Bampton, Craig-Chang or Guyan and certifies "
+                   "the result; --export "
+                   "writes a reduced part for other programs.",
+                   "samples: clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5\n"
+                   "         clatter-condense block.rom.h5 --export block.mtx");
   line.positional("model", paths.model, "assembled part (.fe.h5); with --export reduced (.rom.h5)");
   line.option("-c,--config", paths.config, "what to retain (.rom.toml)");
   line.option("-o,--output", paths.output, "reduced model (.rom.h5)");

@@ -39,8 +39,9 @@ std::string DampingTable::fault() const {
       return fmt::format("found {:g} Hz in row {}, expected frequencies above zero that ascend",
                          hz[k], k + 1);
     if (!(ratio[k] >= 0.0 && ratio[k] < 1.0))
-      return fmt::format("found ratio {:g} in row {}, expected 0 or more and less than 1 (critical)",
-                         ratio[k], k + 1);
+      return fmt::format(
+          "found ratio {:g} in row {}, expected 0 or more and less than 1 (critical)", ratio[k],
+          k + 1);
   }
   return {};
 }

@@ -134,6 +134,11 @@ const ContactGrid& ReducedModel::grid(const std::string& grid_name) const {
   return find_named(grids, name, "contact grid", grid_name);
 }
 
+Eigen::RowVectorXd ReducedModel::row_of(int place) const {
+  if (place >= size()) return combined.row(place - size());
+  return Eigen::RowVectorXd::Unit(size(), place);
+}
+
 void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
                     const std::map<std::string, ContactGrid>& grids) {
   for (const auto& [name, set] : sets) {
@@ -194,6 +199,8 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   for (const auto& [name, load] : model.loads) file.write("loads/" + name, load);
   write_dof_sets(file, model.sets, model.grids);
   write_mass_properties(file, model.mass);
+  write_inertia_invariants(file, model.inertia);
+  if (model.combined.rows() > 0) file.write("combined", model.combined);
   if (model.skin.nodes.rows() > 0) write_skin(file, model.skin);
   write_certificate(file, model.certificate);
 }
@@ -216,7 +223,11 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   for (const auto& name : file.list("loads")) {
     model.loads[name] = read_sized(file, "loads/" + name, size);
   }
-  read_dof_sets(file, static_cast<int>(size), model.sets, model.grids);
+  model.combined.resize(0, static_cast<Eigen::Index>(size));
+  if (file.has("combined"))
+    model.combined = read_checked(file, "combined", file.shape("combined").at(0), size);
+  read_dof_sets(file, model.places(), model.sets, model.grids);
+  model.inertia = read_inertia_invariants(file, model.M_rr);
   model.mass = read_mass_properties(file);
   if (with_skin && file.has("skin")) model.skin = read_skin(file, size);
   model.certificate = read_certificate(file);

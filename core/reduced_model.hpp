@@ -17,13 +17,14 @@
 #include "core/artefact.hpp"
 #include "core/damping_table.hpp"
 #include "core/h5_file.hpp"
+#include "core/inertia_invariants.hpp"
 
 namespace clatter {
 
 /// A named group of degrees of freedom, each at a place and in a direction.
 struct DofSet {
-  std::string kind;                  // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
-  std::vector<int32_t> dofs;         // indices into the model's coordinates (FE: n, reduced: r)
+  std::string kind;           // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
+  std::vector<int32_t> dofs;  // indices into the model's coordinates (FE: n, reduced: places())
   std::vector<std::string> labels;   // one a DoF: "sensor_block.y", "liner_4[3,7]"
   Eigen::MatrixXd position;          // dofs x 3 [m]
   Eigen::MatrixXd direction;         // dofs x 3, unit vectors
@@ -61,7 +62,7 @@ struct Skin {
 
 struct ReducedModel {
   std::string name;
-  std::string method;          // "guyan", "craig-bampton"
+  std::string method;          // "guyan", "craig-bampton", "craig-chang"
   int n_boundary = 0;          // first n_boundary coordinates
   Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles filled [SI]
   double alpha = 0.0;          // stiffness-proportional damping [s]
@@ -76,9 +77,17 @@ struct ReducedModel {
   Eigen::VectorXd fixed_interface_hz;  // frequencies of the kept modes
   double valid_to_hz = 0.0;            // highest frequency the basis is meant for
   Skin skin;                           // empty (0 rows) when not recovered
+  InertiaInvariants inertia;           // of a body that rotates; empty unless asked for
+  /// c x r, places whose displacement became a combination of coordinates when the interface was
+  /// reduced: an entry r + j of DofSet::dofs is the displacement combined.row(j) q.
+  Eigen::MatrixXd combined;
   std::map<std::string, double> certificate;
 
   int size() const { return static_cast<int>(M_rr.rows()); }
+  /// Coordinates and, after them, the places of `combined`: what DofSet::dofs index.
+  int places() const { return size() + static_cast<int>(combined.rows()); }
+  /// The displacement at a place as a row of coordinates, r; `place` below places().
+  Eigen::RowVectorXd row_of(int place) const;
   const DofSet& set(const std::string& set_name) const;  // InputError listing the names present
   const ContactGrid& grid(
       const std::string& grid_name) const;  // InputError listing the names present

@@ -13,8 +13,9 @@ CondenseOptions parse(const std::string& text) {
 }
 
 TEST(ModalDampingRows, AreReadInOrder) {
-  const DampingTable table = parse("[[modal_damping]]\nhz = 500\nratio = 0.01\n"
-                                   "[[modal_damping]]\nhz = 2000\nratio = 0.03\n")
+  const DampingTable table = parse(
+                                 "[[modal_damping]]\nhz = 500\nratio = 0.01\n"
+                                 "[[modal_damping]]\nhz = 2000\nratio = 0.03\n")
                                  .modal_damping;
   EXPECT_EQ(table.hz, Eigen::VectorXd(Eigen::Vector2d(500.0, 2000.0)));
   EXPECT_EQ(table.ratio, Eigen::VectorXd(Eigen::Vector2d(0.01, 0.03)));

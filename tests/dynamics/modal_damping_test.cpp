@@ -73,8 +73,8 @@ TEST(ModalDamping, RayleighAndTableAddUp) {
   const ModalBody body = make_modal_body(bar, {});
   for (const int k : {0, 2}) {
     const double omega = std::sqrt(body.omega_squared(k));
-    const double zeta = bar.modal_damping.at(omega / (2.0 * kPi)) +
-                        0.5 * (bar.alpha * omega + bar.beta / omega);
+    const double zeta =
+        bar.modal_damping.at(omega / (2.0 * kPi)) + 0.5 * (bar.alpha * omega + bar.beta / omega);
     EXPECT_NEAR(body.damping(k), 2.0 * zeta * omega, 1e-12 * body.damping(k));
     const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
     EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected);

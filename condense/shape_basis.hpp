@@ -1,0 +1,25 @@
+#pragma once
+// Any shapes of the interior made to look like modes.
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/sparse.hpp"
+
+namespace clatter::condense {
+
+/// X with X^T M X = I and X^T K X = diag(values), ascending.
+struct ShapeBasis {
+  Eigen::MatrixXd vectors;     // n x k
+  Eigen::VectorXd values;      // k
+  std::vector<int> dependent;  // columns of the input that were dropped
+};
+
+/// The part of `shapes` that `kept` does not span. A shape of which less than 1e-9 in the norm of M
+/// is left beside `kept` and the shapes before it depends on them and is dropped; Gram-Schmidt in
+/// the mass inner product, twice, in blocks.
+/// @param shapes n x m, of any length, zero too; kept n x p, eigenvectors of (K, M) with unit modal
+/// mass; K, M n x n, lower triangles, positive definite.
+ShapeBasis shape_basis(const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& kept,
+                       const SparseMatrix& K, const SparseMatrix& M);
+
+}  // namespace clatter::condense
