@@ -1,0 +1,142 @@
+"""Guyan's matrix of CalculiX's own deck `substructure`: a cantilever of C3D20R of which 20 nodes are retained.
+
+The installed CalculiX 2.20 does not condense: what its *SUBSTRUCTURE GENERATE prints for this deck is K_bb, the
+stiffness of the retained nodes with all others held (and the package's reference file is empty). So the condensed
+matrix is compared with what its manual calls it: the reactions to unit displacements, from 60 static steps; and with
+CalculiX's K, taken in by [matrices] and condensed here.
+"""
+import gzip
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import scipy.sparse as sp  # noqa: E402
+import stages  # noqa: E402
+
+DECK = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test/substructure.inp.gz")
+NEWTON_PER_MILLIMETRE = 1e3  # CalculiX's K is in N/mm, ours in N/m
+ROM = 'method = "guyan"\nboundary = ["retained"]\nskin = []\n'
+
+
+def symmetric(group):
+    """The full matrix of a sparse group that holds the lower triangle."""
+    lower = sp.csc_matrix((group["data"][()], group["indices"][()], group["indptr"][()]), shape=group.attrs["shape"])
+    lower = lower.toarray()
+    return lower + np.tril(lower, -1).T
+
+
+def numbers(lines):
+    return [[float(word) for word in line.split(",") if word.strip()] for line in lines]
+
+
+@unittest.skipUnless(shutil.which("ccx") and DECK.exists(), "calculix-ccx and calculix-ccx-test are not installed")
+class Substructure(stages.PipelineTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        text = gzip.decompress(DECK.read_bytes()).decode()
+        # A mass, which *SUBSTRUCTURE does not need: clatter does not condense without one.
+        cls.text = text.replace("*SOLID SECTION", "*DENSITY\n7.8E-9\n*SOLID SECTION")
+        cls.model = cls.text[:cls.text.index("*STEP")]
+        block = re.search(r"\*NODE\n(.*?)\n\*", cls.model, re.S).group(1)
+        cls.place = {int(row[0]): np.array(row[1:]) for row in numbers(block.splitlines())}
+        block = re.search(r"NSET=N1\n(.*)", cls.model, re.S).group(1)
+        cls.retained = [int(node) for row in numbers(block.splitlines()) for node in row]
+
+    def stage(self, name, *arguments):
+        done = stages.run_stage(name, *arguments, "--quiet", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def calculix(self, name, text):
+        (self.folder / f"{name}.inp").write_text(text)
+        done = subprocess.run(["ccx", name], cwd=self.folder, text=True, capture_output=True, timeout=100)
+        self.assertIn("Job finished", done.stdout, done.stdout[-600:])
+
+    def assemble(self):
+        (self.folder / "sub.inp").write_text(self.text)
+        self.stage("mesh", "sub.inp", "--units", "mm-t-s", "-o", "sub.mesh.h5", "--recipe", "sub.fe.toml")
+        self.stage("assembly", "sub.mesh.h5", "-c", "sub.fe.toml", "-o", "sub.fe.h5")
+
+    def guyan(self, name):
+        """K_rr [N/mm] on x y z of the retained nodes in the deck's order."""
+        (self.folder / "sub.rom.toml").write_text(ROM)
+        self.stage("condense", f"{name}.fe.h5", "-c", "sub.rom.toml", "-o", f"{name}.rom.h5")
+        with h5py.File(self.folder / f"{name}.rom.h5") as rom:
+            order = self.in_deck_order(rom["sets/retained"])
+            return rom["K_rr"][()][np.ix_(order, order)] / NEWTON_PER_MILLIMETRE
+
+    def in_deck_order(self, dofs):
+        position, direction = dofs["position"][()] * 1e3, dofs["direction"][()]
+        order = []
+        for node in self.retained:
+            near = np.linalg.norm(position - self.place[node], axis=1) < 1e-9
+            order += [int(np.flatnonzero(near & (direction[:, axis] == 1.0))[0]) for axis in range(3)]
+        return dofs["dofs"][()][order]
+
+    def test_guyan_is_the_reaction_to_unit_displacements_in_all_printed_digits(self):
+        held = "".join(f"{node}, 1, 3\n" for node in self.retained)
+        steps = "".join(f"*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nFIX, 1, 3\n{held}*BOUNDARY\n{node}, {axis}, {axis}, 1.0\n"
+                        "*NODE PRINT, NSET=N1\nRF\n*END STEP\n" for node in self.retained for axis in (1, 2, 3))
+        self.calculix("unit", re.sub(r"\*BOUNDARY\nFIX, \d\n", "", self.model) + steps)
+        tables = (self.folder / "unit.dat").read_text().split("forces (fx,fy,fz)")[1:]
+        self.assertEqual(len(tables), 60)
+        reaction = []
+        for table in tables:
+            rows = (line.split() for line in table.splitlines())
+            force = {int(row[0]): [float(word) for word in row[1:]] for row in rows if len(row) == 4 and row[0].isdigit()}
+            reaction.append(np.concatenate([force[node] for node in self.retained]))
+        theirs = np.array(reaction).T
+        self.assemble()
+        ours = self.guyan("sub")
+        # Seven digits are printed; a force that the symmetry makes zero is rounding, 1e-13 of the largest.
+        np.testing.assert_allclose(ours, theirs, rtol=5.01e-7, atol=1e-10 * abs(theirs).max())
+
+    def test_the_matrix_that_calculix_prints_is_not_condensed_and_ours_of_the_same_block_has_its_digits(self):
+        self.calculix("printed", self.text)
+        body = (self.folder / "substructure.mtx").read_text().split("*MATRIX,TYPE=STIFFNESS")[1]
+        values = [value for row in numbers(body.splitlines()) for value in row]
+        lower = np.zeros((60, 60))
+        lower[np.tril_indices(60)] = values  # row by row
+        printed = lower + np.tril(lower, -1).T
+        self.assemble()
+        with h5py.File(self.folder / "sub.fe.h5") as model:
+            order = self.in_deck_order(model["sets/retained"])
+            K = symmetric(model["K"]) / NEWTON_PER_MILLIMETRE
+        others = np.setdiff1d(np.arange(len(K)), order)
+        # Thirteen digits; where the symmetry makes zeros, rounding of both: 1e-13 of the largest entry.
+        np.testing.assert_allclose(K[np.ix_(order, order)], printed, rtol=1e-12, atol=1e-13 * abs(printed).max())
+        condensed = K[np.ix_(order, order)] - K[np.ix_(order, others)] @ np.linalg.solve(
+            K[np.ix_(others, others)], K[np.ix_(others, order)])
+        np.testing.assert_allclose(self.guyan("sub"), condensed, rtol=0, atol=1e-12 * abs(condensed).max())
+        self.assertGreater(abs(condensed - printed).max(), 0.4 * abs(printed).max())
+
+    def test_guyan_of_the_matrices_that_calculix_wrote_is_that_of_our_own(self):
+        self.calculix("stored", self.model + "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n")
+        dofs = [tuple(map(int, line.split("."))) for line in (self.folder / "stored.dof").read_text().split()]
+        for ending, name in (("sti", "K"), ("mas", "M")):
+            lines = (self.folder / f"stored.{ending}").read_text().splitlines()  # the upper triangle: row, column, value
+            turned = [f"{j} {i} {value}" for i, j, value in (line.split() for line in lines)]
+            (self.folder / f"stored.{name}.mtx").write_text("\n".join(
+                ["%%MatrixMarket matrix coordinate real symmetric", f"{len(dofs)} {len(dofs)} {len(turned)}", *turned, ""]))
+        rows = []
+        for i, (node, axis) in enumerate(dofs):
+            place, direction = self.place[node] * 1e-3, np.eye(3)[axis - 1]
+            name = ["retained", f"{node}.{axis}"] if node in self.retained else ["", ""]
+            rows.append("\t".join(map(str, [i + 1, node, axis, "displacement", *place, *direction, *name])))
+        (self.folder / "stored.dofs.tsv").write_text("\n".join(rows) + "\n")
+        (self.folder / "stored.fe.toml").write_text(
+            '[matrices]\nK = "stored.K.mtx"\nM = "stored.M.mtx"\ndofs = "stored.dofs.tsv"\nunits = "mm-t-s"\n')
+        self.stage("assembly", "-c", "stored.fe.toml", "-o", "stored.fe.h5")
+        self.assemble()
+        theirs, ours = self.guyan("stored"), self.guyan("sub")
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-11 * abs(theirs).max())  # 14 digits in the files
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
