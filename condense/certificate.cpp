@@ -55,6 +55,8 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
       reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
   out["residual_modes"] = static_cast<double>(source.residual.hz.size());
   out["frequency_error_estimate"] = source.residual.error_estimate;
+  out["frequency_error_joined"] = source.residual.error_before;
+  out["frequency_error_modes"] = source.residual.modes;
   out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
   const InteriorModes& interior = source.interior;
   const Eigen::VectorXd& residuals = interior.residuals;

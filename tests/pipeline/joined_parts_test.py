@@ -1,0 +1,127 @@
+"""A part cut in two, each half condensed to the cut, joined there again: the modes are those of the whole."""
+import itertools
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import scipy.linalg  # noqa: E402
+import stages  # noqa: E402
+
+SIZE, CELLS, CUT = (0.30, 0.08, 0.06), (10, 4, 3), 4  # [m]; hex20 cells along x y z; cells before the cut
+# Corners, then the middles of the edges, on the half grid of a cell, in the order of C3D20.
+CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+FE = '[material.steel]\nregions = ["EALL"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7850.0\n'
+CUT_SET = '\n[[nodes]]\nname = "cut"\nnode_set = "CUT"\n'
+SENSOR = '\n[[nodes]]\nname = "end"\nnode_set = "END"\n'
+
+
+def deck(first, last):
+    """The bar between two columns of cells; node sets CUT and END (one corner far from the cut)."""
+    corner = np.array(CORNERS)
+    offsets = np.vstack([corner, [(corner[a] + corner[b]) // 2 for a, b in EDGES]])
+    ids, cells = {}, []
+    for cell in itertools.product(range(first, last), range(CELLS[1]), range(CELLS[2])):
+        cells.append([ids.setdefault(tuple(2 * np.array(cell) + o), len(ids) + 1) for o in offsets])
+    pitch = np.array(SIZE) / (2 * np.array(CELLS))
+    lines = ["*NODE"] + ["{}, {:.17g}, {:.17g}, {:.17g}".format(i, *(np.array(at) * pitch)) for at, i in ids.items()]
+    lines += ["*ELEMENT, TYPE=C3D20, ELSET=EALL"]
+    for number, cell in enumerate(cells, 1):
+        lines += [", ".join(map(str, [number, *cell[:10]])) + ",", ", ".join(map(str, cell[10:]))]
+    lines += ["*NSET, NSET=CUT"] + [str(i) for at, i in ids.items() if at[0] == 2 * CUT]
+    end = 0 if first == 0 else 2 * CELLS[0]
+    return "\n".join(lines + ["*NSET, NSET=END", str(ids[end, 0, 0])]) + "\n"
+
+
+def coordinates(rom):
+    """{(set, place in micrometres, direction): index} of the boundary coordinates, the boundary map of the file."""
+    found = {}
+    for name, dofs in rom["sets"].items():
+        places = np.rint(dofs["position"][()] * 1e6).astype(int)
+        for j, place, direction in zip(dofs["dofs"][()], places, dofs["direction"][()]):
+            found[name, tuple(place), tuple(np.rint(direction).astype(int))] = j
+    return found
+
+
+def joined(paths):
+    """K, M of reduced parts whose coordinates of the set "cut" are one and the same where places agree."""
+    parts, index, total = [], {}, 0
+    for number, path in enumerate(paths):
+        with h5py.File(path) as rom:
+            at = np.full(len(rom["K_rr"]), -1)
+            for key, j in coordinates(rom).items():
+                at[j] = index.setdefault(key if key[0] == "cut" else (number, *key), len(index))
+            parts.append((rom["K_rr"][()], rom["M_rr"][()], at))
+    total = len(index)
+    for _, _, at in parts:
+        modal = np.flatnonzero(at < 0)
+        at[modal] = np.arange(total, total + len(modal))
+        total += len(modal)
+    K, M = np.zeros((2, total, total))
+    for K_rr, M_rr, at in parts:
+        K[np.ix_(at, at)] += K_rr
+        M[np.ix_(at, at)] += M_rr
+    return K, M, len(index)
+
+
+class JoinedParts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        stages.require_stages()
+        scratch = tempfile.TemporaryDirectory(prefix="clatter-joined-")
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = pathlib.Path(scratch.name)
+        for name, first, last in (("whole", 0, CELLS[0]), ("left", 0, CUT), ("right", CUT, CELLS[0])):
+            (cls.folder / f"{name}.inp").write_text(deck(first, last))
+            (cls.folder / f"{name}.fe.toml").write_text(FE + CUT_SET + SENSOR)
+            cls.stage("mesh", f"{name}.inp", "--units", "m-kg-s", "-o", f"{name}.mesh.h5")
+            cls.stage("assembly", f"{name}.mesh.h5", "-c", f"{name}.fe.toml", "-o", f"{name}.fe.h5")
+
+    @classmethod
+    def stage(cls, name, *arguments):
+        done = stages.run_stage(name, *arguments, "--quiet", folder=cls.folder)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        return done.stdout
+
+    def condense(self, name, fmax_hz, more):
+        (self.folder / "part.rom.toml").write_text(f'boundary = ["cut", "end"]\nfmax_hz = {fmax_hz}\n{more}skin = []\n')
+        self.stage("condense", f"{name}.fe.h5", "-c", "part.rom.toml", "-o", f"{name}.rom.h5")
+        with h5py.File(self.folder / f"{name}.rom.h5") as rom:
+            return dict(rom["certificate"].attrs)
+
+    def whole_hz(self, fmax_hz):
+        self.stage("modal", "whole.fe.h5", "--fmax-hz", fmax_hz, "-o", "whole.modes.h5")
+        with h5py.File(self.folder / "whole.modes.h5") as modes:
+            return modes["frequency_hz"][()]
+
+    def test_frequencies_of_the_joined_halves_are_within_what_their_certificates_state(self):
+        for cutoff, more in ((35e3, ""), (40e3, ""), (60e3, ""), (40e3, "frequency_error = 0.0\n")):
+            with self.subTest(cutoff=cutoff, more=more):
+                certificates = [self.condense(name, cutoff, more) for name in ("left", "right")]
+                self.assertTrue(all(c["frequency_error_modes"] > 0 for c in certificates))
+                stated = max(c["frequency_error_joined"] for c in certificates)
+                limit = min(c["accurate_to_hz"] for c in certificates)
+                K, M, shared = joined([self.folder / f"{name}.rom.h5" for name in ("left", "right")])
+                self.assertEqual(shared, 3 * (51 + 2))  # 51 nodes of the cut and a corner at either end
+                found = np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2 * np.pi)
+                whole = self.whole_hz(limit)
+                self.assertEqual(np.count_nonzero(whole == 0.0), 6)
+                self.assertGreater(len(whole), 9)
+                self.assertLess(found[5], 1e-3 * whole[6])  # six rigid motions of the whole, no hinge at the cut
+                error = found[6:len(whole)] / whole[6:] - 1.0
+                print(f"    {json.dumps({'cutoff': cutoff, 'modes': len(error), 'size': len(K), 'largest': error.max(), 'stated': stated})}",
+                      file=sys.stderr)
+                self.assertLess(error.max(), stated)
+                self.assertGreater(error.min(), -1e-8)  # a basis can only stiffen
+                # None below the limit that the whole has not: the next one lies above it.
+                self.assertGreater(found[len(whole)], limit)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
