@@ -36,10 +36,10 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 /// of it, with own modes all of it) and frequency_error_estimate, the largest estimated relative
 /// error of the body's own modes below accurate_to_hz, frequency_error_joined, the same without the
 /// residual modes, which help the body's own modes alone: what a body joined to others can count
-/// on, and frequency_error_modes, the modes on which both stand; residual_modes;
-/// inertia_invariants_error of frame_inertia.hpp when the model has them; rigid_shape_error of the
-/// plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws NumericsError when the
-/// rigid motions or the mass did not survive the reduction.
+/// on (absent with own modes), and frequency_error_modes, the modes on which both stand;
+/// residual_modes; inertia_invariants_error of frame_inertia.hpp when the model has them;
+/// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws
+/// NumericsError when the rigid motions or the mass did not survive the reduction.
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
              int dropped);
 
