@@ -50,7 +50,7 @@ void certify_spectrum(ReducedModel& reduced) {
 
 void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   auto& out = reduced.certificate;
-  const Eigen::Index n_k = reduced.size() - reduced.n_boundary;
+  const Eigen::Index n_k = reduced.fixed_interface_hz.size();
   const Eigen::MatrixXd unit =
       reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
   out["residual_modes"] = static_cast<double>(source.residual.hz.size());

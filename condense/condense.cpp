@@ -7,6 +7,7 @@
 #include "condense/modal_damping.hpp"
 #include "condense/recovery_rows.hpp"
 #include "core/log.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -77,6 +78,7 @@ CondenseOptions read_condense_options(const Config& config) {
       solver == "arpack" ? modal::EigenMethod::kArpack : modal::EigenMethod::kBlockLanczos;
   options.inertia_invariants = config.flag_or("inertia_invariants", false);
   options.modal_damping = read_modal_damping(config);
+  options.interface = read_interface_options(config, options.boundary);
   config.finish();
   return options;
 }
@@ -115,6 +117,13 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   }
   reduced.fixed_interface_hz = source.fixed_interface_hz;
   reduced.valid_to_hz = source.interior.cutoff_hz;
+  if (options.interface) {
+    const InterfaceReport report =
+        reduce_interface(reduced, *options.interface, modal::free_motions(model),
+                         modal::characteristic_length(model), source.interior.accurate_to_hz);
+    record(report, reduced.certificate);
+    clock.lap(fmt::format("{} interface modes", report.modes));
+  }
   certify(reduced, model, source, dropped);
   clock.lap("certificate");
   return reduced;
@@ -122,17 +131,19 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
 
 std::vector<std::string> describe(const ReducedModel& reduced) {
   const auto& c = reduced.certificate;
-  const auto n_k = reduced.size() - reduced.n_boundary;
+  const Eigen::Index n_k = reduced.fixed_interface_hz.size();
+  const Eigen::Index n_z = reduced.size() - reduced.n_boundary - n_k;
   std::vector<std::string> lines;
   const bool own = reduced.method == "craig-chang";
   const std::string loads = c.at("load_shapes") > 0.0
                                 ? fmt::format(" + {:.0f} load shapes", c.at("load_shapes"))
                                 : std::string{};
   const double shapes = static_cast<double>(n_k) - c.at("residual_modes") - c.at("load_shapes");
+  const std::string interface = n_z > 0 ? fmt::format(" + {} interface modes", n_z) : std::string{};
   lines.push_back(fmt::format(
-      "{}: {} boundary coordinates + {:.0f} {}{} + {:.0f} residual modes = {} ({})", reduced.name,
-      reduced.n_boundary, shapes, own ? "shapes of own modes" : "fixed-interface modes", loads,
-      c.at("residual_modes"), reduced.size(), reduced.method));
+      "{}: {} boundary coordinates{} + {:.0f} {}{} + {:.0f} residual modes = {} ({})", reduced.name,
+      reduced.n_boundary, interface, shapes, own ? "shapes of own modes" : "fixed-interface modes",
+      loads, c.at("residual_modes"), reduced.size(), reduced.method));
   lines.push_back(fmt::format(
       "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
       c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
@@ -146,6 +157,7 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
                                 own ? "own" : "fixed-interface", proof,
                                 c.at("eigen_residual_max")));
   }
+  if (c.contains("interface_modes")) lines.push_back(interface_line(c));
   lines.push_back(
       fmt::format("{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz",
                   c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz")));

@@ -5,6 +5,7 @@
 
 #include "assembly/fe_model.hpp"
 #include "condense/craig_bampton.hpp"
+#include "condense/interface_modes.hpp"
 #include "core/config.hpp"
 #include "core/damping_table.hpp"
 #include "core/reduced_model.hpp"
@@ -14,12 +15,13 @@ namespace clatter::condense {
 
 /// The `.rom.toml`; defaults stand here.
 struct CondenseOptions {
-  std::string method = "craig-bampton";      // or "craig-chang", "guyan"
-  std::vector<std::string> boundary;         // set names; their order is that of the coordinates
-  ModeRequest modes;                         // shapes of the interior
-  std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
-  bool inertia_invariants = false;           // of a body that rotates, eq. (9)
-  DampingTable modal_damping;                // by eigenmodes of the body, beside alpha and beta
+  std::string method = "craig-bampton";       // or "craig-chang", "guyan"
+  std::vector<std::string> boundary;          // set names; their order is that of the coordinates
+  ModeRequest modes;                          // shapes of the interior
+  std::vector<std::string> skin = {"skin"};   // surfaces whose displacement can be recovered
+  bool inertia_invariants = false;            // of a body that rotates, eq. (9)
+  std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
+  DampingTable modal_damping;                 // by eigenmodes of the body, beside alpha and beta
 };
 
 /// Reads the options; InputError for unknown keys and senseless values.

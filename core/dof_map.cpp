@@ -112,6 +112,7 @@ std::vector<MappedDof> map_of(const ReducedModel& model) {
   std::vector<MappedDof> map(static_cast<size_t>(model.size()));
   for (const auto& [name, set] : model.sets) {
     for (size_t k = 0; k < set.dofs.size(); ++k) {
+      if (set.dofs[k] >= model.size()) continue;  // a combination of coordinates
       MappedDof& dof = map[static_cast<size_t>(set.dofs[k])];
       if (dof.kind == MappedDof::Kind::kModal) dof = place_of(set, name, k);
     }

@@ -80,7 +80,7 @@ Spectrum elastic_spectrum(const std::string& name, const MatrixXd& M, const Matr
 }
 
 std::vector<int32_t> rotations(const ReducedModel& model) {
-  std::vector<int32_t> flags(static_cast<size_t>(model.size()), 0);
+  std::vector<int32_t> flags(static_cast<size_t>(model.places()), 0);
   for (const auto& [name, set] : model.sets) {
     for (size_t i = 0; i < set.dofs.size(); ++i) {
       flags[static_cast<size_t>(set.dofs[i])] = set.is_rotation[i];
@@ -112,6 +112,7 @@ ModalBody make_modal_body(const ReducedModel& model, const ModalBodyOptions& opt
   ModalBody body;
   body.name = model.name;
   body.shapes = scale.asDiagonal() * spectrum.shapes;
+  if (model.combined.rows() > 0) body.combined = model.combined * body.shapes;
   body.omega_squared = spectrum.omega_squared;
   body.rigid_modes = static_cast<int>(free.cols());
   body.damping = model.alpha * body.omega_squared.array() + model.beta;

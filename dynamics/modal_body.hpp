@@ -16,16 +16,22 @@ namespace clatter::dynamics {
 struct ModalBody {
   std::string name;
   Eigen::MatrixXd shapes;         // r x n_m, mass-normalised
+  Eigen::MatrixXd combined;       // c x n_m, of the model's combined places
   Eigen::VectorXd omega_squared;  // n_m [1/s2], ascending; exactly 0 for rigid modes
   Eigen::VectorXd damping;        // n_m [1/s], alpha omega^2 + beta + 2 zeta omega; rigid: 0
   Eigen::VectorXd inertia;        // n_m, 1 or 0
   Eigen::MatrixXd rigid;          // n_m x 6, M-weighted: shapes^T M_rr r of the unit rigid motions
-  std::vector<int32_t> is_rotation;  // r, 1 where the coordinate is a rotation
+  std::vector<int32_t> is_rotation;  // r + c, 1 where the place is a rotation
   int rigid_modes = 0;               // the first ones
   double mass = 0.0;                 // [kg]
 
   int modes() const { return static_cast<int>(omega_squared.size()); }
   int size() const { return static_cast<int>(shapes.rows()); }
+  /// The displacement of a place (ReducedModel::places) by the modal coordinates, n_m.
+  Eigen::RowVectorXd row_of(int place) const {
+    if (place >= size()) return combined.row(place - size());
+    return shapes.row(place);
+  }
 };
 
 /// How a reduced model becomes a ModalBody.

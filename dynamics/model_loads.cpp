@@ -129,7 +129,7 @@ void add_named_loads(const Scene& scene, const LoadedBodies& bodies, const BodyI
       modal = body->modal.shapes.transpose() * unit_load(body->model, load.load);
     } else {
       const int dof = set_dof(body->model, load.set, load.component % 3, load.component >= 3);
-      modal = body->modal.shapes.row(dof).transpose();
+      modal = body->modal.row_of(dof).transpose();
     }
     model.system.add_load({fmt::format("load {} on {}", number, load.body), index.at(load.body),
                            modal, ramped(scene.time, load_value(scene, load, model))});

@@ -50,7 +50,7 @@ int System::coordinate(int body, int dof) {
   rows_[b].push_back(index);
   dofs_[b].push_back(dof);
   P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
-  P_[b].bottomRows(1) = bodies_[b].shapes.row(dof);
+  P_[b].bottomRows(1) = bodies_[b].row_of(dof);
   return index;
 }
 

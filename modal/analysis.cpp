@@ -27,7 +27,14 @@ template <typename Model>
 std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string>& fixed) {
   std::vector<char> held(static_cast<size_t>(model.size()), 0);
   for (const std::string& name : fixed) {
-    for (const int32_t dof : model.set(name).dofs) held[static_cast<size_t>(dof)] = 1;
+    for (const int32_t dof : model.set(name).dofs) {
+      if (dof >= model.size())
+        throw InputError(
+            fmt::format("{}: fixed: found \"{}\", whose coordinates became interface "
+                        "modes, expected a set that kept its own",
+                        model.name, name));
+      held[static_cast<size_t>(dof)] = 1;
+    }
   }
   std::vector<int32_t> left;
   for (int32_t dof = 0; dof < model.size(); ++dof) {

@@ -75,7 +75,7 @@ CommonRows common_rows(const assembly::FeModel& full, const PartModes& full_mode
   }
   for (const auto& [p, q] : coordinates) {
     rows.full.row(row) = full_modes.modes.vectors.row(p);
-    rows.reduced.row(row) = reduced_modes.modes.vectors.row(q);
+    rows.reduced.row(row) = reduced.row_of(static_cast<int>(q)) * reduced_modes.modes.vectors;
     ++row;
   }
   return rows;

@@ -9,12 +9,12 @@
 namespace clatter::recover {
 namespace {
 
-Sensor from_set(const std::string& name, const DofSet& set, int size) {
+Sensor from_set(const std::string& name, const DofSet& set, const ReducedModel& model) {
   const Eigen::Index channels = static_cast<Eigen::Index>(set.dofs.size());
   Sensor sensor{name, set.kind, set.labels, set.position, set.direction, set.is_rotation, {}};
-  sensor.rows = Eigen::MatrixXd::Zero(channels, size);
+  sensor.rows = Eigen::MatrixXd::Zero(channels, model.size());
   for (Eigen::Index c = 0; c < channels; ++c)
-    sensor.rows(c, set.dofs[static_cast<size_t>(c)]) = 1.0;
+    sensor.rows.row(c) = model.row_of(set.dofs[static_cast<size_t>(c)]);
   return sensor;
 }
 
@@ -52,14 +52,14 @@ std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules, const Red
   std::vector<Sensor> sensors;
   if (rules.empty())
     for (const auto& [name, set] : model.sets)
-      if (set.kind == "sensor") sensors.push_back(from_set(name, set, model.size()));
+      if (set.kind == "sensor") sensors.push_back(from_set(name, set, model));
   std::set<std::string> names;
   for (const SensorRule& rule : rules) {
     if (!names.insert(rule.name).second)
       throw InputError(
           fmt::format("sensor '{}': found twice, expected different names", rule.name));
     sensors.push_back(rule.set.empty() ? from_point(rule, model.skin, geometry)
-                                       : from_set(rule.name, model.set(rule.set), model.size()));
+                                       : from_set(rule.name, model.set(rule.set), model));
   }
   return sensors;
 }

@@ -13,6 +13,11 @@ namespace clatter::condense {
 std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
                                                   const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
+  if (model.combined.rows() > 0)
+    throw InputError(fmt::format(
+        "{}: found {} boundary coordinates that became interface modes, expected a part "
+        "without [interface] for other programs",
+        model.name, model.combined.rows()));
   if (extension == ".mtx") return export_matrix_market(model, path);
   if (extension == ".inp") return export_calculix(model, path);
   if (extension == ".pch") return export_dmig(model, path);

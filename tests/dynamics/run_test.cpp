@@ -255,6 +255,44 @@ value = 1000.0
   EXPECT_GT(q.col(0).minCoeff(), -0.03 * still);
 }
 
+TEST_F(Runs, ATipThatBecameACombinationOfCoordinatesMovesTheSame) {
+  // The bar in coordinates z, q = W z: the tip is no coordinate any more.
+  const ReducedModel bar = testing::clamped_bar(1.0, 100, 10);
+  ReducedModel turned = bar;
+  const int n = bar.size();
+  Eigen::MatrixXd W = Eigen::MatrixXd::Identity(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) W(i, j) += 0.1 * std::cos(1.0 + 3.0 * i + 7.0 * j);
+  turned.M_rr = W.transpose() * bar.M_rr * W;
+  turned.K_rr = W.transpose() * bar.K_rr * W;
+  turned.M_rr = (0.5 * (turned.M_rr + turned.M_rr.transpose())).eval();
+  turned.K_rr = (0.5 * (turned.K_rr + turned.K_rr.transpose())).eval();
+  turned.rigid = W.partialPivLu().solve(bar.rigid);
+  turned.combined = W.row(0);
+  turned.sets.at("tip").dofs = {n};
+  turned.n_boundary = 0;
+  testing::write_rom(folder_ / "turned.rom.h5", turned);
+  const auto tip = [&](const std::string& rom, int place) -> Eigen::VectorXd {
+    std::ofstream(folder_ / "bar.run.toml") << "[time]\nend_s = 5e-4\noutput_step_us = 10.0\n"
+                                               "largest_step_us = 2.0\n[[body]]\nname = \"bar\"\n"
+                                               "rom = \"" +
+                                                   rom +
+                                                   "\"\n[[load]]\nbody = \"bar\"\n"
+                                                   "set = \"tip\"\ncomponent = \"x\"\nvalue = 1e3\n"
+                                                   "[[mount]]\nbody = \"bar\"\nsets = [\"tip\"]\n"
+                                                   "stiffness_n_m = [1e7, 0, 0]\n"
+                                                   "damping_n_s_m = [100, 0, 0]\n";
+    const Scene described = read_scene(folder_ / "bar.run.toml");
+    const LoadedBodies bodies = load_bodies(described);
+    const RunResult result = simulate(described, bodies, {});
+    return result.recorder->samples().eta() * bodies[0].modal.row_of(place).transpose();
+  };
+  const Eigen::VectorXd whole = tip("bar.rom.h5", 0), combined = tip("turned.rom.h5", n);
+  ASSERT_GT(whole.size(), 40);
+  // Eigenbases of both differ by rounding; the default tolerance of a step is 1e-3 of 10 um.
+  EXPECT_LT((whole - combined).cwiseAbs().maxCoeff(), 1e-6 * whole.cwiseAbs().maxCoeff());
+}
+
 TEST_F(Runs, BadScenesAreRefusedInOneLine) {
   const auto refusal = [&](const std::string& changes) -> std::string {
     try {

@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+"""What the methods of the condensation keep, on a part of samples/truck_diesel (after `make demo`).
+
+First table: coordinates, seconds and the largest frequency error of the free part's elastic modes below a limit,
+against clatter-modal on the full model. Second: the static answer to a load at the skin's nodes with one set held,
+against SciPy's sparse LU of the full stiffness, with and without the load's shape in the basis. Third: interface modes
+of the contact grid, by mass and by patch areas: error of the film's pressure work and of the frequencies.
+"""
+import argparse
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+import scipy.sparse as sparse
+import scipy.sparse.linalg as sparse_linalg
+
+from measured import run
+
+ROOT = Path(__file__).resolve().parent.parent
+PARTS = {  # boundary, contact grid, load and what is held for it, limit of the frequencies
+    "piston": (["skirt", "pin"], "skirt", "gas", "pin", 7500.0),
+    "block": (["liner_4", "liner_4_axial", "bearing_1", "bearing_2", "bearing_3", "bearing_4", "bearing_5", "mount_1",
+               "mount_2", "mount_3", "mount_4", "sensor_liner", "sensor_block"], "liner_4", "head_4_gas", "mount_1", 3000.0),
+}
+RIGID_HZ = 1.0  # rigid motions of the free part lie below, the first elastic mode above 400 Hz
+
+
+def names(words):
+    return "[" + ", ".join(f'"{word}"' for word in words) + "]"
+
+
+def sparse_of(group):
+    shape = group.attrs["shape"]
+    lower = sparse.csc_matrix((group["data"][()], group["indices"][()], group["indptr"][()]), shape=shape)
+    if group.attrs["symmetric"] not in ("lower", b"lower"):
+        return lower
+    return (lower + sparse.tril(lower, -1).T).tocsc()
+
+
+class Part:
+    """One part in a folder of its own."""
+
+    def __init__(self, folder, build, name):
+        self.folder, self.build, self.name = folder, build, name
+        self.fe = ROOT / f"samples/truck_diesel/{name}.fe.h5"
+        self.boundary, self.grid, self.load, self.held, self.limit = PARTS[name]
+
+    def condense(self, text):
+        """Path of the reduced model and seconds of the process."""
+        (self.folder / "part.rom.toml").write_text(f"boundary = {names(self.boundary)}\n{text}")
+        program = self.build / "bin/clatter-condense"
+        seconds = run([program, self.fe, "-c", "part.rom.toml", "-o", "part.rom.h5", "--quiet"], self.folder)[1]
+        return self.folder / "part.rom.h5", seconds
+
+    def frequencies(self, model):
+        """Frequencies [Hz] of the free part below the limit."""
+        run([self.build / "bin/clatter-modal", model, "--fmax-hz", str(1.02 * self.limit), "-o", "part.modes.h5", "--quiet"],
+            self.folder)
+        with h5py.File(self.folder / "part.modes.h5") as file:
+            return np.sort(file["frequency_hz"][()])
+
+    def methods(self):
+        full = self.frequencies(self.fe)
+        full = full[(full > RIGID_HZ) & (full < self.limit)]
+        cases = {"guyan": 'method = "guyan"\n',
+                 f"craig-bampton to {2 * self.limit:g} Hz, no residual modes": f"fmax_hz = {2 * self.limit}\nfrequency_error = 0\n",
+                 f"craig-bampton to {2 * self.limit:g} Hz": f"fmax_hz = {2 * self.limit}\n",
+                 f"craig-chang to {self.limit:g} Hz": f'method = "craig-chang"\nfmax_hz = {self.limit}\n'}
+        print(f"{self.name}: {len(full)} elastic modes below {self.limit:g} Hz\n")
+        print("| method | coordinates | seconds | largest frequency error |\n|---|---|---|---|")
+        for what, text in cases.items():
+            rom, seconds = self.condense("skin = []\n" + text)
+            with h5py.File(rom) as file:
+                size = file["M_rr"].shape[0]
+            found = self.frequencies(rom)
+            found = found[found > RIGID_HZ]
+            shared = min(len(found), len(full))
+            error = np.abs(found[:shared] / full[:shared] - 1).max()
+            missing = f", {len(full) - shared} missing" if shared < len(full) else ""
+            print(f"| {what} | {size} | {seconds:.1f} | {error:.1e}{missing} |", flush=True)
+
+    def static_full(self):
+        """Nodal displacements of the full model under the load, held at one set."""
+        with h5py.File(self.fe) as file:
+            K, T = sparse_of(file["K"]), sparse_of(file["T"])
+            f, held, nodes = file[f"loads/{self.load}"][()], file[f"sets/{self.held}/dofs"][()], file["nodes"][()]
+        free = np.setdiff1d(np.arange(K.shape[0]), held)
+        q = np.zeros(K.shape[0])
+        q[free] = sparse_linalg.splu(K[free][:, free].tocsc()).solve(f[free])
+        return nodes, (T @ q).reshape(-1, 3)
+
+    def load_shapes(self):
+        nodes, full = self.static_full()
+        place = {tuple(node): k for k, node in enumerate(nodes)}
+        print(f"\n{self.name} under {self.load}, {self.held} held, {len(nodes)} nodes\n")
+        print("| basis | largest error at a skin node, of the largest displacement |\n|---|---|")
+        for what, text in {"without": "", f"with its load shape": f"load_shapes = {names([self.load])}\n"}.items():
+            rom, _ = self.condense(f'fmax_hz = {2 * self.limit}\nskin = ["skin"]\n{text}')
+            with h5py.File(rom) as file:
+                K, f, held = file["K_rr"][()], file[f"loads/{self.load}"][()], file[f"sets/{self.held}/dofs"][()]
+                free = np.setdiff1d(np.arange(len(f)), held)
+                q = np.zeros(len(f))
+                q[free] = np.linalg.solve(K[np.ix_(free, free)], f[free])
+                skin, u = file["skin/nodes"][()], (file["skin/T"][()] @ q).reshape(-1, 3)
+            same = [(k, place[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in place]
+            a, b = np.array(same).T
+            error = np.linalg.norm(u[a] - full[b], axis=1).max() / np.linalg.norm(full, axis=1).max()
+            print(f"| {what} | {error:.1e} |", flush=True)
+
+    def interface(self, counts):
+        print(f"\n{self.name}: interface modes of {self.grid}\n")
+        print("| interface modes | film work, by mass | frequencies | film work, by area | frequencies |\n|---|---|---|---|---|")
+        for count in counts:
+            cells = []
+            for weight in ("mass", "area"):
+                rom, _ = self.condense(f'skin = []\nfmax_hz = {2 * self.limit}\nprove_count = false\n[interface]\n'
+                                       f'sets = {names([self.grid])}\nmodes = {count}\nweight = "{weight}"\n')
+                with h5py.File(rom) as file:
+                    proved = file["certificate"].attrs
+                    total = int(proved["interface_coordinates"])
+                    cells += [f"{proved['interface_film_work_error']:.1e}", f"{proved['interface_frequency_error']:.1e}"]
+            print(f"| {count} of {total} | " + " | ".join(cells) + " |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--part", choices=PARTS, default="piston")
+    parser.add_argument("--counts", type=int, nargs="+", default=[5, 10, 20, 30, 40], help="interface modes")
+    parser.add_argument("--only", choices=("methods", "load_shapes", "interface"), help="one table")
+    parser.add_argument("--build", default=ROOT / "build/release", type=Path)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="clatter_bench_") as folder:
+        part = Part(Path(folder), options.build.resolve(), options.part)
+        for table in ("methods", "load_shapes", "interface"):
+            if options.only in (None, table):
+                part.interface(options.counts) if table == "interface" else getattr(part, table)()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+#pragma once
+// A second reduction: boundary coordinates as characteristic constraint modes.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// The table [interface] of a `.rom.toml`.
+struct InterfaceOptions {
+  std::vector<std::string> sets;  // whose coordinates become modes
+  int modes = 0;                  // how many elastic ones, or
+  double fmax_hz = 0.0;           // all below; exactly one of both is positive
+  bool by_area = false;           // weight = "area": patch areas in place of M_ss
+};
+
+/// Reads [interface] sets (default: the whole boundary), modes or fmax_hz, weight = "mass" or
+/// "area"; nothing when the table is absent. InputError for a set that is not in `boundary`, both
+/// or neither of modes and fmax_hz, and fmax_hz with weight "area".
+std::optional<InterfaceOptions> read_interface_options(const Config& config,
+                                                       const std::vector<std::string>& boundary);
+
+struct InterfaceReport {
+  int coordinates = 0;             // boundary coordinates that became modes
+  int modes = 0;                   // that took their place
+  double cutoff_hz = 0.0;          // of the modes left out the lowest; 0: by area or none left out
+  double frequency_error = 0.0;    // largest relative one of the body's modes, below the limit
+  double pressure_work_error = 0;  // largest relative one (film_work.hpp); without a grid 0
+};
+
+/// Puts q = W z in place of q: of the boundary coordinates b = [R S], S those of the named sets,
+///   q_S = Psi_SR q_R + Phi_S z,   K_SS Phi_S = N Phi_S Lambda,   Psi_SR = -K_SS^{-1} K_SR
+/// (Castanier, Tan and Pierre 2001; K_bb and M_bb of a Craig-Bampton model are Guyan's), N = M_SS,
+/// or the diagonal of patch areas, whose modes are the shapes of the most pressure work. With all
+/// of the boundary named R is empty and the free rigid motions are kept beside the elastic modes.
+/// All parts of the model are transformed; what stood in S moves to ReducedModel::combined; z comes
+/// after q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
+/// @param motions 6 x m, the free rigid motions as combinations of the unit ones; limit_hz up to
+/// where frequencies are compared before and after; length [m] the body's size.
+/// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.
+InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& options,
+                                 const Eigen::MatrixXd& motions, double length, double limit_hz);
+
+/// interface_coordinates, _modes, _cutoff_hz, _frequency_error, _film_work_error of a certificate.
+void record(const InterfaceReport& report, std::map<std::string, double>& certificate);
+/// A line for the user from such a certificate.
+std::string interface_line(const std::map<std::string, double>& certificate);
+
+}  // namespace clatter::condense
