@@ -1,8 +1,10 @@
 #include "condense/condense.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "condense/certificate.hpp"
+#include "condense/cutoff_search.hpp"
 #include "condense/frame_inertia.hpp"
 #include "condense/modal_damping.hpp"
 #include "condense/recovery_rows.hpp"
@@ -45,6 +47,20 @@ Eigen::MatrixXd reduced_rigid(const assembly::FeModel& model, const DofPartition
   return rigid;
 }
 
+/// One of fmax_hz, count and accurate_to_hz says how many modes; none with Guyan.
+void check_one_request(const Config& config, const CondenseOptions& options) {
+  std::vector<std::string> found;
+  for (const char* key : {"accurate_to_hz", "count", "fmax_hz"})
+    if (config.has(key)) found.emplace_back(key);
+  if (options.method == "guyan") {
+    if (!found.empty()) config.fail(found.front(), "found with method guyan, which has no modes");
+  } else if (found.size() != 1) {
+    config.fail(found.empty() ? "fmax_hz" : found.front(),
+                fmt::format("found {} of fmax_hz, count and accurate_to_hz, expected one of them",
+                            found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
+  }
+}
+
 }  // namespace
 
 CondenseOptions read_condense_options(const Config& config) {
@@ -53,23 +69,19 @@ CondenseOptions read_condense_options(const Config& config) {
   options.boundary = config.texts("boundary");
   if (options.boundary.empty()) config.fail("boundary", "found no set, expected one or more names");
   options.skin = config.texts_or("skin", options.skin);
-  const bool guyan = options.method == "guyan";
   if (config.has("count")) {
     options.modes.count = static_cast<int>(config.integer("count", {1.0, 1e6}));
   }
   if (config.has("fmax_hz")) {
     options.modes.fmax_hz = config.number("fmax_hz", Range::positive());
   }
-  const bool by_count = options.modes.count > 0;
-  const bool by_frequency = options.modes.fmax_hz > 0.0;
-  if (guyan && (by_count || by_frequency)) {
-    config.fail(by_count ? "count" : "fmax_hz", "found with method guyan, which has no modes");
-  }
-  if (!guyan && by_count == by_frequency) {
-    config.fail("fmax_hz", "found both or neither of fmax_hz and count, expected one of them");
-  }
+  if (config.has("accurate_to_hz"))
+    options.modes.accurate_to_hz = config.number("accurate_to_hz", Range::positive());
+  check_one_request(config, options);
   options.modes.frequency_error =
       config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
+  if (options.modes.accurate_to_hz > 0.0 && options.modes.frequency_error == 0.0)
+    config.fail("frequency_error", "found 0 beside accurate_to_hz, expected the error to reach");
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);
@@ -90,7 +102,10 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);
   clock.lap("partition");
-  CraigBampton source = craig_bampton(model, partition, K, M, options.modes, clock);
+  CutOffSearch search;
+  CraigBampton source = options.modes.accurate_to_hz > 0.0
+                            ? search_cutoff(model, partition, K, M, options.modes, clock, search)
+                            : craig_bampton(model, partition, K, M, options.modes, clock);
 
   ReducedModel reduced;
   reduced.name = model.name;
@@ -117,6 +132,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   }
   reduced.fixed_interface_hz = source.fixed_interface_hz;
   reduced.valid_to_hz = source.interior.cutoff_hz;
+  if (search.tried > 0) record(search, reduced.certificate);
   if (options.interface) {
     const InterfaceReport report =
         reduce_interface(reduced, *options.interface, modal::free_motions(model),
@@ -147,6 +163,7 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
   lines.push_back(fmt::format(
       "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
       c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
+  if (c.contains("cutoffs_tried")) lines.push_back(cutoff_line(c));
   if (n_k > 0) {
     const std::string proof =
         c.at("count_proved") > 0.0

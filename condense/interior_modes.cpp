@@ -127,6 +127,7 @@ InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition&
   const MatrixXd forces = interior_loads(model, partition, request.load_shapes);
   InteriorModes out = request.own_modes ? own_modes(model, partition, K, M, factor_ii, request)
                                         : fixed_interface_modes(K, M, factor_ii, request);
+  if (request.accurate_to_hz > 0.0) out.accurate_to_hz = request.accurate_to_hz;
   clock.lap(fmt::format("{} {} modes", request.own_modes ? out.own_modes : out.vectors.cols(),
                         request.own_modes ? "own" : "fixed-interface"));
   if (forces.cols() == 0) return out;

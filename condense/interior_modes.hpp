@@ -9,10 +9,12 @@
 
 namespace clatter::condense {
 
-/// Which shapes. Exactly one of count and fmax_hz is positive; neither for Guyan.
+/// Which shapes. Exactly one of count and fmax_hz is positive; neither for Guyan. With
+/// accurate_to_hz alone cutoff_search.hpp finds fmax_hz.
 struct ModeRequest {
   int count = 0;
   double fmax_hz = 0.0;
+  double accurate_to_hz = 0.0;  // the body's frequencies below are wanted; 0: as the cut-off allows
   bool own_modes = false;  // of the body itself in place of its fixed-interface modes: Craig-Chang
   std::vector<std::string> load_shapes;  // loads whose static answer is in the basis
   bool prove_count = true;

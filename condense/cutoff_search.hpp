@@ -1,0 +1,36 @@
+#pragma once
+// The cut-off that a wanted accuracy of the body's frequencies asks for.
+#include <map>
+#include <string>
+
+#include "condense/craig_bampton.hpp"
+
+namespace clatter::condense {
+
+/// What was asked and what was found.
+struct CutOffSearch {
+  double target = 0.0;   // relative frequency error below InteriorModes::accurate_to_hz
+  double reached = 0.0;  // bound of it by cutoff_error_bound
+  int tried = 0;         // how many cut-offs
+};
+
+/// The estimate of residual_modes.hpp takes the static answer of the modes left out, 1 / lambda_k.
+/// At a frequency f below the cut-off f_c their true part is 1 / (lambda_k - lambda), so the error
+/// is at most estimate / (1 - (f / f_c)^2).
+double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
+
+/// A Craig-Bampton basis whose modes below `request.accurate_to_hz` have frequencies within
+/// `request.frequency_error` (> 0) by cutoff_error_bound: the cut-off begins at 1.5 times that
+/// frequency and grows by a quarter, up to 4 times, while residual modes do not reach the target.
+/// Own modes are exact: their cut-off is the frequency itself. Throws NumericsError when no cut-off
+/// reaches the target, otherwise as craig_bampton.
+CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& partition,
+                           const PartitionedMatrix& K, const PartitionedMatrix& M,
+                           const ModeRequest& request, StepClock& clock, CutOffSearch& search);
+
+/// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
+void record(const CutOffSearch& search, std::map<std::string, double>& certificate);
+/// A line for the user from such a certificate.
+std::string cutoff_line(const std::map<std::string, double>& certificate);
+
+}  // namespace clatter::condense
