@@ -97,7 +97,8 @@ class Builder {
     film::ElasticSurface surface{loaded.model.grid(grid), {}};
     surface.rigid.resize(static_cast<Eigen::Index>(set.dofs.size()), 6);
     for (size_t i = 0; i < set.dofs.size(); ++i) {
-      surface.rigid.row(static_cast<Eigen::Index>(i)) = loaded.model.row_of(set.dofs[i]) * loaded.model.rigid;
+      surface.rigid.row(static_cast<Eigen::Index>(i)) =
+          loaded.model.row_of(set.dofs[i]) * loaded.model.rigid;
       coordinates.push_back(model_->system.coordinate(index_.at(body), set.dofs[i]));
     }
     return surface;
