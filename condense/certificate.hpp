@@ -27,7 +27,9 @@ MassError compare_mass(const MassProperties& found, const MassProperties& expect
 /// @param r the free motions in reduced coordinates, size x m.
 double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 
-/// Fills `reduced.certificate`:
+/// Fills `reduced.certificate`: certified, 1 with the spectrum of (K_rr, M_rr), 0 when that costly
+/// part is left out (`spectrum` false: no rigid_modes, first_elastic_hz, max_frequency_hz,
+/// condition_M_rr);
 /// rigid_stiffness_residue of clear_rigid_stiffness, which it calls; rigid_modes, the zeros of
 /// (K_rr, M_rr); first_elastic_hz; for a free body mass_error (against r^T M r of the FE matrices)
 /// and mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
@@ -41,6 +43,6 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 /// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws
 /// NumericsError when the rigid motions or the mass did not survive the reduction.
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
-             int dropped);
+             int dropped, bool spectrum);
 
 }  // namespace clatter::condense

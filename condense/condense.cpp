@@ -61,6 +61,20 @@ void check_one_request(const Config& config, const CondenseOptions& options) {
   }
 }
 
+std::string describe_spectrum(const std::map<std::string, double>& c) {
+  if (c.at("certified") == 0.0) {
+    return fmt::format(
+        "not certified: without rigid modes, spectrum and condition; stiffness "
+        "residue {:.1e}",
+        c.at("rigid_stiffness_residue"));
+  }
+  return fmt::format(
+      "{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz, "
+      "highest frequency {:.4g} Hz; condition of M_rr {:.1e}",
+      c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz"),
+      c.at("max_frequency_hz"), c.at("condition_M_rr"));
+}
+
 }  // namespace
 
 CondenseOptions read_condense_options(const Config& config) {
@@ -140,7 +154,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
     record(report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", report.modes));
   }
-  certify(reduced, model, source, dropped);
+  certify(reduced, model, source, dropped, options.certificate);
   clock.lap("certificate");
   return reduced;
 }
@@ -175,16 +189,12 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
                                 c.at("eigen_residual_max")));
   }
   if (c.contains("interface_modes")) lines.push_back(interface_line(c));
-  lines.push_back(
-      fmt::format("{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz",
-                  c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz")));
+  lines.push_back(describe_spectrum(c));
   if (c.contains("mass_error")) {
     lines.push_back(
         fmt::format("mass {:.6g} kg, ten mass properties within {:.1e} of the full model",
                     reduced.mass.mass, c.at("mass_error")));
   }
-  lines.push_back(fmt::format("condition of M_rr {:.1e}, highest frequency {:.4g} Hz",
-                              c.at("condition_M_rr"), c.at("max_frequency_hz")));
   if (!reduced.modal_damping.empty()) {
     const DampingTable& table = reduced.modal_damping;
     lines.push_back(

@@ -18,6 +18,7 @@ struct CondenseOptions {
   std::string method = "craig-bampton";       // or "craig-chang", "guyan"
   std::vector<std::string> boundary;          // set names; their order is that of the coordinates
   ModeRequest modes;                          // shapes of the interior
+  bool certificate = true;                    // false: without its costly part (certificate.hpp)
   std::vector<std::string> skin = {"skin"};   // surfaces whose displacement can be recovered
   bool inertia_invariants = false;            // of a body that rotates, eq. (9)
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary

@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "assembly/fe_model.hpp"
 #include "condense/condense.hpp"
 #include "condense/export/export.hpp"
+#include "condense/verify.hpp"
 #include "core/artefact.hpp"
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
@@ -35,13 +38,16 @@ void write(const Paths& paths, const ReducedModel& reduced, const std::string& r
 }
 
 void print_summary(const Paths& paths, const ReducedModel& reduced, const StepClock& clock) {
+  const auto& c = reduced.certificate;
+  const auto rigid = c.find("rigid_modes");
   print_json({{"output", json_text(paths.output.string())},
               {"method", json_text(reduced.method)},
               {"boundary", json_number(reduced.n_boundary)},
               {"size", json_number(reduced.size())},
               {"valid_to_hz", json_number(reduced.valid_to_hz)},
-              {"count_proved", json_number(reduced.certificate.at("count_proved"))},
-              {"rigid_modes", json_number(reduced.certificate.at("rigid_modes"))},
+              {"count_proved", json_number(c.at("count_proved"))},
+              {"rigid_modes", json_number(rigid == c.end() ? std::nan("") : rigid->second)},
+              {"certified", json_number(c.at("certified"))},
               {"seconds", json_number(clock.total_seconds())}});
 }
 
@@ -74,18 +80,37 @@ int run(int argc, char** argv) {
   line.option("--export", paths.exports,
               "write a reduced part, any number: part.mtx (Matrix Market), part.inp (CalculiX), "
               "part.pch (Nastran DMIG), part.fem (MBDyn)");
+  bool uncertified = false;
+  line.flag("--no-certificate", uncertified,
+            "leave out what costs: the count of modes, the spectrum and condition of the reduced "
+            "matrices; the file says so");
+  double verify_hz = std::nan("");
+  line.option(
+      "--verify", verify_hz,
+      "compare with modes of the full model up to this frequency [Hz] and put the largest "
+      "error and the smallest MAC into the certificate; 0: as far as an accuracy is stated");
   if (!line.parse(argc, argv)) return line.exit_code();
   if (!paths.exports.empty()) return write_exports(paths, line.common());
   if (paths.config.empty() || paths.output.empty())
     throw InputError("command line: expected -c part.rom.toml and -o part.rom.h5, or --export");
 
+  if (verify_hz < 0.0)
+    throw InputError(
+        fmt::format("command line: --verify: found {}, expected 0 or more", verify_hz));
+
   StepClock clock;
   const Config config = Config::load(paths.config);
-  const condense::CondenseOptions options = condense::read_condense_options(config);
+  condense::CondenseOptions options = condense::read_condense_options(config);
+  if (uncertified) options.certificate = options.modes.prove_count = false;
   const assembly::FeModel model = assembly::read_fe_model(paths.model);
   clock.lap(fmt::format("read {} DoF", model.size()));
-  const ReducedModel reduced = condense::condense(model, options, clock);
+  ReducedModel reduced = condense::condense(model, options, clock);
   for (const std::string& text : condense::describe(reduced)) say(text);
+  if (!std::isnan(verify_hz)) {
+    const auto compared = condense::verify(reduced, model, verify_hz);
+    clock.lap("verification by the full model");
+    say(modal::table_of(compared).back());
+  }
   write(paths, reduced, config.resolved(), clock);
   write_depfile(line.common().depfile, paths.output, {paths.model, paths.config});
   if (line.common().json) print_summary(paths, reduced, clock);

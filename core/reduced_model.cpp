@@ -9,6 +9,7 @@ namespace clatter {
 namespace {
 
 constexpr const char* kSchema = "clatter/rom/1";
+const std::string kUnits = "SI: m kg s N rad";
 
 /// Refuses a matrix whose shape or values are not what the reader expects.
 void check(const H5File& file, const std::string& name, const Eigen::MatrixXd& matrix,
@@ -191,6 +192,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   file.set("/", "alpha", model.alpha);
   file.set("/", "beta", model.beta);
   file.set("/", "valid_to_hz", model.valid_to_hz);
+  file.set("/", "units", kUnits);
   write_damping_table(file, model.modal_damping);
   file.write("M_rr", model.M_rr);
   file.write("K_rr", model.K_rr);

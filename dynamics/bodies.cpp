@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/artefact.hpp"
+#include "core/certificate_doubt.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -15,6 +17,8 @@ LoadedBody load_body(const BodySpec& spec) {
   LoadedBody body;
   body.spec = spec;
   body.model = read_reduced_model(spec.rom, false);
+  const std::string doubt = certificate_doubt(body.model);
+  if (!doubt.empty()) warn(fmt::format("{}: {}", spec.rom.string(), doubt));
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
   body.modal.name = spec.name;

@@ -7,7 +7,9 @@
 #include <filesystem>
 
 #include "core/artefact.hpp"
+#include "core/certificate_doubt.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -107,6 +109,8 @@ ReducedModel RunBody::read_model() const {
         "it again",
         rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
   ReducedModel model = read_reduced_model(rom_path_);
+  const std::string doubt = certificate_doubt(model);
+  if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
   const int64_t columns = file_.shape(place("q"))[1];
   if (columns != model.size())
     throw InputError(fmt::format("{}: {}: found {} columns, expected {} as in {}",

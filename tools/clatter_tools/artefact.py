@@ -53,17 +53,22 @@ def sha256(path):
 
 def inputs(file):
     """Pairs (path, state) of the files that an artefact was made from: "unchanged", "changed since", "gone"."""
+    return [(path, state) for path, state, _ in hashed_inputs(file)]
+
+
+def hashed_inputs(file):
+    """The same with the SHA-256 that each had then: (path, state, digest)."""
     if "inputs/path" not in file:
         return []
     folder = pathlib.Path(file.filename).parent
-    pairs = []
+    found = []
     for path, digest in zip(file["inputs/path"][()], file["inputs/sha256"][()]):
         path = text(path)
         there = next((p for p in (pathlib.Path(path), folder / path, folder / pathlib.Path(path).name)
                       if p.exists()), None)
         state = "gone" if there is None else "unchanged" if sha256(there) == text(digest) else "changed since"
-        pairs.append((path, state))
-    return pairs
+        found.append((path, state, text(digest)))
+    return found
 
 
 def certificate(file):

@@ -1,7 +1,7 @@
 """`clatter info`: what an artefact holds, what it was made from, what was proved, what it cost."""
 import h5py
 
-from . import artefact
+from . import artefact, certificate
 
 
 def print_tree(group, depth=1):
@@ -34,9 +34,14 @@ def print_info(path):
     with artefact.open_artefact(path) as file:
         print(f"{path}: {artefact.text(file.attrs.get('schema', 'no schema'))}, "
               f"written by clatter {artefact.text(file.attrs.get('version', 'of unknown version'))}")
-        print_section("made from", [f"{name}  ({state})" for name, state in artefact.inputs(file)])
-        print_section("proved", [f"{name:<40} {value:.6g}" if isinstance(value, float) else f"{name:<40} {value}"
-                                 for name, value in artefact.certificate(file).items()])
+        print_section("made from", [f"{name}  sha256 {digest[:12]}  ({state})"
+                                    for name, state, digest in artefact.hashed_inputs(file)])
+        if artefact.text(file.attrs.get("schema", "")).startswith("clatter/rom/"):
+            certificate.print_certificate(artefact.certificate(file))
+            certificate.print_boundary(file)
+        else:
+            print_section("proved", [f"{name:<40} {value:.6g}" if isinstance(value, float) else f"{name:<40} {value}"
+                                     for name, value in artefact.certificate(file).items()])
         steps = [f"{name:<40} {seconds:9.2f} s   peak {peak:.2f} GiB" for name, seconds, peak in artefact.timing(file)]
         if steps:
             seconds, peak = artefact.totals(file)

@@ -1,0 +1,17 @@
+#pragma once
+// The dearest part of a certificate: modes of the full model beside those of the reduced one.
+#include "assembly/fe_model.hpp"
+#include "core/reduced_model.hpp"
+#include "modal/compare.hpp"
+
+namespace clatter::condense {
+
+/// Computes the modes of `model`, as it is, with the count proved, compares those of `reduced` with
+/// them (modal/compare.hpp) and adds to its certificate: verified_to_hz; verified_modes, the
+/// elastic ones; verified_frequency_error, the largest |f_reduced / f_full - 1|; verified_mac, the
+/// smallest.
+/// @param to_hz all modes below [Hz]; 0: as far as the certificate states an accuracy.
+/// Throws NumericsError when the models differ in the number of their modes.
+modal::Comparison verify(ReducedModel& reduced, const assembly::FeModel& model, double to_hz);
+
+}  // namespace clatter::condense

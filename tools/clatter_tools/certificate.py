@@ -1,0 +1,104 @@
+"""The certificate of a reduced model, grouped, with units and what each figure means."""
+import numpy as np
+
+from . import artefact
+
+# (group, rows of (key, how it is printed, meaning))
+GROUPS = [
+    ("rigid motions and mass", [
+        ("rigid_modes", "{:.0f}", "zero modes, as many as the body has free motions"),
+        ("rigid_stiffness_residue", "{:.1e}", "|K_rr r| / (|K_rr| |r|) of a rigid motion r; up to 1e-10 is accepted"),
+        ("rigid_shape_error", "{:.1e}", "rigid motions by the constraint modes, before they were restored"),
+        ("mass_error", "{:.1e}", "ten mass properties against the full matrices; up to 1e-9 is accepted"),
+        ("mass_error_elements", "{:.1e}", "the same against the sum over the elements"),
+        ("inertia_invariants_error", "{:.1e}", "inertia invariants against M_rr and the rigid motions"),
+    ]),
+    ("modes of the basis", [
+        ("fixed_interface_modes", "{:.0f}", "modes with the boundary held"),
+        ("own_modes", "{:.0f}", "modes of the body itself"),
+        ("load_shapes", "{:.0f}", "static shapes of load cases"),
+        ("residual_modes", "{:.0f}", "vectors that stand for the modes left out"),
+        ("eigen_residual_max", "{:.1e}", "largest residual of a mode"),
+        ("modal_mass_error", "{:.1e}", "modal masses against 1"),
+        ("dropped_vectors", "{:.0f}", "dependent vectors taken out"),
+        ("count_proved", "{:yes}", "no mode is missing, by the inertia count below"),
+        ("count_below", "{:.0f}", "modes below the limit by inertia"),
+        ("count_limit_hz", "{:.2f} Hz", "the limit of the count"),
+    ]),
+    ("accuracy", [
+        ("cutoff_hz", "{:.1f} Hz", "all modes up to here are in the basis"),
+        ("accurate_to_hz", "{:.1f} Hz", "the errors below hold up to here"),
+        ("frequency_error_estimate", "{:.2e}", "largest estimated relative error of the body's own frequencies"),
+        ("frequency_error_joined", "{:.2e}", "the same without residual modes: for a body joined to others"),
+        ("frequency_error_modes", "{:.0f}", "own elastic modes on which both estimates stand"),
+        ("frequency_error_target", "{:.2e}", "the accuracy asked for"),
+        ("frequency_error_bound", "{:.2e}", "what the chosen cut-off promises"),
+        ("cutoffs_tried", "{:.0f}", "cut-offs tried to find it"),
+        ("verified_to_hz", "{:.1f} Hz", "compared with modes of the full model up to here"),
+        ("verified_modes", "{:.0f}", "elastic modes compared"),
+        ("verified_frequency_error", "{:.2e}", "largest relative error of a frequency found"),
+        ("verified_mac", "{:.6f}", "smallest MAC found"),
+    ]),
+    ("interface modes", [
+        ("interface_coordinates", "{:.0f}", "boundary coordinates before they were reduced"),
+        ("interface_modes", "{:.0f}", "characteristic constraint modes kept"),
+        ("interface_cutoff_hz", "{:.1f} Hz", "their highest frequency"),
+        ("interface_frequency_error", "{:.2e}", "largest error of a frequency that this reduction added"),
+        ("interface_film_work_error", "{:.2e}", "error of the work of a film's pressure"),
+    ]),
+    ("conditioning", [
+        ("condition_M_rr", "{:.1e}", "condition of M_rr with unit diagonal"),
+        ("first_elastic_hz", "{:.2f} Hz", "first elastic mode of (K_rr, M_rr)"),
+        ("max_frequency_hz", "{:.4g} Hz", "highest mode: an explicit step must resolve it"),
+        ("K_ii_rcond", "{:.1e}", "ratio of the pivots of K_ii"),
+        ("K_ii_probe_residual", "{:.1e}", "residual of a random solve with K_ii"),
+    ]),
+]
+
+
+def value_text(form, value):
+    if form == "{:yes}":
+        return "yes" if value else "no"
+    return form.format(value)
+
+
+def verdict(found):
+    """One line: what a user should know first."""
+    if not found:
+        return "NO CERTIFICATE: nothing is known of its modes and its mass"
+    if not found.get("certified", 1.0):
+        return "NOT CERTIFIED: condensed with --no-certificate; modes not counted, spectrum not computed"
+    proof = "no mode is missing" if found.get("count_proved") else "THE NUMBER OF MODES IS NOT PROVED"
+    known = "verified by the full model" if "verified_modes" in found else "errors estimated, not verified (--verify)"
+    return f"certified; {proof}; {known}"
+
+
+def print_certificate(found):
+    """`found` as of artefact.certificate(file) of a reduced model."""
+    print(f"certificate: {verdict(found)}")
+    left = {name: value for name, value in found.items() if name != "certified"}
+    for title, rows in GROUPS:
+        rows = [(name, value_text(form, left.pop(name)), meaning) for name, form, meaning in rows if name in left]
+        if rows:
+            print(f"  {title}")
+        for name, value, meaning in rows:
+            print(f"    {name:<26} {value:>14}  {meaning}")
+    if left:
+        print("  more")
+    for name, value in left.items():
+        print(f"    {name:<26} {value:>14.6g}")
+
+
+def print_boundary(file):
+    """The boundary map: which coordinates belong to which set, where."""
+    if "sets" not in file:
+        return
+    units = artefact.text(file.attrs["units"]) if "units" in file.attrs else "SI"
+    print(f"boundary: {file.attrs['n_boundary']} of {len(file['K_rr'])} coordinates ({units})")
+    for name, dofs in file["sets"].items():
+        at, place = dofs["dofs"][()], dofs["position"][()]
+        turns = np.count_nonzero(dofs["is_rotation"][()])
+        middle = ", ".join(f"{x:.4g}" for x in place.mean(axis=0))
+        span = f"{at.min() + 1}-{at.max() + 1}" if len(at) else "none"
+        print(f"    {name:<26} {span:>14}  {artefact.text(dofs.attrs['kind'])}: {len(at) - turns} displacements, "
+              f"{turns} rotations about ({middle}) m")
