@@ -42,7 +42,7 @@ GROUPS = [
     ("interface modes", [
         ("interface_coordinates", "{:.0f}", "boundary coordinates before they were reduced"),
         ("interface_modes", "{:.0f}", "characteristic constraint modes kept"),
-        ("interface_cutoff_hz", "{:.1f} Hz", "their highest frequency"),
+        ("interface_cutoff_hz", "{:.1f} Hz", "the lowest of those left out; 0: none is, or they are by area"),
         ("interface_frequency_error", "{:.2e}", "largest error of a frequency that this reduction added"),
         ("interface_film_work_error", "{:.2e}", "error of the work of a film's pressure"),
     ]),
