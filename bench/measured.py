@@ -1,16 +1,60 @@
-"""Processes with their seconds and peak memory."""
+"""Processes with their seconds and peak memory, and what the machine can do at most."""
+import multiprocessing
 import os
+import statistics
 import subprocess
 import sys
 import time
 
+DGEMM = """
+import statistics, time, numpy as np
+a, b = np.random.rand(2, 2000, 2000)
+def once():
+    begin = time.monotonic(); a @ b; return time.monotonic() - begin
+once(); print(2 * 2000**3 / statistics.median(once() for _ in range(7)))
+"""
 
-def run(command, folder):
-    """Standard output, wall seconds and peak megabytes of a process; ends the bench when it fails."""
+
+def run(command, folder, required=True, **environment):
+    """Standard output, wall seconds and peak megabytes of a process. When it fails the bench ends, or (required
+    False) the answer is None."""
     begin = time.monotonic()
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True,
+                               env={**os.environ, **environment} if environment else None)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
+    if status != 0 and required:
         sys.exit(f"bench: {command[0]} failed")
-    return output, time.monotonic() - begin, usage.ru_maxrss / 1e3
+    return (output, time.monotonic() - begin, usage.ru_maxrss / 1e3) if status == 0 else None
+
+
+def apart(function, *arguments):
+    """Calls it in a process of its own: what this one holds would count as the peak of those it starts."""
+    maker = multiprocessing.Process(target=function, args=arguments)
+    maker.start()
+    maker.join()
+    if maker.exitcode != 0:
+        sys.exit(f"bench: {function.__name__} failed")
+
+
+def medians(command, folder, runs, **environment):
+    """Output of the last run, median seconds, peak megabytes; None when a run fails."""
+    found = [run(command, folder, required=False, **environment) for _ in range(runs)]
+    if None in found:
+        return None
+    return found[-1][0], statistics.median(f[1] for f in found), max(f[2] for f in found)
+
+
+def blas(threads):
+    """One BLAS setting for everybody: OpenBLAS 0.3.21 takes its oldest kernel on CPUs that it does not know."""
+    with open("/proc/cpuinfo") as file:
+        flags = next((line.split() for line in file if line.startswith("flags")), [])
+    kernel = "SKYLAKEX" if "avx512vl" in flags else "HASWELL" if "avx2" in flags else ""
+    setting = {"OPENBLAS_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads),
+               "CCX_NPROC_EQUATION_SOLVER": str(threads)}
+    return {**setting, "OPENBLAS_CORETYPE": kernel} if kernel else setting
+
+
+def dgemm_rate(folder, setting):
+    """Floating point operations a second of a matrix product under that setting."""
+    return float(run(["/usr/bin/python3", "-c", DGEMM], folder, **setting)[0])

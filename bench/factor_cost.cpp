@@ -1,0 +1,39 @@
+// factor_cost model.fe.h5 right-hand-sides threads: what one factorisation of K - sigma M costs, as
+// one line: DoF, entries of L, flops, seconds to analyse, to factorise, to solve a block.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "assembly/fe_model.hpp"
+#include "core/blas_kernel.hpp"
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+#include "core/threads.hpp"
+#include "modal/factor/cholmod_factor.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  if (argc != 4) throw clatter::InputError("expected model.fe.h5 right-hand-sides threads");
+  clatter::set_thread_count(std::atoi(argv[3]));
+  const auto model = clatter::assembly::read_fe_model(argv[1]);
+  const clatter::SparseMatrix A = model.K + std::pow(2.0 * std::numbers::pi * 100.0, 2) * model.M;
+  const clatter::modal::CholmodFactor factor(A);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), std::atoi(argv[2]));
+  const clatter::Stopwatch clock;
+  const Eigen::MatrixXd x = factor.solve(b);
+  const double seconds = clock.seconds();
+  const auto& report = factor.report();
+  fmt::print("{} {} {} {} {} {}\n", A.rows(), report.entries, report.flops, report.analyse_seconds,
+             report.factor_seconds, seconds);
+  return x.allFinite() ? 0 : 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  clatter::ensure_fast_blas(argv);
+  return clatter::run_guarded("factor_cost", [&] { return run(argc, argv); });
+}
