@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
 
 #include "condense/frame_inertia.hpp"
 #include "core/error.hpp"
+#include "modal/dense_eigen.hpp"
 #include "modal/eigen/dense_solver.hpp"
 #include "modal/free_motions.hpp"
 
@@ -23,9 +24,10 @@ Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) 
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
   const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eig(
-      scale.asDiagonal() * M_rr * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  return eig.eigenvalues().maxCoeff() / eig.eigenvalues().minCoeff();
+  const modal::DenseEigen eig = modal::symmetric_eigen(
+      scale.asDiagonal() * M_rr * scale.asDiagonal(), modal::EigenParts::kValues);
+  return eig.ok ? eig.values.maxCoeff() / eig.values.minCoeff()
+                : std::numeric_limits<double>::infinity();
 }
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
@@ -40,12 +42,10 @@ void certify_spectrum(ReducedModel& reduced) {
   }
   out["rigid_modes"] = static_cast<double>((low.values.array().abs() < 1e-6 * elastic).count());
   out["first_elastic_hz"] = modal::hz_of_value(elastic);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(reduced.K_rr, reduced.M_rr,
-                                                                      Eigen::EigenvaluesOnly);
-  if (all.info() != Eigen::Success) {
-    throw NumericsError("reduced model: M_rr is not positive definite");
-  }
-  out["max_frequency_hz"] = modal::hz_of_value(all.eigenvalues().maxCoeff());
+  const modal::DenseEigen all =
+      modal::symmetric_eigen(reduced.K_rr, reduced.M_rr, modal::EigenParts::kValues);
+  if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
+  out["max_frequency_hz"] = modal::hz_of_value(all.values.maxCoeff());
 }
 
 void certify_modes(ReducedModel& reduced, const CraigBampton& source) {

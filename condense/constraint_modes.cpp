@@ -7,7 +7,7 @@
 
 namespace clatter::condense {
 
-Eigen::MatrixXd constraint_modes(const modal::CholmodFactor& factor_ii, const SparseMatrix& K_ib) {
+Eigen::MatrixXd constraint_modes(const modal::SupernodalFactor& factor_ii, const SparseMatrix& K_ib) {
   constexpr Eigen::Index kBlock = 64;
   Eigen::MatrixXd Psi(K_ib.rows(), K_ib.cols());
   Progress progress("constraint modes", static_cast<double>(K_ib.cols()));

@@ -10,10 +10,10 @@
 namespace clatter::condense {
 namespace {
 
-modal::CholmodFactor factorise_interior(const assembly::FeModel& model,
+modal::SupernodalFactor factorise_interior(const assembly::FeModel& model,
                                         const DofPartition& partition, const SparseMatrix& K_ii) {
   try {
-    return modal::CholmodFactor(K_ii);
+    return modal::SupernodalFactor(K_ii);
   } catch (const modal::NotPositiveDefinite& error) {
     const std::string where =
         error.column < 0
@@ -44,7 +44,7 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const ModeRequest& request, StepClock& clock) {
   check_boundary_holds(model, partition);
-  const modal::CholmodFactor factor = factorise_interior(model, partition, K.ii);
+  const modal::SupernodalFactor factor = factorise_interior(model, partition, K.ii);
   CraigBampton out;
   out.factor = factor.report();
   clock.lap(

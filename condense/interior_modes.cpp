@@ -36,7 +36,7 @@ void take_report(const modal::ModeSet& modes, const ModeRequest& request, Interi
 }
 
 InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                    const modal::CholmodFactor& factor_ii,
+                                    const modal::SupernodalFactor& factor_ii,
                                     const ModeRequest& request) {
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   modal::EigenOptions options = eigen_options(request);
@@ -58,7 +58,7 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
 
 InteriorModes own_modes(const assembly::FeModel& model, const DofPartition& partition,
                         const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const modal::CholmodFactor& factor_ii, const ModeRequest& request) {
+                        const modal::SupernodalFactor& factor_ii, const ModeRequest& request) {
   const MatrixXd motions = model.rigid * modal::free_motions(model);
   modal::EigenOptions options = eigen_options(request);
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
@@ -101,7 +101,7 @@ MatrixXd interior_loads(const assembly::FeModel& model, const DofPartition& part
 }
 
 void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
-                        const PartitionedMatrix& M, const modal::CholmodFactor& factor_ii,
+                        const PartitionedMatrix& M, const modal::SupernodalFactor& factor_ii,
                         const std::vector<std::string>& names, InteriorModes& out) {
   const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, K.ii, M.ii);
   std::vector<std::string> dropped;
@@ -122,7 +122,7 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
 
 InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition& partition,
                              const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const modal::CholmodFactor& factor_ii, const ModeRequest& request,
+                             const modal::SupernodalFactor& factor_ii, const ModeRequest& request,
                              StepClock& clock) {
   const MatrixXd forces = interior_loads(model, partition, request.load_shapes);
   InteriorModes out = request.own_modes ? own_modes(model, partition, K, M, factor_ii, request)

@@ -55,7 +55,7 @@ struct InteriorModes {
 /// NumericsError as solve_modes. Dropped shapes are reported by name. Steps go to `clock`.
 InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition& partition,
                              const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const modal::CholmodFactor& factor_ii, const ModeRequest& request,
+                             const modal::SupernodalFactor& factor_ii, const ModeRequest& request,
                              StepClock& clock);
 
 }  // namespace clatter::condense

@@ -44,7 +44,7 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, double limit) {
 /// The run over the passes; X holds the added vectors, with the boundary at rest.
 class Correction {
  public:
-  Correction(Reduction& reduction, const modal::CholmodFactor& factor, const PartitionedMatrix& K,
+  Correction(Reduction& reduction, const modal::SupernodalFactor& factor, const PartitionedMatrix& K,
              const PartitionedMatrix& M)
       : reduction_(reduction), factor_(factor), K_(K), M_(M), K_ii_(K.ii), M_ii_(M.ii) {
     X_.resize(K.ii.rows(), 0);
@@ -64,7 +64,7 @@ class Correction {
                     const modal::SymmetricProduct& A_ii) const;
 
   Reduction& reduction_;
-  const modal::CholmodFactor& factor_;
+  const modal::SupernodalFactor& factor_;
   const PartitionedMatrix& K_;
   const PartitionedMatrix& M_;
   modal::SymmetricProduct K_ii_, M_ii_;
@@ -156,7 +156,7 @@ void Correction::append(ResidualReport& report) {
 
 }  // namespace
 
-ResidualReport add_residual_modes(Reduction& reduction, const modal::CholmodFactor& factor_ii,
+ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   double limit_hz, double target) {
   constexpr int kPasses = 4;

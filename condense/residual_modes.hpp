@@ -1,7 +1,7 @@
 #pragma once
 // Basis vectors that stand for the truncated fixed-interface modes, and the error that is left.
 #include "condense/reduced_basis.hpp"
-#include "modal/factor/cholmod_factor.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -28,7 +28,7 @@ struct ResidualReport {
 /// whose estimate exceeds a hundredth of `target` are added, once each; passes are repeated until
 /// every estimate is below `target`, at most four times.
 /// @param target relative frequency error; 0 only estimates.
-ResidualReport add_residual_modes(Reduction& reduction, const modal::CholmodFactor& factor_ii,
+ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   double limit_hz, double target);
 

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <mutex>
 #include <string>
 
 #include "core/log.hpp"
+#include "core/threads.hpp"
 
 namespace clatter {
 namespace {
@@ -32,12 +34,20 @@ std::string best_kernel() {
   return {};
 }
 
-/// True when the kernel that OpenBLAS runs does not use the vector units of an AVX2 machine.
-bool fell_short(const std::string& kernel) {
-  for (const char* old : {"Prescott", "Core2", "Nehalem", "Penryn", "Dunnington", "Generic"}) {
-    if (kernel == old) return true;
-  }
-  return false;
+/// 2 for kernels with AVX-512, 1 for those with AVX2, 0 for older ones.
+int generation(const std::string& kernel) {
+  for (const char* wide : {"SkylakeX", "SKYLAKEX", "Cooperlake", "SapphireRapids"})
+    if (kernel == wide) return 2;
+  for (const char* old :
+       {"Prescott", "Core2", "Nehalem", "Penryn", "Dunnington", "Generic", "Sandybridge"})
+    if (kernel == old) return 0;
+  return 1;
+}
+
+/// OpenBLAS must not change its threads while another of ours is inside it.
+std::mutex& section_mutex() {
+  static std::mutex mutex;
+  return mutex;
 }
 
 }  // namespace
@@ -47,7 +57,7 @@ void ensure_fast_blas(char** argv) {
   if (corename == nullptr || std::getenv(kChoice) != nullptr) return;
   const std::string running = corename();
   const std::string better = best_kernel();
-  if (better.empty() || !fell_short(running)) return;
+  if (better.empty() || generation(running) >= generation(better)) return;
   setenv(kChoice, better.c_str(), 1);
   warn(fmt::format("OpenBLAS chose its kernel {} on this CPU; starting again with {}={}", running,
                    kChoice, better));
@@ -58,5 +68,8 @@ void ensure_fast_blas(char** argv) {
 void set_blas_threads(int count) {
   if (const auto set = find_symbol<void(int)>("openblas_set_num_threads")) set(count);
 }
+
+BlasThreads::BlasThreads(int count) : lock_(section_mutex()) { set_blas_threads(count); }
+BlasThreads::~BlasThreads() { set_blas_threads(thread_count()); }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 // OpenBLAS 0.3.21 does not know recent CPUs and then runs its oldest kernel, five times slower.
+#include <mutex>
 
 namespace clatter {
 
@@ -10,5 +11,18 @@ void ensure_fast_blas(char** argv);
 
 /// Sets the number of threads inside BLAS; no effect without OpenBLAS.
 void set_blas_threads(int count);
+
+/// So many threads in BLAS while it lives (one while our own threads run), thread_count() after it.
+/// One lives at a time: a second thread waits.
+class BlasThreads {
+ public:
+  explicit BlasThreads(int count);
+  ~BlasThreads();
+  BlasThreads(const BlasThreads&) = delete;
+  BlasThreads& operator=(const BlasThreads&) = delete;
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+};
 
 }  // namespace clatter

@@ -151,8 +151,8 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
 std::vector<std::string> describe(const PartModes& part) {
   const ModeSet& modes = part.modes;
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{}: {} modes ({}), {} of them rigid", part.name, modes.size(),
-                              modes.method, modes.rigid));
+  lines.push_back(fmt::format("{}: {} modes ({}, {} solves), {} of them rigid", part.name,
+                              modes.size(), modes.method, modes.solves, modes.rigid));
   const Eigen::VectorXd hz = modes.frequencies_hz();
   for (Eigen::Index j = 0; j < modes.size(); ++j) {
     lines.push_back(fmt::format("{:>5}  {:>12.4f} Hz  residual {:.1e}{}", j + 1, hz[j],

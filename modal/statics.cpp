@@ -144,7 +144,7 @@ StaticSolution solve_static(const assembly::FeModel& model,
   const std::vector<std::string> names = wanted.empty() ? all_names(model) : wanted;
   const RightSides sides = right_sides(model, names);
   refuse_free_body(model);
-  const CholmodFactor factor(model.K);
+  const SupernodalFactor factor(model.K);
   Eigen::MatrixXd driven = sides.f;
   if (model.supports.size() > 0) driven -= model.supports.K_sq.transpose() * sides.s;
   Eigen::MatrixXd q = factor.solve(driven);

@@ -7,7 +7,7 @@
 
 #include "assembly/fe_model.hpp"
 #include "assembly/stress.hpp"
-#include "modal/factor/cholmod_factor.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 
 namespace clatter::modal {
 

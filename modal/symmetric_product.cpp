@@ -1,27 +1,43 @@
 #include "modal/symmetric_product.hpp"
 
 #include <algorithm>
-#include <array>
 
+#include "core/each_cpu.hpp"
 #include "core/threads.hpp"
 
 namespace clatter::modal {
 namespace {
 
-constexpr Eigen::Index kColumns = 8;  // right-hand sides that share one read of the matrix
+constexpr int kColumns = 8;  // that share one read of the matrix, in registers
 
-/// Rows [begin, end) of `count` <= kColumns columns; column i of A serves as row i.
-void multiply_rows(const SparseMatrix& A, const double* x, double* y, Eigen::Index n,
-                   Eigen::Index count, int64_t begin, int64_t end) {
+/// Rows [begin, end) of `width` <= kColumns columns; column i of A serves as row i. Rows of x and y
+/// lie `stride` apart.
+template <int Width>
+inline __attribute__((always_inline)) void multiply_rows(const SparseMatrix& A, const double* x,
+                                                         double* y, int64_t stride, int64_t begin,
+                                                         int64_t end) {
+  const int32_t* starts = A.outerIndexPtr();
+  const int32_t* rows = A.innerIndexPtr();
+  const double* values = A.valuePtr();
   for (int64_t i = begin; i < end; ++i) {
-    std::array<double, kColumns> sum{};
-    for (int k = A.outerIndexPtr()[i]; k < A.outerIndexPtr()[i + 1]; ++k) {
-      const double a = A.valuePtr()[k];
-      const double* row = x + A.innerIndexPtr()[k];
-      for (Eigen::Index c = 0; c < count; ++c) sum[static_cast<size_t>(c)] += a * row[c * n];
+    double sum[Width] = {};
+    for (int32_t k = starts[i]; k < starts[i + 1]; ++k) {
+      const double a = values[k];
+      const double* row = x + rows[k] * stride;
+      for (int c = 0; c < Width; ++c) sum[c] += a * row[c];
     }
-    for (Eigen::Index c = 0; c < count; ++c) y[i + c * n] = sum[static_cast<size_t>(c)];
+    for (int c = 0; c < Width; ++c) y[i * stride + c] = sum[c];
   }
+}
+
+CLATTER_EACH_CPU void multiply_eight(const SparseMatrix& A, const double* x, double* y,
+                                     int64_t stride, int64_t begin, int64_t end) {
+  multiply_rows<kColumns>(A, x, y, stride, begin, end);
+}
+
+CLATTER_EACH_CPU void multiply_one(const SparseMatrix& A, const double* x, double* y,
+                                   int64_t stride, int64_t begin, int64_t end) {
+  multiply_rows<1>(A, x, y, stride, begin, end);
 }
 
 }  // namespace
@@ -32,23 +48,30 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& lower)
   full_.makeCompressed();
 }
 
+void SymmetricProduct::multiply(const double* x, double* y, int count) const {
+  constexpr int64_t kRows = 4096;  // neighbours of a piece stay in the cache for all columns
+  parallel_pieces(full_.cols(), [&](int64_t begin, int64_t end) {
+    for (int64_t first = begin; first < end; first += kRows) {
+      const int64_t last = std::min(first + kRows, end);
+      int c = 0;
+      for (; c + kColumns <= count; c += kColumns)
+        multiply_eight(full_, x + c, y + c, count, first, last);
+      for (; c < count; ++c) multiply_one(full_, x + c, y + c, count, first, last);
+    }
+  });
+}
+
 Eigen::MatrixXd SymmetricProduct::operator*(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
   const Eigen::Index n = full_.cols();
   Eigen::MatrixXd y(n, x.cols());
-  parallel_pieces(n, [&](int64_t begin, int64_t end) {
-    for (Eigen::Index first = 0; first < x.cols(); first += kColumns) {
-      const Eigen::Index count = std::min(kColumns, x.cols() - first);
-      const double* column = x.data() + first * x.outerStride();
-      if (x.outerStride() == n || count == 1) {
-        multiply_rows(full_, column, y.col(first).data(), n, count, begin, end);
-      } else {
-        for (Eigen::Index c = 0; c < count; ++c) {
-          multiply_rows(full_, column + c * x.outerStride(), y.col(first + c).data(), n, 1, begin,
-                        end);
-        }
-      }
-    }
-  });
+  RowMatrix from, to;
+  for (Eigen::Index first = 0; first < x.cols(); first += kColumns) {
+    const Eigen::Index count = std::min<Eigen::Index>(kColumns, x.cols() - first);
+    from = x.middleCols(first, count);
+    to.resize(n, count);
+    multiply(from.data(), to.data(), static_cast<int>(count));
+    y.middleCols(first, count) = to;
+  }
   return y;
 }
 

@@ -13,6 +13,8 @@ class SymmetricProduct {
   explicit SymmetricProduct(const SparseMatrix& lower);
   /// A x; x is n x m.
   Eigen::MatrixXd operator*(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+  /// y = A x for `count` vectors that stand row by row, n x count: the fast way.
+  void multiply(const double* x, double* y, int count) const;
   Eigen::Index size() const { return full_.cols(); }
 
  private:

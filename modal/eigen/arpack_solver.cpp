@@ -90,20 +90,21 @@ bool iterate(const ShiftInvert& problem, const ArpackOptions& options, Workspace
              work.resid.data(), work.ncv, work.v.data(), work.n, work.iparam.data(),
              work.ipntr.data(), work.workd.data(), work.workl.data(), work.lworkl, &work.info);
     const auto at = [&](int pointer) {
-      return Eigen::Map<Eigen::VectorXd>(
-          work.workd.data() + work.ipntr[static_cast<size_t>(pointer)] - 1, work.n);
+      return work.workd.data() + work.ipntr[static_cast<size_t>(pointer)] - 1;
     };
     if (ido == -1) {
-      at(1) = problem.solve(problem.mass(at(0)));
+      Eigen::VectorXd image(work.n);
+      problem.mass(at(0), image.data(), 1);
+      problem.solve(image.data(), at(1), 1);
     } else if (ido == 1) {
-      at(1) = problem.solve(at(2));  // M x stands there already
+      problem.solve(at(2), at(1), 1);  // M x stands there already
     } else if (ido == 2) {
-      at(1) = problem.mass(at(0));
+      problem.mass(at(0), at(1), 1);
     } else {
       return true;
     }
     if (ido != 2) ++solves;
-    if (!at(1).allFinite()) return false;
+    if (!Eigen::Map<const Eigen::VectorXd>(at(1), work.n).allFinite()) return false;
   }
 }
 

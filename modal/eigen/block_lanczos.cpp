@@ -7,7 +7,8 @@
 #include <random>
 
 #include "core/progress.hpp"
-#include "modal/dense_product.hpp"
+#include "modal/dense_eigen.hpp"
+#include "modal/eigen/krylov_basis.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -23,67 +24,90 @@ class Run {
   EigenResult solve();
 
  private:
-  void fill_random(Index first);
-  /// Makes columns [begin, begin + b) of V_, which are M-orthogonal to all before, M-orthonormal
-  /// among themselves; gives R with old = new R and fills MV_. Directions that vanish are replaced
-  /// by random ones.
+  void fill_random(Index column);
+  void start();
+  /// Makes the new block Y_, which is M-orthogonal to the first `begin` columns of V_,
+  /// M-orthonormal and fills MY_; gives R with old = new R. Directions that vanish are replaced by
+  /// random ones.
   MatrixXd orthonormalise(Index begin);
-  void remove_previous(Index begin, MatrixXd& coefficients);
+  /// Y_ -= V V^T M Y_ for the columns [first, last); adds the coefficients to the last rows of H.
+  void remove(Index first, Index last, MatrixXd& H);
+  void refresh_image() { problem_.mass(Y_.data.get(), MY_.data.get(), static_cast<int>(b_)); }
   bool expand();
   void project();
   Index converged() const;
   void restart();
-  EigenResult result() const;
+  EigenResult result();
 
   const ShiftInvert& problem_;
   const BlockLanczosOptions& options_;
   Index n_, b_, wanted_, limit_;
-  Index size_ = 0;  // columns whose image under Op is in T_
-  MatrixXd V_;      // n x (limit + b): basis, then the residual block
-  MatrixXd MV_;     // M V
-  MatrixXd T_;      // projection of Op
-  MatrixXd R_;      // b x b: the residual block is V(:, size:) R
-  VectorXd nu_;     // Ritz values, descending
-  MatrixXd S_;      // their coordinates in V(:, :size)
+  Index size_ = 0;    // columns whose image under Op is in T_
+  Index local_ = 0;   // columns before this one have no part in Op of the newest block
+  TallBlock Y_, MY_;  // newest block, n x b, and M times it
+  KrylovBasis V_;     // n x (limit + b): basis, then the newest block
+  MatrixXd T_;        // projection of Op
+  MatrixXd R_;        // b x b: the residual block is Y_ R
+  VectorXd nu_;       // Ritz values, descending
+  MatrixXd S_;        // their coordinates in V(:, :size)
   int64_t solves_ = 0;
   std::mt19937_64 engine_;
 };
 
-Index default_block(Index wanted) { return std::clamp<Index>(wanted / 8, 4, 8); }
+/// Larger blocks read the factor less often, smaller ones converge after fewer vectors.
+Index default_block(Index wanted, Index size) {
+  constexpr Index kSmall = 20000;  // unknowns whose factor stays in the cache
+  if (size < kSmall) return std::clamp<Index>(wanted / 8, 4, 8);
+  return wanted < 12 ? 8 : 16;
+}
+
+Index block_of(const BlockLanczosOptions& options, Index size) {
+  return options.block > 0 ? options.block : default_block(options.count, size);
+}
+
+Index limit_of(const BlockLanczosOptions& options, Index block) {
+  const Index wanted = options.count;
+  // A restart costs the degree that convergence lives by: with few modes there is room for none.
+  const Index room =
+      options.basis > 0 ? options.basis : std::min(4 * wanted, 2 * wanted + 200) + 4 * block;
+  return std::max<Index>((std::max(room, wanted + 2 * block) + block - 1) / block, 3) * block;
+}
 
 Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
     : problem_(problem),
       options_(options),
       n_(problem.size),
-      b_(options.block > 0 ? options.block : default_block(options.count)),
+      b_(block_of(options, problem.size)),
       wanted_(options.count),
+      limit_(limit_of(options, b_)),
+      Y_(n_, b_),
+      MY_(n_, b_),
+      V_(n_, limit_ + b_),
       engine_(options.seed) {
-  const Index room = options.basis > 0 ? options.basis : 2 * wanted_ + 4 * b_;
-  const Index blocks = std::max<Index>((std::max(room, wanted_ + 2 * b_) + b_ - 1) / b_, 3);
-  limit_ = blocks * b_;
-  V_.resize(n_, limit_ + b_);
-  MV_.resize(n_, limit_ + b_);
   T_ = MatrixXd::Zero(limit_, limit_);
 }
 
 void Run::fill_random(Index column) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (double& value : V_.col(column)) value = uniform(engine_);
+  for (Index i = 0; i < n_; ++i) Y_.row(i)[column] = uniform(engine_);
 }
 
-void Run::remove_previous(Index begin, MatrixXd& coefficients) {
-  if (begin == 0) return;
-  auto block = V_.middleCols(begin, b_);
-  const MatrixXd H = transposed_product(MV_.leftCols(begin), block);
-  add_product(-1.0, V_.leftCols(begin), H, block);
-  coefficients += H;
+void Run::start() {
+  for (Index c = 0; c < b_; ++c) fill_random(c);
+  const Index given = std::min(options_.start.cols(), b_);
+  for (Index i = 0; i < n_; ++i)
+    for (Index c = 0; c < given; ++c) Y_.row(i)[c] = options_.start(i, c);
+  refresh_image();
+  (void)orthonormalise(0);
+  V_.put(0, Y_);
 }
 
-/// A times `right` in place.
-void transform(DenseOut A, const MatrixXd& right) {
-  const MatrixXd old = A;
-  A.setZero();
-  add_product(1.0, old, right, A);
+void Run::remove(Index first, Index last, MatrixXd& H) {
+  if (first >= last) return;
+  const MatrixXd part = V_.coefficients(first, last, MY_);
+  V_.subtract(first, part, Y_);
+  H.middleRows(first, last - first) += part;
+  refresh_image();
 }
 
 MatrixXd Run::orthonormalise(Index begin) {
@@ -92,52 +116,51 @@ MatrixXd Run::orthonormalise(Index begin) {
   constexpr double kDependent = 1e-8;
   constexpr double kVanished = 1e-20;
   MatrixXd R = MatrixXd::Identity(b_, b_);
-  auto block = V_.middleCols(begin, b_);
-  auto image = MV_.middleCols(begin, b_);
   bool repeat = true;
-  image = problem_.mass(block);
   for (int pass = 0; pass < 2 || (repeat && pass < 4); ++pass) {
-    const MatrixXd gram = transposed_product(block, image);
-    const VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * gram *
+    const MatrixXd lengths = gram(Y_, MY_);
+    const VectorXd scale = lengths.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * lengths *
                                                       scale.asDiagonal());
     const VectorXd d = eig.eigenvalues().cwiseMax(1e-30);
     const MatrixXd to_unit =
         scale.asDiagonal() * eig.eigenvectors() * d.cwiseSqrt().cwiseInverse().asDiagonal();
     const MatrixXd from_unit = d.cwiseSqrt().asDiagonal() * eig.eigenvectors().transpose() *
                                scale.cwiseInverse().asDiagonal();
-    transform(block, to_unit);
-    transform(image, to_unit);
+    transform(Y_, to_unit);
+    transform(MY_, to_unit);
     R = (from_unit * R).eval();
     repeat = d[0] < kDependent * d[b_ - 1];
     for (Index c = 0; c < b_; ++c) {
-      if (d[c] > kVanished * d[b_ - 1] && block.col(c).allFinite()) continue;
-      fill_random(begin + c);
+      if (d[c] > kVanished * d[b_ - 1]) continue;
+      fill_random(c);
       R.row(c).setZero();
     }
     if (!repeat) continue;
+    refresh_image();
     MatrixXd ignored = MatrixXd::Zero(begin, b_);
-    remove_previous(begin, ignored);
-    remove_previous(begin, ignored);
-    image = problem_.mass(block);
+    remove(0, begin, ignored);
+    remove(0, begin, ignored);
   }
   return R;
 }
 
 bool Run::expand() {
   const Index next = size_ + b_;
-  {
-    const MatrixXd answer = problem_.solve(MV_.middleCols(size_, b_));
-    solves_ += b_;
-    if (!answer.allFinite()) return false;
-    V_.middleCols(next, b_) = answer;
-  }
+  problem_.solve(MY_.data.get(), Y_.data.get(), static_cast<int>(b_));
+  solves_ += b_;
+  if (!Y_.finite()) return false;
+  refresh_image();
+  // Op is symmetric, so that the new block is coupled to the last two only (and to what a restart
+  // kept); what rounding brings of the others is small, and the second pass takes it away.
   MatrixXd H = MatrixXd::Zero(next, b_);
-  remove_previous(next, H);
-  remove_previous(next, H);  // twice is enough (Parlett 1998, section 6.9)
+  remove(local_, next, H);
+  remove(0, next, H);
   T_.block(0, size_, next, b_) = H;
   T_.block(size_, 0, b_, next) = H.transpose();
   R_ = orthonormalise(next);
+  V_.put(next, Y_);
+  local_ = size_;
   size_ = next;
   return true;
 }
@@ -145,9 +168,9 @@ bool Run::expand() {
 void Run::project() {
   MatrixXd T = T_.topLeftCorner(size_, size_);
   T = (0.5 * (T + T.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(T);
-  nu_ = eig.eigenvalues().reverse();
-  S_ = eig.eigenvectors().rowwise().reverse();
+  const DenseEigen eig = symmetric_eigen(T);
+  nu_ = eig.values.reverse();
+  S_ = eig.vectors.rowwise().reverse();
 }
 
 Index Run::converged() const {
@@ -163,49 +186,44 @@ Index Run::converged() const {
 void Run::restart() {
   // The wanted vectors, and some more whose progress would be lost.
   const Index keep = std::min(wanted_ + b_, size_ - b_);
-  for (MatrixXd* basis : {&V_, &MV_}) {
-    MatrixXd kept = MatrixXd::Zero(n_, keep);
-    add_product(1.0, basis->leftCols(size_), S_.leftCols(keep), kept);
-    const MatrixXd residual_block = basis->middleCols(size_, b_);
-    basis->leftCols(keep) = kept;
-    basis->middleCols(keep, b_) = residual_block;
-  }
+  V_.transform(S_.leftCols(keep));
+  V_.put(keep, Y_);
   T_.setZero();
   T_.topLeftCorner(keep, keep) = nu_.head(keep).asDiagonal();
   size_ = keep;
+  local_ = 0;
 }
 
-EigenResult Run::result() const {
+EigenResult Run::result() {
   EigenResult out;
   out.values = nu_.head(wanted_).cwiseInverse().array() + problem_.sigma;
-  out.vectors = MatrixXd::Zero(n_, wanted_);
-  add_product(1.0, V_.leftCols(size_), S_.leftCols(wanted_), out.vectors);
+  V_.transform(S_.leftCols(wanted_));
+  out.vectors = V_.columns(wanted_);
   out.status = EigenStatus::kConverged;
+  out.solves = solves_;
   return out;
 }
 
 EigenResult Run::solve() {
-  for (Index c = 0; c < b_; ++c) fill_random(c);
-  const Index given = std::min(options_.start.cols(), b_);
-  if (given > 0) V_.leftCols(given) = options_.start.leftCols(given);
-  (void)orthonormalise(0);
+  // Rayleigh-Ritz costs size^3: with many modes it is not worth doing after every block.
+  const Index pause = std::max<Index>(1, wanted_ / (8 * b_)) * b_;
+  start();
   Progress progress("eigenpairs", static_cast<double>(wanted_));
   EigenResult out;
   for (int restarts = 0; restarts <= options_.max_restarts; ++restarts) {
+    Index check_at = wanted_ + b_;
     while (size_ + b_ <= limit_) {
       if (!expand()) {
         out.status = EigenStatus::kOperatorFailed;
         out.message = "the solve returned values that are not finite";
         return out;
       }
-      if (size_ < wanted_ + b_) continue;
+      if (size_ < check_at && size_ + b_ <= limit_) continue;
+      check_at = size_ + pause;
       project();
       const Index done = converged();
       progress.update(static_cast<double>(done));
-      if (done < wanted_) continue;
-      out = result();
-      out.solves = solves_;
-      return out;
+      if (done >= wanted_) return result();
     }
     restart();
   }
@@ -221,7 +239,7 @@ EigenResult Run::solve() {
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options) {
   EigenResult refused;
   refused.status = EigenStatus::kBadInput;
-  const int64_t block = options.block > 0 ? options.block : default_block(options.count);
+  const int64_t block = block_of(options, problem.size);
   if (options.count < 1) {
     refused.message = fmt::format("{} modes asked for, expected at least 1", options.count);
     return refused;

@@ -1,7 +1,9 @@
 #include "modal/eigen/dense_solver.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "modal/dense_eigen.hpp"
 
 namespace clatter::modal {
 
@@ -18,20 +20,20 @@ EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, doub
   const Eigen::MatrixXd half = factor.matrixL().solve(M);
   Eigen::MatrixXd C = factor.matrixL().solve(half.transpose());
   C = (0.5 * (C + C.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(C);
-  if (solver.info() != Eigen::Success) {
+  const DenseEigen solver = symmetric_eigen(C);
+  if (!solver.ok) {
     result.message = "the dense eigen-solver did not converge";
     return result;
   }
   // Ascending nu; the largest are the lowest modes. Massless directions have nu = 0: no mode.
-  const Eigen::VectorXd& nu = solver.eigenvalues();
+  const Eigen::VectorXd& nu = solver.values;
   const double zero = 1e-14 * nu.cwiseAbs().maxCoeff();
   const Eigen::Index n = nu.size();
   Eigen::Index found = (nu.array() > zero).count();
   if (count > 0) found = std::min<Eigen::Index>(found, count);
   const Eigen::VectorXd kept = nu.tail(found).reverse();
   result.values = kept.cwiseInverse().array() + sigma;
-  const Eigen::MatrixXd Z = solver.eigenvectors().middleCols(n - found, found).rowwise().reverse();
+  const Eigen::MatrixXd Z = solver.vectors.middleCols(n - found, found).rowwise().reverse();
   // z^T z = 1 means x^T (K - sigma M) x = 1, so x^T M x = nu.
   result.vectors = factor.matrixU().solve(Z) * kept.cwiseSqrt().cwiseInverse().asDiagonal();
   result.status = EigenStatus::kConverged;

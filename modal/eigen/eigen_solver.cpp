@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/stopwatch.hpp"
+#include "core/threads.hpp"
+#include "modal/dense_eigen.hpp"
+#include "modal/dense_product.hpp"
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
 #include "modal/eigen/dense_solver.hpp"
@@ -26,13 +29,15 @@ using Eigen::VectorXd;
 constexpr double kRigidRatio = 1e-6;  // |f| < 1e-3 of the first elastic frequency
 constexpr double kSameValue = 1e-7;   // relative distance at which two values count as one
 constexpr int kMaxRefinements = 2;
-constexpr int kExtra = 3;  // modes beyond the wanted, to find a gap behind them
+constexpr Index kColumns = 64;  // of vectors that are handled at a time
+constexpr Index kRows = 2048;   // the same
+constexpr int kExtra = 3;       // modes beyond the wanted, to find a gap behind them
 
 /// The problem with all that one request needs.
 class Search {
  public:
   Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-         const CholmodFactor* factor);
+         const SupernodalFactor* factor);
   ModeSet run();
 
  private:
@@ -51,18 +56,30 @@ class Search {
   /// One step of subspace iteration with Rayleigh-Ritz: what the factor weakens most, motion of
   /// high frequency left in the vectors, is what their residuals show most.
   void refine();
+  void restore_order();
   void finish();
 
   const SparseMatrix& K_;
   const SparseMatrix& M_;
   const EigenOptions& options_;
   const Index n_;
-  const CholmodFactor* factor_;
-  std::unique_ptr<CholmodFactor> own_factor_;
-  SymmetricProduct mass_;
+  const SupernodalFactor* factor_;
+  std::unique_ptr<SupernodalFactor> own_factor_;
+  std::vector<int64_t> order_;  // unknown at each place: inside, rows stand in the factor's order
+  std::optional<SymmetricProduct> mass_;
   ShiftInvert problem_;
   ModeSet modes_;
 };
+
+/// P A P^T of a symmetric matrix by its lower triangle: row j of it is row order[j] of A.
+SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(lower.cols());
+  for (size_t j = 0; j < order.size(); ++j)
+    place.indices()[static_cast<Index>(order[j])] = static_cast<int>(j);
+  SparseMatrix out(lower.rows(), lower.cols());
+  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
+  return out;
+}
 
 void check_request(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options) {
   if ((options.count > 0) == (options.fmax_hz > 0.0) || options.count < 0 ||
@@ -81,20 +98,30 @@ void check_request(const SparseMatrix& K, const SparseMatrix& M, const EigenOpti
 }
 
 Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-               const CholmodFactor* factor)
-    : K_(K), M_(M), options_(options), n_(K.rows()), factor_(factor), mass_(M) {
+               const SupernodalFactor* factor)
+    : K_(K), M_(M), options_(options), n_(K.rows()), factor_(factor) {
   modes_.sigma = options.sigma ? *options.sigma : default_shift(K, M);
-  if (small()) return;
+  order_.resize(static_cast<size_t>(n_));
+  std::iota(order_.begin(), order_.end(), 0);
+  if (small()) {
+    mass_.emplace(M);
+    return;
+  }
   if (factor_ == nullptr) {
     const SparseMatrix shifted = K - modes_.sigma * M;
-    own_factor_ = std::make_unique<CholmodFactor>(shifted, options.factor);
+    own_factor_ = std::make_unique<SupernodalFactor>(shifted, options.factor);
     factor_ = own_factor_.get();
   }
   modes_.factor = factor_->report();
   problem_.size = n_;
   problem_.sigma = modes_.sigma;
-  problem_.solve = [this](const auto& x) { return factor_->solve(x); };
-  problem_.mass = [this](const auto& x) { return mass_ * x; };
+  order_ = factor_->permutation();
+  mass_.emplace(reordered(M, order_));
+  problem_.solve = [this](const double* x, double* y, int count) {
+    std::copy_n(x, n_ * count, y);
+    factor_->solve_in_order(y, count);
+  };
+  problem_.mass = [this](const double* x, double* y, int count) { mass_->multiply(x, y, count); };
 }
 
 EigenResult Search::attempt(int count, int retry) const {
@@ -105,7 +132,7 @@ EigenResult Search::attempt(int count, int retry) const {
     BlockLanczosOptions block;
     block.count = count;
     block.seed = seed;
-    if (given_start) block.start = options_.start;
+    if (given_start) block.start = options_.start(order_);
     return solve_block_lanczos(problem_, block);
   }
   ArpackOptions arpack;
@@ -113,7 +140,7 @@ EigenResult Search::attempt(int count, int retry) const {
   arpack.seed = seed;
   arpack.basis =
       static_cast<int>(std::min<Index>(n_, static_cast<Index>((2 + retry)) * count + 10));
-  if (given_start) arpack.start = options_.start;
+  if (given_start) arpack.start = options_.start(order_);
   return solve_arpack(problem_, arpack);
 }
 
@@ -153,9 +180,9 @@ Index values_below(const VectorXd& values, double limit) {
 void Search::match_proof(int count) {
   for (int retry = modes_.retries;; ++retry) {
     modes_.retries = retry;
-    const EigenResult found = solve(count, retry);
+    EigenResult found = solve(count, retry);
     modes_.values = found.values;
-    modes_.vectors = found.vectors;
+    modes_.vectors = std::move(found.vectors);
     if (!options_.prove_count) return;
     const Index below = values_below(found.values, modes_.proof.limit);
     modes_.proof.proved = below == modes_.proof.below;
@@ -187,9 +214,9 @@ void Search::find_by_count() {
   const auto all = static_cast<int>(n_);
   for (int extra = kExtra;; extra *= 4) {
     const int asked = std::min(options_.count + extra, all);
-    const EigenResult found = solve(asked, modes_.retries);
+    EigenResult found = solve(asked, modes_.retries);
     modes_.values = found.values;
-    modes_.vectors = found.vectors;
+    modes_.vectors = std::move(found.vectors);
     if (found.values.size() <= options_.count) {  // the whole spectrum: nothing can be missing
       modes_.proof = {true, found.values.tail(1)[0], found.values.size(), 0.0};
       break;
@@ -218,9 +245,9 @@ void Search::find_by_count() {
 void Search::find_by_limit_unproved(double limit) {
   for (int count = 20;; count = count * 2) {
     const int asked = static_cast<int>(std::min<Index>(count, n_));
-    const EigenResult found = solve(asked, 0);
+    EigenResult found = solve(asked, 0);
     modes_.values = found.values;
-    modes_.vectors = found.vectors;
+    modes_.vectors = std::move(found.vectors);
     if (found.values.tail(1)[0] >= limit || asked == n_ || found.values.size() < asked) return;
   }
 }
@@ -257,29 +284,65 @@ void Search::keep_first(Index count) {
 
 void Search::measure_residuals(const SymmetricProduct& stiffness) {
   modes_.residuals.resize(modes_.size());
-  for (Index j = 0; j < modes_.size(); ++j) {
-    const VectorXd mass = mass_ * modes_.vectors.col(j);
-    const VectorXd r = stiffness * modes_.vectors.col(j) - modes_.values[j] * mass;
-    modes_.residuals[j] = r.norm() / (std::abs(modes_.values[j] - modes_.sigma) * mass.norm());
+  for (Index first = 0; first < modes_.size(); first += kColumns) {
+    const Index count = std::min(kColumns, modes_.size() - first);
+    const MatrixXd mass = *mass_ * modes_.vectors.middleCols(first, count);
+    const MatrixXd force = stiffness * modes_.vectors.middleCols(first, count);
+    for (Index c = 0; c < count; ++c) {
+      const double value = modes_.values[first + c];
+      modes_.residuals[first + c] = (force.col(c) - value * mass.col(c)).norm() /
+                                    (std::abs(value - modes_.sigma) * mass.col(c).norm());
+    }
   }
 }
 
 void Search::refine() {
-  const MatrixXd mass = mass_ * modes_.vectors;
-  const MatrixXd x = factor_->solve(mass);  // (K - sigma M) x = M v
-  const MatrixXd reduced_mass = x.transpose() * (mass_ * x), reduced_shifted = x.transpose() * mass;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
-      0.5 * (reduced_mass + reduced_mass.transpose()),
-      0.5 * (reduced_shifted + reduced_shifted.transpose()));
-  const VectorXd nu = ritz.eigenvalues().reverse();
+  MatrixXd& X = modes_.vectors;  // X <- (K - sigma M)^{-1} M X, block by block in its place
+  const Index m = X.cols();
+  MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
+  RowMatrix image(n_, kColumns), answer(n_, kColumns);
+  for (Index first = 0; first < m; first += kColumns) {
+    const Index count = std::min(kColumns, m - first), end = first + count;
+    image.setZero();
+    image.leftCols(count) = *mass_ * X.middleCols(first, count);
+    problem_.solve(image.data(), answer.data(), static_cast<int>(kColumns));
+    X.middleCols(first, count) = answer.leftCols(count);
+    shifted.block(0, first, end, count) =
+        transposed_product(X.leftCols(end), MatrixXd(image.leftCols(count)));
+  }
+  for (Index first = 0; first < m; first += kColumns) {
+    const Index count = std::min(kColumns, m - first), end = first + count;
+    mass.block(0, first, end, count) =
+        transposed_product(X.leftCols(end), *mass_ * X.middleCols(first, count));
+  }
+  const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
+  if (!ritz.ok) throw NumericsError("modes: the refined vectors depend on each other");
+  const VectorXd nu = ritz.values.reverse();
   modes_.values = modes_.sigma + nu.array().inverse();
-  modes_.vectors =
-      x * (ritz.eigenvectors().rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal());
-  modes_.solves += x.cols();
+  const MatrixXd to_modes =
+      ritz.vectors.rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal();
+  parallel_pieces(n_, [&](int64_t begin, int64_t end) {
+    for (int64_t row = begin; row < end; row += kRows) {
+      auto tile = X.middleRows(row, std::min(kRows, end - row));
+      tile = (tile * to_modes).eval();
+    }
+  });
+  modes_.solves += m;
+}
+
+void Search::restore_order() {
+  parallel_pieces(modes_.size(), [&](int64_t begin, int64_t end) {
+    VectorXd inside;
+    for (int64_t j = begin; j < end; ++j) {
+      inside = modes_.vectors.col(j);
+      for (Index i = 0; i < n_; ++i)
+        modes_.vectors(static_cast<Index>(order_[static_cast<size_t>(i)]), j) = inside[i];
+    }
+  });
 }
 
 void Search::finish() {
-  const SymmetricProduct stiffness(K_);
+  const SymmetricProduct stiffness(reordered(K_, order_));
   measure_residuals(stiffness);
   for (int k = 0; k < kMaxRefinements && !small() && modes_.size() > 0 &&
                   !(modes_.residuals.maxCoeff() <= options_.max_residual);
@@ -287,6 +350,7 @@ void Search::finish() {
     refine();
     measure_residuals(stiffness);
   }
+  restore_order();
   for (Index j = 0; j < modes_.size(); ++j) {
     if (!(modes_.residuals[j] <= options_.max_residual)) {
       throw NumericsError(fmt::format(
@@ -346,7 +410,7 @@ double default_shift(const SparseMatrix& K, const SparseMatrix& M) {
 }
 
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-                    const CholmodFactor* factor) {
+                    const SupernodalFactor* factor) {
   check_request(K, M, options);
   return Search(K, M, options, factor).run();
 }

@@ -7,7 +7,7 @@
 
 #include "core/sparse.hpp"
 #include "modal/eigen/shift_invert.hpp"
-#include "modal/factor/cholmod_factor.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 
 namespace clatter::modal {
 
@@ -69,6 +69,6 @@ double default_shift(const SparseMatrix& K, const SparseMatrix& M);
 /// Throws InputError for a senseless request; NumericsError when the solver does not converge, a
 /// residual is too large, or the count does not match after all retries.
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-                    const CholmodFactor* factor = nullptr);
+                    const SupernodalFactor* factor = nullptr);
 
 }  // namespace clatter::modal

@@ -10,11 +10,12 @@ namespace clatter::modal {
 /// The spectral transformation nu = 1 / (lambda - sigma) (Ericsson and Ruhe, 1980): the wanted
 /// lowest lambda become the largest nu of (K - sigma M)^{-1} M.
 struct ShiftInvert {
-  using Apply = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)>;
+  /// y = A x for `count` vectors that stand row by row, size x count; y is not x.
+  using Apply = std::function<void(const double* x, double* y, int count)>;
   int64_t size = 0;
   double sigma = 0.0;  // [rad2/s2], below every eigenvalue, so that K - sigma M is definite
-  Apply solve;         // (K - sigma M)^{-1} x, n x m
-  Apply mass;          // M x, n x m
+  Apply solve;         // (K - sigma M)^{-1} x
+  Apply mass;          // M x
 };
 
 enum class EigenStatus { kConverged, kNotConverged, kOperatorFailed, kBadInput, kFailed };

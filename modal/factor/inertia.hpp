@@ -9,15 +9,19 @@ namespace clatter::modal {
 
 /// What the count found and what it cost.
 struct InertiaCount {
-  int64_t negative = 0;  // eigenvalues of K x = lambda M x below mu
-  int64_t zero = 0;      // pivots that vanish: mu is an eigenvalue to working precision
+  int64_t negative = 0;   // eigenvalues of K x = lambda M x below mu
+  int64_t zero = 0;       // pivots that vanish: mu is an eigenvalue to working precision
+  double growth = 0.0;    // largest entry of A11^{-1} A12 of an indefinite front
+  bool by_mumps = false;  // the count is that of MUMPS
   double seconds = 0.0;
 };
 
 /// Number of negative pivots of K - mu M = L D L^T, which by Sylvester's law of inertia is the
 /// number of eigenvalues of K x = lambda M x below mu when M is positive definite (Parlett, The
-/// Symmetric Eigenvalue Problem, 1998, section 3.3). Multifrontal LDL^T with 1x1 and 2x2 pivots;
-/// the factor is not kept.
+/// Symmetric Eigenvalue Problem, 1998, section 3.3). Multifrontal, nothing is kept; fronts whose
+/// pivots are definite, nearly all below the first modes, cost what Cholesky costs, the others are
+/// pivoted within their pivot block (eliminate_symmetric). Such a block may stand near singularity,
+/// and rounding then grows with the square of A11^{-1} A12: beyond a growth of 1e4, MUMPS counts.
 /// @param K, M [N/m], [kg], n x n, symmetric, lower triangle.
 /// @param mu [rad2/s2]; should lie well inside a gap between eigenvalues.
 /// @param permutation fill-reducing order (row of K at each place), may be empty.

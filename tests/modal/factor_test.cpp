@@ -3,8 +3,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "modal/factor/cholmod_factor.hpp"
 #include "modal/factor/inertia.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 #include "modal/symmetric_product.hpp"
 #include "tests/modal/spring_models.hpp"
 
@@ -23,14 +23,14 @@ TEST(Factor, SolvesAgreeWithDenseAlgebra) {
   const SparseMatrix A = held_box(4);
   const SparseMatrix full = A.selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 70);  // more than one block of 64
-  const CholmodFactor factor(A);
+  const SupernodalFactor factor(A);
   const Eigen::MatrixXd expected = Eigen::MatrixXd(full).llt().solve(b);
   const double error = (factor.solve(b) - expected).norm() / expected.norm();
   EXPECT_LT(error, 1e-11);  // condition of A is about 1e4
 }
 
 TEST(Factor, ReportsTheFillAndAnExactProbe) {
-  const CholmodFactor factor(held_box(5));
+  const SupernodalFactor factor(held_box(5));
   EXPECT_EQ(factor.report().ordering, "metis");
   EXPECT_GT(factor.report().entries, factor.size());
   EXPECT_LT(factor.report().probe_residual, 1e-12);
@@ -38,10 +38,10 @@ TEST(Factor, ReportsTheFillAndAnExactProbe) {
 
 TEST(Factor, AGivenPermutationIsReusedWithTheSameFill) {  // hard case C7, as far as it fits
   const SparseMatrix A = held_box(5);
-  const CholmodFactor first(A);
+  const SupernodalFactor first(A);
   FactorOptions options;
   options.permutation = first.permutation();
-  const CholmodFactor second(A, options);
+  const SupernodalFactor second(A, options);
   EXPECT_EQ(second.report().ordering, "given");
   EXPECT_EQ(second.report().entries, first.report().entries);
 }
@@ -52,7 +52,7 @@ TEST(Factor, UnitsDoNotChangeTheVerdict) {
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(A.rows());
   for (int i = 0; i < unit.size(); i += 3) unit[i] = 1e-9;
   const SparseMatrix scaled = unit.asDiagonal() * A * unit.asDiagonal();
-  EXPECT_NO_THROW(CholmodFactor{scaled});
+  EXPECT_NO_THROW(SupernodalFactor{scaled});
 }
 
 TEST(SymmetricProductTest, EqualsTheDenseProductForStridedBlocks) {

@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/blas_kernel.hpp"
-#include "modal/factor/cholmod_factor.hpp"
 #include "modal/factor/inertia.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 #include "tests/modal/spring_models.hpp"
 
 namespace clatter::modal {
@@ -22,14 +22,14 @@ TEST(HardC1, AnIndefiniteMatrixIsRefusedWithItsColumn) {
     FactorOptions options;
     options.ordering = ordering;
     try {
-      const CholmodFactor factor(A, options);
+      const SupernodalFactor factor(A, options);
       FAIL() << "accepted";
     } catch (const NotPositiveDefinite& error) {
       EXPECT_TRUE(error.column == 1 || error.column == 2) << error.column;
     }
   }
   try {
-    const CholmodFactor factor(diagonal(Eigen::Vector3d(1.0, -1.0, 2.0)));
+    const SupernodalFactor factor(diagonal(Eigen::Vector3d(1.0, -1.0, 2.0)));
     FAIL() << "accepted";
   } catch (const NotPositiveDefinite& error) {
     EXPECT_EQ(error.column, 1);
@@ -37,9 +37,9 @@ TEST(HardC1, AnIndefiniteMatrixIsRefusedWithItsColumn) {
 }
 
 TEST(HardC2, ASingularFreeBodyIsRefused) {
-  EXPECT_THROW(CholmodFactor{test::free_chain(50).K}, NotPositiveDefinite);
+  EXPECT_THROW(SupernodalFactor{test::free_chain(50).K}, NotPositiveDefinite);
   for (const int n : {3, 5, 8}) {
-    EXPECT_THROW(CholmodFactor{spring_box(n, n, n).K}, NotPositiveDefinite) << n;
+    EXPECT_THROW(SupernodalFactor{spring_box(n, n, n).K}, NotPositiveDefinite) << n;
   }
 }
 
@@ -70,9 +70,9 @@ TEST(HardC4, FactorsBeyond32BitsAreCountedAndRefusedBeforeTheyAreMade) {
   const SparseMatrix A = test::from_triplets(n * n * n, entries);
   FactorOptions options;
   options.ordering = Ordering::kNatural;
-  EXPECT_GT(CholmodFactor::predict(A, options).entries, int64_t{1} << 31);
+  EXPECT_GT(SupernodalFactor::predict(A, options).entries, int64_t{1} << 31);
   options.memory_limit_gib = 4.0;
-  EXPECT_THROW(CholmodFactor(A, options), NumericsError);
+  EXPECT_THROW(SupernodalFactor(A, options), NumericsError);
 }
 
 TEST(HardC5, MetisIsNotGivenMoreEntriesThanItCanCount) {
@@ -87,10 +87,10 @@ TEST(HardC9, TheVerdictOnABorderlineMatrixDoesNotDependOnThreads) {
   const SparseMatrix A = box.K + 2.5e-2 * box.M;
   for (const int threads : {1, 2, 4}) {
     set_blas_threads(threads);
-    const CholmodFactor factor(A);
+    const SupernodalFactor factor(A);
     EXPECT_GT(factor.report().rcond, 1e-12) << threads;
     EXPECT_LT(factor.report().rcond, 1e-8) << threads;
-    EXPECT_THROW(CholmodFactor{box.K}, NotPositiveDefinite);
+    EXPECT_THROW(SupernodalFactor{box.K}, NotPositiveDefinite);
   }
   set_blas_threads(2);
 }

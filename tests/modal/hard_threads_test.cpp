@@ -10,7 +10,7 @@
 
 #include "core/blas_kernel.hpp"
 #include "core/threads.hpp"
-#include "modal/factor/cholmod_factor.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 #include "modal/factor/inertia.hpp"
 #include "tests/modal/spring_models.hpp"
 
@@ -23,11 +23,11 @@ using test::spring_box;
 TEST(HardC7, AStoredPermutationIsUsedAgainWithTheSameFill) {
   const auto box = spring_box(12, 10, 11);
   const SparseMatrix A = box.K - default_shift(box.K, box.M) * box.M;
-  const CholmodFactor first(A);
+  const SupernodalFactor first(A);
   FactorOptions stored;
   stored.permutation = first.permutation();
   ASSERT_EQ(static_cast<int64_t>(stored.permutation.size()), A.rows());
-  const CholmodFactor second(A, stored);
+  const SupernodalFactor second(A, stored);
   EXPECT_EQ(second.report().ordering, "given");
   EXPECT_EQ(second.report().entries, first.report().entries);
   EXPECT_EQ(second.permutation(), first.permutation());
@@ -35,7 +35,7 @@ TEST(HardC7, AStoredPermutationIsUsedAgainWithTheSameFill) {
   EXPECT_LT((second.solve(b) - first.solve(b)).norm(), 1e-12 * first.solve(b).norm());
   FactorOptions natural;  // another order has another fill: the stored one is really in use
   natural.ordering = Ordering::kNatural;
-  EXPECT_NE(CholmodFactor::predict(A, natural).entries, first.report().entries);
+  EXPECT_NE(SupernodalFactor::predict(A, natural).entries, first.report().entries);
   // The count of another shifted matrix of the same pattern takes it too.
   const double mu = 0.5 * value_of_hz(2500.0);
   EXPECT_EQ(count_below(box.K, box.M, mu, stored.permutation).negative,
@@ -45,7 +45,7 @@ TEST(HardC7, AStoredPermutationIsUsedAgainWithTheSameFill) {
 TEST(HardC7, TwoRunsOrderAlike) {
   const auto box = spring_box(9, 8, 7);
   const SparseMatrix A = box.K - default_shift(box.K, box.M) * box.M;
-  EXPECT_EQ(CholmodFactor(A).permutation(), CholmodFactor(A).permutation());
+  EXPECT_EQ(SupernodalFactor(A).permutation(), SupernodalFactor(A).permutation());
 }
 
 /// Threads of this process: how many there were at most, and how many ran in the mean.
@@ -95,7 +95,7 @@ TEST(HardC8, ThreadsOfBlasAndOursDoNotMultiplyAndTheSolutionStays) {
     set_thread_count(threads);
     set_blas_threads(threads);
     ThreadWatch watch;
-    const CholmodFactor factor(A);
+    const SupernodalFactor factor(A);
     const MatrixXd x = factor.solve(b);
     watch.stop();
     if (threads == 1) alone = x;

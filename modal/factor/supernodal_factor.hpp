@@ -1,5 +1,5 @@
 #pragma once
-// Sparse supernodal Cholesky factorisation (CHOLMOD behind it) with the guards that CHOLMOD lacks.
+// Sparse supernodal Cholesky factorisation with its guards, and solves at BLAS-3 speed.
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
@@ -8,11 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/sparse.hpp"
+#include "modal/factor/supernode_tree.hpp"
+#include "modal/factor/sweeps.hpp"
 
 namespace clatter::modal {
-
-/// Fill-reducing orders; kNatural keeps the order of the matrix (tests and given permutations).
-enum class Ordering { kMetis, kAmd, kNatural };
 
 struct FactorOptions {
   Ordering ordering = Ordering::kMetis;
@@ -25,9 +24,9 @@ struct FactorOptions {
 /// What a factorisation costs and how good it is.
 struct FactorReport {
   int64_t size = 0;
-  int64_t entries = 0;           // of L
+  int64_t entries = 0;           // of L, with the zeros that blocks store
   double flops = 0.0;            // of the numeric factorisation
-  double predicted_gib = 0.0;    // memory of L
+  double predicted_gib = 0.0;    // memory of L and of the update matrices
   std::string ordering;          // "metis", "amd", "natural", "given"
   double rcond = 0.0;            // (min L_jj / max L_jj)^2 of the scaled matrix
   double probe_residual = 0.0;   // |A x - b| / |b| for a random b
@@ -44,34 +43,44 @@ struct NotPositiveDefinite : NumericsError {
   int64_t column;
 };
 
-/// METIS counts in 32 bits (hard case C5): kMetis is replaced by kAmd when the full pattern of a
-/// matrix with `lower_entries` entries in its lower triangle and `size` rows does not fit.
-Ordering safe_ordering(Ordering wanted, int64_t size, int64_t lower_entries);
+/// diag(A)^(-1/2) rounded to powers of two, so that scaling adds no rounding error and pivots judge
+/// the body and not its units. Throws NotPositiveDefinite where the diagonal is not positive.
+std::vector<double> power_of_two_scale(const SparseMatrix& lower);
 
-/// P S A S P^T = L L^T with S = diag(A)^(-1/2) rounded to powers of two, so that the pivots' ratio
-/// judges the body and not its units. A is symmetric positive definite, given by its lower
-/// triangle.
-class CholmodFactor {
+/// P S A S P^T = L L^T with S = power_of_two_scale(A). A is symmetric positive definite, given by
+/// its lower triangle. With a boundary, [A C; C^T B], the elimination of A alone also gives
+/// L_b = C^T S L^{-T} and the Schur complement B - C^T A^{-1} C at no extra cost.
+class SupernodalFactor {
  public:
   /// Orders, predicts memory, factorises and probes. Throws NotPositiveDefinite, or NumericsError
   /// when L would not fit into memory.
-  explicit CholmodFactor(const SparseMatrix& lower, const FactorOptions& options = {});
+  explicit SupernodalFactor(const SparseMatrix& lower, const FactorOptions& options = {});
+  /// @param coupling C, n x n_b.
+  SupernodalFactor(const SparseMatrix& lower, const SparseMatrix& coupling,
+                   const FactorOptions& options = {});
   /// Orders and predicts only; nothing numeric is done or kept.
   static FactorReport predict(const SparseMatrix& lower, const FactorOptions& options = {});
-  ~CholmodFactor();
-  CholmodFactor(CholmodFactor&&) noexcept;
-  CholmodFactor& operator=(CholmodFactor&&) noexcept;
+  ~SupernodalFactor();
+  SupernodalFactor(SupernodalFactor&&) noexcept;
+  SupernodalFactor& operator=(SupernodalFactor&&) noexcept;
 
-  /// x = A^{-1} b, b is n x m; columns go through the factor in blocks of 64. Safe to call from
-  /// several threads (one at a time runs).
+  /// x = A^{-1} b, b is n x m; blocks of right-hand sides, shared out to the threads.
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// The same for one vector without allocation beyond the first call.
-  void solve(const double* b, double* x) const;
+  /// The same in place for vectors in the order of elimination (permutation()), row by row: value c
+  /// of place j is x[j * count + c]. Nothing is copied.
+  void solve_in_order(double* x, int count) const;
 
   int64_t size() const;
   const FactorReport& report() const;
   /// Row of A that stands at place j of the factor, n entries.
   std::vector<int64_t> permutation() const;
+
+  /// C^T A^{-1} C, n_b x n_b.
+  const Eigen::MatrixXd& boundary_part() const;
+  const SupernodeTree& tree() const;
+  /// diagonal of S by unknown.
+  const std::vector<double>& scale() const;
+  FactorView view() const;
 
  private:
   struct Impl;

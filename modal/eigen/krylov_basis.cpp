@@ -1,0 +1,131 @@
+#include "modal/eigen/krylov_basis.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/blas_kernel.hpp"
+#include "core/large_pages.hpp"
+#include "core/threads.hpp"
+
+namespace clatter::modal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr Index kTile = 512;  // rows whose products stay in the cache
+
+int extent(Index value) { return static_cast<int>(value); }
+
+/// body(first row, rows) for tiles of [begin, end).
+template <class Body>
+void for_each_tile(Index begin, Index end, Body&& body) {
+  for (Index row = begin; row < end; row += kTile) body(row, std::min(kTile, end - row));
+}
+
+/// Rows shared out to the threads, one BLAS thread each.
+template <class Body>
+void on_all_threads(Index size, Body&& body) {
+  const BlasThreads one(1);
+  parallel_pieces(size, [&](int64_t begin, int64_t end) { for_each_tile(begin, end, body); });
+}
+
+/// Sum over all rows of the products `add(row, rows, sum)`, one partial sum a thread.
+template <class Add>
+MatrixXd summed(Index size, Index rows, Index columns, Add&& add) {
+  const BlasThreads one(1);
+  const Index pieces = std::min<Index>(thread_count(), size);
+  std::vector<MatrixXd> parts(static_cast<size_t>(pieces), MatrixXd::Zero(rows, columns));
+  parallel_pieces(pieces, [&](int64_t piece, int64_t) {
+    MatrixXd& sum = parts[static_cast<size_t>(piece)];
+    for_each_tile(size * piece / pieces, size * (piece + 1) / pieces,
+                  [&](Index row, Index count) { add(row, count, sum); });
+  });
+  for (size_t p = 1; p < parts.size(); ++p) parts[0] += parts[p];
+  return std::move(parts[0]);
+}
+
+}  // namespace
+
+TallBlock::TallBlock(Index rows, Index columns)
+    : data(large_array(static_cast<size_t>(rows * columns))), size(rows), count(columns) {}
+
+bool TallBlock::finite() const {
+  return std::all_of(data.get(), data.get() + size * count,
+                     [](double value) { return std::isfinite(value); });
+}
+
+MatrixXd gram(const TallBlock& A, const TallBlock& B) {
+  return summed(A.size, A.count, B.count, [&](Index row, Index rows, MatrixXd& sum) {
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, extent(A.count), extent(B.count),
+                extent(rows), 1.0, A.row(row), extent(A.count), B.row(row), extent(B.count), 1.0,
+                sum.data(), extent(A.count));
+  });
+}
+
+void transform(TallBlock& A, const MatrixXd& R) {
+  const int b = extent(A.count);
+  on_all_threads(A.size, [&](Index row, Index rows) {
+    const Eigen::MatrixXd old = Eigen::Map<const MatrixXd>(A.row(row), A.count, rows);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, b, extent(rows), b, 1.0, R.data(), b,
+                old.data(), b, 0.0, A.row(row), b);
+  });
+}
+
+KrylovBasis::KrylovBasis(Index size, Index room)
+    : size_(size), room_(room), data_(large_array(static_cast<size_t>(size * room))) {}
+
+MatrixXd KrylovBasis::coefficients(Index first, Index last, const TallBlock& B) const {
+  return summed(size_, last - first, B.count, [&](Index row, Index rows, MatrixXd& sum) {
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, extent(last - first), extent(B.count),
+                extent(rows), 1.0, at(row, first), extent(room_), B.row(row), extent(B.count), 1.0,
+                sum.data(), extent(last - first));
+  });
+}
+
+void KrylovBasis::subtract(Index first, const MatrixXd& H, TallBlock& B) const {
+  on_all_threads(size_, [&](Index row, Index rows) {
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, extent(B.count), extent(rows),
+                extent(H.rows()), -1.0, H.data(), extent(H.rows()), at(row, first), extent(room_),
+                1.0, B.row(row), extent(B.count));
+  });
+}
+
+void KrylovBasis::put(Index first, const TallBlock& B) {
+  on_all_threads(size_, [&](Index row, Index rows) {
+    for (Index i = row; i < row + rows; ++i) std::copy_n(B.row(i), B.count, at(i, first));
+  });
+}
+
+void KrylovBasis::get(Index first, TallBlock& B) const {
+  on_all_threads(size_, [&](Index row, Index rows) {
+    for (Index i = row; i < row + rows; ++i) std::copy_n(at(i, first), B.count, B.row(i));
+  });
+}
+
+void KrylovBasis::transform(const MatrixXd& S) {
+  const int from = extent(S.rows()), to = extent(S.cols());
+  on_all_threads(size_, [&](Index row, Index rows) {
+    MatrixXd tile(S.cols(), rows);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, to, extent(rows), from, 1.0, S.data(),
+                from, at(row, 0), extent(room_), 0.0, tile.data(), to);
+    for (Index i = 0; i < rows; ++i) std::copy_n(tile.col(i).data(), to, at(row + i, 0));
+  });
+}
+
+MatrixXd KrylovBasis::columns(Index count) const {
+  MatrixXd out(size_, count);
+  prefer_large_pages(out.data(), static_cast<size_t>(out.size()) * sizeof(double));
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  on_all_threads(size_, [&](Index row, Index rows) {
+    out.middleRows(row, rows) = Eigen::Map<const Rows, 0, Eigen::OuterStride<>>(
+        at(row, 0), rows, count, Eigen::OuterStride<>(room_));
+  });
+  return out;
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,46 @@
+#include "modal/factor/tree_schedule.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+
+namespace clatter::modal {
+
+TreeSchedule schedule(const SupernodeTree& tree, int threads) {
+  constexpr double kShare = 0.1;  // largest subtree, in parts of a thread's work
+  const auto n = static_cast<size_t>(tree.supernodes());
+  TreeSchedule out;
+  out.lowest.resize(n);
+  std::iota(out.lowest.begin(), out.lowest.end(), 0);
+  std::vector<double> work(n);
+  for (size_t s = 0; s < n; ++s) {
+    work[s] += tree.flops(static_cast<int32_t>(s));
+    if (tree.parent[s] < 0) continue;
+    const auto p = static_cast<size_t>(tree.parent[s]);
+    work[p] += work[s];
+    out.lowest[p] = std::min(out.lowest[p], out.lowest[s]);
+  }
+  const auto lighter = [&](int32_t a, int32_t b) {
+    return work[static_cast<size_t>(a)] < work[static_cast<size_t>(b)];
+  };
+  std::priority_queue<int32_t, std::vector<int32_t>, decltype(lighter)> heaviest(lighter);
+  double total = 0.0;
+  for (size_t s = 0; s < n; ++s) {
+    if (tree.parent[s] >= 0) continue;
+    heaviest.push(static_cast<int32_t>(s));
+    total += work[s];
+  }
+  const double limit = threads > 1 ? kShare * total / threads : -1.0;
+  const std::vector<std::vector<int32_t>> children = tree.children();
+  while (!heaviest.empty() && work[static_cast<size_t>(heaviest.top())] > limit) {
+    const int32_t s = heaviest.top();
+    heaviest.pop();
+    out.top.push_back(s);
+    for (const int32_t child : children[static_cast<size_t>(s)]) heaviest.push(child);
+  }
+  std::sort(out.top.begin(), out.top.end());
+  for (; !heaviest.empty(); heaviest.pop()) out.subtrees.push_back(heaviest.top());
+  return out;
+}
+
+}  // namespace clatter::modal

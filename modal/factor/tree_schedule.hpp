@@ -1,0 +1,20 @@
+#pragma once
+// Which parts of a tree of supernodes run side by side.
+#include <vector>
+
+#include "modal/factor/supernode_tree.hpp"
+
+namespace clatter::modal {
+
+/// Disjoint subtrees for the threads, and the top that joins them (Geist and Ng 1989).
+struct TreeSchedule {
+  std::vector<int32_t> subtrees;  // their roots, the most work first
+  std::vector<int32_t> lowest;    // of every supernode: the first of its subtree, which is
+                                  // lowest[s] .. s
+  std::vector<int32_t> top;       // the other supernodes, ascending
+};
+
+/// @param threads one: everything is top.
+TreeSchedule schedule(const SupernodeTree& tree, int threads);
+
+}  // namespace clatter::modal
