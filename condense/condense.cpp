@@ -23,16 +23,16 @@ void report_repeated(const DofPartition& partition) {
 /// Drops vectors that depend on others; returns how many.
 int drop_dependent(CraigBampton& source) {
   ReducedBasis& basis = source.basis;
-  const std::vector<int> kept = independent_columns(source.M_rr, basis.n_boundary);
+  const std::vector<int> kept = independent_columns(source.M_rr, basis.boundary());
   const int dropped = static_cast<int>(basis.size()) - static_cast<int>(kept.size());
   if (dropped == 0) return 0;
   warn(fmt::format("{} basis vectors depend on others and were dropped", dropped));
   std::vector<int> modes;
   for (const int j : kept) {
-    if (j >= basis.n_boundary) modes.push_back(j - basis.n_boundary);
+    if (j >= basis.boundary()) modes.push_back(j - static_cast<int>(basis.boundary()));
   }
   source.fixed_interface_hz = source.fixed_interface_hz(modes).eval();
-  select_columns(basis, kept);
+  basis.shapes = basis.shapes(Eigen::all, modes).eval();
   source.M_rr = source.M_rr(kept, kept).eval();
   source.K_rr = source.K_rr(kept, kept).eval();
   return dropped;
@@ -116,10 +116,13 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);
   clock.lap("partition");
+  const SkinRecovery skin(model, partition, options.skin);
+  const StaticPart statics = static_part(model, partition, K, M, skin.unknowns(), clock);
   CutOffSearch search;
-  CraigBampton source = options.modes.accurate_to_hz > 0.0
-                            ? search_cutoff(model, partition, K, M, options.modes, clock, search)
-                            : craig_bampton(model, partition, K, M, options.modes, clock);
+  CraigBampton source =
+      options.modes.accurate_to_hz > 0.0
+          ? search_cutoff(model, partition, K, M, statics, options.modes, clock, search)
+          : craig_bampton(model, partition, K, M, statics, options.modes, clock);
 
   ReducedModel reduced;
   reduced.name = model.name;
@@ -138,7 +141,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   for (const auto& [name, load] : model.loads) {
     reduced.loads[name] = project_load(load, partition, source.basis);
   }
-  reduced.skin = recover_skin(model, partition, source.basis, options.skin);
+  reduced.skin = skin.recover(statics.reduction.rows, source.basis.shapes);
   clock.lap("loads and skin rows");
   if (options.inertia_invariants) {
     reduced.inertia = frame_inertia(model, partition, source.basis);

@@ -1,6 +1,8 @@
 #pragma once
 // The Craig-Bampton basis: constraint modes and fixed-interface modes from one factorisation.
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "condense/interior_modes.hpp"
 #include "condense/residual_modes.hpp"
@@ -14,17 +16,29 @@ struct CraigBampton : Reduction {
   InteriorModes interior;              // what is known of them; the vectors moved to the basis
   ResidualReport residual;
   modal::FactorReport factor;
-  double rigid_error = 0.0;  // |Psi r_b - r_i| / |r_i| of the plain solve
+  double rigid_error = 0.0;  // of the static shapes
 };
+
+/// What is made once for a boundary, whatever modes are added.
+struct StaticPart {
+  std::shared_ptr<const modal::SupernodalFactor> factor_ii;
+  StaticReduction reduction;
+};
+
+/// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
+/// @param K, M blocks of the model's matrices by `partition`.
+/// @param kept interior unknowns whose rows of Psi are wanted.
+/// Throws InputError when the boundary does not hold the body, NumericsError when K_ii is singular.
+StaticPart static_part(const assembly::FeModel& model, const DofPartition& partition,
+                       const PartitionedMatrix& K, const PartitionedMatrix& M,
+                       const std::vector<int32_t>& kept, StepClock& clock);
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is
-/// Guyan's (1965), and the cut-off is the first fixed-interface frequency, from where on the basis
-/// holds nothing.
-/// @param K, M blocks of the model's matrices by `partition`. Steps go to `clock`.
-/// Throws InputError when the boundary does not hold the body, NumericsError as solve_modes does.
+/// Guyan's, and the cut-off is the first fixed-interface frequency, from where on the basis holds
+/// nothing. Throws NumericsError as solve_modes does.
 CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const ModeRequest& request, StepClock& clock);
+                           const StaticPart& statics, const ModeRequest& request, StepClock& clock);
 
 }  // namespace clatter::condense

@@ -15,7 +15,8 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz) {
 
 CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const ModeRequest& request, StepClock& clock, CutOffSearch& search) {
+                           const StaticPart& statics, const ModeRequest& request, StepClock& clock,
+                           CutOffSearch& search) {
   constexpr double kFirst = 1.5, kGrowth = 1.25, kLast = 4.0;  // over the wanted frequency
   const double wanted = request.accurate_to_hz;
   search.target = request.frequency_error;
@@ -25,7 +26,7 @@ CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& p
     // Residual modes stop where the bound holds, not the estimate alone.
     if (!request.own_modes)
       attempt.frequency_error /= cutoff_error_bound(1.0, wanted, attempt.fmax_hz);
-    CraigBampton found = craig_bampton(model, partition, K, M, attempt, clock);
+    CraigBampton found = craig_bampton(model, partition, K, M, statics, attempt, clock);
     ++search.tried;
     const double estimate = found.residual.error_estimate;
     search.reached =

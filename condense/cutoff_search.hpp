@@ -26,7 +26,8 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
 /// reaches the target, otherwise as craig_bampton.
 CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const ModeRequest& request, StepClock& clock, CutOffSearch& search);
+                           const StaticPart& statics, const ModeRequest& request, StepClock& clock,
+                           CutOffSearch& search);
 
 /// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
 void record(const CutOffSearch& search, std::map<std::string, double>& certificate);

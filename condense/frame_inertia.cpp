@@ -62,8 +62,9 @@ class NodalColumns {
 
   std::array<MatrixXd, 3> operator()(Index first, Index count) const {
     MatrixXd q(model_.size(), count);
-    q(partition_.interior, Eigen::all) = basis_.V_i.middleCols(first, count);
-    q(partition_.boundary, Eigen::all) = basis_.V_b.middleCols(first, count);
+    const MatrixXd unit = MatrixXd::Identity(basis_.size(), basis_.size()).middleCols(first, count);
+    q(partition_.interior, Eigen::all) = basis_.interior(unit);
+    q(partition_.boundary, Eigen::all) = unit.topRows(basis_.boundary());
     const MatrixXd u = model_.T * q;
     std::array<MatrixXd, 3> by_direction;
     for (size_t d = 0; d < 3; ++d)

@@ -1,62 +1,70 @@
 #include "condense/recovery_rows.hpp"
 
-#include "condense/skin_faces.hpp"
 #include "core/threads.hpp"
 
 namespace clatter::condense {
 namespace {
 
-/// V(dof, :) for each model DoF without forming V: where the row stands, and in which block.
-class BasisRows {
- public:
-  BasisRows(const DofPartition& partition, const ReducedBasis& basis)
-      : basis_(basis), place_(partition.interior.size() + partition.boundary.size()) {
-    for (size_t k = 0; k < partition.interior.size(); ++k)
-      place_[static_cast<size_t>(partition.interior[k])] = {false, static_cast<int32_t>(k)};
-    for (size_t k = 0; k < partition.boundary.size(); ++k)
-      place_[static_cast<size_t>(partition.boundary[k])] = {true, static_cast<int32_t>(k)};
-  }
+using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t>;
 
-  template <typename Row>
-  void add(Eigen::Index dof, double factor, Row&& row) const {
-    const auto [boundary, k] = place_[static_cast<size_t>(dof)];
-    row += factor * (boundary ? basis_.V_b.row(k) : basis_.V_i.row(k));
-  }
-
- private:
-  const ReducedBasis& basis_;
-  std::vector<std::pair<bool, int32_t>> place_;
-};
-
-RowMatrix recovery_matrix(const assembly::FeModel& model, const DofPartition& partition,
-                          const ReducedBasis& basis, const std::vector<SkinPoint>& points) {
-  const BasisRows rows(partition, basis);
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t> by_row = model.T;
-  RowMatrix out = RowMatrix::Zero(3 * static_cast<Eigen::Index>(points.size()), basis.size());
-  parallel_pieces(out.rows(), [&](int64_t begin, int64_t end) {
-    for (int64_t row = begin; row < end; ++row) {
-      using Iterator = Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t>::InnerIterator;
-      for (const auto& [node, weight] : points[static_cast<size_t>(row / 3)])
-        for (Iterator it(by_row, 3 * int64_t{node} + row % 3); it; ++it)
-          rows.add(it.col(), weight * it.value(), out.row(row));
-    }
-  });
-  return out;
+/// body(dof, factor) for each DoF that moves point `row / 3` in direction row % 3.
+template <class Body>
+void for_each_dof(const RowSparse& T, const SkinPoint& point, Eigen::Index direction, Body&& body) {
+  for (const auto& [node, weight] : point)
+    for (RowSparse::InnerIterator it(T, 3 * int64_t{node} + direction); it; ++it)
+      body(static_cast<size_t>(it.col()), weight * it.value());
 }
 
 }  // namespace
 
-Skin recover_skin(const assembly::FeModel& model, const DofPartition& partition,
-                  const ReducedBasis& basis, const std::vector<std::string>& surfaces) {
+SkinRecovery::SkinRecovery(const assembly::FeModel& model, const DofPartition& partition,
+                           const std::vector<std::string>& surfaces)
+    : model_(model),
+      row_(static_cast<size_t>(model.size()), -1),
+      boundary_(static_cast<size_t>(model.size()), -1) {
+  for (size_t k = 0; k < partition.boundary.size(); ++k)
+    boundary_[static_cast<size_t>(partition.boundary[k])] = static_cast<int32_t>(k);
+  if (surfaces.empty()) return;
+  faces_ = skin_faces(model, surfaces);
+  const RowSparse by_row = model.T;
+  std::vector<char> moves(static_cast<size_t>(model.size()), 0);
+  for (const SkinPoint& point : faces_.points)
+    for (Eigen::Index d = 0; d < 3; ++d)
+      for_each_dof(by_row, point, d, [&](size_t dof, double) { moves[dof] = 1; });
+  for (size_t k = 0; k < partition.interior.size(); ++k) {
+    const auto dof = static_cast<size_t>(partition.interior[k]);
+    if (moves[dof] == 0) continue;
+    row_[dof] = static_cast<int32_t>(unknowns_.size());
+    unknowns_.push_back(static_cast<int32_t>(k));
+  }
+}
+
+Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {
   Skin skin;
-  if (surfaces.empty()) return skin;
-  SkinFaces faces = skin_faces(model, surfaces);
-  skin.triangles.swap(faces.triangles);
-  skin.nodes = RowMatrix::Zero(static_cast<Eigen::Index>(faces.points.size()), 3);
-  for (size_t p = 0; p < faces.points.size(); ++p)
-    for (const auto& [node, weight] : faces.points[p])
-      skin.nodes.row(static_cast<Eigen::Index>(p)) += weight * model.nodes.row(node);
-  skin.T = recovery_matrix(model, partition, basis, faces.points);
+  if (faces_.points.empty()) return skin;
+  skin.triangles = faces_.triangles;
+  const auto n = static_cast<Eigen::Index>(faces_.points.size());
+  skin.nodes = RowMatrix::Zero(n, 3);
+  for (Eigen::Index p = 0; p < n; ++p)
+    for (const auto& [node, weight] : faces_.points[static_cast<size_t>(p)])
+      skin.nodes.row(p) += weight * model_.nodes.row(node);
+  const RowSparse by_row = model_.T;
+  const Eigen::Index n_b = static_rows.cols(), k = shapes.cols();
+  skin.T = RowMatrix::Zero(3 * n, n_b + k);
+  parallel_pieces(skin.T.rows(), [&](int64_t begin, int64_t end) {
+    for (int64_t row = begin; row < end; ++row) {
+      const SkinPoint& point = faces_.points[static_cast<size_t>(row / 3)];
+      for_each_dof(by_row, point, row % 3, [&](size_t dof, double factor) {
+        if (boundary_[dof] >= 0) {
+          skin.T(row, boundary_[dof]) += factor;
+          return;
+        }
+        const auto at = static_cast<size_t>(row_[dof]);
+        skin.T.row(row).head(n_b) += factor * static_rows.row(row_[dof]);
+        skin.T.row(row).tail(k) += factor * shapes.row(unknowns_[at]);
+      });
+    }
+  });
   return skin;
 }
 

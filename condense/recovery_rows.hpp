@@ -3,15 +3,31 @@
 #include <string>
 #include <vector>
 
-#include "condense/reduced_basis.hpp"
+#include "condense/dof_partition.hpp"
+#include "condense/skin_faces.hpp"
 #include "core/reduced_model.hpp"
 
 namespace clatter::condense {
 
-/// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp) and
-/// the rows T_skin = T(skin nodes, :) V that recover it. A face that stands in two of them is taken
-/// once. InputError for an unknown surface.
-Skin recover_skin(const assembly::FeModel& model, const DofPartition& partition,
-                  const ReducedBasis& basis, const std::vector<std::string>& surfaces);
+/// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp); a
+/// face that stands in two of them is taken once. Knows which rows of the basis the skin needs.
+class SkinRecovery {
+ public:
+  /// InputError for an unknown surface.
+  SkinRecovery(const assembly::FeModel& model, const DofPartition& partition,
+               const std::vector<std::string>& surfaces);
+  /// Interior unknowns (places in partition.interior) that move the skin, ascending.
+  const std::vector<int32_t>& unknowns() const { return unknowns_; }
+  /// The skin with T_skin = T(skin nodes, :) V.
+  /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
+  Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+
+ private:
+  const assembly::FeModel& model_;
+  SkinFaces faces_;
+  std::vector<int32_t> unknowns_;
+  std::vector<int32_t> row_;       // by DoF of the model: its place in unknowns_, or -1
+  std::vector<int32_t> boundary_;  // by DoF of the model: its coordinate, or -1
+};
 
 }  // namespace clatter::condense

@@ -1,38 +1,67 @@
 #include "condense/reduced_basis.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "modal/dense_product.hpp"
 #include "modal/symmetric_product.hpp"
 
 namespace clatter::condense {
 
-Eigen::MatrixXd project(const PartitionedMatrix& A, const ReducedBasis& basis) {
-  constexpr Eigen::Index kBlock = 64;
-  const modal::SymmetricProduct interior(A.ii);
-  const SparseMatrix bi = A.ib.transpose();
-  Eigen::MatrixXd out(basis.size(), basis.size());
-  for (Eigen::Index first = 0; first < basis.size(); first += kBlock) {
-    const Eigen::Index count = std::min(kBlock, basis.size() - first);
-    const Eigen::MatrixXd V_i = basis.V_i.middleCols(first, count);
-    const Eigen::MatrixXd V_b = basis.V_b.middleCols(first, count);
-    Eigen::MatrixXd image_i = interior * V_i;
-    image_i += A.ib * V_b;
-    const Eigen::MatrixXd image_b = bi * V_i + A.bb * V_b;
-    out.middleCols(first, count) = modal::transposed_product(basis.V_i, image_i) +
-                                   modal::transposed_product(basis.V_b, image_b);
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+ReducedBasis::ReducedBasis(std::shared_ptr<const modal::SupernodalFactor> factor_ii,
+                           SparseMatrix K_ib)
+    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)) {
+  shapes.resize(K_ib_.rows(), 0);
+}
+
+MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
+  const MatrixXd load = K_ib_ * q.topRows(boundary());
+  MatrixXd u = -factor_->solve(load);
+  modal::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
+  return u;
+}
+
+MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
+                               const Eigen::Ref<const MatrixXd>& f_b) const {
+  MatrixXd out(size(), f_i.cols());
+  out.topRows(boundary()) = f_b - K_ib_.transpose() * factor_->solve(f_i);
+  out.bottomRows(shapes.cols()) = modal::transposed_product(shapes, f_i);
+  return out;
+}
+
+ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
+                        const StaticReduction& statics, const ReducedBasis& basis) {
+  constexpr Index kBlock = 64;
+  const modal::SymmetricProduct stiffness(K.ii), mass(M.ii);
+  const SparseMatrix M_bi = M.ib.transpose();
+  const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;
+  ReducedMatrices out;
+  out.M_rr = out.K_rr = MatrixXd::Zero(r, r);
+  out.M_rr.topLeftCorner(n_b, n_b) = statics.M_bb;
+  out.K_rr.topLeftCorner(n_b, n_b) = statics.K_bb;
+  for (Index first = 0; first < k; first += kBlock) {
+    const Index count = std::min(kBlock, k - first);
+    const MatrixXd X = basis.shapes.middleCols(first, count);
+    out.M_rr.middleCols(n_b + first, count) = basis.project(mass * X, M_bi * X);
+    out.K_rr.block(n_b, n_b + first, k, count) =
+        modal::transposed_product(basis.shapes, stiffness * X);
   }
-  return 0.5 * (out + out.transpose());
+  out.M_rr.bottomLeftCorner(k, n_b) = out.M_rr.topRightCorner(n_b, k).transpose();
+  out.M_rr = (0.5 * (out.M_rr + out.M_rr.transpose())).eval();
+  out.K_rr = (0.5 * (out.K_rr + out.K_rr.transpose())).eval();
+  return out;
 }
 
 Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
                              const ReducedBasis& basis) {
-  const Eigen::VectorXd interior = load(partition.interior);
-  const Eigen::VectorXd boundary = load(partition.boundary);
-  return basis.V_i.transpose() * interior + basis.V_b.transpose() * boundary;
+  const MatrixXd interior = load(partition.interior), boundary = load(partition.boundary);
+  return basis.project(interior, boundary);
 }
 
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, int protected_count,
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Index protected_count,
                                      double tolerance) {
   const Eigen::Index r = M_rr.rows();
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(r, r);  // rows of the kept columns' Cholesky factor
@@ -48,12 +77,6 @@ std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, int protected_
     kept.push_back(static_cast<int>(j));
   }
   return kept;
-}
-
-void select_columns(ReducedBasis& basis, const std::vector<int>& kept) {
-  if (static_cast<Eigen::Index>(kept.size()) == basis.size()) return;
-  basis.V_b = basis.V_b(Eigen::all, kept).eval();
-  basis.V_i = basis.V_i(Eigen::all, kept).eval();
 }
 
 }  // namespace clatter::condense

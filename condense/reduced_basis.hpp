@@ -1,24 +1,47 @@
 #pragma once
 // A reduction basis and the projection of the model's matrices on it.
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "condense/dof_partition.hpp"
+#include "condense/static_reduction.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
-/// q = V q_r in blocks: q_b = V_b q_r, q_i = V_i q_r. The first n_boundary columns belong to the
-/// boundary coordinates.
-struct ReducedBasis {
-  Eigen::MatrixXd V_b;  // n_b x r
-  Eigen::MatrixXd V_i;  // n_i x r
-  int n_boundary = 0;
+/// V = [I 0; Psi X]: constraint modes Psi = -K_ii^{-1} K_ib, which are never held (n_i x n_b is the
+/// largest matrix of a condensation) but applied through the factor, and shapes X of the interior.
+class ReducedBasis {
+ public:
+  ReducedBasis() = default;
+  /// @param K_ib n_i x n_b.
+  ReducedBasis(std::shared_ptr<const modal::SupernodalFactor> factor_ii, SparseMatrix K_ib);
 
-  Eigen::Index size() const { return V_i.cols(); }
+  Eigen::MatrixXd shapes;  // X, n_i x k
+
+  Eigen::Index boundary() const { return K_ib_.cols(); }
+  Eigen::Index size() const { return boundary() + shapes.cols(); }
+  /// Interior rows of V q; q is r x m.
+  Eigen::MatrixXd interior(const Eigen::Ref<const Eigen::MatrixXd>& q) const;
+  /// V^T f for loads f_i (n_i x m) and f_b (n_b x m).
+  Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
+                          const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
+
+ private:
+  std::shared_ptr<const modal::SupernodalFactor> factor_;
+  SparseMatrix K_ib_;
 };
 
-/// V^T A V, r x r, symmetric: eq. (14) of the paper. A V is made for blocks of columns only.
-Eigen::MatrixXd project(const PartitionedMatrix& A, const ReducedBasis& basis);
+/// The matrices on the basis, eq. (14) of the paper.
+struct ReducedMatrices {
+  Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles
+};
+
+/// V^T A V from what the static sweep gave for the boundary; columns of X are taken in blocks. Psi
+/// and X are orthogonal in K.
+ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
+                        const StaticReduction& statics, const ReducedBasis& basis);
 
 /// V^T f for a load f on all n DoFs of the model.
 Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
@@ -28,10 +51,7 @@ Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& pa
 /// the kept ones are removed is more than `tolerance` of its own M-norm squared (hard case B3).
 /// The first `protected_count` columns are always kept. Ascending indices.
 /// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
-std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, int protected_count,
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
                                      double tolerance = 1e-12);
-
-/// Keeps the named columns only.
-void select_columns(ReducedBasis& basis, const std::vector<int>& kept);
 
 }  // namespace clatter::condense

@@ -44,8 +44,8 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, double limit) {
 /// The run over the passes; X holds the added vectors, with the boundary at rest.
 class Correction {
  public:
-  Correction(Reduction& reduction, const modal::SupernodalFactor& factor, const PartitionedMatrix& K,
-             const PartitionedMatrix& M)
+  Correction(Reduction& reduction, const modal::SupernodalFactor& factor,
+             const PartitionedMatrix& K, const PartitionedMatrix& M)
       : reduction_(reduction), factor_(factor), K_(K), M_(M), K_ii_(K.ii), M_ii_(M.ii) {
     X_.resize(K.ii.rows(), 0);
     border();
@@ -83,9 +83,7 @@ MatrixXd Correction::bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
   if (m == 0) return out;
   const MatrixXd image = A_ii * X_;
   const MatrixXd image_b = A.ib.transpose() * X_;
-  const ReducedBasis& basis = reduction_.basis;
-  out.topRightCorner(r, m) =
-      modal::transposed_product(basis.V_i, image) + modal::transposed_product(basis.V_b, image_b);
+  out.topRightCorner(r, m) = reduction_.basis.project(image, image_b);
   out.bottomLeftCorner(m, r) = out.topRightCorner(r, m).transpose();
   const MatrixXd corner = modal::transposed_product(X_, image);
   out.bottomRightCorner(m, m) = 0.5 * (corner + corner.transpose());
@@ -101,10 +99,9 @@ VectorXd Correction::estimate(double limit) {
   ritz_ = elastic_modes(K_rr_, M_rr_, limit);
   const ReducedBasis& basis = reduction_.basis;
   const Index r = basis.size(), p = modes();
-  MatrixXd u_i = MatrixXd::Zero(X_.rows(), p);
-  modal::add_product(1.0, basis.V_i, ritz_.vectors.topRows(r), u_i);
+  MatrixXd u_i = basis.interior(ritz_.vectors.topRows(r));
   modal::add_product(1.0, X_, ritz_.vectors.bottomRows(X_.cols()), u_i);
-  const MatrixXd u_b = basis.V_b * ritz_.vectors.topRows(r);
+  const MatrixXd u_b = ritz_.vectors.topRows(basis.boundary());
   const MatrixXd force = interior_rows(M_ii_, M_.ib, u_i, u_b) * ritz_.values.asDiagonal() -
                          interior_rows(K_ii_, K_.ib, u_i, u_b);
   delta_ = factor_.solve(force);
@@ -145,11 +142,9 @@ void Correction::append(ResidualReport& report) {
   if (m == 0) return;
   report.hz = pseudo_values_.unaryExpr(&modal::hz_of_value);
   ReducedBasis& basis = reduction_.basis;
-  const Index r = basis.size();
-  basis.V_i.conservativeResize(Eigen::NoChange, r + m);
-  basis.V_i.rightCols(m) = X_;
-  basis.V_b.conservativeResize(Eigen::NoChange, r + m);
-  basis.V_b.rightCols(m).setZero();
+  const Index k = basis.shapes.cols();
+  basis.shapes.conservativeResize(Eigen::NoChange, k + m);
+  basis.shapes.rightCols(m) = X_;
   reduction_.K_rr = K_rr_;
   reduction_.M_rr = M_rr_;
 }

@@ -6,9 +6,8 @@
 namespace clatter::condense {
 
 /// A basis with the matrices projected on it.
-struct Reduction {
+struct Reduction : ReducedMatrices {
   ReducedBasis basis;
-  Eigen::MatrixXd M_rr, K_rr;
 };
 
 struct ResidualReport {

@@ -2,20 +2,15 @@
 
 #include <amd.h>
 #include <fmt/format.h>
-#include <metis.h>
-
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <new>
 #include <numeric>
 
 #include "core/error.hpp"
+#include "modal/factor/metis_order.hpp"
 
 namespace clatter::modal {
 namespace {
-
-static_assert(IDXTYPEWIDTH == 32, "METIS of Debian counts in 32 bits");
 
 /// The full pattern without the diagonal; neighbours ascend.
 struct Pattern {
@@ -124,33 +119,11 @@ void find_edges(const Pattern& pattern, CompressedGraph& graph) {
   }
 }
 
-/// METIS may end the process where memory runs out; asking for what it takes shows that first.
-bool memory_for_metis(const CompressedGraph& graph) {
-  const size_t bytes = 8 * sizeof(idx_t) * (graph.neighbours.size() + 8 * graph.weight.size());
-  return std::unique_ptr<char[]>(new (std::nothrow) char[bytes]) != nullptr;
-}
-
-/// Vertices in METIS's order; empty when it fails.
-std::vector<idx_t> nested_dissection(CompressedGraph& graph) {
-  if (!memory_for_metis(graph)) return {};
-  std::vector<idx_t> starts(graph.starts.begin(), graph.starts.end());
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;
-  idx_t size = graph.size();
-  std::vector<idx_t> at(static_cast<size_t>(size)), place(static_cast<size_t>(size));
-  const int status = METIS_NodeND(&size, starts.data(), graph.neighbours.data(),
-                                  graph.weight.data(), options, at.data(), place.data());
-  if (status != METIS_OK) at.clear();
-  return at;
-}
-
 std::vector<int32_t> unknowns_in_order(const CompressedGraph& graph,
-                                       const std::vector<idx_t>& vertices) {
+                                       const std::vector<int32_t>& vertices) {
   std::vector<int32_t> start(graph.weight.size());
   int32_t next = 0;
-  for (const idx_t v : vertices) {
+  for (const int32_t v : vertices) {
     start[static_cast<size_t>(v)] = next;
     next += graph.weight[static_cast<size_t>(v)];
   }
@@ -192,11 +165,11 @@ CompressedGraph compress_graph(const SparseMatrix& lower) {
 FillOrder fill_reducing_order(const SparseMatrix& lower, Ordering wanted) {
   FillOrder out;
   if (wanted == Ordering::kMetis) {
-    CompressedGraph graph = compress_graph(lower);
+    const CompressedGraph graph = compress_graph(lower);
     const auto edges = static_cast<int64_t>(graph.neighbours.size());
     out.method = safe_ordering(wanted, graph.size(), edges);
     if (out.method == Ordering::kMetis) {
-      const std::vector<idx_t> vertices = nested_dissection(graph);
+      const std::vector<int32_t> vertices = nested_dissection(graph);
       if (!vertices.empty()) {
         out.order = unknowns_in_order(graph, vertices);
         return out;

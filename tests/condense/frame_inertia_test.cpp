@@ -55,10 +55,12 @@ MatrixXd full_basis(const assembly::FeModel& model, const std::vector<std::strin
   request.count = count;
   request.frequency_error = 0.0;
   StepClock clock;
-  const CraigBampton source = craig_bampton(model, partition, K, M, request, clock);
+  const CraigBampton source = craig_bampton(
+      model, partition, K, M, static_part(model, partition, K, M, {}, clock), request, clock);
   MatrixXd V(model.size(), source.basis.size());
-  V(partition.interior, Eigen::all) = source.basis.V_i;
-  V(partition.boundary, Eigen::all) = source.basis.V_b;
+  const MatrixXd unit = MatrixXd::Identity(source.basis.size(), source.basis.size());
+  V(partition.interior, Eigen::all) = source.basis.interior(unit);
+  V(partition.boundary, Eigen::all) = unit.topRows(source.basis.boundary());
   return V;
 }
 

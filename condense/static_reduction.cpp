@@ -1,0 +1,269 @@
+#include "condense/static_reduction.hpp"
+
+#include <cblas.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <barrier>
+
+#include "core/blas_kernel.hpp"
+#include "core/progress.hpp"
+#include "core/threads.hpp"
+#include "modal/factor/buffer_pool.hpp"
+#include "modal/factor/multifrontal.hpp"
+#include "modal/symmetric_product.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr Index kPanel = 2048;  // rows of Psi that one product takes
+
+int extent(Index value) { return static_cast<int>(value); }
+
+/// What the threads of one sweep share. Rows are those of z = S^{-1} Psi, S the factor's scale.
+class Sweep {
+ public:
+  Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
+        const RigidMotions& rigid, const std::vector<int32_t>& kept);
+  void run();
+
+  MatrixXd half_mass;  // M_bb is this + its transpose + the boundary's own mass
+  MatrixXd error;      // r_i - Psi r_b, n_i x m
+  RowMatrix rows;      // Psi at the kept unknowns
+
+ private:
+  friend class Worker;
+  const modal::SupernodalFactor& factor_;
+  const modal::SupernodeTree& tree_;
+  const RigidMotions& rigid_;
+  modal::PermutedMatrix mass_;
+  std::vector<int32_t> kept_at_;  // row of `rows` by place, or -1
+  std::vector<int32_t> children_;
+  Index n_b_, panel_rows_ = kPanel;
+  RowMatrix panel_, image_;  // rows of z, and of the half of M z that belongs to them
+};
+
+Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
+             const RigidMotions& rigid, const std::vector<int32_t>& kept)
+    : factor_(factor),
+      tree_(factor.tree()),
+      rigid_(rigid),
+      mass_(modal::permuted(tree_, M.ii, factor.scale(), M.ib)),
+      kept_at_(static_cast<size_t>(tree_.size), -1),
+      children_(tree_.parent.size(), 0),
+      n_b_(tree_.boundary) {
+  std::vector<int32_t> by_unknown(static_cast<size_t>(tree_.size), -1);
+  for (size_t k = 0; k < kept.size(); ++k)
+    by_unknown[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
+  for (size_t j = 0; j < kept_at_.size(); ++j)
+    kept_at_[j] = by_unknown[static_cast<size_t>(tree_.order[j])];
+  for (int32_t s = 0; s < tree_.supernodes(); ++s) {
+    panel_rows_ = std::max<Index>(panel_rows_, tree_.columns(s));
+    const int32_t parent = tree_.parent[static_cast<size_t>(s)];
+    if (parent >= 0) ++children_[static_cast<size_t>(parent)];
+  }
+  half_mass = MatrixXd::Zero(n_b_, n_b_);
+  error = MatrixXd::Zero(tree_.size, rigid.inside.cols());
+  rows.resize(static_cast<Index>(kept.size()), n_b_);
+  panel_.resize(panel_rows_, n_b_);
+  image_.resize(panel_rows_, n_b_);
+}
+
+/// One thread's columns [begin, end) of Psi. All workers take the same steps and meet at each full
+/// panel.
+class Worker {
+ public:
+  Worker(Sweep& shared, std::barrier<>& meeting, Index begin, Index end)
+      : shared_(shared),
+        tree_(shared.tree_),
+        meeting_(meeting),
+        begin_(begin),
+        width_(end - begin),
+        fronts_(tree_.parent.size()),
+        left_(shared.children_),
+        local_(static_cast<size_t>(tree_.size + tree_.boundary)) {}
+
+  void run(Progress* progress) {
+    for (int32_t s = tree_.supernodes() - 1; s >= 0; --s) {
+      if (filled_ + tree_.columns(s) > shared_.panel_rows_) use_panel();
+      visit(s);
+      filled_ += tree_.columns(s);
+      if (progress != nullptr) progress->update(static_cast<double>(tree_.size - first(s)));
+    }
+    use_panel();
+  }
+
+ private:
+  int32_t first(int32_t s) const { return tree_.first[static_cast<size_t>(s)]; }
+  void visit(int32_t s);
+  void take_rows_above(int32_t s, double* front);
+  void solve_own_rows(int32_t s, double* front) const;
+  void write_panel(int32_t s, const double* front);
+  void release_parent(int32_t s);
+  void use_panel();
+  void keep_rows() const;
+
+  Sweep& shared_;
+  const modal::SupernodeTree& tree_;
+  std::barrier<>& meeting_;
+  Index begin_, width_;
+  std::vector<modal::Buffer> fronts_;  // height x width, row by row, while children need them
+  std::vector<int32_t> left_;          // children that still need the front
+  std::vector<int32_t> local_;         // row of the current front by place
+  std::vector<int32_t> places_;        // of the panel's rows
+  modal::BufferPool pool_;
+  Index filled_ = 0;
+};
+
+void Worker::visit(int32_t s) {
+  const auto entries = static_cast<size_t>(tree_.height(s) * width_);
+  modal::Buffer front = pool_.take(entries);
+  take_rows_above(s, front.data.get());
+  solve_own_rows(s, front.data.get());
+  write_panel(s, front.data.get());
+  release_parent(s);
+  if (left_[static_cast<size_t>(s)] > 0) {
+    fronts_[static_cast<size_t>(s)] = std::move(front);
+  } else {
+    pool_.give(std::move(front));
+  }
+}
+
+/// Rows below the own ones: from the parent's front, or unit rows on the boundary.
+void Worker::take_rows_above(int32_t s, double* front) {
+  const int32_t parent = tree_.parent[static_cast<size_t>(s)];
+  const int32_t* rows = tree_.rows_of(s);
+  const int32_t* above = parent >= 0 ? tree_.rows_of(parent) : nullptr;
+  const double* source = parent >= 0 ? fronts_[static_cast<size_t>(parent)].data.get() : nullptr;
+  Index at = 0;
+  for (Index k = tree_.columns(s); k < tree_.height(s); ++k) {
+    double* row = front + k * width_;
+    if (rows[k] >= tree_.size) {
+      std::fill_n(row, width_, 0.0);
+      const Index column = rows[k] - tree_.size - begin_;
+      if (column >= 0 && column < width_) row[column] = 1.0;
+      continue;
+    }
+    while (above[at] != rows[k]) ++at;
+    std::copy_n(source + at * width_, width_, row);
+  }
+}
+
+/// L11^T z_S = -L21^T z_R.
+void Worker::solve_own_rows(int32_t s, double* front) const {
+  const int p = tree_.columns(s), q = tree_.below(s), h = tree_.height(s), w = extent(width_);
+  const double* L = shared_.factor_.view().panels + tree_.panel_start[static_cast<size_t>(s)];
+  if (q == 0) {
+    std::fill_n(front, p * width_, 0.0);
+    return;
+  }
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, w, p, q, -1.0, front + p * width_, w,
+              L + p, h, 0.0, front, w);
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, w, p, 1.0, L, h,
+              front, w);
+}
+
+/// The own rows and, from the columns of M, their half of M z.
+void Worker::write_panel(int32_t s, const double* front) {
+  const int32_t* rows = tree_.rows_of(s);
+  for (int32_t k = 0; k < tree_.height(s); ++k) local_[static_cast<size_t>(rows[k])] = k;
+  for (int32_t j = 0; j < tree_.columns(s); ++j) {
+    const int32_t place = first(s) + j;
+    const double* z = front + j * width_;
+    double* to = &shared_.panel_(filled_ + j, begin_);
+    double* image = &shared_.image_(filled_ + j, begin_);
+    std::copy_n(z, width_, to);
+    std::fill_n(image, width_, 0.0);
+    const auto& mass = shared_.mass_;
+    for (int64_t k = mass.starts[static_cast<size_t>(place)];
+         k < mass.starts[static_cast<size_t>(place) + 1]; ++k) {
+      const int32_t row = mass.rows[static_cast<size_t>(k)];
+      const double m = mass.values[static_cast<size_t>(k)] * (row == place ? 0.5 : 1.0);
+      const double* other = front + local_[static_cast<size_t>(row)] * width_;
+      for (Index c = 0; c < width_; ++c) image[c] += m * other[c];
+    }
+    places_.push_back(place);
+  }
+}
+
+void Worker::release_parent(int32_t s) {
+  const int32_t parent = tree_.parent[static_cast<size_t>(s)];
+  if (parent < 0 || --left_[static_cast<size_t>(parent)] > 0) return;
+  pool_.give(std::move(fronts_[static_cast<size_t>(parent)]));
+}
+
+void Worker::use_panel() {
+  meeting_.arrive_and_wait();
+  const int n_b = extent(shared_.n_b_);
+  if (filled_ > 0) {
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b, extent(width_), extent(filled_), 1.0,
+                shared_.panel_.data(), n_b, &shared_.image_(0, begin_), n_b, 1.0,
+                &shared_.half_mass(0, begin_), n_b);
+    keep_rows();
+  }
+  meeting_.arrive_and_wait();
+  filled_ = 0;
+  places_.clear();
+}
+
+/// Kept rows by columns, the rigid motions' error by the first worker.
+void Worker::keep_rows() const {
+  const auto& scale = shared_.factor_.scale();
+  const MatrixXd carried =
+      begin_ == 0 ? MatrixXd(shared_.panel_.topRows(filled_) * shared_.rigid_.at_boundary)
+                  : MatrixXd();
+  for (Index k = 0; k < filled_; ++k) {
+    const auto place = static_cast<size_t>(places_[static_cast<size_t>(k)]);
+    const int32_t unknown = tree_.order[place];
+    const double s = scale[static_cast<size_t>(unknown)];
+    if (shared_.kept_at_[place] >= 0)
+      shared_.rows.row(shared_.kept_at_[place]).segment(begin_, width_) =
+          s * shared_.panel_.row(k).segment(begin_, width_);
+    if (begin_ == 0)
+      shared_.error.row(unknown) = shared_.rigid_.inside.row(unknown) - s * carried.row(k);
+  }
+}
+
+void Sweep::run() {
+  const BlasThreads one(1);
+  Progress progress("constraint modes", static_cast<double>(tree_.size), "rows");
+  const auto workers = static_cast<std::ptrdiff_t>(std::min<Index>(thread_count(), n_b_));
+  std::barrier<> meeting(workers);
+  parallel_pieces(n_b_, [&](int64_t begin, int64_t end) {
+    try {
+      Worker(*this, meeting, begin, end).run(begin == 0 ? &progress : nullptr);
+    } catch (...) {
+      meeting.arrive_and_drop();  // the others end their work, then the failure is thrown on
+      throw;
+    }
+  });
+}
+
+}  // namespace
+
+StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
+                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
+                                  const RigidMotions& rigid, const std::vector<int32_t>& kept) {
+  Sweep sweep(factor_ii, M, rigid, kept);
+  sweep.run();
+  StaticReduction out;
+  out.K_bb = K.bb - factor_ii.boundary_part();
+  out.M_bb = M.bb + sweep.half_mass + sweep.half_mass.transpose();
+  out.rows.swap(sweep.rows);
+  if (rigid.at_boundary.cols() == 0) return out;
+  out.rigid_error = sweep.error.norm() / rigid.inside.norm();
+  // Psi + E P, P = r_b^+ the change of least norm: M_bb with it.
+  const MatrixXd P = rigid.at_boundary.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd image = modal::SymmetricProduct(M.ii) * sweep.error;
+  const MatrixXd cross = M.ib.transpose() * sweep.error - K.ib.transpose() * factor_ii.solve(image);
+  const MatrixXd change = cross * P;
+  out.M_bb += change + change.transpose() + P.transpose() * (sweep.error.transpose() * image) * P;
+  for (size_t k = 0; k < kept.size(); ++k)
+    out.rows.row(static_cast<Index>(k)) += sweep.error.row(kept[k]) * P;
+  return out;
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,40 @@
+#pragma once
+// The mass that the static shapes of the interior carry, without holding the shapes.
+#include <Eigen/Core>
+#include <vector>
+
+#include "condense/dof_partition.hpp"
+#include "core/h5_file.hpp"
+#include "modal/factor/supernodal_factor.hpp"
+
+namespace clatter::condense {
+
+/// Rigid motions that the static shapes must carry: Psi at_boundary = inside.
+struct RigidMotions {
+  Eigen::MatrixXd at_boundary;  // n_b x m
+  Eigen::MatrixXd inside;       // n_i x m
+};
+
+/// What is kept of the constraint modes Psi_ib = -K_ii^{-1} K_ib (Guyan 1965; Craig and Bampton
+/// 1968, eq. 8).
+struct StaticReduction {
+  Eigen::MatrixXd K_bb, M_bb;  // of the basis [I; Psi], n_b x n_b
+  RowMatrix rows;              // Psi at the interior unknowns asked for
+  double rigid_error = 0.0;    // |Psi r_b - r_i| / |r_i| of the plain solve
+};
+
+/// One sweep from the root of the elimination tree to its leaves: the rows of Psi at a supernode
+/// follow from those above it on the path, so only the fronts of one path are held. Each row is
+/// used where it is made: M_bb += Psi_j^T (M_jj Psi_j / 2 + sum over the rows above M_rj Psi_r) +
+/// transpose, in panels at BLAS-3 speed. All columns at once, shared out to the threads.
+///
+/// Rounding in the solve would stand in the mass properties: the smallest change of Psi that makes
+/// it carry the rigid motions exactly, E r_b^+ with E = r_i - Psi r_b, is added.
+/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib comes with
+/// it.
+/// @param kept interior unknowns whose rows of Psi are wanted.
+StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
+                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
+                                  const RigidMotions& rigid, const std::vector<int32_t>& kept);
+
+}  // namespace clatter::condense
