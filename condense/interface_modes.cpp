@@ -7,7 +7,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "condense/constraint_modes.hpp"
 #include "condense/film_work.hpp"
 #include "core/error.hpp"
 #include "modal/eigen/dense_solver.hpp"
@@ -222,7 +221,9 @@ InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& op
   MatrixXd Psi_SR(K_SS.rows(), static_cast<Index>(split.stay.size()));
   if (!all_of_it) {
     Psi_SR = -K_SS.ldlt().solve(MatrixXd(model.K_rr(split.become, split.stay)));
-    restore_rigid_motions(Psi_SR, rigid_R, rigid_S);
+    // The least change that makes the shapes carry the rigid motions exactly (static_reduction.hpp).
+    Psi_SR += (rigid_S - Psi_SR * rigid_R) *
+              rigid_R.completeOrthogonalDecomposition().pseudoInverse();
   }
   ReducedModel reduced =
       transformed(model, split, transformation(model, split, Psi_SR, shapes.Phi));
