@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "core/threads.hpp"
-#include "modal/factor/cholmod_factor.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ int run(int argc, char** argv) {
   clatter::set_thread_count(std::atoi(argv[3]));
   const auto model = clatter::assembly::read_fe_model(argv[1]);
   const clatter::SparseMatrix A = model.K + std::pow(2.0 * std::numbers::pi * 100.0, 2) * model.M;
-  const clatter::modal::CholmodFactor factor(A);
+  const clatter::modal::SupernodalFactor factor(A);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), std::atoi(argv[2]));
   const clatter::Stopwatch clock;
   const Eigen::MatrixXd x = factor.solve(b);
