@@ -221,9 +221,10 @@ InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& op
   MatrixXd Psi_SR(K_SS.rows(), static_cast<Index>(split.stay.size()));
   if (!all_of_it) {
     Psi_SR = -K_SS.ldlt().solve(MatrixXd(model.K_rr(split.become, split.stay)));
-    // The least change that makes the shapes carry the rigid motions exactly (static_reduction.hpp).
-    Psi_SR += (rigid_S - Psi_SR * rigid_R) *
-              rigid_R.completeOrthogonalDecomposition().pseudoInverse();
+    // The least change that makes the shapes carry the rigid motions exactly.
+    if (rigid_R.cols() > 0)
+      Psi_SR +=
+          (rigid_S - Psi_SR * rigid_R) * rigid_R.completeOrthogonalDecomposition().pseudoInverse();
   }
   ReducedModel reduced =
       transformed(model, split, transformation(model, split, Psi_SR, shapes.Phi));

@@ -19,7 +19,6 @@ bool memory_for_metis(const CompressedGraph& graph) {
 }  // namespace
 
 std::vector<int32_t> nested_dissection(const CompressedGraph& graph) {
-  if (graph.neighbours.empty()) return {};  // nothing to dissect
   if (!memory_for_metis(graph)) return {};
   std::vector<idx_t> starts(graph.starts.begin(), graph.starts.end());
   std::vector<idx_t> neighbours = graph.neighbours, weight = graph.weight;

@@ -168,14 +168,16 @@ FillOrder fill_reducing_order(const SparseMatrix& lower, Ordering wanted) {
     const CompressedGraph graph = compress_graph(lower);
     const auto edges = static_cast<int64_t>(graph.neighbours.size());
     out.method = safe_ordering(wanted, graph.size(), edges);
-    if (out.method == Ordering::kMetis) {
+    if (edges == 0) {
+      wanted = Ordering::kNatural;  // nothing fills in
+    } else if (out.method == Ordering::kMetis) {
       const std::vector<int32_t> vertices = nested_dissection(graph);
       if (!vertices.empty()) {
         out.order = unknowns_in_order(graph, vertices);
         return out;
       }
     }
-    wanted = Ordering::kAmd;
+    if (wanted == Ordering::kMetis) wanted = Ordering::kAmd;
   }
   out.method = wanted;
   if (wanted == Ordering::kAmd) {
