@@ -17,6 +17,9 @@ def sources(reader):
     """The reader and what it stands on."""
     if reader == 'msh':
         return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/error.cpp', HERE / 'msh_fuzz.cpp')]
+    if reader == 'matrix':
+        names = ('matrix_text', 'text_lines', 'whole_file', 'error')
+        return [str(ROOT / f'core/{name}.cpp') for name in names] + [str(HERE / 'matrix_fuzz.cpp')]
     deck = sorted((ROOT / 'mesh/deck').glob(f'{reader}_*.cpp'))
     shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'mesh/cell.cpp',
               ROOT / 'mesh/mesh.cpp', ROOT / 'core/error.cpp', ROOT / 'core/whole_file.cpp',

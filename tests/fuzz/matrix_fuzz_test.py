@@ -1,0 +1,14 @@
+"""A minute of libFuzzer over the reader of matrices in text files."""
+import sys
+import unittest
+
+from fuzz_run import run_fuzzer
+
+
+class MatrixFuzz(unittest.TestCase):
+    def test_no_text_breaks_the_reader(self):
+        run_fuzzer(self, 'matrix')
+
+
+if __name__ == '__main__':
+    sys.exit(unittest.main())
