@@ -2,6 +2,7 @@
 #
 #   part.mesh.toml -> part.mesh.h5 -> part.fe.h5 (+ part.fe.toml) -> part.rom.h5 (+ part.rom.toml)
 #   part.fe.h5 (+ part.modes.toml) -> part.modes.h5;  part.fe.h5, part.rom.h5 -> part.compare.txt
+#   part.rom.h5 -> part.mtx, part.inp, part.pch, part.fem for other programs
 #   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
 #
 # Say which reduced models a scene needs: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other file that
@@ -57,6 +58,22 @@ clatter_recover := $(call clatter_program,recover)
 %.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
 	$(clatter_modal) --compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
 	mv $@.part $@
+
+# A reduced part for other programs. Matrix Market is three files: the name stands for them, as a list.
+clatter_export = $(clatter_condense) $< --export $@ $(CLATTER_FLAGS)
+
+%.inp: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.pch: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.fem: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+
+%.mtx: %.rom.h5 $(clatter_condense)
+	$(clatter_export)
+	ls $*.K.mtx $*.M.mtx $*.dofs.tsv > $@
 
 # A picture of the kind that its name starts with, from the artefacts that it depends on:
 # `pictures/acceleration-dry.png: slap_dry.field.h5`. `clatter plot list` names the kinds.

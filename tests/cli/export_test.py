@@ -318,5 +318,33 @@ class MatricesOfOthers(Exported):
         self.assert_refused("condense", ["beam.fe.h5", "-c", "beam.rom.toml"], says=["-o"])
 
 
+class MakeRules(Exported):
+    """`make part.mtx` by clatter.mk; no export is made twice."""
+
+    KINDS = ("mtx", "inp", "pch", "fem")
+
+    def make(self, *names):
+        (self.folder / "Makefile").write_text(f"include {stages.SOURCE}/tools/clatter.mk\n")
+        return stages.make(self.folder, *names)
+
+    def test_make_writes_what_the_option_writes(self):
+        exports = [f"beam.{kind}" for kind in self.KINDS]
+        self.make(*exports)
+        written = {name: (self.folder / name).read_bytes() for name in
+                   ["beam.K.mtx", "beam.M.mtx", "beam.dofs.tsv", *exports[1:], "beam.K.txt", "beam.M.txt"]}
+        self.assertEqual(set((self.folder / "beam.mtx").read_text().split()),
+                         {"beam.K.mtx", "beam.M.mtx", "beam.dofs.tsv"})
+        for name in exports:
+            self.export(name)
+        for name, content in written.items():
+            self.assertEqual((self.folder / name).read_bytes(), content, name)
+
+    def test_an_export_is_redone_after_the_part_and_not_otherwise(self):
+        self.make("beam.mtx")
+        self.assertIn("up to date", self.make("beam.mtx"))
+        self.edit("beam.rom.toml", "4000.0", "3000.0")
+        self.assertIn("--export beam.mtx", self.make("beam.mtx"))
+
+
 if __name__ == "__main__":
     unittest.main()
