@@ -2,12 +2,15 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <mutex>
 #include <string>
+#include <string_view>
 
+#include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/threads.hpp"
 
@@ -34,13 +37,28 @@ std::string best_kernel() {
   return {};
 }
 
+bool same_name(const std::string& a, const std::string& b) {
+  return strcasecmp(a.c_str(), b.c_str()) == 0;
+}
+
+/// Value of --blas; empty without it.
+std::string asked_kernel(char** argv) {
+  constexpr std::string_view kOption = "--blas";
+  for (char** word = argv; *word != nullptr; ++word) {
+    const std::string_view text = *word;
+    if (text == kOption && word[1] != nullptr) return word[1];
+    if (text.starts_with("--blas=")) return std::string(text.substr(kOption.size() + 1));
+  }
+  return {};
+}
+
 /// 2 for kernels with AVX-512, 1 for those with AVX2, 0 for older ones.
 int generation(const std::string& kernel) {
-  for (const char* wide : {"SkylakeX", "SKYLAKEX", "Cooperlake", "SapphireRapids"})
-    if (kernel == wide) return 2;
+  for (const char* wide : {"SkylakeX", "Cooperlake", "SapphireRapids"})
+    if (same_name(kernel, wide)) return 2;
   for (const char* old :
        {"Prescott", "Core2", "Nehalem", "Penryn", "Dunnington", "Generic", "Sandybridge"})
-    if (kernel == old) return 0;
+    if (same_name(kernel, old)) return 0;
   return 1;
 }
 
@@ -54,15 +72,41 @@ std::mutex& section_mutex() {
 
 void ensure_fast_blas(char** argv) {
   const auto corename = find_symbol<char*()>("openblas_get_corename");
-  if (corename == nullptr || std::getenv(kChoice) != nullptr) return;
-  const std::string running = corename();
-  const std::string better = best_kernel();
-  if (better.empty() || generation(running) >= generation(better)) return;
-  setenv(kChoice, better.c_str(), 1);
-  warn(fmt::format("OpenBLAS chose its kernel {} on this CPU; starting again with {}={}", running,
-                   kChoice, better));
+  if (corename == nullptr) return;
+  const std::string asked = asked_kernel(argv), running = corename();
+  const char* set = std::getenv(kChoice);
+  if (asked.empty() && set != nullptr) return;
+  const bool automatic = asked.empty() || asked == "auto";
+  const std::string wanted = automatic ? best_kernel() : asked;
+  if (wanted.empty() || same_name(running, wanted)) return;
+  if (automatic && generation(running) >= generation(wanted)) return;
+  if (set != nullptr && same_name(set, wanted)) return;  // it was started with that already
+  setenv(kChoice, wanted.c_str(), 1);
+  if (asked.empty())
+    warn(fmt::format("OpenBLAS chose its kernel {} on this CPU; starting again with {}={}", running,
+                     kChoice, wanted));
   execv("/proc/self/exe", argv);
   // Going on with the slow kernel is right but slow; the line above told so.
+}
+
+void report_blas(const std::string& asked) {
+  const auto corename = find_symbol<char*()>("openblas_get_corename");
+  if (corename == nullptr) {
+    if (!asked.empty()) say("--blas has no effect: this BLAS is not OpenBLAS");
+    return;
+  }
+  const std::string running = corename(), best = best_kernel();
+  if (!asked.empty() && asked != "auto" && !same_name(running, asked))
+    throw InputError(
+        fmt::format("--blas: found {}, in whose place OpenBLAS runs {} here, expected auto or a "
+                    "kernel of OpenBLAS for this CPU such as Haswell, SkylakeX or Zen",
+                    asked, running));
+  if (!asked.empty()) {
+    say(fmt::format("OpenBLAS runs its kernel {}", running));
+  } else if (std::getenv(kChoice) != nullptr && generation(running) < generation(best)) {
+    say(fmt::format("{} holds OpenBLAS to its kernel {}, this CPU can run {}: --blas auto takes it",
+                    kChoice, running, best));
+  }
 }
 
 void set_blas_threads(int count) {

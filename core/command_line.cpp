@@ -18,7 +18,14 @@ struct CommandLine::Impl {
   CLI::App app;
   CommonOptions common;
   std::string program;
+  bool with_blas = false;
+  std::string blas;
   int exit_code = 0;
+
+  void refuse(const char* what) {
+    std::fprintf(stderr, "%s: error: %s (see %s --help)\n", program.c_str(), what, program.c_str());
+    exit_code = static_cast<int>(ExitCode::kBadInput);
+  }
 };
 
 CommandLine::CommandLine(const std::string& program, const std::string& summary,
@@ -81,6 +88,13 @@ void CommandLine::flag(const std::string& flags, bool& value, const std::string&
   impl_->app.add_flag(flags, value, help);
 }
 
+void CommandLine::blas() {
+  impl_->with_blas = true;
+  impl_->app.add_option("--blas", impl_->blas,
+                        "kernel of OpenBLAS, whatever OPENBLAS_CORETYPE says: its name (Haswell, "
+                        "SkylakeX, Zen ...), or auto for the best one of this CPU");
+}
+
 bool CommandLine::parse(int argc, char** argv) {
   try {
     impl_->app.parse(argc, argv);
@@ -88,15 +102,19 @@ bool CommandLine::parse(int argc, char** argv) {
     if (error.get_exit_code() == 0) {
       impl_->app.exit(error);
     } else {
-      std::fprintf(stderr, "%s: error: %s (see %s --help)\n", impl_->program.c_str(), error.what(),
-                   impl_->program.c_str());
-      impl_->exit_code = static_cast<int>(ExitCode::kBadInput);
+      impl_->refuse(error.what());
     }
     return false;
   }
   set_quiet(impl_->common.quiet);
   set_thread_count(impl_->common.threads);
   set_blas_threads(thread_count());
+  try {
+    if (impl_->with_blas) report_blas(impl_->blas);
+  } catch (const InputError& error) {
+    impl_->refuse(error.what());
+    return false;
+  }
   return true;
 }
 

@@ -38,6 +38,9 @@ class CommandLine {
   void option(const std::string& flags, int& value, const std::string& help);
   void flag(const std::string& flags, bool& value, const std::string& help);
 
+  /// Declares --blas NAME|auto, for stages that call ensure_fast_blas(); parse() reports it.
+  void blas();
+
   /// Parses; returns false when the program should end at once with exit_code() (help, version, or
   /// a wrong command line, already reported). Applies --quiet and --threads.
   bool parse(int argc, char** argv);

@@ -179,6 +179,7 @@ int main(int argc, char** argv) {
                    "contact in the time domain.",
                    kEpilog);
   declare(line, arguments);
+  line.blas();
   if (!line.parse(argc, argv)) return line.exit_code();
   return run_guarded("clatter-dynamics", [&] {
     if (!arguments.motored.empty()) return write_table(arguments);

@@ -159,6 +159,7 @@ int run(int argc, char** argv) {
   line.option("--stress-at", arguments.stress_at,
               "print stresses of --static here, any number: node number, x,y,z in metres, or a "
               "sensor's name");
+  line.blas();
   if (!line.parse(argc, argv)) return line.exit_code();
   if (arguments.statics) return solve_static(arguments, line.common());
   if (arguments.count < 0 || arguments.fmax_hz < 0.0) {
