@@ -1,0 +1,96 @@
+// The streamed static reduction against the shapes themselves.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <memory>
+
+#include "condense/reduced_basis.hpp"
+#include "core/log.hpp"
+#include "core/threads.hpp"
+#include "modal/eigen/dense_solver.hpp"
+#include "modal/free_motions.hpp"
+#include "tests/condense/box_model.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+struct Case {
+  assembly::FeModel model = test::box_model();
+  DofPartition partition = partition_dofs(model, {"left", "right", "point"});
+  PartitionedMatrix K = partition_matrix(model.K, partition);
+  PartitionedMatrix M = partition_matrix(model.M, partition);
+  MatrixXd K_ii = modal::dense_symmetric(K.ii), M_ii = modal::dense_symmetric(M.ii);
+  MatrixXd Psi = -K_ii.llt().solve(MatrixXd(K.ib));
+  std::shared_ptr<const modal::SupernodalFactor> factor =
+      std::make_shared<modal::SupernodalFactor>(K.ii, K.ib);
+
+  RigidMotions rigid() const {
+    return {model.rigid(partition.boundary, Eigen::all),
+            model.rigid(partition.interior, Eigen::all)};
+  }
+  MatrixXd statically(const PartitionedMatrix& A, const MatrixXd& A_ii) const {
+    const MatrixXd cross = MatrixXd(A.ib).transpose() * Psi;
+    return A.bb + cross + cross.transpose() + Psi.transpose() * A_ii * Psi;
+  }
+};
+
+TEST(StaticReductionTest, EqualsTheProjectionOnTheShapes) {
+  const Case c;
+  const std::vector<int32_t> kept{0, 7, 31, static_cast<int32_t>(c.K_ii.rows()) - 1};
+  for (const bool restored : {false, true}) {
+    const RigidMotions none{MatrixXd(c.K.ib.cols(), 0), MatrixXd(c.K_ii.rows(), 0)};
+    const StaticReduction found =
+        reduce_statically(*c.factor, c.K, c.M, restored ? c.rigid() : none, kept);
+    const MatrixXd K_bb = c.statically(c.K, c.K_ii), M_bb = c.statically(c.M, c.M_ii);
+    EXPECT_LT((found.M_bb - M_bb).norm(), 1e-11 * M_bb.norm());
+    EXPECT_LT((found.K_bb - K_bb).norm(), 1e-11 * c.K.bb.norm());
+    EXPECT_LT((found.rows - c.Psi(kept, Eigen::all)).norm(), 1e-11 * c.Psi.norm());
+    EXPECT_LT(found.rigid_error, 1e-11);
+  }
+}
+
+TEST(StaticReductionTest, ThreadsShareTheColumnsOut) {
+  const Case c;
+  set_thread_count(1);
+  const StaticReduction one = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5});
+  set_thread_count(3);
+  const StaticReduction three = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5});
+  set_thread_count(0);
+  EXPECT_LT((one.M_bb - three.M_bb).norm(), 1e-14 * one.M_bb.norm());
+  EXPECT_LT((one.rows - three.rows).norm(), 1e-14 * one.rows.norm());
+}
+
+TEST(StaticReductionTest, RigidMotionsAreCarriedToTheLastBit) {
+  const Case c;
+  RigidMotions rough = c.rigid();
+  rough.inside *= 1.0 + 1e-6;  // as if the solve had lost ten digits
+  const StaticReduction found = reduce_statically(*c.factor, c.K, c.M, rough, {});
+  EXPECT_NEAR(found.rigid_error, 1e-6, 1e-8);
+  const MatrixXd& r_b = rough.at_boundary;
+  const MatrixXd r_Mr = r_b.transpose() * found.M_bb * r_b;
+  const MatrixXd cross = r_b.transpose() * MatrixXd(c.M.ib).transpose() * rough.inside;
+  const MatrixXd expected = r_b.transpose() * c.M.bb * r_b + cross + cross.transpose() +
+                            rough.inside.transpose() * c.M_ii * rough.inside;
+  EXPECT_LT((r_Mr - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(ReducedBasisTest, AppliesShapesThatItDoesNotHold) {
+  const Case c;
+  ReducedBasis basis(c.factor, c.K.ib);
+  basis.shapes = MatrixXd::Random(c.K_ii.rows(), 5);
+  const Index n_b = basis.boundary();
+  MatrixXd V_i(c.K_ii.rows(), basis.size());
+  V_i << c.Psi, basis.shapes;
+  const MatrixXd q = MatrixXd::Random(basis.size(), 4);
+  EXPECT_LT((basis.interior(q) - V_i * q).norm(), 1e-11 * (V_i * q).norm());
+  const MatrixXd f_i = MatrixXd::Random(V_i.rows(), 3), f_b = MatrixXd::Random(n_b, 3);
+  MatrixXd expected = V_i.transpose() * f_i;
+  expected.topRows(n_b) += f_b;
+  EXPECT_LT((basis.project(f_i, f_b) - expected).norm(), 1e-11 * expected.norm());
+}
+
+}  // namespace
+}  // namespace clatter::condense
