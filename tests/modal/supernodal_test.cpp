@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/threads.hpp"
+#include "modal/factor/front.hpp"
 #include "modal/factor/inertia.hpp"
 #include "modal/factor/mumps_inertia.hpp"
 #include "modal/factor/ordering.hpp"
@@ -195,7 +196,8 @@ TEST(FrontTest, ADefiniteBlockIsEliminatedByBothKernelsAlike) {
 TEST(FrontTest, AnIndefiniteBlockIsPivotedAndItsGrowthTold) {
   // [0 1; 1 0] has one negative eigenvalue; 5 - (2, 3) [0 1; 1 0] (2, 3)^T = -7.
   SmallFront swap{{0.0, 1.0, 2.0, 0.0, 0.0, 3.0}, {5.0}};
-  EXPECT_EQ(eliminate_definite(SmallFront(swap).front()), 1);
+  SmallFront refused = swap;
+  EXPECT_EQ(eliminate_definite(refused.front()), 1);
   const PivotSigns signs = eliminate_symmetric(swap.front());
   EXPECT_EQ(signs.negative, 1);
   EXPECT_NEAR(swap.update[0], -7.0, 1e-13);
