@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
       "compare with modes of the full model up to this frequency [Hz] and put the largest "
       "error and the smallest MAC into the certificate; 0: as far as an accuracy is stated");
   line.blas();
+  line.memory_limit();
   if (!line.parse(argc, argv)) return line.exit_code();
   if (!paths.exports.empty()) return write_exports(paths, line.common());
   if (paths.config.empty() || paths.output.empty())

@@ -1,12 +1,14 @@
 #include "condense/static_reduction.hpp"
 
 #include <cblas.h>
+#include <fmt/format.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <barrier>
 
 #include "core/blas_kernel.hpp"
+#include "core/memory_limit.hpp"
 #include "core/progress.hpp"
 #include "core/threads.hpp"
 #include "modal/factor/buffer_pool.hpp"
@@ -242,11 +244,35 @@ void Sweep::run() {
   });
 }
 
+/// Entries that the fronts of one path take at most, all columns together.
+double path_entries(const modal::SupernodeTree& tree) {
+  std::vector<double> above(tree.parent.size(), 0.0);
+  double most = 0.0;
+  for (int32_t s = tree.supernodes() - 1; s >= 0; --s) {
+    const int32_t parent = tree.parent[static_cast<size_t>(s)];
+    double& path = above[static_cast<size_t>(s)];
+    path = static_cast<double>(tree.height(s)) +
+           (parent >= 0 ? above[static_cast<size_t>(parent)] : 0.0);
+    most = std::max(most, path);
+  }
+  return most * static_cast<double>(tree.boundary);
+}
+
+void require_memory_for(const modal::SupernodeTree& tree, size_t kept) {
+  const double n_b = tree.boundary;
+  const double entries = path_entries(tree) + 2.0 * static_cast<double>(kPanel) * n_b +
+                         3.0 * n_b * n_b + static_cast<double>(kept) * n_b;
+  require_memory(fmt::format("the static reduction to {} boundary coordinates with {} kept rows",
+                             tree.boundary, kept),
+                 gib_of_doubles(entries), "retain fewer coordinates, or keep fewer rows (skin)");
+}
+
 }  // namespace
 
 StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept) {
+  require_memory_for(factor_ii.tree(), kept.size());
   Sweep sweep(factor_ii, M, rigid, kept);
   sweep.run();
   StaticReduction out;

@@ -10,6 +10,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/memory_limit.hpp"
 #include "core/threads.hpp"
 
 namespace clatter {
@@ -20,6 +21,7 @@ struct CommandLine::Impl {
   std::string program;
   bool with_blas = false;
   std::string blas;
+  double memory_gib = 0.0;
   int exit_code = 0;
 
   void refuse(const char* what) {
@@ -88,6 +90,14 @@ void CommandLine::flag(const std::string& flags, bool& value, const std::string&
   impl_->app.add_flag(flags, value, help);
 }
 
+void CommandLine::memory_limit() {
+  impl_->app
+      .add_option("--memory-limit", impl_->memory_gib,
+                  "GiB that the process may take (default: the machine's): fewer Lanczos vectors, "
+                  "then vectors on disk; refused when it cannot be")
+      ->check(CLI::PositiveNumber);
+}
+
 void CommandLine::blas() {
   impl_->with_blas = true;
   impl_->app.add_option("--blas", impl_->blas,
@@ -108,6 +118,7 @@ bool CommandLine::parse(int argc, char** argv) {
   }
   set_quiet(impl_->common.quiet);
   set_thread_count(impl_->common.threads);
+  set_memory_limit_gib(impl_->memory_gib);
   set_blas_threads(thread_count());
   try {
     if (impl_->with_blas) report_blas(impl_->blas);

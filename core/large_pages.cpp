@@ -1,8 +1,17 @@
 #include "core/large_pages.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace clatter {
 
@@ -18,6 +27,29 @@ std::unique_ptr<double[]> large_array(size_t count) {
   std::unique_ptr<double[]> array(new double[count]);
   prefer_large_pages(array.get(), count * sizeof(double));
   return array;
+}
+
+std::shared_ptr<double[]> spilled_array(size_t count) {
+  const char* chosen = std::getenv("TMPDIR");
+  std::string path = std::string(chosen != nullptr ? chosen : "/var/tmp") + "/clatter-XXXXXX";
+  const size_t bytes = count * sizeof(double);
+  const auto fail = [&](const char* doing) {
+    throw FileError(
+        fmt::format("{}: {} {} bytes failed: {}", path, doing, bytes, std::strerror(errno)));
+  };
+  const int file = mkstemp(path.data());
+  if (file < 0) fail("making a file of");
+  unlink(path.c_str());
+  const int status = posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  if (status != 0) {
+    close(file);
+    errno = status;
+    fail("keeping room for");
+  }
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  close(file);
+  if (memory == MAP_FAILED) fail("mapping");
+  return {static_cast<double*>(memory), [bytes](double* array) { munmap(array, bytes); }};
 }
 
 }  // namespace clatter

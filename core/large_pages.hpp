@@ -12,4 +12,8 @@ void prefer_large_pages(void* begin, size_t bytes);
 /// `count` doubles that are not set to zero, in large pages. Throws std::bad_alloc.
 std::unique_ptr<double[]> large_array(size_t count);
 
+/// The same in a file without a name under $TMPDIR (/var/tmp), which the kernel writes and reads as
+/// memory allows. Throws FileError when there is no room for it.
+std::shared_ptr<double[]> spilled_array(size_t count);
+
 }  // namespace clatter

@@ -160,6 +160,7 @@ int run(int argc, char** argv) {
               "print stresses of --static here, any number: node number, x,y,z in metres, or a "
               "sensor's name");
   line.blas();
+  line.memory_limit();
   if (!line.parse(argc, argv)) return line.exit_code();
   if (arguments.statics) return solve_static(arguments, line.common());
   if (arguments.count < 0 || arguments.fmax_hz < 0.0) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "core/log.hpp"
+#include "core/memory_limit.hpp"
 #include "core/progress.hpp"
 #include "modal/dense_eigen.hpp"
 #include "modal/eigen/krylov_basis.hpp"
@@ -16,6 +18,46 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// Larger blocks read the factor less often, smaller ones converge after fewer vectors.
+Index default_block(Index wanted, Index size) {
+  constexpr Index kSmall = 20000;  // unknowns whose factor stays in the cache
+  if (size < kSmall) return std::clamp<Index>(wanted / 8, 4, 8);
+  return wanted < 12 ? 8 : 16;
+}
+
+Index block_of(const BlockLanczosOptions& options, Index size) {
+  return options.block > 0 ? options.block : default_block(options.count, size);
+}
+
+/// Columns and place of the basis.
+struct Room {
+  Index limit = 0;
+  Storage storage = Storage::kMemory;
+};
+
+/// A restart costs the degree that convergence lives by: with few modes there is room for none.
+/// Where memory is short, restarts first, then the disk.
+Room room_for(const BlockLanczosOptions& options, Index block, Index size) {
+  const Index wanted = options.count;
+  const auto whole = [&](Index columns) {
+    return std::max<Index>((std::max(columns, wanted + 2 * block) + block - 1) / block, 3) * block;
+  };
+  if (options.basis > 0) return {whole(options.basis), Storage::kMemory};
+  const auto gib = [&](Index columns) {  // with the block beside it, and the vectors asked for
+    return gib_of_doubles(static_cast<double>(size) *
+                          static_cast<double>(columns + 3 * block + wanted));
+  };
+  const Index enough = whole(2 * wanted + 4 * block);
+  const Index ample = whole(std::min(4 * wanted, 2 * wanted + 200) + 4 * block);
+  const Index least = whole(wanted + wanted / 4 + 4 * block);
+  require_memory(fmt::format("the vectors of {} modes", wanted), gib(0), "ask for fewer modes");
+  for (const Index columns : {ample, enough, least})
+    if (gib(columns) <= memory_left_gib()) return {columns, Storage::kMemory};
+  warn(fmt::format("{} Lanczos vectors need {:.1f} GiB, {:.1f} are left: they are kept on disk",
+                   enough, gib(enough), memory_left_gib()));
+  return {enough, Storage::kDisk};
+}
 
 /// What one run carries from block to block.
 class Run {
@@ -41,7 +83,9 @@ class Run {
 
   const ShiftInvert& problem_;
   const BlockLanczosOptions& options_;
-  Index n_, b_, wanted_, limit_;
+  Index n_, b_, wanted_;
+  Room room_;
+  Index limit_;
   Index size_ = 0;    // columns whose image under Op is in T_
   Index local_ = 0;   // columns before this one have no part in Op of the newest block
   TallBlock Y_, MY_;  // newest block, n x b, and M times it
@@ -54,35 +98,17 @@ class Run {
   std::mt19937_64 engine_;
 };
 
-/// Larger blocks read the factor less often, smaller ones converge after fewer vectors.
-Index default_block(Index wanted, Index size) {
-  constexpr Index kSmall = 20000;  // unknowns whose factor stays in the cache
-  if (size < kSmall) return std::clamp<Index>(wanted / 8, 4, 8);
-  return wanted < 12 ? 8 : 16;
-}
-
-Index block_of(const BlockLanczosOptions& options, Index size) {
-  return options.block > 0 ? options.block : default_block(options.count, size);
-}
-
-Index limit_of(const BlockLanczosOptions& options, Index block) {
-  const Index wanted = options.count;
-  // A restart costs the degree that convergence lives by: with few modes there is room for none.
-  const Index room =
-      options.basis > 0 ? options.basis : std::min(4 * wanted, 2 * wanted + 200) + 4 * block;
-  return std::max<Index>((std::max(room, wanted + 2 * block) + block - 1) / block, 3) * block;
-}
-
 Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
     : problem_(problem),
       options_(options),
       n_(problem.size),
       b_(block_of(options, problem.size)),
       wanted_(options.count),
-      limit_(limit_of(options, b_)),
+      room_(room_for(options, b_, n_)),
+      limit_(room_.limit),
       Y_(n_, b_),
       MY_(n_, b_),
-      V_(n_, limit_ + b_),
+      V_(n_, limit_ + b_, room_.storage),
       engine_(options.seed) {
   T_ = MatrixXd::Zero(limit_, limit_);
 }

@@ -76,8 +76,11 @@ void transform(TallBlock& A, const MatrixXd& R) {
   });
 }
 
-KrylovBasis::KrylovBasis(Index size, Index room)
-    : size_(size), room_(room), data_(large_array(static_cast<size_t>(size * room))) {}
+KrylovBasis::KrylovBasis(Index size, Index room, Storage storage)
+    : size_(size),
+      room_(room),
+      data_(storage == Storage::kDisk ? spilled_array(static_cast<size_t>(size * room))
+                                      : large_array(static_cast<size_t>(size * room))) {}
 
 MatrixXd KrylovBasis::coefficients(Index first, Index last, const TallBlock& B) const {
   return summed(size_, last - first, B.count, [&](Index row, Index rows, MatrixXd& sum) {

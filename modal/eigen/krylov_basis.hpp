@@ -23,11 +23,13 @@ Eigen::MatrixXd gram(const TallBlock& A, const TallBlock& B);
 /// A <- A R in place; R is count x count.
 void transform(TallBlock& A, const Eigen::MatrixXd& R);
 
-/// n x room, row by row, in large pages; the first columns are in use. Only what is written takes
-/// memory.
+/// Where a basis stands.
+enum class Storage { kMemory, kDisk };
+
+/// n x room, row by row, in large pages or spilled to disk; the first columns are in use.
 class KrylovBasis {
  public:
-  KrylovBasis(Eigen::Index size, Eigen::Index room);
+  KrylovBasis(Eigen::Index size, Eigen::Index room, Storage storage = Storage::kMemory);
   /// Columns [first, last)^T B, (last - first) x count.
   Eigen::MatrixXd coefficients(Eigen::Index first, Eigen::Index last, const TallBlock& B) const;
   /// B -= columns [first, first + H.rows()) H.
@@ -45,7 +47,7 @@ class KrylovBasis {
     return data_.get() + row * room_ + column;
   }
   Eigen::Index size_, room_;
-  std::unique_ptr<double[]> data_;
+  std::shared_ptr<double[]> data_;
 };
 
 }  // namespace clatter::modal

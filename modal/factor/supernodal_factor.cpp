@@ -1,7 +1,6 @@
 #include "modal/factor/supernodal_factor.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/h5_file.hpp"
 #include "core/large_pages.hpp"
+#include "core/memory_limit.hpp"
 #include "core/stopwatch.hpp"
 #include "core/threads.hpp"
 #include "modal/factor/multifrontal.hpp"
@@ -24,32 +24,27 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kBlock = 128;  // right-hand sides that one sweep of all threads takes
-constexpr double kGib = 1024.0 * 1024.0 * 1024.0;
 
-double machine_memory_gib() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(sysconf(_SC_PAGE_SIZE)) / kGib;
-}
-
-FactorReport report_of(const SupernodeTree& tree) {
+FactorReport report_of(const SupernodeTree& tree, const SparseMatrix& lower) {
+  constexpr double kCopies = 5.0;  // doubles an entry of A: scaled, permuted, shifted copies
   FactorReport report;
   report.size = tree.size;
   report.entries = tree.entries();
   report.flops = tree.flops();
-  report.predicted_gib = 8.0 * static_cast<double>(report.entries + tree.stack_entries()) / kGib;
+  report.predicted_gib = gib_of_doubles(static_cast<double>(report.entries + tree.stack_entries()) +
+                                        kCopies * static_cast<double>(lower.nonZeros()));
   report.ordering = tree.ordering;
   report.analyse_seconds = tree.seconds;
   return report;
 }
 
 void refuse_if_too_large(const FactorReport& report, const FactorOptions& options) {
-  const double limit =
-      options.memory_limit_gib > 0.0 ? options.memory_limit_gib : machine_memory_gib();
-  if (report.predicted_gib <= limit) return;
+  const double left = options.memory_limit_gib > 0.0 ? options.memory_limit_gib : memory_left_gib();
+  if (report.predicted_gib <= left) return;
   throw NumericsError(fmt::format(
-      "the factor of {} unknowns needs {:.1f} GiB ({} entries), the limit is {:.1f} GiB: use a "
-      "coarser mesh or raise the limit",
-      report.size, report.predicted_gib, report.entries, limit));
+      "the factor of {} unknowns needs {:.1f} GiB ({} entries), {:.1f} GiB are left: use a "
+      "coarser mesh or raise the limit (--memory-limit)",
+      report.size, report.predicted_gib, report.entries, left));
 }
 
 Eigen::VectorXd random_vector(Index n) {
@@ -213,7 +208,7 @@ SupernodalFactor::SupernodalFactor(const SparseMatrix& lower, const SparseMatrix
     : impl_(std::make_unique<Impl>()) {
   impl_->scale = power_of_two_scale(lower);
   impl_->tree = analyse_tree(lower, {options.ordering, options.permutation}, coupling);
-  impl_->report = report_of(impl_->tree);
+  impl_->report = report_of(impl_->tree, lower);
   refuse_if_too_large(impl_->report, options);
   impl_->factorise(lower, coupling);
   impl_->check_pivots(options);
@@ -221,7 +216,7 @@ SupernodalFactor::SupernodalFactor(const SparseMatrix& lower, const SparseMatrix
 }
 
 FactorReport SupernodalFactor::predict(const SparseMatrix& lower, const FactorOptions& options) {
-  return report_of(analyse_tree(lower, {options.ordering, options.permutation}));
+  return report_of(analyse_tree(lower, {options.ordering, options.permutation}), lower);
 }
 
 SupernodalFactor::~SupernodalFactor() = default;

@@ -16,7 +16,7 @@ namespace clatter::modal {
 struct FactorOptions {
   Ordering ordering = Ordering::kMetis;
   std::vector<int64_t> permutation;  // used in place of an ordering when not empty
-  double memory_limit_gib = 0.0;     // 0: the machine's memory
+  double memory_limit_gib = 0.0;     // 0: what the process may still take
   double min_rcond = 1e-13;          // smallest accepted ratio of pivots (hard case C2)
   double max_condition = 1e11;       // largest accepted |A| |x| / |b| of a random solve (A1)
 };
@@ -26,7 +26,7 @@ struct FactorReport {
   int64_t size = 0;
   int64_t entries = 0;           // of L, with the zeros that blocks store
   double flops = 0.0;            // of the numeric factorisation
-  double predicted_gib = 0.0;    // memory of L and of the update matrices
+  double predicted_gib = 0.0;    // L, update matrices, copies of A while it is made
   std::string ordering;          // "metis", "amd", "natural", "given"
   double rcond = 0.0;            // (min L_jj / max L_jj)^2 of the scaled matrix
   double probe_residual = 0.0;   // |A x - b| / |b| for a random b

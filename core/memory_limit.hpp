@@ -1,0 +1,24 @@
+#pragma once
+// How much memory the process may take.
+#include <string>
+
+namespace clatter {
+
+/// Sets the limit of this process [GiB]; 0 means the machine's memory.
+void set_memory_limit_gib(double gib);
+double memory_limit_gib();
+
+/// Resident memory of this process now [GiB]; 0 where there is no /proc.
+double memory_in_use_gib();
+
+/// What is left below the limit [GiB], at least 0.
+double memory_left_gib();
+
+/// Throws NumericsError "<what> needs ... GiB, ... of ... are left: <advice>" when `gib` is more
+/// than what is left.
+void require_memory(const std::string& what, double gib, const std::string& advice);
+
+/// GiB of so many doubles.
+double gib_of_doubles(double count);
+
+}  // namespace clatter
