@@ -19,7 +19,7 @@ class Failing(stages.PipelineTest):
         self.temporary.mkdir()
         self.environment = {**os.environ, "TMPDIR": str(self.temporary)}
 
-    def fails(self, stage, code, says=()):
+    def fails(self, stage, code, says=(), extra=()):
         """The stage ends with `code` and says why; the older result stays, and where there is none nothing is left."""
         output = self.folder / self.command(stage)[-1]
         output.write_bytes(b"an older result")
@@ -27,7 +27,7 @@ class Failing(stages.PipelineTest):
             if not older:
                 output.unlink()
             before = self.listing()
-            done = stages.run_stage(stage, *self.command(stage), "--quiet", folder=self.folder, env=self.environment)
+            done = stages.run_stage(stage, *self.command(stage), *extra, "--quiet", folder=self.folder, env=self.environment)
             self.assertEqual(done.returncode, code, done.stderr)
             *warnings, error = done.stderr.strip().splitlines()
             self.assertTrue(error.startswith(f"clatter-{stage}: error: "), error)
@@ -96,6 +96,16 @@ class HardC2Factorisations(Failing):
             values[(rows == 121) & (columns == 120)] = 1e9  # x and y of node 40 are one motion
         self.edit_matrix("K", cut)
         self.fails("condense", 3, says=["node"])
+
+
+class HardC4Memory(Failing):
+    def test_a_limit_that_the_factor_does_not_fit(self):
+        for stage in ("modal", "condense"):
+            with self.subTest(stage=stage):
+                self.fails(stage, 3, says=["GiB", "--memory-limit"], extra=["--memory-limit", "0.02"])
+
+    def test_a_limit_that_makes_no_sense(self):
+        self.fails("modal", 2, says=["--memory-limit"], extra=["--memory-limit", "-1"])
 
 
 class HardH1Interrupted(Failing):
