@@ -99,9 +99,8 @@ CondenseOptions read_condense_options(const Config& config) {
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);
-  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
-  options.modes.method =
-      solver == "arpack" ? modal::EigenMethod::kArpack : modal::EigenMethod::kBlockLanczos;
+  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack", "amls"});
+  options.modes.method = modal::eigen_method_of(solver);
   options.inertia_invariants = config.flag_or("inertia_invariants", false);
   options.modal_damping = read_modal_damping(config);
   options.interface = read_interface_options(config, options.boundary);

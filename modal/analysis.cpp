@@ -20,6 +20,7 @@ EigenOptions eigen_options(const ModesOptions& options, int size) {
   if (options.count == 0 && options.fmax_hz == 0.0) eigen.count = std::min(kDefaultCount, size);
   eigen.prove_count = options.prove_count;
   eigen.method = options.method;
+  eigen.accuracy = options.accuracy;
   return eigen;
 }
 
@@ -79,8 +80,9 @@ ModesOptions read_modes_options(const Config& config) {
   }
   options.fixed = config.texts_or("fixed", {});
   options.prove_count = config.flag_or("prove_count", true);
-  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack"});
-  options.method = solver == "arpack" ? EigenMethod::kArpack : EigenMethod::kBlockLanczos;
+  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack", "amls"});
+  options.method = eigen_method_of(solver);
+  options.accuracy = config.number_or("accuracy", options.accuracy, {1e-6, 0.1});
   config.finish();
   return options;
 }
@@ -150,18 +152,29 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
 
 std::vector<std::string> describe(const PartModes& part) {
   const ModeSet& modes = part.modes;
+  const bool approximate = modes.errors.size() > 0;
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{}: {} modes ({}, {} solves), {} of them rigid", part.name,
                               modes.size(), modes.method, modes.solves, modes.rigid));
   const Eigen::VectorXd hz = modes.frequencies_hz();
   for (Eigen::Index j = 0; j < modes.size(); ++j) {
-    lines.push_back(fmt::format("{:>5}  {:>12.4f} Hz  residual {:.1e}{}", j + 1, hz[j],
-                                modes.residuals[j], j < modes.rigid ? "  rigid" : ""));
+    lines.push_back(fmt::format(
+        "{:>5}  {:>12.4f} Hz  {} {:.1e}{}", j + 1, hz[j], approximate ? "error about" : "residual",
+        approximate ? modes.errors[j] : modes.residuals[j], j < modes.rigid ? "  rigid" : ""));
   }
-  lines.push_back(modes.proof.proved
-                      ? fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
-                                    modes.proof.below, hz_of_value(modes.proof.limit))
-                      : std::string("their number is not proved (prove_count = false)"));
+  if (approximate)
+    lines.push_back(
+        fmt::format("frequencies are approximate, from above: largest error about {:.1e}",
+                    modes.errors.maxCoeff()));
+  if (modes.proof.proved) {
+    lines.push_back(fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
+                                modes.proof.below, hz_of_value(modes.proof.limit)));
+  } else {
+    lines.push_back(fmt::format("their number is not proved ({})",
+                                approximate
+                                    ? "prove_count = false, or the errors leave no gap clear"
+                                    : "prove_count = false"));
+  }
   return lines;
 }
 

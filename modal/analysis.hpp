@@ -18,6 +18,7 @@ struct ModesOptions {
   std::vector<std::string> fixed;  // sets that are clamped; none: as assembled
   bool prove_count = true;
   EigenMethod method = EigenMethod::kBlockLanczos;
+  double accuracy = 5e-3;  // of kAmls: largest estimated relative error of a frequency
 };
 
 /// Reads the options; InputError for unknown keys and senseless values.

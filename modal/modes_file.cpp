@@ -15,6 +15,7 @@ void write_proof(H5File& file, const ModeSet& modes) {
   certificate["count_below"] = static_cast<double>(modes.proof.below);
   certificate["count_limit_hz"] = hz_of_value(modes.proof.limit);
   certificate["residual_max"] = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
+  if (modes.errors.size() > 0) certificate["frequency_error_estimate"] = modes.errors.maxCoeff();
   certificate["rigid_modes"] = modes.rigid;
   certificate["shift"] = modes.sigma;
   certificate["solves"] = static_cast<double>(modes.solves);

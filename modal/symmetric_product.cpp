@@ -40,6 +40,23 @@ CLATTER_EACH_CPU void multiply_one(const SparseMatrix& A, const double* x, doubl
   multiply_rows<1>(A, x, y, stride, begin, end);
 }
 
+CLATTER_EACH_CPU void multiply_eight_within(const SparseMatrix& A, const double* x, double* y,
+                                            int64_t stride, int64_t first, int64_t last,
+                                            int64_t begin, int64_t end) {
+  const int32_t* starts = A.outerIndexPtr();
+  for (int64_t i = begin; i < end; ++i) {
+    double sum[kColumns] = {};
+    for (int32_t k = starts[i]; k < starts[i + 1]; ++k) {
+      const int64_t column = A.innerIndexPtr()[k];
+      if (column < first || column >= last) continue;
+      const double a = A.valuePtr()[k];
+      const double* row = x + (column - first) * stride;
+      for (int c = 0; c < kColumns; ++c) sum[c] += a * row[c];
+    }
+    std::copy_n(sum, kColumns, y + (i - first) * stride);
+  }
+}
+
 }  // namespace
 
 SymmetricProduct::SymmetricProduct(const SparseMatrix& lower)
@@ -59,6 +76,15 @@ void SymmetricProduct::multiply(const double* x, double* y, int count) const {
       for (; c < count; ++c) multiply_one(full_, x + c, y + c, count, first, last);
     }
   });
+}
+
+void SymmetricProduct::multiply_block(int64_t first, int64_t last, const double* x, double* y,
+                                      int count, bool wide) const {
+  const auto rows = [&](int64_t begin, int64_t end) {
+    for (int c = 0; c + kColumns <= count; c += kColumns)
+      multiply_eight_within(full_, x + c, y + c, count, first, last, first + begin, first + end);
+  };
+  wide ? parallel_pieces(last - first, rows) : rows(0, last - first);
 }
 
 Eigen::MatrixXd SymmetricProduct::operator*(const Eigen::Ref<const Eigen::MatrixXd>& x) const {

@@ -15,6 +15,10 @@ class SymmetricProduct {
   Eigen::MatrixXd operator*(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
   /// y = A x for `count` vectors that stand row by row, n x count: the fast way.
   void multiply(const double* x, double* y, int count) const;
+  /// The same with the principal block of rows [first, last) alone; x and y begin at row `first`,
+  /// `count` is a multiple of 8. @param wide on all threads, else on this one.
+  void multiply_block(int64_t first, int64_t last, const double* x, double* y, int count,
+                      bool wide) const;
   Eigen::Index size() const { return full_.cols(); }
 
  private:

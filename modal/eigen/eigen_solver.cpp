@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -13,9 +12,11 @@
 #include "core/threads.hpp"
 #include "modal/dense_eigen.hpp"
 #include "modal/dense_product.hpp"
+#include "modal/eigen/amls.hpp"
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
 #include "modal/eigen/dense_solver.hpp"
+#include "modal/eigen/refinement.hpp"
 #include "modal/factor/inertia.hpp"
 #include "modal/symmetric_product.hpp"
 
@@ -30,7 +31,6 @@ constexpr double kRigidRatio = 1e-6;  // |f| < 1e-3 of the first elastic frequen
 constexpr double kSameValue = 1e-7;   // relative distance at which two values count as one
 constexpr int kMaxRefinements = 2;
 constexpr Index kColumns = 64;  // of vectors that are handled at a time
-constexpr Index kRows = 2048;   // the same
 constexpr int kExtra = 3;       // modes beyond the wanted, to find a gap behind them
 
 /// The problem with all that one request needs.
@@ -42,6 +42,8 @@ class Search {
 
  private:
   bool small() const { return n_ <= options_.dense_limit; }
+  /// Frequencies with an estimated error in place of a residual at rounding.
+  bool approximate() const { return modes_.errors.size() > 0; }
   EigenResult attempt(int count, int retry) const;
   EigenResult solve(int count, int retry);
   /// Values below a limit that stands in a gap, with the inertia count there.
@@ -51,11 +53,13 @@ class Search {
   void find_by_limit_unproved(double limit);
   /// Solves for `count` modes until as many lie below `limit` as the proof says.
   void match_proof(int count);
+  void take(EigenResult&& found);
+  /// Values that the true ones are not below, as far as the errors are known.
+  VectorXd lower_values() const;
+  /// As many values below the limit as inertia counts there, or so many that may be.
+  bool agrees() const;
   void keep_first(Index count);
   void measure_residuals(const SymmetricProduct& stiffness);
-  /// One step of subspace iteration with Rayleigh-Ritz: what the factor weakens most, motion of
-  /// high frequency left in the vectors, is what their residuals show most.
-  void refine();
   void restore_order();
   void finish();
 
@@ -97,6 +101,10 @@ void check_request(const SparseMatrix& K, const SparseMatrix& M, const EigenOpti
   }
 }
 
+Index values_below(const VectorXd& values, double limit) {
+  return (values.array() < limit).count();
+}
+
 Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
                const SupernodalFactor* factor)
     : K_(K), M_(M), options_(options), n_(K.rows()), factor_(factor) {
@@ -126,8 +134,16 @@ Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions&
 
 EigenResult Search::attempt(int count, int retry) const {
   const uint64_t seed = options_.seed + 7919 * static_cast<uint64_t>(retry);
-  const bool given_start = retry == 0 && options_.start.size() == n_;
   const int block_room = 2 * count + 6 * 24;
+  const bool given_start = retry == 0 && options_.start.size() == n_;
+  if (options_.method == EigenMethod::kAmls && block_room < n_) {
+    AmlsOptions amls;
+    amls.count = count;
+    amls.accuracy = options_.accuracy;
+    amls.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
+    amls.seed = seed;
+    return solve_amls(problem_, *factor_, *mass_, amls);
+  }
   if (options_.method == EigenMethod::kBlockLanczos && block_room < n_) {
     BlockLanczosOptions block;
     block.count = count;
@@ -152,12 +168,31 @@ EigenResult Search::solve(int count, int retry) {
     modes_.method = "dense";
   } else {
     found = attempt(count, retry);
-    modes_.method = options_.method == EigenMethod::kArpack ? "arpack" : "block-lanczos";
+    const bool fell_back = options_.method == EigenMethod::kAmls && found.errors.size() == 0;
+    modes_.method = name_of(fell_back ? EigenMethod::kArpack : options_.method);
   }
   modes_.solves += found.solves;
   modes_.seconds += clock.seconds();
   if (!found.ok()) throw NumericsError("modes: " + found.message);
   return found;
+}
+
+void Search::take(EigenResult&& found) {
+  modes_.values = std::move(found.values);
+  modes_.vectors = std::move(found.vectors);
+  modes_.errors = std::move(found.errors);
+}
+
+VectorXd Search::lower_values() const {
+  constexpr double kEstimates = 4.0;  // a value errs by two errors of its frequency; twice that
+  if (modes_.errors.size() == 0) return modes_.values;
+  return modes_.values.array() - kEstimates * modes_.errors.array() * modes_.values.array().abs();
+}
+
+bool Search::agrees() const {
+  const double limit = modes_.proof.limit;
+  return values_below(modes_.values, limit) <= modes_.proof.below &&
+         values_below(lower_values(), limit) >= modes_.proof.below;
 }
 
 void Search::prove(double limit) {
@@ -173,19 +208,13 @@ void Search::prove(double limit) {
   modes_.proof.below = count.negative;
 }
 
-Index values_below(const VectorXd& values, double limit) {
-  return (values.array() < limit).count();
-}
-
 void Search::match_proof(int count) {
   for (int retry = modes_.retries;; ++retry) {
     modes_.retries = retry;
-    EigenResult found = solve(count, retry);
-    modes_.values = found.values;
-    modes_.vectors = std::move(found.vectors);
+    take(solve(count, retry));
     if (!options_.prove_count) return;
-    const Index below = values_below(found.values, modes_.proof.limit);
-    modes_.proof.proved = below == modes_.proof.below;
+    const Index below = values_below(modes_.values, modes_.proof.limit);
+    modes_.proof.proved = agrees();
     if (modes_.proof.proved) return;
     const std::string mismatch =
         fmt::format("inertia counts {} modes below {:.6g} Hz, the solver found {}",
@@ -196,15 +225,17 @@ void Search::match_proof(int count) {
 }
 
 /// The widest relative gap after the first `count` values: {values before it, limit inside it}.
-std::pair<Index, double> widest_gap(const VectorXd& values, Index count, double scale) {
+/// @param lower what the true values are not below.
+std::pair<Index, double> widest_gap(const VectorXd& values, const VectorXd& lower, Index count,
+                                    double scale) {
   Index best = count;
   double width = -1.0, limit = 0.0;
   for (Index j = count; j < values.size(); ++j) {
-    const double here = (values[j] - values[j - 1]) / (std::abs(values[j]) + scale);
+    const double here = (lower[j] - values[j - 1]) / (std::abs(values[j]) + scale);
     if (here <= width) continue;
     best = j;
     width = here;
-    limit = 0.5 * (values[j] + values[j - 1]);
+    limit = 0.5 * (lower[j] + values[j - 1]);
   }
   if (width < kSameValue) return {values.size(), 0.0};
   return {best, limit};
@@ -214,19 +245,20 @@ void Search::find_by_count() {
   const auto all = static_cast<int>(n_);
   for (int extra = kExtra;; extra *= 4) {
     const int asked = std::min(options_.count + extra, all);
-    EigenResult found = solve(asked, modes_.retries);
-    modes_.values = found.values;
-    modes_.vectors = std::move(found.vectors);
-    if (found.values.size() <= options_.count) {  // the whole spectrum: nothing can be missing
-      modes_.proof = {true, found.values.tail(1)[0], found.values.size(), 0.0};
+    take(solve(asked, modes_.retries));
+    const VectorXd& values = modes_.values;
+    if (values.size() <= options_.count) {  // the whole spectrum: nothing can be missing
+      modes_.proof = {true, values.tail(1)[0], values.size(), 0.0};
       break;
     }
     const auto [before, limit] =
-        widest_gap(found.values, options_.count, 1e-6 * std::abs(modes_.sigma));
-    if (before == found.values.size() && asked < all) continue;  // a cluster: look further
-    modes_.next_value = found.values[options_.count];
+        widest_gap(values, lower_values(), options_.count, 1e-6 * std::abs(modes_.sigma));
+    const bool found_gap = before < values.size();
+    if (!found_gap && asked < all && !approximate()) continue;  // a cluster: look further
+    modes_.next_value = values[options_.count];
+    if (!found_gap && approximate()) break;  // the errors leave no gap: nothing can be proved
     prove(limit);
-    if (options_.prove_count && values_below(found.values, limit) != modes_.proof.below) {
+    if (options_.prove_count && !agrees()) {
       ++modes_.retries;
       if (modes_.retries > options_.max_retries) {
         throw NumericsError(
@@ -245,10 +277,8 @@ void Search::find_by_count() {
 void Search::find_by_limit_unproved(double limit) {
   for (int count = 20;; count = count * 2) {
     const int asked = static_cast<int>(std::min<Index>(count, n_));
-    EigenResult found = solve(asked, 0);
-    modes_.values = found.values;
-    modes_.vectors = std::move(found.vectors);
-    if (found.values.tail(1)[0] >= limit || asked == n_ || found.values.size() < asked) return;
+    take(solve(asked, 0));
+    if (modes_.values.tail(1)[0] >= limit || asked == n_ || modes_.values.size() < asked) return;
   }
 }
 
@@ -274,11 +304,14 @@ void Search::find_by_limit() {
     // Some more than wanted: the last copies of a multiple value converge with their neighbours.
     if (modes_.proof.below > 0) match_proof(static_cast<int>(modes_.proof.below) + kExtra);
   }
-  keep_first(values_below(modes_.values, limit));
+  // The proof knows the number; the errors may have lifted some over the limit.
+  const bool counted = approximate() && modes_.proof.proved;
+  keep_first(counted ? modes_.proof.below : values_below(modes_.values, limit));
 }
 
 void Search::keep_first(Index count) {
   modes_.values.conservativeResize(count);
+  if (approximate()) modes_.errors.conservativeResize(count);
   modes_.vectors.conservativeResize(n_, count);
 }
 
@@ -296,40 +329,6 @@ void Search::measure_residuals(const SymmetricProduct& stiffness) {
   }
 }
 
-void Search::refine() {
-  MatrixXd& X = modes_.vectors;  // X <- (K - sigma M)^{-1} M X, block by block in its place
-  const Index m = X.cols();
-  MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
-  RowMatrix image(n_, kColumns), answer(n_, kColumns);
-  for (Index first = 0; first < m; first += kColumns) {
-    const Index count = std::min(kColumns, m - first), end = first + count;
-    image.setZero();
-    image.leftCols(count) = *mass_ * X.middleCols(first, count);
-    problem_.solve(image.data(), answer.data(), static_cast<int>(kColumns));
-    X.middleCols(first, count) = answer.leftCols(count);
-    shifted.block(0, first, end, count) =
-        transposed_product(X.leftCols(end), MatrixXd(image.leftCols(count)));
-  }
-  for (Index first = 0; first < m; first += kColumns) {
-    const Index count = std::min(kColumns, m - first), end = first + count;
-    mass.block(0, first, end, count) =
-        transposed_product(X.leftCols(end), *mass_ * X.middleCols(first, count));
-  }
-  const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
-  if (!ritz.ok) throw NumericsError("modes: the refined vectors depend on each other");
-  const VectorXd nu = ritz.values.reverse();
-  modes_.values = modes_.sigma + nu.array().inverse();
-  const MatrixXd to_modes =
-      ritz.vectors.rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal();
-  parallel_pieces(n_, [&](int64_t begin, int64_t end) {
-    for (int64_t row = begin; row < end; row += kRows) {
-      auto tile = X.middleRows(row, std::min(kRows, end - row));
-      tile = (tile * to_modes).eval();
-    }
-  });
-  modes_.solves += m;
-}
-
 void Search::restore_order() {
   parallel_pieces(modes_.size(), [&](int64_t begin, int64_t end) {
     VectorXd inside;
@@ -344,15 +343,18 @@ void Search::restore_order() {
 void Search::finish() {
   const SymmetricProduct stiffness(reordered(K_, order_));
   measure_residuals(stiffness);
-  for (int k = 0; k < kMaxRefinements && !small() && modes_.size() > 0 &&
+  for (int k = 0; k < kMaxRefinements && !small() && !approximate() && modes_.size() > 0 &&
                   !(modes_.residuals.maxCoeff() <= options_.max_residual);
        ++k) {
-    refine();
+    // What the factor weakens most, motion of high frequency left in the vectors, is what their
+    // residuals show most.
+    refine_modes(problem_, *mass_, modes_.vectors, modes_.values);
+    modes_.solves += modes_.size();
     measure_residuals(stiffness);
   }
   restore_order();
   for (Index j = 0; j < modes_.size(); ++j) {
-    if (!(modes_.residuals[j] <= options_.max_residual)) {
+    if (!approximate() && !(modes_.residuals[j] <= options_.max_residual)) {
       throw NumericsError(fmt::format(
           "modes: mode {} at {:.6g} Hz has residual {:.1e}, expected "
           "at most {:.1e}",
@@ -388,25 +390,6 @@ VectorXd ModeSet::frequencies_hz() const {
   VectorXd hz(values.size());
   for (Index j = 0; j < values.size(); ++j) hz[j] = j < rigid ? 0.0 : hz_of_value(values[j]);
   return hz;
-}
-
-double value_of_hz(double hz) { return std::pow(2.0 * std::numbers::pi * hz, 2); }
-double hz_of_value(double value) {
-  return std::sqrt(std::max(value, 0.0)) / (2.0 * std::numbers::pi);
-}
-
-double default_shift(const SparseMatrix& K, const SparseMatrix& M) {
-  std::vector<double> ratio;
-  ratio.reserve(static_cast<size_t>(K.cols()));
-  for (int j = 0; j < K.cols(); ++j) {
-    const double m = M.coeff(j, j);
-    if (m > 0.0) ratio.push_back(K.coeff(j, j) / m);
-  }
-  if (ratio.empty()) throw InputError("modes: M has no mass on its diagonal");
-  auto middle = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
-  std::nth_element(ratio.begin(), middle, ratio.end());
-  // A body of n unknowns is about n^(1/3) elements long.
-  return -0.1 * *middle * std::pow(static_cast<double>(K.cols()), -2.0 / 3.0);
 }
 
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,

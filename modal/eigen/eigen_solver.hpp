@@ -6,18 +6,20 @@
 #include <string>
 
 #include "core/sparse.hpp"
+#include "modal/eigen/eigen_method.hpp"
+#include "modal/eigen/mode_values.hpp"
 #include "modal/eigen/shift_invert.hpp"
 #include "modal/factor/supernodal_factor.hpp"
 
 namespace clatter::modal {
-
-enum class EigenMethod { kBlockLanczos, kArpack };
 
 struct EigenOptions {
   int count = 0;         // the lowest `count` modes, or
   double fmax_hz = 0.0;  // all modes below this frequency; exactly one of both is given
   bool prove_count = true;
   EigenMethod method = EigenMethod::kBlockLanczos;
+  double accuracy = 5e-3;       // of kAmls: largest estimated relative error of a frequency
+  double amls_cutoff = 2.5;     // of kAmls: modes of parts are kept to this times the frequency
   std::optional<double> sigma;  // shift [rad2/s2]; chosen by default_shift when absent
   int max_retries = 2;          // new start vectors after a count mismatch
   uint64_t seed = 1;
@@ -39,10 +41,11 @@ struct ModeSet {
   Eigen::VectorXd values;     // lambda [rad2/s2], ascending
   Eigen::MatrixXd vectors;    // n x m, M-orthonormal, largest entry of each positive
   Eigen::VectorXd residuals;  // |K x - lambda M x| / (|lambda - sigma| |M x|)
+  Eigen::VectorXd errors;     // of kAmls: estimated, of frequencies, relative; else empty
   int rigid = 0;              // modes with |lambda| below 1e-6 of the first elastic one
   double sigma = 0.0;
   double next_value = 0.0;  // a value that no unlisted mode stays below, as far as is known
-  std::string method;       // "block-lanczos", "arpack", "dense"
+  std::string method;       // "block-lanczos", "arpack", "amls", "dense"
   CountProof proof;
   FactorReport factor;
   int64_t solves = 0;
@@ -53,15 +56,6 @@ struct ModeSet {
   /// sqrt(lambda) / 2 pi [Hz]; 0 for rigid modes.
   Eigen::VectorXd frequencies_hz() const;
 };
-
-/// lambda of a frequency: (2 pi f)^2.
-double value_of_hz(double hz);
-double hz_of_value(double value);
-
-/// A negative shift of the size of a tenth of the first elastic eigenvalue of a compact body, from
-/// the median of K_jj / M_jj (the square of the highest frequency of an element) and the number of
-/// unknowns. Only speed depends on how good the guess is.
-double default_shift(const SparseMatrix& K, const SparseMatrix& M);
 
 /// Modes of K x = lambda M x.
 /// @param K, M n x n, symmetric, lower triangle; K positive semidefinite, M positive definite.

@@ -26,6 +26,7 @@ struct [[nodiscard]] EigenResult {
   std::string message;
   Eigen::VectorXd values;   // lambda [rad2/s2], ascending
   Eigen::MatrixXd vectors;  // n x m, M-orthonormal
+  Eigen::VectorXd errors;   // estimated, of frequencies, relative; empty: to rounding
   int64_t solves = 0;       // vectors that went through the factor
 
   bool ok() const { return status == EigenStatus::kConverged; }

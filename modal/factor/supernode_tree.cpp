@@ -63,9 +63,9 @@ void add_boundary_rows(const SparseMatrix& coupling, SupernodeTree& tree) {
 
 }  // namespace
 
-int32_t SupernodeTree::interior_below(int32_t s) const {
+int32_t SupernodeTree::rows_before(int32_t s, int32_t place) const {
   const int32_t* begin = rows_of(s) + columns(s);
-  return static_cast<int32_t>(std::lower_bound(begin, begin + below(s), size) - begin);
+  return static_cast<int32_t>(std::lower_bound(begin, begin + below(s), place) - begin);
 }
 
 double SupernodeTree::flops(int32_t s) const {

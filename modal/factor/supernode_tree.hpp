@@ -34,7 +34,9 @@ struct SupernodeTree {
   /// Rows below the own columns, the boundary included.
   int32_t below(int32_t s) const { return height(s) - columns(s); }
   /// Rows below the own columns that are unknowns to eliminate.
-  int32_t interior_below(int32_t s) const;
+  int32_t interior_below(int32_t s) const { return rows_before(s, size); }
+  /// Rows below the own columns that stand before a place.
+  int32_t rows_before(int32_t s, int32_t place) const;
   const int32_t* rows_of(int32_t s) const { return rows.data() + row_start[at(s)]; }
   /// Entries of all panels (columns(s) x height(s) each).
   int64_t entries() const { return panel_start.back(); }

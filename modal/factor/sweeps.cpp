@@ -23,11 +23,11 @@ struct Block {
 
   Block(const FactorView& L, int32_t s, const SweepColumns& all)
       : columns(L.tree->columns(s)),
-        below(L.tree->interior_below(s)),
+        below(L.tree->rows_before(s, L.end_place())),
         height(L.tree->height(s)),
         panel(L.panels + L.tree->panel_start[static_cast<size_t>(s)]),
         rows(L.tree->rows_of(s) + columns),
-        x(all.at + int64_t{L.tree->first[static_cast<size_t>(s)]} * all.stride) {}
+        x(all.at + int64_t{L.tree->first[static_cast<size_t>(s)] - L.first_place()} * all.stride) {}
 };
 
 template <class Body>
@@ -96,13 +96,14 @@ void backward_vector(const Block& b, const double* work) {
 
 void forward_sweep(const FactorView& L, const SweepColumns& x) {
   std::vector<double> work;
-  for (int32_t s = 0; s < L.tree->supernodes(); ++s) {
+  const int32_t origin = L.first_place();
+  for (int32_t s = L.from; s < L.end(); ++s) {
     const Block b(L, s, x);
     work.assign(static_cast<size_t>(b.below) * static_cast<size_t>(x.count), 0.0);
     x.count == 1 ? forward_vector(b, work.data()) : forward_block(b, x, work.data());
     const double* from = work.data();
     for (int k = 0; k < b.below; ++k, from += x.count) {
-      double* to = x.at + b.rows[k] * x.stride;
+      double* to = x.at + (b.rows[k] - origin) * x.stride;
       for (int c = 0; c < x.count; ++c) to[c] += from[c];
     }
   }
@@ -110,12 +111,13 @@ void forward_sweep(const FactorView& L, const SweepColumns& x) {
 
 void backward_sweep(const FactorView& L, const SweepColumns& x) {
   std::vector<double> work;
-  for (int32_t s = L.tree->supernodes() - 1; s >= 0; --s) {
+  const int32_t origin = L.first_place();
+  for (int32_t s = L.end() - 1; s >= L.from; --s) {
     const Block b(L, s, x);
     work.resize(std::max(work.size(), static_cast<size_t>(b.below) * static_cast<size_t>(x.count)));
     double* to = work.data();
     for (int k = 0; k < b.below; ++k, to += x.count)
-      std::copy_n(x.at + b.rows[k] * x.stride, x.count, to);
+      std::copy_n(x.at + (b.rows[k] - origin) * x.stride, x.count, to);
     x.count == 1 ? backward_vector(b, work.data()) : backward_block(b, x, work.data());
   }
 }

@@ -10,17 +10,26 @@ namespace clatter::modal {
 struct FactorView {
   const SupernodeTree* tree = nullptr;
   const double* panels = nullptr;
+  /// Supernodes [from, to), which must be whole subtrees: their part of L factorises the principal
+  /// block of their unknowns. to = -1: all.
+  int32_t from = 0, to = -1;
+
+  int32_t end() const { return to < 0 ? tree->supernodes() : to; }
+  /// First place, and the one behind the last.
+  int32_t first_place() const { return tree->first[static_cast<size_t>(from)]; }
+  int32_t end_place() const { return tree->first[static_cast<size_t>(end())]; }
 };
 
-/// Some right-hand sides: `count` values of one place side by side, places at distance `stride`.
-/// `count` is 1 or a multiple of kLanes.
+/// Some right-hand sides from the view's first place on: `count` values of one place side by side,
+/// places at distance `stride`. `count` is 1 or a multiple of kLanes.
 struct SweepColumns {
   double* at = nullptr;
   int count = 0;
   int64_t stride = 0;
 };
 
-/// x <- L^{-1} x and x <- L^{-T} x for the n eliminated unknowns. One thread; L is read once.
+/// x <- L^{-1} x and x <- L^{-T} x for the unknowns of the view. One thread; L is read
+/// once.
 void forward_sweep(const FactorView& L, const SweepColumns& x);
 void backward_sweep(const FactorView& L, const SweepColumns& x);
 

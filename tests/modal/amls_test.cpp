@@ -1,0 +1,174 @@
+// Multilevel substructuring against dense spectra and block Lanczos.
+#include <gtest/gtest.h>
+
+#include <Eigen/SVD>
+
+#include "modal/eigen/amls.hpp"
+#include "modal/eigen/dense_solver.hpp"
+#include "modal/eigen/eigen_solver.hpp"
+#include "modal/eigen/local_modes.hpp"
+#include "modal/eigen/substructures.hpp"
+#include "tests/modal/spring_models.hpp"
+
+namespace clatter::modal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::by_count;
+using test::spring_box;
+
+/// The projection alone, with no step of refinement behind it but one, on small leaves.
+EigenResult direct(const test::Pencil& box, const AmlsOptions& options) {
+  const double sigma = default_shift(box.K, box.M);
+  const SparseMatrix shifted = box.K - sigma * box.M;
+  const SupernodalFactor factor(shifted);
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(box.K.cols());
+  const auto order = factor.permutation();
+  for (size_t j = 0; j < order.size(); ++j)
+    place.indices()[static_cast<int>(order[j])] = static_cast<int>(j);
+  SparseMatrix mass(box.M.rows(), box.M.cols());
+  mass.selfadjointView<Eigen::Lower>() = box.M.selfadjointView<Eigen::Lower>().twistedBy(place);
+  const SymmetricProduct product(mass);
+  ShiftInvert problem;
+  problem.size = box.K.rows();
+  problem.sigma = sigma;
+  problem.solve = [&](const double* x, double* y, int count) {
+    std::copy_n(x, problem.size * count, y);
+    factor.solve_in_order(y, count);
+  };
+  problem.mass = [&](const double* x, double* y, int count) { product.multiply(x, y, count); };
+  return solve_amls(problem, factor, product, options);
+}
+
+VectorXd dense_values(const test::Pencil& box, int count) {
+  return solve_dense(dense_symmetric(box.K), MatrixXd(box.M), default_shift(box.K, box.M), count)
+      .values;
+}
+
+AmlsOptions small_leaves(int count, double cutoff, int refinements) {
+  AmlsOptions options;
+  options.count = count;
+  options.cutoff = cutoff;
+  options.leaf = 60;
+  options.accuracy = 1e30;  // the projection as it is, after one step
+  options.max_refinements = refinements;
+  return options;
+}
+
+TEST(Amls, SubstructuresHoldEverySupernodeOnceAndCoverTheirSubtrees) {
+  const auto box = spring_box(9, 8, 7);
+  const SupernodeTree tree = analyse_tree(box.K, {});
+  const auto parts = partition(tree, {100, 20});
+  EXPECT_GT(parts.size(), 8U);
+  int32_t next = 0;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    EXPECT_EQ(parts[k].from, next);
+    next = parts[k].to;
+    for (int32_t s = parts[k].from; s < parts[k].to; ++s) {
+      EXPECT_LE(parts[k].lowest, s);
+    }
+    const auto first = static_cast<size_t>(parts[k].first_inside);
+    EXPECT_EQ(parts[first].from, parts[k].lowest);
+  }
+  EXPECT_EQ(next, tree.supernodes());
+}
+
+TEST(Amls, LocalModesOfADiagonalOperatorAreThoseAboveTheCut) {
+  const int n = 400;
+  const VectorXd nu = VectorXd::LinSpaced(n, 1.0, 0.001).array().cube();
+  LocalOperator A{n, 0, [&](const MatrixXd& Q, MatrixXd& W, MatrixXd& C) {
+                    W = nu.asDiagonal() * Q;
+                    C.resize(0, Q.cols());
+                  }};
+  const double cut = 0.5 * (nu[19] + nu[20]);
+  const LocalModes modes = local_modes(A, {cut, 8, 1});
+  ASSERT_EQ(modes.values.size(), 20);
+  for (int k = 0; k < 20; ++k) EXPECT_NEAR(modes.values[k], nu[k], 1e-3 * nu[k]);
+  const MatrixXd gram = modes.vectors.transpose() * modes.vectors;
+  EXPECT_LT((gram - MatrixXd::Identity(20, 20)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(Amls, IsExactWhenNoLocalModeIsLeftOut) {
+  const auto box = spring_box(7, 6, 6);
+  const EigenResult found = direct(box, small_leaves(30, 1e4, 1));
+  ASSERT_TRUE(found.ok()) << found.message;
+  const VectorXd exact = dense_values(box, 30);
+  for (int j = 6; j < 30; ++j) EXPECT_NEAR(found.values[j], exact[j], 1e-10 * exact[j]) << j;
+  // The step behind the projection had nothing to lower: the projection itself was exact.
+  EXPECT_LT(found.errors.maxCoeff(), 1e-10);
+}
+
+TEST(Amls, FrequenciesComeFromAboveAndFallAsTheCutOffRises) {
+  const auto box = spring_box(9, 8, 7);
+  const VectorXd exact = dense_values(box, 40);
+  double last = 1e300;
+  for (const double cutoff : {1.2, 1.8, 3.0}) {
+    const EigenResult found = direct(box, small_leaves(40, cutoff, 1));
+    ASSERT_TRUE(found.ok()) << found.message;
+    const VectorXd error = (found.values - exact).tail(34).cwiseQuotient(exact.tail(34));
+    EXPECT_GT(error.minCoeff(), -1e-10);  // rounding alone may go below
+    EXPECT_LT(error.maxCoeff(), last);
+    last = error.maxCoeff();
+  }
+}
+
+TEST(Amls, TheErrorOfABoxIsBelowTheAccuracyAskedFor) {
+  const auto box = spring_box(12, 10, 9);
+  const ModeSet exact = solve_modes(box.K, box.M, by_count(40, EigenMethod::kArpack));
+  for (const double accuracy : {5e-3, 2e-4}) {
+    EigenOptions options = by_count(40, EigenMethod::kAmls);
+    options.accuracy = accuracy;
+    const ModeSet modes = solve_modes(box.K, box.M, options);
+    EXPECT_EQ(modes.method, "amls");
+    EXPECT_EQ(modes.rigid, 6);
+    ASSERT_EQ(modes.errors.size(), 40);
+    EXPECT_LE(modes.errors.maxCoeff(), accuracy);
+    const VectorXd error = (modes.frequencies_hz() - exact.frequencies_hz())
+                               .tail(34)
+                               .cwiseQuotient(exact.frequencies_hz().tail(34));
+    EXPECT_GT(error.minCoeff(), -1e-9);
+    EXPECT_LT(error.maxCoeff(), accuracy);
+    // The 20 lowest: cosines of the angles between both subspaces, in M.
+    const MatrixXd cosines =
+        exact.vectors.leftCols(20).transpose() * (MatrixXd(box.M) * modes.vectors.leftCols(24));
+    EXPECT_GT(Eigen::JacobiSVD<MatrixXd>(cosines).singularValues().minCoeff(), 1.0 - accuracy);
+    const MatrixXd gram = modes.vectors.transpose() * (MatrixXd(box.M) * modes.vectors);
+    EXPECT_LT((gram - MatrixXd::Identity(40, 40)).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(Amls, RepeatedRunsGiveTheSameBits) {
+  const auto box = spring_box(12, 10, 9);
+  const EigenOptions options = by_count(30, EigenMethod::kAmls);
+  const ModeSet one = solve_modes(box.K, box.M, options);
+  const ModeSet two = solve_modes(box.K, box.M, options);
+  EXPECT_EQ(one.values, two.values);
+  EXPECT_EQ(one.vectors, two.vectors);
+}
+
+TEST(Amls, ByFrequencyTheProofSaysHowManyThereAre) {
+  const auto box = spring_box(12, 10, 9);
+  const ModeSet many = solve_modes(box.K, box.M, by_count(40));
+  for (const int wanted : {10, 30}) {
+    EigenOptions options;
+    options.method = EigenMethod::kAmls;
+    options.fmax_hz =
+        0.5 * (hz_of_value(many.values[wanted - 1]) + hz_of_value(many.values[wanted]));
+    const ModeSet modes = solve_modes(box.K, box.M, options);
+    EXPECT_EQ(modes.size(), wanted);
+    EXPECT_TRUE(modes.proof.proved);
+  }
+}
+
+TEST(Amls, ATightAccuracyProvesTheCountAndALooseOneDoesNotClaimIt) {
+  const auto box = spring_box(9, 8, 7);
+  EigenOptions options = by_count(20, EigenMethod::kAmls);
+  options.accuracy = 1e-6;
+  EXPECT_TRUE(solve_modes(box.K, box.M, options).proof.proved);
+  options.prove_count = false;
+  EXPECT_FALSE(solve_modes(box.K, box.M, options).proof.proved);
+}
+
+}  // namespace
+}  // namespace clatter::modal
