@@ -10,8 +10,6 @@
 #include "core/log.hpp"
 #include "core/stopwatch.hpp"
 #include "core/threads.hpp"
-#include "modal/dense_eigen.hpp"
-#include "modal/dense_product.hpp"
 #include "modal/eigen/amls.hpp"
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
