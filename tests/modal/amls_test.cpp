@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 using test::by_count;
 using test::spring_box;
 
-/// The projection alone, with no step of refinement behind it but one, on small leaves.
+/// AMLS on a factor of its own, as solve_modes calls it.
 EigenResult direct(const test::Pencil& box, const AmlsOptions& options) {
   const double sigma = default_shift(box.K, box.M);
   const SparseMatrix shifted = box.K - sigma * box.M;
@@ -161,7 +161,7 @@ TEST(Amls, ByFrequencyTheProofSaysHowManyThereAre) {
   }
 }
 
-TEST(Amls, ATightAccuracyProvesTheCountAndALooseOneDoesNotClaimIt) {
+TEST(Amls, ATightAccuracyProvesTheCountUnlessToldNotTo) {
   const auto box = spring_box(9, 8, 7);
   EigenOptions options = by_count(20, EigenMethod::kAmls);
   options.accuracy = 1e-6;
