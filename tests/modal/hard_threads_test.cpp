@@ -10,8 +10,8 @@
 
 #include "core/blas_kernel.hpp"
 #include "core/threads.hpp"
-#include "modal/factor/supernodal_factor.hpp"
 #include "modal/factor/inertia.hpp"
+#include "modal/factor/supernodal_factor.hpp"
 #include "tests/modal/spring_models.hpp"
 
 namespace clatter::modal {
