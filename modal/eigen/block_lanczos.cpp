@@ -30,33 +30,19 @@ Index block_of(const BlockLanczosOptions& options, Index size) {
   return options.block > 0 ? options.block : default_block(options.count, size);
 }
 
-/// Columns and place of the basis.
-struct Room {
-  Index limit = 0;
-  Storage storage = Storage::kMemory;
-};
-
-/// A restart costs the degree that convergence lives by: with few modes there is room for none.
-/// Where memory is short, restarts first, then the disk.
-Room room_for(const BlockLanczosOptions& options, Index block, Index size) {
-  const Index wanted = options.count;
-  const auto whole = [&](Index columns) {
-    return std::max<Index>((std::max(columns, wanted + 2 * block) + block - 1) / block, 3) * block;
-  };
-  if (options.basis > 0) return {whole(options.basis), Storage::kMemory};
-  const auto gib = [&](Index columns) {  // with the block beside it, and the vectors asked for
-    return gib_of_doubles(static_cast<double>(size) *
-                          static_cast<double>(columns + 3 * block + wanted));
-  };
-  const Index enough = whole(2 * wanted + 4 * block);
-  const Index ample = whole(std::min(4 * wanted, 2 * wanted + 200) + 4 * block);
-  const Index least = whole(wanted + wanted / 4 + 4 * block);
-  require_memory(fmt::format("the vectors of {} modes", wanted), gib(0), "ask for fewer modes");
-  for (const Index columns : {ample, enough, least})
-    if (gib(columns) <= memory_left_gib()) return {columns, Storage::kMemory};
-  warn(fmt::format("{} Lanczos vectors need {:.1f} GiB, {:.1f} are left: they are kept on disk",
-                   enough, gib(enough), memory_left_gib()));
-  return {enough, Storage::kDisk};
+BasisRoom room_left(const BlockLanczosOptions& options, Index block, Index size) {
+  const double left = memory_left_gib();
+  const double least =
+      gib_of_doubles(static_cast<double>(size) * static_cast<double>(3 * block + options.count));
+  require_memory(fmt::format("the vectors of {} modes", options.count), least,
+                 "ask for fewer modes");
+  const BasisRoom room = basis_room(options, block, size, left);
+  if (room.storage == Storage::kDisk)
+    warn(
+        fmt::format("{} Lanczos vectors of {} unknowns do not fit into {:.1f} GiB: they are kept "
+                    "on disk",
+                    room.columns, size, left));
+  return room;
 }
 
 /// What one run carries from block to block.
@@ -84,7 +70,7 @@ class Run {
   const ShiftInvert& problem_;
   const BlockLanczosOptions& options_;
   Index n_, b_, wanted_;
-  Room room_;
+  BasisRoom room_;
   Index limit_;
   Index size_ = 0;    // columns whose image under Op is in T_
   Index local_ = 0;   // columns before this one have no part in Op of the newest block
@@ -104,8 +90,8 @@ Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
       n_(problem.size),
       b_(block_of(options, problem.size)),
       wanted_(options.count),
-      room_(room_for(options, b_, n_)),
-      limit_(room_.limit),
+      room_(room_left(options, b_, n_)),
+      limit_(room_.columns),
       Y_(n_, b_),
       MY_(n_, b_),
       V_(n_, limit_ + b_, room_.storage),
@@ -261,6 +247,27 @@ EigenResult Run::solve() {
 }
 
 }  // namespace
+
+BasisRoom basis_room(const BlockLanczosOptions& options, Index block, Index size, double left_gib) {
+  const Index wanted = options.count;
+  const auto whole = [&](Index columns) {
+    return std::max<Index>((std::max(columns, wanted + 2 * block) + block - 1) / block, 3) * block;
+  };
+  const Storage chosen = options.storage.value_or(Storage::kMemory);
+  if (options.basis > 0) return {whole(options.basis), chosen};
+  const auto fits = [&](Index columns) {  // with the blocks beside it, and the vectors asked for
+    return gib_of_doubles(static_cast<double>(size) *
+                          static_cast<double>(columns + 3 * block + wanted)) <= left_gib;
+  };
+  // A restart costs the degree that convergence lives by: with few modes there is room for none.
+  const Index ample = whole(std::min(4 * wanted, 2 * wanted + 200) + 4 * block);
+  const Index enough = whole(2 * wanted + 4 * block);
+  const Index least = whole(wanted + wanted / 4 + 4 * block);
+  if (options.storage) return {enough, chosen};
+  for (const Index columns : {ample, enough, least})
+    if (fits(columns)) return {columns, Storage::kMemory};
+  return {enough, Storage::kDisk};
+}
 
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options) {
   EigenResult refused;

@@ -1,6 +1,9 @@
 #pragma once
 // Block Lanczos with thick restart: reads the factor once for a whole block of vectors, which
 // makes it several times faster than ARPACK where many modes are wanted.
+#include <optional>
+
+#include "modal/eigen/krylov_basis.hpp"
 #include "modal/eigen/shift_invert.hpp"
 
 namespace clatter::modal {
@@ -10,10 +13,22 @@ struct BlockLanczosOptions {
   int block = 0;             // vectors a block; 0: chosen from `count`
   int basis = 0;             // largest subspace; 0: chosen from `count`
   double tolerance = 1e-10;  // |Op x - nu x|_M / nu of each pair; nu is then right to its square
+  std::optional<Storage> storage;  // of the basis; else as memory allows
   int max_restarts = 50;
   uint64_t seed = 1;      // of the random start block
   Eigen::MatrixXd start;  // first columns of the start block when not empty (tests)
 };
+
+/// Columns of the basis and where they stand.
+struct BasisRoom {
+  Eigen::Index columns = 0;
+  Storage storage = Storage::kMemory;
+};
+
+/// What a memory of `left_gib` allows for a problem of `size` unknowns: no restart with few modes,
+/// then restarts, then a short basis, then the disk.
+BasisRoom basis_room(const BlockLanczosOptions& options, Eigen::Index block, Eigen::Index size,
+                     double left_gib);
 
 /// The `count` lowest eigenpairs of K x = lambda M x from the projection of Op = (K - sigma M)^{-1}
 /// M on span{X, Op X, Op^2 X, ...} with two passes of orthogonalisation in the M inner product

@@ -54,8 +54,10 @@ class Search {
   void take(EigenResult&& found);
   /// Values that the true ones are not below, as far as the errors are known.
   VectorXd lower_values() const;
-  /// As many values below the limit as inertia counts there, or so many that may be.
+  /// As many values below the limit as inertia counts there.
   bool agrees() const;
+  /// So many may be, by the errors of the values: no contradiction, and no proof.
+  bool may_agree() const;
   void keep_first(Index count);
   void measure_residuals(const SymmetricProduct& stiffness);
   void restore_order();
@@ -188,8 +190,12 @@ VectorXd Search::lower_values() const {
 }
 
 bool Search::agrees() const {
+  return values_below(modes_.values, modes_.proof.limit) == modes_.proof.below;
+}
+
+bool Search::may_agree() const {
   const double limit = modes_.proof.limit;
-  return values_below(modes_.values, limit) <= modes_.proof.below &&
+  return approximate() && values_below(modes_.values, limit) <= modes_.proof.below &&
          values_below(lower_values(), limit) >= modes_.proof.below;
 }
 
@@ -213,7 +219,7 @@ void Search::match_proof(int count) {
     if (!options_.prove_count) return;
     const Index below = values_below(modes_.values, modes_.proof.limit);
     modes_.proof.proved = agrees();
-    if (modes_.proof.proved) return;
+    if (modes_.proof.proved || may_agree()) return;
     const std::string mismatch =
         fmt::format("inertia counts {} modes below {:.6g} Hz, the solver found {}",
                     modes_.proof.below, hz_of_value(modes_.proof.limit), below);
@@ -266,7 +272,7 @@ void Search::find_by_count() {
       warn("a mode is missing; searching again from a new start");
       match_proof(static_cast<int>(std::min<Index>(n_, modes_.proof.below + kExtra)));
     }
-    modes_.proof.proved = options_.prove_count;
+    modes_.proof.proved = options_.prove_count && agrees();
     break;
   }
   keep_first(options_.count);
@@ -302,8 +308,8 @@ void Search::find_by_limit() {
     // Some more than wanted: the last copies of a multiple value converge with their neighbours.
     if (modes_.proof.below > 0) match_proof(static_cast<int>(modes_.proof.below) + kExtra);
   }
-  // The proof knows the number; the errors may have lifted some over the limit.
-  const bool counted = approximate() && modes_.proof.proved;
+  // The count knows the number; the errors may have lifted some over the limit.
+  const bool counted = options_.prove_count && may_agree();
   keep_first(counted ? modes_.proof.below : values_below(modes_.values, limit));
 }
 

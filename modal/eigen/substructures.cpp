@@ -1,7 +1,6 @@
 #include "modal/eigen/substructures.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace clatter::modal {
 namespace {
@@ -11,13 +10,11 @@ struct Subtrees {
   std::vector<int32_t> lowest, unknowns, children;
 
   explicit Subtrees(const SupernodeTree& tree)
-      : lowest(tree.parent.size()), unknowns(lowest.size()), children(lowest.size()) {
-    std::iota(lowest.begin(), lowest.end(), 0);
+      : lowest(tree.lowest()), unknowns(lowest.size()), children(lowest.size()) {
     for (size_t s = 0; s < lowest.size(); ++s) {
       unknowns[s] += tree.columns(static_cast<int32_t>(s));
       if (tree.parent[s] < 0) continue;
       const auto p = static_cast<size_t>(tree.parent[s]);
-      lowest[p] = std::min(lowest[p], lowest[s]);
       unknowns[p] += unknowns[s];
       ++children[p];
     }

@@ -69,6 +69,18 @@ BlockDiagonal bunch_kaufman(const Front& front) {
   return d;
 }
 
+/// sqrt(max (L21 L21^T)_ii): what Cholesky of the pivots makes of rows of unit size. At most about
+/// one where the whole matrix is definite; large where the pivot block barely is.
+double growth_definite(const Front& front) {
+  std::vector<double> squares(static_cast<size_t>(front.below), 0.0);
+  for (int j = 0; j < front.columns; ++j) {
+    const double* column =
+        front.panel + static_cast<size_t>(j) * static_cast<size_t>(front.height()) + front.columns;
+    for (int i = 0; i < front.below; ++i) squares[static_cast<size_t>(i)] += column[i] * column[i];
+  }
+  return front.below == 0 ? 0.0 : std::sqrt(*std::max_element(squares.begin(), squares.end()));
+}
+
 /// Signs of the blocks of D; the eigenvalues of a 2 x 2 block by its determinant and trace.
 void count_signs(const Front& front, const BlockDiagonal& d, PivotSigns& signs) {
   const auto diagonal = [&](int j) {
@@ -129,6 +141,7 @@ PivotSigns eliminate_symmetric(const Front& front) {
       signs.zero += l * l <= kZeroPivot;
     }
     update_definite(front);
+    signs.growth = growth_definite(front);
     return signs;
   }
   put_back(block, front);

@@ -22,8 +22,10 @@ int eliminate_definite(const Front& front);
 /// Signs of the pivots of a symmetric front.
 struct PivotSigns {
   int64_t negative = 0;
-  int64_t zero = 0;     // pivots below 1e-15 of a matrix with unit diagonal
-  double growth = 0.0;  // largest entry of A11^{-1} A12 where A11 was indefinite
+  int64_t zero = 0;  // pivots below 1e-15 of a matrix with unit diagonal
+  /// Rounding of the update grows with its square: max |A11^{-1} A12| where A11 was indefinite,
+  /// sqrt(max (L21 L21^T)_ii) where it was definite.
+  double growth = 0.0;
 };
 
 /// Cholesky where the pivot block is definite; else bounded Bunch-Kaufman within it (Ashcraft,

@@ -28,7 +28,7 @@ std::vector<double> scale_of(const SparseMatrix& K) {
 
 InertiaCount count_below(const SparseMatrix& K, const SparseMatrix& M, double mu,
                          const std::vector<int64_t>& permutation) {
-  constexpr double kGrowth = 1e4;
+  constexpr double kGrowth = 1e3;
   const Stopwatch clock;
   const SparseMatrix shifted = K - mu * M;
   const SupernodeTree tree = analyse_tree(shifted, {Ordering::kMetis, permutation});

@@ -187,9 +187,7 @@ void Elimination::add_to(Eigen::MatrixXd& schur) const {
 PermutedMatrix permuted(const SupernodeTree& tree, const SparseMatrix& lower,
                         const std::vector<double>& scale, const SparseMatrix& coupling) {
   const auto n = static_cast<size_t>(tree.size);
-  std::vector<int32_t> place(n);
-  for (size_t j = 0; j < n; ++j)
-    place[static_cast<size_t>(tree.order[j])] = static_cast<int32_t>(j);
+  const std::vector<int32_t> place = tree.places();
   const auto at = [&](Eigen::Index i) { return place[static_cast<size_t>(i)]; };
   PermutedMatrix out;
   out.starts.assign(n + 1, 0);

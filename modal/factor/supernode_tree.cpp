@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
@@ -12,11 +13,7 @@ namespace clatter::modal {
 namespace {
 
 void find_parents(SupernodeTree& tree) {
-  std::vector<int32_t> owner(static_cast<size_t>(tree.size));
-  for (int32_t s = 0; s < tree.supernodes(); ++s)
-    for (int32_t j = tree.first[static_cast<size_t>(s)]; j < tree.first[static_cast<size_t>(s) + 1];
-         ++j)
-      owner[static_cast<size_t>(j)] = s;
+  const std::vector<int32_t> owner = tree.owners();
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
     if (tree.below(s) == 0) continue;
     const int32_t row = tree.rows_of(s)[tree.columns(s)];
@@ -27,13 +24,7 @@ void find_parents(SupernodeTree& tree) {
 /// Appends to each front the boundary unknowns that its subtree touches.
 void add_boundary_rows(const SparseMatrix& coupling, SupernodeTree& tree) {
   tree.boundary = static_cast<int32_t>(coupling.cols());
-  std::vector<int32_t> place(static_cast<size_t>(tree.size)), owner(place.size());
-  for (int32_t j = 0; j < tree.size; ++j)
-    place[static_cast<size_t>(tree.order[static_cast<size_t>(j)])] = j;
-  for (int32_t s = 0; s < tree.supernodes(); ++s)
-    for (int32_t j = tree.first[static_cast<size_t>(s)]; j < tree.first[static_cast<size_t>(s) + 1];
-         ++j)
-      owner[static_cast<size_t>(j)] = s;
+  const std::vector<int32_t> place = tree.places(), owner = tree.owners();
   std::vector<std::vector<int32_t>> touched(tree.parent.size());
   for (int32_t b = 0; b < tree.boundary; ++b) {
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it) {
@@ -95,6 +86,27 @@ std::vector<std::vector<int32_t>> SupernodeTree::children() const {
   std::vector<std::vector<int32_t>> out(parent.size());
   for (int32_t s = 0; s < supernodes(); ++s)
     if (parent[at(s)] >= 0) out[at(parent[at(s)])].push_back(s);
+  return out;
+}
+
+std::vector<int32_t> SupernodeTree::lowest() const {
+  std::vector<int32_t> out(parent.size());
+  std::iota(out.begin(), out.end(), 0);
+  for (size_t s = 0; s < out.size(); ++s)
+    if (parent[s] >= 0) out[at(parent[s])] = std::min(out[at(parent[s])], out[s]);
+  return out;
+}
+
+std::vector<int32_t> SupernodeTree::owners() const {
+  std::vector<int32_t> out(at(size));
+  for (int32_t s = 0; s < supernodes(); ++s)
+    std::fill(out.begin() + first[at(s)], out.begin() + first[at(s) + 1], s);
+  return out;
+}
+
+std::vector<int32_t> SupernodeTree::places() const {
+  std::vector<int32_t> out(order.size());
+  for (size_t j = 0; j < order.size(); ++j) out[at(order[j])] = static_cast<int32_t>(j);
   return out;
 }
 

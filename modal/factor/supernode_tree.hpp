@@ -46,6 +46,11 @@ struct SupernodeTree {
   /// Largest number of entries that the update matrices take at one time, one thread.
   int64_t stack_entries() const;
   std::vector<std::vector<int32_t>> children() const;
+  /// First supernode of each subtree, which is lowest[s] .. s.
+  std::vector<int32_t> lowest() const;
+  /// Supernode of each place, and place of each unknown.
+  std::vector<int32_t> owners() const;
+  std::vector<int32_t> places() const;
 
  private:
   static size_t at(int32_t s) { return static_cast<size_t>(s); }

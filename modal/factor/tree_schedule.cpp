@@ -1,7 +1,6 @@
 #include "modal/factor/tree_schedule.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 
 namespace clatter::modal {
@@ -10,15 +9,12 @@ TreeSchedule schedule(const SupernodeTree& tree, int threads) {
   constexpr double kShare = 0.1;  // largest subtree, in parts of a thread's work
   const auto n = static_cast<size_t>(tree.supernodes());
   TreeSchedule out;
-  out.lowest.resize(n);
-  std::iota(out.lowest.begin(), out.lowest.end(), 0);
+  out.lowest = tree.lowest();
   std::vector<double> work(n);
   for (size_t s = 0; s < n; ++s) {
     work[s] += tree.flops(static_cast<int32_t>(s));
     if (tree.parent[s] < 0) continue;
-    const auto p = static_cast<size_t>(tree.parent[s]);
-    work[p] += work[s];
-    out.lowest[p] = std::min(out.lowest[p], out.lowest[s]);
+    work[static_cast<size_t>(tree.parent[s])] += work[s];
   }
   const auto lighter = [&](int32_t a, int32_t b) {
     return work[static_cast<size_t>(a)] < work[static_cast<size_t>(b)];

@@ -1,5 +1,6 @@
 #pragma once
-// A free elastic box of springs as an assembled model, with sets on its faces.
+// A free elastic box of springs as an assembled model, with sets on its faces; a chain for sums by
+// hand.
 #include "assembly/fe_model.hpp"
 #include "tests/modal/spring_models.hpp"
 
@@ -24,6 +25,25 @@ inline DofSet node_set(const assembly::FeModel& model, const std::string& name,
     }
   }
   return set;
+}
+
+/// Four masses 2, 2, 2, 1 on unit springs, the first held to the ground; set "end" is the last
+/// mass.
+inline assembly::FeModel held_chain() {
+  assembly::FeModel model;
+  model.K = from_triplets(4, {{0, 0, 2.0},
+                              {1, 1, 2.0},
+                              {2, 2, 2.0},
+                              {3, 3, 1.0},
+                              {1, 0, -1.0},
+                              {2, 1, -1.0},
+                              {3, 2, -1.0}});
+  model.M = diagonal(Eigen::Vector4d(2.0, 2.0, 2.0, 1.0));
+  model.nodes = RowMatrix::Random(4, 3);
+  model.rigid = Eigen::MatrixXd::Zero(4, 6);
+  model.rigid.col(0).setOnes();  // not free: the chain is held
+  model.sets["end"].dofs = {3};
+  return model;
 }
 
 /// Mass properties straight from point masses, the independent figure.

@@ -42,19 +42,7 @@ modal::EigenResult reduced_modes(const ReducedModel& reduced) {
 
 TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
   // K = tridiag(-1, 2, -1) with last entry 1, M = diag(2, 2, 2, 1), boundary = last mass.
-  assembly::FeModel model;
-  model.K = test::from_triplets(4, {{0, 0, 2.0},
-                                    {1, 1, 2.0},
-                                    {2, 2, 2.0},
-                                    {3, 3, 1.0},
-                                    {1, 0, -1.0},
-                                    {2, 1, -1.0},
-                                    {3, 2, -1.0}});
-  model.M = test::diagonal(Eigen::Vector4d(2.0, 2.0, 2.0, 1.0));
-  model.nodes = RowMatrix::Random(4, 3);
-  model.rigid = MatrixXd::Zero(4, 6);
-  model.rigid.col(0).setOnes();  // not free: the chain is held at its first mass
-  model.sets["end"].dofs = {3};
+  const assembly::FeModel model = test::held_chain();
   const DofPartition partition = partition_dofs(model, {"end"});
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);

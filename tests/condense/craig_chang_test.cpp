@@ -57,19 +57,7 @@ double frequency_error(const VectorXd& found, const VectorXd& expected, int rigi
 TEST(CraigChang, TheChainKeepsItsHandComputedFrequencies) {
   // Four masses 2, 2, 2, 1 on unit springs, the first held to the ground: -x_(j-1) + 2 x_j -
   // x_(j+1) = 2 lambda x_j with a free end has lambda = 1 - cos((2 k - 1) pi / 8).
-  assembly::FeModel model;
-  model.K = test::from_triplets(4, {{0, 0, 2.0},
-                                    {1, 1, 2.0},
-                                    {2, 2, 2.0},
-                                    {3, 3, 1.0},
-                                    {1, 0, -1.0},
-                                    {2, 1, -1.0},
-                                    {3, 2, -1.0}});
-  model.M = test::diagonal(Eigen::Vector4d(2.0, 2.0, 2.0, 1.0));
-  model.nodes = RowMatrix::Random(4, 3);
-  model.rigid = MatrixXd::Zero(4, 6);
-  model.rigid.col(0).setOnes();  // not free: the chain is held
-  model.sets["end"].dofs = {3};
+  const assembly::FeModel model = test::held_chain();
   const DofPartition partition = partition_dofs(model, {"end"});
   ModeRequest request;
   request.count = 2;

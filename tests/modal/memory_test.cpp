@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/log.hpp"
 #include "core/memory_limit.hpp"
+#include "modal/eigen/block_lanczos.hpp"
+#include "modal/eigen/eigen_solver.hpp"
 #include "modal/eigen/krylov_basis.hpp"
 #include "modal/factor/supernodal_factor.hpp"
+#include "modal/symmetric_product.hpp"
 #include "tests/modal/spring_models.hpp"
 
 namespace clatter::modal {
@@ -35,21 +37,43 @@ TEST(MemoryLimit, AFactorThatDoesNotFitIsRefusedBeforeItIsMade) {
   EXPECT_THROW(SupernodalFactor{A}, NumericsError);
 }
 
+TEST(MemoryLimit, TheBasisShrinksThenGoesToDisk) {
+  BlockLanczosOptions options;
+  options.count = 100;
+  const auto columns = [&](double held) {  // that fit beside 3 blocks and the modes
+    return basis_room(options, 16, 1000000, gib_of_doubles(1e6 * (held + 48 + 100)));
+  };
+  const BasisRoom ample = columns(500), enough = columns(300), least = columns(200);
+  EXPECT_EQ(ample.columns, 464);   // 4 modes and 4 blocks
+  EXPECT_EQ(enough.columns, 272);  // 2 modes and 4 blocks, in whole blocks
+  EXPECT_EQ(least.columns, 192);   // 1.25 modes and 4 blocks, in whole blocks
+  for (const BasisRoom& room : {ample, enough, least}) EXPECT_EQ(room.storage, Storage::kMemory);
+  EXPECT_EQ(columns(150).storage, Storage::kDisk);
+  EXPECT_EQ(columns(150).columns, enough.columns);
+}
+
 TEST(MemoryLimit, ModesAreTheSameWithTheBasisOnDisk) {
   const auto box = test::spring_box(10, 9, 9);
-  set_quiet(true);
-  EigenOptions options;
+  const double sigma = default_shift(box.K, box.M);
+  const SupernodalFactor factor(SparseMatrix(box.K - sigma * box.M));
+  const SymmetricProduct mass(box.M);
+  ShiftInvert problem;
+  problem.size = box.K.rows();
+  problem.sigma = sigma;
+  problem.solve = [&](const double* x, double* y, int count) {
+    Eigen::Map<RowMatrix>(y, problem.size, count) =
+        factor.solve(Eigen::Map<const RowMatrix>(x, problem.size, count));
+  };
+  problem.mass = [&](const double* x, double* y, int count) { mass.multiply(x, y, count); };
+  BlockLanczosOptions options;
   options.count = 12;
-  options.prove_count = false;
-  const ModeSet free = solve_modes(box.K, box.M, options);
-  const SparseMatrix shifted = box.K - free.sigma * box.M;
-  const SupernodalFactor factor(shifted);
-  options.sigma = free.sigma;
-  // Room for the modes and a few blocks, not for a basis.
-  const double vectors = gib_of_doubles(static_cast<double>(box.K.rows()) * (15 + 12 + 8));
-  const Limited limit(memory_in_use_gib() + vectors + 1e-4);
-  const ModeSet spilled = solve_modes(box.K, box.M, options, &factor);
-  EXPECT_LT((spilled.values - free.values).cwiseAbs().maxCoeff(), 1e-9 * free.values[11]);
+  options.storage = Storage::kMemory;
+  const EigenResult memory = solve_block_lanczos(problem, options);
+  options.storage = Storage::kDisk;
+  const EigenResult disk = solve_block_lanczos(problem, options);
+  ASSERT_TRUE(memory.ok() && disk.ok());
+  EXPECT_EQ(memory.values, disk.values);
+  EXPECT_EQ(memory.vectors, disk.vectors);
 }
 
 TEST(KrylovBasisTest, TheDiskHoldsTheSameNumbers) {
