@@ -27,10 +27,10 @@ import h5py
 
 import block
 from measured import apart, blas, dgemm_rate, medians, run
+from page import markdown, write
 
 ROOT = Path(__file__).resolve().parent.parent
 PEERS = Path(__file__).resolve().parent / "peers"
-PAGE = ROOT / "docs" / "accuracy.md"
 RIGID_HZ = 1.0  # below this a mode of the free block is a rigid one (the first elastic: hundreds of Hz)
 THOUSANDS = {"modes": [118], "modes_large": [635], "condense": [660], "growth": [50, 100, 200, 400, 700],
              "threads": [100]}
@@ -195,17 +195,6 @@ class Bench:
         return markdown(["threads", "DoF", "factor [s]", "64 solves [s]"], table)
 
 
-def markdown(head, rows):
-    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in rows]
-
-
-def write(row, lines):
-    """Puts the table between <!-- condense_<row> --> and <!-- end --> of docs/accuracy.md."""
-    before, rest = PAGE.read_text().split(f"<!-- condense_{row} -->\n", 1)
-    after = rest.split("<!-- end -->", 1)[1]
-    PAGE.write_text(f"{before}<!-- condense_{row} -->\n" + "\n".join(lines) + f"\n<!-- end -->{after}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rows", nargs="+", choices=THOUSANDS, default=["modes"])
@@ -232,7 +221,7 @@ def main():
                 lines += table + [""]
             print(f"## {row}\n" + "\n".join(lines))
             if options.write:
-                write(row, lines[:-1])
+                write(f"condense_{row}", lines[:-1])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,15 @@
+"""Tables in docs/accuracy.md."""
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parent.parent / "docs" / "accuracy.md"
+
+
+def markdown(head, rows):
+    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def write(mark, lines):
+    """Puts the lines between <!-- mark --> and the next <!-- end --> of docs/accuracy.md."""
+    before, rest = PAGE.read_text().split(f"<!-- {mark} -->\n", 1)
+    after = rest.split("<!-- end -->", 1)[1]
+    PAGE.write_text(f"{before}<!-- {mark} -->\n" + "\n".join(lines) + f"\n<!-- end -->{after}")
