@@ -60,6 +60,7 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   const InteriorModes& interior = source.interior;
   const Eigen::VectorXd& residuals = interior.residuals;
   out["eigen_residual_max"] = residuals.size() > 0 ? residuals.maxCoeff() : 0.0;
+  if (interior.frequency_error >= 0.0) out["eigen_frequency_error"] = interior.frequency_error;
   out["load_shapes"] = interior.load_shapes;
   out["own_modes"] = interior.own_modes;
   // Own modes are exact in the estimate: it says nothing of a body whose boundary others move.

@@ -61,6 +61,28 @@ void check_one_request(const Config& config, const CondenseOptions& options) {
   }
 }
 
+/// Are they all there, and how good are they?
+std::string describe_modes(const std::map<std::string, double>& c) {
+  const bool proved = c.at("count_proved") > 0.0, counted = c.at("count_below") >= 0.0;
+  const bool amls = c.contains("eigen_frequency_error");
+  const std::string count = fmt::format("inertia counts {:.0f} below {:.1f} Hz",
+                                        c.at("count_below"), c.at("count_limit_hz"));
+  std::string text = "their number is not proved";
+  if (proved) {
+    text = fmt::format("none is missing ({})", count);
+  } else if (counted && amls) {
+    text += fmt::format(" ({}, where the errors leave it open)", count);
+  } else {
+    text += amls ? " (prove_count = false, or the errors leave no gap clear)"
+                 : " (prove_count = false)";
+  }
+  text += fmt::format("; largest residual {:.1e}", c.at("eigen_residual_max"));
+  if (amls)
+    text += fmt::format("; frequencies from above, largest error about {:.1e}",
+                        c.at("eigen_frequency_error"));
+  return text;
+}
+
 std::string describe_spectrum(const std::map<std::string, double>& c) {
   if (c.at("certified") == 0.0) {
     return fmt::format(
@@ -99,8 +121,7 @@ CondenseOptions read_condense_options(const Config& config) {
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);
-  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack", "amls"});
-  options.modes.method = modal::eigen_method_of(solver);
+  static_cast<modal::EigenChoice&>(options.modes) = modal::read_eigen_choice(config);
   options.inertia_invariants = config.flag_or("inertia_invariants", false);
   options.modal_damping = read_modal_damping(config);
   options.interface = read_interface_options(config, options.boundary);
@@ -180,16 +201,8 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
       "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
       c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
   if (c.contains("cutoffs_tried")) lines.push_back(cutoff_line(c));
-  if (n_k > 0) {
-    const std::string proof =
-        c.at("count_proved") > 0.0
-            ? fmt::format("none is missing (inertia counts {:.0f} below {:.1f} Hz)",
-                          c.at("count_below"), c.at("count_limit_hz"))
-            : std::string("their number is not proved (prove_count = false)");
-    lines.push_back(fmt::format("{} modes: {}; largest residual {:.1e}",
-                                own ? "own" : "fixed-interface", proof,
-                                c.at("eigen_residual_max")));
-  }
+  if (n_k > 0)
+    lines.push_back((own ? "own modes: " : "fixed-interface modes: ") + describe_modes(c));
   if (c.contains("interface_modes")) lines.push_back(interface_line(c));
   lines.push_back(describe_spectrum(c));
   if (c.contains("mass_error")) {

@@ -23,7 +23,7 @@ modal::EigenOptions eigen_options(const ModeRequest& request) {
   options.count = request.count;
   options.fmax_hz = request.fmax_hz;
   options.prove_count = request.prove_count;
-  options.method = request.method;
+  static_cast<modal::EigenChoice&>(options) = request;
   return options;
 }
 
@@ -33,6 +33,9 @@ void take_report(const modal::ModeSet& modes, const ModeRequest& request, Interi
   out.cutoff_hz = request.fmax_hz > 0.0 || modes.size() == 0
                       ? request.fmax_hz
                       : modal::hz_of_value(modes.values.tail(1)[0]);
+  if (modes.errors.size() == 0) return;
+  out.frequency_error = modes.errors.maxCoeff();
+  out.cutoff_hz = std::min(out.cutoff_hz, modal::hz_of_value(modes.next_value));
 }
 
 InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const PartitionedMatrix& M,

@@ -11,7 +11,7 @@ namespace clatter::condense {
 
 /// Which shapes. Exactly one of count and fmax_hz is positive; neither for Guyan. With
 /// accurate_to_hz alone cutoff_search.hpp finds fmax_hz.
-struct ModeRequest {
+struct ModeRequest : modal::EigenChoice {
   int count = 0;
   double fmax_hz = 0.0;
   double accurate_to_hz = 0.0;  // the body's frequencies below are wanted; 0: as the cut-off allows
@@ -19,7 +19,6 @@ struct ModeRequest {
   std::vector<std::string> load_shapes;  // loads whose static answer is in the basis
   bool prove_count = true;
   double frequency_error = 5e-4;  // aimed at by residual modes below accurate_to_hz; 0: none
-  modal::EigenMethod method = modal::EigenMethod::kBlockLanczos;
 };
 
 /// The shapes X: X^T M_ii X = I, X^T K_ii X = diag((2 pi hz)^2).
@@ -30,8 +29,9 @@ struct InteriorModes {
   int own_modes = 0;            // elastic modes of the body itself that the basis holds exactly
   int dropped = 0;              // shapes that depended on others
   Eigen::VectorXd residuals;    // of the eigenpairs
+  double frequency_error = -1;  // of AMLS: the largest, relative, estimated; else negative
   modal::CountProof proof;      // of their number
-  double cutoff_hz = 0.0;       // all modes below it are there
+  double cutoff_hz = 0.0;       // all modes below it are there, as far as errors are known
   double accurate_to_hz = 0.0;  // up to where the body's own frequencies can be had
 };
 

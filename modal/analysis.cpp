@@ -19,9 +19,15 @@ EigenOptions eigen_options(const ModesOptions& options, int size) {
   eigen.count = options.count;
   if (options.count == 0 && options.fmax_hz == 0.0) eigen.count = std::min(kDefaultCount, size);
   eigen.prove_count = options.prove_count;
-  eigen.method = options.method;
-  eigen.accuracy = options.accuracy;
+  static_cast<EigenChoice&>(eigen) = options;
   return eigen;
+}
+
+std::string why_unproved(const ModeSet& modes) {
+  if (modes.errors.size() == 0) return " (prove_count = false)";
+  if (modes.proof.below < 0) return " (prove_count = false, or the errors leave no gap clear)";
+  return fmt::format(": inertia counts {} below {:.4f} Hz, where the errors leave it open",
+                     modes.proof.below, hz_of_value(modes.proof.limit));
 }
 
 template <typename Model>
@@ -45,12 +51,19 @@ std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string
   return left;
 }
 
-/// Vectors on all DoFs, zero where they are held.
-Eigen::MatrixXd spread(const Eigen::MatrixXd& vectors, const std::vector<int32_t>& left,
-                       Eigen::Index size) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, vectors.cols());
-  all(left, Eigen::all) = vectors;
-  return all;
+/// Vectors on all DoFs, zero where they are held; moved from the last on, so that memory never
+/// holds both whole.
+void spread(const std::vector<int32_t>& left, Eigen::Index size, Eigen::MatrixXd& vectors) {
+  constexpr Eigen::Index kColumns = 32;
+  Eigen::MatrixXd all(size, vectors.cols());
+  while (vectors.cols() > 0) {
+    const Eigen::Index count = std::min(kColumns, vectors.cols()), first = vectors.cols() - count;
+    auto columns = all.middleCols(first, count);
+    columns.setZero();
+    columns(left, Eigen::all) = vectors.rightCols(count);
+    vectors.conservativeResize(Eigen::NoChange, first);
+  }
+  vectors.swap(all);
 }
 
 /// solve_modes of the rows `left` of a model; a factor that fails names the node.
@@ -80,9 +93,7 @@ ModesOptions read_modes_options(const Config& config) {
   }
   options.fixed = config.texts_or("fixed", {});
   options.prove_count = config.flag_or("prove_count", true);
-  const std::string solver = config.choice("eigen_solver", {"block-lanczos", "arpack", "amls"});
-  options.method = eigen_method_of(solver);
-  options.accuracy = config.number_or("accuracy", options.accuracy, {1e-6, 0.1});
+  static_cast<EigenChoice&>(options) = read_eigen_choice(config);
   config.finish();
   return options;
 }
@@ -114,17 +125,16 @@ PartModes analyse(const assembly::FeModel& model, const ModesOptions& options) {
   part.source = "fe";
   part.nodes = model.nodes;
   part.surfaces = model.surfaces;
+  part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.T * q; };
   const std::vector<int32_t> left = dofs_left(model, options.fixed);
   const EigenOptions eigen = eigen_options(options, static_cast<int>(left.size()));
   if (options.fixed.empty()) {
     part.modes = solve_named(model, left, model.K, model.M, eigen);
-    part.shapes = model.T * part.modes.vectors;
     return part;
   }
   part.modes = solve_named(model, left, principal_submatrix(model.K, left),
                            principal_submatrix(model.M, left), eigen);
-  part.modes.vectors = spread(part.modes.vectors, left, model.size());
-  part.shapes = model.T * part.modes.vectors;
+  spread(left, model.size(), part.modes.vectors);
   return part;
 }
 
@@ -145,8 +155,8 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
     return Eigen::MatrixXd(kept.triangularView<Eigen::Lower>()).sparseView(0.0, 0.0);
   };
   part.modes = solve_modes(lower(model.K_rr), lower(model.M_rr), eigen);
-  part.modes.vectors = spread(part.modes.vectors, left, model.size());
-  part.shapes = model.skin.T * part.modes.vectors;
+  spread(left, model.size(), part.modes.vectors);
+  part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.skin.T * q; };
   return part;
 }
 
@@ -170,10 +180,7 @@ std::vector<std::string> describe(const PartModes& part) {
     lines.push_back(fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
                                 modes.proof.below, hz_of_value(modes.proof.limit)));
   } else {
-    lines.push_back(fmt::format("their number is not proved ({})",
-                                approximate
-                                    ? "prove_count = false, or the errors leave no gap clear"
-                                    : "prove_count = false"));
+    lines.push_back("their number is not proved" + why_unproved(modes));
   }
   return lines;
 }

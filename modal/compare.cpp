@@ -67,10 +67,12 @@ CommonRows common_rows(const assembly::FeModel& full, const PartModes& full_mode
   }
   CommonRows rows{MatrixXd(count, full_modes.modes.size()),
                   MatrixXd(count, reduced_modes.modes.size())};
+  const MatrixXd full_shapes = full_modes.shapes(0, full_modes.modes.size());
+  const MatrixXd reduced_shapes = reduced_modes.shapes(0, reduced_modes.modes.size());
   Index row = 0;
   for (const auto& [a, b] : nodes) {
-    rows.full.middleRows(row, 3) = full_modes.shapes.middleRows(3 * a, 3);
-    rows.reduced.middleRows(row, 3) = reduced_modes.shapes.middleRows(3 * b, 3);
+    rows.full.middleRows(row, 3) = full_shapes.middleRows(3 * a, 3);
+    rows.reduced.middleRows(row, 3) = reduced_shapes.middleRows(3 * b, 3);
     row += 3;
   }
   for (const auto& [p, q] : coordinates) {

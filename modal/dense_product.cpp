@@ -19,6 +19,15 @@ Eigen::MatrixXd transposed_product(const DenseView& A, const DenseView& B) {
   return C;
 }
 
+Eigen::MatrixXd transposed_rows_product(const DenseView& A, const RowMatrix& B) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.cols(), B.cols());
+  if (C.size() == 0 || A.rows() == 0) return C;
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasTrans, extent(A.cols()), extent(B.cols()),
+              extent(A.rows()), 1.0, A.data(), stride(A.outerStride()), B.data(),
+              stride(B.outerStride()), 0.0, C.data(), stride(C.outerStride()));
+  return C;
+}
+
 void add_product(double factor, const DenseView& A, const DenseView& B, DenseOut C) {
   if (C.size() == 0 || A.cols() == 0) return;
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, extent(A.rows()), extent(B.cols()),

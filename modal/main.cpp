@@ -60,12 +60,15 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
   const modal::ModesOptions options = choose_options(arguments, resolved);
   const std::string schema = H5File::open(input).get_string("/", "schema");
   modal::PartModes part;
+  ReducedModel reduced;
+  assembly::FeModel full;
   if (schema == "clatter/rom/1") {
-    part = modal::analyse(read_reduced_model(input), options);
+    reduced = read_reduced_model(input);
+    part = modal::analyse(reduced, options);
   } else {
-    const assembly::FeModel model = assembly::read_fe_model(input);
-    clock.lap(fmt::format("read {} DoF", model.size()));
-    part = modal::analyse(model, options);
+    full = assembly::read_fe_model(input);
+    clock.lap(fmt::format("read {} DoF", full.size()));
+    part = modal::analyse(full, options);
   }
   clock.lap("modes");
   for (const std::string& line : modal::describe(part)) say(line);

@@ -37,9 +37,15 @@ void write_modes(H5File& file, const PartModes& part) {
   file.write("eigenvalue", modes.values);
   file.write("residual", modes.residuals);
   file.write("nodes", part.nodes);
-  const Eigen::MatrixXf shapes = part.shapes.cast<float>();
-  file.write_float("shapes", std::vector<float>(shapes.data(), shapes.data() + shapes.size()),
-                   {shapes.cols(), shapes.rows() / 3, 3});
+  constexpr Eigen::Index kModes = 16;  // at a time
+  std::vector<float> shapes;
+  shapes.reserve(static_cast<size_t>(modes.size()) * static_cast<size_t>(3 * part.nodes.rows()));
+  for (Eigen::Index first = 0; first < modes.size(); first += kModes) {
+    const Eigen::MatrixXd some =
+        part.shapes(first, std::min<Eigen::Index>(kModes, modes.size() - first));
+    shapes.insert(shapes.end(), some.data(), some.data() + some.size());
+  }
+  file.write_float("shapes", shapes, {modes.size(), part.nodes.rows(), 3});
   mesh::write_surfaces(file, part.surfaces);
   write_proof(file, modes);
 }

@@ -8,6 +8,7 @@
 
 #include "core/blas_kernel.hpp"
 #include "core/large_pages.hpp"
+#include "core/memory_limit.hpp"
 #include "core/progress.hpp"
 #include "core/threads.hpp"
 #include "modal/dense_eigen.hpp"
@@ -26,7 +27,7 @@ using Eigen::VectorXd;
 
 constexpr int kNarrow = kLanes;    // vectors that one thread takes through a subtree
 constexpr int kWide = 2 * kLanes;  // that all threads take
-constexpr Index kColumns = 64;     // of the answer that are made at a time
+constexpr Index kColumns = 32;     // of the answer that are made at a time
 
 /// The projection of A on modes of substructures.
 class Multilevel {
@@ -204,25 +205,49 @@ VectorXd lowered(const VectorXd& before, const VectorXd& after, double sigma) {
   return 0.5 * (before - after).cwiseQuotient(scale).cwiseMax(0.0);
 }
 
-/// The projection at one cut-off, its lowest `asked` modes refined.
-EigenResult solve_at(Multilevel& levels, const ShiftInvert& problem, const SymmetricProduct& mass,
-                     const AmlsOptions& options, int asked) {
-  EigenResult out = largest_pairs(levels.projected(), asked, options.seed);
+/// Room for the vectors of the answer, for the blocks that a step works on, and first for the
+/// projection on `modes` modes of substructures with what finds its pairs.
+void require_room(Index size, int asked, Index modes) {
+  const auto n = static_cast<double>(size), p = static_cast<double>(modes);
+  const double vectors = n * static_cast<double>(asked + 2 * kColumns);
+  const double projection = p * (p + std::min(4.0 * p, 4.0 * asked));
+  require_memory(fmt::format("AMLS with {} vectors of {} unknowns", asked, size),
+                 gib_of_doubles(std::max(vectors, projection)),
+                 "ask for fewer modes or raise the limit (--memory-limit)");
+}
+
+/// The lowest `asked` pairs of the projection on modes of substructures with nu >= cut; empty when
+/// these are too few.
+EigenResult project(const ShiftInvert& problem, const SubtreeProduct& A, const SupernodeTree& tree,
+                    const AmlsOptions& options, int asked, double cut) {
+  Multilevel levels(A, tree, options);
+  levels.find_local_modes(cut);
+  EigenResult out;
+  out.status = EigenStatus::kNotConverged;
+  out.message = fmt::format("{} modes of substructures are too few", levels.modes());
+  if (levels.modes() < asked) return out;
+  require_room(problem.size, asked, levels.modes());
+  out = largest_pairs(levels.projected(), asked, options.seed);
   if (!out.ok()) return out;
   out.vectors = levels.motions(out.vectors, out.values.cwiseInverse());
   out.values.array() += problem.sigma;
-  out.solves = 0;
+  out.solves = levels.solves();
+  return out;
+}
+
+/// Refines the pairs of a projection until a step lowers no wanted frequency by more than asked.
+void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const AmlsOptions& options,
+            EigenResult& out) {
   for (int step = 0; step < options.max_refinements; ++step) {
     const VectorXd before = out.values;
     refine_modes(problem, mass, out.vectors, out.values);
-    out.solves += asked;
+    out.solves += before.size();
     out.errors = lowered(before, out.values, problem.sigma).head(options.count);
-    if (out.errors.maxCoeff() <= options.accuracy) return out;
+    if (out.errors.maxCoeff() <= options.accuracy) return;
   }
   out.status = EigenStatus::kNotConverged;
   out.message = fmt::format("{} steps still lowered a frequency by {:.1e}, expected {:.1e}",
                             options.max_refinements, out.errors.maxCoeff(), options.accuracy);
-  return out;
 }
 
 }  // namespace
@@ -234,21 +259,18 @@ EigenResult solve_amls(const ShiftInvert& problem, const SupernodalFactor& facto
   const auto size = static_cast<Index>(problem.size);
   const int spare = std::max(8, options.count / 10);  // the highest Ritz vectors are the poorest
   const int asked = static_cast<int>(std::min<Index>(options.count + spare, size));
+  require_room(size, asked, 0);
   const SubtreeProduct A(factor, mass);
-  const double nu = density_cut(A, size, options.count, options.seed);
+  const double nu = ModeDensity(A, size, options.seed).nu_above(options.count);
   double highest = std::max(1.0 / nu + problem.sigma, 0.0) * options.cutoff * options.cutoff;
-  Multilevel levels(A, factor.tree(), options);
   EigenResult out;
-  for (int attempt = 0; attempt < kTries; ++attempt, highest *= kWider) {
-    levels.find_local_modes(1.0 / (highest - problem.sigma));
-    out.status = EigenStatus::kNotConverged;
-    out.message = fmt::format("{} modes of substructures are too few", levels.modes());
-    if (levels.modes() < asked) continue;
-    out = solve_at(levels, problem, mass, options, asked);
-    if (out.ok()) break;
+  for (int attempt = 0; attempt < kTries && !out.ok(); ++attempt, highest *= kWider) {
+    out.vectors.resize(0, 0);
+    out = project(problem, A, factor.tree(), options, asked, 1.0 / (highest - problem.sigma));
+    if (out.ok()) refine(problem, mass, options, out);
   }
   if (!out.ok()) return out;
-  out.solves += levels.solves();
+  out.solves += ModeDensity::kSolves;
   out.values.conservativeResize(options.count);
   out.vectors.conservativeResize(size, options.count);
   return out;

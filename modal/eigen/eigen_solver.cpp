@@ -9,11 +9,12 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/stopwatch.hpp"
-#include "core/threads.hpp"
 #include "modal/eigen/amls.hpp"
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
 #include "modal/eigen/dense_solver.hpp"
+#include "modal/eigen/mode_check.hpp"
+#include "modal/eigen/mode_density.hpp"
 #include "modal/eigen/refinement.hpp"
 #include "modal/factor/inertia.hpp"
 #include "modal/symmetric_product.hpp"
@@ -25,11 +26,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRigidRatio = 1e-6;  // |f| < 1e-3 of the first elastic frequency
-constexpr double kSameValue = 1e-7;   // relative distance at which two values count as one
+constexpr double kSameValue = 1e-7;  // relative distance at which two values count as one
 constexpr int kMaxRefinements = 2;
-constexpr Index kColumns = 64;  // of vectors that are handled at a time
-constexpr int kExtra = 3;       // modes beyond the wanted, to find a gap behind them
+constexpr int kExtra = 3;  // modes beyond the wanted, to find a gap behind them
 
 /// The problem with all that one request needs.
 class Search {
@@ -42,7 +41,7 @@ class Search {
   bool small() const { return n_ <= options_.dense_limit; }
   /// Frequencies with an estimated error in place of a residual at rounding.
   bool approximate() const { return modes_.errors.size() > 0; }
-  EigenResult attempt(int count, int retry) const;
+  EigenResult attempt(int count, int retry);
   EigenResult solve(int count, int retry);
   /// Values below a limit that stands in a gap, with the inertia count there.
   void prove(double limit);
@@ -59,15 +58,17 @@ class Search {
   /// So many may be, by the errors of the values: no contradiction, and no proof.
   bool may_agree() const;
   void keep_first(Index count);
-  void measure_residuals(const SymmetricProduct& stiffness);
-  void restore_order();
+  /// The factor of K - sigma M; made anew when AMLS gave its memory back.
+  const SupernodalFactor& factor();
+  /// About how many modes lie below a value.
+  int estimated_below(double limit);
   void finish();
 
   const SparseMatrix& K_;
   const SparseMatrix& M_;
   const EigenOptions& options_;
   const Index n_;
-  const SupernodalFactor* factor_;
+  const SupernodalFactor* const given_factor_;
   std::unique_ptr<SupernodalFactor> own_factor_;
   std::vector<int64_t> order_;  // unknown at each place: inside, rows stand in the factor's order
   std::optional<SymmetricProduct> mass_;
@@ -107,7 +108,7 @@ Index values_below(const VectorXd& values, double limit) {
 
 Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
                const SupernodalFactor* factor)
-    : K_(K), M_(M), options_(options), n_(K.rows()), factor_(factor) {
+    : K_(K), M_(M), options_(options), n_(K.rows()), given_factor_(factor) {
   modes_.sigma = options.sigma ? *options.sigma : default_shift(K, M);
   order_.resize(static_cast<size_t>(n_));
   std::iota(order_.begin(), order_.end(), 0);
@@ -115,24 +116,28 @@ Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions&
     mass_.emplace(M);
     return;
   }
-  if (factor_ == nullptr) {
-    const SparseMatrix shifted = K - modes_.sigma * M;
-    own_factor_ = std::make_unique<SupernodalFactor>(shifted, options.factor);
-    factor_ = own_factor_.get();
-  }
-  modes_.factor = factor_->report();
+  modes_.factor = this->factor().report();
   problem_.size = n_;
   problem_.sigma = modes_.sigma;
-  order_ = factor_->permutation();
+  order_ = this->factor().permutation();
   mass_.emplace(reordered(M, order_));
   problem_.solve = [this](const double* x, double* y, int count) {
     std::copy_n(x, n_ * count, y);
-    factor_->solve_in_order(y, count);
+    this->factor().solve_in_order(y, count);
   };
   problem_.mass = [this](const double* x, double* y, int count) { mass_->multiply(x, y, count); };
 }
 
-EigenResult Search::attempt(int count, int retry) const {
+const SupernodalFactor& Search::factor() {
+  if (given_factor_ != nullptr) return *given_factor_;
+  if (!own_factor_) {  // the same order each time
+    const SparseMatrix shifted = K_ - modes_.sigma * M_;
+    own_factor_ = std::make_unique<SupernodalFactor>(shifted, options_.factor);
+  }
+  return *own_factor_;
+}
+
+EigenResult Search::attempt(int count, int retry) {
   const uint64_t seed = options_.seed + 7919 * static_cast<uint64_t>(retry);
   const int block_room = 2 * count + 6 * 24;
   const bool given_start = retry == 0 && options_.start.size() == n_;
@@ -142,7 +147,7 @@ EigenResult Search::attempt(int count, int retry) const {
     amls.accuracy = options_.accuracy;
     amls.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
     amls.seed = seed;
-    return solve_amls(problem_, *factor_, *mass_, amls);
+    return solve_amls(problem_, factor(), *mass_, amls);
   }
   if (options_.method == EigenMethod::kBlockLanczos && block_room < n_) {
     BlockLanczosOptions block;
@@ -174,6 +179,8 @@ EigenResult Search::solve(int count, int retry) {
   modes_.solves += found.solves;
   modes_.seconds += clock.seconds();
   if (!found.ok()) throw NumericsError("modes: " + found.message);
+  // The vectors of AMLS need no more solves; their memory is wanted for the count.
+  if (found.errors.size() > 0) own_factor_.reset();
   return found;
 }
 
@@ -202,8 +209,7 @@ bool Search::may_agree() const {
 void Search::prove(double limit) {
   modes_.proof.limit = limit;
   if (!options_.prove_count) return;
-  const auto permutation = factor_ ? factor_->permutation() : std::vector<int64_t>{};
-  const InertiaCount count = count_below(K_, M_, limit, permutation);
+  const InertiaCount count = count_below(K_, M_, limit, small() ? std::vector<int64_t>{} : order_);
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
     throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; ask for another limit",
@@ -259,7 +265,7 @@ void Search::find_by_count() {
         widest_gap(values, lower_values(), options_.count, 1e-6 * std::abs(modes_.sigma));
     const bool found_gap = before < values.size();
     if (!found_gap && asked < all && !approximate()) continue;  // a cluster: look further
-    modes_.next_value = values[options_.count];
+    modes_.next_value = lower_values()[options_.count];
     if (!found_gap && approximate()) break;  // the errors leave no gap: nothing can be proved
     prove(limit);
     if (options_.prove_count && !agrees()) {
@@ -278,8 +284,16 @@ void Search::find_by_count() {
   keep_first(options_.count);
 }
 
+int Search::estimated_below(double limit) {
+  const ModeDensity density(SubtreeProduct(factor(), *mass_), n_, options_.seed);
+  modes_.solves += ModeDensity::kSolves;
+  return static_cast<int>(density.count_above(1.0 / (limit - modes_.sigma)));
+}
+
 void Search::find_by_limit_unproved(double limit) {
-  for (int count = 20;; count = count * 2) {
+  constexpr int kMore = 20;  // than estimated: what a first guess may lack of few modes
+  int count = kMore + (small() ? 0 : estimated_below(limit));
+  for (;; count += count / 2) {
     const int asked = static_cast<int>(std::min<Index>(count, n_));
     take(solve(asked, 0));
     if (modes_.values.tail(1)[0] >= limit || asked == n_ || modes_.values.size() < asked) return;
@@ -310,7 +324,10 @@ void Search::find_by_limit() {
   }
   // The count knows the number; the errors may have lifted some over the limit.
   const bool counted = options_.prove_count && may_agree();
-  keep_first(counted ? modes_.proof.below : values_below(modes_.values, limit));
+  const Index kept = counted ? modes_.proof.below : values_below(modes_.values, limit);
+  if (!counted && approximate() && kept < modes_.values.size())
+    modes_.next_value = std::min(limit, lower_values()[kept]);
+  keep_first(kept);
 }
 
 void Search::keep_first(Index count) {
@@ -319,63 +336,23 @@ void Search::keep_first(Index count) {
   modes_.vectors.conservativeResize(n_, count);
 }
 
-void Search::measure_residuals(const SymmetricProduct& stiffness) {
-  modes_.residuals.resize(modes_.size());
-  for (Index first = 0; first < modes_.size(); first += kColumns) {
-    const Index count = std::min(kColumns, modes_.size() - first);
-    const MatrixXd mass = *mass_ * modes_.vectors.middleCols(first, count);
-    const MatrixXd force = stiffness * modes_.vectors.middleCols(first, count);
-    for (Index c = 0; c < count; ++c) {
-      const double value = modes_.values[first + c];
-      modes_.residuals[first + c] = (force.col(c) - value * mass.col(c)).norm() /
-                                    (std::abs(value - modes_.sigma) * mass.col(c).norm());
-    }
-  }
-}
-
-void Search::restore_order() {
-  parallel_pieces(modes_.size(), [&](int64_t begin, int64_t end) {
-    VectorXd inside;
-    for (int64_t j = begin; j < end; ++j) {
-      inside = modes_.vectors.col(j);
-      for (Index i = 0; i < n_; ++i)
-        modes_.vectors(static_cast<Index>(order_[static_cast<size_t>(i)]), j) = inside[i];
-    }
-  });
-}
-
 void Search::finish() {
-  const SymmetricProduct stiffness(reordered(K_, order_));
-  measure_residuals(stiffness);
-  for (int k = 0; k < kMaxRefinements && !small() && !approximate() && modes_.size() > 0 &&
-                  !(modes_.residuals.maxCoeff() <= options_.max_residual);
-       ++k) {
-    // What the factor weakens most, motion of high frequency left in the vectors, is what their
-    // residuals show most.
-    refine_modes(problem_, *mass_, modes_.vectors, modes_.values);
-    modes_.solves += modes_.size();
-    measure_residuals(stiffness);
-  }
-  restore_order();
-  for (Index j = 0; j < modes_.size(); ++j) {
-    if (!approximate() && !(modes_.residuals[j] <= options_.max_residual)) {
-      throw NumericsError(fmt::format(
-          "modes: mode {} at {:.6g} Hz has residual {:.1e}, expected "
-          "at most {:.1e}",
-          j + 1, hz_of_value(modes_.values[j]), modes_.residuals[j], options_.max_residual));
+  {
+    const SymmetricProduct stiffness(reordered(K_, order_));
+    const auto measure = [&] { modes_.residuals = residuals_of(stiffness, *mass_, modes_); };
+    measure();
+    for (int k = 0; k < kMaxRefinements && !small() && !approximate() && modes_.size() > 0 &&
+                    !(modes_.residuals.maxCoeff() <= options_.max_residual);
+         ++k) {
+      // What the factor weakens most, motion of high frequency left in the vectors, is what their
+      // residuals show most.
+      refine_modes(problem_, *mass_, modes_.vectors, modes_.values);
+      modes_.solves += modes_.size();
+      measure();
     }
-    auto x = modes_.vectors.col(j);
-    Index largest = 0;
-    x.cwiseAbs().maxCoeff(&largest);
-    if (x[largest] < 0.0) x *= -1.0;
   }
-  // The first value that is clearly not rigid is the yardstick for those before it.
-  const double shift = modes_.sigma < 0.0 ? -modes_.sigma : 0.0;
-  double elastic = shift;
-  for (Index j = modes_.size() - 1; j >= 0; --j) {
-    if (modes_.values[j] > kRigidRatio * shift) elastic = modes_.values[j];
-  }
-  modes_.rigid = static_cast<int>((modes_.values.array().abs() < kRigidRatio * elastic).count());
+  if (!approximate()) refuse_residuals(modes_, options_.max_residual);
+  present(order_, modes_);
 }
 
 ModeSet Search::run() {

@@ -13,12 +13,10 @@
 
 namespace clatter::modal {
 
-struct EigenOptions {
+struct EigenOptions : EigenChoice {
   int count = 0;         // the lowest `count` modes, or
   double fmax_hz = 0.0;  // all modes below this frequency; exactly one of both is given
   bool prove_count = true;
-  EigenMethod method = EigenMethod::kBlockLanczos;
-  double accuracy = 5e-3;       // of kAmls: largest estimated relative error of a frequency
   double amls_cutoff = 2.5;     // of kAmls: modes of parts are kept to this times the frequency
   std::optional<double> sigma;  // shift [rad2/s2]; chosen by default_shift when absent
   int max_retries = 2;          // new start vectors after a count mismatch

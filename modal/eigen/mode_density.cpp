@@ -13,10 +13,7 @@ namespace {
 
 constexpr int kSteps = 10;  // nodes of a quadrature
 constexpr int kVectors = 2 * kLanes;
-
-struct Node {
-  double nu, weight;
-};
+static_assert(kSteps * kVectors == ModeDensity::kSolves);
 
 using Eigen::MatrixXd;
 using Columns = Eigen::Array<double, 1, kVectors>;
@@ -49,33 +46,55 @@ Recurrence lanczos(const SubtreeProduct& A, int64_t size, uint64_t seed) {
   return out;
 }
 
+/// The count at nu by one random vector.
+double interpolated(const std::vector<ModeDensity::Point>& points, double nu) {
+  const auto next =
+      std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.nu <= nu; });
+  if (next == points.begin()) return 0.0;
+  const auto& last = *std::prev(next);
+  if (next == points.end()) return last.count;
+  const double part = std::log(nu / last.nu) / std::log(next->nu / last.nu);
+  return last.count * std::pow(next->count / last.count, part);
+}
+
 }  // namespace
 
-double density_cut(const SubtreeProduct& A, int64_t size, double count, uint64_t seed) {
+ModeDensity::ModeDensity(const SubtreeProduct& A, int64_t size, uint64_t seed) {
   const Recurrence found = lanczos(A, size, seed);
-  std::vector<Node> nodes;
   Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
   for (int v = 0; v < kVectors; ++v) {
     solver.computeFromTridiagonal(found.alpha.col(v).matrix(),
                                   found.beta.col(v).head(kSteps - 1).matrix());
-    for (int k = 0; k < kSteps; ++k)
-      nodes.push_back({solver.eigenvalues()[k], std::pow(solver.eigenvectors()(0, k), 2) *
-                                                    static_cast<double>(size) / kVectors});
-  }
-  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.nu > b.nu; });
-  double above = 0.0, last_count = 0.0, last_nu = nodes.front().nu;
-  for (const Node& node : nodes) {  // half of a node's weight lies on each side of it
-    const double here = above + 0.5 * node.weight;
-    if (here >= count && last_count > 0.0) {
-      const double part = std::log(count / last_count) / std::log(here / last_count);
-      return last_nu * std::pow(node.nu / last_nu, std::clamp(part, 0.0, 1.0));
+    double above = 0.0;
+    std::vector<Point> points;
+    for (int k = kSteps; k-- > 0;) {  // half of a node's weight lies on each side of it
+      const double nu = solver.eigenvalues()[k];
+      const double weight = std::pow(solver.eigenvectors()(0, k), 2) * static_cast<double>(size);
+      if (nu <= 0.0) break;
+      points.push_back({nu, above + 0.5 * weight});
+      above += weight;
     }
-    if (here >= count || node.nu <= 0.0) break;
-    above += node.weight;
-    last_count = here;
-    last_nu = node.nu;
+    vectors_.push_back(std::move(points));
   }
-  return last_nu;
+}
+
+double ModeDensity::count_above(double nu) const {
+  double sum = 0.0;
+  for (const auto& points : vectors_) sum += interpolated(points, nu);
+  return sum / kVectors;
+}
+
+double ModeDensity::nu_above(double count) const {
+  double low = vectors_[0].back().nu, high = vectors_[0].front().nu;
+  for (const auto& points : vectors_) {
+    low = std::min(low, points.back().nu);
+    high = std::max(high, points.front().nu);
+  }
+  while (high > 1.001 * low) {
+    const double middle = std::sqrt(low * high);
+    (count_above(middle) >= count ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace clatter::modal

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index kColumns = 64;  // of vectors that are handled at a time
+constexpr Index kColumns = 32;  // of vectors that are handled at a time
 constexpr Index kRows = 2048;   // the same
 
 }  // namespace
@@ -24,20 +24,29 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
                   VectorXd& values) {
   const Index m = X.cols(), n = X.rows();
   MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
-  RowMatrix image(n, kColumns), answer(n, kColumns);
-  for (Index first = 0; first < m; first += kColumns) {
+  // Beside X, which may fill half the memory, two blocks are held, row by row.
+  RowMatrix image(n, kColumns), block(n, kColumns);
+  const auto project = [&](Index first, MatrixXd& onto) {  // rows of X up to the block itself
     const Index count = std::min(kColumns, m - first), end = first + count;
-    image.setZero();
-    image.leftCols(count) = mass_of * X.middleCols(first, count);
-    problem.solve(image.data(), answer.data(), static_cast<int>(kColumns));
-    X.middleCols(first, count) = answer.leftCols(count);
-    shifted.block(0, first, end, count) =
-        transposed_product(X.leftCols(end), MatrixXd(image.leftCols(count)));
+    onto.block(0, first, end, count) =
+        transposed_rows_product(X.leftCols(end), image).leftCols(count);
+  };
+  const auto take_image = [&](Index first) {
+    const Index count = std::min(kColumns, m - first);
+    block.rightCols(kColumns - count).setZero();
+    block.leftCols(count) = X.middleCols(first, count);
+    mass_of.multiply(block.data(), image.data(), static_cast<int>(kColumns));
+  };
+  for (Index first = 0; first < m; first += kColumns) {
+    const Index count = std::min(kColumns, m - first);
+    take_image(first);
+    problem.solve(image.data(), block.data(), static_cast<int>(kColumns));
+    X.middleCols(first, count) = block.leftCols(count);
+    project(first, shifted);
   }
   for (Index first = 0; first < m; first += kColumns) {
-    const Index count = std::min(kColumns, m - first), end = first + count;
-    mass.block(0, first, end, count) =
-        transposed_product(X.leftCols(end), mass_of * X.middleCols(first, count));
+    take_image(first);
+    project(first, mass);
   }
   const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
   if (!ritz.ok) throw NumericsError("modes: the refined vectors depend on each other");

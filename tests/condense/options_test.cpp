@@ -35,5 +35,22 @@ TEST(BadInput, ModalDampingOutOfOrderOrOverCriticalIsRefusedAtItsLine) {
   test::expect_parts(refusal("[[modal_damping]]\nhz = 0\nratio = 0.01\n"), {"hz"});
 }
 
+TEST(EigenSolverKeys, SayWhichSolverAndHowAccurate) {
+  EXPECT_EQ(parse("").modes.method, modal::EigenMethod::kBlockLanczos);
+  const ModeRequest request = parse("eigen_solver = \"amls\"\naccuracy = 1e-3\n").modes;
+  EXPECT_EQ(request.method, modal::EigenMethod::kAmls);
+  EXPECT_EQ(request.accuracy, 1e-3);
+}
+
+TEST(BadInput, AnAccuracyOutOfRangeAndAnUnknownSolverAreRefusedAtTheirLine) {
+  const auto refusal = [](const std::string& rows) {
+    return test::refusal_of([&] { parse(rows); });
+  };
+  test::expect_parts(refusal("eigen_solver = \"amls\"\naccuracy = 0.5\n"),
+                     {"box.rom.toml:4", "accuracy", "0.5"});
+  test::expect_parts(refusal("eigen_solver = \"amls\"\naccuracy = 0\n"), {"accuracy"});
+  test::expect_parts(refusal("eigen_solver = \"aml\"\n"), {"box.rom.toml:3", "amls"});
+}
+
 }  // namespace
 }  // namespace clatter::condense

@@ -3,33 +3,40 @@
 
 #include <Eigen/SVD>
 
+#include "modal/analysis.hpp"
 #include "modal/eigen/amls.hpp"
 #include "modal/eigen/dense_solver.hpp"
 #include "modal/eigen/eigen_solver.hpp"
 #include "modal/eigen/local_modes.hpp"
+#include "modal/eigen/mode_density.hpp"
 #include "modal/eigen/substructures.hpp"
 #include "tests/modal/spring_models.hpp"
 
 namespace clatter::modal {
 namespace {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::by_count;
 using test::spring_box;
+
+/// P A P^T in the order of a factor.
+SparseMatrix in_order(const SparseMatrix& lower, const std::vector<int64_t>& order) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(lower.cols());
+  for (size_t j = 0; j < order.size(); ++j)
+    place.indices()[static_cast<int>(order[j])] = static_cast<int>(j);
+  SparseMatrix out(lower.rows(), lower.cols());
+  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
+  return out;
+}
 
 /// AMLS on a factor of its own, as solve_modes calls it.
 EigenResult direct(const test::Pencil& box, const AmlsOptions& options) {
   const double sigma = default_shift(box.K, box.M);
   const SparseMatrix shifted = box.K - sigma * box.M;
   const SupernodalFactor factor(shifted);
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(box.K.cols());
-  const auto order = factor.permutation();
-  for (size_t j = 0; j < order.size(); ++j)
-    place.indices()[static_cast<int>(order[j])] = static_cast<int>(j);
-  SparseMatrix mass(box.M.rows(), box.M.cols());
-  mass.selfadjointView<Eigen::Lower>() = box.M.selfadjointView<Eigen::Lower>().twistedBy(place);
-  const SymmetricProduct product(mass);
+  const SymmetricProduct product(in_order(box.M, factor.permutation()));
   ShiftInvert problem;
   problem.size = box.K.rows();
   problem.sigma = sigma;
@@ -158,6 +165,86 @@ TEST(Amls, ByFrequencyTheProofSaysHowManyThereAre) {
     const ModeSet modes = solve_modes(box.K, box.M, options);
     EXPECT_EQ(modes.size(), wanted);
     EXPECT_TRUE(modes.proof.proved);
+  }
+}
+
+TEST(Amls, ALimitWithinTheErrorOfAFrequencyIsCountedButNotProved) {
+  const auto box = spring_box(12, 10, 9);
+  const ModeSet exact = solve_modes(box.K, box.M, by_count(50, EigenMethod::kArpack));
+  EigenOptions loose;
+  loose.method = EigenMethod::kAmls;
+  loose.accuracy = 0.1;
+  loose.amls_cutoff = 1.3;
+  EigenOptions count = loose;
+  count.count = 40;
+  count.prove_count = false;
+  const ModeSet rough = solve_modes(box.K, box.M, count);
+  Index worst = 0;  // the mode that errs most, clear of the next
+  for (Index j = 6; j < 40; ++j) {
+    const auto error = [&](Index k) { return rough.values[k] / exact.values[k] - 1.0; };
+    if (rough.values[j] < exact.values[j + 1] && error(j) > error(worst)) worst = j;
+  }
+  ASSERT_GT(rough.values[worst], (1.0 + 1e-7) * exact.values[worst]);
+  // Between the true value and what AMLS makes of it: inertia counts the mode, AMLS lifts it over.
+  loose.fmax_hz =
+      hz_of_value(exact.values[worst] + 0.02 * (rough.values[worst] - exact.values[worst]));
+  const ModeSet modes = solve_modes(box.K, box.M, loose);
+  EXPECT_EQ(modes.proof.below, worst + 1);
+  EXPECT_EQ(modes.size(), worst + 1);
+  EXPECT_GT(modes.values[worst], value_of_hz(loose.fmax_hz));
+  EXPECT_FALSE(modes.proof.proved);
+  PartModes part;
+  part.modes = modes;
+  EXPECT_NE(describe(part).back().find("not proved: inertia counts"), std::string::npos)
+      << describe(part).back();
+  // Without the count that mode is left out, and what is known to be whole ends below the limit.
+  loose.prove_count = false;
+  const ModeSet uncounted = solve_modes(box.K, box.M, loose);
+  EXPECT_EQ(uncounted.size(), worst);
+  EXPECT_LT(uncounted.next_value, exact.values[worst]);
+  // In the middle of a wide gap the same errors leave no doubt.
+  Index wide = 10;
+  for (Index j = 10; j < 40; ++j)
+    if (exact.values[j + 1] / exact.values[j] > exact.values[wide + 1] / exact.values[wide])
+      wide = j;
+  loose.prove_count = true;
+  loose.fmax_hz = hz_of_value(0.5 * (exact.values[wide] + exact.values[wide + 1]));
+  const ModeSet clear = solve_modes(box.K, box.M, loose);
+  EXPECT_EQ(clear.size(), wide + 1);
+  EXPECT_TRUE(clear.proof.proved);
+}
+
+TEST(Amls, ByFrequencyWithoutProofItSolvesOnceForAboutTheRightCount) {
+  const auto box = spring_box(12, 10, 9);
+  const ModeSet many = solve_modes(box.K, box.M, by_count(120));
+  for (const EigenMethod method : {EigenMethod::kAmls, EigenMethod::kBlockLanczos}) {
+    EigenOptions options;
+    options.method = method;
+    options.prove_count = false;
+    options.fmax_hz = hz_of_value(0.5 * (many.values[99] + many.values[100]));
+    const ModeSet modes = solve_modes(box.K, box.M, options);
+    EXPECT_EQ(modes.size(), 100);
+    EXPECT_FALSE(modes.proof.proved);
+    EigenOptions known = by_count(150, method);  // half as many again is what a poor guess costs
+    known.prove_count = false;
+    EXPECT_LT(modes.solves, solve_modes(box.K, box.M, known).solves + ModeDensity::kSolves);
+  }
+}
+
+TEST(Amls, TheDensityCountsModesToAHalf) {
+  const auto box = spring_box(12, 10, 9);
+  const double sigma = default_shift(box.K, box.M);
+  const SupernodalFactor factor(SparseMatrix(box.K - sigma * box.M));
+  const SymmetricProduct mass(in_order(box.M, factor.permutation()));
+  const ModeDensity density(SubtreeProduct(factor, mass), box.K.rows(), 1);
+  const VectorXd values = solve_modes(box.K, box.M, by_count(300)).values;
+  for (const int count : {30, 100, 290}) {
+    const double nu = 1.0 / (0.5 * (values[count - 1] + values[count]) - sigma);
+    // 16 random vectors see `count` modes with a deviation of sqrt(2 / (16 count)): 6.5 % of 30.
+    EXPECT_GT(density.count_above(nu), 0.8 * count);
+    EXPECT_LT(density.count_above(nu), 1.5 * count);  // ten nodes leave few to interpolate by
+    const double back = density.count_above(density.nu_above(count));
+    EXPECT_NEAR(back, count, 0.01 * count);  // nu is found to a thousandth
   }
 }
 

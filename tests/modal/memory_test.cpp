@@ -9,6 +9,7 @@
 #include "modal/factor/supernodal_factor.hpp"
 #include "modal/symmetric_product.hpp"
 #include "tests/modal/spring_models.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -35,6 +36,29 @@ TEST(MemoryLimit, AFactorThatDoesNotFitIsRefusedBeforeItIsMade) {
   const SparseMatrix A = box.K + 1e6 * box.M;
   const Limited limit(memory_in_use_gib() + 1e-3);  // L alone takes 7 MB
   EXPECT_THROW(SupernodalFactor{A}, NumericsError);
+}
+
+TEST(MemoryLimit, AmlsWhoseVectorsDoNotFitIsRefusedBeforeItTakesThem) {
+  const auto box = test::spring_box(12, 10, 9);
+  EigenOptions options = test::by_count(100, EigenMethod::kAmls);
+  options.sigma = default_shift(box.K, box.M);
+  options.prove_count = false;
+  const SupernodalFactor factor(SparseMatrix(box.K - *options.sigma * box.M));
+  const double before = memory_in_use_gib();
+  const double vectors = gib_of_doubles(3240.0 * (113 + 64));  // a tenth more, and two blocks
+  {
+    const Limited limit(before + 0.5 * vectors);
+    try {
+      (void)solve_modes(box.K, box.M, options, &factor);
+      ADD_FAILURE() << "accepted";
+    } catch (const NumericsError& error) {
+      test::expect_parts(error.what(), {"AMLS with 113 vectors of 3240 unknowns", "fewer modes",
+                                        "--memory-limit"});
+    }
+    EXPECT_LT(memory_in_use_gib() - before, 0.5 * vectors);
+  }
+  const Limited limit(before + 20.0 * vectors);
+  EXPECT_EQ(solve_modes(box.K, box.M, options, &factor).size(), 100);
 }
 
 TEST(MemoryLimit, TheBasisShrinksThenGoesToDisk) {

@@ -19,6 +19,7 @@ GROUPS = [
         ("load_shapes", "{:.0f}", "static shapes of load cases"),
         ("residual_modes", "{:.0f}", "vectors that stand for the modes left out"),
         ("eigen_residual_max", "{:.1e}", "largest residual of a mode"),
+        ("eigen_frequency_error", "{:.1e}", "largest estimated relative error of its frequency, by AMLS"),
         ("modal_mass_error", "{:.1e}", "modal masses against 1"),
         ("dropped_vectors", "{:.0f}", "dependent vectors taken out"),
         ("count_proved", "{:yes}", "no mode is missing, by the inertia count below"),

@@ -1,0 +1,111 @@
+// Condensation with fixed-interface modes by multilevel substructuring.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "condense/condense.hpp"
+#include "core/log.hpp"
+#include "modal/eigen/eigen_solver.hpp"
+#include "tests/condense/solid_model.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using modal::EigenMethod;
+
+constexpr int kRigid = 6;  // the boundary holds the bar while it is condensed, nothing else does
+
+/// A free bar of 3 000 unknowns, large enough that AMLS does not leave the work to ARPACK.
+const assembly::FeModel& bar() {
+  static const assembly::FeModel model = test::solid_bar(
+      {0.2, 0.045, 0.04}, {9, 3, 3}, 0.3, "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n");
+  return model;
+}
+
+CondenseOptions by(EigenMethod method, int count, double fmax_hz = 0.0) {
+  CondenseOptions options;
+  options.boundary = {"foot"};
+  options.modes.method = method;
+  options.modes.count = count;
+  options.modes.fmax_hz = fmax_hz;
+  options.modes.frequency_error = 0.0;  // no residual modes: they would hide what AMLS leaves
+  options.skin = {};
+  return options;
+}
+
+ReducedModel reduce(const CondenseOptions& options) {
+  set_quiet(true);
+  StepClock clock;
+  return condense(bar(), options, clock);
+}
+
+/// Elastic frequencies of a reduced model below a limit.
+VectorXd elastic_hz(const ReducedModel& reduced, double limit_hz) {
+  const VectorXd values =
+      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(reduced.K_rr, reduced.M_rr)
+          .eigenvalues()
+          .tail(reduced.size() - kRigid);
+  const VectorXd hz = values.unaryExpr(&modal::hz_of_value);
+  return hz.head((hz.array() < limit_hz).count());
+}
+
+TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
+  const ReducedModel exact = reduce(by(EigenMethod::kBlockLanczos, 40));
+  CondenseOptions options = by(EigenMethod::kAmls, 40);
+  const double accuracy = options.modes.accuracy = 2e-3;
+  const ReducedModel amls = reduce(options);
+  const auto& c = amls.certificate;
+  ASSERT_TRUE(c.contains("eigen_frequency_error"));  // AMLS it was
+  EXPECT_FALSE(exact.certificate.contains("eigen_frequency_error"));
+  EXPECT_LE(c.at("eigen_frequency_error"), accuracy);
+
+  const VectorXd interior =
+      (amls.fixed_interface_hz - exact.fixed_interface_hz).cwiseQuotient(exact.fixed_interface_hz);
+  EXPECT_GT(interior.minCoeff(), -1e-9);  // rounding alone goes below
+  EXPECT_LT(interior.maxCoeff(), accuracy);
+  EXPECT_GT(interior.maxCoeff(), 1e-8);  // there is something to state
+  EXPECT_GT(c.at("eigen_residual_max"), 10.0 * exact.certificate.at("eigen_residual_max"));
+
+  const VectorXd body = elastic_hz(amls, c.at("cutoff_hz"));
+  ASSERT_GT(body.size(), 10);
+  const VectorXd other = elastic_hz(exact, 2.0 * c.at("cutoff_hz")).head(body.size());
+  modal::EigenOptions all;
+  all.count = kRigid + static_cast<int>(body.size());
+  const VectorXd full =
+      modal::solve_modes(bar().K, bar().M, all).frequencies_hz().tail(body.size());
+  for (Index j = 0; j < body.size(); ++j) {
+    EXPECT_NEAR(body[j], other[j], accuracy * other[j]) << j;
+    EXPECT_GT(body[j], (1.0 - 1e-9) * full[j]) << j;  // Rayleigh and Ritz
+  }
+}
+
+TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
+  const VectorXd exact = reduce(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
+  CondenseOptions options = by(EigenMethod::kAmls, 40);
+  options.modes.accuracy = 0.1;
+  const ReducedModel counted = reduce(options);
+  EXPECT_LE(counted.certificate.at("cutoff_hz"), counted.fixed_interface_hz[39]);
+  const VectorXd rough = counted.fixed_interface_hz;
+  Index worst = 0;  // the mode that errs most, clear of the next
+  for (Index j = 0; j < 39; ++j)
+    if (rough[j] < exact[j + 1] && rough[j] / exact[j] > rough[worst] / exact[worst]) worst = j;
+  ASSERT_GT(rough[worst] / exact[worst] - 1.0, 1e-7);
+  options.modes.count = 0;
+  options.modes.fmax_hz = exact[worst] + 0.02 * (rough[worst] - exact[worst]);
+  const ReducedModel reduced = reduce(options);
+  const auto& c = reduced.certificate;
+  EXPECT_EQ(c.at("count_proved"), 0.0);
+  EXPECT_EQ(c.at("count_below"), static_cast<double>(worst + 1));
+  EXPECT_EQ(c.at("fixed_interface_modes"), static_cast<double>(worst + 1));
+  std::string text;
+  for (const std::string& line : describe(reduced)) text += line + "\n";
+  EXPECT_NE(text.find("number is not proved"), std::string::npos) << text;
+  EXPECT_NE(text.find("errors leave"), std::string::npos) << text;
+  EXPECT_NE(text.find("largest error about"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace clatter::condense
