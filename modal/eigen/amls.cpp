@@ -257,7 +257,7 @@ EigenResult solve_amls(const ShiftInvert& problem, const SupernodalFactor& facto
   constexpr int kTries = 4;
   constexpr double kWider = 2.25;  // of eigenvalues, from try to try
   const auto size = static_cast<Index>(problem.size);
-  const int spare = std::max(8, options.count / 10);  // the highest Ritz vectors are the poorest
+  const int spare = std::max(8, options.count / 20);  // the highest Ritz vectors are the poorest
   const int asked = static_cast<int>(std::min<Index>(options.count + spare, size));
   require_room(size, asked, 0);
   const SubtreeProduct A(factor, mass);

@@ -24,8 +24,8 @@ struct AmlsOptions {
 /// until the last one lowered no wanted frequency by more than `accuracy`; what it lowered is the
 /// estimate in EigenResult::errors: the true error behind the step is about 1 / (t^2 - 1) of it,
 /// t the ratio between the eigenvalue of what a vector still lacks and its own.
-/// Memory: the vectors, a tenth more than asked for, and two blocks of 32 beside the factor; throws
-/// NumericsError before it takes any when they do not fit.
+/// Memory: the vectors, a twentieth more than asked for (8 at least), and two blocks of 32 beside
+/// the factor; throws NumericsError before it takes any when they do not fit.
 /// @param problem K, M in the order of the factor; @param mass P M P^T.
 EigenResult solve_amls(const ShiftInvert& problem, const SupernodalFactor& factor,
                        const SymmetricProduct& mass, const AmlsOptions& options);
