@@ -17,6 +17,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/large_pages.hpp"
 #include "core/log.hpp"
 
 namespace {
@@ -123,5 +124,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   clatter::ensure_fast_blas(argv);
+  clatter::keep_freed_memory();
   return clatter::run_guarded("clatter-condense", [&] { return run(argc, argv); });
 }

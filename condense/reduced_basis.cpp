@@ -24,10 +24,15 @@ MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
   return u;
 }
 
+MatrixXd ReducedBasis::at_boundary(const Eigen::Ref<const MatrixXd>& f_i,
+                                   const Eigen::Ref<const MatrixXd>& f_b) const {
+  return f_b - factor_->boundary_product(f_i);
+}
+
 MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
                                const Eigen::Ref<const MatrixXd>& f_b) const {
   MatrixXd out(size(), f_i.cols());
-  out.topRows(boundary()) = f_b - K_ib_.transpose() * factor_->solve(f_i);
+  out.topRows(boundary()) = at_boundary(f_i, f_b);
   out.bottomRows(shapes.cols()) = modal::transposed_product(shapes, f_i);
   return out;
 }
@@ -44,14 +49,16 @@ ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
   out.K_rr.topLeftCorner(n_b, n_b) = statics.K_bb;
   for (Index first = 0; first < k; first += kBlock) {
     const Index count = std::min(kBlock, k - first);
-    const MatrixXd X = basis.shapes.middleCols(first, count);
-    out.M_rr.middleCols(n_b + first, count) = basis.project(mass * X, M_bi * X);
-    out.K_rr.block(n_b, n_b + first, k, count) =
-        modal::transposed_product(basis.shapes, stiffness * X);
+    const auto X = basis.shapes.middleCols(first, count);
+    const auto known = basis.shapes.leftCols(first + count);
+    MatrixXd image = mass * X;
+    out.M_rr.block(0, n_b + first, n_b, count) = basis.at_boundary(image, M_bi * X);
+    out.M_rr.block(n_b, n_b + first, known.cols(), count) = modal::transposed_product(known, image);
+    image = stiffness * X;
+    out.K_rr.block(n_b, n_b + first, known.cols(), count) = modal::transposed_product(known, image);
   }
-  out.M_rr.bottomLeftCorner(k, n_b) = out.M_rr.topRightCorner(n_b, k).transpose();
-  out.M_rr = (0.5 * (out.M_rr + out.M_rr.transpose())).eval();
-  out.K_rr = (0.5 * (out.K_rr + out.K_rr.transpose())).eval();
+  out.M_rr.triangularView<Eigen::StrictlyLower>() = out.M_rr.transpose();
+  out.K_rr.triangularView<Eigen::StrictlyLower>() = out.K_rr.transpose();
   return out;
 }
 

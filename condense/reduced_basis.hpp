@@ -24,6 +24,9 @@ class ReducedBasis {
   Eigen::Index size() const { return boundary() + shapes.cols(); }
   /// Interior rows of V q; q is r x m.
   Eigen::MatrixXd interior(const Eigen::Ref<const Eigen::MatrixXd>& q) const;
+  /// The first n_b rows of V^T f.
+  Eigen::MatrixXd at_boundary(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
+                              const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
   /// V^T f for loads f_i (n_i x m) and f_b (n_b x m).
   Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;

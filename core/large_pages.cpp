@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -50,6 +51,11 @@ std::shared_ptr<double[]> spilled_array(size_t count) {
   close(file);
   if (memory == MAP_FAILED) fail("mapping");
   return {static_cast<double*>(memory), [bytes](double* array) { munmap(array, bytes); }};
+}
+
+void keep_freed_memory() {
+  mallopt(M_MMAP_MAX, 0);  // or large arrays would come from mmap and go back when they are freed
+  mallopt(M_TRIM_THRESHOLD, -1);
 }
 
 }  // namespace clatter

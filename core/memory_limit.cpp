@@ -1,6 +1,7 @@
 #include "core/memory_limit.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,10 +33,13 @@ double memory_in_use_gib() {
   return resident * page_bytes() / kGib;
 }
 
-double memory_left_gib() { return std::max(0.0, memory_limit_gib() - memory_in_use_gib()); }
+double memory_left_gib(double enough) {
+  if (memory_limit_gib() - memory_in_use_gib() < enough) malloc_trim(0);
+  return std::max(0.0, memory_limit_gib() - memory_in_use_gib());
+}
 
 void require_memory(const std::string& what, double gib, const std::string& advice) {
-  const double left = memory_left_gib();
+  const double left = memory_left_gib(gib);
   if (gib <= left) return;
   throw NumericsError(fmt::format("{} needs {:.3g} GiB, {:.3g} of {:.3g} GiB are left: {}", what,
                                   gib, left, memory_limit_gib(), advice));

@@ -1,5 +1,6 @@
 #pragma once
 // How much memory the process may take.
+#include <limits>
 #include <string>
 
 namespace clatter {
@@ -11,8 +12,10 @@ double memory_limit_gib();
 /// Resident memory of this process now [GiB]; 0 where there is no /proc.
 double memory_in_use_gib();
 
-/// What is left below the limit [GiB], at least 0.
-double memory_left_gib();
+/// What is left below the limit [GiB], at least 0. Memory that was freed but kept for later arrays
+/// (keep_freed_memory) goes back to the kernel first where less than `enough` would be left: it
+/// costs time to have it again.
+double memory_left_gib(double enough = std::numeric_limits<double>::infinity());
 
 /// Throws NumericsError "<what> needs ... GiB, ... of ... are left: <advice>" when `gib` is more
 /// than what is left.

@@ -12,6 +12,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/large_pages.hpp"
 #include "core/log.hpp"
 #include "modal/compare.hpp"
 #include "modal/modes_file.hpp"
@@ -179,5 +180,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   clatter::ensure_fast_blas(argv);
+  clatter::keep_freed_memory();
   return clatter::run_guarded("clatter-modal", [&] { return run(argc, argv); });
 }

@@ -11,6 +11,7 @@
 #include "core/progress.hpp"
 #include "modal/dense_eigen.hpp"
 #include "modal/eigen/krylov_basis.hpp"
+#include "modal/factor/sweep_kernel.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -22,16 +23,17 @@ using Eigen::VectorXd;
 /// Larger blocks read the factor less often, smaller ones converge after fewer vectors.
 Index default_block(Index wanted, Index size) {
   constexpr Index kSmall = 20000;  // unknowns whose factor stays in the cache
-  if (size < kSmall) return std::clamp<Index>(wanted / 8, 4, 8);
-  return wanted < 12 ? 8 : 16;
+  return size < kSmall || wanted < 12 ? 8 : 16;
 }
 
 Index block_of(const BlockLanczosOptions& options, Index size) {
-  return options.block > 0 ? options.block : default_block(options.count, size);
+  const Index asked = options.block > 0 ? options.block : default_block(options.count, size);
+  return (asked + kLanes - 1) / kLanes * kLanes;
 }
 
 BasisRoom room_left(const BlockLanczosOptions& options, Index block, Index size) {
-  const double left = memory_left_gib();
+  const auto ample = static_cast<double>(size) * static_cast<double>(5 * options.count + 8 * block);
+  const double left = memory_left_gib(gib_of_doubles(ample));
   const double least =
       gib_of_doubles(static_cast<double>(size) * static_cast<double>(3 * block + options.count));
   require_memory(fmt::format("the vectors of {} modes", options.count), least,

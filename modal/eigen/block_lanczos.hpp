@@ -10,7 +10,7 @@ namespace clatter::modal {
 
 struct BlockLanczosOptions {
   int count = 0;             // pairs wanted
-  int block = 0;             // vectors a block; 0: chosen from `count`
+  int block = 0;             // vectors a block, in whole kLanes; 0: chosen from `count`
   int basis = 0;             // largest subspace; 0: chosen from `count`
   double tolerance = 1e-10;  // |Op x - nu x|_M / nu of each pair; nu is then right to its square
   std::optional<Storage> storage;  // of the basis; else as memory allows

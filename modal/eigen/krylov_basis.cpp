@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/blas_kernel.hpp"
+#include "core/h5_file.hpp"
 #include "core/large_pages.hpp"
 #include "core/threads.hpp"
+#include "modal/factor/sweep_kernel.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -82,19 +84,57 @@ KrylovBasis::KrylovBasis(Index size, Index room, Storage storage)
       data_(storage == Storage::kDisk ? spilled_array(static_cast<size_t>(size * room))
                                       : large_array(static_cast<size_t>(size * room))) {}
 
+/// body(row, rows, column, columns) for the tiles of columns [first, last) in rows [begin, end);
+/// while one is used the next is on its way to the cache.
+template <class Body>
+void KrylovBasis::over_tiles(Index begin, Index end, Index first, Index last, Body&& body) const {
+  constexpr Index kTileRows = 48, kTileColumns = 96, kLine = 8;
+  const auto fetch = [&](Index row, Index column) {
+    if (column >= last) {
+      row += kTileRows;
+      column = first;
+    }
+    const Index stop = std::min(row + kTileRows, end);
+    const Index columns = std::min(kTileColumns, last - column);
+    for (Index i = row; i < stop; ++i)
+      for (Index c = 0; c < columns; c += kLine) __builtin_prefetch(at(i, column) + c);
+  };
+  for (Index row = begin; row < end; row += kTileRows) {
+    for (Index column = first; column < last; column += kTileColumns) {
+      fetch(row, column + kTileColumns);
+      body(row, extent(std::min(kTileRows, end - row)), column,
+           extent(std::min(kTileColumns, last - column)));
+    }
+  }
+}
+
 MatrixXd KrylovBasis::coefficients(Index first, Index last, const TallBlock& B) const {
-  return summed(size_, last - first, B.count, [&](Index row, Index rows, MatrixXd& sum) {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, extent(last - first), extent(B.count),
-                extent(rows), 1.0, at(row, first), extent(room_), B.row(row), extent(B.count), 1.0,
-                sum.data(), extent(last - first));
+  const Index pieces = std::min<Index>(thread_count(), size_);
+  std::vector<RowMatrix> parts(static_cast<size_t>(pieces), RowMatrix::Zero(last - first, B.count));
+  parallel_pieces(pieces, [&](int64_t piece, int64_t) {
+    RowMatrix& H = parts[static_cast<size_t>(piece)];
+    over_tiles(size_ * piece / pieces, size_ * (piece + 1) / pieces, first, last,
+               [&](Index row, int rows, Index column, int columns) {
+                 for (Index lane = 0; lane < B.count; lane += kLanes)
+                   subtract_product(at(row, column), room_, columns, rows,
+                                    {const_cast<double*>(B.row(row)) + lane, B.count},
+                                    {H.row(column - first).data() + lane, B.count});
+               });
   });
+  for (size_t p = 1; p < parts.size(); ++p) parts[0] += parts[p];
+  return -parts[0];
 }
 
 void KrylovBasis::subtract(Index first, const MatrixXd& H, TallBlock& B) const {
-  on_all_threads(size_, [&](Index row, Index rows) {
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, extent(B.count), extent(rows),
-                extent(H.rows()), -1.0, H.data(), extent(H.rows()), at(row, first), extent(room_),
-                1.0, B.row(row), extent(B.count));
+  RowMatrix weights = H;
+  parallel_pieces(size_, [&](int64_t begin, int64_t end) {
+    over_tiles(begin, end, first, first + H.rows(),
+               [&](Index row, int rows, Index column, int columns) {
+                 for (Index lane = 0; lane < B.count; lane += kLanes)
+                   subtract_transposed(at(row, column), room_, columns, rows,
+                                       {weights.row(column - first).data() + lane, B.count},
+                                       {B.row(row) + lane, B.count});
+               });
   });
 }
 

@@ -30,7 +30,8 @@ enum class Storage { kMemory, kDisk };
 class KrylovBasis {
  public:
   KrylovBasis(Eigen::Index size, Eigen::Index room, Storage storage = Storage::kMemory);
-  /// Columns [first, last)^T B, (last - first) x count.
+  /// Columns [first, last)^T B, (last - first) x count; count is a multiple of kLanes here and
+  /// below.
   Eigen::MatrixXd coefficients(Eigen::Index first, Eigen::Index last, const TallBlock& B) const;
   /// B -= columns [first, first + H.rows()) H.
   void subtract(Eigen::Index first, const Eigen::MatrixXd& H, TallBlock& B) const;
@@ -43,6 +44,9 @@ class KrylovBasis {
   Eigen::MatrixXd columns(Eigen::Index count) const;
 
  private:
+  template <class Body>
+  void over_tiles(Eigen::Index begin, Eigen::Index end, Eigen::Index first, Eigen::Index last,
+                  Body&& body) const;
   double* at(Eigen::Index row, Eigen::Index column) const {
     return data_.get() + row * room_ + column;
   }

@@ -9,7 +9,6 @@
 #include <new>
 #include <random>
 
-#include "core/blas_kernel.hpp"
 #include "core/h5_file.hpp"
 #include "core/large_pages.hpp"
 #include "core/memory_limit.hpp"
@@ -17,6 +16,7 @@
 #include "core/threads.hpp"
 #include "modal/factor/multifrontal.hpp"
 #include "modal/factor/sweep_kernel.hpp"
+#include "modal/factor/tree_sweeps.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -39,7 +39,8 @@ FactorReport report_of(const SupernodeTree& tree, const SparseMatrix& lower) {
 }
 
 void refuse_if_too_large(const FactorReport& report, const FactorOptions& options) {
-  const double left = options.memory_limit_gib > 0.0 ? options.memory_limit_gib : memory_left_gib();
+  const double left = options.memory_limit_gib > 0.0 ? options.memory_limit_gib
+                                                     : memory_left_gib(report.predicted_gib);
   if (report.predicted_gib <= left) return;
   throw NumericsError(fmt::format(
       "the factor of {} unknowns needs {:.1f} GiB ({} entries), {:.1f} GiB are left: use a "
@@ -76,6 +77,7 @@ std::vector<double> power_of_two_scale(const SparseMatrix& lower) {
 struct SupernodalFactor::Impl {
   std::vector<double> scale;
   SupernodeTree tree;
+  TreeSweeps sweeps;
   std::unique_ptr<double[]> panels;
   Eigen::MatrixXd boundary_part;
   FactorReport report;
@@ -84,9 +86,10 @@ struct SupernodalFactor::Impl {
   void factorise(const SparseMatrix& lower, const SparseMatrix& coupling);
   void check_pivots(const FactorOptions& options);
   void probe(const SparseMatrix& lower, const FactorOptions& options);
-  /// x <- S L^{-T} L^{-1} S x for `count` values of each place, 1 or a multiple of kLanes.
-  void solve_places(double* x, Index count) const;
+  template <class Use>
+  void by_blocks(const Eigen::Ref<const Eigen::MatrixXd>& b, Use&& use) const;
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+  Eigen::MatrixXd boundary_product(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 };
 
 void SupernodalFactor::Impl::factorise(const SparseMatrix& lower, const SparseMatrix& coupling) {
@@ -155,29 +158,14 @@ void SupernodalFactor::Impl::probe(const SparseMatrix& lower, const FactorOption
       -1);
 }
 
-void SupernodalFactor::Impl::solve_places(double* x, Index count) const {
-  const BlasThreads one(1);
-  const auto scale_rows = [&](int64_t begin, int64_t end) {
-    for (int64_t j = begin; j < end; ++j) {
-      const double s = scale[static_cast<size_t>(tree.order[static_cast<size_t>(j)])];
-      for (Index c = 0; c < count; ++c) x[j * count + c] *= s;
-    }
-  };
-  parallel_pieces(tree.size, scale_rows);
-  const Index lanes = count == 1 ? 1 : kLanes;
-  parallel_pieces(count / lanes, [&](int64_t begin, int64_t end) {
-    const SweepColumns part{x + begin * lanes, static_cast<int>((end - begin) * lanes), count};
-    forward_sweep(view(), part);
-    backward_sweep(view(), part);
-  });
-  parallel_pieces(tree.size, scale_rows);
-}
-
-Eigen::MatrixXd SupernodalFactor::Impl::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
+/// Columns of b by blocks in the order of elimination, row by row; `use` gets each block (with room
+/// for the boundary behind it), its width and its first column.
+template <class Use>
+void SupernodalFactor::Impl::by_blocks(const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                       Use&& use) const {
   const Index n = tree.size, block = std::min(kBlock, whole_lanes(b.cols()));
-  Eigen::MatrixXd x(n, b.cols());
-  prefer_large_pages(x.data(), static_cast<size_t>(x.size()) * sizeof(double));
-  const std::unique_ptr<double[]> work = large_array(static_cast<size_t>(n * block));
+  const std::unique_ptr<double[]> work =
+      large_array(static_cast<size_t>((n + tree.boundary) * block));
   for (Index first = 0; first < b.cols(); first += block) {
     const Index used = std::min(block, b.cols() - first), count = whole_lanes(used);
     parallel_pieces(n, [&](int64_t begin, int64_t end) {
@@ -188,16 +176,37 @@ Eigen::MatrixXd SupernodalFactor::Impl::solve(const Eigen::Ref<const Eigen::Matr
         std::fill(row + used, row + count, 0.0);
       }
     });
-    solve_places(work.get(), count);
-    parallel_pieces(n, [&](int64_t begin, int64_t end) {
+    use(work.get(), count, first, used);
+  }
+}
+
+Eigen::MatrixXd SupernodalFactor::Impl::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
+  Eigen::MatrixXd x(b.rows(), b.cols());
+  prefer_large_pages(x.data(), static_cast<size_t>(x.size()) * sizeof(double));
+  by_blocks(b, [&](double* work, Index count, Index first, Index used) {
+    sweeps.solve(view(), scale, work, static_cast<int>(count));
+    parallel_pieces(tree.size, [&](int64_t begin, int64_t end) {
       for (int64_t j = begin; j < end; ++j) {
         const Index i = tree.order[static_cast<size_t>(j)];
-        const double* row = work.get() + j * count;
+        const double* row = work + j * count;
         for (Index c = 0; c < used; ++c) x(i, first + c) = row[c];
       }
     });
-  }
+  });
   return x;
+}
+
+Eigen::MatrixXd SupernodalFactor::Impl::boundary_product(
+    const Eigen::Ref<const Eigen::MatrixXd>& f) const {
+  Eigen::MatrixXd out(tree.boundary, f.cols());
+  by_blocks(f, [&](double* work, Index count, Index first, Index used) {
+    double* end = work + int64_t{tree.size} * count;
+    std::fill_n(end, tree.boundary * count, 0.0);
+    sweeps.forward_to_boundary(view(), scale, work, static_cast<int>(count));
+    out.middleCols(first, used) =
+        -Eigen::Map<const RowMatrix>(end, tree.boundary, count).leftCols(used);
+  });
+  return out;
 }
 
 SupernodalFactor::SupernodalFactor(const SparseMatrix& lower, const FactorOptions& options)
@@ -208,6 +217,7 @@ SupernodalFactor::SupernodalFactor(const SparseMatrix& lower, const SparseMatrix
     : impl_(std::make_unique<Impl>()) {
   impl_->scale = power_of_two_scale(lower);
   impl_->tree = analyse_tree(lower, {options.ordering, options.permutation}, coupling);
+  impl_->sweeps = TreeSweeps(impl_->tree, thread_count());
   impl_->report = report_of(impl_->tree, lower);
   refuse_if_too_large(impl_->report, options);
   impl_->factorise(lower, coupling);
@@ -228,13 +238,21 @@ Eigen::MatrixXd SupernodalFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>&
 }
 
 void SupernodalFactor::solve_in_order(double* x, int count) const {
-  if (count == whole_lanes(count)) return impl_->solve_places(x, count);
+  const auto sweep = [&](double* places, Index width) {
+    impl_->sweeps.solve(view(), impl_->scale, places, static_cast<int>(width));
+  };
+  if (count == whole_lanes(count)) return sweep(x, count);
   const Index n = size(), whole = whole_lanes(count);
   RowMatrix padded = RowMatrix::Zero(n, whole);
   Eigen::Map<RowMatrix> given(x, n, count);
   padded.leftCols(count) = given;
-  impl_->solve_places(padded.data(), whole);
+  sweep(padded.data(), whole);
   given = padded.leftCols(count);
+}
+
+Eigen::MatrixXd SupernodalFactor::boundary_product(
+    const Eigen::Ref<const Eigen::MatrixXd>& f) const {
+  return impl_->boundary_product(f);
 }
 
 int64_t SupernodalFactor::size() const { return impl_->tree.size; }

@@ -75,6 +75,8 @@ class SupernodalFactor {
   /// Row of A that stands at place j of the factor, n entries.
   std::vector<int64_t> permutation() const;
 
+  /// C^T A^{-1} f, n_b x m, for f of n x m: the sweep down to L_b alone, half of a solve.
+  Eigen::MatrixXd boundary_product(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
   /// C^T A^{-1} C, n_b x n_b.
   const Eigen::MatrixXd& boundary_part() const;
   const SupernodeTree& tree() const;

@@ -11,7 +11,12 @@ namespace {
 /// call, since each CPU's clone of the functions below has registers of its own.
 using Vector = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
 
-constexpr int kRows = 6;  // 6 x 8 sums fit the registers of AVX2 and of AVX-512
+// Sums that fit the registers; two products a cycle with a latency of four want eight at least.
+#ifdef __AVX512F__
+constexpr int kRows = 12;
+#else
+constexpr int kRows = 6;
+#endif
 
 #define CLATTER_INLINE inline __attribute__((always_inline))
 
@@ -46,11 +51,30 @@ CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, c
   for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
 }
 
+/// `rows` < R rows of y in one go: one row by itself waits for its own last product all the time.
+template <int R>
+CLATTER_INLINE void last_product_rows(const double* A, int64_t stride, int rows, int columns,
+                                      const Lanes& x, const Lanes& y) {
+  if constexpr (R > 1) {
+    if (rows == R - 1) return product_rows<R - 1>(A, stride, columns, x, y);
+    last_product_rows<R - 1>(A, stride, rows, columns, x, y);
+  }
+}
+
+template <int R>
+CLATTER_INLINE void last_transposed_rows(const double* A, int64_t stride, int rows, int columns,
+                                         const Lanes& y, const Lanes& x) {
+  if constexpr (R > 1) {
+    if (columns == R - 1) return transposed_rows<R - 1>(A, stride, rows, y, x);
+    last_transposed_rows<R - 1>(A, stride, rows, columns, y, x);
+  }
+}
+
 CLATTER_INLINE void product(const double* A, int64_t stride, int rows, int columns, const Lanes& x,
                             const Lanes& y) {
   int r = 0;
   for (; r + kRows <= rows; r += kRows) product_rows<kRows>(A + r, stride, columns, x, y.row(r));
-  for (; r < rows; ++r) product_rows<1>(A + r, stride, columns, x, y.row(r));
+  last_product_rows<kRows>(A + r, stride, rows - r, columns, x, y.row(r));
 }
 
 CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int columns,
@@ -58,7 +82,7 @@ CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int co
   int j = 0;
   for (; j + kRows <= columns; j += kRows)
     transposed_rows<kRows>(A + j * stride, stride, rows, y, x.row(j));
-  for (; j < columns; ++j) transposed_rows<1>(A + j * stride, stride, rows, y, x.row(j));
+  last_transposed_rows<kRows>(A + j * stride, stride, rows, columns - j, y, x.row(j));
 }
 
 }  // namespace

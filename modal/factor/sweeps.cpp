@@ -23,7 +23,7 @@ struct Block {
 
   Block(const FactorView& L, int32_t s, const SweepColumns& all)
       : columns(L.tree->columns(s)),
-        below(L.tree->rows_before(s, L.end_place())),
+        below(L.tree->rows_before(s, L.reach_place())),
         height(L.tree->height(s)),
         panel(L.panels + L.tree->panel_start[static_cast<size_t>(s)]),
         rows(L.tree->rows_of(s) + columns),
@@ -94,32 +94,40 @@ void backward_vector(const Block& b, const double* work) {
 
 }  // namespace
 
+void forward_step(const FactorView& L, int32_t s, const SweepColumns& x, std::vector<double>& work,
+                  const BehindView& behind) {
+  const Block b(L, s, x);
+  work.assign(static_cast<size_t>(b.below) * static_cast<size_t>(x.count), 0.0);
+  x.count == 1 ? forward_vector(b, work.data()) : forward_block(b, x, work.data());
+  const int32_t origin = L.first_place();
+  const int own = behind.sums == nullptr ? b.below : L.tree->rows_before(s, L.end_place());
+  const double* from = work.data();
+  for (int k = 0; k < b.below; ++k, from += x.count) {
+    double* to = k < own ? x.at + (b.rows[k] - origin) * x.stride
+                         : behind.sums + int64_t{behind.index[b.rows[k]]} * x.count;
+    for (int c = 0; c < x.count; ++c) to[c] += from[c];
+  }
+}
+
+void backward_step(const FactorView& L, int32_t s, const SweepColumns& x,
+                   std::vector<double>& work) {
+  const Block b(L, s, x);
+  const int32_t origin = L.first_place();
+  work.resize(std::max(work.size(), static_cast<size_t>(b.below) * static_cast<size_t>(x.count)));
+  double* to = work.data();
+  for (int k = 0; k < b.below; ++k, to += x.count)
+    std::copy_n(x.at + (b.rows[k] - origin) * x.stride, x.count, to);
+  x.count == 1 ? backward_vector(b, work.data()) : backward_block(b, x, work.data());
+}
+
 void forward_sweep(const FactorView& L, const SweepColumns& x) {
   std::vector<double> work;
-  const int32_t origin = L.first_place();
-  for (int32_t s = L.from; s < L.end(); ++s) {
-    const Block b(L, s, x);
-    work.assign(static_cast<size_t>(b.below) * static_cast<size_t>(x.count), 0.0);
-    x.count == 1 ? forward_vector(b, work.data()) : forward_block(b, x, work.data());
-    const double* from = work.data();
-    for (int k = 0; k < b.below; ++k, from += x.count) {
-      double* to = x.at + (b.rows[k] - origin) * x.stride;
-      for (int c = 0; c < x.count; ++c) to[c] += from[c];
-    }
-  }
+  for (int32_t s = L.from; s < L.end(); ++s) forward_step(L, s, x, work);
 }
 
 void backward_sweep(const FactorView& L, const SweepColumns& x) {
   std::vector<double> work;
-  const int32_t origin = L.first_place();
-  for (int32_t s = L.end() - 1; s >= L.from; --s) {
-    const Block b(L, s, x);
-    work.resize(std::max(work.size(), static_cast<size_t>(b.below) * static_cast<size_t>(x.count)));
-    double* to = work.data();
-    for (int k = 0; k < b.below; ++k, to += x.count)
-      std::copy_n(x.at + (b.rows[k] - origin) * x.stride, x.count, to);
-    x.count == 1 ? backward_vector(b, work.data()) : backward_block(b, x, work.data());
-  }
+  for (int32_t s = L.end() - 1; s >= L.from; --s) backward_step(L, s, x, work);
 }
 
 }  // namespace clatter::modal

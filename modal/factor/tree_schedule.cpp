@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <queue>
+#include <utility>
 
 namespace clatter::modal {
 
-TreeSchedule schedule(const SupernodeTree& tree, int threads) {
-  constexpr double kShare = 0.1;  // largest subtree, in parts of a thread's work
-  const auto n = static_cast<size_t>(tree.supernodes());
+TreeSchedule schedule(const SupernodeTree& tree, int threads, std::vector<double> work,
+                      double share) {
+  const size_t n = work.size();
   TreeSchedule out;
   out.lowest = tree.lowest();
-  std::vector<double> work(n);
-  for (size_t s = 0; s < n; ++s) {
-    work[s] += tree.flops(static_cast<int32_t>(s));
-    if (tree.parent[s] < 0) continue;
-    work[static_cast<size_t>(tree.parent[s])] += work[s];
-  }
+  for (size_t s = 0; s < n; ++s)
+    if (tree.parent[s] >= 0) work[static_cast<size_t>(tree.parent[s])] += work[s];
   const auto lighter = [&](int32_t a, int32_t b) {
     return work[static_cast<size_t>(a)] < work[static_cast<size_t>(b)];
   };
@@ -26,7 +23,7 @@ TreeSchedule schedule(const SupernodeTree& tree, int threads) {
     heaviest.push(static_cast<int32_t>(s));
     total += work[s];
   }
-  const double limit = threads > 1 ? kShare * total / threads : -1.0;
+  const double limit = threads > 1 ? share * total / threads : -1.0;
   const std::vector<std::vector<int32_t>> children = tree.children();
   while (!heaviest.empty() && work[static_cast<size_t>(heaviest.top())] > limit) {
     const int32_t s = heaviest.top();
@@ -37,6 +34,13 @@ TreeSchedule schedule(const SupernodeTree& tree, int threads) {
   std::sort(out.top.begin(), out.top.end());
   for (; !heaviest.empty(); heaviest.pop()) out.subtrees.push_back(heaviest.top());
   return out;
+}
+
+TreeSchedule schedule(const SupernodeTree& tree, int threads) {
+  constexpr double kShare = 0.1;
+  std::vector<double> flops(static_cast<size_t>(tree.supernodes()));
+  for (size_t s = 0; s < flops.size(); ++s) flops[s] = tree.flops(static_cast<int32_t>(s));
+  return schedule(tree, threads, std::move(flops), kShare);
 }
 
 }  // namespace clatter::modal

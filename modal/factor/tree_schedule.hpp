@@ -15,6 +15,12 @@ struct TreeSchedule {
 };
 
 /// @param threads one: everything is top.
+/// @param work of each supernode.
+/// @param share largest subtree, in parts of a thread's work.
+TreeSchedule schedule(const SupernodeTree& tree, int threads, std::vector<double> work,
+                      double share);
+
+/// For the factorisation: by flops.
 TreeSchedule schedule(const SupernodeTree& tree, int threads);
 
 }  // namespace clatter::modal

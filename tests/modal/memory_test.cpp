@@ -100,27 +100,29 @@ TEST(MemoryLimit, ModesAreTheSameWithTheBasisOnDisk) {
   EXPECT_EQ(memory.vectors, disk.vectors);
 }
 
-TEST(KrylovBasisTest, TheDiskHoldsTheSameNumbers) {
-  const Eigen::Index n = 3000, b = 4;
-  KrylovBasis memory(n, 12), disk(n, 12, Storage::kDisk);
+TEST(KrylovBasisTest, ProductsAreThoseOfDenseMatricesInMemoryAndOnDisk) {
+  const Eigen::Index n = 3001, b = 16, room = 13 * b;  // more than one tile each way, and a rest
+  KrylovBasis memory(n, room), disk(n, room, Storage::kDisk);
   TallBlock block(n, b);
-  for (Eigen::Index k = 0; k < 3; ++k) {
+  for (Eigen::Index k = 0; k < 13; ++k) {
     for (Eigen::Index i = 0; i < n * b; ++i)
-      block.data[static_cast<size_t>(i)] = std::sin(0.37 * static_cast<double>(i * (k + 1)));
+      block.data[static_cast<size_t>(i)] =
+          std::sin(0.37 * static_cast<double>(i + 1) * static_cast<double>(k + 1));
     memory.put(k * b, block);
     disk.put(k * b, block);
   }
-  EXPECT_EQ(memory.columns(12), disk.columns(12));
-  const MatrixXd V = memory.columns(12);
-  const MatrixXd H = memory.coefficients(2, 9, block);
-  const MatrixXd last = V.rightCols(b);
-  EXPECT_LT((H - V.middleCols(2, 7).transpose() * last).norm(), 1e-12 * H.norm());
-  const MatrixXd S = MatrixXd::Random(12, 5);
+  EXPECT_EQ(memory.columns(room), disk.columns(room));
+  const MatrixXd V = memory.columns(room);
+  const MatrixXd H = memory.coefficients(2, 201, block);
+  EXPECT_EQ(disk.coefficients(2, 201, block), H);
+  const MatrixXd last = V.rightCols(b), used = V.middleCols(2, 199);
+  EXPECT_LT((H - used.transpose() * last).norm(), 1e-12 * H.norm());
+  const MatrixXd S = MatrixXd::Random(room, 5);
   disk.transform(S);
   EXPECT_LT((disk.columns(5) - V * S).norm(), 1e-12 * (V * S).norm());
   memory.subtract(2, H, block);
   RowMatrix left = Eigen::Map<const RowMatrix>(block.row(0), n, b);
-  EXPECT_LT((left - (last - V.middleCols(2, 7) * H)).norm(), 1e-12 * left.norm());
+  EXPECT_LT((left - (last - used * H)).norm(), 1e-12 * (used * H).norm());
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(TreeSchedule, SubtreesAndTopAreAllSupernodesOnce) {
 }
 
 TEST(SweepKernel, EqualsDenseAlgebraForEverySizeOfBlock) {
-  for (const int n : {1, 2, 5, 6, 7, 12, 13, 47, 48}) {
+  for (const int n : {1, 2, 5, 6, 7, 11, 12, 13, 23, 25, 47, 48}) {
     const int below = n + 3;
     const MatrixXd A = MatrixXd::Random(n + below, n) + 3.0 * MatrixXd::Identity(n + below, n);
     const MatrixXd L = A.topRows(n).triangularView<Eigen::Lower>();
@@ -143,6 +143,41 @@ TEST(SupernodalFactorTest, RepeatedRunsHaveTheSameBits) {
   const MatrixXd again = SupernodalFactor(A).solve(b);
   set_thread_count(0);
   EXPECT_EQ((once - again).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(SupernodalFactorTest, SubtreesOfTheThreadsAndTheTopSolveTogether) {
+  const SparseMatrix A = held_box(12, 9, 9);
+  const MatrixXd b = MatrixXd::Random(A.rows(), 24), exact = full(A).llt().solve(b);
+  for (const int threads : {1, 2, 3, 5}) {
+    set_thread_count(threads);
+    const SupernodalFactor factor(A);
+    const TreeSchedule plan = schedule(factor.tree(), threads);
+    EXPECT_EQ(plan.subtrees.empty(), threads == 1) << "nothing runs side by side";
+    for (const Index count : {1, 8, 24})
+      EXPECT_LT((factor.solve(b.leftCols(count)) - exact.leftCols(count)).norm(),
+                1e-12 * exact.leftCols(count).norm())
+          << threads << " threads, " << count;
+  }
+  set_thread_count(0);
+}
+
+TEST(SupernodalFactorTest, LoadsComeToTheBoundaryByTheForwardSweepAlone) {
+  const MatrixXd dense = full(held_box(9, 8, 7));
+  const Index n_b = 25, n = dense.cols() - n_b;
+  const SparseMatrix inside = dense.topLeftCorner(n, n).sparseView();
+  const SparseMatrix coupling = dense.topRightCorner(n, n_b).sparseView();
+  const MatrixXd f = MatrixXd::Random(n, 130);
+  const MatrixXd expected =
+      dense.topRightCorner(n, n_b).transpose() * dense.topLeftCorner(n, n).llt().solve(f);
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    const SupernodalFactor factor(inside, coupling);
+    for (const Index count : {1, 5, 130})
+      EXPECT_LT((factor.boundary_product(f.leftCols(count)) - expected.leftCols(count)).norm(),
+                1e-12 * expected.leftCols(count).norm())
+          << threads << " threads, " << count;
+  }
+  set_thread_count(0);
 }
 
 TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
