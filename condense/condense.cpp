@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "condense/certificate.hpp"
 #include "condense/cutoff_search.hpp"
 #include "condense/frame_inertia.hpp"
@@ -113,6 +115,12 @@ CondenseOptions read_condense_options(const Config& config) {
   }
   if (config.has("accurate_to_hz"))
     options.modes.accurate_to_hz = config.number("accurate_to_hz", Range::positive());
+  options.rows = config.texts_or("rows", {});
+  for (const std::string& name : options.rows)
+    if (std::find(options.boundary.begin(), options.boundary.end(), name) != options.boundary.end())
+      config.fail("rows", fmt::format("found \"{}\", which stands in the boundary, expected other "
+                                      "sets",
+                                      name));
   check_one_request(config, options);
   options.modes.frequency_error =
       config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
@@ -136,8 +144,9 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);
   clock.lap("partition");
-  const SkinRecovery skin(model, partition, options.skin);
-  const StaticPart statics = static_part(model, partition, K, M, skin.unknowns(), clock);
+  const SkinRecovery skin(model, partition, options.skin, options.rows);
+  const StaticPart statics =
+      static_part(model, partition, K, M, skin.unknowns(), clock, options.order);
   CutOffSearch search;
   CraigBampton source =
       options.modes.accurate_to_hz > 0.0
@@ -162,6 +171,8 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
     reduced.loads[name] = project_load(load, partition, source.basis);
   }
   reduced.skin = skin.recover(statics.reduction.rows, source.basis.shapes);
+  skin.recover_sets(statics.reduction.rows, source.basis.shapes, reduced);
+  reduced.elimination = statics.order;
   clock.lap("loads and skin rows");
   if (options.inertia_invariants) {
     reduced.inertia = frame_inertia(model, partition, source.basis);

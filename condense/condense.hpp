@@ -20,6 +20,8 @@ struct CondenseOptions {
   ModeRequest modes;                          // shapes of the interior
   bool certificate = true;                    // false: without its costly part (certificate.hpp)
   std::vector<std::string> skin = {"skin"};   // surfaces whose displacement can be recovered
+  std::vector<std::string> rows;              // sets whose displacement is kept beside the boundary
+  EliminationOrder order;                     // of K_ii, used again where it fits
   bool inertia_invariants = false;            // of a body that rotates, eq. (9)
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
   DampingTable modal_damping;                 // by eigenmodes of the body, beside alpha and beta

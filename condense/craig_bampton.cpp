@@ -13,9 +13,13 @@ namespace {
 
 std::shared_ptr<const modal::SupernodalFactor> factorise_interior(const assembly::FeModel& model,
                                                                   const DofPartition& partition,
-                                                                  const PartitionedMatrix& K) {
+                                                                  const PartitionedMatrix& K,
+                                                                  const EliminationOrder& order) {
   try {
-    return std::make_shared<modal::SupernodalFactor>(K.ii, K.ib);
+    modal::FactorOptions options;
+    if (order.fits(K.ii))
+      options.permutation.assign(order.permutation.begin(), order.permutation.end());
+    return std::make_shared<modal::SupernodalFactor>(K.ii, K.ib, options);
   } catch (const modal::NotPositiveDefinite& error) {
     const std::string where =
         error.column < 0
@@ -30,16 +34,26 @@ std::shared_ptr<const modal::SupernodalFactor> factorise_interior(const assembly
   }
 }
 
+EliminationOrder order_of(const modal::SupernodalFactor& factor, const SparseMatrix& K_ii) {
+  const std::vector<int64_t> places = factor.permutation();
+  return {{places.begin(), places.end()},
+          sha256_of_pattern(K_ii),
+          factor.report().ordering,
+          factor.report().entries};
+}
+
 }  // namespace
 
 StaticPart static_part(const assembly::FeModel& model, const DofPartition& partition,
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
-                       const std::vector<int32_t>& kept, StepClock& clock) {
+                       const std::vector<int32_t>& kept, StepClock& clock,
+                       const EliminationOrder& order) {
   check_boundary_holds(model, partition);
   StaticPart out;
-  out.factor_ii = factorise_interior(model, partition, K);
-  clock.lap(fmt::format("factor of K_ii ({:.3g} entries)",
-                        static_cast<double>(out.factor_ii->report().entries)));
+  out.factor_ii = factorise_interior(model, partition, K, order);
+  out.order = order_of(*out.factor_ii, K.ii);
+  clock.lap(fmt::format("factor of K_ii ({:.3g} entries{})", static_cast<double>(out.order.entries),
+                        out.order.method == "given" ? ", stored order" : ""));
   const Eigen::MatrixXd motions = model.rigid * modal::free_motions(model);
   out.reduction = reduce_statically(
       *out.factor_ii, K, M,

@@ -6,6 +6,7 @@
 
 #include "condense/interior_modes.hpp"
 #include "condense/residual_modes.hpp"
+#include "core/elimination_order.hpp"
 #include "core/stopwatch.hpp"
 
 namespace clatter::condense {
@@ -23,15 +24,18 @@ struct CraigBampton : Reduction {
 struct StaticPart {
   std::shared_ptr<const modal::SupernodalFactor> factor_ii;
   StaticReduction reduction;
+  EliminationOrder order;  // of K_ii
 };
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
 /// @param K, M blocks of the model's matrices by `partition`.
 /// @param kept interior unknowns whose rows of Psi are wanted.
+/// @param order used again when it fits K_ii (hard case C7), in place of one that is looked for.
 /// Throws InputError when the boundary does not hold the body, NumericsError when K_ii is singular.
 StaticPart static_part(const assembly::FeModel& model, const DofPartition& partition,
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
-                       const std::vector<int32_t>& kept, StepClock& clock);
+                       const std::vector<int32_t>& kept, StepClock& clock,
+                       const EliminationOrder& order = {});
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is

@@ -111,15 +111,18 @@ MatrixXd projected(const MatrixXd& A, const MatrixXd& W) {
   return 0.5 * (out + out.transpose());
 }
 
-/// Sets name coordinates that stay, and after all coordinates the places of `become`.
-void renumber(ReducedModel& model, const Split& split, int size) {
+/// Sets name coordinates that stay, after all coordinates the places of `become`, and after those
+/// the places that were combined among the coordinates `before`.
+void renumber(ReducedModel& model, const Split& split, int before, int size) {
   std::vector<int32_t> place(static_cast<size_t>(model.n_boundary));
   for (size_t k = 0; k < split.stay.size(); ++k)
     place[static_cast<size_t>(split.stay[k])] = static_cast<int32_t>(k);
   for (size_t k = 0; k < split.become.size(); ++k)
     place[static_cast<size_t>(split.become[k])] = size + static_cast<int32_t>(k);
+  const auto shift = size + static_cast<int32_t>(split.become.size()) - before;
   for (auto& [name, set] : model.sets)
-    for (int32_t& dof : set.dofs) dof = place[static_cast<size_t>(dof)];
+    for (int32_t& dof : set.dofs)
+      dof = dof < before ? place[static_cast<size_t>(dof)] : dof + shift;
 }
 
 /// The model in the coordinates behind W.
@@ -132,9 +135,14 @@ ReducedModel transformed(const ReducedModel& model, const Split& split, const Ma
   for (auto& [name, load] : out.loads) load = W.transpose() * model.loads.at(name);
   out.inertia = model.inertia.in(W);
   if (model.skin.T.rows() > 0) out.skin.T = model.skin.T * W;
-  out.combined = W(split.become, Eigen::all);
+  const Index n_S = static_cast<Index>(split.become.size());
+  out.combined.resize(n_S + model.combined.rows(), W.cols());
+  out.combined.topRows(n_S) = W(split.become, Eigen::all);
+  if (model.combined.rows() > 0)
+    out.combined.bottomRows(model.combined.rows()) = model.combined * W;
   // Rigid motions: q_R as it is, z the nearest in the mass of S.
-  const MatrixXd Psi_SR = out.combined.leftCols(n_R), Phi_S = out.combined.middleCols(n_R, p);
+  const MatrixXd Psi_SR = out.combined.topLeftCorner(n_S, n_R),
+                 Phi_S = out.combined.block(0, n_R, n_S, p);
   const MatrixXd M_SS = model.M_rr(split.become, split.become);
   const MatrixXd rigid_R = model.rigid(split.stay, Eigen::all);
   const MatrixXd rest = model.rigid(split.become, Eigen::all) - Psi_SR * rigid_R;
@@ -143,7 +151,7 @@ ReducedModel transformed(const ReducedModel& model, const Split& split, const Ma
   out.rigid.topRows(n_R) = rigid_R;
   out.rigid.middleRows(n_R, p) =
       (Phi_S.transpose() * M_Phi).ldlt().solve(MatrixXd(M_Phi.transpose() * rest));
-  renumber(out, split, static_cast<int>(W.cols()));
+  renumber(out, split, model.size(), static_cast<int>(W.cols()));
   out.n_boundary = static_cast<int>(n_R);
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the basis that give the displacements of the skin.
+// The rows of the basis that give the displacements of the skin and of sets beside the boundary.
 #include <string>
 #include <vector>
 
@@ -13,17 +13,21 @@ namespace clatter::condense {
 /// face that stands in two of them is taken once. Knows which rows of the basis the skin needs.
 class SkinRecovery {
  public:
-  /// InputError for an unknown surface.
+  /// InputError for an unknown surface or set.
   SkinRecovery(const assembly::FeModel& model, const DofPartition& partition,
-               const std::vector<std::string>& surfaces);
-  /// Interior unknowns (places in partition.interior) that move the skin, ascending.
+               const std::vector<std::string>& surfaces, const std::vector<std::string>& sets);
+  /// Interior unknowns (places in partition.interior) that move the skin and the sets, ascending.
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
   Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+  /// Adds the sets to the reduced model, their displacements as rows of `combined`.
+  void recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
+                    ReducedModel& reduced) const;
 
  private:
   const assembly::FeModel& model_;
+  std::vector<std::string> surfaces_, sets_;
   SkinFaces faces_;
   std::vector<int32_t> unknowns_;
   std::vector<int32_t> row_;       // by DoF of the model: its place in unknowns_, or -1

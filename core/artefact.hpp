@@ -2,8 +2,10 @@
 // What every artefact carries besides its data: schema, version, configuration, inputs with their
 // hashes, timing. See docs/formats.md.
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/h5_file.hpp"
@@ -13,6 +15,9 @@ namespace clatter {
 
 /// SHA-256 of a file's bytes as 64 hexadecimal digits. FileError when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
+
+/// The same of pieces of memory, one behind the other.
+std::string sha256_of_bytes(std::initializer_list<std::string_view> pieces);
 
 /// The head of an artefact.
 struct Provenance {

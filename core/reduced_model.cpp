@@ -98,6 +98,7 @@ void write_skin(H5File& file, const Skin& skin) {
   file.write("skin/nodes", skin.nodes);
   file.write("skin/triangles", skin.triangles);
   file.write("skin/T", skin.T);
+  file.write("skin/surfaces", skin.surfaces);
 }
 
 Skin read_skin(const H5File& file, Eigen::Index size) {
@@ -105,6 +106,7 @@ Skin read_skin(const H5File& file, Eigen::Index size) {
   skin.nodes = file.read_rows("skin/nodes");
   skin.triangles = file.read_index_matrix("skin/triangles");
   skin.T = file.read_rows("skin/T");
+  if (file.has("skin/surfaces")) skin.surfaces = file.read_strings("skin/surfaces");
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{}: skin: {}", file.path().string(), what));
   };
@@ -203,6 +205,8 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   write_mass_properties(file, model.mass);
   write_inertia_invariants(file, model.inertia);
   if (model.combined.rows() > 0) file.write("combined", model.combined);
+  if (!model.recovered_sets.empty()) file.write("recovered_sets", model.recovered_sets);
+  write_elimination_order(file, model.elimination);
   if (model.skin.nodes.rows() > 0) write_skin(file, model.skin);
   write_certificate(file, model.certificate);
 }
@@ -228,6 +232,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   model.combined.resize(0, static_cast<Eigen::Index>(size));
   if (file.has("combined"))
     model.combined = read_checked(file, "combined", file.shape("combined").at(0), size);
+  if (file.has("recovered_sets")) model.recovered_sets = file.read_strings("recovered_sets");
   read_dof_sets(file, model.places(), model.sets, model.grids);
   model.inertia = read_inertia_invariants(file, model.M_rr);
   model.mass = read_mass_properties(file);

@@ -16,6 +16,7 @@
 
 #include "core/artefact.hpp"
 #include "core/damping_table.hpp"
+#include "core/elimination_order.hpp"
 #include "core/h5_file.hpp"
 #include "core/inertia_invariants.hpp"
 
@@ -58,6 +59,7 @@ struct Skin {
   RowMatrix nodes;        // n_s x 3 [m]
   IndexMatrix triangles;  // n_f x 6, quadratic triangles, outward orientation, Gmsh order
   RowMatrix T;            // 3 n_s x r, row 3 a + d: node a, direction d
+  std::vector<std::string> surfaces;  // of the FE model, joined to this skin
 };
 
 struct ReducedModel {
@@ -78,9 +80,12 @@ struct ReducedModel {
   double valid_to_hz = 0.0;            // highest frequency the basis is meant for
   Skin skin;                           // empty (0 rows) when not recovered
   InertiaInvariants inertia;           // of a body that rotates; empty unless asked for
-  /// c x r, places whose displacement became a combination of coordinates when the interface was
-  /// reduced: an entry r + j of DofSet::dofs is the displacement combined.row(j) q.
+  /// c x r, places whose displacement is a combination of coordinates: those that became so when
+  /// the interface was reduced, then those of recovered_sets. An entry r + j of DofSet::dofs is the
+  /// displacement combined.row(j) q.
   Eigen::MatrixXd combined;
+  std::vector<std::string> recovered_sets;  // sets that were never coordinates
+  EliminationOrder elimination;             // of K_ii; read_reduced_model leaves it empty
   std::map<std::string, double> certificate;
 
   int size() const { return static_cast<int>(M_rr.rows()); }

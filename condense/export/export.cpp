@@ -10,9 +10,27 @@
 
 namespace clatter::condense {
 
-std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
+namespace {
+
+/// Without the sets that were never coordinates: other programs have no rows for them.
+ReducedModel coordinates_only(ReducedModel model) {
+  Eigen::Index rows = 0;
+  for (const std::string& name : model.recovered_sets) {
+    for (const int32_t dof : model.set(name).dofs) rows += dof >= model.size() ? 1 : 0;
+    model.sets.erase(name);
+    model.grids.erase(name);
+  }
+  model.recovered_sets.clear();
+  model.combined.conservativeResize(model.combined.rows() - rows, Eigen::NoChange);
+  return model;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> export_reduced(const ReducedModel& with_rows,
                                                   const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
+  const ReducedModel model = coordinates_only(with_rows);
   if (model.combined.rows() > 0)
     throw InputError(fmt::format(
         "{}: found {} boundary coordinates that became interface modes, expected a part "

@@ -34,6 +34,7 @@ GROUPS = [
         ("frequency_error_modes", "{:.0f}", "own elastic modes on which both estimates stand"),
         ("frequency_error_target", "{:.2e}", "the accuracy asked for"),
         ("frequency_error_bound", "{:.2e}", "what the chosen cut-off promises"),
+        ("rows_added_error", "{:.1e}", "rows added later: difference of the basis solved for again"),
         ("cutoffs_tried", "{:.0f}", "cut-offs tried to find it"),
         ("verified_to_hz", "{:.1f} Hz", "compared with modes of the full model up to here"),
         ("verified_modes", "{:.0f}", "elastic modes compared"),
