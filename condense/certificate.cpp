@@ -54,8 +54,6 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   const Eigen::MatrixXd unit =
       reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
   out["residual_modes"] = static_cast<double>(source.residual.hz.size());
-  out["frequency_error_estimate"] = source.residual.error_estimate;
-  out["frequency_error_modes"] = source.residual.modes;
   out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
   const InteriorModes& interior = source.interior;
   const Eigen::VectorXd& residuals = interior.residuals;
@@ -63,8 +61,12 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   if (interior.frequency_error >= 0.0) out["eigen_frequency_error"] = interior.frequency_error;
   out["load_shapes"] = interior.load_shapes;
   out["own_modes"] = interior.own_modes;
-  // Own modes are exact in the estimate: it says nothing of a body whose boundary others move.
-  if (interior.own_modes == 0) out["frequency_error_joined"] = source.residual.error_before;
+  if (source.residual.estimated) {
+    out["frequency_error_estimate"] = source.residual.error_estimate;
+    out["frequency_error_modes"] = source.residual.modes;
+    // Own modes are exact in it: it says nothing of a body whose boundary others move.
+    if (interior.own_modes == 0) out["frequency_error_joined"] = source.residual.error_before;
+  }
   const Eigen::Index modes = n_k - source.residual.hz.size() - interior.load_shapes;
   out["fixed_interface_modes"] = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
   out["count_proved"] = interior.proof.proved ? 1.0 : 0.0;

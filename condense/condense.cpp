@@ -208,9 +208,12 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
       "{}: {} boundary coordinates{} + {:.0f} {}{} + {:.0f} residual modes = {} ({})", reduced.name,
       reduced.n_boundary, interface, shapes, own ? "shapes of own modes" : "fixed-interface modes",
       loads, c.at("residual_modes"), reduced.size(), reduced.method));
-  lines.push_back(fmt::format(
-      "basis holds modes to {:.0f} Hz; frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
-      c.at("cutoff_hz"), c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate")));
+  const std::string accuracy =
+      c.contains("frequency_error_estimate")
+          ? fmt::format("frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
+                        c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate"))
+          : std::string("errors not estimated (--no-certificate, frequency_error = 0)");
+  lines.push_back(fmt::format("basis holds modes to {:.0f} Hz; {}", c.at("cutoff_hz"), accuracy));
   if (c.contains("cutoffs_tried")) lines.push_back(cutoff_line(c));
   if (n_k > 0)
     lines.push_back((own ? "own modes: " : "fixed-interface modes: ") + describe_modes(c));

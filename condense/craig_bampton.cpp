@@ -78,8 +78,9 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
   static_cast<ReducedMatrices&>(out) = project(K, M, statics.reduction, out.basis);
   clock.lap("reduced matrices");
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
-  out.residual = add_residual_modes(out, factor, K, M, out.interior.accurate_to_hz,
-                                    guyan ? 0.0 : request.frequency_error);
+  const double target = guyan ? 0.0 : request.frequency_error;
+  if (target == 0.0 && !request.estimate_error) return out;
+  out.residual = add_residual_modes(out, factor, K, M, out.interior.accurate_to_hz, target);
   const Eigen::Index shapes = out.fixed_interface_hz.size();
   out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
   out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;

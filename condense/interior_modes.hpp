@@ -19,6 +19,7 @@ struct ModeRequest : modal::EigenChoice {
   std::vector<std::string> load_shapes;  // loads whose static answer is in the basis
   bool prove_count = true;
   double frequency_error = 5e-4;  // aimed at by residual modes below accurate_to_hz; 0: none
+  bool estimate_error = true;     // of the frequencies, also where no residual modes are asked for
 };
 
 /// The shapes X: X^T M_ii X = I, X^T K_ii X = diag((2 pi hz)^2).

@@ -172,7 +172,8 @@ int run(int argc, char** argv) {
   StepClock clock;
   const Config config = Config::load(paths.config);
   condense::CondenseOptions options = condense::read_condense_options(config);
-  if (uncertified) options.certificate = options.modes.prove_count = false;
+  if (uncertified)
+    options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
   options.order = read_elimination_order(paths.output);
   const assembly::FeModel model = assembly::read_fe_model(paths.model);
   clock.lap(fmt::format("read {} DoF", model.size()));

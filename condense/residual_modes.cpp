@@ -157,6 +157,7 @@ ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalF
   constexpr int kPasses = 4;
   Correction correction(reduction, factor_ii, K, M);
   ResidualReport report;
+  report.estimated = true;
   std::vector<char> corrected;  // by place in the ascending list, which passes hardly reorder
   for (int pass = 0; pass <= kPasses; ++pass) {
     const VectorXd error = correction.estimate(modal::value_of_hz(limit_hz));

@@ -11,6 +11,7 @@ struct Reduction : ReducedMatrices {
 };
 
 struct ResidualReport {
+  bool estimated = false;       // the errors below are known
   Eigen::VectorXd hz;           // pseudo-frequencies of the added vectors, above the cut-off
   double error_before = 0.0;    // largest estimated relative frequency error without them
   double error_estimate = 0.0;  // and with them

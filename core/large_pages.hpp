@@ -10,6 +10,9 @@ namespace clatter {
 /// first touch. No effect on small ranges and where the kernel has none.
 void prefer_large_pages(void* begin, size_t bytes);
 
+/// Gives whole pages inside this range back to the kernel; what stood there is lost.
+void give_back_pages(void* begin, size_t bytes);
+
 /// `count` doubles that are not set to zero, in large pages. Throws std::bad_alloc.
 std::unique_ptr<double[]> large_array(size_t count);
 

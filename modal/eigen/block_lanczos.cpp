@@ -212,7 +212,7 @@ EigenResult Run::result() {
   EigenResult out;
   out.values = nu_.head(wanted_).cwiseInverse().array() + problem_.sigma;
   V_.transform(S_.leftCols(wanted_));
-  out.vectors = V_.columns(wanted_);
+  out.vectors = V_.take_columns(wanted_);
   out.status = EigenStatus::kConverged;
   out.solves = solves_;
   return out;

@@ -160,13 +160,13 @@ void KrylovBasis::transform(const MatrixXd& S) {
   });
 }
 
-MatrixXd KrylovBasis::columns(Index count) const {
+MatrixXd KrylovBasis::take_columns(Index count) {
   MatrixXd out(size_, count);
   prefer_large_pages(out.data(), static_cast<size_t>(out.size()) * sizeof(double));
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   on_all_threads(size_, [&](Index row, Index rows) {
-    out.middleRows(row, rows) = Eigen::Map<const Rows, 0, Eigen::OuterStride<>>(
+    out.middleRows(row, rows) = Eigen::Map<const RowMatrix, 0, Eigen::OuterStride<>>(
         at(row, 0), rows, count, Eigen::OuterStride<>(room_));
+    give_back_pages(at(row, 0), static_cast<size_t>(rows * room_) * sizeof(double));
   });
   return out;
 }

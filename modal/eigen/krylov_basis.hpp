@@ -40,8 +40,8 @@ class KrylovBasis {
   void get(Eigen::Index first, TallBlock& B) const;
   /// Columns [0, S.cols()) = columns [0, S.rows()) S, in place.
   void transform(const Eigen::MatrixXd& S);
-  /// The first `count` columns as a matrix.
-  Eigen::MatrixXd columns(Eigen::Index count) const;
+  /// The first `count` columns as a matrix; the basis is given back row by row and lost.
+  Eigen::MatrixXd take_columns(Eigen::Index count);
 
  private:
   template <class Body>

@@ -54,6 +54,17 @@ class Certificate(stages.PipelineTest):
                 self.assertEqual(len(lines), 1, lines)
                 self.assertIn("not certified", lines[0])
 
+    def test_errors_that_nobody_asks_for_are_not_estimated(self):
+        with open(self.folder / "beam.rom.toml", "a") as toml:
+            toml.write("frequency_error = 0.0\n")
+        full = self.condense()
+        bare = self.condense("--no-certificate")
+        self.assertGreater(full["frequency_error_estimate"], 0.0)
+        self.assertEqual(full["residual_modes"], 0.0)
+        self.assertEqual({name for name in set(full) - set(bare) if name.startswith("frequency_error")},
+                         {"frequency_error_estimate", "frequency_error_joined", "frequency_error_modes"})
+        self.assertNotIn("errors estimated", self.info())
+
     def test_a_certified_part_is_taken_without_a_word_and_one_without_certificate_is_not(self):
         self.assertEqual(self.warnings("dynamics"), [])
         with h5py.File(self.folder / "beam.rom.h5", "r+") as rom:

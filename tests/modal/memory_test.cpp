@@ -102,27 +102,28 @@ TEST(MemoryLimit, ModesAreTheSameWithTheBasisOnDisk) {
 
 TEST(KrylovBasisTest, ProductsAreThoseOfDenseMatricesInMemoryAndOnDisk) {
   const Eigen::Index n = 3001, b = 16, room = 13 * b;  // more than one tile each way, and a rest
-  KrylovBasis memory(n, room), disk(n, room, Storage::kDisk);
   TallBlock block(n, b);
-  for (Eigen::Index k = 0; k < 13; ++k) {
-    for (Eigen::Index i = 0; i < n * b; ++i)
-      block.data[static_cast<size_t>(i)] =
-          std::sin(0.37 * static_cast<double>(i + 1) * static_cast<double>(k + 1));
-    memory.put(k * b, block);
-    disk.put(k * b, block);
-  }
-  EXPECT_EQ(memory.columns(room), disk.columns(room));
-  const MatrixXd V = memory.columns(room);
-  const MatrixXd H = memory.coefficients(2, 201, block);
-  EXPECT_EQ(disk.coefficients(2, 201, block), H);
-  const MatrixXd last = V.rightCols(b), used = V.middleCols(2, 199);
-  EXPECT_LT((H - used.transpose() * last).norm(), 1e-12 * H.norm());
   const MatrixXd S = MatrixXd::Random(room, 5);
-  disk.transform(S);
-  EXPECT_LT((disk.columns(5) - V * S).norm(), 1e-12 * (V * S).norm());
-  memory.subtract(2, H, block);
-  RowMatrix left = Eigen::Map<const RowMatrix>(block.row(0), n, b);
-  EXPECT_LT((left - (last - used * H)).norm(), 1e-12 * (used * H).norm());
+  MatrixXd V(n, room), H[2];
+  for (const Storage storage : {Storage::kMemory, Storage::kDisk}) {
+    KrylovBasis basis(n, room, storage);
+    for (Eigen::Index k = 0; k < 13; ++k) {
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index c = 0; c < b; ++c)
+          block.row(i)[c] = V(i, k * b + c) =
+              std::sin(0.37 * static_cast<double>(i * b + c + 1) * static_cast<double>(k + 1));
+      basis.put(k * b, block);
+    }
+    const MatrixXd last = V.rightCols(b), used = V.middleCols(2, 199);
+    const MatrixXd coefficients = H[static_cast<int>(storage)] = basis.coefficients(2, 201, block);
+    EXPECT_LT((coefficients - used.transpose() * last).norm(), 1e-12 * coefficients.norm());
+    basis.subtract(2, coefficients, block);
+    const RowMatrix left = Eigen::Map<const RowMatrix>(block.row(0), n, b);
+    EXPECT_LT((left - (last - used * coefficients)).norm(), 1e-12 * (used * coefficients).norm());
+    basis.transform(S);
+    EXPECT_LT((basis.take_columns(5) - V * S).norm(), 1e-12 * (V * S).norm());
+  }
+  EXPECT_EQ(H[0], H[1]);
 }
 
 }  // namespace
