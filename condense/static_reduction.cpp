@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <barrier>
 
+#include "condense/schur_mass.hpp"
 #include "core/blas_kernel.hpp"
 #include "core/memory_limit.hpp"
 #include "core/progress.hpp"
@@ -29,7 +30,7 @@ int extent(Index value) { return static_cast<int>(value); }
 class Sweep {
  public:
   Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
-        const RigidMotions& rigid, const std::vector<int32_t>& kept);
+        const RigidMotions& rigid, const std::vector<int32_t>& kept, bool with_mass);
   void run();
 
   MatrixXd half_mass;  // M_bb is this + its transpose + the boundary's own mass
@@ -44,18 +45,22 @@ class Sweep {
   modal::PermutedMatrix mass_;
   std::vector<int32_t> kept_at_;  // row of `rows` by place, or -1
   std::vector<int32_t> children_;
+  std::vector<char> used_;  // supernodes that the sweep comes to
+  bool with_mass_;          // sums M_bb and the error of the rigid motions, of all rows
   Index n_b_, panel_rows_ = kPanel;
   RowMatrix panel_, image_;  // rows of z, and of the half of M z that belongs to them
 };
 
 Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
-             const RigidMotions& rigid, const std::vector<int32_t>& kept)
+             const RigidMotions& rigid, const std::vector<int32_t>& kept, bool with_mass)
     : factor_(factor),
       tree_(factor.tree()),
       rigid_(rigid),
       mass_(modal::permuted(tree_, M.ii, factor.scale(), M.ib)),
       kept_at_(static_cast<size_t>(tree_.size), -1),
       children_(tree_.parent.size(), 0),
+      used_(tree_.parent.size(), with_mass ? 1 : 0),
+      with_mass_(with_mass),
       n_b_(tree_.boundary) {
   std::vector<int32_t> by_unknown(static_cast<size_t>(tree_.size), -1);
   for (size_t k = 0; k < kept.size(); ++k)
@@ -64,13 +69,20 @@ Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
     kept_at_[j] = by_unknown[static_cast<size_t>(tree_.order[j])];
   for (int32_t s = 0; s < tree_.supernodes(); ++s) {
     panel_rows_ = std::max<Index>(panel_rows_, tree_.columns(s));
+    char& used = used_[static_cast<size_t>(s)];
+    const auto begin = kept_at_.begin() + tree_.first[static_cast<size_t>(s)];
+    if (std::any_of(begin, begin + tree_.columns(s), [](int32_t row) { return row >= 0; }))
+      used = 1;
     const int32_t parent = tree_.parent[static_cast<size_t>(s)];
-    if (parent >= 0) ++children_[static_cast<size_t>(parent)];
+    if (used == 0 || parent < 0) continue;
+    used_[static_cast<size_t>(parent)] = 1;
+    ++children_[static_cast<size_t>(parent)];
   }
-  half_mass = MatrixXd::Zero(n_b_, n_b_);
-  error = MatrixXd::Zero(tree_.size, rigid.inside.cols());
   rows.resize(static_cast<Index>(kept.size()), n_b_);
   panel_.resize(panel_rows_, n_b_);
+  if (!with_mass) return;
+  half_mass = MatrixXd::Zero(n_b_, n_b_);
+  error = MatrixXd::Zero(tree_.size, rigid.inside.cols());
   image_.resize(panel_rows_, n_b_);
 }
 
@@ -90,6 +102,7 @@ class Worker {
 
   void run(Progress* progress) {
     for (int32_t s = tree_.supernodes() - 1; s >= 0; --s) {
+      if (shared_.used_[static_cast<size_t>(s)] == 0) continue;
       if (filled_ + tree_.columns(s) > shared_.panel_rows_) use_panel();
       visit(s);
       filled_ += tree_.columns(s);
@@ -175,9 +188,10 @@ void Worker::write_panel(int32_t s, const double* front) {
   for (int32_t j = 0; j < tree_.columns(s); ++j) {
     const int32_t place = first(s) + j;
     const double* z = front + j * width_;
-    double* to = &shared_.panel_(filled_ + j, begin_);
+    std::copy_n(z, width_, &shared_.panel_(filled_ + j, begin_));
+    places_.push_back(place);
+    if (!shared_.with_mass_) continue;
     double* image = &shared_.image_(filled_ + j, begin_);
-    std::copy_n(z, width_, to);
     std::fill_n(image, width_, 0.0);
     const auto& mass = shared_.mass_;
     for (int64_t k = mass.starts[static_cast<size_t>(place)];
@@ -187,7 +201,6 @@ void Worker::write_panel(int32_t s, const double* front) {
       const double* other = front + local_[static_cast<size_t>(row)] * width_;
       for (Index c = 0; c < width_; ++c) image[c] += m * other[c];
     }
-    places_.push_back(place);
   }
 }
 
@@ -200,12 +213,11 @@ void Worker::release_parent(int32_t s) {
 void Worker::use_panel() {
   meeting_.arrive_and_wait();
   const int n_b = extent(shared_.n_b_);
-  if (filled_ > 0) {
+  if (filled_ > 0 && shared_.with_mass_)
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b, extent(width_), extent(filled_), 1.0,
                 shared_.panel_.data(), n_b, &shared_.image_(0, begin_), n_b, 1.0,
                 &shared_.half_mass(0, begin_), n_b);
-    keep_rows();
-  }
+  if (filled_ > 0) keep_rows();
   meeting_.arrive_and_wait();
   filled_ = 0;
   places_.clear();
@@ -214,9 +226,10 @@ void Worker::use_panel() {
 /// Kept rows by columns, the rigid motions' error by the first worker.
 void Worker::keep_rows() const {
   const auto& scale = shared_.factor_.scale();
+  const bool with_error = begin_ == 0 && shared_.with_mass_;
   const MatrixXd carried =
-      begin_ == 0 ? MatrixXd(shared_.panel_.topRows(filled_) * shared_.rigid_.at_boundary)
-                  : MatrixXd();
+      with_error ? MatrixXd(shared_.panel_.topRows(filled_) * shared_.rigid_.at_boundary)
+                 : MatrixXd();
   for (Index k = 0; k < filled_; ++k) {
     const auto place = static_cast<size_t>(places_[static_cast<size_t>(k)]);
     const int32_t unknown = tree_.order[place];
@@ -224,7 +237,7 @@ void Worker::keep_rows() const {
     if (shared_.kept_at_[place] >= 0)
       shared_.rows.row(shared_.kept_at_[place]).segment(begin_, width_) =
           s * shared_.panel_.row(k).segment(begin_, width_);
-    if (begin_ == 0)
+    if (with_error)
       shared_.error.row(unknown) = shared_.rigid_.inside.row(unknown) - s * carried.row(k);
   }
 }
@@ -258,37 +271,54 @@ double path_entries(const modal::SupernodeTree& tree) {
   return most * static_cast<double>(tree.boundary);
 }
 
-void require_memory_for(const modal::SupernodeTree& tree, size_t kept) {
-  const double n_b = tree.boundary;
-  const double entries = path_entries(tree) + 2.0 * static_cast<double>(kPanel) * n_b +
-                         3.0 * n_b * n_b + static_cast<double>(kept) * n_b;
+void require_memory_for(const modal::SupernodeTree& tree, size_t kept, bool with_mass) {
+  const double n_b = tree.boundary, panels = with_mass ? 2.0 : 1.0;
+  const double sweep =
+      with_mass || kept > 0 ? path_entries(tree) + panels * static_cast<double>(kPanel) * n_b : 0.0;
+  const double work =
+      with_mass ? sweep : std::max(sweep, static_cast<double>(tree.stack_entries()));
+  const double entries = work + (3.0 * n_b + static_cast<double>(kept)) * n_b;
   require_memory(fmt::format("the static reduction to {} boundary coordinates with {} kept rows",
                              tree.boundary, kept),
                  gib_of_doubles(entries), "retain fewer coordinates, or keep fewer rows (skin)");
+}
+
+bool sweep_is_cheaper(const modal::SupernodeTree& tree) {
+  const double n_b = tree.boundary;
+  return 2.0 * tree.size * n_b * n_b <= schur_mass_flops(tree);
 }
 
 }  // namespace
 
 StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  const RigidMotions& rigid, const std::vector<int32_t>& kept) {
-  require_memory_for(factor_ii.tree(), kept.size());
-  Sweep sweep(factor_ii, M, rigid, kept);
-  sweep.run();
+                                  const RigidMotions& rigid, const std::vector<int32_t>& kept,
+                                  StaticMass way) {
+  const bool with_mass = way == StaticMass::kSweep ||
+                         (way == StaticMass::kCheaper && sweep_is_cheaper(factor_ii.tree()));
+  require_memory_for(factor_ii.tree(), kept.size(), with_mass);
   StaticReduction out;
   out.K_bb = K.bb - factor_ii.boundary_part();
-  out.M_bb = M.bb + sweep.half_mass + sweep.half_mass.transpose();
-  out.rows.swap(sweep.rows);
+  MatrixXd error;
+  {
+    Sweep sweep(factor_ii, M, rigid, kept, with_mass);
+    if (with_mass || !kept.empty()) sweep.run();
+    out.rows.swap(sweep.rows);
+    error.swap(sweep.error);
+    out.M_bb = M.bb + (with_mass ? MatrixXd(sweep.half_mass + sweep.half_mass.transpose())
+                                 : schur_mass(factor_ii, M.ii, M.ib));
+  }
   if (rigid.at_boundary.cols() == 0) return out;
-  out.rigid_error = sweep.error.norm() / rigid.inside.norm();
+  if (!with_mass) error = rigid.inside + factor_ii.solve(K.ib * rigid.at_boundary);
+  out.rigid_error = error.norm() / rigid.inside.norm();
   // Psi + E P, P = r_b^+ the change of least norm: M_bb with it.
   const MatrixXd P = rigid.at_boundary.completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd image = modal::SymmetricProduct(M.ii) * sweep.error;
-  const MatrixXd cross = M.ib.transpose() * sweep.error - K.ib.transpose() * factor_ii.solve(image);
+  const MatrixXd image = modal::SymmetricProduct(M.ii) * error;
+  const MatrixXd cross = M.ib.transpose() * error - factor_ii.boundary_product(image);
   const MatrixXd change = cross * P;
-  out.M_bb += change + change.transpose() + P.transpose() * (sweep.error.transpose() * image) * P;
-  for (size_t k = 0; k < kept.size(); ++k)
-    out.rows.row(static_cast<Index>(k)) += sweep.error.row(kept[k]) * P;
+  out.M_bb += change + change.transpose() + P.transpose() * (error.transpose() * image) * P;
+  const MatrixXd of_rows = rigid.inside(kept, Eigen::all) - out.rows * rigid.at_boundary;
+  out.rows += of_rows * P;
   return out;
 }
 

@@ -23,10 +23,16 @@ struct StaticReduction {
   double rigid_error = 0.0;    // |Psi r_b - r_i| / |r_i| of the plain solve
 };
 
+/// How the mass of the static shapes is summed: 2 n_i n_b^2 operations of the sweep against about
+/// two more eliminations.
+enum class StaticMass { kCheaper, kSweep, kElimination };
+
 /// One sweep from the root of the elimination tree to its leaves: the rows of Psi at a supernode
 /// follow from those above it on the path, so only the fronts of one path are held. Each row is
 /// used where it is made: M_bb += Psi_j^T (M_jj Psi_j / 2 + sum over the rows above M_rj Psi_r) +
-/// transpose, in panels at BLAS-3 speed. All columns at once, shared out to the threads.
+/// transpose, in panels at BLAS-3 speed. All columns at once, shared out to the threads. With many
+/// boundary coordinates M_bb comes by elimination (schur_mass.hpp), and the sweep goes to the kept
+/// rows alone.
 ///
 /// Rounding in the solve would stand in the mass properties: the smallest change of Psi that makes
 /// it carry the rigid motions exactly, E r_b^+ with E = r_i - Psi r_b, is added.
@@ -35,6 +41,7 @@ struct StaticReduction {
 /// @param kept interior unknowns whose rows of Psi are wanted.
 StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  const RigidMotions& rigid, const std::vector<int32_t>& kept);
+                                  const RigidMotions& rigid, const std::vector<int32_t>& kept,
+                                  StaticMass way = StaticMass::kCheaper);
 
 }  // namespace clatter::condense

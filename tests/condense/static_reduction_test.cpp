@@ -37,13 +37,22 @@ struct Case {
   }
 };
 
-TEST(StaticReductionTest, EqualsTheProjectionOnTheShapes) {
+/// Both ways to the mass.
+class StaticReductionTest : public testing::TestWithParam<StaticMass> {};
+INSTANTIATE_TEST_SUITE_P(Mass, StaticReductionTest,
+                         testing::Values(StaticMass::kSweep, StaticMass::kElimination),
+                         [](const auto& info) {
+                           return info.param == StaticMass::kSweep ? "BySweep" : "ByElimination";
+                         });
+
+TEST_P(StaticReductionTest, EqualsTheProjectionOnTheShapes) {
   const Case c;
   const std::vector<int32_t> kept{0, 7, 31, static_cast<int32_t>(c.K_ii.rows()) - 1};
   for (const bool restored : {false, true}) {
     const RigidMotions none{MatrixXd(c.K.ib.cols(), 0), MatrixXd(c.K_ii.rows(), 0)};
     const StaticReduction found =
-        reduce_statically(*c.factor, c.K, c.M, restored ? c.rigid() : none, kept);
+        reduce_statically(*c.factor, c.K, c.M, restored ? c.rigid() : none, kept, GetParam());
+    ASSERT_EQ(found.rows.rows(), 4);
     const MatrixXd K_bb = c.statically(c.K, c.K_ii), M_bb = c.statically(c.M, c.M_ii);
     EXPECT_LT((found.M_bb - M_bb).norm(), 1e-11 * M_bb.norm());
     EXPECT_LT((found.K_bb - K_bb).norm(), 1e-11 * c.K.bb.norm());
@@ -52,24 +61,25 @@ TEST(StaticReductionTest, EqualsTheProjectionOnTheShapes) {
   }
 }
 
-TEST(StaticReductionTest, ThreadsShareTheColumnsOut) {
+TEST_P(StaticReductionTest, ThreadsShareTheColumnsOut) {
   const Case c;
   set_thread_count(1);
-  const StaticReduction one = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5});
+  const StaticReduction one = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5}, GetParam());
   set_thread_count(3);
-  const StaticReduction three = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5});
+  const StaticReduction three = reduce_statically(*c.factor, c.K, c.M, c.rigid(), {5}, GetParam());
   set_thread_count(0);
   EXPECT_LT((one.M_bb - three.M_bb).norm(), 1e-14 * one.M_bb.norm());
   EXPECT_LT((one.rows - three.rows).norm(), 1e-14 * one.rows.norm());
 }
 
-TEST(StaticReductionTest, RigidMotionsAreCarriedToTheLastBit) {
+TEST_P(StaticReductionTest, RigidMotionsAreCarriedToTheLastBit) {
   const Case c;
   RigidMotions rough = c.rigid();
   rough.inside *= 1.0 + 1e-6;  // as if the solve had lost ten digits
-  const StaticReduction found = reduce_statically(*c.factor, c.K, c.M, rough, {});
+  const StaticReduction found = reduce_statically(*c.factor, c.K, c.M, rough, {3}, GetParam());
   EXPECT_NEAR(found.rigid_error, 1e-6, 1e-8);
   const MatrixXd& r_b = rough.at_boundary;
+  EXPECT_LT((found.rows * r_b - rough.inside.row(3)).norm(), 1e-14 * r_b.norm());
   const MatrixXd r_Mr = r_b.transpose() * found.M_bb * r_b;
   const MatrixXd cross = r_b.transpose() * MatrixXd(c.M.ib).transpose() * rough.inside;
   const MatrixXd expected = r_b.transpose() * c.M.bb * r_b + cross + cross.transpose() +
