@@ -37,9 +37,14 @@ def apart(function, *arguments):
         sys.exit(f"bench: {function.__name__} failed")
 
 
-def medians(command, folder, runs, **environment):
-    """Output of the last run, median seconds, peak megabytes; None when a run fails."""
-    found = [run(command, folder, required=False, **environment) for _ in range(runs)]
+def medians(command, folder, runs, fresh=(), **environment):
+    """Output of the last run, median seconds, peak megabytes; None when a run fails. Files of `fresh` are taken away
+    before each run."""
+    found = []
+    for _ in range(runs):
+        for name in fresh:
+            (folder / name).unlink(missing_ok=True)
+        found.append(run(command, folder, required=False, **environment))
     if None in found:
         return None
     return found[-1][0], statistics.median(f[1] for f in found), max(f[2] for f in found)

@@ -107,6 +107,26 @@ void Elimination::assemble_child(int32_t child, Workspace& work, const Front& fr
   parallel_pieces(pieces, [&](int64_t begin, int64_t end) { columns(cut(begin), cut(end)); });
 }
 
+/// Zeros in panel and update, which may be the first touch of their pages: of a large front by all
+/// threads.
+void clear(const Front& front, bool wide) {
+  constexpr int64_t kWide = 1 << 20;
+  const int64_t height = front.height(), columns = front.columns;
+  const auto column = [&](int64_t j) {
+    if (j < columns) {
+      std::fill_n(front.panel + j * height, height, 0.0);
+      return;
+    }
+    const int64_t k = j - columns;
+    std::fill(front.update + k * front.below + k, front.update + (k + 1) * front.below, 0.0);
+  };
+  const auto some = [&](int64_t begin, int64_t end) {
+    for (int64_t j = begin; j < end; ++j) column(j);
+  };
+  if (!wide || height * height < kWide) return some(0, height);
+  parallel_pieces(height, some);
+}
+
 void Elimination::process(int32_t s, Workspace& work, bool wide) {
   Front front;
   front.columns = tree_.columns(s);
@@ -115,14 +135,10 @@ void Elimination::process(int32_t s, Workspace& work, bool wide) {
   const size_t panel_entries = height * static_cast<size_t>(front.columns);
   front.panel = panels_ != nullptr ? panels_ + tree_.panel_start[static_cast<size_t>(s)]
                                    : work.scratch(panel_entries);
-  std::fill_n(front.panel, panel_entries, 0.0);
   const size_t update_entries = static_cast<size_t>(front.below) * static_cast<size_t>(front.below);
   Buffer update = work.pool.take(update_entries);
   front.update = update.data.get();
-  for (int32_t j = 0; j < front.below; ++j) {
-    double* column = front.update + int64_t{j} * front.below;
-    std::fill(column + j, column + front.below, 0.0);
-  }
+  clear(front, wide);
   const int32_t* rows = tree_.rows_of(s);
   for (int32_t k = 0; k < front.height(); ++k) work.local[static_cast<size_t>(rows[k])] = k;
   assemble_matrix(s, work, front);
