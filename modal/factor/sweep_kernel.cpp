@@ -1,6 +1,7 @@
 #include "modal/factor/sweep_kernel.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/each_cpu.hpp"
 
@@ -51,22 +52,13 @@ CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, c
   for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
 }
 
-/// `rows` < R rows of y in one go: one row by itself waits for its own last product all the time.
-template <int R>
-CLATTER_INLINE void last_product_rows(const double* A, int64_t stride, int rows, int columns,
-                                      const Lanes& x, const Lanes& y) {
-  if constexpr (R > 1) {
-    if (rows == R - 1) return product_rows<R - 1>(A, stride, columns, x, y);
-    last_product_rows<R - 1>(A, stride, rows, columns, x, y);
-  }
-}
-
-template <int R>
-CLATTER_INLINE void last_transposed_rows(const double* A, int64_t stride, int rows, int columns,
-                                         const Lanes& y, const Lanes& x) {
-  if constexpr (R > 1) {
-    if (columns == R - 1) return transposed_rows<R - 1>(A, stride, rows, y, x);
-    last_transposed_rows<R - 1>(A, stride, rows, columns, y, x);
+/// body(constant of value `count`) for count <= Most, nothing for 0: the rows that are left over in
+/// one go. One row by itself would wait for its own last product all the time.
+template <int Most, class Body>
+CLATTER_INLINE void with_count(int count, Body&& body) {
+  if constexpr (Most > 0) {
+    if (count == Most) return body(std::integral_constant<int, Most>());
+    with_count<Most - 1>(count, body);
   }
 }
 
@@ -74,7 +66,10 @@ CLATTER_INLINE void product(const double* A, int64_t stride, int rows, int colum
                             const Lanes& y) {
   int r = 0;
   for (; r + kRows <= rows; r += kRows) product_rows<kRows>(A + r, stride, columns, x, y.row(r));
-  last_product_rows<kRows>(A + r, stride, rows - r, columns, x, y.row(r));
+  with_count<kRows - 1>(
+      rows - r, [&](auto left) __attribute__((always_inline)) {
+        product_rows<left()>(A + r, stride, columns, x, y.row(r));
+      });
 }
 
 CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int columns,
@@ -82,7 +77,10 @@ CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int co
   int j = 0;
   for (; j + kRows <= columns; j += kRows)
     transposed_rows<kRows>(A + j * stride, stride, rows, y, x.row(j));
-  last_transposed_rows<kRows>(A + j * stride, stride, rows, columns - j, y, x.row(j));
+  with_count<kRows - 1>(
+      columns - j, [&](auto left) __attribute__((always_inline)) {
+        transposed_rows<left()>(A + j * stride, stride, rows, y, x.row(j));
+      });
 }
 
 }  // namespace
