@@ -30,33 +30,31 @@ int extent(Index value) { return static_cast<int>(value); }
 class Sweep {
  public:
   Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
-        const RigidMotions& rigid, const std::vector<int32_t>& kept, bool with_mass);
+        const std::vector<int32_t>& kept, bool with_mass);
   void run();
 
   MatrixXd half_mass;  // M_bb is this + its transpose + the boundary's own mass
-  MatrixXd error;      // r_i - Psi r_b, n_i x m
   RowMatrix rows;      // Psi at the kept unknowns
 
  private:
   friend class Worker;
   const modal::SupernodalFactor& factor_;
   const modal::SupernodeTree& tree_;
-  const RigidMotions& rigid_;
   modal::PermutedMatrix mass_;
   std::vector<int32_t> kept_at_;  // row of `rows` by place, or -1
   std::vector<int32_t> children_;
   std::vector<char> used_;  // supernodes that the sweep comes to
-  bool with_mass_;          // sums M_bb and the error of the rigid motions, of all rows
+  bool with_mass_;          // sums M_bb, of all rows
   Index n_b_, panel_rows_ = kPanel;
   RowMatrix panel_, image_;  // rows of z, and of the half of M z that belongs to them
 };
 
 Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
-             const RigidMotions& rigid, const std::vector<int32_t>& kept, bool with_mass)
+             const std::vector<int32_t>& kept, bool with_mass)
     : factor_(factor),
       tree_(factor.tree()),
-      rigid_(rigid),
-      mass_(modal::permuted(tree_, M.ii, factor.scale(), M.ib)),
+      mass_(with_mass ? modal::permuted(tree_, M.ii, factor.scale(), M.ib)
+                      : modal::PermutedMatrix()),
       kept_at_(static_cast<size_t>(tree_.size), -1),
       children_(tree_.parent.size(), 0),
       used_(tree_.parent.size(), with_mass ? 1 : 0),
@@ -82,7 +80,6 @@ Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
   panel_.resize(panel_rows_, n_b_);
   if (!with_mass) return;
   half_mass = MatrixXd::Zero(n_b_, n_b_);
-  error = MatrixXd::Zero(tree_.size, rigid.inside.cols());
   image_.resize(panel_rows_, n_b_);
 }
 
@@ -223,22 +220,15 @@ void Worker::use_panel() {
   places_.clear();
 }
 
-/// Kept rows by columns, the rigid motions' error by the first worker.
+/// Kept rows, by columns.
 void Worker::keep_rows() const {
   const auto& scale = shared_.factor_.scale();
-  const bool with_error = begin_ == 0 && shared_.with_mass_;
-  const MatrixXd carried =
-      with_error ? MatrixXd(shared_.panel_.topRows(filled_) * shared_.rigid_.at_boundary)
-                 : MatrixXd();
   for (Index k = 0; k < filled_; ++k) {
     const auto place = static_cast<size_t>(places_[static_cast<size_t>(k)]);
-    const int32_t unknown = tree_.order[place];
-    const double s = scale[static_cast<size_t>(unknown)];
-    if (shared_.kept_at_[place] >= 0)
-      shared_.rows.row(shared_.kept_at_[place]).segment(begin_, width_) =
-          s * shared_.panel_.row(k).segment(begin_, width_);
-    if (with_error)
-      shared_.error.row(unknown) = shared_.rigid_.inside.row(unknown) - s * carried.row(k);
+    if (shared_.kept_at_[place] < 0) continue;
+    shared_.rows.row(shared_.kept_at_[place]).segment(begin_, width_) =
+        scale[static_cast<size_t>(tree_.order[place])] *
+        shared_.panel_.row(k).segment(begin_, width_);
   }
 }
 
@@ -288,6 +278,27 @@ bool sweep_is_cheaper(const modal::SupernodeTree& tree) {
   return 2.0 * tree.size * n_b * n_b <= schur_mass_flops(tree);
 }
 
+/// Rounding in Psi must not stand in the mass properties. Psi + E P carries the rigid motions, with
+/// E = r_i - Psi r_b and P = r_b^+ the change of least norm; the kept rows are changed so, and M_bb
+/// by the symmetric change of least rank that gives it the momentum of these motions.
+void carry_rigid_motions(const modal::SupernodalFactor& factor_ii, const PartitionedMatrix& K,
+                         const PartitionedMatrix& M, const RigidMotions& rigid,
+                         const std::vector<int32_t>& kept, StaticReduction& out) {
+  const MatrixXd &r_b = rigid.at_boundary, &r_i = rigid.inside;
+  out.rigid_error = (r_i + factor_ii.solve(K.ib * r_b)).norm() / r_i.norm();
+  const MatrixXd P = r_b.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd left = r_i(kept, Eigen::all) - out.rows * r_b;
+  out.rows += left * P;
+
+  const MatrixXd inertia = modal::SymmetricProduct(M.ii) * r_i + M.ib * r_b;
+  const MatrixXd carried = -factor_ii.boundary_product(inertia);  // Psi^T f
+  const MatrixXd momentum = M.bb * r_b + M.ib.transpose() * r_i + carried +
+                            P.transpose() * (r_i.transpose() * inertia - r_b.transpose() * carried);
+  const MatrixXd change = (momentum - out.M_bb * r_b) * P;
+  out.M_bb += change + change.transpose() - P.transpose() * (r_b.transpose() * change);
+  out.M_bb = (0.5 * (out.M_bb + out.M_bb.transpose())).eval();
+}
+
 }  // namespace
 
 StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
@@ -299,26 +310,12 @@ StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
   require_memory_for(factor_ii.tree(), kept.size(), with_mass);
   StaticReduction out;
   out.K_bb = K.bb - factor_ii.boundary_part();
-  MatrixXd error;
-  {
-    Sweep sweep(factor_ii, M, rigid, kept, with_mass);
-    if (with_mass || !kept.empty()) sweep.run();
-    out.rows.swap(sweep.rows);
-    error.swap(sweep.error);
-    out.M_bb = M.bb + (with_mass ? MatrixXd(sweep.half_mass + sweep.half_mass.transpose())
-                                 : schur_mass(factor_ii, M.ii, M.ib));
-  }
-  if (rigid.at_boundary.cols() == 0) return out;
-  if (!with_mass) error = rigid.inside + factor_ii.solve(K.ib * rigid.at_boundary);
-  out.rigid_error = error.norm() / rigid.inside.norm();
-  // Psi + E P, P = r_b^+ the change of least norm: M_bb with it.
-  const MatrixXd P = rigid.at_boundary.completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd image = modal::SymmetricProduct(M.ii) * error;
-  const MatrixXd cross = M.ib.transpose() * error - factor_ii.boundary_product(image);
-  const MatrixXd change = cross * P;
-  out.M_bb += change + change.transpose() + P.transpose() * (error.transpose() * image) * P;
-  const MatrixXd of_rows = rigid.inside(kept, Eigen::all) - out.rows * rigid.at_boundary;
-  out.rows += of_rows * P;
+  Sweep sweep(factor_ii, M, kept, with_mass);
+  if (with_mass || !kept.empty()) sweep.run();
+  out.rows.swap(sweep.rows);
+  out.M_bb = M.bb + (with_mass ? MatrixXd(sweep.half_mass + sweep.half_mass.transpose())
+                               : schur_mass(factor_ii, M.ii, M.ib));
+  if (rigid.at_boundary.cols() > 0) carry_rigid_motions(factor_ii, K, M, rigid, kept, out);
   return out;
 }
 

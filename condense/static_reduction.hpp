@@ -34,8 +34,8 @@ enum class StaticMass { kCheaper, kSweep, kElimination };
 /// boundary coordinates M_bb comes by elimination (schur_mass.hpp), and the sweep goes to the kept
 /// rows alone.
 ///
-/// Rounding in the solve would stand in the mass properties: the smallest change of Psi that makes
-/// it carry the rigid motions exactly, E r_b^+ with E = r_i - Psi r_b, is added.
+/// Rounding in the solve would stand in the mass properties: rows and M_bb are changed, as little
+/// as can be, so that they carry the rigid motions exactly.
 /// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib comes with
 /// it.
 /// @param kept interior unknowns whose rows of Psi are wanted.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <memory>
+#include <set>
 
 #include "condense/reduced_basis.hpp"
 #include "core/log.hpp"
@@ -18,7 +19,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 struct Case {
-  assembly::FeModel model = test::box_model();
+  explicit Case(int nx = 8, int ny = 6, int nz = 6) : model(test::box_model(nx, ny, nz)) {}
+  assembly::FeModel model;
   DofPartition partition = partition_dofs(model, {"left", "right", "point"});
   PartitionedMatrix K = partition_matrix(model.K, partition);
   PartitionedMatrix M = partition_matrix(model.M, partition);
@@ -70,6 +72,33 @@ TEST_P(StaticReductionTest, ThreadsShareTheColumnsOut) {
   set_thread_count(0);
   EXPECT_LT((one.M_bb - three.M_bb).norm(), 1e-14 * one.M_bb.norm());
   EXPECT_LT((one.rows - three.rows).norm(), 1e-14 * one.rows.norm());
+}
+
+TEST_P(StaticReductionTest, RowsOfOneCornerOfALargeTreeAreTheRowsOfTheShapes) {
+  const Case c(20, 9, 9);
+  std::vector<int32_t> kept;
+  for (int32_t k = 0; k < 9; ++k) kept.push_back(static_cast<int32_t>(c.K_ii.rows()) - 9 + k);
+  const modal::SupernodeTree& tree = c.factor->tree();
+  std::set<int32_t> on_paths;  // supernodes that these rows need
+  const std::vector<int32_t> owners = tree.owners(), places = tree.places();
+  for (const int32_t row : kept)
+    for (int32_t s = owners[static_cast<size_t>(places[static_cast<size_t>(row)])]; s >= 0;
+         s = tree.parent[static_cast<size_t>(s)])
+      on_paths.insert(s);
+  ASSERT_LT(4 * static_cast<int32_t>(on_paths.size()), tree.supernodes());
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    const StaticReduction found =
+        reduce_statically(*c.factor, c.K, c.M, c.rigid(), kept, GetParam());
+    const MatrixXd M_bb = c.statically(c.M, c.M_ii);
+    EXPECT_LT((found.rows - c.Psi(kept, Eigen::all)).norm(), 1e-11 * c.Psi.norm()) << threads;
+    EXPECT_LT((found.M_bb - M_bb).norm(), 1e-11 * M_bb.norm()) << threads;
+    // The mass of the rigid motions, to the last digits.
+    const MatrixXd r = c.model.rigid, r_b = c.rigid().at_boundary;
+    const MatrixXd whole = r.transpose() * multiply_symmetric(c.model.M, r);
+    EXPECT_LT((r_b.transpose() * found.M_bb * r_b - whole).norm(), 5e-15 * whole.norm());
+  }
+  set_thread_count(0);
 }
 
 TEST_P(StaticReductionTest, RigidMotionsAreCarriedToTheLastBit) {
