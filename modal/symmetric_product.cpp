@@ -59,6 +59,15 @@ CLATTER_EACH_CPU void multiply_eight_within(const SparseMatrix& A, const double*
 
 }  // namespace
 
+SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(lower.cols());
+  for (size_t j = 0; j < order.size(); ++j)
+    place.indices()[static_cast<Eigen::Index>(order[j])] = static_cast<int>(j);
+  SparseMatrix out(lower.rows(), lower.cols());
+  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
+  return out;
+}
+
 SymmetricProduct::SymmetricProduct(const SparseMatrix& lower)
     : full_(lower.selfadjointView<Eigen::Lower>()) {
   full_.prune(1.0, 0.0);  // a consistent mass matrix couples equal directions only

@@ -1,10 +1,15 @@
 #pragma once
 // Products with a sparse symmetric matrix, many columns at once, on all threads.
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
 #include "core/sparse.hpp"
 
 namespace clatter::modal {
+
+/// P A P^T of a symmetric matrix by its lower triangle: row j of it is row order[j] of A.
+SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order);
 
 /// Holds both triangles, so that each row of the result is one sum: same bits on any thread count.
 class SymmetricProduct {

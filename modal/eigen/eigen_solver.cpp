@@ -76,16 +76,6 @@ class Search {
   ModeSet modes_;
 };
 
-/// P A P^T of a symmetric matrix by its lower triangle: row j of it is row order[j] of A.
-SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order) {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(lower.cols());
-  for (size_t j = 0; j < order.size(); ++j)
-    place.indices()[static_cast<Index>(order[j])] = static_cast<int>(j);
-  SparseMatrix out(lower.rows(), lower.cols());
-  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
-  return out;
-}
-
 void check_request(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options) {
   if ((options.count > 0) == (options.fmax_hz > 0.0) || options.count < 0 ||
       !std::isfinite(options.fmax_hz)) {

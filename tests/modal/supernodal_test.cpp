@@ -145,11 +145,20 @@ TEST(SupernodalFactorTest, RepeatedRunsHaveTheSameBits) {
   EXPECT_EQ((once - again).cwiseAbs().maxCoeff(), 0.0);
 }
 
+/// body(threads) with so many threads each time.
+template <class Body>
+void for_thread_counts(std::initializer_list<int> counts, Body&& body) {
+  for (const int threads : counts) {
+    set_thread_count(threads);
+    body(threads);
+  }
+  set_thread_count(0);
+}
+
 TEST(SupernodalFactorTest, SubtreesOfTheThreadsAndTheTopSolveTogether) {
   const SparseMatrix A = held_box(12, 9, 9);
   const MatrixXd b = MatrixXd::Random(A.rows(), 24), exact = full(A).llt().solve(b);
-  for (const int threads : {1, 2, 3, 5}) {
-    set_thread_count(threads);
+  for_thread_counts({1, 2, 3, 5}, [&](int threads) {
     const SupernodalFactor factor(A);
     const TreeSchedule plan = schedule(factor.tree(), threads);
     EXPECT_EQ(plan.subtrees.empty(), threads == 1) << "nothing runs side by side";
@@ -157,8 +166,7 @@ TEST(SupernodalFactorTest, SubtreesOfTheThreadsAndTheTopSolveTogether) {
       EXPECT_LT((factor.solve(b.leftCols(count)) - exact.leftCols(count)).norm(),
                 1e-12 * exact.leftCols(count).norm())
           << threads << " threads, " << count;
-  }
-  set_thread_count(0);
+  });
 }
 
 TEST(SupernodalFactorTest, LoadsComeToTheBoundaryByTheForwardSweepAlone) {
@@ -169,15 +177,13 @@ TEST(SupernodalFactorTest, LoadsComeToTheBoundaryByTheForwardSweepAlone) {
   const MatrixXd f = MatrixXd::Random(n, 130);
   const MatrixXd expected =
       dense.topRightCorner(n, n_b).transpose() * dense.topLeftCorner(n, n).llt().solve(f);
-  for (const int threads : {1, 2, 3}) {
-    set_thread_count(threads);
+  for_thread_counts({1, 2, 3}, [&](int threads) {
     const SupernodalFactor factor(inside, coupling);
     for (const Index count : {1, 5, 130})
       EXPECT_LT((factor.boundary_product(f.leftCols(count)) - expected.leftCols(count)).norm(),
                 1e-12 * expected.leftCols(count).norm())
           << threads << " threads, " << count;
-  }
-  set_thread_count(0);
+  });
 }
 
 TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
