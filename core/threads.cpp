@@ -26,16 +26,16 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
     return;
   }
   std::vector<std::exception_ptr> failures(static_cast<size_t>(pieces));
+  const auto run = [&](int64_t piece) {
+    try {
+      body(n * piece / pieces, n * (piece + 1) / pieces);
+    } catch (...) {
+      failures[static_cast<size_t>(piece)] = std::current_exception();
+    }
+  };
   std::vector<std::thread> workers;
-  for (int64_t piece = 0; piece < pieces; ++piece) {
-    workers.emplace_back([&, piece] {
-      try {
-        body(n * piece / pieces, n * (piece + 1) / pieces);
-      } catch (...) {
-        failures[static_cast<size_t>(piece)] = std::current_exception();
-      }
-    });
-  }
+  for (int64_t piece = 1; piece < pieces; ++piece) workers.emplace_back(run, piece);
+  run(0);  // here: a thread less to start
   for (auto& worker : workers) worker.join();
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/blas_kernel.hpp"
 #include "core/log.hpp"
 #include "core/memory_limit.hpp"
 #include "core/progress.hpp"
@@ -182,6 +183,8 @@ bool Run::expand() {
 void Run::project() {
   MatrixXd T = T_.topLeftCorner(size_, size_);
   T = (0.5 * (T + T.transpose())).eval();
+  // A second thread gains nothing at these sizes, and spins on a core of ours after each call.
+  const BlasThreads one(1);
   const DenseEigen eig = symmetric_eigen(T);
   nu_ = eig.values.reverse();
   S_ = eig.vectors.rowwise().reverse();

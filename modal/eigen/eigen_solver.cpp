@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/stopwatch.hpp"
+#include "core/threads.hpp"
 #include "modal/eigen/amls.hpp"
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
@@ -112,7 +113,8 @@ Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions&
   order_ = this->factor().permutation();
   mass_.emplace(reordered(M, order_));
   problem_.solve = [this](const double* x, double* y, int count) {
-    std::copy_n(x, n_ * count, y);
+    parallel_pieces(n_ * count,
+                    [&](int64_t begin, int64_t end) { std::copy(x + begin, x + end, y + begin); });
     this->factor().solve_in_order(y, count);
   };
   problem_.mass = [this](const double* x, double* y, int count) { mass_->multiply(x, y, count); };

@@ -3,6 +3,7 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -57,8 +58,13 @@ TallBlock::TallBlock(Index rows, Index columns)
     : data(large_array(static_cast<size_t>(rows * columns))), size(rows), count(columns) {}
 
 bool TallBlock::finite() const {
-  return std::all_of(data.get(), data.get() + size * count,
-                     [](double value) { return std::isfinite(value); });
+  std::atomic<bool> all = true;
+  parallel_pieces(size * count, [&](int64_t begin, int64_t end) {
+    if (!std::all_of(data.get() + begin, data.get() + end,
+                     [](double value) { return std::isfinite(value); }))
+      all = false;
+  });
+  return all;
 }
 
 MatrixXd gram(const TallBlock& A, const TallBlock& B) {

@@ -33,21 +33,48 @@ struct TreeSweeps::Task {
   }
 };
 
-TreeSweeps::TreeSweeps(const SupernodeTree& tree, int threads)
-    : shares_(static_cast<size_t>(std::max(1, threads))) {
-  constexpr double kShare = 0.15;
+namespace {
+
+/// Roots of subtrees of each thread, and the entries of L that a solve waits for.
+struct Shares {
+  TreeSchedule plan;
+  std::vector<std::vector<int32_t>> roots;
+  double cost = 0.0;
+};
+
+/// @param largest subtree, in parts of a thread's work.
+Shares share_out(const SupernodeTree& tree, int threads, double largest) {
   std::vector<double> entries(static_cast<size_t>(tree.supernodes()));
   for (int32_t s = 0; s < tree.supernodes(); ++s)
     entries[static_cast<size_t>(s)] = static_cast<double>(tree.columns(s)) * tree.height(s);
-  TreeSchedule plan = schedule(tree, threads, std::move(entries), kShare);
-  std::vector<int64_t> load(shares_.size(), 0);
-  for (const int32_t root : plan.subtrees) {
-    const auto t = static_cast<size_t>(std::min_element(load.begin(), load.end()) - load.begin());
-    const int32_t lowest = plan.lowest[static_cast<size_t>(root)];
-    shares_[t].push_back(root);
-    load[t] += tree.panel_start[static_cast<size_t>(root) + 1] -
-               tree.panel_start[static_cast<size_t>(lowest)];
+  Shares out;
+  out.plan = schedule(tree, threads, entries, largest);
+  out.roots.resize(static_cast<size_t>(threads));
+  std::vector<double> load(out.roots.size(), 0.0);
+  for (const int32_t root : out.plan.subtrees) {
+    const auto t = std::min_element(load.begin(), load.end()) - load.begin();
+    out.roots[static_cast<size_t>(t)].push_back(root);
+    for (int32_t s = out.plan.lowest[static_cast<size_t>(root)]; s <= root; ++s)
+      load[static_cast<size_t>(t)] += entries[static_cast<size_t>(s)];
   }
+  double top = 0.0;
+  for (const int32_t s : out.plan.top) top += entries[static_cast<size_t>(s)];
+  // Few columns leave the top to one thread, many share it.
+  out.cost = *std::max_element(load.begin(), load.end()) + top * 0.5 * (1.0 + 1.0 / threads);
+  return out;
+}
+
+}  // namespace
+
+TreeSweeps::TreeSweeps(const SupernodeTree& tree, int threads) {
+  // Large subtrees leave little to the top, small ones load the threads evenly.
+  Shares best = share_out(tree, std::max(1, threads), 0.15);
+  for (const double largest : {0.3, 0.6, 1.0}) {
+    Shares other = share_out(tree, std::max(1, threads), largest);
+    if (other.cost < best.cost) best = std::move(other);
+  }
+  shares_ = std::move(best.roots);
+  TreeSchedule& plan = best.plan;
   lowest_ = std::move(plan.lowest);
   top_ = std::move(plan.top);
   for (const int32_t s : top_)
