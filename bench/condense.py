@@ -86,8 +86,8 @@ class Bench:
                 ("cholmod", "CHOLMOD + ARPACK, plain",
                  [self.bench / "cholmod_arpack", "block.fe.h5", str(count), TOLERANCE], words)]
         if small:
-            rows += [("scipy", "SciPy eigsh", [PYTHON, PEERS / "scipy_modes.py", str(count)], words),
-                     ("calculix", "CalculiX *FREQUENCY", ["ccx", "ccx"], theirs)]
+            rows += [("scipy", "SciPy eigsh, one run", [PYTHON, PEERS / "scipy_modes.py", str(count)], words),
+                     ("calculix", "CalculiX *FREQUENCY, one run", ["ccx", "ccx"], theirs)]
         return [row for row in rows if self.wants(row[0])]
 
     def modes(self, thousands, small=True):

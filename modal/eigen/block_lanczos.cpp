@@ -265,7 +265,7 @@ BasisRoom basis_room(const BlockLanczosOptions& options, Index block, Index size
                           static_cast<double>(columns + 3 * block + wanted)) <= left_gib;
   };
   // A restart costs the degree that convergence lives by: with few modes there is room for none.
-  const Index ample = whole(std::min(4 * wanted, 2 * wanted + 200) + 4 * block);
+  const Index ample = whole(std::min(6 * wanted, 2 * wanted + 200) + 4 * block);
   const Index enough = whole(2 * wanted + 4 * block);
   const Index least = whole(wanted + wanted / 4 + 4 * block);
   if (options.storage) return {enough, chosen};
