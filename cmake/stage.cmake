@@ -38,8 +38,8 @@ function(clatter_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE ${ARG_DEFINES}
-    CLATTER_BIN_DIR="${PROJECT_BINARY_DIR}/bin" CLATTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(${name} PRIVATE ${ARG_DEFINES})
+  target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
   # Tests named after an entry of the hard cases are labelled so wherever they stand.

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/places.hpp"
+
 namespace clatter::test {
 
 /// `shared/data/<name>` beside the source tree, or further up when the tree is a working copy in a

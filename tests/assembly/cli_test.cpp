@@ -12,6 +12,7 @@
 #include "block_mesh.hpp"
 #include "core/artefact.hpp"
 #include "mesh/mesh_file.hpp"
+#include "tests/places.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

@@ -10,6 +10,7 @@
 #include "modal/compare.hpp"
 #include "modal/modes_file.hpp"
 #include "tests/condense/box_model.hpp"
+#include "tests/places.hpp"
 
 namespace clatter {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "mesh/mesh_file.hpp"
 #include "support.hpp"
+#include "tests/places.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -12,6 +12,7 @@
 #include "core/artefact.hpp"
 #include "core/error.hpp"
 #include "small_solver.hpp"
+#include "tests/places.hpp"
 
 namespace clatter::modal {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/h5_file.hpp"
 #include "synthetic.hpp"
+#include "tests/places.hpp"
 
 namespace clatter::recover {
 namespace {
