@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
@@ -78,7 +79,9 @@ void write_timing(H5File& file, const StepClock& clock) {
   file.write("timing/seconds", seconds);
   file.write("timing/peak_gib", peak);
   file.set("timing", "total_seconds", clock.total_seconds());
-  file.set("timing", "peak_gib", static_cast<double>(peak_memory_bytes()) / 1073741824.0);
+  // Steps of a child process have peaks of their own.
+  peak.push_back(static_cast<double>(peak_memory_bytes()) / 1073741824.0);
+  file.set("timing", "peak_gib", *std::max_element(peak.begin(), peak.end()));
 }
 
 void write_certificate(H5File& file, const std::map<std::string, double>& certificate) {

@@ -90,11 +90,10 @@ void CommandLine::flag(const std::string& flags, bool& value, const std::string&
   impl_->app.add_flag(flags, value, help);
 }
 
-void CommandLine::memory_limit() {
+void CommandLine::memory_limit(const std::string& effect) {
   impl_->app
       .add_option("--memory-limit", impl_->memory_gib,
-                  "GiB that the process may take (default: the machine's): fewer Lanczos vectors, "
-                  "then vectors on disk; refused when it cannot be")
+                  "GiB that the process may take (default: the machine's): " + effect)
       ->check(CLI::PositiveNumber);
 }
 

@@ -41,7 +41,9 @@ class CommandLine {
   /// Declares --blas NAME|auto, for stages that call ensure_fast_blas(); parse() reports it.
   void blas();
   /// Declares --memory-limit GIB, for stages that ask core/memory_limit.hpp; parse() sets it.
-  void memory_limit();
+  /// `effect`: what happens at the limit.
+  void memory_limit(const std::string& effect =
+                        "fewer Lanczos vectors, then vectors on disk; refused when it cannot be");
 
   /// Parses; returns false when the program should end at once with exit_code() (help, version, or
   /// a wrong command line, already reported). Applies --quiet and --threads.

@@ -3,10 +3,17 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 namespace clatter {
 namespace {
 
 bool quiet_flag = false;
+
+LogSink& sink() {
+  static LogSink instance;
+  return instance;
+}
 
 spdlog::logger& logger() {
   static const auto instance = [] {
@@ -20,13 +27,19 @@ spdlog::logger& logger() {
 }  // namespace
 
 void say(const std::string& line) {
+  if (sink()) return sink()(false, line);
   if (!quiet_flag) logger().info(line);
 }
 
-void warn(const std::string& line) { logger().warn("warning: " + line); }
+void warn(const std::string& line) {
+  if (sink()) return sink()(true, line);
+  logger().warn("warning: " + line);
+}
 
 void set_quiet(bool quiet) { quiet_flag = quiet; }
 
 bool is_quiet() { return quiet_flag; }
+
+void set_log_sink(LogSink chosen) { sink() = std::move(chosen); }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 // What a stage tells its user: plain lines on stderr; stdout is kept for results and --json.
+#include <functional>
 #include <string>
 
 namespace clatter {
@@ -10,5 +11,10 @@ void say(const std::string& line);
 void warn(const std::string& line);
 void set_quiet(bool quiet);
 bool is_quiet();
+
+/// From now on lines go to `sink` in place of stderr, quiet or not: a child process hands them to
+/// its parent.
+using LogSink = std::function<void(bool warning, const std::string& line)>;
+void set_log_sink(LogSink sink);
 
 }  // namespace clatter

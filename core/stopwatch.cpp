@@ -25,4 +25,9 @@ void StepClock::lap(const std::string& name) {
   lap_.restart();
 }
 
+void StepClock::adopt(const std::vector<Step>& steps) {
+  steps_.insert(steps_.end(), steps.begin(), steps.end());
+  lap_.restart();
+}
+
 }  // namespace clatter

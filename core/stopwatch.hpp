@@ -30,6 +30,8 @@ class StepClock {
   };
   /// Ends the step that began at the previous call (or at construction) and records it.
   void lap(const std::string& name);
+  /// Records steps that another process has timed and told; the next one begins here.
+  void adopt(const std::vector<Step>& steps);
   const std::vector<Step>& steps() const { return steps_; }
   double total_seconds() const { return total_.seconds(); }
 

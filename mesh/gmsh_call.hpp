@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
 
 static_assert(GMSH_API_VERSION_MAJOR == 4 && GMSH_API_VERSION_MINOR >= 8,
@@ -12,9 +13,11 @@ static_assert(GMSH_API_VERSION_MAJOR == 4 && GMSH_API_VERSION_MINOR >= 8,
 
 namespace clatter::mesh {
 
-/// Runs `call`; what Gmsh throws becomes a `Failure` "what: reason".
+/// Runs `call`; what Gmsh throws becomes a `Failure` "what: reason". `what` is also the step that is
+/// named should Gmsh end this process.
 template <class Failure = NumericsError, class Call>
 auto gmsh_call(const std::string& what, const Call& call) {
+  enter_step(what);
   try {
     return call();
   } catch (const Error&) {

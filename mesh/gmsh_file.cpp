@@ -1,35 +1,8 @@
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
-
 #include "mesh/gmsh_call.hpp"
 #include "mesh/gmsh_session.hpp"
 
 namespace clatter::mesh {
 namespace {
-
-// Exceptions must not leave the child.
-bool reads(const std::string& path) {
-  try {
-    gmsh::merge(path);
-    return true;
-  } catch (...) {
-    return false;
-  }
-}
-
-// Gmsh trusts what it reads: a wrong count may end the process, so that of a child is risked.
-void try_in_child(const std::string& path) {
-  const pid_t child = ::fork();
-  if (child < 0) throw FileError(fmt::format("{}: no process to read it in", path));
-  if (child == 0) ::_exit(reads(path) ? 0 : 1);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  if (!WIFEXITED(status))
-    throw InputError(fmt::format("{}: Gmsh crashes on it (signal {}), expected a sound MSH file",
-                                 path, WTERMSIG(status)));
-}
 
 MshElements elements_of(int type, int dim) {
   MshElements elements;
@@ -74,7 +47,6 @@ class Log {
 }  // namespace
 
 MshContents GmshSession::import_msh(const std::filesystem::path& path) {
-  try_in_child(path.string());
   return gmsh_call<InputError>(path.string(), [&] {
     MshContents contents;
     const Log log;

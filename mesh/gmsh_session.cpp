@@ -21,12 +21,11 @@ std::atomic<bool> session_lives = false;
 
 void set_options() {
   const std::vector<std::pair<const char*, double>> options = {
-      {"General.Terminal", 0},
+      {"General.Terminal", is_child()},  // there it says where it is, should it crash
       {"General.NumThreads", 1},
       {"Mesh.MaxNumThreads1D", 1},
       {"Mesh.MaxNumThreads2D", 1},
       {"Mesh.MaxNumThreads3D", 1},
-      {"Mesh.Algorithm", 6},    // Frontal-Delaunay on faces
       {"Mesh.Algorithm3D", 1},  // Delaunay: the reproducible one (G7)
       {"Mesh.Optimize", 1},
       {"Mesh.ElementOrder", 1},
@@ -84,6 +83,9 @@ void set_gradations(const SizeSettings& settings) {
 }
 
 void set_sizes(const SizeSettings& settings) {
+  constexpr double kMeshAdapt = 1, kFrontalDelaunay = 6;
+  gmsh::option::setNumber("Mesh.Algorithm",
+                          settings.adaptive_faces ? kMeshAdapt : kFrontalDelaunay);
   gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
   gmsh::option::setNumber("Mesh.MeshSizeMin", settings.min_size);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", settings.per_turn);

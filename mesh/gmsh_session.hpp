@@ -41,6 +41,7 @@ struct SizeSettings {
   std::map<int, double> face_sizes;  // by face tag
   std::vector<Gradation> gradations;
   std::vector<FineSpot> spots;
+  bool adaptive_faces = false;  // faces by Gmsh's MeshAdapt, the sturdiest, in place of the frontal
 };
 
 /// A mesh as Gmsh leaves it; tables hold rows of `nodes`.
@@ -67,6 +68,10 @@ struct MshContents {
   std::vector<MshElements> elements;
   std::vector<std::string> warnings;
 };
+
+/// The lower-case extension of a file to which geometry can be written, ".step", ".stp" or ".brep";
+/// InputError for others.
+std::string cad_extension(const std::filesystem::path& path);
 
 class GmshSession {
  public:
@@ -103,7 +108,8 @@ class GmshSession {
   /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
   /// the format knows its own (STEP, IGES). InputError when it holds no solid.
   Solids import_cad(const std::filesystem::path& path, const std::string& unit);
-  /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says.
+  /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says; InputError
+  /// for other names.
   void write_cad(const std::filesystem::path& path, const std::string& unit);
   /// Faces that bound exactly one solid, by ascending tag.
   std::vector<FaceFacts> boundary_faces();
@@ -130,8 +136,8 @@ class GmshSession {
   std::string running_version() const;   // of the library: "4.8.4"
 
   // --- Gmsh's own files (gmsh_file.cpp) ---
-  /// Reads an MSH file. It is read in a child process first: where a damaged file makes Gmsh crash,
-  /// that is an InputError, as all that Gmsh reports.
+  /// Reads an MSH file; InputError for all that Gmsh reports. A damaged file may end the process:
+  /// gmsh_in_child.hpp.
   MshContents import_msh(const std::filesystem::path& path);
 
  private:

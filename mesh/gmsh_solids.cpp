@@ -297,6 +297,7 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
                     "or .igs",
                     path.string(), extension));
   }
+  enter_step("reading " + path.string());
   const bool iges = extension == ".iges" || extension == ".igs";
   gmsh::vectorpair out;
   gmsh_call<InputError>(path.string(), [&] {
@@ -316,12 +317,17 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
   return solids;
 }
 
-void GmshSession::write_cad(const std::filesystem::path& path, const std::string& unit) {
+std::string cad_extension(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (extension != ".step" && extension != ".stp" && extension != ".brep") {
     throw InputError(fmt::format("{}: found extension '{}', expected .step, .stp or .brep",
                                  path.string(), extension));
   }
+  return extension;
+}
+
+void GmshSession::write_cad(const std::filesystem::path& path, const std::string& unit) {
+  cad_extension(path);
   const std::filesystem::path part = path.parent_path() / ("part." + path.filename().string());
   gmsh_call<FileError>(path.string(), [&] {
     const QuietStdout quiet;
@@ -335,7 +341,7 @@ void GmshSession::write_cad(const std::filesystem::path& path, const std::string
 }
 
 double GmshSession::smallest_radius(int face) {
-  return gmsh_call("curvature", [&] {
+  return gmsh_call("gmsh: curvature", [&] {
     synchronize();
     std::vector<double> largest, smallest, direction_1, direction_2;
     gmsh::model::getPrincipalCurvatures(face, surface_parameters(face), largest, smallest,

@@ -17,6 +17,7 @@
 #include "mesh/mesher.hpp"
 #include "mesh/metis_partition.hpp"
 #include "mesh/msh_reader.hpp"
+#include "mesh/part_in_child.hpp"
 
 namespace {
 
@@ -66,6 +67,7 @@ struct Arguments {
   std::string units;
   std::vector<std::string> ignore;
   int parts = 0;
+  ChildLimits limits;  // of the processes in which Gmsh works
 };
 
 /// A mesh with what is written beside it.
@@ -75,6 +77,7 @@ struct Outcome {
   std::map<std::string, double> certificate;
   Provenance provenance;
   std::string recipe;  // fe.toml of a deck
+  std::string cad;     // of the geometry, where it is wanted
 };
 
 void report(const Outcome& result) {
@@ -103,20 +106,15 @@ void report(const Outcome& result) {
 /// Geometry meshed by gmsh.
 Outcome mesh_geometry(const Arguments& a, const Config& config, const std::string& name,
                       StepClock& clock) {
-  const LengthUnit unit = read_length_unit(config);
-  const MeshSettings settings = read_mesh_settings(config);
-  GmshSession session(name);
-  const PartGeometry part = build_part(session, config);
-  config.finish();
-  clock.lap("geometry");
-  if (!a.step.empty()) session.write_cad(a.step, unit.name);
-  PartMesh made = mesh_part(session, part, settings, unit.metres, name, a.input.string());
-  clock.lap("mesh");
-  Outcome out{std::move(made.mesh),
-              std::move(made.quality),
-              std::move(made.certificate),
-              {kMeshSchema, config.resolved(), {a.input}},
-              {}};
+  const std::string extension = a.step.empty() ? "" : cad_extension(a.step);
+  MadePart made = make_part_in_child({&config, name, a.input.string(), extension}, a.limits);
+  clock.adopt(made.steps);
+  Outcome out{std::move(made.part.mesh),
+              std::move(made.part.quality),
+              std::move(made.part.certificate),
+              {kMeshSchema, std::move(made.config), {a.input}},
+              {},
+              std::move(made.cad)};
   if (config.text("kind") == "cad")
     out.provenance.inputs.push_back(config.table("cad").path("source"));
   return out;
@@ -125,9 +123,9 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
 /// A deck with its own cells.
 Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitSystem& units,
                           const std::vector<std::string>& ignore, const std::string& name,
-                          StepClock& clock) {
-  deck::Deck found =
-      is_msh(source) ? read_msh(source, units, {ignore}) : deck::read_deck(source, units, {ignore});
+                          const ChildLimits& limits, StepClock& clock) {
+  deck::Deck found = is_msh(source) ? read_msh(source, units, {ignore}, limits)
+                                    : deck::read_deck(source, units, {ignore});
   clock.lap("read");
   for (const auto& [card, count] : found.ignored)
     say(fmt::format("{}: ignored {} ({} times)", source.string(), card, count));
@@ -154,7 +152,7 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
                       "does not guess)",
                       a.input.string()));
     return read_mesh_of_deck(a.input, deck::unit_system_named(a.units, "--units"), a.ignore,
-                             a.input.stem().string(), clock);
+                             a.input.stem().string(), a.limits, clock);
   }
   const Config config = Config::load(a.input);
   const std::string name = config.text("name");
@@ -164,7 +162,7 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
   const auto units = deck::unit_system_named(table.text("units"), table.where() + ": units");
   const std::vector<std::string> ignore = table.texts_or("ignore", {});
   config.finish();
-  Outcome out = read_mesh_of_deck(source, units, ignore, name, clock);
+  Outcome out = read_mesh_of_deck(source, units, ignore, name, a.limits, clock);
   out.provenance.config = config.resolved();
   out.provenance.inputs.push_back(a.input);
   return out;
@@ -192,6 +190,7 @@ int run(const Arguments& a, const CommonOptions& common) {
   write_timing(file, clock);
   file.commit();
   if (!a.recipe.empty()) write_whole_file(a.recipe, result.recipe);
+  if (!result.cad.empty()) write_whole_file(a.step, result.cad);
   for (const auto& path : a.exports) export_mesh(result.mesh, path);
   write_depfile(common.depfile, a.output, result.provenance.inputs);
   if (common.json) {
@@ -225,7 +224,13 @@ int main(int argc, char** argv) {
     line.option("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.option("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .inp, .bdf); may be repeated");
+    line.option("--time-limit", a.limits.seconds,
+                "seconds of wall time that gmsh may take; 0: no limit");
+    line.memory_limit("gmsh is stopped there, with a line that says so");
     if (!line.parse(argc, argv)) return line.exit_code();
+    if (!(a.limits.seconds >= 0.0))
+      throw InputError(
+          fmt::format("--time-limit: found {}, expected seconds or 0", a.limits.seconds));
     return run(a, line.common());
   });
 }

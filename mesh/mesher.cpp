@@ -56,6 +56,7 @@ SizeSettings size_settings(GmshSession& session, const MeshSettings& settings,
   sizes.size = settings.element_size / metres_per_unit;
   sizes.min_size = settings.min_size / metres_per_unit;
   sizes.per_turn = settings.elements_per_turn;
+  sizes.adaptive_faces = settings.adaptive_faces;
   for (const LocalSize& local : settings.local) {
     const auto found = surfaces.find(local.surface);
     if (found == surfaces.end()) {

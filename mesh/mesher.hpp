@@ -26,6 +26,7 @@ struct MeshSettings {
   double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
   int refine_passes = 4;             // at most so many times; 0: never
   std::vector<LocalSize> local;      // [[mesh.local]]
+  bool adaptive_faces = false;       // no key: for parts on which Gmsh's frontal algorithm crashes
 };
 MeshSettings read_mesh_settings(const Config& config);
 

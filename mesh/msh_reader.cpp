@@ -12,7 +12,7 @@
 #include "core/log.hpp"
 #include "mesh/cell_faces.hpp"
 #include "mesh/deck/import.hpp"
-#include "mesh/gmsh_session.hpp"
+#include "mesh/gmsh_in_child.hpp"
 #include "mesh/msh_groups.hpp"
 
 namespace clatter::mesh {
@@ -32,10 +32,10 @@ std::optional<FaceType> face_type_of(int gmsh_type) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const deck::ReadOptions& options)
+  Reader(const std::filesystem::path& path, const deck::ReadOptions& options,
+         const ChildLimits& limits)
       : path_(path.string()), scan_(scan_msh(path)), groups_(path_, scan_, options.ignore) {
-    GmshSession session("msh");
-    contents_ = session.import_msh(path);
+    contents_ = read_msh_contents(path, limits);
     for (const std::string& warning : contents_.warnings)
       say(fmt::format("{}: Gmsh: {}", path_, warning));
     groups_.learn(contents_);
@@ -278,8 +278,8 @@ bool is_msh(const std::filesystem::path& path) {
 }
 
 deck::Deck read_msh(const std::filesystem::path& path, const deck::UnitSystem& units,
-                    const deck::ReadOptions& options) {
-  deck::Deck found = Reader(path, options).run();
+                    const deck::ReadOptions& options, const ChildLimits& limits) {
+  deck::Deck found = Reader(path, options, limits).run();
   deck::finish_deck(found, units, path.string());
   return found;
 }

@@ -11,6 +11,7 @@
 // "skin" of our own export is the whole boundary and must be that.
 #include <filesystem>
 
+#include "core/child_process.hpp"
 #include "mesh/deck/deck.hpp"
 #include "mesh/deck/units.hpp"
 
@@ -28,7 +29,9 @@ bool is_msh(const std::filesystem::path& path);
 /// a face of a group that is no face of a cell or lies within a region; a group without elements;
 /// two groups of a dimension with one name. Faces, lines and points in no group say nothing and are
 /// counted in Deck::ignored, as nodes that nothing uses are.
+/// Gmsh reads the file in a child process within `limits`: where a damaged one makes it crash, that
+/// is an InputError.
 deck::Deck read_msh(const std::filesystem::path& path, const deck::UnitSystem& units,
-                    const deck::ReadOptions& options);
+                    const deck::ReadOptions& options, const ChildLimits& limits = {});
 
 }  // namespace clatter::mesh

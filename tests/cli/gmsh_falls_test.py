@@ -1,0 +1,117 @@
+"""clatter-mesh when Gmsh crashes, exits, hangs or eats memory (hard case N17): one line, exit 3, nothing left."""
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import stages
+
+BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", stages.SOURCE / "build/release"))
+SHIM = BUILD / "tests/cli/libfalling_gmsh.so"
+TUBE = """name = "tube"
+kind = "cylinder"
+[cylinder]
+radius = 20.0
+inner_radius = 16.0
+length = 40.0
+[mesh]
+element_size_mm = 9.0
+"""
+
+
+class HardN17GmshFalls(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="clatter-falls-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "tmp").mkdir()
+        (self.folder / "tube.mesh.toml").write_text(TUBE)
+        (self.folder / "curved.mesh.toml").write_text(TUBE + "elements_per_turn = 12\n")
+        (self.folder / "tube.mesh.h5").write_bytes(b"the older artefact")
+        self.before = self.files()
+
+    def files(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
+
+    def environment(self, way):
+        # The sanitizers' own run-time library wants to come first; it need not.
+        return {**os.environ, "LD_PRELOAD": str(SHIM), "CLATTER_TEST_GMSH": way, "TMPDIR": str(self.folder / "tmp"),
+                "ASAN_OPTIONS": "verify_asan_link_order=0"}
+
+    def mesh(self, way, part="tube.mesh.toml", *more):
+        return subprocess.run([stages.BIN / "clatter-mesh", part, "-o", "tube.mesh.h5", *more], cwd=self.folder,
+                              env=self.environment(way), text=True, capture_output=True, timeout=120)
+
+    def assert_falls(self, way, says, *more, part="tube.mesh.toml"):
+        done = self.mesh(way, part, "--quiet", "--write-step", "tube.step", *more)
+        errors = [line for line in done.stderr.splitlines() if "error:" in line]
+        others = [line for line in done.stderr.splitlines()
+                  if "error:" not in line and not line.startswith("warning: ")]
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual((len(errors), others), (1, []), done.stderr)
+        for text in says:
+            self.assertIn(text, errors[0])
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(self.files(), self.before, "files are left or the older artefact is gone")
+        self.assertEqual((self.folder / "tube.mesh.h5").read_bytes(), b"the older artefact")
+        return done.stderr
+
+    def test_a_crash_is_told_with_step_and_sizes_and_a_simpler_setting_is_tried(self):
+        said = self.assert_falls("abort", ["crashed (signal 6, Aborted)", "gmsh: meshing", "element_size_mm = 9",
+                                           "elements_per_turn = 12", "without elements_per_turn", "heal the part"],
+                                 part="curved.mesh.toml")
+        self.assertEqual(said.count("warning: "), 1)
+        self.assertIn("trying once more without elements_per_turn", said)
+        self.assert_falls("abort", ["MeshAdapt"])
+
+    def test_what_cannot_be_caught_exits_and_foreign_throws_are_told(self):
+        self.assert_falls("terminate", ["signal 6", "terminate called after throwing an instance of 'std::string'"])
+        self.assert_falls("exit", ["ended with exit code 0 and no result"])
+        self.assert_falls("throw", ["threw what is no exception"])
+
+    def test_hang_and_hunger_end_at_their_limits_without_a_second_attempt(self):
+        said = self.assert_falls("hang", ["was stopped after 2 s (--time-limit)", "raise the limit"], "--time-limit",
+                                 "2")
+        self.assertEqual(said.count("\n"), 1)
+        said = self.assert_falls("eat", ["ran out of memory (0.4 GiB, --memory-limit)"], "--memory-limit", "0.4")
+        self.assertEqual(said.count("\n"), 1)
+
+    def test_the_simpler_setting_makes_the_mesh_and_says_so(self):
+        for way, part, text in (("curved-abort", "curved.mesh.toml", "without elements_per_turn"),
+                                ("frontal-abort", "tube.mesh.toml", "MeshAdapt")):
+            done = self.mesh(way, part, "--quiet", "--json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count("\n"), 1)
+            self.assertIn(f"trying once more {'with Gmsh' + chr(39) + 's ' if text == 'MeshAdapt' else ''}{text}",
+                          done.stderr)
+            self.assertIn("Gmsh does not survive what was asked for", done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 2, done.stderr)
+
+    def test_a_signal_takes_the_child_with_it_and_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([stages.BIN / "clatter-mesh", "tube.mesh.toml", "-o", "tube.mesh.h5",
+                                        "--write-step", "tube.step"], cwd=self.folder, env=self.environment("hang"),
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+            self.wait_for(lambda: children.read_text().split() and self.files() != self.before)
+            child = children.read_text().split()[0]
+            process.send_signal(number)
+            # All that holds the pipe has gone when this returns: the child too.
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, -number)
+            self.assertFalse(pathlib.Path(f"/proc/{child}/exe").exists())
+            self.assertEqual(self.files(), self.before)
+
+    def wait_for(self, holds):
+        for _ in range(1500):
+            if holds():
+                return
+            time.sleep(0.02)
+        self.fail("it did not come to that")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

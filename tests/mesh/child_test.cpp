@@ -1,0 +1,76 @@
+// Gmsh in a child process: the same bits as without, errors of the same kind, crashes told.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "mesh/gmsh_in_child.hpp"
+#include "mesh/part_in_child.hpp"
+#include "mesh_toml.hpp"
+#include "support.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using testing::Folder;
+using testing::mesh_toml;
+
+const std::string kTube =
+    "name = 'tube'\nkind = 'cylinder'\n[cylinder]\nradius = 20\ninner_radius = 16\nlength = 60\n"
+    "[mesh]\nelement_size_mm = 9\nelements_per_turn = 12\n";
+
+MadePart make(const std::string& toml, const std::string& cad_extension = "") {
+  const Config config = Config::parse(toml, "part.toml");
+  return make_part_in_child({&config, config.text("name"), "part.toml", cad_extension}, {});
+}
+
+TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
+  const MadePart there = make(kTube, ".brep");
+  const PartMesh here = mesh_toml(kTube).part;
+  EXPECT_EQ(there.part.mesh.name, here.mesh.name);
+  EXPECT_EQ(there.part.mesh.nodes, here.mesh.nodes);
+  EXPECT_EQ(there.part.mesh.regions, here.mesh.regions);
+  EXPECT_EQ(there.part.mesh.node_sets, here.mesh.node_sets);
+  ASSERT_EQ(there.part.mesh.cells.size(), here.mesh.cells.size());
+  EXPECT_EQ(there.part.mesh.cells[0].nodes, here.mesh.cells[0].nodes);
+  for (const auto& [name, surface] : here.mesh.surfaces)
+    EXPECT_EQ(there.part.mesh.surface(name).faces[0].nodes, surface.faces[0].nodes) << name;
+  EXPECT_EQ(there.part.quality.min_dihedral_deg.histogram, here.quality.min_dihedral_deg.histogram);
+  EXPECT_EQ(there.part.quality.scaled_jacobian.worst_cells.size(), kWorstCells);
+  auto certificate = there.part.certificate;
+  EXPECT_EQ(certificate.extract("simpler_setting").mapped(), 0.0);
+  EXPECT_EQ(certificate, here.certificate);
+  EXPECT_EQ(there.steps.size(), 2u);
+  EXPECT_NE(there.config.find("cylinder.inner_radius = 16"), std::string::npos) << there.config;
+  EXPECT_TRUE(there.cad.starts_with("DBRep_DrawableShape") ||
+              there.cad.find("CASCADE Topology") < 100)
+      << there.cad.substr(0, 100);
+}
+
+TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndWords) {
+  EXPECT_THROW(make("name = 'x'\nkind = 'cad'\n[cad]\nsource = 'none.step'\n"), InputError);
+  try {
+    make(kTube + "elements_per_trun = 3\n");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("elements_per_turn"), std::string::npos);
+  }
+}
+
+TEST(HardN17_GmshInAChild, ItsLastNewsSayWhereItFell) {
+  ChildEnd end;
+  end.kind = ChildEnd::Kind::kCrashed;
+  end.signal = 11;
+  EXPECT_EQ(place_of(end), "its start");
+  end.step = "gmsh: meshing";
+  EXPECT_EQ(place_of(end), "gmsh: meshing");
+  end.chatter =
+      "Info    : Meshing 2D...\nInfo    : [ 20%] Meshing surface 7 (Cylinder, Frontal-Delaunay)\n"
+      "free(): invalid pointer\n";
+  EXPECT_EQ(describe_end(end, {}),
+            "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (Cylinder, "
+            "Frontal-Delaunay) (it said: free(): invalid pointer)");
+}
+
+}  // namespace
+}  // namespace clatter::mesh
