@@ -270,7 +270,7 @@ class Child {
     while ((count = ::read(from, bytes.data(), bytes.size())) > 0) {
       end_.chatter.append(bytes.data(), static_cast<size_t>(count));
       if (end_.chatter.size() > kChatterBytes)
-        end_.chatter.erase(0, end_.chatter.size() - kChatterBytes);
+        end_.chatter.erase(0, end_.chatter.find('\n', end_.chatter.size() - kChatterBytes) + 1);
     }
     return count < 0 && (errno == EAGAIN || errno == EINTR);
   }

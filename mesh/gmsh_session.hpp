@@ -111,9 +111,13 @@ class GmshSession {
   /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says; InputError
   /// for other names.
   void write_cad(const std::filesystem::path& path, const std::string& unit);
-  /// Faces that bound exactly one solid, by ascending tag.
+  /// Faces that bound exactly one solid, by ascending tag; kEdgeSamples points of each edge.
   std::vector<FaceFacts> boundary_faces();
-  /// Smallest radius of curvature among samples of the face; 0 for a plane one.
+  /// Faces of each solid in turn: those between two solids come twice.
+  std::vector<FaceFacts> faces_of_solids();
+  /// Smallest radius of curvature at each of the samples of the face, infinite where it is plane.
+  std::vector<double> radii(int face);
+  /// The smallest of these; 0 for a plane face.
   double smallest_radius(int face);
 
   // --- mesh (gmsh_session.cpp) ---
@@ -142,6 +146,7 @@ class GmshSession {
 
  private:
   void synchronize();
+  std::vector<FaceFacts> faces(bool shared);
   RawMesh extract_skin() const;
   std::string reason_of_failure() const;
   bool synchronized_ = false;

@@ -12,7 +12,6 @@ namespace {
 namespace occ = gmsh::model::occ;
 
 constexpr double kVolumeTolerance = 1e-6;  // relative; OpenCASCADE integrates to about 1e-9
-constexpr int kEdgeSamples = 33;           // hits the four quadrants of a full circle
 constexpr int kSurfaceSamples = 5;         // per direction
 
 gmsh::vectorpair tagged(const Solids& solids) {
@@ -340,30 +339,44 @@ void GmshSession::write_cad(const std::filesystem::path& path, const std::string
   if (trouble) throw FileError(fmt::format("{}: {}", path.string(), trouble.message()));
 }
 
-double GmshSession::smallest_radius(int face) {
+std::vector<double> GmshSession::radii(int face) {
   return gmsh_call("gmsh: curvature", [&] {
     synchronize();
     std::vector<double> largest, smallest, direction_1, direction_2;
     gmsh::model::getPrincipalCurvatures(face, surface_parameters(face), largest, smallest,
                                         direction_1, direction_2);
-    double curvature = 0.0;
-    for (const auto* list : {&largest, &smallest})
-      for (double k : *list)
+    std::vector<double> found;
+    for (size_t i = 0; i < largest.size(); ++i) {
+      double curvature = 0.0;
+      for (const double k : {largest[i], smallest[i]})
         if (std::isfinite(k)) curvature = std::max(curvature, std::abs(k));
-    return curvature > 0.0 ? 1.0 / curvature : 0.0;
+      found.push_back(1.0 / curvature);
+    }
+    return found;
   });
 }
 
-std::vector<FaceFacts> GmshSession::boundary_faces() {
+double GmshSession::smallest_radius(int face) {
+  const std::vector<double> all = radii(face);
+  const auto least = std::min_element(all.begin(), all.end());
+  return least == all.end() || std::isinf(*least) ? 0.0 : *least;
+}
+
+std::vector<FaceFacts> GmshSession::boundary_faces() { return faces(false); }
+
+std::vector<FaceFacts> GmshSession::faces_of_solids() { return faces(true); }
+
+std::vector<FaceFacts> GmshSession::faces(bool shared) {
   return gmsh_call("faces", [&] {
     synchronize();
-    gmsh::vectorpair faces;
-    gmsh::model::getEntities(faces, 2);
+    gmsh::vectorpair tags;
+    gmsh::model::getEntities(tags, 2);
     std::vector<FaceFacts> facts;
-    for (const auto& [dim, tag] : faces) {
+    for (const auto& [dim, tag] : tags) {
       std::vector<int> up, down;
       gmsh::model::getAdjacencies(2, tag, up, down);
       if (up.size() == 1) facts.push_back(facts_of(tag));
+      if (up.size() == 2 && shared) facts.insert(facts.end(), 2, facts_of(tag));
     }
     return facts;
   });

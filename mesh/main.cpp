@@ -194,8 +194,11 @@ int run(const Arguments& a, const CommonOptions& common) {
   for (const auto& path : a.exports) export_mesh(result.mesh, path);
   write_depfile(common.depfile, a.output, result.provenance.inputs);
   if (common.json) {
+    const auto predicted = result.certificate.find("predicted_cells");
     print_json({{"output", json_text(a.output.string())},
                 {"cells", json_number(result.certificate.at("cells"))},
+                {"predicted_cells",
+                 predicted == result.certificate.end() ? "null" : json_number(predicted->second)},
                 {"dofs", json_number(result.certificate.at("dofs"))},
                 {"min_dihedral_deg", json_number(result.certificate.at("min_dihedral_deg"))},
                 {"seconds", json_number(clock.total_seconds())}});

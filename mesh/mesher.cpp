@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/certify_mesh.hpp"
+#include "mesh/predict_cells.hpp"
 #include "mesh/valid_mesh.hpp"
 
 namespace clatter::mesh {
@@ -120,6 +122,12 @@ double volume_of_finer_skin(GmshSession& session, const RawMesh& raw, const Boun
   return volume;
 }
 
+double cad_volume_of(const GmshSession& session, const PartGeometry& part) {
+  double volume = 0.0;
+  for (const RegionSolids& region : part.regions) volume += session.volume(region.solids);
+  return volume;
+}
+
 // Where OpenCASCADE's integral over the solid and the mesh disagree, one of them is wrong: it takes
 // a fixed number of points on splines of any length, and is far off on wavy ones.
 void certify_volume(GmshSession& session, const PartGeometry& part, const RawMesh& raw,
@@ -127,9 +135,7 @@ void certify_volume(GmshSession& session, const PartGeometry& part, const RawMes
                     double metres_per_unit, std::map<std::string, double>& certificate) {
   const double cubed = metres_per_unit * metres_per_unit * metres_per_unit;
   const double volume = certificate.at("volume_m3");
-  double cad_volume = 0.0;
-  for (const RegionSolids& region : part.regions) cad_volume += session.volume(region.solids);
-  cad_volume *= cubed;
+  double cad_volume = cubed * cad_volume_of(session, part);
   certificate["occ_volume_m3"] = cad_volume;
   if (std::abs(volume / cad_volume - 1.0) > kVolumeTolerance) {
     const double integrated = cubed * volume_of_finer_skin(session, raw, boundary, sizes);
@@ -165,6 +171,7 @@ MeshSettings read_mesh_settings(const Config& config) {
       table->number_or("min_scaled_jacobian", settings.min_scaled_jacobian, {0.0, 0.9});
   settings.refine_passes =
       static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
+  settings.max_cells = table->number_or("max_cells", settings.max_cells, Range::positive());
   if (settings.min_size > settings.element_size) {
     table->fail("min_size_mm", "expected at most element_size_mm");
   }
@@ -184,24 +191,29 @@ MeshSettings read_mesh_settings(const Config& config) {
 
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
                    double metres_per_unit, const std::string& name, const std::string& where) {
-  const FaceTags tags = find_surfaces(session.boundary_faces(), part, where);
+  const std::vector<FaceFacts> faces = session.boundary_faces();
+  const FaceTags tags = find_surfaces(faces, part, where);
   const SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  const double predicted = require_few_cells(session, cad_volume_of(session, part), sizes, settings,
+                                             metres_per_unit, where);
   PartMesh result;
   const Repair repair =
       make_valid_mesh(session, part, settings, sizes, metres_per_unit, result.mesh);
   const RawMesh raw = session.extract();
+  enter_step("proving the mesh");
   Mesh& mesh = result.mesh;
   mesh.name = name;
   const BoundaryFaces boundary = boundary_faces(mesh);
   mesh.surfaces["skin"] = skin_of(boundary);
-  for (const auto& [surface, faces] : tags) {
-    mesh.surfaces[surface] = surface_of(raw, faces, boundary);
+  for (const auto& [surface, selected] : tags) {
+    mesh.surfaces[surface] = surface_of(raw, selected, boundary);
     mesh.node_sets[surface] = nodes_of(mesh.surfaces[surface]);
   }
   check_structure(mesh, "mesh");
   result.quality = measure_quality(mesh);
   result.certificate = certify_mesh(mesh, result.quality);
   certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
+  result.certificate["predicted_cells"] = predicted;
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
   result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
   result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;

@@ -25,6 +25,7 @@ struct MeshSettings {
   double min_dihedral_deg = 8.0;     // aimed at: cells below are meshed anew with finer neighbours
   double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
   int refine_passes = 4;             // at most so many times; 0: never
+  double max_cells = 5e6;            // more are refused before meshing, by predict_cells()
   std::vector<LocalSize> local;      // [[mesh.local]]
   bool adaptive_faces = false;       // no key: for parts on which Gmsh's frontal algorithm crashes
 };

@@ -10,6 +10,9 @@
 
 namespace clatter::mesh {
 
+/// Points on each curve of FaceFacts::edge_points: they hit the four quadrants of a full circle.
+inline constexpr int kEdgeSamples = 33;
+
 /// What is known of one face of the geometry, in the part's length unit.
 struct FaceFacts {
   int tag = 0;

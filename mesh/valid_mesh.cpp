@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "mesh/boundary.hpp"
@@ -89,6 +90,7 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
   const auto attempt = [&](const SizeSettings& trial) {
     session.generate(trial);
     RawMesh raw = session.extract();
+    enter_step("lifting slivers");
     Mesh linear = linear_mesh(raw);
     int64_t edits = lift_slivers(linear, target).before;
     if (split_corners) edits += split_blunt_corners(linear, target);
@@ -171,6 +173,7 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
   for (int pass = 0;; ++pass) {
     generate_without_slivers(session, settings, sizes, pass > 0);
     mesh = convert(session.extract(), part, metres_per_unit);
+    enter_step("unfolding curved cells");
     const ValidityReport before = check_validity(mesh);
     repair.invalid_before = before.invalid.size();
     repair.min_ratio_before = before.min_ratio;

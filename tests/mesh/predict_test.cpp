@@ -1,0 +1,68 @@
+// The number of cells is known before meshing to a factor of two, and absurd ones are refused.
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+#include "mesh_toml.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using testing::mesh_toml;
+
+const std::string kBox = "name = 'b'\nkind = 'box'\n[box]\nsize = [60, 20, 10]\n[mesh]\n";
+const std::string kTube =
+    "name = 't'\nkind = 'cylinder'\n[cylinder]\nradius = 40\ninner_radius = 10\nlength = "
+    "40\n[mesh]\n";
+
+// What makes a mesh finer than its sizes say (slivers, short edges) makes a factor of two; an order
+// of magnitude is what the limit is for.
+TEST(Predict, CellsWithinAFactorOfTwo) {
+  const std::vector<std::string> parts = {
+      kBox + "element_size_mm = 5\n",
+      kBox + "element_size_mm = 3\n",
+      kTube + "element_size_mm = 8\n",
+      kTube + "element_size_mm = 20\nelements_per_turn = 24\n",
+      kTube + "element_size_mm = 12\n[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n",
+      kTube + "element_size_mm = 12\n[[mesh.local]]\nsurface = 'outer'\nfactor = 0.3\n",
+      "name = 'thin'\nkind = 'cylinder'\n[cylinder]\nradius = 30\ninner_radius = 29\nlength = 60\n"
+      "[mesh]\nelement_size_mm = 6\n"};
+  for (const std::string& part : parts) {
+    const auto certificate = mesh_toml(part).part.certificate;
+    const double ratio = certificate.at("predicted_cells") / certificate.at("cells");
+    EXPECT_GT(ratio, 0.5) << part;
+    EXPECT_LT(ratio, 2.0) << part;
+  }
+}
+
+void expect_refused(const std::string& toml, const std::vector<std::string>& says) {
+  const Stopwatch clock;
+  try {
+    mesh_toml(toml);
+    ADD_FAILURE() << toml;
+  } catch (const InputError& error) {
+    for (const std::string& text : says)
+      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << text << "\n"
+                                                                         << error.what();
+  }
+  EXPECT_LT(clock.seconds(), 20.0);  // nothing was meshed: 0.1 s alone
+}
+
+TEST(Predict, ASizeTypedInMetresIsRefusedBeforeMeshing) {
+  expect_refused(kBox + "element_size_mm = 0.012\n",
+                 {"part.toml", "element_size_mm = 0.012", "60 x 20 x 10 mm", "e+10 cells",
+                  "max_cells", "unit right?"});
+  expect_refused("length_unit = 'm'\n" + kBox + "element_size_mm = 12\n",
+                 {"6e+04 x 2e+04 x 1e+04 mm"});
+  expect_refused(kTube + "element_size_mm = 10\nelements_per_turn = 900\nmax_cells = 1e5\n",
+                 {"elements_per_turn = 900"});
+}
+
+TEST(Predict, TheLimitIsASettingAndMustBePositive) {
+  expect_refused(kBox + "element_size_mm = 6\nmax_cells = 50\n", {"at most 50 (max_cells)"});
+  EXPECT_NO_THROW(mesh_toml(kBox + "element_size_mm = 6\nmax_cells = 5000\n"));
+  EXPECT_THROW(mesh_toml(kBox + "max_cells = 0\n"), InputError);
+}
+
+}  // namespace
+}  // namespace clatter::mesh
