@@ -35,22 +35,40 @@ Solids in_order(const GmshSession& session, Solids solids) {
   return solids;
 }
 
+// Makes the solids share their faces, and keeps what they were.
+std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
+  std::vector<CadSolid> known;
+  for (size_t i = 0; i < solids.size(); ++i) {
+    CadSolid solid{session.name_of(solids[i]), i + 1, solids.size(), session.centre(solids[i])};
+    solid.volume = session.volume({solids[i]});
+    known.push_back(std::move(solid));
+  }
+  const std::vector<Solids> pieces = session.join(solids);
+  for (size_t i = 0; i < solids.size(); ++i) {
+    known[i].pieces = pieces[i];
+    known[i].joined = session.volume(pieces[i]);
+  }
+  return known;
+}
+
 }  // namespace
 
 PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit) {
   const std::string region = table.text_or("region", "solid");
   Solids solids = session.import_cad(table.path("source"), unit);
+  PartGeometry part;
+  part.volume_tolerance =
+      table.number_or("volume_tolerance", part.volume_tolerance, {0.0, 1.0, true});
   if (solids.size() > 1) {
+    part.cad_solids = join_solids(session, solids);
     Solids pieces;
-    for (const Solids& of_one : session.fragment(solids)) {
-      pieces.insert(pieces.end(), of_one.begin(), of_one.end());
-    }
+    for (const CadSolid& solid : part.cad_solids)
+      pieces.insert(pieces.end(), solid.pieces.begin(), solid.pieces.end());
     std::sort(pieces.begin(), pieces.end());
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
     solids = in_order(session, pieces);
   }
   check_box(session, table, unit);
-  PartGeometry part;
   for (size_t i = 0; i < solids.size(); ++i) {
     const std::string name = solids.size() == 1 ? region : fmt::format("{}_{}", region, i + 1);
     part.regions.push_back({name, {solids[i]}});

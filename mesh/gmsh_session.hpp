@@ -95,6 +95,11 @@ class GmshSession {
   /// Makes touching and overlapping solids share their faces; pieces per argument, volumes of the
   /// pieces checked to 1e-6 against the argument.
   std::vector<Solids> fragment(const Solids& solids);
+  /// The same without the check: OpenCASCADE's integral moves by itself where a face gets a spline
+  /// for an edge. solid_volumes.hpp checks by the mesh.
+  std::vector<Solids> join(const Solids& solids);
+  /// Name of a solid in the file it came from, "" where it has none. Joining loses them.
+  std::string name_of(Solid solid);
 
   Solids copy(const Solids& solids);
   void rotate(const Solids& solids, const Eigen::Vector3d& point, const Eigen::Vector3d& axis,

@@ -220,17 +220,32 @@ Solids GmshSession::intersect(const Solids& objects, const Solids& tools) {
 std::vector<Solids> GmshSession::fragment(const Solids& solids) {
   std::vector<double> before;
   for (Solid s : solids) before.push_back(volume({s}));
+  const std::vector<Solids> pieces = join(solids);
+  for (size_t i = 0; i < solids.size(); ++i) {
+    const double v = volume(pieces[i]), slack = kVolumeTolerance * before[i];
+    require(std::abs(v - before[i]) <= slack, "fragment", v, before[i] - slack, before[i] + slack);
+  }
+  return pieces;
+}
+
+std::vector<Solids> GmshSession::join(const Solids& solids) {
   gmsh::vectorpair out;
   std::vector<gmsh::vectorpair> map;
   gmsh_call("boolean fragment", [&] { occ::fragment(tagged(solids), {}, out, map); });
   synchronized_ = false;
   std::vector<Solids> pieces;
-  for (size_t i = 0; i < solids.size(); ++i) {
-    pieces.push_back(untagged(map.at(i)));
-    const double v = volume(pieces.back()), slack = kVolumeTolerance * before[i];
-    require(std::abs(v - before[i]) <= slack, "fragment", v, before[i] - slack, before[i] + slack);
-  }
+  for (size_t i = 0; i < solids.size(); ++i) pieces.push_back(untagged(map.at(i)));
   return pieces;
+}
+
+std::string GmshSession::name_of(Solid solid) {
+  return gmsh_call("names", [&] {
+    synchronize();
+    std::string name;
+    gmsh::model::getEntityName(3, solid, name);
+    name.erase(0, name.rfind('/') + 1);                   // of "Shapes/Engine/Nut M8"
+    return name.starts_with("Open CASCADE") ? "" : name;  // its own, where the writer gave none
+  });
 }
 
 Solids GmshSession::copy(const Solids& solids) {

@@ -11,6 +11,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/certify_mesh.hpp"
 #include "mesh/predict_cells.hpp"
+#include "mesh/solid_volumes.hpp"
 #include "mesh/valid_mesh.hpp"
 
 namespace clatter::mesh {
@@ -212,6 +213,7 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   check_structure(mesh, "mesh");
   result.quality = measure_quality(mesh);
   result.certificate = certify_mesh(mesh, result.quality);
+  check_solid_volumes(part, mesh, metres_per_unit, where);
   certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
   result.certificate["predicted_cells"] = predicted;
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);

@@ -14,9 +14,21 @@ struct RegionSolids {
   Solids solids;
 };
 
+/// A solid of a CAD file as it was read, to be held against its mesh.
+struct CadSolid {
+  std::string name;           // that the file gives it; may be empty
+  size_t number = 0, of = 0;  // its place among the file's solids, from 1
+  Eigen::Vector3d centre;     // of mass, in the part's unit
+  double volume = 0.0;        // by OpenCASCADE, as read, in the part's unit cubed
+  double joined = 0.0;        // the same of its pieces after the solids were joined
+  Solids pieces = {};         // each a region of the part
+};
+
 struct PartGeometry {
   std::vector<RegionSolids> regions;
   std::vector<NamedSurface> surfaces;
+  std::vector<CadSolid> cad_solids = {};  // of a file with several; empty elsewhere
+  double volume_tolerance = 1e-6;  // of a CAD solid against its mesh, beside its chords; relative
 };
 
 /// A length unit in metres: "mm", "cm", "m" or "in" (key `length_unit`, default "mm").
