@@ -3,7 +3,8 @@
 Whatever the part and the settings: it ends within its limits with exit code 0, 2, 3 or 4; with 0 it says how good the
 mesh is, otherwise it says one line; it leaves no file, no process and nothing on stdout but what was asked for.
 
-    mesh_process_fuzz.py [RUNS [SEED]]     runs and prints a table; CLATTER_BIN, CLATTER_BUILD as for the tests
+    mesh_process_fuzz.py [RUNS [SEED]]     runs and prints a table; CLATTER_BIN, CLATTER_BUILD as for the tests,
+                                           CLATTER_FUZZ_TIME_LIMIT seconds for each (60)
 """
 import collections
 import dataclasses
@@ -45,9 +46,14 @@ class Run:
         return f'odd_parts {self.kind} {self.part_seed}, {self.settings!r}'
 
 
-def draw_settings(draw):
-    """Text of [mesh] and what belongs to it: sizes from too large to fine, with and without curvature."""
-    lines = ['[mesh]', f'element_size_mm = {10 ** draw.uniform(0.0, 1.5):.3g}']
+def draw_settings(draw, quick):
+    """Text of [mesh] and what belongs to it: sizes from too large to fine, with and without curvature.
+
+    Quick ones are coarse and ask for no quality.
+    """
+    lines = ['[mesh]', f'element_size_mm = {10 ** draw.uniform(0.9 if quick else 0.0, 1.5):.3g}']
+    if quick:
+        return '\n'.join([*lines, 'min_dihedral_deg = 0', 'refine_passes = 0']) + '\n'
     if draw.random() < 0.6:
         lines.append(f'elements_per_turn = {draw.randint(4, 30)}')
     if draw.random() < 0.3:
@@ -135,7 +141,7 @@ def run_once(kind, part_seed, settings, time_limit, memory_gib=3.0):
     return run
 
 
-def runs(count, seed, time_limit, seconds=float('inf')):
+def runs(count, seed, time_limit, seconds=float('inf'), quick=False):
     """Yields `count` runs, the kinds in turn, or as many as `seconds` allow."""
     draw = random.Random(seed)
     names = kinds()
@@ -143,7 +149,7 @@ def runs(count, seed, time_limit, seconds=float('inf')):
     for i in range(count):
         if time.monotonic() - begin > seconds:
             return
-        yield run_once(names[i % len(names)], draw.randrange(10000), draw_settings(draw), time_limit)
+        yield run_once(names[i % len(names)], draw.randrange(10000), draw_settings(draw, quick), time_limit)
 
 
 def outcome(run):
