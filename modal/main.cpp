@@ -154,7 +154,7 @@ int run(int argc, char** argv) {
                    "block.static.h5");
   line.positional("model", arguments.inputs, "assembled (.fe.h5) or reduced (.rom.h5) part");
   line.option("-c,--config", arguments.config, "what to compute (.modes.toml)");
-  line.option("-o,--output", arguments.output, "modes (.modes.h5)");
+  line.output("-o,--output", arguments.output, "modes (.modes.h5)");
   line.option("--count", arguments.count, "the lowest modes, this many (default 20)");
   line.option("--fmax-hz", arguments.fmax_hz, "all modes below this frequency");
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");
