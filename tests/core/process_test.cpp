@@ -7,6 +7,7 @@
 
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/memory_limit.hpp"
 #include "core/threads.hpp"
 
 namespace clatter {
@@ -32,6 +33,31 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
                                }),
                NumericsError);
   set_thread_count(0);
+}
+
+TEST(MemoryText, HasTheUnitInWhichItIsANumber) {
+  const double mib = 1.0 / 1024.0, kib = mib * mib;
+  EXPECT_EQ(memory_text(0.0), "0 MiB");
+  EXPECT_EQ(memory_text(512.0 * kib), "512 KiB");
+  EXPECT_EQ(memory_text(0.02), "20.5 MiB");
+  EXPECT_EQ(memory_text(0.9996), "1 GiB");
+  EXPECT_EQ(memory_text(1.254), "1.25 GiB");
+  EXPECT_EQ(memory_text(123.4), "123 GiB");
+  EXPECT_EQ(memory_text(0.4 * kib), "0.4 KiB");
+}
+
+TEST(MemoryText, ARefusalSaysAmountsThatAreNotZero) {
+  const double mib = 1.0 / 1024.0;
+  set_memory_limit_gib(memory_in_use_gib() + 2.0 * mib);
+  try {
+    require_memory("the factor", 30.0 * mib, "smaller");
+    ADD_FAILURE() << "accepted";
+  } catch (const NumericsError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("the factor needs 30 MiB, "), std::string::npos) << said;
+    EXPECT_EQ(said.find(" 0 "), std::string::npos) << said;
+  }
+  set_memory_limit_gib(0.0);
 }
 
 TEST(RunGuarded, GivesTheExitCodeOfTheError) {
