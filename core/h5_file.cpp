@@ -39,6 +39,7 @@ H5File H5File::create(const std::filesystem::path& path) {
   std::filesystem::path part = path;
   part += ".part";
   const Id access = checked_access();
+  impl->unfinished = PartName(part);
   impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (impl->file < 0) {
     throw FileError(fmt::format(

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/h5_checks.hpp"
 #include "core/h5_file.hpp"
+#include "core/part_names.hpp"
 
 namespace clatter {
 
@@ -59,6 +60,7 @@ inline Id string_type(size_t length = H5T_VARIABLE) {
 struct H5File::Impl {
   std::filesystem::path final_path;
   std::filesystem::path part_path;  // empty when reading
+  PartName unfinished;
   hid_t file = -1;
 
   ~Impl() {

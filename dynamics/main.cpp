@@ -29,7 +29,7 @@ that a scene does not say itself from another one, so a variant is a few lines:
     [contact]
     lubrication = "none"
 
-dynamics/README.md lists every key, the equations and the error test. Ctrl-C ends at a step with a valid
+dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM ends at a step with a valid
 file, stem.run.interrupted.h5 (attribute complete = 0); --resume goes on from the last finished cycle.
 
 sample commands
@@ -142,7 +142,7 @@ int run(const Arguments& a, const CommonOptions& common) {
     say(fmt::format("{} is of another scene, other inputs or another program: starting anew",
                     checkpoint.string()));
   }
-  std::signal(SIGINT, request_stop);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, request_stop);
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
 
