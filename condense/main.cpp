@@ -186,7 +186,7 @@ int run(int argc, char** argv) {
   if (!std::isnan(verify_hz)) {
     const auto compared = condense::verify(reduced, model, verify_hz);
     clock.lap("verification by the full model");
-    say(modal::table_of(compared).back());
+    if (!compared.modes.empty()) say(modal::table_of(compared).back());
   }
   write(paths.output, reduced, {"clatter/rom/1", config.resolved(), {paths.model, paths.config}},
         text_of(paths.config), clock);
