@@ -145,6 +145,7 @@ int run(const Arguments& a, const CommonOptions& common) {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, request_stop);
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
+  for (const std::string& doubt : result.doubts) warn(doubt);
 
   const auto output = written_file(a.output, result);
   H5File file = H5File::create(output);
