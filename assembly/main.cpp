@@ -108,7 +108,7 @@ int run(int argc, char** argv) {
   line.positional("mesh", mesh_path, "mesh of the part (.mesh.h5); none with [matrices] and dofs",
                   false);
   line.option("-c,--config", config_path, "materials, couplings, sets, loads (.fe.toml)", true);
-  line.option("-o,--output", output_path, "the model to write (.fe.h5)", true);
+  line.output("-o,--output", output_path, "the model to write (.fe.h5)", true);
   if (!line.parse(argc, argv)) return line.exit_code();
 
   StepClock clock;

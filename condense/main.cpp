@@ -23,6 +23,7 @@
 #include "core/error.hpp"
 #include "core/large_pages.hpp"
 #include "core/log.hpp"
+#include "core/planned_files.hpp"
 
 namespace {
 
@@ -66,6 +67,9 @@ void print_summary(const Paths& paths, const ReducedModel& reduced, const StepCl
 int write_exports(const Paths& paths, const CommonOptions& common) {
   if (!paths.config.empty() || !paths.output.empty())
     throw InputError("command line: --export takes a reduced model alone, without -c and -o");
+  for (const std::filesystem::path& path : paths.exports)
+    for (const std::filesystem::path& file : condense::exported_files(path))
+      if (file != path) will_write("--export", file);
   const ReducedModel reduced = read_reduced_model(paths.model, false);
   std::vector<std::string> files;
   for (const std::filesystem::path& path : paths.exports)
@@ -135,8 +139,8 @@ int run(int argc, char** argv) {
                    "liner_2_bore --set sensor_x -o block2.rom.h5");
   line.positional("model", paths.model, "assembled part (.fe.h5); with --export reduced (.rom.h5)");
   line.option("-c,--config", paths.config, "what to retain (.rom.toml)");
-  line.option("-o,--output", paths.output, "reduced model (.rom.h5)");
-  line.option("--export", paths.exports,
+  line.output("-o,--output", paths.output, "reduced model (.rom.h5)");
+  line.output("--export", paths.exports,
               "write a reduced part, any number: part.mtx (Matrix Market), part.inp (CalculiX), "
               "part.pch (Nastran DMIG), part.fem (MBDyn)");
   condense::RowRequest rows;
@@ -182,7 +186,7 @@ int run(int argc, char** argv) {
   if (!std::isnan(verify_hz)) {
     const auto compared = condense::verify(reduced, model, verify_hz);
     clock.lap("verification by the full model");
-    say(modal::table_of(compared).back());
+    if (!compared.modes.empty()) say(modal::table_of(compared).back());
   }
   write(paths.output, reduced, {"clatter/rom/1", config.resolved(), {paths.model, paths.config}},
         text_of(paths.config), clock);

@@ -11,7 +11,8 @@ namespace clatter::condense {
 /// elastic ones; verified_frequency_error, the largest |f_reduced / f_full - 1|; verified_mac, the
 /// smallest.
 /// @param to_hz all modes below [Hz]; 0: as far as the certificate states an accuracy.
-/// Throws NumericsError when the models differ in the number of their modes.
+/// Without an elastic mode below, a warning says so and the certificate stays as it is. Throws
+/// NumericsError when the models differ in the number of their modes.
 modal::Comparison verify(ReducedModel& reduced, const assembly::FeModel& model, double to_hz);
 
 }  // namespace clatter::condense

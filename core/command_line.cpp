@@ -4,14 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "core/artefact.hpp"
 #include "core/blas_kernel.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/memory_limit.hpp"
+#include "core/planned_files.hpp"
 #include "core/threads.hpp"
+#include "core/whole_file.hpp"
 
 namespace clatter {
 
@@ -23,12 +24,42 @@ struct CommandLine::Impl {
   std::string blas;
   double memory_gib = 0.0;
   int exit_code = 0;
+  std::vector<std::pair<CLI::Option*, std::function<std::vector<std::filesystem::path>()>>> inputs,
+      outputs;
+
+  /// Tells core/planned_files.hpp what is read and written.
+  void plan_files() const {
+    for (const auto& [option, paths] : inputs)
+      if (option->count() > 0)
+        for (const auto& path : paths()) will_read(path);
+    for (const auto& [option, paths] : outputs)
+      if (option->count() > 0)
+        for (const auto& path : paths()) will_write(option->get_name(), path);
+  }
 
   void refuse(const char* what) {
     std::fprintf(stderr, "%s: error: %s (see %s --help)\n", program.c_str(), what, program.c_str());
     exit_code = static_cast<int>(ExitCode::kBadInput);
   }
 };
+
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+Paths paths_of(const std::filesystem::path& value) { return {value}; }
+Paths paths_of(const Paths& value) { return value; }
+
+/// Adds an option whose value, one path or several, is noted in `role`.
+template <class Role, class Value>
+CLI::Option* add(CLI::App& app, Role& role, const std::string& flags, Value& value,
+                 const std::string& help) {
+  CLI::Option* option = app.add_option(flags, value, help);
+  role.emplace_back(option, [&value] { return paths_of(value); });
+  return option;
+}
+
+}  // namespace
 
 CommandLine::CommandLine(const std::string& program, const std::string& summary,
                          const std::string& epilog)
@@ -44,29 +75,34 @@ CommandLine::CommandLine(const std::string& program, const std::string& summary,
       ->capture_default_str();
   app.add_flag("--quiet", impl_->common.quiet, "warnings and errors only");
   app.add_flag("--json", impl_->common.json, "print one machine-readable summary line on stdout");
-  app.add_option("--depfile", impl_->common.depfile, "write the files that were read, for make");
+  output("--depfile", impl_->common.depfile, "write the files that were read, for make");
 }
 
 CommandLine::~CommandLine() = default;
 
 void CommandLine::positional(const std::string& name, std::filesystem::path& value,
                              const std::string& help, bool required) {
-  impl_->app.add_option(name, value, help)->required(required);
+  add(impl_->app, impl_->inputs, name, value, help)->required(required);
 }
 
 void CommandLine::positional(const std::string& name, std::vector<std::filesystem::path>& value,
                              const std::string& help, bool required) {
-  impl_->app.add_option(name, value, help)->required(required);
+  add(impl_->app, impl_->inputs, name, value, help)->required(required);
 }
 
 void CommandLine::option(const std::string& flags, std::filesystem::path& value,
                          const std::string& help, bool required) {
-  impl_->app.add_option(flags, value, help)->required(required);
+  add(impl_->app, impl_->inputs, flags, value, help)->required(required);
 }
 
-void CommandLine::option(const std::string& flags, std::vector<std::filesystem::path>& value,
+void CommandLine::output(const std::string& flags, std::filesystem::path& value,
+                         const std::string& help, bool required) {
+  add(impl_->app, impl_->outputs, flags, value, help)->required(required);
+}
+
+void CommandLine::output(const std::string& flags, std::vector<std::filesystem::path>& value,
                          const std::string& help) {
-  impl_->app.add_option(flags, value, help);
+  add(impl_->app, impl_->outputs, flags, value, help);
 }
 
 void CommandLine::option(const std::string& flags, std::vector<std::string>& value,
@@ -115,6 +151,13 @@ bool CommandLine::parse(int argc, char** argv) {
     }
     return false;
   }
+  try {
+    impl_->plan_files();
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s: error: %s\n", impl_->program.c_str(), error.what());
+    impl_->exit_code = static_cast<int>(error.code());
+    return false;
+  }
   set_quiet(impl_->common.quiet);
   set_thread_count(impl_->common.threads);
   set_memory_limit_gib(impl_->memory_gib);
@@ -135,14 +178,14 @@ const CommonOptions& CommandLine::common() const { return impl_->common; }
 void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
                    const std::vector<std::filesystem::path>& inputs) {
   if (depfile.empty()) return;
-  std::ofstream stream(depfile);
+  WholeFile file(depfile);
+  std::ostream& stream = file.stream();
   stream << target.string() << ":";
   for (const auto& input : inputs) stream << " " << input.string();
   stream << "\n";
   // An input that was deleted must not stop make: each is also a target without a recipe.
   for (const auto& input : inputs) stream << input.string() << ":\n";
-  stream.close();
-  if (!stream) throw FileError(fmt::format("{}: cannot be written", depfile.string()));
+  file.commit();
 }
 
 std::string json_text(const std::string& text) {

@@ -24,13 +24,17 @@ class CommandLine {
   CommandLine(const std::string& program, const std::string& summary, const std::string& epilog);
   ~CommandLine();
 
+  /// Files that are read: parse() says so to core/planned_files.hpp.
   void positional(const std::string& name, std::filesystem::path& value, const std::string& help,
                   bool required = true);
   void positional(const std::string& name, std::vector<std::filesystem::path>& value,
                   const std::string& help, bool required = true);
   void option(const std::string& flags, std::filesystem::path& value, const std::string& help,
               bool required = false);
-  void option(const std::string& flags, std::vector<std::filesystem::path>& value,
+  /// Files that are written: parse() refuses those that are also read, and those that cannot be.
+  void output(const std::string& flags, std::filesystem::path& value, const std::string& help,
+              bool required = false);
+  void output(const std::string& flags, std::vector<std::filesystem::path>& value,
               const std::string& help);
   void option(const std::string& flags, std::string& value, const std::string& help);
   void option(const std::string& flags, std::vector<std::string>& value, const std::string& help);

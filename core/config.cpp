@@ -6,6 +6,7 @@
 
 #include "core/config_impl.hpp"
 #include "core/error.hpp"
+#include "core/planned_files.hpp"
 
 namespace clatter {
 namespace {
@@ -251,11 +252,15 @@ std::vector<std::string> Config::texts_or(std::string_view key,
 }
 
 std::filesystem::path Config::path(std::string_view key) const {
-  const std::filesystem::path named = text(key);
-  if (named.is_absolute()) return named;
-  const auto& file = node_->table->get(key)->source().path;
-  const bool from_base = file && *file != document_->origin;
-  return (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
+  std::filesystem::path named = text(key);
+  const toml::node* node = node_->table->get(key);
+  if (named.is_relative()) {
+    const auto& file = node->source().path;
+    const bool from_base = file && *file != document_->origin;
+    named = (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
+  }
+  will_read(named, fmt::format("{}: {}", place_in_file(document_->origin, node), key));
+  return named;
 }
 
 std::string Config::resolved() const {

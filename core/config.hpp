@@ -61,7 +61,7 @@ class Config {
   std::vector<std::string> texts(std::string_view key) const;
   std::vector<std::string> texts_or(std::string_view key,
                                     const std::vector<std::string>& fallback) const;
-  /// A file path, relative to the folder of the TOML file.
+  /// Path of a file to read, relative to the TOML file; InputError when it is also an output.
   std::filesystem::path path(std::string_view key) const;
 
   /// The TOML files that were read: the file itself, then its bases.

@@ -7,6 +7,7 @@
 
 #include "core/config_impl.hpp"
 #include "core/error.hpp"
+#include "core/planned_files.hpp"
 
 namespace clatter {
 namespace {
@@ -16,6 +17,7 @@ std::string text_of(const std::filesystem::path& path) {
   if (!stream || std::filesystem::is_directory(path)) {
     throw InputError(fmt::format("{}: no such file, expected a TOML file", path.string()));
   }
+  will_read(path);
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <new>
 
+#include "core/part_names.hpp"
+
 namespace clatter {
 namespace {
 
@@ -15,6 +17,7 @@ int report(std::string_view program, const std::string& message, ExitCode code) 
 }  // namespace
 
 int run_guarded(std::string_view program, const std::function<int()>& body) {
+  remove_parts_on_signals();
   try {
     return body();
   } catch (const Error& error) {
@@ -26,6 +29,8 @@ int run_guarded(std::string_view program, const std::function<int()>& body) {
     return report(program, std::string("internal: ") + error.what(), ExitCode::kNumerics);
   } catch (const std::string& message) {
     return report(program, message, ExitCode::kNumerics);
+  } catch (...) {
+    return report(program, "internal: an exception of unknown kind", ExitCode::kNumerics);
   }
 }
 

@@ -22,9 +22,12 @@ H5File H5File::open(const std::filesystem::path& path) {
   }
   impl->file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (impl->file < 0) {
-    throw InputError(
-        fmt::format("{}: cannot be opened, expected a complete HDF5 file (truncated, or not HDF5)",
-                    path.string()));
+    const std::string why = damage();
+    throw InputError(fmt::format(
+        "{}: {}", path.string(),
+        why.starts_with("checksum")
+            ? why
+            : "cannot be opened, expected a complete HDF5 file (truncated, or not HDF5)"));
   }
   return H5File(std::move(impl));
 }
@@ -35,8 +38,8 @@ H5File H5File::create(const std::filesystem::path& path) {
   impl->final_path = path;
   std::filesystem::path part = path;
   part += ".part";
-  const Id access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  const Id access = checked_access();
+  impl->unfinished = PartName(part);
   impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (impl->file < 0) {
     throw FileError(fmt::format(
@@ -73,8 +76,7 @@ bool H5File::has(std::string_view name) const { return impl_->exists(std::string
 
 bool H5File::has_attribute(std::string_view object, std::string_view name) const {
   if (!has(object)) return false;
-  const Id owner = impl_->open_object(object);
-  return H5Aexists(owner, std::string(name).c_str()) > 0;
+  return impl_->has_attribute(impl_->open_object(object), object, name);
 }
 
 std::vector<std::string> H5File::list(std::string_view group) const {
@@ -85,7 +87,8 @@ std::vector<std::string> H5File::list(std::string_view group) const {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
     return 0;
   };
-  H5Literate(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
+  if (H5Literate(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
+    impl_->refuse(group, damage());
   return names;
 }
 
@@ -119,21 +122,13 @@ void H5File::write_float(std::string_view name, const std::vector<float>& values
   impl_->write(name, values.data(), shape);
 }
 
+// Of one length: texts of variable length lie in a heap without checksums.
 void H5File::write(std::string_view name, const std::vector<std::string>& values) {
-  const Id type = string_type();
-  const auto count = static_cast<hsize_t>(values.size());
-  const Id space(H5Screate_simple(1, &count, nullptr), &H5Sclose);
-  const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
-  H5Pset_create_intermediate_group(links, 1);
-  const Id set(H5Dcreate2(impl_->file, std::string(name).c_str(), type, space, links, H5P_DEFAULT,
-                          H5P_DEFAULT),
-               &H5Dclose);
-  std::vector<const char*> pointers;
-  for (const auto& value : values) pointers.push_back(value.c_str());
-  if (!set.ok() ||
-      (count > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0)) {
-    impl_->trouble(name);
-  }
+  size_t length = 1;
+  for (const std::string& value : values) length = std::max(length, value.size());
+  std::string bytes(values.size() * length, '\0');
+  for (size_t i = 0; i < values.size(); ++i) values[i].copy(&bytes[i * length], length);
+  impl_->write(name, string_type(length), bytes.data(), {static_cast<int64_t>(values.size())});
 }
 
 std::vector<double> H5File::read_doubles(std::string_view name) const {
@@ -150,20 +145,12 @@ std::vector<std::string> H5File::read_strings(std::string_view name) const {
   const Id set = impl_->open_dataset(name);
   const Id stored(H5Dget_type(set), &H5Tclose);
   const auto shape = Impl::extents(set);
-  if (shape.size() != 1 || H5Tis_variable_str(stored) <= 0) {
+  if (shape.size() != 1 || H5Tget_class(stored) != H5T_STRING) {
     impl_->refuse(name, "found another type, expected a list of texts");
   }
-  std::vector<char*> pointers(static_cast<size_t>(shape[0]), nullptr);
-  if (pointers.empty()) return {};
-  const Id type = string_type();
-  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
-    impl_->refuse(name, "cannot be read, the file is damaged");
-  }
-  std::vector<std::string> values;
-  for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
-  const Id space(H5Dget_space(set), &H5Sclose);
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
-  return values;
+  const auto count = static_cast<size_t>(shape[0]);
+  return H5Tis_variable_str(stored) > 0 ? impl_->read_long_texts(name, set, count)
+                                        : impl_->read_texts(name, set, stored, count);
 }
 
 Eigen::VectorXd H5File::read_vector(std::string_view name) const {
@@ -194,9 +181,8 @@ RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count)
   const hsize_t size[2] = {static_cast<hsize_t>(count), static_cast<hsize_t>(extents[1])};
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
   const Id memory(H5Screate_simple(2, size, nullptr), &H5Sclose);
-  if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0) {
-    impl_->refuse(name, "cannot be read, the file is damaged");
-  }
+  if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
+    impl_->refuse(name, damage());
   return values;
 }
 
@@ -257,7 +243,8 @@ std::vector<std::string> H5File::attributes(std::string_view object) const {
     return 0;
   };
   hsize_t index = 0;
-  H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, &index, collect, &names);
+  if (H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, &index, collect, &names) < 0)
+    impl_->refuse(object, damage());
   return names;
 }
 

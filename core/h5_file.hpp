@@ -16,9 +16,9 @@ using IndexMatrix = Eigen::Matrix<int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// One HDF5 file. Paths inside the file are "group/dataset"; missing groups are made on writing.
-///
-/// Writing goes to `path.part`; nothing stands under the final name before commit(). A file that
-/// is destroyed without commit() removes its part file and leaves an older artefact untouched.
+/// Writing goes to `path.part`; nothing stands under the final name before commit(), and without
+/// commit() an older artefact stays. Data and heads have checksums (HDF5's own), which reading
+/// verifies; files without them are read as they are.
 /// Errors: FileError for what the disk or library refuses, InputError for wrong content; each names
 /// file, place, what was found and what was expected.
 class H5File {

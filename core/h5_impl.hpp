@@ -2,34 +2,19 @@
 // Inner side of h5_file: identifiers that close themselves and typed access. Only core/h5_*.cpp
 // include this; nobody else sees an HDF5 type.
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/h5_checks.hpp"
 #include "core/h5_file.hpp"
+#include "core/part_names.hpp"
 
 namespace clatter {
-
-/// Owns one HDF5 identifier.
-class Id {
- public:
-  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Id& operator=(Id&&) = delete;
-  ~Id() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }
-  bool ok() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 inline void silence_library() {
   // The library's own stack of messages is for its developers; ours is one line.
@@ -63,16 +48,19 @@ inline hid_t memory_type<int64_t>() {
   return H5T_NATIVE_INT64;
 }
 
-inline Id string_type() {
+/// UTF-8 of variable length, or of `length` bytes with zeros behind.
+inline Id string_type(size_t length = H5T_VARIABLE) {
   Id type(H5Tcopy(H5T_C_S1), &H5Tclose);
-  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_size(type, length);
   H5Tset_cset(type, H5T_CSET_UTF8);
+  if (length != H5T_VARIABLE) H5Tset_strpad(type, H5T_STR_NULLPAD);
   return type;
 }
 
 struct H5File::Impl {
   std::filesystem::path final_path;
   std::filesystem::path part_path;  // empty when reading
+  PartName unfinished;
   hid_t file = -1;
 
   ~Impl() {
@@ -95,19 +83,32 @@ struct H5File::Impl {
     if (name.empty() || name == "/") return true;
     for (size_t slash = name.find('/'); slash != std::string::npos;
          slash = name.find('/', slash + 1)) {
-      if (slash > 0 && H5Lexists(file, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) {
-        return false;
-      }
+      if (slash > 0 && !linked(name.substr(0, slash))) return false;
     }
-    return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+    return linked(name);
+  }
+
+  /// Whether the last group on the way has this member.
+  bool linked(const std::string& name) const {
+    const htri_t there = H5Lexists(file, name.c_str(), H5P_DEFAULT);
+    if (there < 0) refuse(name, damage());
+    return there > 0;
   }
 
   Id open_dataset(std::string_view name) const {
     const std::string path(name);
     if (!exists(path)) refuse(name, "found nothing, expected a dataset");
     Id set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), &H5Dclose);
-    if (!set.ok()) refuse(name, "found a group or damage, expected a dataset");
+    if (!set.ok()) {
+      const std::string why = damage();
+      refuse(name, is_group(path) ? "found a group, expected a dataset" : why);
+    }
     return set;
+  }
+
+  bool is_group(const std::string& path) const {
+    const Id group(H5Gopen2(file, path.c_str(), H5P_DEFAULT), &H5Gclose);
+    return group.ok();
   }
 
   static std::vector<int64_t> extents(hid_t set) {
@@ -121,18 +122,22 @@ struct H5File::Impl {
 
   template <class T>
   void write(std::string_view name, const T* values, const std::vector<int64_t>& shape) {
+    write(name, memory_type<T>(), values, shape);
+  }
+
+  void write(std::string_view name, hid_t type, const void* values,
+             const std::vector<int64_t>& shape) {
     const std::string path(name);
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
     const Id space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
                    &H5Sclose);
     const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
     H5Pset_create_intermediate_group(links, 1);
-    const Id set(
-        H5Dcreate2(file, path.c_str(), memory_type<T>(), space, links, H5P_DEFAULT, H5P_DEFAULT),
-        &H5Dclose);
+    const Id layout = checked_layout(dims, H5Tget_size(type));
+    const Id set(H5Dcreate2(file, path.c_str(), type, space, links, layout, H5P_DEFAULT),
+                 &H5Dclose);
     const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
-    if (!set.ok() ||
-        (!empty && H5Dwrite(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+    if (!set.ok() || (!empty && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
       trouble(name);
     }
   }
@@ -150,8 +155,35 @@ struct H5File::Impl {
     std::vector<T> values(static_cast<size_t>(count));
     if (count > 0 &&
         H5Dread(set, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-      refuse(name, "cannot be read, the file is damaged");
+      refuse(name, damage());
     }
+    return values;
+  }
+
+  /// Texts of one length.
+  std::vector<std::string> read_texts(std::string_view name, hid_t set, hid_t stored,
+                                      size_t count) const {
+    const size_t length = H5Tget_size(stored);
+    std::string bytes(count * length, '\0');
+    if (count > 0 && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+      refuse(name, damage());
+    std::vector<std::string> values;
+    for (size_t i = 0; i < count; ++i)
+      values.emplace_back(&bytes[i * length], strnlen(&bytes[i * length], length));
+    return values;
+  }
+
+  /// Texts of variable length, as h5py and earlier versions of clatter write them.
+  std::vector<std::string> read_long_texts(std::string_view name, hid_t set, size_t count) const {
+    std::vector<char*> pointers(count, nullptr);
+    if (pointers.empty()) return {};
+    const Id type = string_type();
+    if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0)
+      refuse(name, damage());
+    std::vector<std::string> values;
+    for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
+    const Id space(H5Dget_space(set), &H5Sclose);
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
     return values;
   }
 
@@ -168,7 +200,15 @@ struct H5File::Impl {
   Id open_object(std::string_view object) const {
     const std::string path(object);
     if (!exists(path)) refuse(object, "found nothing, expected a group or dataset");
-    return Id(H5Oopen(file, path.c_str(), H5P_DEFAULT), &H5Oclose);
+    Id found(H5Oopen(file, path.c_str(), H5P_DEFAULT), &H5Oclose);
+    if (!found.ok()) refuse(object, damage());
+    return found;
+  }
+
+  bool has_attribute(hid_t owner, std::string_view object, std::string_view name) const {
+    const htri_t there = H5Aexists(owner, std::string(name).c_str());
+    if (there < 0) refuse(object, damage());
+    return there > 0;
   }
 
   void ensure_group(std::string_view object) {
@@ -197,11 +237,12 @@ struct H5File::Impl {
 
   Id open_attribute(std::string_view object, std::string_view name) const {
     const Id owner = open_object(object);
-    const std::string key(name);
-    if (H5Aexists(owner, key.c_str()) <= 0) {
+    if (!has_attribute(owner, object, name)) {
       refuse(object, fmt::format("found no attribute {}, expected one", name));
     }
-    return Id(H5Aopen(owner, key.c_str(), H5P_DEFAULT), &H5Aclose);
+    Id attribute(H5Aopen(owner, std::string(name).c_str(), H5P_DEFAULT), &H5Aclose);
+    if (!attribute.ok()) refuse(object, fmt::format("attribute {}: {}", name, damage()));
+    return attribute;
   }
 
   template <class T>

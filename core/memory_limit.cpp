@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -41,8 +42,21 @@ double memory_left_gib(double enough) {
 void require_memory(const std::string& what, double gib, const std::string& advice) {
   const double left = memory_left_gib(gib);
   if (gib <= left) return;
-  throw NumericsError(fmt::format("{} needs {:.3g} GiB, {:.3g} of {:.3g} GiB are left: {}", what,
-                                  gib, left, memory_limit_gib(), advice));
+  throw NumericsError(fmt::format("{} needs {}, {} of {} are left: {}", what, memory_text(gib),
+                                  memory_text(left), memory_text(memory_limit_gib()), advice));
+}
+
+std::string memory_text(double gib) {
+  if (gib <= 0.0) return "0 MiB";
+  const char* unit = "GiB";
+  // The limit is what three digits would round up to the next unit.
+  for (const char* smaller : {"MiB", "KiB"}) {
+    if (gib >= 0.9995) break;
+    gib *= 1024.0;
+    unit = smaller;
+  }
+  const double digits = gib >= 100.0 ? 1.0 : gib >= 10.0 ? 10.0 : 100.0;
+  return fmt::format("{} {}", std::round(gib * digits) / digits, unit);
 }
 
 double gib_of_doubles(double count) { return 8.0 * count / kGib; }

@@ -17,9 +17,12 @@ double memory_in_use_gib();
 /// costs time to have it again.
 double memory_left_gib(double enough = std::numeric_limits<double>::infinity());
 
-/// Throws NumericsError "<what> needs ... GiB, ... of ... are left: <advice>" when `gib` is more
-/// than what is left.
+/// Throws NumericsError "<what> needs 1.25 GiB, 340 MiB of 1 GiB are left: <advice>" when `gib` is
+/// more than what is left.
 void require_memory(const std::string& what, double gib, const std::string& advice);
+
+/// An amount of memory for people, three digits: "1.25 GiB", "20.5 MiB", "512 KiB".
+std::string memory_text(double gib);
 
 /// GiB of so many doubles.
 double gib_of_doubles(double count);

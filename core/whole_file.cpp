@@ -24,7 +24,10 @@ bool synced(const std::filesystem::path& path) {
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& path)
-    : path_(path), part_(path.string() + ".part"), stream_(part_, std::ios::binary) {
+    : path_(path),
+      part_(path.string() + ".part"),
+      unfinished_(part_),
+      stream_(part_, std::ios::binary) {
   if (!stream_) fail(path_);
 }
 

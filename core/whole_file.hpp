@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "core/part_names.hpp"
+
 namespace clatter {
 
 /// Writes to `path.part`; commit() syncs it to disk and gives it its name. Without commit() nothing
@@ -22,6 +24,7 @@ class WholeFile {
 
  private:
   std::filesystem::path path_, part_;
+  PartName unfinished_;
   std::ofstream stream_;
 };
 

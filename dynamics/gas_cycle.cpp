@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -52,7 +52,8 @@ double motored_pressure(const MotoredCycle& cycle, double theta) {
 
 void write_motored_cycle(const std::filesystem::path& path, const MotoredCycle& cycle,
                          double step) {
-  std::ofstream stream(path);
+  WholeFile file(path);
+  std::ostream& stream = file.stream();
   stream << fmt::format(
       "# motored cycle: bore {:.6g} mm, stroke {:.6g} mm, rod {:.6g} mm, pin offset {:.6g} mm, "
       "ratio "
@@ -68,8 +69,7 @@ void write_motored_cycle(const std::filesystem::path& path, const MotoredCycle& 
     stream << fmt::format("{:.10g}, {:.12g}\n", theta / kDegree,
                           motored_pressure(cycle, theta) * 1e-5);
   }
-  stream.flush();
-  if (!stream) throw FileError(fmt::format("{}: could not be written", path.string()));
+  file.commit();
 }
 
 }  // namespace clatter::dynamics

@@ -10,6 +10,7 @@
 #include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/planned_files.hpp"
 #include "core/stopwatch.hpp"
 #include "dynamics/gas_cycle.hpp"
 #include "dynamics/run_file.hpp"
@@ -28,7 +29,7 @@ that a scene does not say itself from another one, so a variant is a few lines:
     [contact]
     lubrication = "none"
 
-dynamics/README.md lists every key, the equations and the error test. Ctrl-C ends at a step with a valid
+dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM ends at a step with a valid
 file, stem.run.interrupted.h5 (attribute complete = 0); --resume goes on from the last finished cycle.
 
 sample commands
@@ -53,10 +54,10 @@ struct Arguments {
 
 void declare(CommandLine& line, Arguments& a) {
   line.positional("scene", a.scene, "the scene, stem.run.toml", false);
-  line.option("-o,--output", a.output, "the run file to write; default: the scene's stem.run.h5");
+  line.output("-o,--output", a.output, "the run file to write; default: the scene's stem.run.h5");
   line.flag("--resume", a.resume,
             "go on from the checkpoint beside the output, when it is of this very scene");
-  line.option("--write-motored-cycle", a.motored, "write a motored cycle's pressure table and end");
+  line.output("--write-motored-cycle", a.motored, "write a motored cycle's pressure table and end");
   line.option("--bore-mm", a.bore_mm, "motored cycle: bore [mm]");
   line.option("--stroke-mm", a.stroke_mm, "motored cycle: stroke [mm]");
   line.option("--rod-mm", a.rod_mm, "motored cycle: rod length [mm]");
@@ -88,9 +89,11 @@ std::filesystem::path default_output(const std::filesystem::path& scene) {
 }
 
 // Only a whole run gets the name that was asked for: make and recover take that one for done.
+constexpr const char *kFailed = ".failed.h5", *kInterrupted = ".interrupted.h5";
+
 std::filesystem::path written_file(std::filesystem::path output, const RunResult& result) {
-  if (!result.failure.empty()) return output.replace_extension(".failed.h5");
-  if (!result.complete) return output.replace_extension(".interrupted.h5");
+  if (!result.failure.empty()) return output.replace_extension(kFailed);
+  if (!result.complete) return output.replace_extension(kInterrupted);
   return output;
 }
 
@@ -116,6 +119,10 @@ void print_summary(const RunResult& result, const Arguments& a, double seconds) 
 }
 
 int run(const Arguments& a, const CommonOptions& common) {
+  const auto checkpoint = checkpoint_path(a.output);
+  will_write("--output", checkpoint);
+  for (const char* ending : {kFailed, kInterrupted})
+    will_write("--output", std::filesystem::path(a.output).replace_extension(ending));
   StepClock clock;
   const Scene scene = read_scene(a.scene);
   const LoadedBodies bodies = load_bodies(scene);
@@ -123,7 +130,6 @@ int run(const Arguments& a, const CommonOptions& common) {
   say("effects:");
   for (const auto& row : build_model(scene, bodies)->effects.lines(false)) say(row);
 
-  const auto checkpoint = checkpoint_path(a.output);
   const std::string mark = fingerprint(scene);
   RunControl control;
   control.stop = &stop_requested;
@@ -136,9 +142,10 @@ int run(const Arguments& a, const CommonOptions& common) {
     say(fmt::format("{} is of another scene, other inputs or another program: starting anew",
                     checkpoint.string()));
   }
-  std::signal(SIGINT, request_stop);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, request_stop);
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
+  for (const std::string& doubt : result.doubts) warn(doubt);
 
   const auto output = written_file(a.output, result);
   H5File file = H5File::create(output);
@@ -185,7 +192,10 @@ int main(int argc, char** argv) {
     if (!arguments.motored.empty()) return write_table(arguments);
     if (arguments.scene.empty())
       throw InputError("no scene given, expected stem.run.toml (see --help)");
-    if (arguments.output.empty()) arguments.output = default_output(arguments.scene);
+    if (arguments.output.empty()) {
+      arguments.output = default_output(arguments.scene);
+      will_write("--output by default", arguments.output);
+    }
     return run(arguments, line.common());
   });
 }

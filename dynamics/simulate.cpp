@@ -82,6 +82,10 @@ class CycleRun {
   Span span() const { return span_; }
   const StepStatistics& statistics() const { return method_.statistics(); }
   const EnergyBalance& energy() const { return energy_; }
+  std::vector<std::string> doubts(const Accuracy& accuracy) const {
+    return accuracy_doubts(method_.estimate().bodies(method_.weights()), accuracy,
+                           method_.estimate().steps());
+  }
   std::unique_ptr<Model> model_out() { return std::move(model_); }
   std::unique_ptr<Recorder> recorder_out() { return std::move(recorder_); }
   const Model& model() const { return *model_; }
@@ -126,6 +130,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
     for (const auto& [name, value] : seconds_by_element(cycle.model())) seconds[name] += value;
     result.energy_residue = cycle.energy().residue();
     result.energy_exchanged = cycle.energy().now().exchanged;
+    result.doubts = cycle.doubts(scene.steps.accuracy);
     result.periodicity =
         cycle_difference(cycle.model(), cycle.recorder().samples(), point.eta, point.v);
     if (whole) {

@@ -24,6 +24,7 @@ struct RunResult {
   double energy_residue = 0.0;    // of the reported cycle
   double energy_exchanged = 0.0;  // [J]
   std::map<std::string, double> periodicity;
+  std::vector<std::string> doubts;  // of accuracy_doubts(), in the reported cycle
 };
 
 struct RunControl {

@@ -218,14 +218,14 @@ int main(int argc, char** argv) {
     line.positional(
         "part", a.input,
         "description of the part (.mesh.toml), or a deck (.inp, .bdf, .nas, .dat, .msh)");
-    line.option("-o,--output", a.output, "mesh file to write (.mesh.h5)", true);
+    line.output("-o,--output", a.output, "mesh file to write (.mesh.h5)", true);
     line.option("--units", a.units, "of a deck: mm-t-s, m-kg-s, ... (see below)");
     line.option("--ignore", a.ignore,
                 "card, keyword, element kind or group of a deck to skip; may be repeated");
-    line.option("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
+    line.output("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
-    line.option("--write-step", a.step, "also write the geometry (.step or .brep)");
-    line.option("--export", a.exports,
+    line.output("--write-step", a.step, "also write the geometry (.step or .brep)");
+    line.output("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .inp, .bdf); may be repeated");
     line.option("--time-limit", a.limits.seconds,
                 "seconds of wall time that gmsh may take; 0: no limit");

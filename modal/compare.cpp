@@ -120,10 +120,38 @@ int find_partner(const CommonRows& rows, const VectorXd& hz_of, double hz, int j
 ModesOptions request(const CompareOptions& options, const ReducedModel& reduced) {
   ModesOptions modes;
   modes.count = options.count;
-  if (options.count == 0) {
-    modes.fmax_hz = options.fmax_hz > 0.0 ? options.fmax_hz : 0.5 * reduced.valid_to_hz;
-  }
+  if (options.count == 0)
+    modes.fmax_hz = options.fmax_hz > 0.0 ? options.fmax_hz : reduced.valid_to_hz;
   return modes;
+}
+
+[[noreturn]] void refuse_nothing(const assembly::FeModel& full, const ModesOptions& asked,
+                                 int rigid) {
+  ModesOptions first;
+  first.count = rigid + 1;
+  const PartModes found = analyse(full, first);
+  const std::string range = asked.count > 0 ? fmt::format("among the {} lowest", asked.count)
+                                            : fmt::format("below {:.6g} Hz", asked.fmax_hz);
+  throw NothingCompared(fmt::format(
+      "{}: nothing was compared: found no elastic mode {} (the first is at {:.6g} Hz{}), expected "
+      "a larger --fmax-hz or --count",
+      full.name, range, found.modes.frequencies_hz()[rigid],
+      rigid > 0 ? fmt::format(", after {} rigid ones", rigid) : ""));
+}
+
+/// The modes that lie as `keep(full_hz)` says.
+template <class Keep>
+Comparison part_of(const Comparison& whole, const Keep& keep) {
+  Comparison part = whole;
+  std::erase_if(part.modes, [&](const ComparedMode& mode) { return !keep(mode.full_hz); });
+  return part;
+}
+
+std::string sum_of(const Comparison& part, const std::string& which) {
+  return fmt::format(
+      "{} elastic ones{}: largest error {:.2e} %, smallest MAC {:.6f} on {} "
+      "displacements",
+      part.modes.size(), which, 100.0 * part.largest_error(), part.smallest_mac(), part.rows);
 }
 
 }  // namespace
@@ -140,15 +168,27 @@ double Comparison::smallest_mac() const {
   return smallest;
 }
 
+Comparison Comparison::with_stated_error() const {
+  return part_of(*this, [&](double hz) { return accurate_to_hz <= 0.0 || hz <= accurate_to_hz; });
+}
+
+Comparison Comparison::without_stated_error() const {
+  return part_of(*this, [&](double hz) { return accurate_to_hz > 0.0 && hz > accurate_to_hz; });
+}
+
 Comparison compare(const assembly::FeModel& full, const ReducedModel& reduced,
                    const CompareOptions& options) {
-  const PartModes a = analyse(full, request(options, reduced));
+  const ModesOptions asked = request(options, reduced);
+  const PartModes a = analyse(full, asked);
+  if (a.modes.size() <= a.modes.rigid) refuse_nothing(full, asked, a.modes.rigid);
   ModesOptions all;
   all.count = std::min(reduced.size(), 2 * a.modes.size() + 10);  // with neighbours to project on
   const PartModes b = analyse(reduced, all);
   Comparison out;
   out.rigid_full = a.modes.rigid;
   out.rigid_reduced = b.modes.rigid;
+  if (const auto at = reduced.certificate.find("accurate_to_hz"); at != reduced.certificate.end())
+    out.accurate_to_hz = at->second;
   if (out.rigid_full != out.rigid_reduced) {
     throw NumericsError(fmt::format("{}: the full model has {} rigid modes, the reduced one {}",
                                     full.name, out.rigid_full, out.rigid_reduced));
@@ -185,11 +225,14 @@ std::vector<std::string> table_of(const Comparison& comparison) {
     lines.push_back(fmt::format("{:>5} {:>14.4f} {:>14.4f} {:>11.5f} {:>10.6f}", ++number,
                                 mode.full_hz, mode.reduced_hz, 100.0 * mode.error, mode.mac));
   }
-  lines.push_back(
-      fmt::format("{} rigid modes in both; {} elastic ones: largest error {:.2e} %, "
-                  "smallest MAC {:.6f} on {} displacements",
-                  comparison.rigid_full, comparison.modes.size(),
-                  100.0 * comparison.largest_error(), comparison.smallest_mac(), comparison.rows));
+  const Comparison stated = comparison.with_stated_error();
+  const Comparison above = comparison.without_stated_error();
+  const std::string limit = fmt::format("{:.6g} Hz", comparison.accurate_to_hz);
+  if (!above.modes.empty())
+    lines.push_back(sum_of(above, fmt::format(" above {}, where no accuracy is stated", limit)));
+  if (!stated.modes.empty())
+    lines.push_back(fmt::format("{} rigid modes in both; {}", comparison.rigid_full,
+                                sum_of(stated, above.modes.empty() ? "" : " up to " + limit)));
   return lines;
 }
 

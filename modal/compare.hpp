@@ -4,12 +4,15 @@
 #include <vector>
 
 #include "assembly/fe_model.hpp"
+#include "core/error.hpp"
 #include "core/reduced_model.hpp"
 
 namespace clatter::modal {
 
+/// Both zero: all modes below the reduced model's valid_to_hz, which is as far as it is meant to
+/// be used; of a model that does not say, the 20 lowest.
 struct CompareOptions {
-  double fmax_hz = 0.0;  // compare all modes below; 0: half of the reduced model's cut-off
+  double fmax_hz = 0.0;  // compare all modes below
   int count = 0;         // or the lowest ones, rigid included
 };
 
@@ -26,9 +29,20 @@ struct Comparison {
   int rigid_full = 0;
   int rigid_reduced = 0;
   int rows = 0;  // displacements on which shapes were compared
+  double accurate_to_hz =
+      0.0;  // up to where the reduced model's certificate states an error; 0: no
 
   double largest_error() const;
   double smallest_mac() const;
+  /// The modes up to accurate_to_hz, and those above, where errors are only shown.
+  Comparison with_stated_error() const;
+  Comparison without_stated_error() const;
+};
+
+/// No elastic mode lies in the range that was asked for: an error, as "largest error 0" proves
+/// nothing.
+struct NothingCompared : NumericsError {
+  using NumericsError::NumericsError;
 };
 
 /// Pairs each elastic mode with the likest one within 5 % of its frequency (by order when none has
@@ -38,11 +52,12 @@ struct Comparison {
 /// P the projector on the reduced modes within 0.5 % of the frequency: for a single mode this is
 /// Allemang's criterion (Allemang and Brown, 1982), for near-multiple modes, which mix freely, it
 /// compares subspaces (hard case B8). InputError when the two models share no place, NumericsError
-/// when their modes differ in number.
+/// when their modes differ in number, NothingCompared with the first elastic frequency.
 Comparison compare(const assembly::FeModel& full, const ReducedModel& reduced,
                    const CompareOptions& options);
 
-/// The comparison as an aligned table, and as one JSON array of objects.
+/// The comparison as an aligned table; the last line sums up the modes up to accurate_to_hz, a line
+/// before it those above. The modes as one JSON array of objects.
 std::vector<std::string> table_of(const Comparison& comparison);
 std::string json_of(const Comparison& comparison);
 

@@ -8,6 +8,8 @@
 //   clatter-modal block.fe.h5 --static -o block.static.h5
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/artefact.hpp"
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
@@ -131,10 +133,17 @@ int compare(const Arguments& arguments, const CommonOptions& common) {
   const modal::Comparison result =
       modal::compare(full, reduced, {arguments.fmax_hz, arguments.count});
   if (common.json) {
+    const modal::Comparison stated = result.with_stated_error();
     print_json({{"modes", modal::json_of(result)},
                 {"rigid", number(result.rigid_full)},
                 {"largest_error", number(result.largest_error())},
-                {"smallest_mac", number(result.smallest_mac())}});
+                {"smallest_mac", number(result.smallest_mac())},
+                {"accurate_to_hz", number(result.accurate_to_hz)},
+                {"modes_up_to_it", number(static_cast<double>(stated.modes.size()))},
+                {"largest_error_up_to_it",
+                 number(stated.modes.empty() ? std::nan("") : stated.largest_error())},
+                {"smallest_mac_up_to_it",
+                 number(stated.modes.empty() ? std::nan("") : stated.smallest_mac())}});
   } else {
     for (const std::string& line : modal::table_of(result)) fmt::print("{}\n", line);
   }
@@ -154,7 +163,7 @@ int run(int argc, char** argv) {
                    "block.static.h5");
   line.positional("model", arguments.inputs, "assembled (.fe.h5) or reduced (.rom.h5) part");
   line.option("-c,--config", arguments.config, "what to compute (.modes.toml)");
-  line.option("-o,--output", arguments.output, "modes (.modes.h5)");
+  line.output("-o,--output", arguments.output, "modes (.modes.h5)");
   line.option("--count", arguments.count, "the lowest modes, this many (default 20)");
   line.option("--fmax-hz", arguments.fmax_hz, "all modes below this frequency");
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");

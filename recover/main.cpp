@@ -7,6 +7,7 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/planned_files.hpp"
 #include "recover/recover.hpp"
 
 namespace {
@@ -42,9 +43,11 @@ int run(int argc, char** argv) {
   fs::path input, settings, output;
   line.positional("run", input, "run file, slap.run.h5");
   line.option("-c,--config", settings, "what to recover, slap.field.toml; defaults without it");
-  line.option("-o,--output", output, "field file, slap.field.h5", true);
+  line.output("-o,--output", output, "field file, slap.field.h5", true);
   if (!line.parse(argc, argv)) return line.exit_code();
 
+  will_write("--output", recover::frame_export_path(output));
+  will_write("--output", recover::line_export_path(output));
   StepClock clock;
   const Config config = settings.empty() ? Config::parse("", "defaults") : Config::load(settings);
   const recover::Options options = recover::read_options(config);

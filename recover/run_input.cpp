@@ -10,6 +10,7 @@
 #include "core/certificate_doubt.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/planned_files.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -66,6 +67,7 @@ RunBody::RunBody(const fs::path& run, const std::string& body)
   rom_sha256_ = file_.get_string(group, "rom_sha256");
   rom_path_ = file_.get_string(group, "rom");
   if (rom_path_.is_relative()) rom_path_ = (run.parent_path() / rom_path_).lexically_normal();
+  will_read(rom_path_, fmt::format("{}: {}: rom", run.string(), group));
   check_shapes();
 }
 

@@ -108,6 +108,13 @@ void write_equations(std::ostream& out, const ReducedModel& model, const Eigen::
 
 }  // namespace
 
+std::vector<std::filesystem::path> calculix_files(const std::filesystem::path& path) {
+  const auto beside = [&](const char* ending) {
+    return std::filesystem::path(path).replace_extension(ending);
+  };
+  return {path, beside(".K.txt"), beside(".M.txt")};
+}
+
 std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
                                                    const std::filesystem::path& path) {
   const PencilModes modes = modes_of(model);
@@ -115,10 +122,9 @@ std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
   const std::vector<Place> places = places_of(map);
   int first = 1;  // node of the modes
   for (const Place& place : places) first = std::max(first, place.node + 1);
-  const auto K = std::filesystem::path(path).replace_extension(".K.txt");
-  const auto M = std::filesystem::path(path).replace_extension(".M.txt");
-  write_matrix(K, model.K_rr, places);
-  write_matrix(M, model.M_rr, places);
+  const std::vector<std::filesystem::path> files = calculix_files(path);
+  write_matrix(files[1], model.K_rr, places);
+  write_matrix(files[2], model.M_rr, places);
   WholeFile deck(path);
   std::ostream& out = deck.stream();
   write_head(out, model, map, places, path.stem().string());
@@ -126,7 +132,7 @@ std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
   write_modes(out, modes, first);
   write_equations(out, model, modes.Phi, places, first);
   deck.commit();
-  return {path, K, M};
+  return files;
 }
 
 }  // namespace clatter::condense

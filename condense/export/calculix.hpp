@@ -11,6 +11,9 @@ namespace clatter::condense {
 /// factor.
 inline constexpr double kRigidHoldHz = 1e-3;
 
+/// part.inp, part.K.txt, part.M.txt for "part.inp".
+std::vector<std::filesystem::path> calculix_files(const std::filesystem::path& path);
+
 /// For "part.inp":
 ///
 ///   part.inp    the part in cards that CalculiX 2.20 runs, for *INCLUDE or with a *STEP of its

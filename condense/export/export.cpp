@@ -27,6 +27,17 @@ ReducedModel coordinates_only(ReducedModel model) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> exported_files(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".mtx") return matrix_market_files(path);
+  if (extension == ".inp") return calculix_files(path);
+  if (extension == ".pch" || extension == ".fem") return {path};
+  throw InputError(fmt::format(
+      "{}: found extension \"{}\", expected .mtx (Matrix Market), .inp (CalculiX), .pch "
+      "(Nastran) or .fem (MBDyn)",
+      path.string(), extension));
+}
+
 std::vector<std::filesystem::path> export_reduced(const ReducedModel& with_rows,
                                                   const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
@@ -40,10 +51,7 @@ std::vector<std::filesystem::path> export_reduced(const ReducedModel& with_rows,
   if (extension == ".inp") return export_calculix(model, path);
   if (extension == ".pch") return export_dmig(model, path);
   if (extension == ".fem") return export_mbdyn(model, path);
-  throw InputError(fmt::format(
-      "{}: found extension \"{}\", expected .mtx (Matrix Market), .inp (CalculiX), .pch "
-      "(Nastran) or .fem (MBDyn)",
-      path.string(), extension));
+  return exported_files(path);  // refuses it
 }
 
 }  // namespace clatter::condense

@@ -7,6 +7,9 @@
 
 namespace clatter::condense {
 
+/// The files that export_reduced() writes for `path`; InputError for another extension.
+std::vector<std::filesystem::path> exported_files(const std::filesystem::path& path);
+
 /// Writes `model` in the format that the extension of `path` names; returns the files written.
 ///   part.mtx  part.K.mtx, part.M.mtx (Matrix Market) and part.dofs.tsv (DoF map)
 ///   part.inp  CalculiX (calculix.hpp), part.K.txt, part.M.txt

@@ -8,12 +8,17 @@
 
 namespace clatter::condense {
 
-std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
-                                                        const std::filesystem::path& path) {
+std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::path& path) {
   const auto beside = [&](const char* ending) {
     return std::filesystem::path(path).replace_extension(ending);
   };
-  const std::filesystem::path K = beside(".K.mtx"), M = beside(".M.mtx"), map = beside(".dofs.tsv");
+  return {beside(".K.mtx"), beside(".M.mtx"), beside(".dofs.tsv")};
+}
+
+std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
+                                                        const std::filesystem::path& path) {
+  const std::vector<std::filesystem::path> files = matrix_market_files(path);
+  const auto &K = files[0], &M = files[1], &map = files[2];
   const std::string rows = fmt::format(
       "{} boundary coordinates, then {} modal ones; row i is line "
       "i of {}",
@@ -32,7 +37,7 @@ std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& mode
     lines.push_back(fmt::format("and of eigenmodes at {} Hz a ratio of {}, linear between",
                                 model.modal_damping.hz[k], model.modal_damping.ratio[k]));
   write_matrix_market(K, model.K_rr, lines);
-  return {K, M, map};
+  return files;
 }
 
 }  // namespace clatter::condense

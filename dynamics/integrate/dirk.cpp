@@ -25,7 +25,8 @@ Dirk::Dirk(System& system, const StepOptions& options)
     : system_(system),
       options_(options),
       weights_(error_weights(system, options.accuracy)),
-      newton_(system, weights_, statistics_) {}
+      newton_(system, weights_, statistics_),
+      estimate_(system) {}
 
 double Dirk::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
 
@@ -140,15 +141,15 @@ double Dirk::error(double dt, const StageOperator& op) {
                d2 = dt * (b[2] - b_hat[2]);
   const VectorXd e_eta = d0 * now_.v + d1 * stages_[0].v + d2 * stages_[1].v;
   const VectorXd e_v = d0 * now_.a + d1 * stages_[0].a + d2 * stages_[1].a;
-  const VectorXd eta = op.filter(e_eta, e_v);
+  e_eta_ = op.filter(e_eta, e_v);
   double largest = 0.0;
   if (system_.interface_size() > 0) {
-    const VectorXd e_y = newton_.solve_linear(system_.interface(eta));
+    const VectorXd e_y = newton_.solve_linear(system_.interface(e_eta_));
     largest = e_y.cwiseAbs().cwiseProduct(weights_.displacement).maxCoeff(&worst_);
   }
-  const VectorXd v = (eta - e_eta) / op.kappa();
-  return std::max(
-      {largest, eta.norm() * weights_.modal_displacement, v.norm() * weights_.modal_velocity});
+  e_v_ = (e_eta_ - e_eta) / op.kappa();
+  return std::max({largest, e_eta_.norm() * weights_.modal_displacement,
+                   e_v_.norm() * weights_.modal_velocity});
 }
 
 void Dirk::step(double limit) {
@@ -171,6 +172,7 @@ void Dirk::step(double limit) {
       if (near_limit && dt == left) now_.time = limit;
       system_.accept_step(now_.time);
       if (observer_ != nullptr) observer_->accept(dt);
+      if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_.v);
       ++statistics_.accepted;
       statistics_.smallest_step = std::min(statistics_.smallest_step, dt);
       statistics_.largest_step = std::max(statistics_.largest_step, dt);

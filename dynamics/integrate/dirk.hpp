@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/error_estimate.hpp"
 #include "dynamics/integrate/newton.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/statistics.hpp"
@@ -67,6 +68,9 @@ class Dirk {
   const StageState& previous() const { return before_; }
   const StepStatistics& statistics() const { return statistics_; }
   StepStatistics& statistics() { return statistics_; }
+  /// What the steps with an error test left of each body's velocity.
+  const ErrorEstimate& estimate() const { return estimate_; }
+  const ErrorWeights& weights() const { return weights_; }
   void set_observer(StageObserver* observer) { observer_ = observer; }
 
   /// The rung on the ladder of steps; with the state all that a resumed run needs.
@@ -93,11 +97,13 @@ class Dirk {
   ErrorWeights weights_;
   StepStatistics statistics_;
   StageNewton newton_;
+  ErrorEstimate estimate_;
   StageObserver* observer_ = nullptr;
   std::map<int, std::unique_ptr<StageOperator>> operators_;
   StageState before_, now_, stages_[2];
   StageNewton::Result last_newton_{StageNewton::Outcome::kConverged, "", -1};
   double last_error_ = 0.0;
+  Eigen::VectorXd e_eta_, e_v_;  // local errors of the last attempt
   int worst_ = -1;
   int rung_ = 0;
   int hold_ = 0;      // accepted steps before the step may grow again

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "core/planned_files.hpp"
+
 namespace clatter::mesh::deck::abaqus {
 namespace fs = std::filesystem;
 
@@ -21,6 +23,7 @@ Source::Source(std::string_view text, const std::string& name) : in_memory_(true
 }
 
 void Source::open(const fs::path& path) {
+  will_read(path);
   std::error_code trouble;
   const fs::path whole = fs::weakly_canonical(path, trouble);
   OpenFile file;

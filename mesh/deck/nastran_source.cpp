@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/planned_files.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -93,6 +94,7 @@ Source::Source(const std::string& name, std::string_view text) : in_memory_(true
 Source::~Source() = default;
 
 void Source::open(const std::filesystem::path& path) {
+  will_read(path);
   auto stream = std::make_unique<Stream>();
   std::error_code trouble;
   stream->path = std::filesystem::canonical(path, trouble);

@@ -41,10 +41,8 @@ BasisRoom room_left(const BlockLanczosOptions& options, Index block, Index size)
                  "ask for fewer modes");
   const BasisRoom room = basis_room(options, block, size, left);
   if (room.storage == Storage::kDisk)
-    warn(
-        fmt::format("{} Lanczos vectors of {} unknowns do not fit into {:.1f} GiB: they are kept "
-                    "on disk",
-                    room.columns, size, left));
+    warn(fmt::format("{} Lanczos vectors of {} unknowns do not fit into {}: they are kept on disk",
+                     room.columns, size, memory_text(left)));
   return room;
 }
 

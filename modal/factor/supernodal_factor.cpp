@@ -43,9 +43,9 @@ void refuse_if_too_large(const FactorReport& report, const FactorOptions& option
                                                      : memory_left_gib(report.predicted_gib);
   if (report.predicted_gib <= left) return;
   throw NumericsError(fmt::format(
-      "the factor of {} unknowns needs {:.1f} GiB ({} entries), {:.1f} GiB are left: use a "
-      "coarser mesh or raise the limit (--memory-limit)",
-      report.size, report.predicted_gib, report.entries, left));
+      "the factor of {} unknowns needs {} ({} entries), {} are left: use a coarser mesh or raise "
+      "the limit (--memory-limit)",
+      report.size, memory_text(report.predicted_gib), report.entries, memory_text(left)));
 }
 
 Eigen::VectorXd random_vector(Index n) {

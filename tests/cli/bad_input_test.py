@@ -14,7 +14,7 @@ class WrongFiles(stages.PipelineTest):
                 self.assert_refused(stage, arguments, says=["absent.file", "no such file"])
 
     def test_a_file_of_another_schema(self):
-        wrong = {"assembly": "beam.fe.h5", "modal": "beam.mesh.h5", "condense": "beam.mesh.h5", "recover": "beam.fe.h5"}
+        wrong = {"assembly": "beam.rom.h5", "modal": "beam.mesh.h5", "condense": "beam.mesh.h5", "recover": "beam.fe.h5"}
         for stage, file in wrong.items():
             with self.subTest(stage=stage):
                 arguments = [file, *self.command(stage)[1:]]

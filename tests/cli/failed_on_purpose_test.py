@@ -102,7 +102,7 @@ class HardC4Memory(Failing):
     def test_a_limit_that_the_factor_does_not_fit(self):
         for stage in ("modal", "condense"):
             with self.subTest(stage=stage):
-                self.fails(stage, 3, says=["GiB", "--memory-limit"], extra=["--memory-limit", "0.02"])
+                self.fails(stage, 3, says=["MiB", " are left", "--memory-limit"], extra=["--memory-limit", "0.02"])
 
     def test_a_limit_that_makes_no_sense(self):
         self.fails("modal", 2, says=["--memory-limit"], extra=["--memory-limit", "-1"])

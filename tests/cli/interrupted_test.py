@@ -3,6 +3,7 @@ import os
 import pathlib
 import random
 import shutil
+import signal
 import subprocess
 import time
 import unittest
@@ -37,6 +38,26 @@ class HardH1KilledHalfWay(stages.PipelineTest):
         again = stages.run_stage(stage, *arguments, folder=self.folder)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertFalse(pathlib.Path(f"{output}.part").exists(), "a later run removes what the killed one left")
+
+
+class HardN11Terminated(stages.PipelineTest):
+    def test_sigterm_ends_a_run_at_a_step_with_what_there_is(self):
+        self.edit("step.run.toml", "end_s = 0.06", "end_s = 600.0")
+        self.edit("step.run.toml", "output_step_us = 50.0", "output_step_us = 5000.0")
+        for wait in (0.3, 1.0, 3.0, 10.0):
+            process = subprocess.Popen([stages.BIN / "clatter-dynamics", *self.command("dynamics")], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            time.sleep(wait)  # until it steps; before that the signal ends it as any program
+            process.terminate()
+            said = process.communicate()[1]
+            self.assertEqual(list(self.folder.glob("*.part")), [])
+            if process.returncode != -signal.SIGTERM:
+                break
+        self.assertEqual(process.returncode, 3, said)
+        self.assertIn("step.run.interrupted.h5", said)
+        with h5py.File(self.folder / "step.run.interrupted.h5") as run:
+            self.assertEqual(run.attrs["complete"], 0)
+            self.assertGreater(len(run["output/time"]), 0)
 
 
 class HardH2DiskFull(stages.PipelineTest):

@@ -1,4 +1,5 @@
 // Comparison of models and the files of modes and reduced models.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -63,10 +64,44 @@ class InFolder : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
+TEST(Compare, ByDefaultGoesAsFarAsTheModelIsMeantFor) {
   const auto model = box_model();
   const ReducedModel reduced = reduce(model, 9000.0);
   const modal::Comparison result = modal::compare(model, reduced, {});
+  modal::ModesOptions all;
+  all.fmax_hz = reduced.valid_to_hz;
+  EXPECT_EQ(static_cast<int>(result.modes.size()), modal::analyse(model, all).modes.size() - 6);
+  EXPECT_GT(result.modes.back().full_hz, result.accurate_to_hz);
+  const auto stated = result.with_stated_error(), above = result.without_stated_error();
+  EXPECT_EQ(stated.modes.size() + above.modes.size(), result.modes.size());
+  EXPECT_EQ(result.largest_error(), std::max(stated.largest_error(), above.largest_error()));
+  const auto lines = modal::table_of(result);
+  EXPECT_NE(lines.back().find("up to 4500 Hz: largest error"), std::string::npos) << lines.back();
+  EXPECT_NE(lines[lines.size() - 2].find("no accuracy is stated"), std::string::npos);
+}
+
+TEST(Compare, NothingToCompareIsRefusedWithTheFirstElasticFrequency) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, 9000.0);
+  const double first = modal::compare(model, reduced, {0.0, 7}).modes.front().full_hz;
+  for (const modal::CompareOptions& asked : {modal::CompareOptions{0.5 * first, 0}, {0.0, 6}}) {
+    try {
+      modal::compare(model, reduced, asked);
+      ADD_FAILURE() << "accepted";
+    } catch (const modal::NothingCompared& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("nothing was compared"), std::string::npos);
+      EXPECT_NE(said.find(fmt::format("{:.6g} Hz", first)), std::string::npos) << said;
+      EXPECT_NE(said.find(asked.count > 0 ? "6 lowest" : "below"), std::string::npos) << said;
+    }
+  }
+}
+
+TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, 9000.0);
+  const modal::Comparison result = modal::compare(model, reduced, {}).with_stated_error();
+  EXPECT_EQ(result.accurate_to_hz, 4500.0);
   EXPECT_EQ(result.rigid_full, 6);
   ASSERT_GT(result.modes.size(), 4u);
   EXPECT_LT(result.largest_error(), 1e-3);
@@ -133,6 +168,8 @@ TEST_F(InFolder, CommandsReduceAndCompareAModel) {
   EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);
   ASSERT_EQ(call("clatter-modal --compare " + fe + " " + rom), 0) << log();
   EXPECT_NE(log().find("MAC"), std::string::npos) << log();
+  EXPECT_EQ(call("clatter-modal --compare " + fe + " " + rom + " --fmax-hz 100"), 3) << log();
+  EXPECT_NE(log().find("error: box: nothing was compared"), std::string::npos) << log();
   const std::string modes = (folder_ / "box.modes.h5").string();
   ASSERT_EQ(call("clatter-modal " + fe + " --count 8 -o " + modes), 0) << log();
   EXPECT_EQ(modal::read_mode_table(modes).rigid, 6);

@@ -1,4 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +11,10 @@
 
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/h5_file.hpp"
+#include "core/memory_limit.hpp"
 #include "core/threads.hpp"
+#include "core/whole_file.hpp"
 
 namespace clatter {
 namespace {
@@ -34,9 +41,69 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
   set_thread_count(0);
 }
 
+/// What is left of an HDF5 file and a text file when `signal` ends the process that writes them.
+void end_while_writing(int signal) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("clatter_signal_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    run_guarded("child", [&] {
+      H5File artefact = H5File::create(folder / "a.h5");
+      artefact.write("x", std::vector<double>{1.0});
+      WholeFile text(folder / "a.txt");
+      text.stream() << "half" << std::flush;
+      WholeFile whole(folder / "b.txt");
+      whole.commit();
+      const bool there = exists(folder / "a.h5.part") && exists(folder / "a.txt.part");
+      if (there) ::raise(signal);
+      return 0;
+    });
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    left.push_back(entry.path().filename());
+  EXPECT_EQ(left, std::vector<std::string>{"b.txt"});
+  std::filesystem::remove_all(folder);
+}
+
+TEST(HardH1_Signals, RemoveFilesThatAreNotComplete) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) end_while_writing(signal);
+}
+
+TEST(MemoryText, HasTheUnitInWhichItIsANumber) {
+  const double mib = 1.0 / 1024.0, kib = mib * mib;
+  EXPECT_EQ(memory_text(0.0), "0 MiB");
+  EXPECT_EQ(memory_text(512.0 * kib), "512 KiB");
+  EXPECT_EQ(memory_text(0.02), "20.5 MiB");
+  EXPECT_EQ(memory_text(0.9996), "1 GiB");
+  EXPECT_EQ(memory_text(1.254), "1.25 GiB");
+  EXPECT_EQ(memory_text(123.4), "123 GiB");
+  EXPECT_EQ(memory_text(0.4 * kib), "0.4 KiB");
+}
+
+TEST(MemoryText, ARefusalSaysAmountsThatAreNotZero) {
+  const double mib = 1.0 / 1024.0;
+  set_memory_limit_gib(memory_in_use_gib() + 2.0 * mib);
+  try {
+    require_memory("the factor", 30.0 * mib, "smaller");
+    ADD_FAILURE() << "accepted";
+  } catch (const NumericsError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("the factor needs 30 MiB, "), std::string::npos) << said;
+    EXPECT_EQ(said.find(" 0 "), std::string::npos) << said;
+  }
+  set_memory_limit_gib(0.0);
+}
+
 TEST(RunGuarded, GivesTheExitCodeOfTheError) {
   EXPECT_EQ(run_guarded("t", [] { return 0; }), 0);
   EXPECT_EQ(run_guarded("t", []() -> int { throw InputError("x"); }), 2);
+  EXPECT_EQ(run_guarded("t", []() -> int { throw 7; }), 3);
   EXPECT_EQ(run_guarded("t", []() -> int { throw NumericsError("x"); }), 3);
   EXPECT_EQ(run_guarded("t", []() -> int { throw FileError("x"); }), 4);
 }

@@ -17,6 +17,7 @@ def parser():
     one = commands.add_parser("info", help="what an artefact holds, was made from, proved, and cost")
     one.add_argument("files", nargs="+", metavar="file.h5")
     one.add_argument("--config", action="store_true", help="print the resolved configuration instead")
+    one.add_argument("--verify", action="store_true", help="read every number against its checksum instead")
     one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
     one.add_argument("folder", nargs="?", default=".")
     one.add_argument("-j", "--jobs", type=int, default=1, help="how many stages at once")
@@ -53,8 +54,9 @@ def main(arguments, rules):
     options = parser().parse_args(arguments)
     try:
         if options.command == "info":
+            show = info.print_verified if options.verify else info.print_config if options.config else info.print_info
             for path in options.files:
-                info.print_config(path) if options.config else info.print_info(path)
+                show(path)
         elif options.command == "run":
             return run_make(options.folder, options.jobs)
         elif options.command == "report":
@@ -68,4 +70,10 @@ def main(arguments, rules):
         return 2
     except BrokenPipeError:
         return 0
+    except (OSError, RuntimeError, KeyError) as error:
+        if "checksum" not in str(error):
+            raise
+        print(f"clatter: error: a file was damaged after it was written (clatter info --verify names it): {error}",
+              file=sys.stderr)
+        return 2
     return 0

@@ -1,7 +1,7 @@
 """`clatter info`: what an artefact holds, what it was made from, what was proved, what it cost."""
 import h5py
 
-from . import artefact, certificate
+from . import artefact, certificate, integrity
 
 
 def print_tree(group, depth=1):
@@ -47,6 +47,7 @@ def print_info(path):
             seconds, peak = artefact.totals(file)
             steps.append(f"{'in all':<40} {seconds:9.2f} s   peak {peak:.2f} GiB")
         print_section("cost", steps)
+        print_section("integrity", [f"{integrity.describe(file)} (clatter info --verify reads them all)"])
         print("holds")
         print_tree({name: file[name] for name in file if name not in ("inputs", "certificate", "timing")})
 
@@ -56,6 +57,12 @@ def print_section(title, lines):
         print(title)
         for line in lines:
             print(f"  {line}")
+
+
+def print_verified(path):
+    """Reads every dataset against its checksum and says so; BadArtefact when one is damaged or has none."""
+    with artefact.open_artefact(path) as file:
+        print(integrity.verify(path, file))
 
 
 def print_config(path):

@@ -1,0 +1,74 @@
+#pragma once
+// Checksums in HDF5 files: what is asked for when one is written, and what a failure to read says.
+// Seen by core/h5_*.cpp alone.
+#include <hdf5.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clatter {
+
+/// Owns one HDF5 identifier.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Id& operator=(Id&&) = delete;
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Access in which the library checksums everything that is not data: heads, names, indices.
+inline Id checked_access() {
+  Id access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  return access;
+}
+
+/// Extents of a chunk: whole rows, about 128 KiB, so that some chunks fit the library's cache.
+inline std::vector<hsize_t> chunk_of(std::vector<hsize_t> extents, size_t bytes_each) {
+  hsize_t left = std::max<hsize_t>(131072 / std::max<size_t>(bytes_each, 1), 1);
+  for (size_t d = extents.size(); d-- > 0;) {
+    extents[d] = std::min(extents[d], left);
+    left = std::max<hsize_t>(left / extents[d], 1);
+  }
+  return extents;
+}
+
+/// How a dataset lies in the file: in chunks with a Fletcher32 checksum each, which the library
+/// verifies whenever one is read. An empty dataset has no chunks.
+inline Id checked_layout(const std::vector<hsize_t>& extents, size_t bytes_each) {
+  Id layout(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+  if (std::find(extents.begin(), extents.end(), hsize_t{0}) != extents.end()) return layout;
+  const std::vector<hsize_t> chunk = chunk_of(extents, bytes_each);
+  H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
+  H5Pset_fletcher32(layout);
+  H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);  // every chunk is written
+  return layout;
+}
+
+/// What the library's failure means: call it before any other call of the library.
+inline std::string damage() {
+  bool checksum = false;
+  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
+    if (std::string_view(error->desc).find("checksum") != std::string_view::npos)
+      *static_cast<bool*>(found) = true;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look, &checksum);
+  return checksum ? "checksum does not match: the file was damaged after it was written"
+                  : "cannot be read, the file is damaged";
+}
+
+}  // namespace clatter

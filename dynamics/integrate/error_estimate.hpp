@@ -1,0 +1,52 @@
+#pragma once
+// How far each body's velocity is off in the end, from the local errors of all steps.
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/system.hpp"
+
+namespace clatter::dynamics {
+
+/// One body's motion and what the steps left of it.
+struct BodyError {
+  std::string name;
+  double speed = 0.0;     // largest of the run: |v| / sqrt(m), root mean square over the body [m/s]
+  double estimate = 0.0;  // of the error of v, over that
+  double step_limit = 0.0;  // what the error test lets pass in one step, over that
+};
+
+/// Sums local errors mode by mode. A mode's local error is a point of its phase plane,
+///   e_k = (e_v, omega e_eta),
+/// which turns with the mode and fades with its damping delta, so that in the worst case (all in
+/// phase, as errors of a frequency are)
+///   G_k(t + dt) = G_k(t) exp(-delta dt / 2) + |e_k|,
+/// and a body's error is the largest |G| over its modes. Elements couple and damp modes: where they
+/// rule, as in contact, this is an upper bound. Quasi-static modes have no part in it.
+class ErrorEstimate {
+ public:
+  explicit ErrorEstimate(const System& system);
+
+  /// An accepted step of length `dt` [s] with local errors e_eta, e_v, that ended with velocities
+  /// v; all modal, N.
+  void add(double dt, const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v,
+           const Eigen::VectorXd& v);
+  /// All bodies that moved; `weights` are those of the error test.
+  std::vector<BodyError> bodies(const ErrorWeights& weights) const;
+  long long steps() const { return steps_; }
+
+ private:
+  const System* system_;
+  Eigen::VectorXd sums_;                    // G, N
+  std::vector<double> largest_, velocity_;  // per body: max |G|, max |v|
+  long long steps_ = 0;
+};
+
+/// Lines for bodies whose motion is so small that the absolute tolerance let their steps err: a
+/// step may be off by more than 1 % of the motion, and the estimate is above 1 %. Each says the
+/// velocity scale that brings it to about 1 %.
+std::vector<std::string> accuracy_doubts(const std::vector<BodyError>& bodies,
+                                         const Accuracy& accuracy, long long steps);
+
+}  // namespace clatter::dynamics
