@@ -17,6 +17,7 @@ struct RegionSolids {
 struct PartGeometry {
   std::vector<RegionSolids> regions;
   std::vector<NamedSurface> surfaces;
+  std::string unit = "mm";  // of its lengths, for messages
 };
 
 /// A length unit in metres: "mm", "cm", "m" or "in" (key `length_unit`, default "mm").
