@@ -194,6 +194,11 @@ std::string name_of(ShapeKind kind) {
   return kNames[static_cast<size_t>(kind)];
 }
 
+bool is_round(ShapeKind kind) {
+  return kind == ShapeKind::kCylinder || kind == ShapeKind::kCone || kind == ShapeKind::kSphere ||
+         kind == ShapeKind::kTorus;
+}
+
 FaceShape find_shape(const std::string& cad_kind, const Points& points, const Points& normals) {
   const Sample s = scaled(points, normals);
   const ShapeKind kind = kind_of(cad_kind);
@@ -209,6 +214,18 @@ FaceShape find_shape(const std::string& cad_kind, const Points& points, const Po
     return shape;
   }
   return {kind};
+}
+
+void orient(FaceShape& shape, const Vector3d& place, const Vector3d& outward) {
+  if (shape.kind == ShapeKind::kPlane && shape.direction.dot(outward) < 0.0)
+    shape.direction *= -1.0;
+  if (!is_round(shape.kind)) return;
+  Vector3d from = place - shape.point;
+  const double along = from.dot(shape.direction);
+  if (shape.kind != ShapeKind::kSphere) from -= along * shape.direction;
+  if (shape.kind == ShapeKind::kTorus)  // from the tube's middle
+    from += along * shape.direction - shape.radius * from.normalized();
+  shape.is_concave = outward.dot(from) < 0.0;
 }
 
 double distance_to(const FaceShape& shape, const Vector3d& x) {

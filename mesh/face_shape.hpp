@@ -16,6 +16,7 @@ std::string name_of(ShapeKind kind);
 struct FaceShape {
   ShapeKind kind = ShapeKind::kOther;
   bool is_spline = false;       // stored as a spline, though it is of that kind
+  bool is_concave = false;      // a bore, an inner fillet; as orient() has found it
   double radius = 0.0;          // cylinder, sphere; torus: of the circle that the tube follows
   double minor_radius = 0.0;    // of the torus' tube
   double half_angle_deg = 0.0;  // of a cone, between axis and surface
@@ -37,6 +38,13 @@ struct FaceShape {
 ///               Geometry, 2001), then a circle in the half-plane of radius and height
 FaceShape find_shape(const std::string& cad_kind, const std::vector<Eigen::Vector3d>& points,
                      const std::vector<Eigen::Vector3d>& normals);
+
+/// Cylinder, cone, sphere or torus?
+bool is_round(ShapeKind kind);
+
+/// Makes a plane's normal point out of the solid and finds whether a round face is concave, from
+/// the outward normal at one of its points.
+void orient(FaceShape& shape, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
 
 /// How far x is from the surface; infinite where the kind has no formula.
 double distance_to(const FaceShape& shape, const Eigen::Vector3d& x);
