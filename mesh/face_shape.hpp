@@ -25,11 +25,10 @@ struct FaceShape {
                                                     // apex; sphere, torus: the centre
 };
 
-/// The shape of a face that the CAD kernel calls `cad_kind` ("Plane", "Cylinder", "BSpline
-/// surface",
-/// ...) from points on it and unit normals there, at least four that are not on a line. Splines are
-/// taken for the simplest shape on which all points lie to 1e-5 of their extent. The least squares
-/// problems are linear: with normals n_i,
+/// The shape of a face that the CAD kernel calls `cad_kind` ("Plane", "Cylinder", "BSpline surface"
+/// ...) from points on it and unit normals there, either way, at least four that are not on a line.
+/// Splines are taken for the simplest shape on which all points lie to 1e-5 of their extent. The
+/// least squares problems are linear: with normals n_i,
 ///   plane       n = mean n_i
 ///   sphere      x_i = c + r n_i
 ///   cylinder    n_i . a = 0, then x_i = c + r n_i across a
