@@ -36,10 +36,10 @@ std::vector<std::string> table_of(const FaceList& list);
 /// half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
 std::string json_of(const FaceList& list);
 
-/// Triangles to draw: rows of `nodes`, corners then middles, and the face that each lies on.
+/// Triangles to draw: rows of `nodes`, and the face that each lies on.
 struct FaceTriangles {
   RowMatrix nodes;         // n x 3, in the unit of the list
-  IndexMatrix triangles;   // m x 6
+  IndexMatrix triangles;   // m x 3
   std::vector<int> faces;  // m
 };
 

@@ -65,14 +65,14 @@ FaceTriangles triangles_of(GmshSession& session, const FaceList& list) {
   const double size = size_of_part(list.faces);
   SizeSettings sizes;
   sizes.size = size / 30;
-  sizes.min_size = size / 600;
+  sizes.min_size = size / 300;
   sizes.per_turn = 24;
-  const RawMesh skin = session.generate_skin(sizes);
+  const RawMesh skin = session.generate_skin(sizes, 1);
   FaceTriangles drawn;
   drawn.nodes = skin.nodes;
   Eigen::Index count = 0;
   for (const FaceFacts& face : list.faces) count += skin.face_cells.at(face.tag).rows();
-  drawn.triangles.resize(count, 6);
+  drawn.triangles.resize(count, 3);
   count = 0;
   for (const FaceFacts& face : list.faces) {
     const IndexMatrix& cells = skin.face_cells.at(face.tag);

@@ -121,7 +121,7 @@ class Faces(OfATube):
         from clatter_tools.artefact import open_artefact
         from clatter_tools.plots import faces
         file = open_artefact(self.folder / "tube.faces.h5", "faces")
-        triangles = file["triangles"][()][:, :3]
+        triangles = file["triangles"][()]
         kinds = dict.fromkeys(file["number"][()], "plane")
         views = [faces.seen(*faces.cut(file["nodes"][()], triangles, file["triangle_face"][()], along), kinds, a, e)[1]
                  for a, e, along in faces.VIEWS]

@@ -44,11 +44,10 @@ def listed(part, folder):
 
 
 def picture(file):
-    points, quadratic = dataset(file, "nodes"), dataset(file, "triangles")
-    if not len(quadratic):
+    points, triangles = dataset(file, "nodes"), dataset(file, "triangles")
+    if not len(triangles):
         raise BadArtefact(f"{file.filename}: triangles: found none: its faces could not be meshed; the table has them")
-    triangles, _ = raster.split_quadratic(quadratic)
-    face = np.tile(dataset(file, "triangle_face"), 4)
+    face = dataset(file, "triangle_face")
     kinds = {number: text(kind).split(" ")[0].rstrip(",")
              for number, kind in zip(dataset(file, "number"), dataset(file, "kind"))}
     views = [seen(*cut(points, triangles, face, along), kinds, azimuth, elevation)
