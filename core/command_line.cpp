@@ -43,7 +43,8 @@ CommandLine::CommandLine(const std::string& program, const std::string& summary,
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_flag("--quiet", impl_->common.quiet, "results, warnings and errors only");
-  app.add_flag("--json", impl_->common.json, "print the results as one machine-readable line on stdout");
+  app.add_flag("--json", impl_->common.json,
+               "print the results as one machine-readable line on stdout");
   app.add_option("--depfile", impl_->common.depfile, "write the files that were read, for make");
 }
 
