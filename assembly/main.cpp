@@ -9,6 +9,7 @@
 #include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/plausible.hpp"
 #include "mesh/mesh_file.hpp"
 
 namespace {
@@ -56,13 +57,13 @@ Next: clatter-modal block.fe.h5 (modes; --static for load cases),
 
 void print_summary(const clatter::assembly::FeModel& model, double seconds, bool json) {
   const clatter::MassProperties& mass = model.mass;
-  clatter::say(fmt::format("{}: {} DoFs, {} entries in K, {} sets, {} loads", model.name,
-                           model.size(), model.K.nonZeros(), model.sets.size(),
-                           model.loads.size()));
-  clatter::say(fmt::format("mass {:.6g} kg, centre ({:.6g}, {:.6g}, {:.6g}) m", mass.mass,
-                           mass.centre(0), mass.centre(1), mass.centre(2)));
+  clatter::print_result(fmt::format("{}: {} DoFs, {} entries in K, {} sets, {} loads", model.name,
+                                    model.size(), model.K.nonZeros(), model.sets.size(),
+                                    model.loads.size()));
+  clatter::print_result(fmt::format("mass {:.6g} kg, centre ({:.6g}, {:.6g}, {:.6g}) m", mass.mass,
+                                    mass.centre(0), mass.centre(1), mass.centre(2)));
   const Eigen::Matrix3d& J = mass.inertia;
-  clatter::say(
+  clatter::print_result(
       fmt::format("inertia about it: xx {:.6g} yy {:.6g} zz {:.6g} xy {:.4g} yz {:.4g} zx "
                   "{:.4g} kg m2",
                   J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(2, 0)));
@@ -72,6 +73,22 @@ void print_summary(const clatter::assembly::FeModel& model, double seconds, bool
                        {"nonzeros_K", fmt::format("{}", model.K.nonZeros())},
                        {"mass_kg", clatter::json_number(mass.mass)},
                        {"seconds", clatter::json_number(seconds)}});
+}
+
+/// One warning of all materials and the size that look like another unit.
+void warn_of_units(const clatter::assembly::FeModel& model, const std::filesystem::path& config) {
+  using namespace clatter;
+  std::vector<std::string> doubts;
+  for (const assembly::Material& material : model.cells.materials) {
+    doubts.push_back(doubt_of_density(material.density));
+    if (!material.is_isotropic()) continue;
+    doubts.push_back(doubt_of_modulus(material.youngs, material.density));
+    doubts.push_back(doubt_of_poisson(material.poisson));
+  }
+  if (model.nodes.rows() > 1)
+    doubts.push_back(doubt_of_length(
+        (model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff()).maxCoeff()));
+  warn_of_doubts(config.string(), doubts);
 }
 
 /// From matrices of others, or assembled on the mesh; `inputs` gets the files that were read.
@@ -116,6 +133,7 @@ int run(int argc, char** argv) {
   std::vector<std::filesystem::path> inputs;
   const assembly::BuiltModel built = make_model(mesh_path, config, inputs, clock);
   inputs.push_back(config_path);
+  warn_of_units(built.model, config_path);
   print_summary(built.model, clock.total_seconds(), line.common().json);
 
   H5File file = H5File::create(output_path);

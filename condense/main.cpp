@@ -75,8 +75,8 @@ int write_exports(const Paths& paths, const CommonOptions& common) {
   for (const std::filesystem::path& path : paths.exports)
     for (const std::filesystem::path& file : condense::export_reduced(reduced, path))
       files.push_back(json_text(file.string()));
-  say(fmt::format("{}: {} coordinates to {}", reduced.name, reduced.size(),
-                  fmt::join(files, ", ")));
+  print_result(fmt::format("{}: {} coordinates to {}", reduced.name, reduced.size(),
+                           fmt::join(files, ", ")));
   write_depfile(common.depfile, paths.exports.front(), {paths.model});
   if (common.json) print_json({{"files", fmt::format("[{}]", fmt::join(files, ", "))}});
   return 0;
@@ -109,7 +109,7 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
   clock.lap(fmt::format("read {} DoF", model.size()));
   const ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
   const double error = with_rows.certificate.at("rows_added_error");
-  say(fmt::format(
+  print_result(fmt::format(
       "{}: {} skin nodes, {} sets beside the boundary; the basis solved for again "
       "differs by {:.1e} from the stored one",
       with_rows.name, with_rows.skin.nodes.rows(), with_rows.recovered_sets.size(), error));
@@ -182,11 +182,11 @@ int run(int argc, char** argv) {
   const assembly::FeModel model = assembly::read_fe_model(paths.model);
   clock.lap(fmt::format("read {} DoF", model.size()));
   ReducedModel reduced = condense::condense(model, options, clock);
-  for (const std::string& text : condense::describe(reduced)) say(text);
+  for (const std::string& text : condense::describe(reduced)) print_result(text);
   if (!std::isnan(verify_hz)) {
     const auto compared = condense::verify(reduced, model, verify_hz);
     clock.lap("verification by the full model");
-    if (!compared.modes.empty()) say(modal::table_of(compared).back());
+    if (!compared.modes.empty()) print_result(modal::table_of(compared).back());
   }
   write(paths.output, reduced, {"clatter/rom/1", config.resolved(), {paths.model, paths.config}},
         text_of(paths.config), clock);

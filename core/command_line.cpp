@@ -73,8 +73,9 @@ CommandLine::CommandLine(const std::string& program, const std::string& summary,
   app.add_option("--threads", impl_->common.threads, "threads to use; 0 means all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_flag("--quiet", impl_->common.quiet, "warnings and errors only");
-  app.add_flag("--json", impl_->common.json, "print one machine-readable summary line on stdout");
+  app.add_flag("--quiet", impl_->common.quiet, "results, warnings and errors only");
+  app.add_flag("--json", impl_->common.json,
+               "print the results as one machine-readable line on stdout");
   output("--depfile", impl_->common.depfile, "write the files that were read, for make");
 }
 
@@ -159,6 +160,7 @@ bool CommandLine::parse(int argc, char** argv) {
     return false;
   }
   set_quiet(impl_->common.quiet);
+  set_json(impl_->common.json);
   set_thread_count(impl_->common.threads);
   set_memory_limit_gib(impl_->memory_gib);
   set_blas_threads(thread_count());

@@ -13,7 +13,7 @@ namespace clatter {
 struct CommonOptions {
   int threads = 0;  // 0: all cores
   bool quiet = false;
-  bool json = false;              // one machine-readable summary line on stdout
+  bool json = false;              // the results as one machine-readable line on stdout
   std::filesystem::path depfile;  // make-style list of the files that were read
 };
 

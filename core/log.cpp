@@ -3,12 +3,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <utility>
 
 namespace clatter {
 namespace {
 
 bool quiet_flag = false;
+bool json_flag = false;
 
 LogSink& sink() {
   static LogSink instance;
@@ -35,6 +37,13 @@ void warn(const std::string& line) {
   if (sink()) return sink()(true, line);
   logger().warn("warning: " + line);
 }
+
+void print_result(const std::string& line) {
+  if (json_flag || sink()) return say(line);  // stdout of a child process is nobody's
+  std::fputs((line + "\n").c_str(), stdout);
+}
+
+void set_json(bool json) { json_flag = json; }
 
 void set_quiet(bool quiet) { quiet_flag = quiet; }
 

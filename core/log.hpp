@@ -1,5 +1,5 @@
 #pragma once
-// What a stage tells its user: plain lines on stderr; stdout is kept for results and --json.
+// What a stage tells its user: results on stdout, progress and warnings on stderr.
 #include <functional>
 #include <string>
 
@@ -9,6 +9,11 @@ namespace clatter {
 void say(const std::string& line);
 /// A warning; shown even with --quiet.
 void warn(const std::string& line);
+/// A line of the result: what the user ran the stage for. On stdout, also with --quiet, so that
+/// `clatter-modal part.fe.h5 -o part.modes.h5 --quiet | awk` gets it and nothing else. With --json
+/// stdout has the one JSON line alone, and this goes the way of say().
+void print_result(const std::string& line);
+void set_json(bool json);
 void set_quiet(bool quiet);
 bool is_quiet();
 

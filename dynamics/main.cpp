@@ -79,8 +79,8 @@ int write_table(Arguments& a) {
   a.cycle.intake_pressure = 1e5 * a.intake_bar;
   a.cycle.valves_closed_half = kDegree * a.closed_deg;
   write_motored_cycle(a.motored, a.cycle, kDegree * a.step_deg);
-  say(fmt::format("{}: peak {:.2f} bar", a.motored.string(),
-                  1e-5 * motored_pressure(a.cycle, 0.0)));
+  print_result(fmt::format("{}: peak {:.2f} bar", a.motored.string(),
+                           1e-5 * motored_pressure(a.cycle, 0.0)));
   return 0;
 }
 
@@ -98,23 +98,24 @@ std::filesystem::path written_file(std::filesystem::path output, const RunResult
 }
 
 void print_summary(const RunResult& result, const Arguments& a, double seconds) {
-  say("effects (seconds of their elements):");
-  for (const auto& row : result.model->effects.lines(true)) say(row);
+  print_result("effects (seconds of their elements):");
+  for (const auto& row : result.model->effects.lines(true)) print_result(row);
   const StepStatistics& s = result.statistics;
-  say(fmt::format(
+  print_result(fmt::format(
       "steps: {} accepted, {} rejected by error, {} by Newton, {} refused; {:.3g} to {:.3g} "
       "s; {} evaluations, {} factorisations",
       s.accepted, s.rejected_error, s.rejected_newton, s.rejected_refused, s.smallest_step,
       s.largest_step, s.evaluations, s.factorizations));
   for (const auto& [reason, count] : s.refusals)
-    say(fmt::format("  refused {}x: {}", count, reason));
-  say(fmt::format(
+    print_result(fmt::format("  refused {}x: {}", count, reason));
+  print_result(fmt::format(
       "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
       "{:.2f}; {:.2f} in all",
       s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
-  for (const auto& [name, value] : result.periodicity) say(fmt::format("{}: {:.3g}", name, value));
-  say(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
-                  result.energy_exchanged));
+  for (const auto& [name, value] : result.periodicity)
+    print_result(fmt::format("{}: {:.3g}", name, value));
+  print_result(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
+                           result.energy_exchanged));
   say(fmt::format("{} written", a.output.string()));
 }
 

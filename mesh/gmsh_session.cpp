@@ -204,14 +204,14 @@ void GmshSession::generate(const SizeSettings& settings) {
   }
 }
 
-RawMesh GmshSession::generate_skin(const SizeSettings& settings) {
+RawMesh GmshSession::generate_skin(const SizeSettings& settings, int order) {
   return gmsh_call("gmsh: meshing faces", [&] {
     synchronize();
     gmsh::model::mesh::clear();
     set_sizes(settings);
     gmsh::model::mesh::generate(2);
-    gmsh::model::mesh::setOrder(2);
-    order_ = 2;
+    if (order == 2) gmsh::model::mesh::setOrder(2);
+    order_ = order;
     return extract_skin();
   });
 }

@@ -130,9 +130,9 @@ class GmshSession {
   /// each other, when Gmsh fails; it then stays locked ("I'm busy", 4.8.4), so the session can mesh
   /// no more.
   void generate(const SizeSettings& settings);
-  /// Quadratic triangles on all faces, no cells: nodes and face_cells of a mesh for integrals over
-  /// the geometry. Forgets the mesh before.
-  RawMesh generate_skin(const SizeSettings& settings);
+  /// Quadratic (or linear) triangles on all faces, no cells: nodes and face_cells of a mesh for
+  /// integrals over the geometry. Forgets the mesh before.
+  RawMesh generate_skin(const SizeSettings& settings, int order = 2);
   /// Replaces the cells and inner nodes of a linear mesh by those of `raw`; rows of `nodes` beyond
   /// `node_tags` are new nodes. The boundary stays.
   void replace_cells(const RawMesh& raw);

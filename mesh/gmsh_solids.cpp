@@ -104,6 +104,20 @@ std::vector<double> surface_parameters(int face) {
   return uv;
 }
 
+// Normals are missing at poles and apexes: those samples are left out.
+FaceShape shape_of(int face, const FaceFacts& facts, const std::vector<double>& uv) {
+  std::vector<double> n;
+  gmsh::model::getNormal(face, uv, n);
+  std::vector<Eigen::Vector3d> points, normals;
+  for (size_t i = 0; i < facts.surface_points.size(); ++i) {
+    const Eigen::Vector3d normal(n[3 * i], n[3 * i + 1], n[3 * i + 2]);
+    if (!normal.allFinite() || !(std::abs(normal.norm() - 1.0) < 1e-6)) continue;
+    points.push_back(facts.surface_points[i]);
+    normals.push_back(normal);
+  }
+  return find_shape(facts.kind, points, normals);
+}
+
 FaceFacts facts_of(int face) {
   FaceFacts facts;
   facts.tag = face;
@@ -115,6 +129,7 @@ FaceFacts facts_of(int face) {
   facts.edge_points = sample_edges(face);
   const std::vector<double> uv = surface_parameters(face);
   facts.surface_points = points_of(2, face, uv);
+  facts.shape = shape_of(face, facts, uv);
   if (facts.kind == "Cylinder") {
     std::vector<double> largest, smallest, direction_1, direction_2;
     gmsh::model::getPrincipalCurvatures(face, {uv[0], uv[1]}, largest, smallest, direction_1,

@@ -2,16 +2,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/artefact.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/plausible.hpp"
 #include "core/stopwatch.hpp"
 #include "core/whole_file.hpp"
+#include "mesh/bare_cad.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/cad_unit.hpp"
 #include "mesh/certify_mesh.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/recipe_text.hpp"
+#include "mesh/faces_command.hpp"
 #include "mesh/mesh_export.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher.hpp"
@@ -56,8 +62,11 @@ cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max
 outside = { min, max }.
 
 Examples:
+  clatter-mesh --faces part.step                 (what faces it has; -o part.faces.h5 to draw them)
+  clatter-mesh part.step -o part.mesh.h5         (writes part.mesh.toml too: change it, run it)
   clatter-mesh block.mesh.toml -o block.mesh.h5 --write-step block.step
   clatter-mesh piston.mesh.toml -o piston.mesh.h5 --export piston.vtu --export piston.inp
+  clatter-mesh piston.mesh.h5 --export piston.med --export piston.unv     (of a finished mesh)
 
 See mesh/README.md for each kind's dimensions and surfaces. Next stage: clatter-assembly.)";
 
@@ -68,6 +77,8 @@ struct Arguments {
   std::vector<std::string> ignore;
   int parts = 0;
   ChildLimits limits;  // of the processes in which Gmsh works
+  bool faces = false;
+  double element_size_mm = 0.0;  // 0: as the description says
 };
 
 /// A mesh with what is written beside it.
@@ -76,45 +87,50 @@ struct Outcome {
   QualityReport quality;
   std::map<std::string, double> certificate;
   Provenance provenance;
-  std::string recipe;  // fe.toml of a deck
-  std::string cad;     // of the geometry, where it is wanted
+  std::string recipe;       // fe.toml of a deck
+  std::string cad;          // of the geometry, where it is wanted
+  std::string description;  // mesh.toml of a CAD file without one
 };
 
 void report(const Outcome& result) {
   const auto& c = result.certificate;
   const Measure& angle = result.quality.min_dihedral_deg;
-  say(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom", c.at("cells"),
-                  c.at("nodes"), c.at("dofs")));
+  print_result(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom",
+                           c.at("cells"), c.at("nodes"), c.at("dofs")));
   for (size_t r = 0; r < result.mesh.regions.size(); ++r) {
-    say(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
-                    cell_volume(result.mesh, static_cast<int32_t>(r))));
+    print_result(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
+                             cell_volume(result.mesh, static_cast<int32_t>(r))));
   }
   if (c.contains("volume_against_cad"))
-    say(fmt::format("mesh: volume against CAD {:+.2e}", c.at("volume_against_cad")));
-  say(fmt::format("mesh: volume against the surface integral {:.1e}",
-                  c.at("volume_against_surface_integral")));
-  say(
+    print_result(fmt::format("mesh: volume against CAD {:+.2e}", c.at("volume_against_cad")));
+  print_result(fmt::format("mesh: volume against the surface integral {:.1e}",
+                           c.at("volume_against_surface_integral")));
+  print_result(
       fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
                   "m, scaled Jacobian {:.3f} in cell {}",
                   angle.worst, angle.label, angle.place.x(), angle.place.y(), angle.place.z(),
                   c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
   if (c.contains("invalid_cells_before_repair"))
-    say(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
-                    c.at("invalid_cells_before_repair")));
+    print_result(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
+                             c.at("invalid_cells_before_repair")));
 }
 
 /// Geometry meshed by gmsh.
 Outcome mesh_geometry(const Arguments& a, const Config& config, const std::string& name,
                       StepClock& clock) {
   const std::string extension = a.step.empty() ? "" : cad_extension(a.step);
-  MadePart made = make_part_in_child({&config, name, a.input.string(), extension}, a.limits);
+  MadePart made = make_part_in_child(
+      {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm}, a.limits);
   clock.adopt(made.steps);
   Outcome out{std::move(made.part.mesh),
               std::move(made.part.quality),
               std::move(made.part.certificate),
               {kMeshSchema, std::move(made.config), {a.input}},
               {},
-              std::move(made.cad)};
+              std::move(made.cad),
+              {}};
+  if (a.element_size_mm > 0.0)
+    out.provenance.config += fmt::format("--element-size-mm = {}\n", a.element_size_mm);
   if (config.text("kind") == "cad")
     out.provenance.inputs.push_back(config.table("cad").path("source"));
   return out;
@@ -144,7 +160,25 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
   return out;
 }
 
+/// A CAD file alone: as if the description were there that is written beside the mesh.
+Outcome mesh_bare_cad(const Arguments& a, StepClock& clock) {
+  const std::filesystem::path description = description_beside(a.output);
+  const double size =
+      a.element_size_mm > 0.0 ? a.element_size_mm : default_element_size_mm(a.input, a.limits);
+  if (a.element_size_mm == 0.0)
+    say(
+        fmt::format("mesh: element size {} mm, by the part's volume (--element-size-mm says "
+                    "another)",
+                    size));
+  const Config config = config_of_cad(a.input, size);
+  Outcome out = mesh_geometry(a, config, config.text("name"), clock);
+  out.provenance.inputs = {a.input};
+  out.description = cad_description(a.input, description, size);
+  return out;
+}
+
 Outcome make_mesh(const Arguments& a, StepClock& clock) {
+  if (is_cad(a.input)) return mesh_bare_cad(a, clock);
   if (deck::is_deck(a.input) || is_msh(a.input)) {
     if (a.units.empty())
       throw InputError(
@@ -169,16 +203,48 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
 }
 
 void write_partition(H5File& file, const Partition& partition) {
-  say(fmt::format("mesh: {} parts, {} faces between them", partition.parts, partition.cut));
+  print_result(
+      fmt::format("mesh: {} parts, {} faces between them", partition.parts, partition.cut));
   file.write("partition/part", partition.part);
   file.set("partition", "parts", partition.parts);
   file.set("partition", "cut_faces", partition.cut);
 }
 
+/// A finished mesh for other programs, without meshing again.
+int export_file(const Arguments& a, const CommonOptions& common) {
+  if (a.exports.empty() || !a.output.empty())
+    throw InputError(fmt::format("{}: found a mesh, expected --export, any number, and no -o",
+                                 a.input.string()));
+  Mesh mesh = read_mesh(a.input);
+  for (auto& [name, surface] : mesh.surfaces)  // as a run has them; the file has them by name
+    std::sort(surface.faces.begin(), surface.faces.end(),
+              [](const FaceBlock& one, const FaceBlock& other) { return one.type < other.type; });
+  std::vector<std::string> files;
+  for (const auto& path : a.exports) {
+    export_mesh(mesh, path);
+    files.push_back(json_text(path.string()));
+  }
+  print_result(fmt::format("{}: {} cells, {} nodes to {}", mesh.name, mesh.cell_count(),
+                           mesh.nodes.rows(), fmt::join(files, ", ")));
+  write_depfile(common.depfile, a.exports.front(), {a.input});
+  if (common.json) print_json({{"files", fmt::format("[{}]", fmt::join(files, ", "))}});
+  return 0;
+}
+
 int run(const Arguments& a, const CommonOptions& common) {
+  if (a.faces) {
+    show_faces(a.input, a.output, a.limits, common);
+    return 0;
+  }
+  if (a.input.extension() == ".h5") return export_file(a, common);
+  if (a.output.empty()) throw InputError("command line: expected -o part.mesh.h5, or --faces");
   StepClock clock;
   const Outcome result = make_mesh(a, clock);
   report(result);
+  const RowMatrix& nodes = result.mesh.nodes;
+  warn_of_doubts(
+      a.input.string(),
+      {doubt_of_length((nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff())});
   if (!a.recipe.empty() && result.recipe.empty())
     throw InputError(fmt::format("{}: found no deck, expected one for --recipe", a.input.string()));
   H5File file = H5File::create(a.output);
@@ -191,6 +257,8 @@ int run(const Arguments& a, const CommonOptions& common) {
   file.commit();
   if (!a.recipe.empty()) write_whole_file(a.recipe, result.recipe);
   if (!result.cad.empty()) write_whole_file(a.step, result.cad);
+  if (!result.description.empty())
+    keep_description(description_beside(a.output), result.description);
   for (const auto& path : a.exports) export_mesh(result.mesh, path);
   write_depfile(common.depfile, a.output, result.provenance.inputs);
   if (common.json) {
@@ -217,8 +285,14 @@ int main(int argc, char** argv) {
                      kEpilog);
     line.positional(
         "part", a.input,
-        "description of the part (.mesh.toml), or a deck (.inp, .bdf, .nas, .dat, .msh)");
-    line.output("-o,--output", a.output, "mesh file to write (.mesh.h5)", true);
+        "description of the part (.mesh.toml), CAD (.step, .brep, .iges), a deck (.inp, .bdf, "
+        ".nas, .dat, .msh), or with --export a finished mesh (.mesh.h5)");
+    line.output("-o,--output", a.output, "mesh file to write (.mesh.h5); with --faces .faces.h5");
+    line.flag("--faces", a.faces,
+              "list the faces of CAD or a description: number, kind, radius, axis, place, area; "
+              "with -o for `clatter plot faces`");
+    line.option("--element-size-mm", a.element_size_mm,
+                "element size; default: the description's, of CAD alone by its volume");
     line.option("--units", a.units, "of a deck: mm-t-s, m-kg-s, ... (see below)");
     line.option("--ignore", a.ignore,
                 "card, keyword, element kind or group of a deck to skip; may be repeated");
@@ -226,7 +300,7 @@ int main(int argc, char** argv) {
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
     line.output("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.output("--export", a.exports,
-                "also write the mesh (.vtu, .msh, .inp, .bdf); may be repeated");
+                "also write the mesh (.vtu, .msh, .med, .unv, .inp, .bdf); may be repeated");
     line.option("--time-limit", a.limits.seconds,
                 "seconds of wall time that gmsh may take; 0: no limit");
     line.memory_limit("gmsh is stopped there, with a line that says so");

@@ -7,7 +7,9 @@
 #include "core/whole_file.hpp"
 #include "mesh/deck/abaqus_writer.hpp"
 #include "mesh/deck/nastran_writer.hpp"
+#include "mesh/med_writer.hpp"
 #include "mesh/msh_writer.hpp"
+#include "mesh/unv_writer.hpp"
 #include "mesh/vtu_writer.hpp"
 
 namespace clatter::mesh {
@@ -28,14 +30,17 @@ void warn_of_hanging_middles(const Mesh& mesh, const std::filesystem::path& path
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".vtu") return write_whole_file(path, vtu_text(mesh));
-  if (extension == ".msh" || extension == ".inp") warn_of_hanging_middles(mesh, path);
+  if (extension == ".msh" || extension == ".inp" || extension == ".med" || extension == ".unv")
+    warn_of_hanging_middles(mesh, path);
   if (extension == ".msh") return write_whole_file(path, msh_text(mesh));
+  if (extension == ".med") return write_med(mesh, path);
+  if (extension == ".unv") return write_whole_file(path, unv_text(mesh));
   if (extension == ".inp") return deck::write_abaqus(mesh, path);
   if (extension == ".bdf" || extension == ".nas" || extension == ".dat")
     return deck::write_nastran(mesh, path);
-  throw InputError(
-      fmt::format("{}: found extension '{}', expected .vtu, .msh, .inp, .bdf, .nas or .dat",
-                  path.string(), extension));
+  throw InputError(fmt::format(
+      "{}: found extension '{}', expected .vtu, .msh, .med, .unv, .inp, .bdf, .nas or .dat",
+      path.string(), extension));
 }
 
 }  // namespace clatter::mesh

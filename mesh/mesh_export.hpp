@@ -9,6 +9,8 @@ namespace clatter::mesh {
 /// Writes what the extension says; lengths in metres; InputError for another extension.
 ///  .vtu  ParaView: cells, numbers, regions, sets, surfaces, fields (vtu_writer.hpp)
 ///  .msh  Gmsh MSH 2.2 text (msh_writer.hpp)
+///  .med  Salome, Code_Aster (med_writer.hpp)
+///  .unv  I-DEAS universal file (unv_writer.hpp)
 ///  .inp  Abaqus and CalculiX (deck/abaqus_writer.hpp)
 ///  .bdf, .nas, .dat  Nastran (deck/nastran_writer.hpp)
 /// All carry the numbers of an imported mesh, its sets and surfaces; decks and .msh read back the

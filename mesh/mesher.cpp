@@ -17,28 +17,19 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kSelectTolerance = 1e-6;  // of the part's size; CAD kernels keep about 1e-7
 constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin round walls stay below
 
 using FaceTags = std::map<std::string, std::vector<int>>;
 
-double size_of_part(const std::vector<FaceFacts>& faces) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (const FaceFacts& face : faces) {
-    for (const Eigen::Vector3d& x : face.edge_points) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-  }
-  return (high - low).norm();
-}
-
 FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& part,
                        const std::string& where) {
-  const double tolerance = kSelectTolerance * size_of_part(faces);
+  const SelectionScale scale{size_of_part(faces), part.unit};
   FaceTags tags;
   for (const NamedSurface& surface : part.surfaces) {
-    tags[surface.name] = select_faces(faces, surface, tolerance, where);
+    const Selection selection = select_faces(faces, surface, scale, where);
+    for (const std::string& doubt : selection.doubts) warn(doubt);
+    for (const std::string& remark : selection.remarks) say(remark);
+    tags[surface.name] = selection.tags;
   }
   return tags;
 }

@@ -35,6 +35,7 @@ PartGeometry build_part(GmshSession& session, const Config& config) {
     config.fail("kind",
                 fmt::format("found '{}', expected block, piston, box, cylinder or cad", kind));
   }
+  part.unit = read_length_unit(config).name;
   const auto own = read_named_surfaces(config);
   part.surfaces.insert(part.surfaces.end(), own.begin(), own.end());
   return part;

@@ -29,6 +29,7 @@ struct PartGeometry {
   std::vector<NamedSurface> surfaces;
   std::vector<CadSolid> cad_solids = {};  // of a file with several; empty elsewhere
   double volume_tolerance = 1e-6;  // of a CAD solid against its mesh, beside its chords; relative
+  std::string unit = "mm";  // of its lengths, for messages
 };
 
 /// A length unit in metres: "mm", "cm", "m" or "in" (key `length_unit`, default "mm").

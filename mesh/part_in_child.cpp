@@ -132,7 +132,8 @@ Attempt simpler_than(MeshSettings settings) {
 
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
-  const MeshSettings asked = read_mesh_settings(*job.config);
+  MeshSettings asked = read_mesh_settings(*job.config);
+  if (job.element_size > 0.0) asked.element_size = job.element_size;
   std::optional<ScratchFolder> scratch;
   ChildLimits mine = limits;
   if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();

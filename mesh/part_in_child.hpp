@@ -18,6 +18,7 @@ struct PartJob {
   const Config* config = nullptr;  // of the part; read in the child
   std::string name, where;         // of the part; what begins messages: the description's file
   std::string cad_extension;       // ".step" or ".brep": the geometry is wanted too; empty: not
+  double element_size = 0.0;       // goes before the description's [m]; 0: as it says
 };
 
 struct MadePart {

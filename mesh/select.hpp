@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "mesh/face_shape.hpp"
 
 namespace clatter::mesh {
 
@@ -19,6 +20,7 @@ struct FaceFacts {
   std::string kind;  // "Plane", "Cylinder", "Torus", ...
   double area = 0.0;
   double radius = 0.0;                          // of a cylinder, else 0
+  FaceShape shape;                              // what kind, radius, axis are, as measured
   Eigen::Vector3d centre;                       // centre of the area
   std::vector<Eigen::Vector3d> edge_points;     // samples of the boundary curves
   std::vector<Eigen::Vector3d> surface_points;  // samples of the surface that carries the face
@@ -48,18 +50,50 @@ struct SurfaceFilter {
 struct NamedSurface {
   std::string name;
   std::vector<SurfaceFilter> filters;
+  double tolerance = 0.0;  // how far a face may be from where the filter has it; 0: as below
 };
 
+/// Where selection of faces ends without a `tolerance`, both in parts of the part's size. A face
+/// within the first is what the filter means: CAD kernels keep about 1e-7. Only where no face is
+/// that close, those within the second are taken and it is told: numbers read off a drawing.
+inline constexpr double kExactSelection = 1e-6;
+inline constexpr double kNearSelection = 1e-4;
+
+/// How far the face is from what the filter asks for: the largest of
+///   cylinder   | distance of x from the axis - radius |, over the points x of edges and surface
+///   plane      | normal . x - height |
+///   box        how far an edge reaches out of it
+/// and infinite when the face lies wholly in a box of `outside`, to within `exact`. [part's unit]
+double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact);
+
+/// Is the face that close?
 bool matches(const FaceFacts& face, const SurfaceFilter& filter, double tolerance);
 
-/// Tags of the selected faces, ascending. InputError, beginning with `where`, that lists what
-/// faces there are when nothing is selected.
-std::vector<int> select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
-                              double tolerance, const std::string& where);
+/// The part in which faces are selected.
+struct SelectionScale {
+  double size = 1.0;        // diagonal of the part
+  std::string unit = "mm";  // its unit, for messages
+};
+
+/// Selected faces, and what the user should hear of it.
+struct Selection {
+  std::vector<int> tags;             // ascending
+  std::vector<std::string> doubts;   // faces that were taken though they are not exactly there
+  std::vector<std::string> remarks;  // faces nearly there that were left out
+};
+
+/// The faces that a surface means. InputError, beginning with `where`, when there are none: it
+/// names the three nearest, how far off each is, and what faces there are.
+Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
+                       const SelectionScale& scale, const std::string& where);
 
 /// Reads the tables [surface.NAME] with the keys cylinder = {radius, point, axis},
-/// plane = {normal, height}, box = {min, max}, outside = {min, max}; lengths in the part's unit.
+/// plane = {normal, height}, box = {min, max}, outside = {min, max}, tolerance; lengths in the
+/// part's unit.
 std::vector<NamedSurface> read_named_surfaces(const Config& config);
+
+/// Diagonal of the box around all edges of the faces.
+double size_of_part(const std::vector<FaceFacts>& faces);
 
 /// "12 planes, cylinders of radius 20 (4), 53.5 (4)".
 std::string describe_faces(const std::vector<FaceFacts>& faces);

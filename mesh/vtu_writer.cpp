@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <span>
 
 #include "core/xml.hpp"
@@ -53,6 +54,16 @@ constexpr const char* RawArrays::kName<int64_t> = "Int64";
 template <>
 constexpr const char* RawArrays::kName<uint8_t> = "UInt8";
 
+// VTK's triangle, quadratic triangle, quadrilateral, quadratic quadrilateral.
+uint8_t vtk_type(FaceType type) {
+  constexpr std::array<uint8_t, kFaceTypes> kTypes = {5, 22, 9, 23};
+  return kTypes[static_cast<size_t>(type)];
+}
+
+int64_t count_drawn(const Mesh& mesh) {
+  return mesh.cells.empty() ? mesh.surface("skin").face_count() : mesh.cell_count();
+}
+
 std::string cells(const Mesh& mesh, RawArrays& raw) {
   std::vector<int32_t> connectivity;
   std::vector<int64_t> offsets;
@@ -63,6 +74,14 @@ std::string cells(const Mesh& mesh, RawArrays& raw) {
       offsets.push_back(static_cast<int64_t>(connectivity.size()));
       types.push_back(static_cast<uint8_t>(traits(block.type).vtk_type));
     }
+  if (mesh.cells.empty())
+    for (const FaceBlock& block : mesh.surface("skin").faces)
+      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i)
+          connectivity.push_back(block.nodes(f, i));
+        offsets.push_back(static_cast<int64_t>(connectivity.size()));
+        types.push_back(vtk_type(block.type));
+      }
   return raw.add("connectivity", connectivity) + raw.add("offsets", offsets) +
          raw.add("types", types);
 }
@@ -75,6 +94,7 @@ std::string cell_data(const Mesh& mesh, RawArrays& raw) {
       ids.push_back(block.ids.empty() ? static_cast<int32_t>(ids.size()) + 1
                                       : block.ids[static_cast<size_t>(c)]);
     }
+  if (mesh.cells.empty()) return "";
   return raw.add("id", ids) + raw.add("region", regions);
 }
 
@@ -115,7 +135,7 @@ std::string vtu_text(const Mesh& mesh) {
   };
   section("FieldData", field_data(mesh, raw));
   out += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.nodes.rows(),
-                     mesh.cell_count());
+                     count_drawn(mesh));
   section("Points", raw.rows("points", mesh.nodes));
   section("Cells", cells(mesh, raw));
   section("PointData", point_data(mesh, raw));

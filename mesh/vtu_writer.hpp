@@ -10,6 +10,7 @@ namespace clatter::mesh {
 ///
 ///   point data   `id` of each node, every node set as a flag under its name, every field
 ///   cell data    `id`, `region` (index)
+///                a mesh without cells is drawn by the faces of its surface "skin"
 ///   field data   "region NAME" = its index; "surface NAME TYPE" = node rows of its faces, one row
 ///                a face, in the order of cell.hpp, which is VTK's for faces; outward
 std::string vtu_text(const Mesh& mesh);

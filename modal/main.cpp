@@ -7,6 +7,7 @@
 //   clatter-modal --compare block.fe.h5 block.rom.h5
 //   clatter-modal block.fe.h5 --static -o block.static.h5
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -17,7 +18,10 @@
 #include "core/large_pages.hpp"
 #include "core/log.hpp"
 #include "modal/compare.hpp"
+#include "modal/first_frequency.hpp"
 #include "modal/modes_file.hpp"
+#include "modal/result_export.hpp"
+#include "modal/static_json.hpp"
 #include "modal/statics.hpp"
 
 namespace {
@@ -32,11 +36,16 @@ struct Arguments {
   double fmax_hz = 0.0;
   bool compare = false;
   bool statics = false;
+  std::vector<Path> exports;           // of modes and statics, for ParaView
   std::vector<std::string> cases;      // of --static
   std::vector<std::string> stress_at;  // of --static
 };
 
 std::string number(double value) { return json_number(value); }
+
+std::string list_of(const Eigen::VectorXd& values) {
+  return fmt::format("[{}]", fmt::join(values.data(), values.data() + values.size(), ", "));
+}
 
 modal::ModesOptions choose_options(const Arguments& arguments, std::string& resolved) {
   modal::ModesOptions options;
@@ -74,7 +83,8 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
     part = modal::analyse(full, options);
   }
   clock.lap("modes");
-  for (const std::string& line : modal::describe(part)) say(line);
+  for (const std::string& line : modal::describe(part)) print_result(line);
+  modal::warn_of_first_frequency(part);
 
   std::vector<Path> read{input};
   if (!arguments.config.empty()) read.push_back(arguments.config);
@@ -83,10 +93,13 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
   write_provenance(file, {modal::kModesSchema, resolved, read});
   write_timing(file, clock);
   file.commit();
+  const bool has_cells = !full.cells.blocks.empty();
+  modal::export_results(arguments.output, has_cells ? input : Path(), arguments.exports);
   write_depfile(common.depfile, arguments.output, read);
   if (common.json) {
     print_json({{"output", json_text(arguments.output.string())},
                 {"modes", number(part.modes.size())},
+                {"frequency_hz", list_of(part.modes.frequencies_hz())},
                 {"rigid", number(part.modes.rigid)},
                 {"count_proved", number(part.modes.proof.proved ? 1.0 : 0.0)},
                 {"seconds", number(clock.total_seconds())}});
@@ -105,22 +118,37 @@ int solve_static(const Arguments& arguments, const CommonOptions& common) {
   const std::vector<int32_t> stress_nodes = modal::nodes_at(model, arguments.stress_at);
   const modal::StaticSolution solution = modal::solve_static(model, arguments.cases);
   clock.lap(fmt::format("{} cases", solution.cases.size()));
-  for (const std::string& line : modal::describe(model, solution)) say(line);
+  for (const std::string& line : modal::describe(model, solution)) print_result(line);
   for (const int32_t node : stress_nodes)
     for (const modal::StaticCase& solved : solution.cases)
       for (const std::string& line : modal::describe_stress(model, solved, node))
-        fmt::print("{}\n", line);
+        print_result(line);
   H5File file = H5File::create(arguments.output);
   modal::write_static(file, model, solution);
   write_provenance(file, {modal::kStaticSchema, "", {input}});
   write_timing(file, clock);
   file.commit();
+  modal::export_results(arguments.output, model.cells.blocks.empty() ? Path() : input,
+                        arguments.exports);
   write_depfile(common.depfile, arguments.output, {input});
   if (common.json) {
     print_json({{"output", json_text(arguments.output.string())},
                 {"cases", number(static_cast<double>(solution.cases.size()))},
+                {"results", modal::json_of(model, solution)},
                 {"seconds", number(clock.total_seconds())}});
   }
+  return 0;
+}
+
+/// Results that are there already, for ParaView.
+int export_only(const Arguments& arguments, const CommonOptions& common) {
+  if (arguments.inputs.size() > 2 || !arguments.output.empty() || arguments.exports.empty())
+    throw InputError(
+        "command line: results (.modes.h5, .static.h5) expect --export, any number, "
+        "without -o; a second file, .fe.h5 or .mesh.h5, has the cells");
+  const Path cells = arguments.inputs.size() == 2 ? arguments.inputs[1] : Path();
+  modal::export_results(arguments.inputs.front(), cells, arguments.exports);
+  write_depfile(common.depfile, arguments.exports.front(), arguments.inputs);
   return 0;
 }
 
@@ -145,7 +173,7 @@ int compare(const Arguments& arguments, const CommonOptions& common) {
                 {"smallest_mac_up_to_it",
                  number(stated.modes.empty() ? std::nan("") : stated.smallest_mac())}});
   } else {
-    for (const std::string& line : modal::table_of(result)) fmt::print("{}\n", line);
+    for (const std::string& line : modal::table_of(result)) print_result(line);
   }
   return 0;
 }
@@ -158,6 +186,8 @@ int run(int argc, char** argv) {
                    "cases for displacements, stresses and reactions.",
                    "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"
                    "         clatter-modal --compare block.fe.h5 block.rom.h5\n"
+                   "         clatter-modal block.fe.h5 -o block.modes.h5 --export shapes.vtu\n"
+                   "         clatter-modal block.modes.h5 block.fe.h5 --export shapes.pvd\n"
                    "         clatter-modal block.fe.h5 --static --case weight -o block.static.h5\n"
                    "         clatter-modal block.fe.h5 --static --stress-at 0.1,0,0.25 -o "
                    "block.static.h5");
@@ -168,6 +198,9 @@ int run(int argc, char** argv) {
   line.option("--fmax-hz", arguments.fmax_hz, "all modes below this frequency");
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");
   line.flag("--static", arguments.statics, "solve the load cases of an assembled part");
+  line.output("--export", arguments.exports,
+              "also write shapes or static fields for ParaView, any number: all in one .vtu, or a "
+              "series .pvd; of results alone too, with the model or mesh as second file");
   line.option("--case", arguments.cases, "load or case to solve, any number; default: all");
   line.option("--stress-at", arguments.stress_at,
               "print stresses of --static here, any number: node number, x,y,z in metres, or a "
@@ -175,6 +208,9 @@ int run(int argc, char** argv) {
   line.blas();
   line.memory_limit();
   if (!line.parse(argc, argv)) return line.exit_code();
+  modal::check_result_exports(arguments.exports);
+  if (!arguments.inputs.empty() && modal::is_results(arguments.inputs.front()))
+    return export_only(arguments, line.common());
   if (arguments.statics) return solve_static(arguments, line.common());
   if (arguments.count < 0 || arguments.fmax_hz < 0.0) {
     throw InputError(

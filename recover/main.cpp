@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
   recover::write_exports(output, summary);
   write_depfile(line.common().depfile, output, inputs);
 
-  say(recover::summary_text(summary));
+  print_result(recover::summary_text(summary));
   if (line.common().json) print_summary(output, summary, clock.total_seconds());
   return 0;
 }

@@ -175,8 +175,8 @@ TEST(Gmsh, HardG5_FourBoresAndDecksAreFoundAfterARotation) {
     const Vector3d half(61, 200, 400);
     deck.box = BoxFilter{Vector3d(x, 0, 0) - half, Vector3d(x, 0, 0) + half};
     const double tolerance = 1e-3;  // mm; STEP keeps about 1e-7 relative
-    EXPECT_EQ(select_faces(faces, {"bore", {bore}}, tolerance, "t").size(), 1u);
-    EXPECT_EQ(select_faces(faces, {"head", {deck}}, tolerance, "t").size(), 1u);
+    EXPECT_EQ(select_faces(faces, {"bore", {bore}, tolerance}, {}, "t").tags.size(), 1u);
+    EXPECT_EQ(select_faces(faces, {"head", {deck}, tolerance}, {}, "t").tags.size(), 1u);
   }
 }
 

@@ -16,12 +16,15 @@ FaceFacts cylinder_face() {
   face.kind = "Cylinder";
   face.radius = 2.0;
   face.centre = {5, 0, 1.5};
+  std::vector<Eigen::Vector3d> normals;
   for (int i = 0; i < 16; ++i) {
     const double a = i * M_PI / 8;
     for (double z : {0.0, 3.0})
       face.edge_points.push_back({5 + 2 * std::cos(a), 2 * std::sin(a), z});
-    face.surface_points.push_back({5 + 2 * std::cos(a), 2 * std::sin(a), 1.0});
+    face.surface_points.push_back({5 + 2 * std::cos(a), 2 * std::sin(a), 1.0 + 0.1 * i});
+    normals.push_back({std::cos(a), std::sin(a), 0.0});
   }
+  face.shape = find_shape(face.kind, face.surface_points, normals);
   return face;
 }
 
@@ -48,16 +51,68 @@ TEST(Select, FiltersCombine) {
   EXPECT_FALSE(selected("plane = { normal = [0, 0, 1], height = 3.0 }"));
 }
 
-TEST(Select, NothingSelectedIsAnErrorThatListsTheFaces) {
-  const auto named = surfaces("[surface.bore]\nplane = { normal = [1, 0, 0], height = 3.0 }");
+// A part of 100 mm: exact is 0.1 um, near 10 um.
+const SelectionScale kScale{100.0, "mm"};
+
+std::string refusal(const std::string& keys) {
   try {
-    select_faces({cylinder_face()}, named[0], 1e-9, "part.toml");
-    FAIL();
+    select_faces({cylinder_face()}, surfaces("[surface.bore]\n" + keys)[0], kScale, "part.toml");
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "part.toml: surface 'bore' selects no face; the part has 0 planes, cylinders of "
-                 "radius 2 (1), 0 other faces");
+    return error.what();
   }
+  return "selected";
+}
+
+TEST(Select, NothingSelectedNamesTheNearestFacesAndHowFarOffEachIs) {
+  const std::string faces = "; the part has 0 planes, cylinders of radius 2 (1), 0 other faces";
+  const std::string begin =
+      "part.toml: surface 'bore' selects no face; nearest: face 4, cylinder of radius 2 mm, ";
+  EXPECT_EQ(refusal("plane = { normal = [1, 0, 0], height = 3.0 }"),
+            begin + "up to 4 mm off" + faces);
+  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5.3, 0, 0], axis = [0, 0, 1] }"),
+            begin + "axis 0.3 mm away" + faces);
+  EXPECT_EQ(refusal("cylinder = { radius = 1.5, point = [5, 0, 0], axis = [0, 0, 1] }"),
+            begin + "radius 0.5 mm more" + faces);
+  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 1.5], axis = [0, 1, 0] }"),
+            begin + "axis turned by 90 deg" + faces);
+  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n"
+                    "box = { min = [0, -2, 0], max = [7, 2, 2] }"),
+            begin + "reaches 1 mm out of the box" + faces);
+}
+
+// The bore's centre was read off a drawing, 5 um beside where it is.
+TEST(Select, AFaceFiveMicrometresOffIsTakenAndTold) {
+  const auto named = surfaces(
+      "[surface.bore]\ncylinder = { radius = 2, point = [5.005, 0, 0], axis = [0, 0, 1] }");
+  const Selection selection = select_faces({cylinder_face()}, named[0], kScale, "part.toml");
+  EXPECT_EQ(selection.tags, std::vector<int>{4});
+  ASSERT_EQ(selection.doubts.size(), 1u);
+  EXPECT_EQ(selection.doubts[0],
+            "part.toml: surface 'bore': face 4, cylinder of radius 2 mm, axis 0.005 mm away, is "
+            "taken as none is closer: tolerance = 0.0055 in [surface.bore] says that it is meant");
+}
+
+TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
+  FaceFacts beside = cylinder_face();
+  beside.tag = 7;
+  for (auto* points : {&beside.edge_points, &beside.surface_points})
+    for (Eigen::Vector3d& x : *points) x.x() += 0.005;
+  beside.shape.point.x() += 0.005;
+  const std::string bore =
+      "[surface.s]\ncylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n";
+  const Selection exact = select_faces({cylinder_face(), beside}, surfaces(bore)[0], kScale, "t");
+  EXPECT_EQ(exact.tags, std::vector<int>{4});
+  EXPECT_TRUE(exact.doubts.empty());
+  ASSERT_EQ(exact.remarks.size(), 1u);
+  EXPECT_NE(exact.remarks[0].find("face 7"), std::string::npos) << exact.remarks[0];
+  const Selection wide =
+      select_faces({cylinder_face(), beside}, surfaces(bore + "tolerance = 0.01")[0], kScale, "t");
+  EXPECT_EQ(wide.tags, (std::vector<int>{4, 7}));
+  EXPECT_TRUE(wide.doubts.empty() && wide.remarks.empty());
+  const auto narrow = surfaces(
+      "[surface.s]\ntolerance = 1e-4\ncylinder = { radius = 2, point = "
+      "[5.005, 0, 0], axis = [0, 0, 1] }");
+  EXPECT_THROW(select_faces({cylinder_face()}, narrow[0], kScale, "t"), InputError);
 }
 
 TEST(Select, WrongTablesAreRefused) {

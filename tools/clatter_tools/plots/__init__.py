@@ -1,5 +1,5 @@
 """Pictures from artefacts: one function a picture, one style for all."""
-from . import accelerations, film, piston, quality, radiation, shape, style
+from . import accelerations, faces, film, piston, quality, radiation, shape, style
 
 PICTURES = {
     "piston": piston.draw,
@@ -7,6 +7,7 @@ PICTURES = {
     "acceleration": accelerations.draw,
     "erp": radiation.draw,
     "mesh": shape.draw_mesh,
+    "faces": faces.draw,
     "quality": quality.draw,
     "shape": shape.draw_deflection,
 }

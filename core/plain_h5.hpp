@@ -1,0 +1,37 @@
+#pragma once
+// HDF5 files in the layouts of other programs: their types, no filters, nothing of our own.
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clatter {
+
+/// Writes to `path.part`; commit() syncs it and gives it its name, else the part goes. Groups are
+/// made when missing. FileError when the disk refuses.
+class PlainH5 {
+ public:
+  explicit PlainH5(const std::filesystem::path& path);
+  ~PlainH5();
+  PlainH5(const PlainH5&) = delete;
+  PlainH5& operator=(const PlainH5&) = delete;
+
+  void group(const std::string& name);
+  /// Lists: 64-bit floats, 32-bit whole numbers.
+  void write(const std::string& name, const std::vector<double>& values);
+  void write(const std::string& name, const std::vector<int32_t>& values);
+  /// Texts as a list of arrays of `length` bytes each, filled with zeros.
+  void write_fixed(const std::string& name, const std::vector<std::string>& texts, size_t length);
+  /// Attributes of one value; a text has its own length and ends with a zero.
+  void set(const std::string& object, const std::string& name, int32_t value);
+  void set(const std::string& object, const std::string& name, double value);
+  void set(const std::string& object, const std::string& name, const std::string& text);
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,15 @@
+#include "modal/first_frequency.hpp"
+
+#include "core/plausible.hpp"
+
+namespace clatter::modal {
+
+void warn_of_first_frequency(const PartModes& part) {
+  const Eigen::VectorXd hz = part.modes.frequencies_hz();
+  if (hz.size() <= part.modes.rigid || part.nodes.rows() < 2) return;
+  const double length =
+      (part.nodes.colwise().maxCoeff() - part.nodes.colwise().minCoeff()).maxCoeff();
+  warn_of_doubts(part.name, {doubt_of_first_frequency(hz[part.modes.rigid], length)});
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,44 @@
+#include "modal/static_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/command_line.hpp"
+
+namespace clatter::modal {
+namespace {
+
+std::string supports_of(const assembly::FeModel& model, const StaticCase& solved) {
+  std::vector<std::string> members;
+  for (Eigen::Index s = 0; s < solved.support_sums.rows(); ++s) {
+    std::vector<std::string> sums;
+    for (const double value : solved.support_sums.row(s)) sums.push_back(json_number(value));
+    members.push_back(fmt::format("{}: [{}]",
+                                  json_text(model.supports.names[static_cast<size_t>(s)]),
+                                  fmt::join(sums, ", ")));
+  }
+  return fmt::format("{{{}}}", fmt::join(members, ", "));
+}
+
+}  // namespace
+
+std::string json_of(const assembly::FeModel& model, const StaticSolution& solution) {
+  std::vector<std::string> cases;
+  for (const StaticCase& one : solution.cases) {
+    double largest = 0.0;
+    for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
+      largest = std::max(largest, one.displacement.segment<3>(3 * a).norm());
+    const double stress = one.stress.empty() ? std::nan("") : largest_stress(model, one).von_mises;
+    cases.push_back(fmt::format(
+        "{{\"name\": {}, \"largest_displacement_m\": {}, \"energy_j\": {}, \"residual\": {}, "
+        "\"balance\": {}, \"largest_von_mises_pa\": {}, \"supports\": {}}}",
+        json_text(one.name), json_number(largest), json_number(one.energy),
+        json_number(one.residual), json_number(one.balance), json_number(stress),
+        supports_of(model, one)));
+  }
+  return fmt::format("[{}]", fmt::join(cases, ", "));
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,64 @@
+"""Where each program prints what: results on stdout, progress and warnings on stderr, one line of JSON instead."""
+import json
+import unittest
+
+import stages
+
+RESULT = {"mesh": "degrees of freedom", "assembly": "mass ", "modal": " Hz  residual", "condense": "basis holds modes",
+          "dynamics": "steps: ", "recover": "ERP"}
+UNITS = [("rho = 7850.0", "rho = 7.85e-9", "density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?"),
+         ("E_gpa = 210.0", "E = 210000.0", "Young's modulus 210000 Pa: did you mean 2.1e+11 (210000 MPa)?"),
+         ("E_gpa = 210.0", "E_gpa = 210000.0", "Young's modulus 2.1e+14 Pa: did you mean 2.1e+11 (MPa, not GPa)?")]
+
+
+class Output(stages.PipelineTest):
+    def run_stage(self, stage, *more):
+        done = stages.run_stage(stage, *self.command(stage), *more, folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def test_results_are_on_stdout_and_stay_there_when_quiet(self):
+        for stage, text in RESULT.items():
+            with self.subTest(stage):
+                done = self.run_stage(stage)
+                self.assertIn(text, done.stdout)
+                self.assertNotIn(text, done.stderr)
+                self.assertIn("peak ", done.stderr)  # a step's seconds and memory
+                self.assertNotIn("peak 0.", done.stdout)
+                quiet = self.run_stage(stage, "--quiet")
+                self.assertIn(text, quiet.stdout)
+                self.assertEqual([line for line in quiet.stderr.splitlines() if not line.startswith("warning: ")], [])
+
+    def test_json_is_one_line_on_stdout_and_the_rest_stays_readable(self):
+        for stage, text in RESULT.items():
+            with self.subTest(stage):
+                done = self.run_stage(stage, "--json")
+                self.assertEqual(len(done.stdout.splitlines()), 1)
+                self.assertIsInstance(json.loads(done.stdout), dict)
+                self.assertIn(text, done.stderr)
+
+    def test_units_that_no_material_has_are_told_once_and_not_refused(self):
+        for old, new, expected in UNITS:
+            with self.subTest(new):
+                self.setUp()
+                self.edit("beam.fe.toml", old, new)
+                done = self.run_stage("assembly")
+                self.assertEqual([line for line in done.stderr.splitlines() if line.startswith("warning: ")],
+                                 [f"warning: beam.fe.toml: {expected}"])
+        self.assertNotIn("did you mean", stages.run_stage("assembly", *self.command("assembly"),
+                                                          folder=self.master).stderr)
+
+    def test_a_box_of_metres_and_a_frequency_of_megahertz_are_told(self):
+        self.edit("beam.mesh.toml", 'length_unit = "mm"', 'length_unit = "m"')
+        self.edit("beam.mesh.toml", "element_size_mm = 15.0", "element_size_mm = 15000.0")
+        done = self.run_stage("mesh")
+        self.assertIn("m long: did you mean", done.stderr)
+        self.assertEqual(done.stderr.count("did you mean"), 1)
+        self.setUp()
+        self.edit("beam.fe.toml", "rho = 7850.0", "rho = 7.85e-9")  # frequencies a million times too high
+        self.run_stage("assembly")
+        self.assertIn("one system of units", self.run_stage("modal").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

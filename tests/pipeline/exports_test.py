@@ -1,0 +1,101 @@
+"""A finished mesh goes to every format without meshing again; MED as its own library reads it."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import stages  # noqa: E402
+from vtk_test import deck  # noqa: E402
+
+STEP = "-0000000000000000001-0000000000000000001"
+# MED's cells (MED-fichier, reference elements): edges in the order of their middle nodes, and the volume that the
+# corners have when the lower face, seen from outside, turns anticlockwise.
+EDGES = {
+    "TE4": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "HE8": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
+    "PE6": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "PY5": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
+}
+LINEAR = {"TE4": "TE4", "T10": "TE4", "HE8": "HE8", "H20": "HE8", "PE6": "PE6", "P15": "PE6", "PY5": "PY5", "P13": "PY5"}
+LOWER = {"TE4": 3, "HE8": 4, "PE6": 3, "PY5": 4}  # corners of the lower face
+
+
+class Exports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        stages.require_stages()
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-exports-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "cells.bdf").write_text(deck())
+        cls.mesh("cells.bdf", "--units", "m-kg-s", "-o", "cells.mesh.h5", "--export", "first.vtu", "--export", "first.bdf")
+        (cls.folder / "cells.bdf").unlink()
+        cls.mesh("cells.mesh.h5", *[word for kind in ("vtu", "med", "bdf", "msh", "nas")
+                                    for word in ("--export", f"cells.{kind}")])
+
+    @classmethod
+    def mesh(cls, *arguments, code=0):
+        done = stages.run_stage("mesh", *arguments, folder=cls.folder)
+        if done.returncode != code:
+            raise AssertionError(done.stderr)
+        return done
+
+    def test_a_finished_mesh_exports_what_the_run_exports(self):
+        for kind in ("vtu", "bdf"):
+            self.assertEqual((self.folder / f"first.{kind}").read_bytes(), (self.folder / f"cells.{kind}").read_bytes())
+        self.assertGreater((self.folder / "cells.msh").stat().st_size, 1000)
+
+    def test_no_output_and_no_export_is_refused(self):
+        self.assertIn("--export", self.mesh("cells.mesh.h5", code=2).stderr)
+        self.assertIn("--export", self.mesh("cells.mesh.h5", "-o", "x.mesh.h5", "--export", "y.vtu", code=2).stderr)
+        self.assertIn(".med, .unv", self.mesh("cells.mesh.h5", "--export", "y.docx", code=2).stderr)
+        self.assertIn("pyramid", self.mesh("cells.mesh.h5", "--export", "y.unv", code=2).stderr)
+        self.assertFalse(list(self.folder.glob("y.*")))
+
+    @unittest.skipIf(shutil.which("mdump") is None, "mdump (package libmed-tools) is not installed")
+    def test_med_is_what_its_own_library_reads(self):
+        done = subprocess.run(["mdump", "cells.med", "NODALE", "FULL_INTERLACE", "0"], cwd=self.folder, text=True,
+                              capture_output=True, errors="replace")
+        self.assertEqual(done.returncode, 0)
+        self.assertNotIn("ERREUR", done.stdout + done.stderr)
+        counts = dict(re.findall(r"Nombre de mailles de type (\w+) : (\d+)", done.stdout))
+        self.assertEqual({kind: int(counts[f"MED_{kind}"]) for kind in
+                          ("TETRA4", "TETRA10", "HEXA8", "HEXA20", "PENTA6", "PENTA15", "PYRA5", "PYRA13")},
+                         dict.fromkeys(("TETRA4", "TETRA10", "HEXA8", "HEXA20", "PENTA6", "PENTA15", "PYRA5", "PYRA13"), 1))
+        with h5py.File(self.folder / "cells.mesh.h5") as mesh:
+            faces = {kind: len(rows) for kind, rows in mesh["surfaces/skin"].items()}
+            names = [name.decode() for name in mesh["regions"][()]] + ["skin", *mesh["node_sets"]]
+        for med, ours in {"TRIA3": "tri3", "TRIA6": "tri6", "QUAD4": "quad4", "QUAD8": "quad8"}.items():
+            self.assertEqual(int(counts[f"MED_{med}"]), faces[ours])
+        groups = [name.strip() for name in re.findall(r"gro = (.*)", done.stdout)]
+        self.assertEqual(sorted(groups), sorted(names))
+
+    def test_cells_of_med_are_turned_as_med_has_them_with_middles_on_their_edges(self):
+        with h5py.File(self.folder / "cells.med") as med, h5py.File(self.folder / "cells.mesh.h5") as mesh:
+            step = med[f"ENS_MAA/cells/{STEP}"]
+            points = step["NOE/COO"][()].reshape(3, -1).T
+            np.testing.assert_array_equal(points, mesh["nodes"][()])
+            np.testing.assert_array_equal(step["NOE/NUM"][()], mesh["node_ids"][()])
+            for kind, linear in LINEAR.items():
+                x = points[step[f"MAI/{kind}/NOD"][()] - 1]
+                corners = {"TE4": 4, "HE8": 8, "PE6": 6, "PY5": 5}[linear]
+                with self.subTest(kind):
+                    normal = np.cross(x[1] - x[0], x[2] - x[0])  # of the lower face: out of the cell
+                    self.assertLess(normal @ (x[corners - 1] - x[0]) if linear in ("TE4", "PY5")
+                                    else normal @ (x[LOWER[linear]] - x[0]), 0)
+                    for middle, (a, b) in zip(x[corners:], EDGES[linear]):
+                        np.testing.assert_allclose(middle, (x[a] + x[b]) / 2)
+            families = med["FAS/cells"]
+            node_family = step["NOE/FAM"][()]
+            number = {families[f"NOEUD/{name}"].attrs["NUM"] for name in families["NOEUD"]}
+            self.assertEqual(set(node_family[mesh["node_sets/FEW & <OTHERS>"][()]]), number)
+            self.assertEqual(np.count_nonzero(node_family), len(mesh["node_sets/FEW & <OTHERS>"]))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
