@@ -73,7 +73,7 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   for (const CellBlock& block : mesh.cells) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
-      if (dihedral_angles(x).minCoeff() >= limit_deg) continue;
+      if (smallest_dihedral(x, limit_deg) >= limit_deg) continue;
       const double mean = mean_edge(x);
       spots.push_back({x.colwise().mean().transpose(), mean, kSpotFactor * mean});
     }
