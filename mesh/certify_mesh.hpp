@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "mesh/poor_cells.hpp"
 #include "mesh/quality.hpp"
 
 namespace clatter::mesh {
@@ -11,6 +12,7 @@ namespace clatter::mesh {
 /// Counts, volume, closed and outward boundary, extremes of quality. NumericsError when the skin is
 /// not closed and outward: V = (1/3) closed integral of x . n dS must be the cells' volume, the
 /// closed integral of n dS zero, and every normal point out of its cell (hard cases G4, G9).
-std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality);
+std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality,
+                                           const PoorCells& poor);
 
 }  // namespace clatter::mesh

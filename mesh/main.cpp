@@ -66,6 +66,7 @@ struct Arguments {
   std::string units;
   std::vector<std::string> ignore;
   int parts = 0;
+  bool accept_poor_cells = false;
 };
 
 /// A mesh with what is written beside it.
@@ -111,6 +112,8 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
   clock.lap("geometry");
   if (!a.step.empty()) session.write_cad(a.step, unit.name);
   PartMesh made = mesh_part(session, part, settings, unit.metres, name, a.input.string());
+  judge_poor_cells(made.poor, made.mesh, aims_of(settings), {unit.name, unit.metres},
+                   settings.accept_poor_cells || a.accept_poor_cells);
   clock.lap("mesh");
   Outcome out{std::move(made.mesh),
               std::move(made.quality),
@@ -137,7 +140,11 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
   out.mesh = std::move(found.mesh);
   check_structure(out.mesh, source.string());
   out.quality = measure_quality(out.mesh);
-  out.certificate = certify_mesh(out.mesh, out.quality);
+  const PoorCells poor = find_poor_cells(out.mesh, out.quality);
+  out.certificate = certify_mesh(out.mesh, out.quality, poor);
+  judge_poor_cells(poor, out.mesh, kQualityAims,
+                   {units.name.substr(0, units.name.find('-')), units.length},
+                   true);  // the mesh is the user's: never refused by quality
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
                                          source.string(), units.name, fmt::join(ignore, ", "));
   out.provenance = {kMeshSchema, config, {}};
@@ -222,6 +229,8 @@ int main(int argc, char** argv) {
                 "card, keyword, element kind or group of a deck to skip; may be repeated");
     line.option("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
+    line.flag("--accept-poor-cells", a.accept_poor_cells,
+              "warn, do not refuse, where cells are too poor to be trusted");
     line.option("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.option("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .inp, .bdf); may be repeated");

@@ -164,6 +164,7 @@ MeshSettings read_mesh_settings(const Config& config) {
       table->number_or("min_scaled_jacobian", settings.min_scaled_jacobian, {0.0, 0.9});
   settings.refine_passes =
       static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
+  settings.accept_poor_cells = table->flag_or("accept_poor_cells", false);
   if (settings.min_size > settings.element_size) {
     table->fail("min_size_mm", "expected at most element_size_mm");
   }
@@ -179,6 +180,10 @@ MeshSettings read_mesh_settings(const Config& config) {
     settings.local.push_back(size);
   }
   return settings;
+}
+
+QualityLimits aims_of(const MeshSettings& settings) {
+  return {settings.min_dihedral_deg, settings.min_scaled_jacobian};
 }
 
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
@@ -199,7 +204,8 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   }
   check_structure(mesh, "mesh");
   result.quality = measure_quality(mesh);
-  result.certificate = certify_mesh(mesh, result.quality);
+  result.poor = find_poor_cells(mesh, result.quality, aims_of(settings));
+  result.certificate = certify_mesh(mesh, result.quality, result.poor);
   certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
   result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;

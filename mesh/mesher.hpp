@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/part_geometry.hpp"
+#include "mesh/poor_cells.hpp"
 #include "mesh/quality.hpp"
 
 namespace clatter::mesh {
@@ -25,13 +26,16 @@ struct MeshSettings {
   double min_dihedral_deg = 8.0;     // aimed at: cells below are meshed anew with finer neighbours
   double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
   int refine_passes = 4;             // at most so many times; 0: never
+  bool accept_poor_cells = false;    // below the floor of poor_cells.hpp: warned of, not refused
   std::vector<LocalSize> local;      // [[mesh.local]]
 };
 MeshSettings read_mesh_settings(const Config& config);
+QualityLimits aims_of(const MeshSettings& settings);
 
 struct PartMesh {
   Mesh mesh;
   QualityReport quality;
+  PoorCells poor;  // not judged yet: judge_poor_cells()
   std::map<std::string, double> certificate;
 };
 

@@ -196,6 +196,10 @@ std::vector<double> dihedral_angles(CellType type, const CellNodes& x) {
   return angles;
 }
 
+double smallest_angle_of(CellType type, const CellNodes& x) {
+  return extreme_angles(type, x).first;
+}
+
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners) {
   const Eigen::Vector3d a = corners.row(1) - corners.row(0);
   const Eigen::Vector3d b = corners.row(2) - corners.row(0);

@@ -60,6 +60,9 @@ double smallest_dihedral(const Eigen::Matrix<double, 4, 3>& corners, double limi
 /// Angles between the faces at each edge of any cell, at both ends of the edge, (2 edges) [deg].
 std::vector<double> dihedral_angles(CellType type, const CellNodes& x);
 
+/// The smallest of those.
+double smallest_angle_of(CellType type, const CellNodes& x);
+
 /// 3 r_in / r_circum.
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);
 
