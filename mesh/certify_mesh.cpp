@@ -14,8 +14,7 @@ constexpr double kClosedTolerance = 1e-10;  // relative; rounding of some 1e5 su
 
 }  // namespace
 
-std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality,
-                                           const PoorCells& poor) {
+std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality) {
   const Surface& skin = mesh.surface("skin");
   const SurfaceIntegrals closed = integrate(mesh, skin);
   const double volume = cell_volume(mesh);
@@ -41,11 +40,7 @@ std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport
           {"min_scaled_jacobian", quality.scaled_jacobian.worst},
           {"min_dihedral_deg", quality.min_dihedral_deg.worst},
           {"max_dihedral_deg", quality.max_dihedral_deg.worst},
-          {"min_radius_ratio", quality.radius_ratio.worst},
-          {"poor_cells", static_cast<double>(poor.cells)},
-          {"poor_cells_below_floor", static_cast<double>(poor.below_floor)},
-          {"poor_cells_volume_share", poor.volume_share},
-          {"poor_cells_frequency_effect", poor.frequency_effect}};
+          {"min_radius_ratio", quality.radius_ratio.worst}};
 }
 
 }  // namespace clatter::mesh

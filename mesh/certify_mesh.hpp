@@ -4,7 +4,6 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
-#include "mesh/poor_cells.hpp"
 #include "mesh/quality.hpp"
 
 namespace clatter::mesh {
@@ -12,7 +11,6 @@ namespace clatter::mesh {
 /// Counts, volume, closed and outward boundary, extremes of quality. NumericsError when the skin is
 /// not closed and outward: V = (1/3) closed integral of x . n dS must be the cells' volume, the
 /// closed integral of n dS zero, and every normal point out of its cell (hard cases G4, G9).
-std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality,
-                                           const PoorCells& poor);
+std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality);
 
 }  // namespace clatter::mesh

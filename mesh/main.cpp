@@ -17,6 +17,7 @@
 #include "mesh/mesher.hpp"
 #include "mesh/metis_partition.hpp"
 #include "mesh/msh_reader.hpp"
+#include "mesh/poor_cells.hpp"
 
 namespace {
 
@@ -50,7 +51,8 @@ beside its mesh (materials, couplings, supports, loads) goes to the fe.toml of t
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 
-Any CAD file: kind = "cad" with [cad] source = "part.step"; surfaces by
+Any CAD file: kind = "cad" with [cad] source = "part.step", defeature_below = 0.5 to take out faces
+narrower than that (fillets, chamfers, tiny holes); surfaces by
 cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max },
 outside = { min, max }.
 
@@ -112,7 +114,10 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
   clock.lap("geometry");
   if (!a.step.empty()) session.write_cad(a.step, unit.name);
   PartMesh made = mesh_part(session, part, settings, unit.metres, name, a.input.string());
-  judge_poor_cells(made.poor, made.mesh, aims_of(settings), {unit.name, unit.metres},
+  const QualityLimits aims = aims_of(settings);
+  const PoorCells poor = find_poor_cells(made.mesh, made.quality, aims);
+  note_poor_cells(poor, made.certificate);
+  judge_poor_cells(poor, made.mesh, aims, {unit.name, unit.metres},
                    settings.accept_poor_cells || a.accept_poor_cells);
   clock.lap("mesh");
   Outcome out{std::move(made.mesh),
@@ -141,7 +146,8 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
   check_structure(out.mesh, source.string());
   out.quality = measure_quality(out.mesh);
   const PoorCells poor = find_poor_cells(out.mesh, out.quality);
-  out.certificate = certify_mesh(out.mesh, out.quality, poor);
+  out.certificate = certify_mesh(out.mesh, out.quality);
+  note_poor_cells(poor, out.certificate);
   judge_poor_cells(poor, out.mesh, kQualityAims,
                    {units.name.substr(0, units.name.find('-')), units.length},
                    true);  // the mesh is the user's: never refused by quality

@@ -9,12 +9,14 @@
 #include "core/log.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/certify_mesh.hpp"
+#include "mesh/small_features.hpp"
 #include "mesh/valid_mesh.hpp"
 
 namespace clatter::mesh {
 namespace {
 
 constexpr double kSelectTolerance = 1e-6;  // of the part's size; CAD kernels keep about 1e-7
+constexpr double kCoarsest = 0.1;          // of the part's size: what Gmsh gives edges at most
 constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin round walls stay below
 
 using FaceTags = std::map<std::string, std::vector<int>>;
@@ -38,6 +40,28 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
     tags[surface.name] = select_faces(faces, surface, tolerance, where);
   }
   return tags;
+}
+
+// Gmsh gives edges a tenth of the part's size at most; so that larger sizes are one and the same
+// mesh, faces and solids get no more either. Coarser chords would cut through walls.
+void cap_size(SizeSettings& sizes, double coarsest) {
+  if (sizes.size <= coarsest) return;
+  warn(
+      fmt::format("mesh: element size {:g} is above a tenth of the part's diagonal: {:.4g}, the "
+                  "coarsest there is, is taken (lengths in the part's unit)",
+                  sizes.size, coarsest));
+  sizes.size = std::max(coarsest, sizes.min_size);
+}
+
+// Features far below the size asked for: cells there are as small as they are.
+void say_small_features(GmshSession& session, const std::vector<FaceFacts>& faces, double size) {
+  constexpr double kFarBelow = 0.2;  // of the size: cells grow to it over several layers
+  const SmallFeatures features = find_small_features(session, faces, kFarBelow * size);
+  if (features.count() == 0) return;
+  say(
+      fmt::format("mesh: the part has features far smaller than its elements ({:g}), which rule "
+                  "the mesh around them: {}",
+                  size, describe_small_features(features)));
 }
 
 // A face's own size: the smaller of what the factor and the curvature ask for.
@@ -188,8 +212,11 @@ QualityLimits aims_of(const MeshSettings& settings) {
 
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
                    double metres_per_unit, const std::string& name, const std::string& where) {
-  const FaceTags tags = find_surfaces(session.boundary_faces(), part, where);
-  const SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  const std::vector<FaceFacts> faces = session.boundary_faces();
+  const FaceTags tags = find_surfaces(faces, part, where);
+  SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  cap_size(sizes, kCoarsest * size_of_part(faces));
+  say_small_features(session, faces, sizes.size);
   PartMesh result;
   const Repair repair =
       make_valid_mesh(session, part, settings, sizes, metres_per_unit, result.mesh);
@@ -204,11 +231,11 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   }
   check_structure(mesh, "mesh");
   result.quality = measure_quality(mesh);
-  result.poor = find_poor_cells(mesh, result.quality, aims_of(settings));
-  result.certificate = certify_mesh(mesh, result.quality, result.poor);
+  result.certificate = certify_mesh(mesh, result.quality);
   certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
   result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
+  result.certificate["optimiser_repair"] = repair.optimised ? 1.0 : 0.0;
   result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;
   result.certificate["nodes_off_geometry"] = static_cast<double>(repair.pulled);
   result.certificate["largest_distance_off_geometry_m"] = repair.largest_pull;

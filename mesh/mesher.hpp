@@ -35,7 +35,6 @@ QualityLimits aims_of(const MeshSettings& settings);
 struct PartMesh {
   Mesh mesh;
   QualityReport quality;
-  PoorCells poor;  // not judged yet: judge_poor_cells()
   std::map<std::string, double> certificate;
 };
 

@@ -96,6 +96,13 @@ std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const Q
                      effect_text(poor));
 }
 
+void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certificate) {
+  certificate["poor_cells"] = static_cast<double>(poor.cells);
+  certificate["poor_cells_below_floor"] = static_cast<double>(poor.below_floor);
+  certificate["poor_cells_volume_share"] = poor.volume_share;
+  certificate["poor_cells_frequency_effect"] = poor.frequency_effect;
+}
+
 void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
                       const PlaceUnit& unit, bool accept) {
   if (poor.cells == 0) return;
@@ -107,7 +114,7 @@ void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimi
   throw NumericsError(fmt::format(
       "mesh: {} cells are below {:g} deg or a scaled Jacobian of {:g}, too poor to be trusted; {}: "
       "choose another element_size_mm or finer [[mesh.local]] there, suppress small features by "
-      "[cad] defeature_below_mm, or take the mesh as it is by --accept-poor-cells ([mesh] "
+      "[cad] defeature_below, or take the mesh as it is by --accept-poor-cells ([mesh] "
       "accept_poor_cells = true)",
       poor.below_floor, kQualityFloor.dihedral_deg, kQualityFloor.scaled_jacobian, what));
 }

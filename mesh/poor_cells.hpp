@@ -1,5 +1,6 @@
 #pragma once
 // Cells that are poorer than aimed at: where they are, what they cost, and when they are too poor.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ struct QualityLimits {
   double dihedral_deg, scaled_jacobian;
 };
 inline constexpr QualityLimits kQualityAims = {8.0, 0.2};
-/// Below, a mesh of our own is refused. 1 deg: condition numbers grow by 1 / angle^2, 3000 times
-/// what a good cell has; solvers lose four digits. Scaled Jacobian 0.02: below, one such cell on a
-/// wall moved a frequency by up to several per cent (tests/mesh/poor_cells_test.cpp).
-inline constexpr QualityLimits kQualityFloor = {1.0, 0.02};
+/// Below, a mesh of our own is refused. Straight flat cells hardly move frequencies, but condition
+/// numbers grow by 1 / angle^2: at 0.1 deg solvers lose 5 to 6 of their 16 digits more than on good
+/// cells; a sheet of 0.1 mm in cells of 20 mm is still above. Curved cells that are squeezed to
+/// 0.02 have lost their quadratic fields, and no step of repair could help them.
+inline constexpr QualityLimits kQualityFloor = {0.1, 0.02};
 
 /// What is poor in a mesh.
 struct PoorCells {
@@ -43,6 +45,10 @@ struct PlaceUnit {
 /// effect on frequencies 0.003 %".
 std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
                                 const PlaceUnit& unit);
+
+/// For the certificate: poor_cells, poor_cells_below_floor, poor_cells_volume_share,
+/// poor_cells_frequency_effect.
+void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certificate);
 
 /// Warns of poor cells. NumericsError when some are below kQualityFloor and `accept` is false; says
 /// where, and the ways out.

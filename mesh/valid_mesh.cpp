@@ -18,10 +18,13 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kSpotFactor = 0.6;    // finer cells where slivers were
-constexpr double kFoldFactor = 0.5;    // and where cells folded
-constexpr double kLargestPull = 0.05;  // of the edge
-constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
+constexpr double kSpotFactor = 0.6;     // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;     // and where cells folded
+constexpr size_t kHopeless = 2;         // times as many slivers: the part itself is so sharp there
+constexpr double kOptimiseBelow = 0.1;  // scaled Jacobian, where the local search leaves it
+constexpr size_t kManyFolds = 150;      // finer cells first: HighOrder takes 0.2 s for each
+constexpr double kLargestPull = 0.05;   // of the edge
+constexpr double kPulledRatio = 0.05;   // cells that are pulled straight get so good at least
 
 Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_unit) {
   Mesh mesh;
@@ -108,6 +111,7 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
                     spots.size(), target));
     trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
     spots = attempt(trial);
+    if (spots.size() > kHopeless * fewest) break;
     if (spots.size() >= fewest) continue;
     fewest = spots.size();
     sizes = trial;
@@ -162,6 +166,19 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
                   repair.largest_pull));
 }
 
+// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
+void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+              double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
+  session.optimise_curved_cells();
+  Mesh trial = convert(session.extract(), part, metres_per_unit);
+  unfold_cells(trial, settings.min_scaled_jacobian);
+  ValidityReport report = check_validity(trial);
+  if (report.min_ratio <= folded.min_ratio) return;
+  mesh = std::move(trial);
+  folded = std::move(report);
+  repair.optimised = true;
+}
+
 }  // namespace
 
 Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
@@ -176,8 +193,13 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     repair.min_ratio_before = before.min_ratio;
     unfold_cells(mesh, settings.min_scaled_jacobian);
     folded = check_validity(mesh);
+    const double enough = std::min(kOptimiseBelow, settings.min_scaled_jacobian);
+    const bool last = pass >= settings.refine_passes;
+    if (folded.min_ratio < enough && (last || before.invalid.size() <= kManyFolds))
+      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
-    if (pass >= settings.refine_passes) break;
+    if (last) break;
+    repair.optimised = false;
     say(fmt::format("mesh: {} curved cells stay folded, refining there", folded.invalid.size()));
     add_spots_at_folds(sizes, mesh, folded, metres_per_unit);
   }
