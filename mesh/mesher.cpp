@@ -46,7 +46,7 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
 // mesh, faces and solids get no more either. Coarser chords would cut through walls.
 void cap_size(SizeSettings& sizes, double coarsest) {
   if (sizes.size <= coarsest) return;
-  warn(
+  say(
       fmt::format("mesh: element size {:g} is above a tenth of the part's diagonal: {:.4g}, the "
                   "coarsest there is, is taken (lengths in the part's unit)",
                   sizes.size, coarsest));

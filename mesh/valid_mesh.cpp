@@ -18,10 +18,12 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kSpotFactor = 0.6;     // finer cells where slivers were
-constexpr double kFoldFactor = 0.5;     // and where cells folded
-constexpr size_t kHopeless = 2;         // times as many slivers: the part itself is so sharp there
+constexpr double kSpotFactor = 0.6;  // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;  // and where cells folded
+constexpr size_t kHopeless = 2;      // times as many slivers: the part itself is so sharp there
+constexpr int64_t kMostGrowth = 2;   // times as many cells: no aim is worth more, slivers are told
 constexpr double kOptimiseBelow = 0.1;  // scaled Jacobian, where the local search leaves it
+constexpr double kFlattened = 2.0;      // degrees
 constexpr size_t kManyFolds = 150;      // finer cells first: HighOrder takes 0.2 s for each
 constexpr double kLargestPull = 0.05;   // of the edge
 constexpr double kPulledRatio = 0.05;   // cells that are pulled straight get so good at least
@@ -84,15 +86,26 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   return spots;
 }
 
+bool has_angle_below(const Mesh& mesh, double limit_deg) {
+  return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellBlock& block) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (smallest_dihedral(corners_of(mesh, block, c), limit_deg) < limit_deg) return true;
+    return false;
+  });
+}
+
 // Meshes and lifts slivers; while some stay, meshes again with finer spots. Leaves the attempt with
 // the fewest in the session, made quadratic, and its sizes in `sizes`.
 void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
                               SizeSettings& sizes, bool split_corners) {
   const double target = settings.min_dihedral_deg;
+  int64_t cells = 0;         // of the attempt, as Gmsh made it
+  bool below_floor = false;  // it would be refused
   const auto attempt = [&](const SizeSettings& trial) {
     session.generate(trial);
     RawMesh raw = session.extract();
     Mesh linear = linear_mesh(raw);
+    cells = linear.cell_count();
     int64_t edits = lift_slivers(linear, target).before;
     if (split_corners) edits += split_blunt_corners(linear, target);
     if (edits > 0) {
@@ -101,17 +114,19 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
       for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
       session.replace_cells(raw);
     }
+    below_floor = has_angle_below(linear, kQualityFloor.dihedral_deg);
     return spots_at_slivers(linear, target);
   };
   SizeSettings trial = sizes;
   std::vector<FineSpot> spots = attempt(trial);
   size_t fewest = spots.size();
+  const int64_t most = below_floor ? std::numeric_limits<int64_t>::max() : kMostGrowth * cells;
   for (int pass = 0; !spots.empty() && pass < settings.refine_passes; ++pass) {
     say(fmt::format("mesh: {} cells have a dihedral angle below {:.1f} deg, refining there",
                     spots.size(), target));
     trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
     spots = attempt(trial);
-    if (spots.size() > kHopeless * fewest) break;
+    if (spots.size() > kHopeless * fewest || cells > most) break;
     if (spots.size() >= fewest) continue;
     fewest = spots.size();
     sizes = trial;
@@ -166,14 +181,17 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
                   repair.largest_pull));
 }
 
-// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
+// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better. It
+// moves corners too: flat cells are taken from it only when nothing else is left to try.
 void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
-              double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
+              double metres_per_unit, bool last, Mesh& mesh, ValidityReport& folded,
+              Repair& repair) {
   session.optimise_curved_cells();
   Mesh trial = convert(session.extract(), part, metres_per_unit);
   unfold_cells(trial, settings.min_scaled_jacobian);
   ValidityReport report = check_validity(trial);
   if (report.min_ratio <= folded.min_ratio) return;
+  if (!last && has_angle_below(trial, kFlattened) && !has_angle_below(mesh, kFlattened)) return;
   mesh = std::move(trial);
   folded = std::move(report);
   repair.optimised = true;
@@ -196,7 +214,7 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     const double enough = std::min(kOptimiseBelow, settings.min_scaled_jacobian);
     const bool last = pass >= settings.refine_passes;
     if (folded.min_ratio < enough && (last || before.invalid.size() <= kManyFolds))
-      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
+      optimise(session, part, settings, metres_per_unit, last, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
     if (last) break;
     repair.optimised = false;

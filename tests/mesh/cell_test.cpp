@@ -148,12 +148,18 @@ TEST(Quality, SmallestAngleByNormalsIsThatOfAllSixToTheLastBit) {
     const double exact = dihedral_angles(x).minCoeff();
     for (const double limit : {0.5, 8.0, 30.0, 180.0}) {
       const double found = smallest_dihedral(x, limit);
-      if (exact < limit) EXPECT_EQ(found, exact);
-      if (exact >= limit) EXPECT_GE(found, limit);
-      ++(exact < limit ? below : above);
+      if (exact < limit) {
+        EXPECT_EQ(found, exact);
+        ++below;
+      } else {
+        EXPECT_GE(found, limit);
+        ++above;
+      }
     }
     const double cosine = largest_cosine(x);
-    if (!std::isnan(cosine)) EXPECT_NEAR(cosine, std::cos(exact * M_PI / 180.0), kCosineError);
+    if (!std::isnan(cosine)) {
+      EXPECT_NEAR(cosine, std::cos(exact * M_PI / 180.0), kCosineError);
+    }
   }
   EXPECT_GT(below, 4000);  // both sides are reached
   EXPECT_GT(above, 4000);
