@@ -22,11 +22,9 @@ constexpr double kSpotFactor = 0.6;  // finer cells where slivers were
 constexpr double kFoldFactor = 0.5;  // and where cells folded
 constexpr size_t kHopeless = 2;      // times as many slivers: the part itself is so sharp there
 constexpr int64_t kMostGrowth = 2;   // times as many cells: no aim is worth more, slivers are told
-constexpr double kOptimiseBelow = 0.1;  // scaled Jacobian, where the local search leaves it
-constexpr double kFlattened = 2.0;      // degrees
-constexpr size_t kManyFolds = 150;      // finer cells first: HighOrder takes 0.2 s for each
-constexpr double kLargestPull = 0.05;   // of the edge
-constexpr double kPulledRatio = 0.05;   // cells that are pulled straight get so good at least
+constexpr size_t kManyFolds = 500;   // HighOrder takes 0.2 s for each
+constexpr double kLargestPull = 0.05;  // of the edge
+constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
 
 Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_unit) {
   Mesh mesh;
@@ -181,20 +179,18 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
                   repair.largest_pull));
 }
 
-// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better. It
-// moves corners too: flat cells are taken from it only when nothing else is left to try.
+// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
 void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
-              double metres_per_unit, bool last, Mesh& mesh, ValidityReport& folded,
-              Repair& repair) {
+              double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
   session.optimise_curved_cells();
   Mesh trial = convert(session.extract(), part, metres_per_unit);
   unfold_cells(trial, settings.min_scaled_jacobian);
   ValidityReport report = check_validity(trial);
   if (report.min_ratio <= folded.min_ratio) return;
-  if (!last && has_angle_below(trial, kFlattened) && !has_angle_below(mesh, kFlattened)) return;
   mesh = std::move(trial);
   folded = std::move(report);
   repair.optimised = true;
+  say("mesh: curved cells unfolded by Gmsh's HighOrder: another run may give other bits");
 }
 
 }  // namespace
@@ -211,10 +207,11 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     repair.min_ratio_before = before.min_ratio;
     unfold_cells(mesh, settings.min_scaled_jacobian);
     folded = check_validity(mesh);
-    const double enough = std::min(kOptimiseBelow, settings.min_scaled_jacobian);
+    // HighOrder depends on where memory lies: other bits at each run. Finer cells come first.
     const bool last = pass >= settings.refine_passes;
-    if (folded.min_ratio < enough && (last || before.invalid.size() <= kManyFolds))
-      optimise(session, part, settings, metres_per_unit, last, mesh, folded, repair);
+    if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
+        before.invalid.size() <= kManyFolds)
+      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
     if (last) break;
     repair.optimised = false;

@@ -3,10 +3,10 @@
 //
 // In this order, each only where the one before did not suffice:
 //  1. slivers of the linear mesh are lifted (sliver.hpp), else finer cells are asked for there
-//  2. curved cells that fold are unfolded by the nodes inside (unfold.hpp), else by Gmsh's
-//     HighOrder, which moves boundary nodes along the geometry too
+//  2. curved cells that fold are unfolded by the nodes inside (unfold.hpp)
 //  3. finer cells are asked for where cells stay folded, and all is meshed anew
-//  4. Gmsh's HighOrderElastic smooths the whole mesh
+//  4. Gmsh's HighOrder moves nodes, those of the boundary along the geometry; then Gmsh's
+//     HighOrderElastic smooths the whole mesh
 //  5. middle nodes are pulled off the geometry by at most a twentieth of their edge
 //     (straighten.hpp): told and counted
 //  6. the mesh is refused, with the faces to blame
