@@ -53,6 +53,24 @@ TEST(Features, HardN20_CoarserNeverGivesMoreCellsThanFiner) {
   EXPECT_EQ(cells[2], cells[3]);
 }
 
+// Three bores of nearly one radius that cross: the local search leaves folded cells, HighOrder
+// none.
+TEST(Features, HardG2_CrossingBoresAreUnfoldedByHighOrderWhereNoFinerCellsAreAllowed) {
+  GmshSession session("gallery");
+  const Solids bores = {session.cylinder({-1, 30, 30}, {62, 0, 0}, 10),
+                        session.cylinder({30, -1, 30}, {0, 62, 0}, 9.98),
+                        session.cylinder({30, 30, -1}, {0, 0, 62}, 10.02),
+                        session.cylinder({-1, 39.7, 39.7}, {62, 0, 0}, 4)};
+  const PartGeometry part = {
+      {{"solid", session.cut({session.box({0, 0, 0}, {60, 60, 60})}, bores)}}, {}};
+  MeshSettings settings;
+  settings.element_size = 8e-3;
+  settings.refine_passes = 0;
+  const PartMesh made = mesh_part(session, part, settings, 1e-3, "gallery", "gallery");
+  EXPECT_EQ(made.certificate.at("optimiser_repair"), 1.0);
+  EXPECT_GT(made.certificate.at("min_scaled_jacobian"), kQualityFloor.scaled_jacobian);
+}
+
 TEST(Features, ASizeAboveATenthOfTheDiagonalIsTold) {
   ::testing::internal::CaptureStderr();
   mesh_toml(
