@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
+#include "mesh/defeature.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -24,6 +26,27 @@ void check_box(GmshSession& session, const Config& table, const std::string& uni
                     "x {:.6g}: is the file in another unit?",
                     found[0], found[1], found[2], unit, expected[0], expected[1], expected[2]));
   }
+}
+
+Solids without_small_features(GmshSession& session, const Solids& solids, double below,
+                              const std::string& unit) {
+  const Defeatured d = defeature(session, solids, below);
+  say(fmt::format(
+      "mesh: {} faces are narrower than {:g} {}; without them and with faces of one "
+      "surface united {} of {} faces are left; volume {:+.3g} %, box {:.6g} x {:.6g} x "
+      "{:.6g} {} (before {:.6g} x {:.6g} x {:.6g})",
+      d.asked, below, unit, d.faces_after, d.faces_before,
+      100.0 * (d.volume_after / d.volume_before - 1.0), d.box_after.x(), d.box_after.y(),
+      d.box_after.z(), unit, d.box_before.x(), d.box_before.y(), d.box_before.z()));
+  if (!d.kept.empty()) {
+    const auto& [width, place] = d.kept.front();
+    warn(
+        fmt::format("mesh: {} narrow faces stay, as their neighbours do not meet without them: "
+                    "{:.3g} {} wide at ({:.5g}, {:.5g}, {:.5g}){}",
+                    d.kept.size(), width, unit, place.x(), place.y(), place.z(),
+                    d.kept.size() > 1 ? ", ..." : ""));
+  }
+  return d.solids;
 }
 
 // Order by place, not by the tag that the import happened to give.
@@ -56,6 +79,8 @@ std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
 PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit) {
   const std::string region = table.text_or("region", "solid");
   Solids solids = session.import_cad(table.path("source"), unit);
+  const double narrow = table.number_or("defeature_below", 0.0, Range::not_negative());
+  if (narrow > 0.0) solids = without_small_features(session, solids, narrow, unit);
   PartGeometry part;
   part.volume_tolerance =
       table.number_or("volume_tolerance", part.volume_tolerance, {0.0, 1.0, true});

@@ -8,6 +8,14 @@
 #include "mesh/quality.hpp"
 
 namespace clatter::mesh {
+namespace {
+
+bool is_positive(const Eigen::Matrix<double, 4, 3>& x) {
+  const Eigen::Vector3d a = x.row(1) - x.row(0), b = x.row(2) - x.row(0), c = x.row(3) - x.row(0);
+  return a.dot(b.cross(c)) > 0.0;
+}
+
+}  // namespace
 
 CellGraph::CellGraph(const Mesh& mesh) {
   const auto n = static_cast<size_t>(mesh.nodes.rows());
@@ -73,12 +81,20 @@ void CellGraph::remove_cell(size_t cell) {
   for (int32_t node : cells_[cell]) std::erase(around_[static_cast<size_t>(node)], cell);
 }
 
-double CellGraph::angle(const TetCorners& corners) const {
+Eigen::Matrix<double, 4, 3> CellGraph::place_of(const TetCorners& corners) const {
   Eigen::Matrix<double, 4, 3> x;
   for (int i = 0; i < 4; ++i) x.row(i) = point(corners[i]).transpose();
-  const Eigen::Vector3d a = x.row(1) - x.row(0), b = x.row(2) - x.row(0), c = x.row(3) - x.row(0);
-  if (a.dot(b.cross(c)) <= 0.0) return -1.0;
-  return dihedral_angles(x).minCoeff();
+  return x;
+}
+
+double CellGraph::angle(const TetCorners& corners, double limit_deg) const {
+  const Eigen::Matrix<double, 4, 3> x = place_of(corners);
+  return is_positive(x) ? smallest_dihedral(x, limit_deg) : -1.0;
+}
+
+double CellGraph::cosine(const TetCorners& corners) const {
+  const Eigen::Matrix<double, 4, 3> x = place_of(corners);
+  return is_positive(x) ? largest_cosine(x) : 2.0;
 }
 
 void CellGraph::store(Mesh& mesh) const {

@@ -275,6 +275,15 @@ void GmshSession::make_quadratic() {
   });
 }
 
+bool GmshSession::optimise_curved_cells() {
+  try {
+    gmsh_call("gmsh: HighOrder", [] { gmsh::model::mesh::optimize("HighOrder"); });
+    return true;
+  } catch (const NumericsError&) {
+    return false;
+  }
+}
+
 void GmshSession::repair_curved_cells() {
   gmsh_call("gmsh: HighOrderElastic", [] { gmsh::model::mesh::optimize("HighOrderElastic"); });
 }

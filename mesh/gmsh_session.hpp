@@ -113,6 +113,8 @@ class GmshSession {
   /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
   /// the format knows its own (STEP, IGES). InputError when it holds no solid.
   Solids import_cad(const std::filesystem::path& path, const std::string& unit);
+  /// Removes all solids and takes those of `shape`, an OpenCASCADE TopoDS_Shape, in their place.
+  Solids replace_solids(const void* shape);
   /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says; InputError
   /// for other names.
   void write_cad(const std::filesystem::path& path, const std::string& unit);
@@ -138,6 +140,10 @@ class GmshSession {
   void replace_cells(const RawMesh& raw);
   /// Makes the cells quadratic; middle nodes of boundary edges go onto the geometry.
   void make_quadratic();
+  /// Moves nodes, those of the boundary along the geometry, until curved cells unfold (Gmsh's
+  /// HighOrder: minimises a barrier on det J around bad cells). False when it gives up; the mesh
+  /// may be better all the same.
+  bool optimise_curved_cells();
   /// Moves middle nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
   void repair_curved_cells();
   RawMesh extract() const;

@@ -346,6 +346,19 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
   return solids;
 }
 
+Solids GmshSession::replace_solids(const void* shape) {
+  return gmsh_call("solids", [&] {
+    gmsh::vectorpair all, out;
+    occ::getEntities(all, 3);
+    occ::remove(all, true);
+    synchronized_ = false;
+    synchronize();
+    occ::importShapesNativePointer(shape, out);
+    synchronized_ = false;
+    return untagged(out);
+  });
+}
+
 std::string cad_extension(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (extension != ".step" && extension != ".stp" && extension != ".brep") {

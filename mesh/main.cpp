@@ -24,6 +24,7 @@
 #include "mesh/metis_partition.hpp"
 #include "mesh/msh_reader.hpp"
 #include "mesh/part_in_child.hpp"
+#include "mesh/poor_cells.hpp"
 
 namespace {
 
@@ -57,7 +58,8 @@ beside its mesh (materials, couplings, supports, loads) goes to the fe.toml of t
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 
-Any CAD file: kind = "cad" with [cad] source = "part.step"; surfaces by
+Any CAD file: kind = "cad" with [cad] source = "part.step", defeature_below = 0.5 to take out faces
+narrower than that (fillets, chamfers, tiny holes); surfaces by
 cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max },
 outside = { min, max }.
 
@@ -79,6 +81,7 @@ struct Arguments {
   ChildLimits limits;  // of the processes in which Gmsh works
   bool faces = false;
   double element_size_mm = 0.0;  // 0: as the description says
+  bool accept_poor_cells = false;
 };
 
 /// A mesh with what is written beside it.
@@ -122,6 +125,13 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
   MadePart made = make_part_in_child(
       {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm}, a.limits);
   clock.adopt(made.steps);
+  const MeshSettings settings = read_mesh_settings(config);
+  const QualityLimits aims = aims_of(settings);
+  const LengthUnit unit = read_length_unit(config);
+  const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
+  note_poor_cells(poor, made.part.certificate);
+  judge_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
+                   settings.accept_poor_cells || a.accept_poor_cells);
   Outcome out{std::move(made.part.mesh),
               std::move(made.part.quality),
               std::move(made.part.certificate),
@@ -151,7 +161,12 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitS
   out.mesh = std::move(found.mesh);
   check_structure(out.mesh, source.string());
   out.quality = measure_quality(out.mesh);
+  const PoorCells poor = find_poor_cells(out.mesh, out.quality);
   out.certificate = certify_mesh(out.mesh, out.quality);
+  note_poor_cells(poor, out.certificate);
+  judge_poor_cells(poor, out.mesh, kQualityAims,
+                   {units.name.substr(0, units.name.find('-')), units.length},
+                   true);  // the mesh is the user's: never refused by quality
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
                                          source.string(), units.name, fmt::join(ignore, ", "));
   out.provenance = {kMeshSchema, config, {}};
@@ -298,6 +313,8 @@ int main(int argc, char** argv) {
                 "card, keyword, element kind or group of a deck to skip; may be repeated");
     line.output("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
+    line.flag("--accept-poor-cells", a.accept_poor_cells,
+              "warn, do not refuse, where cells are too poor to be trusted");
     line.output("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.output("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .med, .unv, .inp, .bdf); may be repeated");

@@ -11,12 +11,14 @@
 #include "mesh/boundary.hpp"
 #include "mesh/certify_mesh.hpp"
 #include "mesh/predict_cells.hpp"
+#include "mesh/small_features.hpp"
 #include "mesh/solid_volumes.hpp"
 #include "mesh/valid_mesh.hpp"
 
 namespace clatter::mesh {
 namespace {
 
+constexpr double kCoarsest = 0.1;          // of the part's size: what Gmsh gives edges at most
 constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin round walls stay below
 
 using FaceTags = std::map<std::string, std::vector<int>>;
@@ -32,6 +34,28 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
     tags[surface.name] = selection.tags;
   }
   return tags;
+}
+
+// Gmsh gives edges a tenth of the part's size at most; so that larger sizes are one and the same
+// mesh, faces and solids get no more either. Coarser chords would cut through walls.
+void cap_size(SizeSettings& sizes, double coarsest) {
+  if (sizes.size <= coarsest) return;
+  say(
+      fmt::format("mesh: element size {:g} is above a tenth of the part's diagonal: {:.4g}, the "
+                  "coarsest there is, is taken (lengths in the part's unit)",
+                  sizes.size, coarsest));
+  sizes.size = std::max(coarsest, sizes.min_size);
+}
+
+// Features far below the size asked for: cells there are as small as they are.
+void say_small_features(GmshSession& session, const std::vector<FaceFacts>& faces, double size) {
+  constexpr double kFarBelow = 0.2;  // of the size: cells grow to it over several layers
+  const SmallFeatures features = find_small_features(session, faces, kFarBelow * size);
+  if (features.count() == 0) return;
+  say(
+      fmt::format("mesh: the part has features far smaller than its elements ({:g}), which rule "
+                  "the mesh around them: {}",
+                  size, describe_small_features(features)));
 }
 
 // A face's own size: the smaller of what the factor and the curvature ask for.
@@ -164,6 +188,7 @@ MeshSettings read_mesh_settings(const Config& config) {
   settings.refine_passes =
       static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
   settings.max_cells = table->number_or("max_cells", settings.max_cells, Range::positive());
+  settings.accept_poor_cells = table->flag_or("accept_poor_cells", false);
   if (settings.min_size > settings.element_size) {
     table->fail("min_size_mm", "expected at most element_size_mm");
   }
@@ -181,11 +206,17 @@ MeshSettings read_mesh_settings(const Config& config) {
   return settings;
 }
 
+QualityLimits aims_of(const MeshSettings& settings) {
+  return {settings.min_dihedral_deg, settings.min_scaled_jacobian};
+}
+
 PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
                    double metres_per_unit, const std::string& name, const std::string& where) {
   const std::vector<FaceFacts> faces = session.boundary_faces();
   const FaceTags tags = find_surfaces(faces, part, where);
-  const SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  cap_size(sizes, kCoarsest * size_of_part(faces));
+  say_small_features(session, faces, sizes.size);
   const double predicted = require_few_cells(session, cad_volume_of(session, part), sizes, settings,
                                              metres_per_unit, where);
   PartMesh result;
@@ -209,6 +240,7 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   result.certificate["predicted_cells"] = predicted;
   result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
   result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
+  result.certificate["optimiser_repair"] = repair.optimised ? 1.0 : 0.0;
   result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;
   result.certificate["nodes_off_geometry"] = static_cast<double>(repair.pulled);
   result.certificate["largest_distance_off_geometry_m"] = repair.largest_pull;

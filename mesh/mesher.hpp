@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/part_geometry.hpp"
+#include "mesh/poor_cells.hpp"
 #include "mesh/quality.hpp"
 
 namespace clatter::mesh {
@@ -26,10 +27,12 @@ struct MeshSettings {
   double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
   int refine_passes = 4;             // at most so many times; 0: never
   double max_cells = 5e6;            // more are refused before meshing, by predict_cells()
+  bool accept_poor_cells = false;    // below the floor of poor_cells.hpp: warned of, not refused
   std::vector<LocalSize> local;      // [[mesh.local]]
   bool adaptive_faces = false;       // no key: for parts on which Gmsh's frontal algorithm crashes
 };
 MeshSettings read_mesh_settings(const Config& config);
+QualityLimits aims_of(const MeshSettings& settings);
 
 struct PartMesh {
   Mesh mesh;

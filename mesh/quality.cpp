@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -99,10 +100,24 @@ double angle_at(const EdgeEnd& end, const CellNodes& x) {
   return std::atan2(left.cross(right).norm(), left.dot(right)) * 180.0 / std::numbers::pi;
 }
 
+const std::vector<EdgeEnd>& ends_of(CellType type) {
+  static const auto all = [] {
+    std::array<std::vector<EdgeEnd>, kCellTypes> ends;
+    for (int t = 0; t < kCellTypes; ++t)
+      ends[static_cast<size_t>(t)] = edge_ends(static_cast<CellType>(t));
+    return ends;
+  }();
+  return all[static_cast<size_t>(type)];
+}
+
 std::pair<double, double> extreme_angles(CellType type, const CellNodes& x) {
-  const std::vector<double> angles = dihedral_angles(type, x);
-  const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
-  return {*low, *high};
+  double low = 180.0, high = 0.0;
+  for (const EdgeEnd& end : ends_of(type)) {
+    const double angle = angle_at(end, x);
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+  }
+  return {low, high};
 }
 
 void write_measure(H5File& file, const std::string& name, const Measure& m) {
@@ -149,16 +164,40 @@ Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& c
   return angles;
 }
 
+double largest_cosine(const Eigen::Matrix<double, 4, 3>& corners) {
+  constexpr double kFlat = 1e-6;  // |n| >= kFlat L^2: the cosines are right to 4e-10
+  const Eigen::Vector3d a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0),
+                        c = corners.row(3) - corners.row(0);
+  const Eigen::Vector3d ab = b - a, ac = c - a;
+  const std::array<Eigen::Vector3d, 4> normals = {b.cross(a), a.cross(c), c.cross(b), ab.cross(ac)};
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm(),
+                                   ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  std::array<double, 4> lengths;
+  for (size_t i = 0; i < 4; ++i) {
+    lengths[i] = normals[i].norm();
+    if (!(lengths[i] >= kFlat * longest)) return std::numeric_limits<double>::quiet_NaN();
+  }
+  double largest = -1.0;
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t j = 0; j < i; ++j)
+      largest = std::max(largest, -normals[i].dot(normals[j]) / (lengths[i] * lengths[j]));
+  return largest;
+}
+
+double smallest_dihedral(const Eigen::Matrix<double, 4, 3>& corners, double limit_deg) {
+  const double limit = std::cos(limit_deg * std::numbers::pi / 180.0);
+  if (largest_cosine(corners) < limit - kCosineError) return limit_deg;
+  return dihedral_angles(corners).minCoeff();
+}
+
 std::vector<double> dihedral_angles(CellType type, const CellNodes& x) {
-  static const auto ends = [] {
-    std::array<std::vector<EdgeEnd>, kCellTypes> all;
-    for (int t = 0; t < kCellTypes; ++t)
-      all[static_cast<size_t>(t)] = edge_ends(static_cast<CellType>(t));
-    return all;
-  }();
   std::vector<double> angles;
-  for (const EdgeEnd& end : ends[static_cast<size_t>(type)]) angles.push_back(angle_at(end, x));
+  for (const EdgeEnd& end : ends_of(type)) angles.push_back(angle_at(end, x));
   return angles;
+}
+
+double smallest_angle_of(CellType type, const CellNodes& x) {
+  return extreme_angles(type, x).first;
 }
 
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners) {

@@ -48,8 +48,20 @@ QualityReport measure_quality(const Mesh& mesh);
 /// kTetEdges [deg].
 Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& corners);
 
+/// cos(smallest angle) by the faces' normals n_i, cos(angle) = -n_i . n_j / (|n_i| |n_j|): many
+/// times faster, right to kCosineError. NaN where a face is so flat that its normal loses digits.
+double largest_cosine(const Eigen::Matrix<double, 4, 3>& corners);
+inline constexpr double kCosineError = 1e-9;
+
+/// The smallest of the six where it is below `limit_deg`, to the last bit what dihedral_angles()
+/// has; else some angle that is not below it. Most cells need no inverse tangent for that.
+double smallest_dihedral(const Eigen::Matrix<double, 4, 3>& corners, double limit_deg);
+
 /// Angles between the faces at each edge of any cell, at both ends of the edge, (2 edges) [deg].
 std::vector<double> dihedral_angles(CellType type, const CellNodes& x);
+
+/// The smallest of those.
+double smallest_angle_of(CellType type, const CellNodes& x);
 
 /// 3 r_in / r_circum.
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);

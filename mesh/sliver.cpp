@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <utility>
 
 #include "mesh/boundary.hpp"
 #include "mesh/cell_graph.hpp"
@@ -19,11 +22,37 @@ constexpr double kFirstStep = 0.25;  // of the mean edge around the node
 constexpr double kWorthwhile = 0.5;  // degrees that an edit must gain
 constexpr double kBlunt = 100.0;     // degrees: clear of boxes' edges
 
-double smallest_angle(const CellGraph& graph, const std::vector<TetCorners>& cells) {
-  double smallest = 180.0;
-  for (const TetCorners& cell : cells) smallest = std::min(smallest, graph.angle(cell));
-  return smallest;
-}
+/// The smallest dihedral angle of some cells, again and again while one of their nodes moves.
+class SmallestAngle {
+ public:
+  SmallestAngle(const CellGraph& graph, std::vector<TetCorners> cells)
+      : graph_(graph), cells_(std::move(cells)), cosines_(cells_.size()) {}
+
+  /// Exact where it is above `best` [deg]; else some angle that is not.
+  double operator()(double best) {
+    const double enough = best > 0.0 ? std::cos(best * std::numbers::pi / 180.0) : 1.0;
+    double largest = -1.0;
+    for (size_t c = 0; c < cells_.size(); ++c) {
+      cosines_[c] = graph_.cosine(cells_[c]);
+      if (cosines_[c] > enough + kCosineError && best >= -1.0) {
+        std::swap(cells_[c], cells_.front());  // it will end the next search too, mostly
+        return best;
+      }
+      if (cosines_[c] > largest) largest = cosines_[c];
+    }
+    // Inverse tangents only for the cells that can have the smallest angle.
+    double smallest = 180.0;
+    for (size_t c = 0; c < cells_.size(); ++c)
+      if (!(cosines_[c] < largest - 2.0 * kCosineError))
+        smallest = std::min(smallest, graph_.angle(cells_[c]));
+    return smallest;
+  }
+
+ private:
+  const CellGraph& graph_;
+  std::vector<TetCorners> cells_;
+  std::vector<double> cosines_;
+};
 
 double mean_edge_at(const CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
   double sum = 0.0;
@@ -43,7 +72,7 @@ struct GraphNode {
 // Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
 double place_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
   return search_place(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
-                      [&] { return smallest_angle(graph, cells); });
+                      SmallestAngle(graph, cells));
 }
 
 std::vector<TetCorners> corners_around(const CellGraph& graph, int32_t node) {
@@ -125,7 +154,7 @@ bool split_cell(CellGraph& graph, size_t cell) {
 std::vector<size_t> cells_below(const CellGraph& graph, double target_deg) {
   std::vector<size_t> found;
   for (size_t c = 0; c < graph.cell_count(); ++c) {
-    if (graph.alive(c) && graph.angle(graph.cell(c)) < target_deg) found.push_back(c);
+    if (graph.alive(c) && graph.angle(graph.cell(c), target_deg) < target_deg) found.push_back(c);
   }
   return found;
 }

@@ -61,7 +61,8 @@ class CurvedCells {
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;
-      search_place(Node{mesh_.nodes, node}, kFirstStep * size, [&] { return worst_around(node); });
+      search_place(Node{mesh_.nodes, node}, kFirstStep * size,
+                   [&](double best) { return worst_around(node, best); });
     }
     return ratio(id) > before;
   }
@@ -74,9 +75,17 @@ class CurvedCells {
     void set(const Eigen::Vector3d& x) { nodes.row(row) = x.transpose(); }
   };
 
-  double worst_around(int32_t node) const {
+  // Exact where it is above `best`. The cell that ends the search goes to the front: it will end
+  // the next one too, mostly.
+  double worst_around(int32_t node, double best) {
     double worst = 1.0;
-    for (const CellId& id : around_[static_cast<size_t>(node)]) worst = std::min(worst, ratio(id));
+    std::vector<CellId>& cells = around_[static_cast<size_t>(node)];
+    for (CellId& id : cells) {
+      worst = std::min(worst, ratio(id));
+      if (worst > best) continue;
+      std::swap(id, cells.front());
+      break;
+    }
     return worst;
   }
 

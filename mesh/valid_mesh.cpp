@@ -19,8 +19,11 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kSpotFactor = 0.6;    // finer cells where slivers were
-constexpr double kFoldFactor = 0.5;    // and where cells folded
+constexpr double kSpotFactor = 0.6;  // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;  // and where cells folded
+constexpr size_t kHopeless = 2;      // times as many slivers: the part itself is so sharp there
+constexpr int64_t kMostGrowth = 2;   // times as many cells: no aim is worth more, slivers are told
+constexpr size_t kManyFolds = 500;   // HighOrder takes 0.2 s for each
 constexpr double kLargestPull = 0.05;  // of the edge
 constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
 
@@ -74,7 +77,7 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   for (const CellBlock& block : mesh.cells) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
-      if (dihedral_angles(x).minCoeff() >= limit_deg) continue;
+      if (smallest_dihedral(x, limit_deg) >= limit_deg) continue;
       const double mean = mean_edge(x);
       spots.push_back({x.colwise().mean().transpose(), mean, kSpotFactor * mean});
     }
@@ -82,16 +85,27 @@ std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   return spots;
 }
 
+bool has_angle_below(const Mesh& mesh, double limit_deg) {
+  return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellBlock& block) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (smallest_dihedral(corners_of(mesh, block, c), limit_deg) < limit_deg) return true;
+    return false;
+  });
+}
+
 // Meshes and lifts slivers; while some stay, meshes again with finer spots. Leaves the attempt with
 // the fewest in the session, made quadratic, and its sizes in `sizes`.
 void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
                               SizeSettings& sizes, bool split_corners) {
   const double target = settings.min_dihedral_deg;
+  int64_t cells = 0;         // of the attempt, as Gmsh made it
+  bool below_floor = false;  // it would be refused
   const auto attempt = [&](const SizeSettings& trial) {
     session.generate(trial);
     RawMesh raw = session.extract();
     enter_step("lifting slivers");
     Mesh linear = linear_mesh(raw);
+    cells = linear.cell_count();
     int64_t edits = lift_slivers(linear, target).before;
     if (split_corners) edits += split_blunt_corners(linear, target);
     if (edits > 0) {
@@ -100,16 +114,19 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
       for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
       session.replace_cells(raw);
     }
+    below_floor = has_angle_below(linear, kQualityFloor.dihedral_deg);
     return spots_at_slivers(linear, target);
   };
   SizeSettings trial = sizes;
   std::vector<FineSpot> spots = attempt(trial);
   size_t fewest = spots.size();
+  const int64_t most = below_floor ? std::numeric_limits<int64_t>::max() : kMostGrowth * cells;
   for (int pass = 0; !spots.empty() && pass < settings.refine_passes; ++pass) {
     say(fmt::format("mesh: {} cells have a dihedral angle below {:.1f} deg, refining there",
                     spots.size(), target));
     trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
     spots = attempt(trial);
+    if (spots.size() > kHopeless * fewest || cells > most) break;
     if (spots.size() >= fewest) continue;
     fewest = spots.size();
     sizes = trial;
@@ -164,6 +181,20 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
                   repair.largest_pull));
 }
 
+// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
+void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+              double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
+  session.optimise_curved_cells();
+  Mesh trial = convert(session.extract(), part, metres_per_unit);
+  unfold_cells(trial, settings.min_scaled_jacobian);
+  ValidityReport report = check_validity(trial);
+  if (report.min_ratio <= folded.min_ratio) return;
+  mesh = std::move(trial);
+  folded = std::move(report);
+  repair.optimised = true;
+  say("mesh: curved cells unfolded by Gmsh's HighOrder: another run may give other bits");
+}
+
 }  // namespace
 
 Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
@@ -179,8 +210,14 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     repair.min_ratio_before = before.min_ratio;
     unfold_cells(mesh, settings.min_scaled_jacobian);
     folded = check_validity(mesh);
+    // HighOrder depends on where memory lies: other bits at each run. Finer cells come first.
+    const bool last = pass >= settings.refine_passes;
+    if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
+        before.invalid.size() <= kManyFolds)
+      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
     if (folded.invalid.empty()) return repair;
-    if (pass >= settings.refine_passes) break;
+    if (last) break;
+    repair.optimised = false;
     say(fmt::format("mesh: {} curved cells stay folded, refining there", folded.invalid.size()));
     add_spots_at_folds(sizes, mesh, folded, metres_per_unit);
   }

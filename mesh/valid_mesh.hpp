@@ -5,7 +5,8 @@
 //  1. slivers of the linear mesh are lifted (sliver.hpp), else finer cells are asked for there
 //  2. curved cells that fold are unfolded by the nodes inside (unfold.hpp)
 //  3. finer cells are asked for where cells stay folded, and all is meshed anew
-//  4. Gmsh's HighOrderElastic smooths the whole mesh
+//  4. Gmsh's HighOrder moves nodes, those of the boundary along the geometry; then Gmsh's
+//     HighOrderElastic smooths the whole mesh
 //  5. middle nodes are pulled off the geometry by at most a twentieth of their edge
 //     (straighten.hpp): told and counted
 //  6. the mesh is refused, with the faces to blame
@@ -20,7 +21,8 @@ namespace clatter::mesh {
 struct Repair {
   size_t invalid_before = 0;  // in the mesh that was kept
   double min_ratio_before = 0.0;
-  bool elastic = false;       // the local search was not enough
+  bool optimised = false;     // the local search was not enough: HighOrder
+  bool elastic = false;       // nor were HighOrder and finer cells
   int64_t pulled = 0;         // middle nodes of the boundary that left the geometry
   double largest_pull = 0.0;  // by so much at most [m]
 };

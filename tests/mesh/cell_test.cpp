@@ -135,6 +135,36 @@ TEST(Quality, RegularTetrahedronHasItsKnownAngles) {
   EXPECT_NEAR(radius_ratio(x), 1.0, 1e-14);
 }
 
+// Flat, needle-like and plain cells: the short way by normals must never give another answer.
+TEST(Quality, SmallestAngleByNormalsIsThatOfAllSixToTheLastBit) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int below = 0, above = 0;
+  for (int c = 0; c < 4000; ++c) {
+    Eigen::Matrix<double, 4, 3> x;
+    for (double& value : x.reshaped()) value = unit(random);
+    if (c % 4 == 1) x.col(2) *= 1e-7;                                    // flat
+    if (c % 4 == 2) x.row(3) = x.row(0) + 1e-9 * (x.row(3) - x.row(1));  // two corners close by
+    const double exact = dihedral_angles(x).minCoeff();
+    for (const double limit : {0.5, 8.0, 30.0, 180.0}) {
+      const double found = smallest_dihedral(x, limit);
+      if (exact < limit) {
+        EXPECT_EQ(found, exact);
+        ++below;
+      } else {
+        EXPECT_GE(found, limit);
+        ++above;
+      }
+    }
+    const double cosine = largest_cosine(x);
+    if (!std::isnan(cosine)) {
+      EXPECT_NEAR(cosine, std::cos(exact * M_PI / 180.0), kCosineError);
+    }
+  }
+  EXPECT_GT(below, 4000);  // both sides are reached
+  EXPECT_GT(above, 4000);
+}
+
 TEST(Quality, WorstCellIsNamedWithItsPlace) {
   const QualityReport q = measure_quality(one_cell());
   EXPECT_NEAR(q.min_dihedral_deg.worst, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);

@@ -95,6 +95,34 @@ void expect_refused(const std::string& toml, int code, const std::string& text) 
   EXPECT_EQ(text_of(folder / "old.mesh.h5"), "precious");
 }
 
+// A foil of 0.01 mm in cells of 12 mm: angles of 0.05 deg, whatever the mesh.
+TEST(CliMesh, HardG8_TooPoorCellsAreRefusedWithPlacesUnlessAccepted) {
+  const Folder folder;
+  const std::string toml =
+      "name = 'foil'\nkind = 'box'\n[box]\nsize = [60, 20, 0.01]\n"
+      "[mesh]\nelement_size_mm = 12\nrefine_passes = 0\n";
+  const std::string mesh = (folder / "foil.mesh.h5").string();
+  const Outcome refused = run(folder, put(folder, toml) + " -o " + mesh + " --quiet");
+  EXPECT_EQ(refused.code, 3) << refused.err;
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  for (const char* text :
+       {"too poor to be trusted", " deg in cell ", " mm, ", "--accept-poor-cells"})
+    EXPECT_NE(refused.err.find(text), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(mesh));
+
+  const std::string deck = (folder / "foil.inp").string();
+  const Outcome accepted = run(
+      folder, put(folder, toml) + " -o " + mesh + " --quiet --accept-poor-cells --export " + deck);
+  EXPECT_EQ(accepted.code, 0) << accepted.err;
+  EXPECT_NE(accepted.err.find("warning: mesh: "), std::string::npos) << accepted.err;
+  EXPECT_EQ(run(folder, put(folder, toml + "accept_poor_cells = true\n") + " -o " + mesh).code, 0);
+
+  // The user's own mesh is never refused by quality.
+  const Outcome imported = run(folder, deck + " --units m-kg-s -o " + mesh + " --quiet");
+  EXPECT_EQ(imported.code, 0) << imported.err;
+  EXPECT_NE(imported.err.find("are poor: "), std::string::npos) << imported.err;
+}
+
 TEST(CliMesh, UnknownKeyIsBadInput) {
   expect_refused(kBeam + "elements_per_trun = 3\n", 2, "elements_per_turn");
 }
