@@ -150,5 +150,79 @@ class Deck(unittest.TestCase):
         self.assertIn("--units", done.stderr)
 
 
+def cube_deck(supports, step):
+    """One C3D8, 1 m, E = 210 GPa, nu = 0.3, alpha = 1e-5, with supports and the lines of one *STATIC step."""
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    nodes = "\n".join(f"{i + 1}, {x}, {y}, {z}" for i, (x, y, z) in enumerate(corners))
+    return f"""*NODE, NSET=ALL
+{nodes}
+*ELEMENT, TYPE=C3D8, ELSET=CUBE
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=FAR
+2, 3, 6, 7
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210.e9, .3
+*DENSITY
+7800.
+*EXPANSION
+1.e-5
+*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
+*BOUNDARY
+{supports}
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+ALL, 0.
+*STEP
+*STATIC
+{step}
+*END STEP
+"""
+
+
+class WhollyHeld(unittest.TestCase):
+    """A part whose every degree of freedom is held has reactions, but neither modes nor a reduction."""
+
+    def setUp(self):
+        stages.require_stages()
+        scratch = tempfile.TemporaryDirectory(prefix="clatter-held-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "cube.inp").write_text(
+            cube_deck("ALL, 1, 3", "*BOUNDARY\nFAR, 1, 1, 1.e-3\n*TEMPERATURE\nALL, 100."))
+        for stage, arguments in (
+                ("mesh", ["cube.inp", "--units", "m-kg-s", "-o", "cube.mesh.h5", "--recipe", "cube.fe.toml"]),
+                ("assembly", ["cube.mesh.h5", "-c", "cube.fe.toml", "-o", "cube.fe.h5"])):
+            done = stages.run_stage(stage, *arguments, folder=self.folder)
+            self.assertEqual(done.returncode, 0, f"{stage}: {done.returncode} {done.stderr}")
+
+    def test_reactions_are_those_of_uniaxial_strain_and_of_heat_without_expansion(self):
+        done = stages.run_stage("modal", "cube.fe.h5", "--static", "-o", "cube.static.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        modulus, nu = 210e9, 0.3
+        across = modulus / ((1 + nu) * (1 - 2 * nu)) * 1e-3  # stress is this times 1 - nu along x, nu across
+        heat = -modulus * 1e-5 * 100.0 / (1 - 2 * nu)
+        with h5py.File(self.folder / "cube.static.h5") as file:
+            stress = next(iter(file["cases/step_1/stress"].values()))[()]
+            reactions = file["cases/step_1/reactions"][()]
+            position, direction = file["supports/position"][()], file["supports/direction"][()]
+            shift = file["cases/step_1/displacement"][()]
+        want = np.array([across * (1 - nu) + heat, across * nu + heat, across * nu + heat, 0, 0, 0])
+        # One cell, eight points: rounding only.
+        np.testing.assert_allclose(stress, np.tile(want, (8, 1)), atol=1e-12 * abs(want).max())
+        pull = sum(r for r, p, d in zip(reactions, position, direction) if p[0] > 0.5 and d[0] > 0.5)
+        self.assertAlmostEqual(pull / want[0], 1.0, delta=1e-12)
+        np.testing.assert_allclose(shift[:, 0], [0, 1e-3, 1e-3, 0] * 2, atol=1e-18)
+
+    def test_modes_and_reductions_are_refused_with_the_supports_that_hold_it(self):
+        (self.folder / "cube.rom.toml").write_text("boundary = [\"FAR\"]\nfmax_hz = 1000.0\n")
+        for stage, arguments in (("modal", ["cube.fe.h5", "--count", "3", "-o", "cube.modes.h5"]),
+                                 ("condense", ["cube.fe.h5", "-c", "cube.rom.toml", "-o", "cube.rom.h5"])):
+            done = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+            self.assertIn("all 24 degrees of freedom held by supports (support_1", done.stderr)
+            self.assertIn("--static", done.stderr)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
