@@ -24,4 +24,15 @@ struct Axes {
 /// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x lies along z.
 Axes read_axes(const Config& table, double metre);
 
+/// A line in space about which a part turns.
+struct RotationAxis {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       // [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
+  /// From the axis to `x`, square to it [m].
+  Eigen::Vector3d arm(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - point;
+    return r - r.dot(direction) * direction;
+  }
+};
+
 }  // namespace clatter::assembly

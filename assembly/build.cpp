@@ -17,7 +17,8 @@
 namespace clatter::assembly {
 namespace {
 
-constexpr double kNoMass = 1e-13;  // least eigenvalue of a reference's scaled mass block
+constexpr double kNoStiffness = 1e-13;  // of the largest diagonal entry of K: rounding
+constexpr double kNoMass = 1e-13;       // least eigenvalue of a reference's scaled mass block
 
 /// Builds step by step; the members are what the steps hand on.
 class Builder {
@@ -35,6 +36,7 @@ class Builder {
   void take_supports(SupportBlocks& blocks);
   void add_point_masses();
   void check_points() const;
+  void check_stiffness() const;
 
   const mesh::Mesh& mesh_;
   const Recipe& recipe_;
@@ -124,6 +126,26 @@ void Builder::add_point_masses() {
   model.mass = properties_of(moments);
 }
 
+/// A rigid body that nothing elastic holds leaves rounding, of either sign, on the diagonal of K.
+void Builder::check_stiffness() const {
+  const FeModel& model = out_.model;
+  if (model.size() == 0) return;
+  const Eigen::VectorXd diagonal = model.K.diagonal();
+  const double length =
+      (model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff()).norm();
+  for (const auto& [name, set] : model.sets) {
+    if (!turns(set)) continue;
+    for (size_t k = 0; k < set.dofs.size(); ++k) {
+      const double unit = set.is_rotation[k] != 0 ? length * length : 1.0;
+      if (diagonal(set.dofs[k]) > kNoStiffness * unit * diagonal.maxCoeff()) continue;
+      throw InputError(fmt::format(
+          "{}: found no stiffness against {}: {} moves a rigid body that nothing elastic holds, "
+          "expected supports of it or a coupling to what deforms",
+          mesh_.name, set.labels[k], name));
+    }
+  }
+}
+
 /// A reference whose motion moves nothing in some combination would leave M without an inverse.
 void Builder::check_points() const {
   for (const auto& [name, set] : out_.model.sets) {
@@ -173,6 +195,7 @@ void Builder::run(StepClock& clock) {
   clock.lap("transform");
   add_point_masses();
   check_points();
+  check_stiffness();
   LoadBuilder(mesh_, recipe_, numbers_, constrained_, surfaces_, body_force).build(model);
   clock.lap("masses and loads");
   out_.certificate = certify(model, constrained_, recipe_.mass);

@@ -16,19 +16,26 @@ constexpr double kMassTolerance = 1e-9;   // ten properties, hard case B5
 constexpr double kRigidTolerance = 1e-9;  // rounding leaves 1e-12 at 1e6 DoF
 constexpr double kLargeGrowth = 1e6;      // loses six digits in every pivot displacement
 
-/// |K R| over |K| |R|, column by column: the force that a rigid motion should not need.
+double largest(const Eigen::MatrixXd& values) {
+  return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// |K R| over |K| |R|, column by column: the force that a rigid motion should not need, on the
+/// coordinates or, where supports hold every one of them, on the supports.
 double rigid_force(const FeModel& model, const Eigen::MatrixXd& motions) {
   const FeSupports& supports = model.supports;
   const Eigen::MatrixXd rigid = model.rigid * motions;
   const Eigen::MatrixXd held = supports.rigid * motions;
-  Eigen::MatrixXd force = multiply_symmetric(model.K, rigid);
-  if (supports.size() > 0) force += supports.K_sq.transpose() * held;
-  const double stiffness = Eigen::VectorXd(model.K.diagonal()).maxCoeff();
+  const bool all_held = model.size() == 0;
+  Eigen::MatrixXd force = multiply_symmetric(all_held ? supports.K_ss : model.K,  //
+                                             all_held ? held : rigid);
+  if (!all_held && supports.size() > 0) force += supports.K_sq.transpose() * held;
+  const double stiffness =
+      largest(Eigen::VectorXd(all_held ? supports.K_ss.diagonal() : model.K.diagonal()));
   double worst = 0.0;
   for (Eigen::Index c = 0; c < rigid.cols(); ++c) {
-    const double motion = std::max(rigid.col(c).cwiseAbs().maxCoeff(),
-                                   held.rows() > 0 ? held.col(c).cwiseAbs().maxCoeff() : 0.0);
-    worst = std::max(worst, force.col(c).cwiseAbs().maxCoeff() / (stiffness * motion));
+    const double motion = std::max(largest(rigid.col(c)), largest(held.col(c)));
+    worst = std::max(worst, largest(force.col(c)) / (stiffness * motion));
   }
   return worst;
 }

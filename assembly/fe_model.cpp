@@ -48,7 +48,6 @@ void check_lower(const H5File& file, const std::string& place, const SparseMatri
 void check_matrices(const H5File& file, const FeModel& model) {
   const Eigen::Index n = model.K.rows();
   const Eigen::Index n_nodes = model.nodes.rows();
-  if (n == 0) refuse(file, "K", "no degrees of freedom", "at least one");
   check_shape(file, "K", n, model.K.cols(), n, n);
   check_shape(file, "M", model.M.rows(), model.M.cols(), n, n);
   check_shape(file, "T", model.T.rows(), model.T.cols(), 3 * n_nodes, n);
@@ -80,6 +79,14 @@ const DofSet& FeModel::set(const std::string& set_name) const {
   for (const auto& [key, value] : sets) present.push_back(key);
   throw InputError(fmt::format("{}: set: found \"{}\", expected one of: {}", name, set_name,
                                fmt::join(present, ", ")));
+}
+
+void require_unknowns(const FeModel& model, const std::string& what) {
+  if (model.size() > 0) return;
+  throw InputError(fmt::format(
+      "{}: found all {} degrees of freedom held by supports ({}), expected some free ones for {}; "
+      "clatter-modal --static gives their reactions",
+      model.name, model.supports.size(), fmt::join(model.supports.names, ", "), what));
 }
 
 void write_fe_model(H5File& file, const FeModel& model) {
@@ -124,6 +131,8 @@ FeModel read_fe_model(const std::filesystem::path& path) {
   model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
   model.mass = read_mass_properties(file);
   read_statics(file, model);
+  if (model.size() == 0 && model.supports.size() == 0)
+    refuse(file, "K", "no degrees of freedom", "at least one");
   model.cells = read_cells(file, model.nodes);
   return model;
 }

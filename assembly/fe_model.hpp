@@ -72,11 +72,16 @@ struct FeModel {
   const DofSet& set(const std::string& set_name) const;  // InputError listing the names present
 };
 
+/// InputError naming the supports when they hold every degree of freedom; `what` is what needs
+/// unknowns ("modes").
+void require_unknowns(const FeModel& model, const std::string& what);
+
 /// Writes `model` into an open file; provenance, timing and certificate are the caller's.
 void write_fe_model(H5File& file, const FeModel& model);
 
 /// Reads a model; checks schema, shapes, index ranges, finite values, a positive diagonal of M and
-/// K, and that every DoF of a set exists. InputError names the file, place, found and expected.
+/// K, and that every DoF of a set exists. n is 0 where supports hold every degree of freedom.
+/// InputError names the file, place, found and expected.
 FeModel read_fe_model(const std::filesystem::path& path);
 
 }  // namespace clatter::assembly

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "assembly/centrifugal_load.hpp"
 #include "assembly/load_case.hpp"
+#include "assembly/point_mass.hpp"
 #include "assembly/thermal_load.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -39,6 +41,20 @@ void LoadBuilder::add_body_force(const Eigen::Vector3d& acceleration,
   }
 }
 
+/// rho r on the elements, m r on the masses of points, r from the axis.
+void LoadBuilder::add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const {
+  forces.head(3 * mesh_.nodes.rows()) =
+      centrifugal_load(mesh_, recipe_.materials, load.axis, load.turning);
+  if (!load.turning.empty()) return;
+  for (const PointMassSpec& spec : recipe_.point_masses) {
+    const int32_t point = point_named(spec.on);
+    if (point < 0) continue;
+    const Eigen::Vector3d place = recipe_.points[static_cast<size_t>(point)].point.place;
+    const auto force = centrifugal_force(spec, place, load.axis);
+    for (int d = 0; d < 6; ++d) forces(numbers_.of_point(point, d)) += force(d);
+  }
+}
+
 /// Above the state without stress, at the nodes [K].
 Eigen::VectorXd LoadBuilder::temperature_rise(const LoadSpec& load) const {
   if (load.field.empty()) return Eigen::VectorXd::Constant(mesh_.nodes.rows(), load.value);
@@ -67,6 +83,9 @@ Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
     case LoadSpec::Kind::kGravity:
       add_body_force(load.force, forces);
       break;
+    case LoadSpec::Kind::kCentrifugal:
+      add_centrifugal(load, forces);
+      break;
     case LoadSpec::Kind::kNodal: {
       const RowMatrix& field = mesh_.fields.at(load.field);
       forces.head(3 * n_nodes) =
@@ -87,6 +106,19 @@ void LoadBuilder::add_to_sets(const FeModel& model, const LoadSpec& load,
                               Eigen::VectorXd& f) const {
   if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) < 0)
     f += set_load(f.size(), model.sets.at(load.set), load.force, load.moment, load.where);
+  if (load.kind == LoadSpec::Kind::kCentrifugal && load.turning.empty()) {
+    for (const PointMassSpec& spec : recipe_.point_masses) {
+      if (point_named(spec.on) >= 0) continue;
+      const DofSet& set = model.sets.at(spec.on);
+      if (!turns(set) && set.dofs.size() > 3)
+        throw InputError(
+            fmt::format("{}: found a mass shared by {} nodes ({}), expected one node "
+                        "for each mass of a part that turns",
+                        load.where, set.dofs.size() / 3, spec.where));
+      const auto force = centrifugal_force(spec, set.position.row(0).transpose(), load.axis);
+      f += set_load(f.size(), set, force.head<3>(), force.tail<3>(), load.where);
+    }
+  }
   if (load.kind != LoadSpec::Kind::kGravity) return;
   for (const PointMassSpec& spec : recipe_.point_masses) {
     if (point_named(spec.on) >= 0) continue;

@@ -33,6 +33,7 @@ class LoadBuilder {
   Eigen::VectorXd forces(const LoadSpec& load) const;
   Eigen::VectorXd temperature_rise(const LoadSpec& load) const;
   void add_body_force(const Eigen::Vector3d& acceleration, Eigen::VectorXd& forces) const;
+  void add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const;
   void add_to_sets(const FeModel& model, const LoadSpec& load, Eigen::VectorXd& f) const;
   Eigen::VectorXd prescribed(const LoadSpec& load) const;
   int32_t point_named(const std::string& name) const;  // -1: no such point

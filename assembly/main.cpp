@@ -41,7 +41,7 @@ Further tables, any number of each:
   [[mean]]        mean displacement of a surface along a direction
   [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
   [[point_mass]]  mass and inertia on a point, coupling, sensor or node set
-  [[load]]        pressure, resultant, force, gravity, nodal field, prescribed displacement
+  [[load]]        pressure, resultant, force, gravity, centrifugal, nodal field, prescribed displacement
   [[case]]        a sum of loads
 
 Matrices that another program assembled, instead of all that:

@@ -115,13 +115,24 @@ struct PointMassSpec {
 
 /// [[load]]: a unit load case.
 struct LoadSpec {
-  enum class Kind { kPressure, kResultant, kForce, kGravity, kDisplacement, kNodal, kTemperature };
+  enum class Kind {
+    kPressure,
+    kResultant,
+    kForce,
+    kGravity,
+    kCentrifugal,
+    kDisplacement,
+    kNodal,
+    kTemperature
+  };
   std::string name, unit, where;
   Kind kind = Kind::kPressure;
   std::string surface, set;  // set: also the name of a point
   std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
+  RotationAxis axis;                                 // centrifugal: of the part, and
+  std::vector<int32_t> turning;                      // the regions that turn; none: all and masses
   Place place;                                       // prescribed displacement:
   std::vector<int> directions;                       // of `axes`
   Axes axes;

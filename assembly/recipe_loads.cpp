@@ -58,6 +58,19 @@ void RecipeReader::temperature_load(const Config& table, LoadSpec& spec) const {
   }
 }
 
+/// 1 (rad/s)^2 about an axis, of all regions and point masses or of some regions.
+void RecipeReader::centrifugal_load(const Config& table, LoadSpec& spec) const {
+  spec.kind = LoadSpec::Kind::kCentrifugal;
+  spec.axis.direction = unit_vector(table, "axis");
+  spec.axis.point = point(table, "axis_point");
+  spec.unit = "rad2/s2";
+  for (const std::string& region : table.texts_or("regions", {})) {
+    const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
+    if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
+    spec.turning.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
+  }
+}
+
 LoadSpec RecipeReader::load(const Config& table) const {
   LoadSpec spec;
   spec.name = table.text("name");
@@ -66,7 +79,7 @@ LoadSpec RecipeReader::load(const Config& table) const {
   spec.where = where(table, "load " + spec.name);
   const std::string kind =
       table.choice("kind", {"pressure", "resultant", "force", "gravity", "acceleration",
-                            "displacement", "nodal", "temperature"});
+                            "centrifugal", "displacement", "nodal", "temperature"});
   if (kind == "pressure") {
     spec.surface = surface(table);
     spec.unit = "Pa";
@@ -77,6 +90,8 @@ LoadSpec RecipeReader::load(const Config& table) const {
     spec.unit = table.text_or("unit", "N");
   } else if (kind == "force") {
     force_load(table, spec);
+  } else if (kind == "centrifugal") {
+    centrifugal_load(table, spec);
   } else if (kind == "displacement") {
     displacement_load(table, spec);
   } else if (kind == "temperature") {

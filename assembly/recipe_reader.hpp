@@ -61,6 +61,7 @@ class RecipeReader {
   LoadSpec load(const Config& table) const;
   void force_load(const Config& table, LoadSpec& spec) const;
   void temperature_load(const Config& table, LoadSpec& spec) const;
+  void centrifugal_load(const Config& table, LoadSpec& spec) const;
   void displacement_load(const Config& table, LoadSpec& spec) const;
   std::string field(const Config& table, Eigen::Index columns) const;
   void cases(Recipe& recipe) const;

@@ -106,6 +106,7 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
       Config::parse(stored.text, paths.add_rows.string() + ": request"));
   options.order = read_elimination_order(paths.add_rows);
   const assembly::FeModel model = assembly::read_fe_model(paths.model);
+  assembly::require_unknowns(model, "a reduction");
   clock.lap(fmt::format("read {} DoF", model.size()));
   const ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
   const double error = with_rows.certificate.at("rows_added_error");
@@ -180,6 +181,7 @@ int run(int argc, char** argv) {
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
   options.order = read_elimination_order(paths.output);
   const assembly::FeModel model = assembly::read_fe_model(paths.model);
+  assembly::require_unknowns(model, "a reduction");
   clock.lap(fmt::format("read {} DoF", model.size()));
   ReducedModel reduced = condense::condense(model, options, clock);
   for (const std::string& text : condense::describe(reduced)) print_result(text);

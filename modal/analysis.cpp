@@ -120,6 +120,7 @@ SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<in
 }
 
 PartModes analyse(const assembly::FeModel& model, const ModesOptions& options) {
+  assembly::require_unknowns(model, "modes");
   PartModes part;
   part.name = model.name;
   part.source = "fe";

@@ -157,6 +157,7 @@ int compare(const Arguments& arguments, const CommonOptions& common) {
     throw InputError("command line: --compare expects full.fe.h5 and reduced.rom.h5");
   }
   const assembly::FeModel full = assembly::read_fe_model(arguments.inputs[0]);
+  assembly::require_unknowns(full, "modes");
   const ReducedModel reduced = read_reduced_model(arguments.inputs[1]);
   const modal::Comparison result =
       modal::compare(full, reduced, {arguments.fmax_hz, arguments.count});

@@ -137,12 +137,45 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
   return out;
 }
 
+/// Nothing is unknown where supports hold every DoF: displacements are those prescribed, and the
+/// reactions are K_ss s - f_s.
+StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std::string>& names,
+                          const RightSides& sides) {
+  constexpr double kHeldBalance = 1e-8;  // rounding leaves 1e-12 or so
+  const assembly::FeSupports& supports = model.supports;
+  const Eigen::MatrixXd force = multiply_symmetric(supports.K_ss, supports.rigid);
+  const double stiffness = Eigen::VectorXd(supports.K_ss.diagonal()).maxCoeff();
+  Eigen::VectorXd balanced(6);
+  for (Eigen::Index d = 0; d < 6; ++d)
+    balanced(d) = force.col(d).cwiseAbs().maxCoeff() <=
+                          kHeldMotion * stiffness * supports.rigid.col(d).cwiseAbs().maxCoeff()
+                      ? 1.0
+                      : 0.0;
+  StaticSolution solution;
+  for (size_t c = 0; c < names.size(); ++c) {
+    const auto col = static_cast<Eigen::Index>(c);
+    StaticCase found = recover(model, Eigen::VectorXd(0), Eigen::VectorXd(0), sides.f_s.col(col),
+                               sides.s.col(col), balanced);
+    found.name = names[c];
+    found.loads = factors_of(model, names[c]);
+    if (!(found.balance <= kHeldBalance))
+      throw NumericsError(
+          fmt::format("{}: {}: found balance of forces {:.3g}, expected at most {:.0e}", model.name,
+                      found.name, found.balance, kHeldBalance));
+    found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
+                                          temperature_rise(model, found.loads));
+    solution.cases.push_back(std::move(found));
+  }
+  return solution;
+}
+
 }  // namespace
 
 StaticSolution solve_static(const assembly::FeModel& model,
                             const std::vector<std::string>& wanted) {
   const std::vector<std::string> names = wanted.empty() ? all_names(model) : wanted;
   const RightSides sides = right_sides(model, names);
+  if (model.size() == 0) return solve_held(model, names, sides);
   refuse_free_body(model);
   const SupernodalFactor factor(model.K);
   Eigen::MatrixXd driven = sides.f;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "mesh/deck/abaqus_reading.hpp"
 
@@ -208,24 +209,29 @@ void read_rigid(Reading* reading) {
   for_each_card(*reading, {"RIGIDBODY"},
                 [&](size_t use, const Card& card) { read_rigid_body(reading, use, card); });
   Coupling coupling;
-  for_each_card(*reading, {"COUPLING", "KINEMATIC", "DISTRIBUTING"},
-                [&](size_t use, const Card& card) {
-                  if (card.keyword().key == "COUPLING") {
-                    expect_coupling_done(*reading, coupling.card);
-                    coupling = begin_coupling(reading, use, card);
-                    return;
-                  }
-                  if (coupling.card == nullptr) {
-                    reading->source.fail(card.spot(), "expected one line behind *COUPLING");
-                  }
-                  if (card.keyword().key == "KINEMATIC") {
-                    read_kinematic(reading, coupling, card);
-                  } else {
-                    read_weighted(reading, coupling, card);
-                  }
-                  coupling.card = nullptr;
-                });
-  expect_coupling_done(*reading, coupling.card);
+  bool refused = false;
+  for_each_card(
+      *reading, {"COUPLING", "KINEMATIC", "DISTRIBUTING"}, [&](size_t use, const Card& card) {
+        if (card.keyword().key == "COUPLING") {
+          reading->refusals->attempt([&] { expect_coupling_done(*reading, coupling.card); });
+          coupling = Coupling();
+          refused = true;
+          coupling = begin_coupling(reading, use, card);
+          refused = false;
+          return;
+        }
+        if (refused) throw FollowUp();
+        if (coupling.card == nullptr) {
+          reading->source.fail(card.spot(), "expected one line behind *COUPLING");
+        }
+        const Coupling done = std::exchange(coupling, Coupling());
+        if (card.keyword().key == "KINEMATIC") {
+          read_kinematic(reading, done, card);
+        } else {
+          read_weighted(reading, done, card);
+        }
+      });
+  reading->refusals->attempt([&] { expect_coupling_done(*reading, coupling.card); });
 }
 
 void read_ties(Reading* reading) {

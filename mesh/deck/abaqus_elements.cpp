@@ -186,6 +186,7 @@ Lines::Kind read_points(Lines* lines, const std::string& type, Scope* scope, Set
 // Only the numbers are kept: sets may name them. A line that ends in a comma goes on.
 Lines::Kind skip_elements(Lines* lines, const std::string& type, Scope* scope, Ignore* ignore) {
   bool goes_on = false;
+  Spot open = 0;
   int64_t count = 0;
   Lines::Kind kind = lines->next();
   for (; kind == Lines::Kind::kData; kind = lines->next()) {
@@ -196,6 +197,10 @@ Lines::Kind skip_elements(Lines* lines, const std::string& type, Scope* scope, I
       ++count;
     }
     goes_on = lines->data().ends_with(',');
+    if (goes_on) open = lines->spot();
+  }
+  if (goes_on && kind == Lines::Kind::kEnd) {
+    lines->source().fail(open, "the deck ends behind a comma, expected the rest of the element");
   }
   ignore->skips(type, count);
   return kind;
@@ -246,7 +251,7 @@ Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore) {
   return kind;
 }
 
-Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore) {
+Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* refusals) {
   const Keyword keyword = lines->keyword();
   keyword.allow({"TYPE", "ELSET"}, lines->source(), ignore);
   const std::string type = folded(keyword.required("TYPE", lines->source()));
@@ -260,9 +265,9 @@ Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore) {
   if (std::find(kPointTypes.begin(), kPointTypes.end(), type) != kPointTypes.end()) {
     return read_points(lines, type, scope, chunk, ignore);
   }
-  lines->source().fail(
-      keyword.spot,
-      fmt::format("element type {} is not supported; ignore = [\"{}\"] skips it", type, type));
+  refusals->add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",
+                            lines->source().where(keyword.spot), type, type));
+  return skip_elements(lines, type, scope, ignore);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

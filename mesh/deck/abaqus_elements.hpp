@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "mesh/deck/abaqus_scope.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -30,8 +31,9 @@ int face_of_number(CellType type, int number);
 int number_of_face(CellType type, int face);
 
 /// Reads the data lines of *NODE or *ELEMENT into `scope`, until the next keyword, and returns what
-/// came there. InputError for the first line that is wrong and for element types that are not read.
+/// came there. InputError for the first line that is wrong.
 Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore);
-Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore);
+/// An element type that is not read is refused and passed over like one that the user ignores.
+Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* refusals);
 
 }  // namespace clatter::mesh::deck::abaqus

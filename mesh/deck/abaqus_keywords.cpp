@@ -15,6 +15,8 @@ constexpr std::array kHarmless = {
     "CONTACTOUTPUT",
     "CONTACTPRINT",
     "CONTROLS",
+    "DESIGNRESPONSE",
+    "DESIGNVARIABLES",
     "ELFILE",
     "ELPRINT",
     "ELEMENTOUTPUT",
@@ -92,6 +94,19 @@ constexpr std::array kRoles = {
     Entry{"STATIC", Role::kStep},
     Entry{"SUBSTRUCTUREGENERATE", Role::kStep},
     Entry{"TEMPERATURE", Role::kStep},
+    Entry{"BUCKLE", Role::kProcedure},
+    Entry{"CHANGESOLIDSECTION", Role::kProcedure},
+    Entry{"COMPLEXFREQUENCY", Role::kProcedure},
+    Entry{"COUPLEDTEMPERATURE-DISPLACEMENT", Role::kProcedure},
+    Entry{"DYNAMIC", Role::kProcedure},
+    Entry{"GREEN", Role::kProcedure},
+    Entry{"HEATTRANSFER", Role::kProcedure},
+    Entry{"MODALDYNAMIC", Role::kProcedure},
+    Entry{"MODELCHANGE", Role::kProcedure},
+    Entry{"SENSITIVITY", Role::kProcedure},
+    Entry{"STEADYSTATEDYNAMICS", Role::kProcedure},
+    Entry{"UNCOUPLEDTEMPERATURE-DISPLACEMENT", Role::kProcedure},
+    Entry{"VISCO", Role::kProcedure},
 };
 
 }  // namespace

@@ -18,8 +18,9 @@ enum class Role {
   kMaterialIdle,  // *CONDUCTIVITY: has no effect here and stands behind *MATERIAL
   kCoupling,      // *COUPLING; *KINEMATIC or *DISTRIBUTING follows
   kCouplingPart,
-  kModel,  // anything else that is kept until the deck is read
-  kStep,   // the same, only inside a step
+  kModel,      // anything else that is kept until the deck is read
+  kStep,       // the same, only inside a step
+  kProcedure,  // *DYNAMIC: a step that is left out after a linear one, else refused by name
 };
 
 /// The role of a keyword by its folded name without star ("SOLIDSECTION").

@@ -111,6 +111,7 @@ bool Lines::next_line() {
   std::string_view line;
   while (source_->next(&line)) {
     data_ = trimmed(line);
+    marked_end_ = data_ == kEndMark;
     if (!data_.empty() && !data_.starts_with("**")) return true;
   }
   return false;
@@ -118,7 +119,8 @@ bool Lines::next_line() {
 
 Lines::Kind Lines::next() {
   while (next_line()) {
-    if (data_.front() != '*') return Kind::kData;
+    bare_keyword_ = data_.front() == '*';
+    if (!bare_keyword_) return Kind::kData;
     read_keyword();
     const std::string* file = keyword_.find("INPUT");
     if (file == nullptr && keyword_.key != "INCLUDE") return Kind::kKeyword;
@@ -136,7 +138,11 @@ void Lines::read_keyword() {
   keyword_ = Keyword();
   keyword_.spot = source_->spot();
   std::string text(data_.substr(1));
-  while (text.ends_with(',') && text.size() < kLongestLine && next_line()) {
+  while (text.ends_with(',') && text.size() < kLongestLine) {
+    if (!next_line()) {
+      open_keyword_ = true;
+      break;
+    }
     const char first = data_.front();
     const bool word = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
     const bool equals = data_.find('=') != std::string_view::npos;

@@ -48,6 +48,9 @@ struct Keyword {
              Ignore* ignore) const;
 };
 
+/// The last line of decks that clatter writes.
+inline constexpr std::string_view kEndMark = "** end of the mesh by clatter";
+
 /// Cuts a Source into keywords and data lines; follows *INCLUDE and the parameter INPUT of any
 /// keyword; leaves out comments (**) and empty lines.
 class Lines {
@@ -59,6 +62,12 @@ class Lines {
   const Keyword& keyword() const { return keyword_; }
   /// The data line, trimmed, valid until next().
   std::string_view data() const { return data_; }
+  /// True when the deck ended behind the comma of a keyword line.
+  bool open_keyword() const { return open_keyword_; }
+  /// True when no data line came behind the last keyword.
+  bool bare_keyword() const { return bare_keyword_; }
+  /// True when the last line of the deck was the comment that our own writer ends with.
+  bool marked_end() const { return marked_end_; }
   Spot spot() const { return source_->spot(); }
   const Source& source() const { return *source_; }
 
@@ -70,6 +79,7 @@ class Lines {
   Keyword keyword_;
   std::string_view data_;
   bool held_ = false;  // data_ is the next line
+  bool open_keyword_ = false, bare_keyword_ = false, marked_end_ = false;
 };
 
 /// A keyword with its data lines, kept until the whole deck is read.

@@ -64,31 +64,62 @@ void Loads::read_element_loads(size_t use, const Card& card, StepNumber step) {
   if (is_new(card)) {
     forget_others(&faces_, step);
     forget_others(&gravity_, step);
+    std::erase_if(rotations_, [&](const Rotation& other) { return other.step != step; });
   }
   for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, reading_->source);
-    const std::string label = folded(fields.text(1));
-    if (label == "GRAV") {
-      add_gravity(use, fields, factor, step);
-      continue;
-    }
-    const auto number = label.starts_with('P') ? to_integer(label.substr(1)) : std::nullopt;
-    if (!number || *number < 1 || *number > 6) {
-      fields.fail(
-          fmt::format("load {} is not supported, expected P1 to P6 or GRAV", fields.text(1)));
-    }
-    fields.at_most(3, "elements, face, pressure");
-    const double value = factor * fields.number(2, "pressure");
-    for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
-      if (element >= reading_->model->cells()) fields.fail("found a pressure on a point");
-      const FlatTable& table = reading_->model->table_of(element);
-      const int32_t face = face_of_number(table.type, *number);
-      if (face < 0) {
-        fields.fail(fmt::format("found face {}, which elements {} do not have", label, table.name));
-      }
-      put(&faces_, CellFaceId(element, face), Value{value, step, nullptr});
-    }
+    reading_->refusals->attempt(
+        [&] { read_element_load(use, card.line(i, reading_->source), factor, step); });
   }
+}
+
+void Loads::read_element_load(size_t use, const Fields& fields, double factor, StepNumber step) {
+  const std::string label = folded(fields.text(1));
+  if (label == "GRAV") return add_gravity(use, fields, factor, step);
+  if (label == "CENTRIF") return add_rotation(use, fields, factor, step);
+  const auto number = label.starts_with('P') ? to_integer(label.substr(1)) : std::nullopt;
+  if (!number || *number < 1 || *number > 6) {
+    fields.fail(fmt::format("load {} is not supported, expected P1 to P6, GRAV or CENTRIF",
+                            fields.text(1)));
+  }
+  fields.at_most(3, "elements, face, pressure");
+  const double value = factor * fields.number(2, "pressure");
+  for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
+    if (element >= reading_->model->cells()) fields.fail("found a pressure on a point");
+    const FlatTable& table = reading_->model->table_of(element);
+    const int32_t face = face_of_number(table.type, *number);
+    if (face < 0) {
+      fields.fail(fmt::format("found face {}, which elements {} do not have", label, table.name));
+    }
+    put(&faces_, CellFaceId(element, face), Value{value, step, nullptr});
+  }
+}
+
+// Elements, CENTRIF, omega^2, a point of the axis, its direction.
+void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNumber step) {
+  fields.at_most(9, "elements, CENTRIF, omega^2, point of the axis, direction");
+  Rotation rotation;
+  for (size_t k = 0; k < 3; ++k) {
+    const auto d = static_cast<int>(k);
+    rotation.what.point[d] = fields.number_or(3 + k, 0.0, "point of the axis");
+    rotation.what.axis[d] = fields.number_or(6 + k, 0.0, "direction of the axis");
+  }
+  if (!(rotation.what.axis.norm() > 0.0)) fields.fail("expected a direction of the axis");
+  rotation.what.axis.normalize();
+  rotation.what.omega_squared = factor * fields.number(2, "omega^2");
+  if (!(rotation.what.omega_squared >= 0.0)) {
+    fields.fail(fmt::format("found omega^2 = {}, expected 0 or more", rotation.what.omega_squared));
+  }
+  rotation.step = step;
+  rotation.spot = fields.spot();
+  rotation.covered.resize(static_cast<size_t>(reading_->model->cells()), false);
+  for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
+    if (element < reading_->model->cells()) rotation.covered[static_cast<size_t>(element)] = true;
+  }
+  // What an earlier step said of the same elements is replaced.
+  std::erase_if(rotations_, [&](const Rotation& other) {
+    return other.step != step && other.covered == rotation.covered;
+  });
+  rotations_.push_back(std::move(rotation));
 }
 
 // Elements, GRAV, acceleration, direction.
@@ -148,7 +179,7 @@ void Loads::read_temperatures(size_t use, const Card& card, StepNumber) {
 
 bool Loads::empty() const {
   return forces_.empty() && faces_.empty() && surfaces_.empty() && gravity_.empty() &&
-         temperature_.empty();
+         rotations_.empty() && temperature_.empty();
 }
 
 void Loads::list(Step* out, StepNumber step) {
@@ -159,6 +190,7 @@ void Loads::list(Step* out, StepNumber step) {
   }
   list_pressures(out);
   list_gravity(out);
+  list_rotations(out);
   list_temperature(out, step);
 }
 
@@ -188,6 +220,32 @@ void Loads::list_gravity(Step* out) const {
                             "expected all");
     }
     out->acceleration += Eigen::Vector3d(vector.data());
+  }
+}
+
+// Cells of one block belong to one region; a region turns as a whole.
+void Loads::list_rotations(Step* out) const {
+  const Mesh& mesh = reading_->deck->mesh;
+  for (const Rotation& rotation : rotations_) {
+    if (rotation.what.omega_squared == 0.0) continue;
+    std::vector<int64_t> turning(mesh.regions.size(), 0), all(mesh.regions.size(), 0);
+    for (size_t cell = 0; cell < rotation.covered.size(); ++cell) {
+      const auto region = static_cast<size_t>(reading_->region_of_cell[cell]);
+      ++all[region];
+      if (rotation.covered[cell]) ++turning[region];
+    }
+    out->rotations.push_back(rotation.what);
+    std::vector<std::string>& names = out->rotations.back().regions;
+    for (size_t r = 0; r < all.size(); ++r) {
+      if (turning[r] > 0 && turning[r] < all[r]) {
+        reading_->source.fail(rotation.spot,
+                              fmt::format("CENTRIF acts on {} of {} elements of section {}, "
+                                          "expected all or none: give them a section of their own",
+                                          turning[r], all[r], mesh.regions[r]));
+      }
+      if (turning[r] > 0) names.push_back(mesh.regions[r]);
+    }
+    if (names.size() == mesh.regions.size()) names.clear();
   }
 }
 

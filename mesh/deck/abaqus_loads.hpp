@@ -24,7 +24,7 @@ class Loads {
 
   bool empty() const;
   /// Writes all that acts into `out`; surfaces and fields of the mesh come with it. InputError
-  /// where gravity acts on some elements only.
+  /// where gravity acts on some elements only, or CENTRIF on a part of a region.
   void list(Step* out, StepNumber step);
 
  private:
@@ -39,10 +39,20 @@ class Loads {
     Spot spot = 0;
   };
   using Vector = std::array<double, 3>;
+  // One line of CENTRIF: the same axis and cells again replace it.
+  struct Rotation {
+    Step::Rotation what;
+    std::vector<bool> covered;  // by cell
+    StepNumber step = 0;
+    Spot spot = 0;
+  };
 
   double begin(const Card& card);
   void add_gravity(size_t use, const Fields& fields, double factor, StepNumber step);
+  void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
+  void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
   void list_pressures(Step* out);
+  void list_rotations(Step* out) const;
   void list_gravity(Step* out) const;
   void list_temperature(Step* out, StepNumber step);
   std::vector<double> initial_field() const;
@@ -52,6 +62,7 @@ class Loads {
   std::map<CellFaceId, Value> faces_;
   std::map<std::string, Value> surfaces_;
   std::map<Vector, Gravity> gravity_;
+  std::vector<Rotation> rotations_;
   std::vector<double> temperature_;  // by row; empty: nothing said
   std::map<std::vector<CellFaceId>, std::string> made_surfaces_;
 };

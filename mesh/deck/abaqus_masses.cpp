@@ -48,6 +48,7 @@ Eigen::Matrix3d inertia_of(const Fields& fields) {
 void read_masses(Reading* reading) {
   const std::vector<PointElement>& all = reading->model->points();
   std::vector<Spot> described;
+  const size_t refused = reading->refusals->size();
   const auto add = [&](const PointElement& element, const Card& card) -> Mass& {
     described.push_back(element.spot);
     Mass mass;
@@ -78,14 +79,14 @@ void read_masses(Reading* reading) {
       }
     }
   });
+  if (reading->refusals->size() > refused) return;
   std::sort(described.begin(), described.end());
   for (const PointElement& element : all) {
     if (element.type == "DCOUP3D") continue;
     if (!std::binary_search(described.begin(), described.end(), element.spot)) {
-      reading->source.fail(
-          element.spot,
-          fmt::format("element {} of type {} has no value (*{})", element.id, element.type,
-                      element.type == "MASS" ? "MASS" : "ROTARY INERTIA"));
+      reading->refusals->add(fmt::format(
+          "{}: element {} of type {} has no value (*{})", reading->source.where(element.spot),
+          element.id, element.type, element.type == "MASS" ? "MASS" : "ROTARY INERTIA"));
     }
   }
 }

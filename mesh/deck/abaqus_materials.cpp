@@ -1,36 +1,108 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 #include "mesh/deck/abaqus_reading.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// The constants of one temperature: `count` numbers, eight a line, then perhaps the temperature.
-// More sets of lines must say the same: materials do not depend on temperature here.
+// The one temperature at which all nodes begin; none where the deck has none or several.
+std::optional<double> initial_temperature(const Reading& reading) {
+  std::optional<double> found;
+  bool one = true;
+  for (const Card& card : reading.model->uses()[reading.model->main_use()].scope->cards) {
+    if (card.keyword().key != "INITIALCONDITIONS" ||
+        card.keyword().choice("TYPE", "") != "TEMPERATURE")
+      continue;
+    for (size_t i = 0; i < card.size(); ++i) {
+      const auto value = to_number(card.line(i, reading.source).text(1));
+      one = one && value && (!found || *found == *value);
+      if (value) found = value;
+    }
+  }
+  return one ? found : std::nullopt;
+}
+
+const Card* first_card(const Reading& reading, std::string_view key) {
+  for (const Card& card : reading.model->uses()[reading.model->main_use()].scope->cards) {
+    if (card.keyword().key == key) return &card;
+  }
+  return nullptr;
+}
+
+using Rows = std::vector<std::pair<double, std::vector<double>>>;  // by temperature, ascending
+
+// Between the rows that enclose `temperature`, constant beyond the ends, as CalculiX does.
+std::vector<double> interpolated(const Rows& rows, double temperature) {
+  if (temperature <= rows.front().first) return rows.front().second;
+  if (temperature >= rows.back().first) return rows.back().second;
+  size_t i = 1;
+  while (rows[i].first < temperature) ++i;
+  const double t = (temperature - rows[i - 1].first) / (rows[i].first - rows[i - 1].first);
+  std::vector<double> out = rows[i].second;
+  for (size_t k = 0; k < out.size(); ++k) {
+    out[k] = (1.0 - t) * rows[i - 1].second[k] + t * out[k];
+  }
+  return out;
+}
+
+// Constants that depend on the temperature are taken at the initial one, when no step changes it.
+std::vector<double> at_initial_temperature(const Reading& reading, const Card& card,
+                                           const Rows& rows) {
+  for (size_t i = 1; i < rows.size(); ++i) {
+    if (!(rows[i].first > rows[i - 1].first)) {
+      reading.source.fail(card.spot(),
+                          fmt::format("{}: found temperature {} after {}, expected "
+                                      "ascending ones",
+                                      card.keyword().name, rows[i].first, rows[i - 1].first));
+    }
+  }
+  const auto temperature = initial_temperature(reading);
+  if (!temperature) {
+    reading.source.fail(card.spot(),
+                        fmt::format("{}: constants that depend on the temperature need one initial "
+                                    "temperature of all nodes (*INITIAL CONDITIONS), found none",
+                                    card.keyword().name));
+  }
+  if (const Card* heat = first_card(reading, "TEMPERATURE")) {
+    reading.source.fail(
+        card.spot(),
+        fmt::format("{}: constants that depend on the temperature are not supported in steps that "
+                    "change it ({}), expected one set",
+                    card.keyword().name, reading.source.where(heat->spot())));
+  }
+  reading.deck->notes.push_back(fmt::format("{}: {} is taken at the initial temperature {}",
+                                            reading.source.where(card.spot()), card.keyword().name,
+                                            *temperature));
+  return interpolated(rows, *temperature);
+}
+
+// `count` numbers, eight a line, then perhaps the temperature to which they belong; more sets of
+// lines for other temperatures.
 std::vector<double> constants_of(const Reading& reading, const Card& card, size_t count) {
   const size_t lines = (count + 7) / 8;
   if (card.size() == 0 || card.size() % lines != 0) {
     reading.source.fail(card.spot(), fmt::format("{}: found {} data lines, expected {}",
                                                  card.keyword().name, card.size(), lines));
   }
-  std::vector<double> first;
+  Rows rows;
   for (size_t begin = 0; begin < card.size(); begin += lines) {
     std::vector<double> values;
+    double temperature = 0.0;
     for (size_t i = 0; i < lines; ++i) {
       const Fields fields = card.line(begin + i, reading.source);
       const size_t wanted = std::min<size_t>(8, count - 8 * i);
       for (size_t k = 0; k < wanted; ++k) values.push_back(fields.number(k, "material constant"));
+      temperature = fields.number_or(wanted, 0.0, "temperature");
     }
-    if (begin == 0) first = values;
-    if (values != first) {
-      reading.source.fail(card.spot(), fmt::format("{}: constants that depend on the temperature "
-                                                   "are not supported, expected one set",
-                                                   card.keyword().name));
-    }
+    rows.emplace_back(temperature, std::move(values));
   }
-  return first;
+  const bool same = std::all_of(rows.begin(), rows.end(),
+                                [&](const auto& row) { return row.second == rows.front().second; });
+  return same ? rows.front().second : at_initial_temperature(reading, card, rows);
 }
 
 // Abaqus' upper triangle goes column by column through stresses 11 22 33 12 13 23; ours row by row
@@ -103,6 +175,22 @@ void read_expansion(Reading* reading, const Card& card, Material* material) {
   }
 }
 
+// *ELASTIC, *DENSITY or *EXPANSION of `material`, none where *MATERIAL itself was refused. A
+// material that lacks a part by a refusal is lost.
+void read_part(Reading* reading, const Card& card, Material* material) {
+  if (material == nullptr) throw FollowUp();
+  const Keyword& keyword = card.keyword();
+  try {
+    if (keyword.key == "ELASTIC") return read_elastic(reading, card, material);
+    if (keyword.key == "EXPANSION") return read_expansion(reading, card, material);
+    keyword.allow({}, reading->source, reading->ignore);
+    material->density = constants_of(*reading, card, 1).front();
+  } catch (const InputError&) {
+    reading->refusals->lose(folded(material->name));
+    throw;
+  }
+}
+
 }  // namespace
 
 void read_materials(Reading* reading) {
@@ -110,13 +198,8 @@ void read_materials(Reading* reading) {
   for_each_card(
       *reading, {"MATERIAL", "ELASTIC", "DENSITY", "EXPANSION"}, [&](size_t use, const Card& card) {
         const Keyword& keyword = card.keyword();
-        if (keyword.key == "ELASTIC") return read_elastic(reading, card, material);
-        if (keyword.key == "EXPANSION") return read_expansion(reading, card, material);
-        if (keyword.key == "DENSITY") {
-          keyword.allow({}, reading->source, reading->ignore);
-          material->density = constants_of(*reading, card, 1).front();
-          return;
-        }
+        if (keyword.key != "MATERIAL") return read_part(reading, card, material);
+        material = nullptr;
         if (use != reading->model->main_use()) {
           reading->source.fail(card.spot(), "found *MATERIAL inside a part, expected it outside");
         }

@@ -28,7 +28,8 @@ class Sections {
       any = true;
       read_section(use, card);
     });
-    if (!any) by_element_sets();
+    // A deck that is refused has a mesh all the same, so that its steps can be looked at.
+    if (!any || reading_.refusals->any()) by_element_sets(any);
     for (int32_t cell = 0; cell < reading_.model->cells(); ++cell) add_formulation(cell);
     return std::move(region_);
   }
@@ -55,6 +56,7 @@ class Sections {
     const std::vector<int32_t>& elements = reading_.sets->elements(use, name, card.spot());
     const int32_t n_cells = reading_.model->cells();
     if (elements.empty() || elements.front() >= n_cells) return;  // only elements that are let go
+    if (reading_.refusals->has_lost(folded(material.name))) throw FollowUp();
     if (material.constants.empty()) {
       reading_.source.fail(card.spot(), fmt::format("material {} has no *ELASTIC", material.name));
     }
@@ -78,11 +80,13 @@ class Sections {
   const Material& material_named(const std::string& name, Spot spot) const {
     const auto known = reading_.material_names.find(folded(name));
     if (known != reading_.material_names.end()) return reading_.deck->materials.at(known->second);
+    if (reading_.refusals->has_lost(folded(name))) throw FollowUp();
     reading_.source.fail(spot, fmt::format("there is no material '{}'", name));
   }
 
   // Without any section: what *ELEMENT, ELSET= put together is a region, the rest is "solid".
-  void by_element_sets() {
+  // With `rest_only` all that has no section yet is "solid".
+  void by_element_sets(bool rest_only) {
     std::map<std::pair<size_t, Spot>, const IdSet*> sets;  // in the order of the deck
     for (size_t u = 0; u < reading_.model->uses().size(); ++u) {
       for (const auto& [key, set] : reading_.model->uses()[u].scope->element_sets) {
@@ -93,6 +97,7 @@ class Sections {
         }
       }
     }
+    if (rest_only) sets.clear();
     for (const auto& [place, set] : sets) {
       const int32_t region = new_region(place.first, set->name, place.second);
       for (const SetChunk& chunk : set->chunks) fill(place.first, chunk, region);
@@ -227,14 +232,16 @@ class Blocks {
 
 std::vector<int32_t> build_mesh(Reading* reading) {
   if (reading->model->cells() == 0) {
+    reading->refusals->raise();
     throw InputError(
         fmt::format("{}: found no solid elements, expected some of C3D4 C3D5 C3D6 "
                     "C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R",
-                    reading->source.files().front()));
+                    reading->source.where(reading->source.spot())));
   }
   const std::vector<int32_t> region = Sections(reading).run();
   std::vector<int32_t> node = take_nodes(*reading->model, &reading->deck->mesh);
   Blocks(*reading->model, region, node, &reading->deck->mesh).run();
+  reading->region_of_cell = region;
   return node;
 }
 

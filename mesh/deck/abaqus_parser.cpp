@@ -38,55 +38,150 @@ SetChunk::Range range_of(const Lines& lines) {
 
 class Parser {
  public:
-  Parser(Source* source, Ignore* ignore) : lines_(source), source_(*source), ignore_(ignore) {}
+  Parser(Source* source, Ignore* ignore, Refusals* refusals)
+      : lines_(source), source_(*source), ignore_(ignore), refusals_(refusals) {}
 
   RawDeck run() {
-    Lines::Kind kind = lines_.next();
+    Lines::Kind kind = go_on([&] { return lines_.next(); });
     while (kind != Lines::Kind::kEnd) {
       if (kind == Lines::Kind::kData) {
-        source_.fail(lines_.spot(), fmt::format("found '{}', expected a keyword (*...)",
-                                                lines_.data().substr(0, 40)));
+        kind = go_on([&]() -> Lines::Kind {
+          source_.fail(lines_.spot(), fmt::format("found '{}', expected a keyword (*...)",
+                                                  lines_.data().substr(0, 40)));
+        });
+        continue;
       }
-      kind = read_keyword();
+      last_ = lines_.keyword();
+      kind = go_on([&] { return read_keyword(); });
     }
-    if (scope_ != &deck_.model) source_.fail(scope_->spot, "found *PART without *END PART");
-    if (step_ >= 0) source_.fail(step_, "found *STEP without *END STEP");
+    refusals_->attempt([&] { check_end(); });
+    if (incomplete_) refusals_->raise();
     return std::move(deck_);
   }
 
  private:
+  // What a step gives, or the next keyword when it was refused: tables have gaps then, and what
+  // names their nodes and elements is not looked at.
+  template <class Body>
+  Lines::Kind go_on(const Body& body) {
+    Lines::Kind kind = Lines::Kind::kEnd;
+    bool done = refusals_->attempt([&] { kind = body(); });
+    if (done) return kind;
+    incomplete_ = true;
+    while (!done || kind == Lines::Kind::kData) {
+      done = refusals_->attempt([&] { kind = lines_.next(); });
+    }
+    return kind;
+  }
+
+  // A deck that was cut at the end of a line shows it by what is open.
+  void check_end() {
+    if (scope_ != &deck_.model) {
+      source_.fail(scope_->spot, "found *PART without *END PART, the deck ends before it");
+    }
+    if (assembly_ >= 0) {
+      source_.fail(assembly_, "found *ASSEMBLY without *END ASSEMBLY, the deck ends before it");
+    }
+    if (step_ >= 0) {
+      source_.fail(step_, "found *STEP without *END STEP, the deck ends before it");
+    }
+    if (lines_.open_keyword()) {
+      source_.fail(last_.spot, fmt::format("the deck ends behind the comma of {}, expected the "
+                                           "rest of the line",
+                                           last_.name));
+    }
+    if (lines_.bare_keyword() && needs_data(last_)) {
+      source_.fail(last_.spot,
+                   fmt::format("the deck ends with {}, expected its data lines", last_.name));
+    }
+    if (steps_ > 0 || lines_.marked_end()) return;
+    deck_.notes.push_back(fmt::format(
+        "{}: the deck ends here, in {}, without a *STEP: read as a model without loads; if the "
+        "file should go on, it was cut",
+        source_.where(source_.spot()), last_.name.empty() ? "nothing" : last_.name));
+  }
+
+  static bool needs_data(const Keyword& keyword) {
+    switch (role_of(keyword.key)) {
+      case Role::kNode:
+      case Role::kElement:
+      case Role::kMaterialPart:
+        return true;
+      case Role::kSet:
+        return keyword.key == "ELSET" || !keyword.has("ELSET");
+      case Role::kModel:
+        return keyword.key != "RIGIDBODY" && keyword.key != "SOLIDSECTION";
+      default:
+        return false;
+    }
+  }
+
   Lines::Kind read_keyword() {
     const Keyword& keyword = lines_.keyword();
     if (ignore_->skips(keyword.name)) return skip_data();
     const Role role = role_of(keyword.key);
+    if (left_out_ && step_ >= 0) return read_left_out(role);
+    const bool frozen = keyword.key == "BOUNDARY" && keyword.has("FIXED");
+    if ((role == Role::kProcedure || frozen) && step_ >= 0 && steps_before_ > 0) {
+      return begin_left_out(keyword);
+    }
     check_place(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
     if (role == Role::kCoupling) parent_ = Role::kCoupling;
     switch (role) {
       case Role::kUnknown:
-        source_.fail(keyword.spot, fmt::format("keyword {} is not supported; ignore = [\"{}\"] "
-                                               "skips it with its data lines",
-                                               keyword.name, keyword.name));
+      case Role::kProcedure:
+        refusals_->add(
+            fmt::format("{}: keyword {} is not supported; ignore = [\"{}\"] skips it "
+                        "with its data lines",
+                        source_.where(keyword.spot), keyword.name, keyword.name));
+        return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
         return skip_data();
       case Role::kNode:
         return read_nodes(&lines_, scope_, ignore_);
       case Role::kElement:
-        return read_elements(&lines_, scope_, ignore_);
+        return read_elements(&lines_, scope_, ignore_, refusals_);
       case Role::kSet:
         return read_set();
       case Role::kStructure:
         return read_structure();
       case Role::kStepBegin:
         step_ = keyword.spot;
-        return read_card();
+        ++steps_;
+        cards_before_step_ = scope_->cards.size();
+        steps_before_ = linear_steps_;
+        if (!left_out_) return read_card();
+        deck_.notes.push_back(fmt::format("{}: *STEP is left out: it goes on from a step that is",
+                                          source_.where(keyword.spot)));
+        return skip_data();
       case Role::kStepEnd:
         step_ = -1;
         return read_card();
       default:
+        if (keyword.key == "STATIC" || keyword.key == "FREQUENCY") ++linear_steps_;
         return read_card();
     }
+  }
+
+  // The step that is open goes, and with it those that follow from it.
+  Lines::Kind begin_left_out(const Keyword& keyword) {
+    left_out_ = true;
+    scope_->cards.erase(scope_->cards.begin() + static_cast<long>(cards_before_step_),
+                        scope_->cards.end());
+    linear_steps_ = steps_before_;
+    deck_.notes.push_back(
+        fmt::format("{}: the step with {} is left out: clatter reads linear statics and "
+                    "frequencies, here those of the {} before it",
+                    source_.where(keyword.spot), keyword.name,
+                    steps_before_ == 1 ? "step" : fmt::format("{} steps", steps_before_)));
+    return skip_data();
+  }
+
+  Lines::Kind read_left_out(Role role) {
+    if (role == Role::kStepEnd) step_ = -1;
+    return skip_data();
   }
 
   // What stands behind *MATERIAL describes it, until a keyword of another kind comes.
@@ -162,7 +257,12 @@ class Parser {
       scope_ = &deck_.model;
     } else if (keyword.key == "INSTANCE") {
       return read_instance(keyword);
+    } else if (keyword.key == "ASSEMBLY") {
+      assembly_ = keyword.spot;
+    } else if (keyword.key == "ENDASSEMBLY") {
+      assembly_ = -1;
     } else if (keyword.key == "ENDINSTANCE") {
+      if (refusals_->any()) throw FollowUp();
       misplaced(keyword, "behind *INSTANCE");
     }
     return no_data(keyword);
@@ -235,6 +335,13 @@ class Parser {
   Lines lines_;
   const Source& source_;
   Ignore* ignore_;
+  Refusals* refusals_;
+  bool incomplete_ = false;
+  Keyword last_;
+  int32_t steps_ = 0, linear_steps_ = 0, steps_before_ = 0;
+  bool left_out_ = false;
+  size_t cards_before_step_ = 0;
+  Spot assembly_ = -1;
   RawDeck deck_;
   Scope part_;
   Scope* scope_ = &deck_.model;
@@ -252,6 +359,8 @@ SetChunk& new_chunk(IdSets* sets, const std::string& name, Spot spot) {
   return set.chunks.back();
 }
 
-RawDeck parse(Source* source, Ignore* ignore) { return Parser(source, ignore).run(); }
+RawDeck parse(Source* source, Ignore* ignore, Refusals* refusals) {
+  return Parser(source, ignore, refusals).run();
+}
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "mesh/deck/abaqus_parser.hpp"
 #include "mesh/deck/abaqus_reading.hpp"
@@ -31,13 +32,17 @@ void read_node_sets(Reading* reading) {
     if (all.size() > nodes.size()) reading->deck->sets[name] = all;
     if (!nodes.empty() || rows.empty()) reading->deck->mesh.node_sets[name] = std::move(nodes);
   };
-  for (size_t use = 0; use < model.uses().size(); ++use) {
-    for (const auto& [key, set] : model.uses()[use].scope->node_sets) {
-      const Spot spot = set.chunks.front().spot;
-      add(model.public_name(use, set.name), reading->sets->nodes(use, set.name, spot), spot);
+  // Sets hold others: what is wrong with one is wrong with those around it, so the first is enough.
+  reading->refusals->attempt([&] {
+    for (size_t use = 0; use < model.uses().size(); ++use) {
+      for (const auto& [key, set] : model.uses()[use].scope->node_sets) {
+        const Spot spot = set.chunks.front().spot;
+        add(model.public_name(use, set.name), reading->sets->nodes(use, set.name, spot), spot);
+      }
     }
-  }
+  });
   for_each_card(*reading, {"SURFACE"}, [&](size_t use, const Card& card) {
+    if (!card.keyword().has("NAME")) throw FollowUp();  // refused by read_surfaces()
     const std::string& name = *card.keyword().find("NAME");
     const std::string shown = model.public_name(use, name);
     const auto* rows = node_surface(*reading, use, name);
@@ -50,12 +55,18 @@ namespace {
 
 Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   Ignore ignore(options);
-  const Model model(parse(source, &ignore), *source);
-  Sets sets(&model);
+  Refusals refusals;
+  RawDeck raw = parse(source, &ignore, &refusals);
   Deck deck;
+  deck.notes = std::move(raw.notes);
+  std::unique_ptr<const Model> whole;
+  refusals.require([&] { whole = std::make_unique<const Model>(std::move(raw), *source); });
+  const Model& model = *whole;
+  Sets sets(&model);
   deck.mesh.name = name;
   Reading reading{.source = *source,
                   .ignore = &ignore,
+                  .refusals = &refusals,
                   .model = &model,
                   .sets = &sets,
                   .deck = &deck,
@@ -66,10 +77,13 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
                   .dependents = {},
                   .material_names = {},
                   .system_names = {},
-                  .amplitudes = {}};
+                  .amplitudes = {},
+                  .region_of_cell = {}};
   read_materials(&reading);
   read_orientations(&reading);
-  Places places(&model, &deck, build_mesh(&reading));
+  std::vector<int32_t> mesh_node;
+  refusals.require([&] { mesh_node = build_mesh(&reading); });
+  Places places(&model, &deck, std::move(mesh_node));
   reading.places = &places;
   read_surfaces(&reading);
   read_transforms(&reading);
@@ -82,6 +96,7 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   finish_rigid(&reading);
   read_steps(&reading);
   read_node_sets(&reading);
+  refusals.raise();
   deck.files = source->files();
   deck.ignored = ignore.counted();
   std::erase_if(deck.ignored, [](const auto& entry) { return entry.second == 0; });

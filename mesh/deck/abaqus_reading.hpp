@@ -9,6 +9,7 @@
 #include "mesh/deck/abaqus_model.hpp"
 #include "mesh/deck/abaqus_sets.hpp"
 #include "mesh/deck/deck.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -56,6 +57,7 @@ class Places {
 struct Reading {
   const Source& source;
   Ignore* ignore;
+  Refusals* refusals;
   const Model* model;
   Sets* sets;
   Deck* deck;
@@ -66,18 +68,21 @@ struct Reading {
   std::vector<std::pair<size_t, std::vector<int32_t>>> dependents;  // of Deck::rigid, as rows
   std::map<std::string, std::string> material_names, system_names;  // folded -> name in the deck
   std::map<std::string, const Card*> amplitudes;                    // by folded name
+  std::vector<int32_t> region_of_cell;                              // index into Mesh::regions
   int64_t faces = 0;                                                // of all surfaces
 };
 
 /// Calls body(use, card) for each card with one of those keys, use by use, in the order of the
-/// deck.
+/// deck. A card that is refused does not keep the next ones from being read; its NAME is lost.
 template <class Body>
 void for_each_card(const Reading& reading, std::initializer_list<std::string_view> keys,
                    const Body& body) {
   for (size_t use = 0; use < reading.model->uses().size(); ++use) {
     for (const Card& card : reading.model->uses()[use].scope->cards) {
       for (const std::string_view key : keys) {
-        if (card.keyword().key == key) body(use, card);
+        if (card.keyword().key != key) continue;
+        if (reading.refusals->attempt([&] { body(use, card); })) continue;
+        reading.refusals->lose(card.keyword().choice("NAME", ""));
       }
     }
   }

@@ -86,6 +86,7 @@ struct RawDeck {
   Scope model;  // the flat deck, or the assembly with materials and steps
   std::vector<Scope> parts;
   std::vector<InstanceLine> instances;
+  std::vector<std::string> notes;  // Deck::notes
 };
 
 /// The chunk that a new keyword adds to; the set begins with it when it is not there.

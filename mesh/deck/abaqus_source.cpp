@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/planned_files.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace fs = std::filesystem;
@@ -73,8 +74,8 @@ bool Source::next(std::string_view* line) {
     if (lines_ > std::numeric_limits<Spot>::max() ||
         std::min(end, file.text.size()) >= kLongestLine) {
       lines_ = std::min<int64_t>(lines_, std::numeric_limits<Spot>::max());
-      fail(spot(),
-           fmt::format("found a line of more than {} characters, or too many lines", kLongestLine));
+      throw BrokenDeck(fmt::format("{}: found a line of more than {} characters, or too many lines",
+                                   where(spot()), kLongestLine));
     }
     *line = file.text.substr(0, end);
     file.text.remove_prefix(end == std::string_view::npos ? file.text.size() : end + 1);

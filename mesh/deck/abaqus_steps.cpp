@@ -20,9 +20,11 @@ class Steps {
   void run() {
     read_model();
     for (const Card& card : reading_.model->uses()[reading_.model->main_use()].scope->cards) {
-      if (card.keyword().key == "STEP") begin(card);
-      if (number_ > 0 && open_) read(card);
-      if (card.keyword().key == "ENDSTEP") end();
+      reading_.refusals->attempt([&] {
+        if (card.keyword().key == "STEP") begin(card);
+        if (number_ > 0 && open_) read(card);
+        if (card.keyword().key == "ENDSTEP") end();
+      });
     }
   }
 
@@ -43,6 +45,22 @@ class Steps {
 
   void begin(const Card& card) {
     const Keyword& keyword = card.keyword();
+    step_ = Step();
+    const std::string* name = keyword.find("NAME");
+    ++number_;
+    step_.name = name != nullptr && !name->empty() ? *name : fmt::format("step_{}", number_);
+    step_.where = reading_.source.where(card.spot());
+    open_ = true;
+    perturbation_ = keyword.has("PERTURBATION");
+    if (perturbation_) {
+      base_loads_ = std::make_unique<Loads>(loads_);
+      loads_ = Loads(&reading_);
+    }
+    check_linear(card);
+  }
+
+  void check_linear(const Card& card) {
+    const Keyword& keyword = card.keyword();
     keyword.allow({"NAME", "INC", "NLGEOM", "PERTURBATION", "AMPLITUDE", "UNSYMM"}, reading_.source,
                   reading_.ignore);
     if (keyword.has("NLGEOM") && keyword.choice("NLGEOM", "NO") != "NO" &&
@@ -51,23 +69,12 @@ class Steps {
                            "*STEP with NLGEOM is not supported: the analysis is "
                            "linear; ignore = [\"NLGEOM\"] takes it as linear");
     }
-    perturbation_ = keyword.has("PERTURBATION");
     if (perturbation_ && loaded_ && !reading_.ignore->skips("PERTURBATION")) {
       reading_.source.fail(
           card.spot(),
           "*STEP with PERTURBATION behind a loaded *STATIC step is not supported: "
           "its stiffness depends on those loads; ignore = [\"PERTURBATION\"] takes "
           "the stiffness without them");
-    }
-    step_ = Step();
-    const std::string* name = keyword.find("NAME");
-    ++number_;
-    step_.name = name != nullptr && !name->empty() ? *name : fmt::format("step_{}", number_);
-    step_.where = reading_.source.where(card.spot());
-    open_ = true;
-    if (perturbation_) {
-      base_loads_ = std::make_unique<Loads>(loads_);
-      loads_ = Loads(&reading_);
     }
   }
 

@@ -72,7 +72,8 @@ void Supports::read(size_t use, const Card& card, StepNumber step) {
       reading_->ignore->skips("AMPLITUDE", 0) ? 1.0 : amplitude_factor(*reading_, card);
   cards_.push_back(reading_->source.where(card.spot()));
   for (size_t i = 0; i < card.size(); ++i) {
-    read_line(use, card.line(i, reading_->source), factor, step);
+    reading_->refusals->attempt(
+        [&] { read_line(use, card.line(i, reading_->source), factor, step); });
   }
 }
 

@@ -223,6 +223,7 @@ std::string surface_named(Reading* reading, size_t use, const std::string& name,
   }
   if (known != reading->surface_names.end()) return known->second;
   const std::vector<int32_t>* rows = node_surface(*reading, use, name);
+  if (rows == nullptr && reading->refusals->has_lost(folded(name))) throw FollowUp();
   if (rows == nullptr) reading->source.fail(spot, fmt::format("there is no surface '{}'", name));
   return reading->surface_names[key] = surface_of_nodes(reading, *rows, name, spot);
 }

@@ -116,6 +116,7 @@ std::string system_named(const Reading& reading, size_t use, const std::string& 
     const auto known = reading.system_names.find(folded(wanted));
     if (known != reading.system_names.end()) return known->second;
   }
+  if (reading.refusals->has_lost(folded(name))) throw FollowUp();
   reading.source.fail(spot, fmt::format("there is no orientation '{}'", name));
 }
 

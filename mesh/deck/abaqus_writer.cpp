@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
 #include "mesh/deck/abaqus_elements.hpp"
+#include "mesh/deck/abaqus_lines.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -52,6 +53,7 @@ class Writer {
     check_names(names);
     if (!mesh_.surfaces.empty()) index_faces();
     for (const auto& [name, surface] : mesh_.surfaces) write_surface(name, surface);
+    put("{}\n", abaqus::kEndMark);
     flush();
   }
 

@@ -133,6 +133,12 @@ struct Step {
     std::string surface;  // of the mesh; positive pushes on it
     double value = 0.0;
   };
+  struct Rotation {
+    double omega_squared = 0.0;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  // of the axis
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit vector
+    std::vector<std::string> regions;                 // that turn; none: all
+  };
   enum class Kind { kStatic, kFrequency, kNone };
   std::string name, where;
   Kind kind = Kind::kNone;
@@ -140,6 +146,7 @@ struct Step {
   std::vector<Support> supports;  // of this step
   std::vector<NodalForce> forces;
   std::vector<Pressure> pressures;
+  std::vector<Rotation> rotations;
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // body force per mass (gravity)
   std::string temperature;  // field of the mesh, n x 1, temperature; empty: no thermal load
 };
@@ -162,6 +169,7 @@ struct Deck {
   std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)
   std::vector<Step> steps;
   std::map<std::string, int64_t> ignored;  // what the user let go, with how often it came
+  std::vector<std::string> notes;  // "file:line: ...": what the user should know and look at
 };
 
 /// How to read a deck.

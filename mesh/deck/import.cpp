@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/deck/abaqus_reader.hpp"
 #include "mesh/deck/nastran_reader.hpp"
@@ -45,6 +46,7 @@ Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where) {
   if (deck.mesh.cell_count() == 0)
     throw InputError(fmt::format("{}: found no solid cells, expected some", where));
+  for (const std::string& note : deck.notes) warn(note);
   convert_units(deck, units);
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   check_structure(deck.mesh, where);

@@ -209,20 +209,29 @@ int32_t chosen_mpc(const Model& model) {
   return only_set(model, "MPC", bulk.mpc, bulk.mpc_sums);
 }
 
-}  // namespace
-
-void build_couplings(Model& model) {
-  for (const RawRigid& raw : model.bulk.rigid) add_rigid(model, raw);
-  for (const RawDistributing& raw : model.bulk.distributing) add_distributing(model, raw);
-  for (const RawMass& raw : model.bulk.masses) add_mass(model, raw);
+void add_chosen_mpc(Model& model) {
   const int32_t mpc = chosen_mpc(model);
   if (mpc == 0) return;
   const Origin origin =
       model.bulk.control.has_cases ? model.bulk.control.subcases.front().origin : 0;
   for (const int32_t set :
        members_of(model, "MPC", mpc, model.bulk.mpc, model.bulk.mpc_sums, origin)) {
-    for (const RawEquation& raw : model.bulk.mpc.at(set)) add_equation(model, raw);
+    for (const RawEquation& raw : model.bulk.mpc.at(set)) {
+      model.refusals.attempt([&] { add_equation(model, raw); });
+    }
   }
+}
+
+}  // namespace
+
+void build_couplings(Model& model) {
+  Refusals& refusals = model.refusals;
+  for (const RawRigid& raw : model.bulk.rigid) refusals.attempt([&] { add_rigid(model, raw); });
+  for (const RawDistributing& raw : model.bulk.distributing) {
+    refusals.attempt([&] { add_distributing(model, raw); });
+  }
+  for (const RawMass& raw : model.bulk.masses) refusals.attempt([&] { add_mass(model, raw); });
+  refusals.attempt([&] { add_chosen_mpc(model); });
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -54,9 +54,13 @@ void build_sets(Model& model) {
     const auto named = model.bulk.set_names.find(id);
     const std::string name =
         named == model.bulk.set_names.end() ? fmt::format("set_{}", id) : named->second;
-    add_set(model, name, model.places(set.grids, set.origin, false), set.origin);
+    model.refusals.attempt([&, &one = set] {
+      add_set(model, name, model.places(one.grids, one.origin, false), one.origin);
+    });
   }
-  for (const auto& surface : model.bulk.surfaces) add_surface(model, surface);
+  for (const auto& surface : model.bulk.surfaces) {
+    model.refusals.attempt([&] { add_surface(model, surface); });
+  }
 }
 
 }  // namespace clatter::mesh::deck::nastran

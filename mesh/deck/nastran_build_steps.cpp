@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/error.hpp"
@@ -21,22 +22,27 @@ class StepBuilder {
   explicit StepBuilder(Model& model) : model_(model), bulk_(model.bulk) {}
 
   void run() {
-    initial_temperature();
-    name_pressures();
+    Refusals& refusals = model_.refusals;
+    refusals.attempt([&] { initial_temperature(); });
+    refusals.attempt([&] { name_pressures(); });
     if (bulk_.control.has_cases) {
-      for (const Subcase& subcase : bulk_.control.subcases) add_subcase(subcase);
+      for (const Subcase& subcase : bulk_.control.subcases) {
+        refusals.attempt([&] { add_subcase(subcase); });
+      }
       return;
     }
-    for (const int32_t load : top_loads()) {
-      Step step;
-      step.name = fmt::format("load_{}", load);
-      step.where = model_.where(origin_of(load));
-      add_loads(step, load, origin_of(load));
-      model_.deck.steps.push_back(std::move(step));
-    }
+    for (const int32_t load : top_loads()) refusals.attempt([&] { add_load_step(load); });
   }
 
  private:
+  void add_load_step(int32_t load) {
+    Step step;
+    step.name = fmt::format("load_{}", load);
+    step.where = model_.where(origin_of(load));
+    add_loads(step, load, origin_of(load));
+    model_.deck.steps.push_back(std::move(step));
+  }
+
   // TEMPERATURE(INITIAL) stands for the reference temperature of every material.
   void initial_temperature() {
     const int32_t set = bulk_.control.initial_temperature;
@@ -140,6 +146,7 @@ class StepBuilder {
       }
       step.acceleration += factor * (system.axes * vector(raw.vector));
     }
+    for (const RawRotation& raw : at->second.rotations) add_rotation(step, raw, factor);
     if (!step.acceleration.allFinite()) {
       model_.source.fail(at->second.origin, "GRAV: its numbers are too large");
     }
@@ -147,6 +154,24 @@ class StepBuilder {
       model_.spend(128, origin);
       step.pressures.push_back({name, factor * value});
     }
+  }
+
+  // A turns a second about an axis through a grid or the basic origin.
+  void add_rotation(Step& step, const RawRotation& raw, double factor) {
+    const System& system = model_.systems.get(raw.system, raw.origin);
+    if (system.kind != System::Kind::kRectangular) {
+      model_.source.fail(raw.origin, "RFORCE: expected a rectangular coordinate system");
+    }
+    Step::Rotation rotation;
+    rotation.axis = system.axes * vector(raw.axis);
+    const double omega = 2.0 * std::numbers::pi * raw.turns;
+    rotation.omega_squared = factor * omega * omega;
+    if (raw.grid != 0) {
+      const int32_t row = model_.grids.find(raw.grid);
+      if (row < 0) model_.source.fail(raw.origin, fmt::format("found no GRID {}", raw.grid));
+      rotation.point = vector(bulk_.grids.at[static_cast<size_t>(row)]);
+    }
+    step.rotations.push_back(rotation);
   }
 
   void add_force(Step& step, const RawForce& raw, double factor) {

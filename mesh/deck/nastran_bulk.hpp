@@ -147,11 +147,19 @@ struct RawGravity {
 };
 
 /// All cards of one load set.
+struct RawRotation {  // RFORCE
+  Origin origin = 0;
+  int32_t grid = 0, system = 0;  // 0: origin, basic
+  double turns = 0.0;            // revolutions per unit of time
+  std::array<double, 3> axis{};  // unit vector in the system
+};
+
 struct LoadSet {
   Origin origin = 0;
   std::vector<RawForce> forces;
   std::vector<RawPressure> pressures;
   std::vector<RawGravity> gravity;
+  std::vector<RawRotation> rotations;
 };
 
 /// LOAD: sum of sets, each with its factor.
@@ -185,6 +193,7 @@ struct SetSum {
 
 struct Bulk {
   Control control;
+  std::vector<std::string> notes;  // Deck::notes
   GridDefaults defaults;
   bool has_defaults = false;
   Grids grids;

@@ -6,7 +6,7 @@
 namespace clatter::mesh::deck::nastran {
 
 /// Reads the bulk data from the present line of `source` to ENDDATA.
-Bulk read_bulk(Source& source, Control control, Ignored& ignored);
+Bulk read_bulk(Source& source, Control control, Ignored& ignored, Refusals& refusals);
 
 // Each reads one card. InputError with file and line for what is wrong in it or not supported.
 void read_grid(const Card& card, Bulk& bulk);
@@ -31,6 +31,7 @@ void read_set1(const Card& card, Bulk& bulk);
 void read_force(const Card& card, Bulk& bulk);  // FORCE, MOMENT
 void read_pload4(const Card& card, Bulk& bulk);
 void read_grav(const Card& card, Bulk& bulk);
+void read_rforce(const Card& card, Bulk& bulk);
 void read_load(const Card& card, Bulk& bulk);
 void read_temp(const Card& card, Bulk& bulk);
 void read_tempd(const Card& card, Bulk& bulk);

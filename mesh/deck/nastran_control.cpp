@@ -84,7 +84,8 @@ bool has_option(const Command& command, std::string_view option) {
 
 class Parser {
  public:
-  Parser(Source& source, Ignored& ignored) : source_(source), ignored_(ignored) {}
+  Parser(Source& source, Ignored& ignored, Refusals& refusals)
+      : source_(source), ignored_(ignored), refusals_(refusals) {}
 
   Control run() {
     while (const auto line = source_.next()) {
@@ -99,14 +100,19 @@ class Parser {
         begin_bulk(command);
         return finish();
       }
-      if (part_ == Part::kExecutive) {
-        executive(command);
-      } else {
-        case_control(command, std::string(*line));
-      }
+      const std::string text(*line);
+      refusals_.attempt([&] {
+        if (part_ == Part::kExecutive) {
+          executive(command);
+        } else {
+          case_control(command, text);
+        }
+      });
     }
     if (part_ == Part::kUnknown) return {};
-    source_.fail(source_.origin(), "found the end of the deck, expected BEGIN BULK");
+    refusals_.require(
+        [&] { source_.fail(source_.origin(), "found the end of the deck, expected BEGIN BULK"); });
+    return {};
   }
 
  private:
@@ -235,6 +241,7 @@ class Parser {
 
   Source& source_;
   Ignored& ignored_;
+  Refusals& refusals_;
   Part part_ = Part::kUnknown;
   Control control_;
   Choice above_;        // chosen above the first subcase: holds for all
@@ -262,7 +269,9 @@ std::map<std::string, int64_t> Ignored::counts() const {
   return came;
 }
 
-Control read_control(Source& source, Ignored& ignored) { return Parser(source, ignored).run(); }
+Control read_control(Source& source, Ignored& ignored, Refusals& refusals) {
+  return Parser(source, ignored, refusals).run();
+}
 
 void read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/deck/nastran_source.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -47,7 +48,7 @@ struct Control {
 };
 
 /// Reads up to and with BEGIN BULK; reads nothing when the deck begins with bulk data.
-Control read_control(Source& source, Ignored& ignored);
+Control read_control(Source& source, Ignored& ignored, Refusals& refusals);
 
 /// What a PARAM of that name and value means; others than WTMASS are harmless.
 void read_parameter(Control& control, std::string_view name, std::string_view value,

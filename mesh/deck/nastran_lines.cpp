@@ -24,26 +24,48 @@ bool starts_with_word(std::string_view line, std::string_view word) {
 
 class Reader {
  public:
-  Reader(Source& source, CardSink& sink) : source_(source), sink_(sink), current_(source) {}
+  Reader(Source& source, CardSink& sink, Refusals& refusals)
+      : source_(source), sink_(sink), refusals_(refusals), current_(source) {}
 
-  void run() {
-    while (auto line = source_.next()) {
-      std::string_view text = *line;
-      if (!text.empty() && text[0] == '$') {
-        sink_.comment(text, source_.origin());
-        continue;
-      }
-      if (follow_include(source_, text)) continue;
-      text = without_comment(text);
-      if (text.empty()) continue;
-      if (starts_with_word(text, "ENDDATA")) break;
-      take(text);
+  CardsEnd run() {
+    bool more = true;
+    while (more) go_on([&] { more = read_line(); });
+    if (!current_.empty()) end_.last = current_.name();
+    const bool full = most_ > 0 && current_.size() >= most_;
+    if (!current_.empty() && !orphan_ && !full && !orphans_.contains(current_.next())) {
+      end_.wanted = current_.next();
     }
-    finish();
-    join_waiting();
+    go_on([&] { finish(); });
+    go_on([&] { join_waiting(); });
+    return end_;
   }
 
  private:
+  // A card that is refused goes, the next ones are read.
+  template <class Body>
+  void go_on(const Body& body) {
+    if (refusals_.attempt(body)) return;
+    end_.complete = false;
+    current_.clear();
+  }
+
+  // False behind the last line.
+  bool read_line() {
+    const auto line = source_.next();
+    if (!line) return false;
+    std::string_view text = *line;
+    if (!text.empty() && text[0] == '$') {
+      sink_.comment(text, source_.origin());
+      return true;
+    }
+    if (follow_include(source_, text)) return true;
+    text = without_comment(text);
+    if (text.empty()) return true;
+    end_.end_data = starts_with_word(text, "ENDDATA");
+    if (!end_.end_data) take(text);
+    return !end_.end_data;
+  }
+
   void take(std::string_view line) {
     const Origin origin = source_.origin();
     const std::string trouble = split_line(line, fields_);
@@ -58,6 +80,7 @@ class Reader {
     capitals_ = fields_.head;
     for (char& c : capitals_) c = c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
     if (capitals_.empty() || (!current_.empty() && capitals_ == current_.next())) {
+      if (current_.empty() && !end_.complete) throw FollowUp();
       if (current_.empty()) {
         source_.fail(origin, "found a continuation line, expected a card before it");
       }
@@ -126,6 +149,8 @@ class Reader {
 
   Source& source_;
   CardSink& sink_;
+  Refusals& refusals_;
+  CardsEnd end_;
   LineFields fields_;
   std::string capitals_;
   Card current_;
@@ -137,7 +162,9 @@ class Reader {
 
 }  // namespace
 
-void read_cards(Source& source, CardSink& sink) { Reader(source, sink).run(); }
+CardsEnd read_cards(Source& source, CardSink& sink, Refusals& refusals) {
+  return Reader(source, sink, refusals).run();
+}
 
 bool follow_include(Source& source, std::string_view line) {
   line = trimmed(line);

@@ -9,6 +9,7 @@
 
 #include "mesh/deck/nastran_card.hpp"
 #include "mesh/deck/nastran_source.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -25,9 +26,17 @@ class CardSink {
   virtual void comment(std::string_view line, Origin origin) = 0;
 };
 
+/// How reading cards ended.
+struct CardsEnd {
+  bool complete = true;   // no card was refused
+  bool end_data = false;  // there was an ENDDATA
+  std::string last;       // name of the last card
+  std::string wanted;     // the continuation that it asks for and that is not there
+};
+
 /// Reads up to ENDDATA or the end. Cards come in the order of the deck, those that wait for a
-/// continuation from elsewhere after all others. InputError for a continuation without a card.
-void read_cards(Source& source, CardSink& sink);
+/// continuation from elsewhere after all others. Refused: a continuation without a card.
+CardsEnd read_cards(Source& source, CardSink& sink, Refusals& refusals);
 
 /// Follows "INCLUDE name" when `line` is one: name with or without quotes; in quotes over several
 /// lines. False when it is something else.

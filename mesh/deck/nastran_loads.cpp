@@ -1,6 +1,8 @@
 // Cards of loads, temperatures and eigenvalue requests.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "mesh/deck/nastran_cards.hpp"
 
 namespace clatter::mesh::deck::nastran {
@@ -76,6 +78,28 @@ void read_grav(const Card& card, Bulk& bulk) {
   gravity.vector = scaled_vector(card, 2, 3);
   card.expect_end(7);
   load_set(card, bulk).gravity.push_back(gravity);
+}
+
+void read_rforce(const Card& card, Bulk& bulk) {
+  RawRotation rotation;
+  rotation.origin = card.origin();
+  rotation.grid = card.id_or(1, "G", 0);
+  rotation.system = system_number(card, 2);
+  rotation.turns = card.real(3, "A");
+  double square = 0.0;
+  for (size_t k = 0; k < 3; ++k) {
+    rotation.axis[k] = card.real_or(4 + k, "R", 0.0);
+    square += rotation.axis[k] * rotation.axis[k];
+  }
+  const double length = std::sqrt(square);
+  if (!(length > 0.0)) card.fail(4, "expected a direction R1 R2 R3 of the axis");
+  for (double& part : rotation.axis) part /= length;
+  rotation.turns *= length;
+  if (card.real_or(8, "RACC", 0.0) != 0.0) {
+    card.fail(8, "RACC: angular acceleration is not supported, expected none");
+  }
+  card.expect_end(9);
+  load_set(card, bulk).rotations.push_back(rotation);
 }
 
 void read_load(const Card& card, Bulk& bulk) {

@@ -45,8 +45,9 @@ Bulk with_defaults(Bulk bulk) {
 
 }  // namespace
 
-Model::Model(const Source& deck_source, Bulk cards)
+Model::Model(const Source& deck_source, Bulk cards, Refusals& all_refusals)
     : source(deck_source),
+      refusals(all_refusals),
       bulk(with_defaults(std::move(cards))),
       grids(index_of(bulk.grids, source)),
       systems(bulk, grids, source),

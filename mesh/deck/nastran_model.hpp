@@ -3,6 +3,7 @@
 #include "mesh/deck/id_index.hpp"
 #include "mesh/deck/nastran_bulk.hpp"
 #include "mesh/deck/nastran_systems.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
@@ -10,7 +11,7 @@ namespace clatter::mesh::deck::nastran {
 class Model {
  public:
   /// Fills in GRDSET, numbers the grids, brings their coordinates to the basic frame.
-  Model(const Source& source, Bulk bulk);
+  Model(const Source& source, Bulk bulk, Refusals& refusals);
 
   /// Place of a grid; one without cells becomes a Point. InputError when there is no such GRID.
   Place require(int32_t grid, Origin origin);
@@ -34,6 +35,7 @@ class Model {
   void spend(int64_t effort, Origin origin);
 
   const Source& source;
+  Refusals& refusals;
   Bulk bulk;
   IdIndex grids;  // row of a GRID
   Systems systems;

@@ -1,5 +1,7 @@
 #include "mesh/deck/nastran_reader.hpp"
 
+#include <memory>
+
 #include "mesh/deck/nastran_cards.hpp"
 #include "mesh/deck/nastran_control.hpp"
 #include "mesh/deck/nastran_model.hpp"
@@ -11,14 +13,20 @@ using namespace nastran;
 
 Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Ignored ignored(options.ignore);
-  Control control = read_control(source, ignored);
-  Model model(source, read_bulk(source, std::move(control), ignored));
+  Refusals refusals;
+  Control control = read_control(source, ignored, refusals);
+  Bulk bulk = read_bulk(source, std::move(control), ignored, refusals);
+  std::unique_ptr<Model> whole;
+  refusals.require([&] { whole = std::make_unique<Model>(source, std::move(bulk), refusals); });
+  Model& model = *whole;
   model.deck.mesh.name = name;
-  build_mesh(model);
+  model.deck.notes = model.bulk.notes;
+  refusals.require([&] { build_mesh(model); });
   build_couplings(model);
-  build_supports(model);
+  refusals.attempt([&] { build_supports(model); });
   build_sets(model);
   build_steps(model);
+  refusals.raise();
   model.deck.ignored = ignored.counts();
   count_unused(model);
   model.deck.files = source.files();

@@ -53,6 +53,17 @@ class StepWriter {
                       toml_list({along(0), along(1), along(2)})),
           acceleration);
     }
+    for (const Step::Rotation& one : step_.rotations) {
+      std::vector<std::string> regions;
+      for (const std::string& region : one.regions) regions.push_back(toml_text(region));
+      add("rotation",
+          fmt::format(
+              "kind = \"centrifugal\"\naxis_point = {}\naxis = {}\n{}",
+              toml_list({one.point(0), one.point(1), one.point(2)}),
+              toml_list({one.axis(0), one.axis(1), one.axis(2)}),
+              regions.empty() ? "" : fmt::format("regions = [{}]\n", fmt::join(regions, ", "))),
+          one.omega_squared);
+    }
     if (!step_.temperature.empty())
       add("heat",
           fmt::format("kind = \"temperature\"\nfield = {}\nreference = {}\n",

@@ -25,6 +25,7 @@ class Writer {
         deck_.files.empty() ? "a deck" : deck_.files.front());
     for (const auto& [card, count] : deck_.ignored)
       put("# ignored in the deck: {} ({} times)\n", card, count);
+    for (const std::string& note : deck_.notes) put("# {}\n", note);
     systems();
     materials();
     std::string relations = std::exchange(text_, {});

@@ -44,6 +44,10 @@ void convert_step(Step& step, const UnitSystem& units) {
   for (Step::NodalForce& force : step.forces)
     force.value *= units.force() * (force.direction >= 3 ? units.length : 1.0);
   for (Step::Pressure& pressure : step.pressures) pressure.value *= units.pressure();
+  for (Step::Rotation& rotation : step.rotations) {
+    rotation.omega_squared /= units.time * units.time;
+    rotation.point *= units.length;
+  }
   step.acceleration *= units.length / (units.time * units.time);
 }
 

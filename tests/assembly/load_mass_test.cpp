@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,60 @@ unit = "Pa"
   EXPECT_NEAR(resultant(2), 8.992e-3, 1e-16);
   EXPECT_NEAR(resultant(3), 0.1 * 8.992e-3, 1e-16);
   EXPECT_EQ(model.load_units.at("head"), "Pa");
+}
+
+TEST(LoadCase, RotationIsTheMassTimesTheArmOfEachNodeOnCurvedCellsToo) {
+  // r is linear in x, and x is interpolated as displacements are: int rho N r dV = M r(nodes).
+  BlockOptions options;
+  options.curved = options.wrap_x = true;
+  const mesh::Mesh mesh = block_mesh({8, 1, 2}, ring(0.04, 0.06, 0.1), options);
+  const FeModel model = build(mesh, R"(
+[[load]]
+name = "spin"
+kind = "centrifugal"
+axis_point = [0.3, -0.2, 0.1]
+axis = [0.0, 3.0, 4.0]
+)")
+                            .model;
+  const Eigen::Vector3d point(0.3, -0.2, 0.1), axis(0.0, 0.6, 0.8);
+  Eigen::VectorXd arm(model.T.rows());
+  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
+    const Eigen::Vector3d r = mesh.nodes.row(a).transpose() - point;
+    arm.segment<3>(3 * a) = r - r.dot(axis) * axis;
+  }
+  const Eigen::VectorXd want = model.M.selfadjointView<Eigen::Lower>() * arm;
+  EXPECT_LT((model.loads.at("spin") - want).cwiseAbs().maxCoeff(),
+            1e-13 * want.cwiseAbs().maxCoeff());  // rounding
+  EXPECT_EQ(model.load_units.at("spin"), "rad2/s2");
+}
+
+TEST(LoadCase, RotationPullsPointMassesByTheirArmAndTurnsSkewInertiaIntoLine) {
+  const std::string text = R"(
+[[coupling]]
+name = "top"
+surface = "z1"
+[[point_mass]]
+on = "top"
+mass = 3.0
+offset = [0.0, 0.0, 0.1]
+inertia = [0.01, 0.02, 0.03, 0.004, 0.005, 0.006]
+[[load]]
+name = "spin"
+kind = "centrifugal"
+axis_point = [-1.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+)";
+  const FeModel with = build(bar(), text).model;
+  const FeModel without =
+      build(bar(), text + "regions = [\"body\"]\n").model;  // of the elements alone
+  const Eigen::VectorXd change = with.loads.at("spin") - without.loads.at("spin");
+  const Eigen::VectorXd resultant = with.rigid.transpose() * change;
+  // Centre at (0.05, 0.1, 0.5): F = 3 (1.05, 0.1, 0); M = x cross F - n cross (J n), with
+  // J n = (0.006, 0.005, 0.03).
+  const Eigen::Vector3d force(3.15, 0.3, 0.0), centre(0.05, 0.1, 0.5), turn(-0.005, 0.006, 0.0);
+  EXPECT_LT((resultant.head(3) - force).norm(), 1e-13);
+  EXPECT_LT((resultant.tail(3) - (centre.cross(force) - turn)).norm(), 1e-13);
+  EXPECT_THROW(build(bar(), text + "regions = [\"bodies\"]\n"), InputError);
 }
 
 TEST(LoadCase, GravityIsTheWeightOfElementsAndPointMasses) {

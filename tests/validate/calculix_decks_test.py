@@ -1,4 +1,6 @@
 """Every deck of the table in docs/validation.md agrees with its reference within what the table allows."""
+import pathlib
+import tempfile
 import unittest
 
 import calculix_decks
@@ -8,11 +10,24 @@ import calculix_decks
 class CalculixDecks(unittest.TestCase):
     def test_every_deck_agrees_within_the_digits_printed_or_its_named_difference(self):
         rows = calculix_decks.table()
-        self.assertGreaterEqual(len(rows), 25)
+        self.assertGreaterEqual(len(rows), 58)
         for name, _, quantity, count, error, limit, _ in rows:
             with self.subTest(deck=name):
                 self.assertGreater(count, 0)
                 self.assertLess(error, limit, quantity)
+
+
+    def test_every_refusal_of_the_package_names_file_and_line(self):
+        with tempfile.TemporaryDirectory(prefix="clatter-ccx-") as folder:
+            said = calculix_decks.all_decks(pathlib.Path(folder))
+        self.assertGreater(len(said), 300)
+        for name, text in said.items():
+            lines = [line.strip() for line in text.splitlines()]
+            if lines and lines[0].endswith("refusals:"):
+                lines = lines[1:]
+            for line in lines:
+                with self.subTest(deck=name, said=line):
+                    self.assertRegex(line.removeprefix("clatter-mesh: clatter-mesh: error: "), rf"^{name}\.inp:\d+: ")
 
 
 if __name__ == "__main__":

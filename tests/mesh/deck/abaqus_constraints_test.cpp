@@ -187,7 +187,7 @@ TEST(AbaqusMpc, PinTieAndBeamAreReadOthersRefused) {
   ASSERT_EQ(deck.rigid.size(), 1u);
   EXPECT_EQ(deck.rigid[0].reference, point(deck, 9));
   EXPECT_EQ(deck.rigid[0].dependents, std::vector<Place>{node(deck, 7)});
-  EXPECT_NE(refusal(kModel + "*MPC\nPLANE, 5, 1, 2, 3\n").find("*MPC of type PLANE"),
+  EXPECT_NE(refusal(kModel + "*MPC\nMEANROT, 5, 1, 2, 3\n").find("*MPC of type MEANROT"),
             std::string::npos);
 }
 
