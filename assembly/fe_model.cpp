@@ -31,17 +31,21 @@ void check_finite(const H5File& file, const std::string& place, const Matrix& va
   if (!values.allFinite()) refuse(file, place, "a value that is not finite", "finite numbers");
 }
 
-/// A symmetric positive (semi)definite matrix has no negative or empty diagonal entry.
+/// A symmetric positive semidefinite matrix has no negative diagonal entry, and where one is zero
+/// its column is: an unknown without stiffness, or without mass.
 void check_lower(const H5File& file, const std::string& place, const SparseMatrix& matrix) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     SparseMatrix::InnerIterator entry(matrix, j);
-    const bool on_diagonal = entry && entry.row() == j;
-    if (!on_diagonal)
+    if (!entry) continue;
+    if (entry.row() != j)
       refuse(file, fmt::format("{}, column {}", place, j), "no entry on the diagonal first",
              "the lower triangle");
-    if (!(entry.value() > 0.0))
-      refuse(file, fmt::format("{}, column {}", place, j),
-             fmt::format("diagonal {:g}", entry.value()), "a positive number");
+    const double diagonal = entry.value();
+    bool alone = true;
+    while (++entry) alone = alone && entry.value() == 0.0;
+    if (!(diagonal > 0.0 || (diagonal == 0.0 && alone)))
+      refuse(file, fmt::format("{}, column {}", place, j), fmt::format("diagonal {:g}", diagonal),
+             "a positive number, or an empty column");
   }
 }
 

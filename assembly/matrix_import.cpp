@@ -32,10 +32,10 @@ SparseMatrix read_sized(const std::filesystem::path& path, size_t dofs, const st
                                  matrix.rows(), dofs, source));
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     const double diagonal = matrix.coeff(j, j);
-    if (!(diagonal > 0.0))
+    if (!(diagonal >= 0.0))
       throw InputError(
-          fmt::format("{}: row {}: found {:.6g} on the diagonal, expected a positive "
-                      "number",
+          fmt::format("{}: row {}: found {:.6g} on the diagonal, expected a number that is not "
+                      "negative",
                       path.string(), j + 1, diagonal));
   }
   return matrix;

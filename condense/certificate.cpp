@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "modal/dense_eigen.hpp"
 #include "modal/eigen/dense_solver.hpp"
-#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -31,21 +30,20 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
 }
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
-void certify_spectrum(ReducedModel& reduced) {
+void certify_spectrum(ReducedModel& reduced, const Eigen::MatrixXd& motions) {
+  constexpr double kRounding = 1e-15;  // of the highest value; a double holds no less
   auto& out = reduced.certificate;
-  const double sigma = modal::dense_shift(reduced.K_rr, reduced.M_rr);
-  const modal::EigenResult low = modal::solve_dense(reduced.K_rr, reduced.M_rr, sigma);
+  const modal::EigenResult low =
+      modal::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
-  double elastic = -sigma;
-  for (Eigen::Index j = low.values.size() - 1; j >= 0; --j) {
-    if (low.values[j] > -1e-6 * sigma) elastic = low.values[j];
-  }
-  out["rigid_modes"] = static_cast<double>((low.values.array().abs() < 1e-6 * elastic).count());
-  out["first_elastic_hz"] = modal::hz_of_value(elastic);
   const modal::DenseEigen all =
       modal::symmetric_eigen(reduced.K_rr, reduced.M_rr, modal::EigenParts::kValues);
   if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
-  out["max_frequency_hz"] = modal::hz_of_value(all.values.maxCoeff());
+  const double highest = all.values.maxCoeff();
+  const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
+  out["rigid_modes"] = static_cast<double>(motions.cols() + zeros);
+  out["first_elastic_hz"] = zeros < low.values.size() ? modal::hz_of_value(low.values[zeros]) : 0.0;
+  out["max_frequency_hz"] = modal::hz_of_value(highest);
 }
 
 void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
@@ -115,15 +113,14 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r) {
 }
 
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
-             int dropped, bool spectrum) {
+             const ReducedMotions& free, int dropped, bool spectrum) {
   auto& out = reduced.certificate;
-  const Eigen::MatrixXd motions = modal::free_motions(model);
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
   const MassProperties found = mass_properties_of(reduced_mass);
   const MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
-  out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, reduced.rigid * motions);
+  out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, free.q);
   out["rigid_shape_error"] = source.rigid_error;
-  const bool free_body = motions.cols() == 6;  // a held body cannot move rigidly
+  const bool free_body = free.all_free;  // a held body cannot move rigidly
   if (free_body) {
     out["mass_error"] = compare_mass(found, full).largest();
     out["mass_error_elements"] = compare_mass(found, model.mass).largest();
@@ -135,7 +132,7 @@ void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigB
   if (!reduced.inertia.empty()) out["inertia_invariants_error"] = inertia_error(reduced, free_body);
   if (spectrum) {
     out["condition_M_rr"] = scaled_condition(reduced.M_rr);
-    certify_spectrum(reduced);
+    certify_spectrum(reduced, free.q);
   }
   certify_modes(reduced, source);
   if (free_body && !(out["mass_error"] <= kMassLimit)) {
@@ -151,12 +148,12 @@ void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigB
         out["inertia_invariants_error"], kMassLimit));
   }
   if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||
-      (spectrum && out["rigid_modes"] != static_cast<double>(motions.cols()))) {
+      (spectrum && out["rigid_modes"] != static_cast<double>(free.q.cols()))) {
     throw NumericsError(fmt::format(
         "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
         "{:.0e}",
         spectrum ? fmt::format("{}", out["rigid_modes"]) : "uncounted",
-        out["rigid_stiffness_residue"], motions.cols(), kRigidLimit));
+        out["rigid_stiffness_residue"], free.q.cols(), kRigidLimit));
   }
 }
 

@@ -27,11 +27,18 @@ MassError compare_mass(const MassProperties& found, const MassProperties& expect
 /// @param r the free motions in reduced coordinates, size x m.
 double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 
+/// The free rigid motions of a reduced model.
+struct ReducedMotions {
+  Eigen::MatrixXd q;      // r x m
+  bool all_free = false;  // all six of each body
+};
+
 /// Fills `reduced.certificate`: certified, 1 with the spectrum of (K_rr, M_rr), 0 when that costly
 /// part is left out (`spectrum` false: no rigid_modes, first_elastic_hz, max_frequency_hz,
 /// condition_M_rr);
-/// rigid_stiffness_residue of clear_rigid_stiffness, which it calls; rigid_modes, the zeros of
-/// (K_rr, M_rr); first_elastic_hz; for a free body mass_error (against r^T M r of the FE matrices)
+/// rigid_stiffness_residue of clear_rigid_stiffness, which it calls; rigid_modes, the free
+/// motions and what else of (K_rr, M_rr) is zero to rounding; first_elastic_hz, the lowest other
+/// one; for a free body mass_error (against r^T M r of the FE matrices)
 /// and mass_error_elements (against the sum over the elements); condition_M_rr of M_rr with unit
 /// diagonal; max_frequency_hz; eigen_residual_max; eigen_frequency_error, the largest estimated
 /// relative error of a mode's frequency (AMLS only); modal_mass_error; count_proved, count_below
@@ -44,6 +51,6 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
 /// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws
 /// NumericsError when the rigid motions or the mass did not survive the reduction.
 void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
-             int dropped, bool spectrum);
+             const ReducedMotions& free, int dropped, bool spectrum);
 
 }  // namespace clatter::condense

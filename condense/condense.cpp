@@ -181,14 +181,16 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   reduced.fixed_interface_hz = source.fixed_interface_hz;
   reduced.valid_to_hz = source.interior.cutoff_hz;
   if (search.tried > 0) record(search, reduced.certificate);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(reduced.size(), statics.free.count());
+  motions.topRows(reduced.n_boundary) = statics.free.q(partition.boundary, Eigen::all);
   if (options.interface) {
     const InterfaceReport report =
-        reduce_interface(reduced, *options.interface, modal::free_motions(model),
-                         modal::characteristic_length(model), source.interior.accurate_to_hz);
+        reduce_interface(reduced, *options.interface, motions, modal::characteristic_length(model),
+                         source.interior.accurate_to_hz);
     record(report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", report.modes));
   }
-  certify(reduced, model, source, dropped, options.certificate);
+  certify(reduced, model, source, {motions, statics.free.all_free()}, dropped, options.certificate);
   clock.lap("certificate");
   return reduced;
 }

@@ -6,7 +6,6 @@
 
 #include "assembly/dof_place.hpp"
 #include "core/error.hpp"
-#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -48,13 +47,14 @@ StaticPart static_part(const assembly::FeModel& model, const DofPartition& parti
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
                        const std::vector<int32_t>& kept, StepClock& clock,
                        const EliminationOrder& order) {
-  check_boundary_holds(model, partition);
   StaticPart out;
+  out.free = modal::free_motions(model);
+  check_boundary_holds(model, partition, out.free);
   out.factor_ii = factorise_interior(model, partition, K, order);
   out.order = order_of(*out.factor_ii, K.ii);
   clock.lap(fmt::format("factor of K_ii ({:.3g} entries{})", static_cast<double>(out.order.entries),
                         out.order.method == "given" ? ", stored order" : ""));
-  const Eigen::MatrixXd motions = model.rigid * modal::free_motions(model);
+  const Eigen::MatrixXd& motions = out.free.q;
   out.reduction = reduce_statically(
       *out.factor_ii, K, M,
       {motions(partition.boundary, Eigen::all), motions(partition.interior, Eigen::all)}, kept);
@@ -70,7 +70,7 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
   CraigBampton out;
   out.factor = factor.report();
   out.rigid_error = statics.reduction.rigid_error;
-  out.interior = interior_modes(model, partition, K, M, factor, request, clock);
+  out.interior = interior_modes(model, partition, K, M, factor, statics.free.q, request, clock);
   out.fixed_interface_hz = out.interior.hz;
   out.basis = ReducedBasis(statics.factor_ii, K.ib);
   out.basis.shapes.swap(out.interior.vectors);
@@ -80,7 +80,9 @@ CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& p
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   const double target = guyan ? 0.0 : request.frequency_error;
   if (target == 0.0 && !request.estimate_error) return out;
-  out.residual = add_residual_modes(out, factor, K, M, out.interior.accurate_to_hz, target);
+  out.residual =
+      add_residual_modes(out, factor, K, M, statics.free.q(partition.boundary, Eigen::all),
+                         out.interior.accurate_to_hz, target);
   const Eigen::Index shapes = out.fixed_interface_hz.size();
   out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());
   out.fixed_interface_hz.tail(out.residual.hz.size()) = out.residual.hz;

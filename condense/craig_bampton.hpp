@@ -8,6 +8,7 @@
 #include "condense/residual_modes.hpp"
 #include "core/elimination_order.hpp"
 #include "core/stopwatch.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 
@@ -24,7 +25,8 @@ struct CraigBampton : Reduction {
 struct StaticPart {
   std::shared_ptr<const modal::SupernodalFactor> factor_ii;
   StaticReduction reduction;
-  EliminationOrder order;  // of K_ii
+  EliminationOrder order;   // of K_ii
+  modal::FreeMotions free;  // of the model
 };
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.

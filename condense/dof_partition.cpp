@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 DofPartition partition_dofs(const assembly::FeModel& model,
@@ -85,21 +84,22 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   return blocks;
 }
 
-void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition) {
-  const Eigen::MatrixXd motions = modal::free_motions(model);
-  if (motions.cols() == 0) return;
-  const Eigen::MatrixXd held = model.rigid(partition.boundary, Eigen::all) * motions;
+void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition,
+                          const modal::FreeMotions& free) {
+  if (free.count() == 0) return;
+  const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
   const Eigen::VectorXd& strength = svd.singularValues();
   const double limit = 1e-6 * strength.maxCoeff();
   Eigen::Index rank = 0;
   while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
-  if (rank == motions.cols()) return;
-  const Eigen::VectorXd loose = motions * svd.matrixV().col(motions.cols() - 1);
+  if (rank == free.count()) return;
+  const Eigen::VectorXd loose = free.unit * svd.matrixV().col(free.count() - 1);
   throw InputError(fmt::format(
-      "boundary: its {} coordinates hold {} of the body's {} rigid motions; free is a {}: add a "
+      "boundary: its {} coordinates hold {} of the {}'s {} rigid motions; free is a {}: add a "
       "set that holds it",
-      partition.boundary.size(), rank, motions.cols(),
+      partition.boundary.size(), rank,
+      free.bodies > 1 ? fmt::format("{} bodies", free.bodies) : "body", free.count(),
       modal::motion_name(loose, modal::characteristic_length(model))));
 }
 

@@ -8,6 +8,7 @@
 
 #include "assembly/fe_model.hpp"
 #include "core/sparse.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::condense {
 
@@ -36,8 +37,9 @@ struct PartitionedMatrix {
 /// @param lower n x n, lower triangle.
 PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition);
 
-/// Refuses a boundary that leaves the body free to move by one of its modal::free_motions:
-/// InputError naming the motion.
-void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition);
+/// Refuses a boundary that leaves a body free to move by one of the free motions: InputError naming
+/// the motion.
+void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition,
+                          const modal::FreeMotions& free);
 
 }  // namespace clatter::condense

@@ -125,11 +125,27 @@ void renumber(ReducedModel& model, const Split& split, int before, int size) {
       dof = dof < before ? place[static_cast<size_t>(dof)] : dof + shift;
 }
 
+/// Rigid motions (r x m) in the coordinates behind W: q_R as it is, z the nearest in the mass of S.
+MatrixXd carried(const ReducedModel& model, const Split& split, const MatrixXd& W,
+                 const MatrixXd& motions) {
+  const auto n_R = static_cast<Index>(split.stay.size());
+  const Index p = W.cols() - n_R - (model.size() - model.n_boundary);
+  const MatrixXd W_S = W(split.become, Eigen::all);
+  const MatrixXd Phi_S = W_S.middleCols(n_R, p);
+  const MatrixXd M_Phi = MatrixXd(model.M_rr(split.become, split.become)) * Phi_S;
+  const MatrixXd motions_R = motions(split.stay, Eigen::all);
+  const MatrixXd rest = motions(split.become, Eigen::all) - W_S.leftCols(n_R) * motions_R;
+  MatrixXd out = MatrixXd::Zero(W.cols(), motions.cols());
+  out.topRows(n_R) = motions_R;
+  out.middleRows(n_R, p) =
+      (Phi_S.transpose() * M_Phi).ldlt().solve(MatrixXd(M_Phi.transpose() * rest));
+  return out;
+}
+
 /// The model in the coordinates behind W.
 ReducedModel transformed(const ReducedModel& model, const Split& split, const MatrixXd& W) {
   ReducedModel out = model;
   const auto n_R = static_cast<Index>(split.stay.size());
-  const Index p = W.cols() - n_R - (model.size() - model.n_boundary);
   out.M_rr = projected(model.M_rr, W);
   out.K_rr = projected(model.K_rr, W);
   for (auto& [name, load] : out.loads) load = W.transpose() * model.loads.at(name);
@@ -140,47 +156,39 @@ ReducedModel transformed(const ReducedModel& model, const Split& split, const Ma
   out.combined.topRows(n_S) = W(split.become, Eigen::all);
   if (model.combined.rows() > 0)
     out.combined.bottomRows(model.combined.rows()) = model.combined * W;
-  // Rigid motions: q_R as it is, z the nearest in the mass of S.
-  const MatrixXd Psi_SR = out.combined.topLeftCorner(n_S, n_R),
-                 Phi_S = out.combined.block(0, n_R, n_S, p);
-  const MatrixXd M_SS = model.M_rr(split.become, split.become);
-  const MatrixXd rigid_R = model.rigid(split.stay, Eigen::all);
-  const MatrixXd rest = model.rigid(split.become, Eigen::all) - Psi_SR * rigid_R;
-  const MatrixXd M_Phi = M_SS * Phi_S;
-  out.rigid = MatrixXd::Zero(W.cols(), 6);
-  out.rigid.topRows(n_R) = rigid_R;
-  out.rigid.middleRows(n_R, p) =
-      (Phi_S.transpose() * M_Phi).ldlt().solve(MatrixXd(M_Phi.transpose() * rest));
+  out.rigid = carried(model, split, W, model.rigid);
   renumber(out, split, model.size(), static_cast<int>(W.cols()));
   out.n_boundary = static_cast<int>(n_R);
   return out;
 }
 
 /// Largest relative frequency error of elastic modes below the limit.
-double frequency_error(const ReducedModel& before, const ReducedModel& after, Index rigid,
-                       double limit_hz) {
-  const auto values = [](const ReducedModel& model) {
+/// @param before, after with the free motions of each.
+double frequency_error(const ReducedModel& before, const MatrixXd& motions_before,
+                       const ReducedModel& after, const MatrixXd& motions_after, double limit_hz) {
+  const auto values = [](const ReducedModel& model, const MatrixXd& motions) {
     const modal::EigenResult all =
-        modal::solve_dense(model.K_rr, model.M_rr, modal::dense_shift(model.K_rr, model.M_rr));
+        modal::solve_dense(model.K_rr, model.M_rr, motions, std::nullopt);
     if (!all.ok()) throw NumericsError("reduced interface: " + all.message);
     return all.values;
   };
-  const VectorXd exact = values(before), found = values(after);
+  const VectorXd exact = values(before, motions_before), found = values(after, motions_after);
   double error = 0.0;
-  for (Index j = rigid; j < exact.size() && exact[j] < modal::value_of_hz(limit_hz); ++j)
+  for (Index j = 0; j < exact.size() && exact[j] < modal::value_of_hz(limit_hz); ++j)
     error = std::max(error, j < found.size() ? std::sqrt(found[j] / exact[j]) - 1.0 : 1.0);
   return error;
 }
 
-double film_work_error(const ReducedModel& before, const ReducedModel& after,
-                       const InterfaceOptions& options, const MatrixXd& motions) {
+double film_work_error(const ReducedModel& before, const MatrixXd& motions_before,
+                       const ReducedModel& after, const MatrixXd& motions_after,
+                       const InterfaceOptions& options) {
   double error = 0.0;
   for (const auto& [name, grid] : before.grids) {
     if (std::find(options.sets.begin(), options.sets.end(), name) == options.sets.end()) continue;
     const VectorXd exact =
-        static_work(before.K_rr, before.M_rr, before.rigid * motions, film_forces(before, name));
+        static_work(before.K_rr, before.M_rr, motions_before, film_forces(before, name));
     const VectorXd found =
-        static_work(after.K_rr, after.M_rr, after.rigid * motions, film_forces(after, name));
+        static_work(after.K_rr, after.M_rr, motions_after, film_forces(after, name));
     for (Index k = 0; k < exact.size(); ++k)
       if (exact[k] > 1e-9 * exact.maxCoeff())
         error = std::max(error, std::abs(found[k] / exact[k] - 1.0));
@@ -214,10 +222,10 @@ std::optional<InterfaceOptions> read_interface_options(const Config& config,
 }
 
 InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& options,
-                                 const MatrixXd& motions, double length, double limit_hz) {
+                                 MatrixXd& motions, double length, double limit_hz) {
   const Split split = split_boundary(model, options.sets);
-  const MatrixXd rigid_R = MatrixXd(model.rigid(split.stay, Eigen::all)) * motions;
-  const MatrixXd rigid_S = MatrixXd(model.rigid(split.become, Eigen::all)) * motions;
+  const MatrixXd rigid_R = motions(split.stay, Eigen::all);
+  const MatrixXd rigid_S = motions(split.become, Eigen::all);
   check_holds(model, rigid_R, length);
   const MatrixXd K_SS = model.K_rr(split.become, split.become);
   const MatrixXd M_SS = model.M_rr(split.become, split.become);
@@ -234,16 +242,18 @@ InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& op
       Psi_SR +=
           (rigid_S - Psi_SR * rigid_R) * rigid_R.completeOrthogonalDecomposition().pseudoInverse();
   }
-  ReducedModel reduced =
-      transformed(model, split, transformation(model, split, Psi_SR, shapes.Phi));
+  const MatrixXd W = transformation(model, split, Psi_SR, shapes.Phi);
+  ReducedModel reduced = transformed(model, split, W);
+  const MatrixXd after = carried(model, split, W, motions);
   InterfaceReport report;
   report.coordinates = static_cast<int>(split.become.size());
   report.modes = static_cast<int>(shapes.Phi.cols());
   report.cutoff_hz = shapes.next_hz;
-  report.frequency_error = frequency_error(model, reduced, motions.cols(), limit_hz);
-  report.pressure_work_error = film_work_error(model, reduced, options, motions);
+  report.frequency_error = frequency_error(model, motions, reduced, after, limit_hz);
+  report.pressure_work_error = film_work_error(model, motions, reduced, after, options);
   if (report.cutoff_hz > 0.0) reduced.valid_to_hz = std::min(reduced.valid_to_hz, report.cutoff_hz);
   model = std::move(reduced);
+  motions = after;
   return report;
 }
 

@@ -39,11 +39,11 @@ struct InterfaceReport {
 /// of the boundary named R is empty and the free rigid motions are kept beside the elastic modes.
 /// All parts of the model are transformed; what stood in S moves to ReducedModel::combined; z comes
 /// after q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
-/// @param motions 6 x m, the free rigid motions as combinations of the unit ones; limit_hz up to
+/// @param motions r x m, the free rigid motions; on return in the new coordinates; limit_hz up to
 /// where frequencies are compared before and after; length [m] the body's size.
 /// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.
 InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& options,
-                                 const Eigen::MatrixXd& motions, double length, double limit_hz);
+                                 Eigen::MatrixXd& motions, double length, double limit_hz);
 
 /// interface_coordinates, _modes, _cutoff_hz, _frequency_error, _film_work_error of a certificate.
 void record(const InterfaceReport& report, std::map<std::string, double>& certificate);

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/named.hpp"
-#include "modal/free_motions.hpp"
 #include "modal/symmetric_product.hpp"
 
 namespace clatter::condense {
@@ -61,9 +60,10 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
 
 InteriorModes own_modes(const assembly::FeModel& model, const DofPartition& partition,
                         const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const modal::SupernodalFactor& factor_ii, const ModeRequest& request) {
-  const MatrixXd motions = model.rigid * modal::free_motions(model);
+                        const modal::SupernodalFactor& factor_ii, const MatrixXd& motions,
+                        const ModeRequest& request) {
   modal::EigenOptions options = eigen_options(request);
+  options.rigid = motions;
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
   const modal::ModeSet modes = modal::solve_modes(model.K, model.M, options);
   InteriorModes out;
@@ -125,11 +125,12 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
 
 InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition& partition,
                              const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const modal::SupernodalFactor& factor_ii, const ModeRequest& request,
-                             StepClock& clock) {
+                             const modal::SupernodalFactor& factor_ii, const MatrixXd& motions,
+                             const ModeRequest& request, StepClock& clock) {
   const MatrixXd forces = interior_loads(model, partition, request.load_shapes);
-  InteriorModes out = request.own_modes ? own_modes(model, partition, K, M, factor_ii, request)
-                                        : fixed_interface_modes(K, M, factor_ii, request);
+  InteriorModes out = request.own_modes
+                          ? own_modes(model, partition, K, M, factor_ii, motions, request)
+                          : fixed_interface_modes(K, M, factor_ii, request);
   if (request.accurate_to_hz > 0.0) out.accurate_to_hz = request.accurate_to_hz;
   clock.lap(fmt::format("{} {} modes", request.own_modes ? out.own_modes : out.vectors.cols(),
                         request.own_modes ? "own" : "fixed-interface"));

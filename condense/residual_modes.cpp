@@ -30,23 +30,29 @@ struct Ritz {
   MatrixXd vectors;  // r x p, unit modal mass
 };
 
-Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, double limit) {
-  const double sigma = modal::dense_shift(K_rr, M_rr);
-  const modal::EigenResult all = modal::solve_dense(K_rr, M_rr, sigma);
+/// @param motions n_b x m: the first rows of the free rigid motions, whose others are zero.
+Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, const MatrixXd& motions,
+                   double limit) {
+  MatrixXd rigid = MatrixXd::Zero(K_rr.rows(), motions.cols());
+  rigid.topRows(motions.rows()) = motions;
+  const modal::EigenResult all = modal::solve_dense(K_rr, M_rr, rigid, std::nullopt);
   if (!all.ok()) throw NumericsError("reduced model: " + all.message);
-  std::vector<Index> kept;
-  for (Index j = 0; j < all.values.size(); ++j) {
-    if (all.values[j] > -1e-3 * sigma && all.values[j] < limit) kept.push_back(j);
-  }
-  return {all.values(kept), all.vectors(Eigen::all, kept)};
+  const Index kept = (all.values.array() < limit).count();
+  return {all.values.head(kept), all.vectors.leftCols(kept)};
 }
 
 /// The run over the passes; X holds the added vectors, with the boundary at rest.
 class Correction {
  public:
   Correction(Reduction& reduction, const modal::SupernodalFactor& factor,
-             const PartitionedMatrix& K, const PartitionedMatrix& M)
-      : reduction_(reduction), factor_(factor), K_(K), M_(M), K_ii_(K.ii), M_ii_(M.ii) {
+             const PartitionedMatrix& K, const PartitionedMatrix& M, const MatrixXd& motions)
+      : reduction_(reduction),
+        factor_(factor),
+        K_(K),
+        M_(M),
+        motions_(motions),
+        K_ii_(K.ii),
+        M_ii_(M.ii) {
     X_.resize(K.ii.rows(), 0);
     border();
   }
@@ -67,6 +73,7 @@ class Correction {
   const modal::SupernodalFactor& factor_;
   const PartitionedMatrix& K_;
   const PartitionedMatrix& M_;
+  const MatrixXd& motions_;
   modal::SymmetricProduct K_ii_, M_ii_;
   MatrixXd X_;              // n_i x m
   MatrixXd K_rr_, M_rr_;    // bordered
@@ -96,7 +103,7 @@ void Correction::border() {
 }
 
 VectorXd Correction::estimate(double limit) {
-  ritz_ = elastic_modes(K_rr_, M_rr_, limit);
+  ritz_ = elastic_modes(K_rr_, M_rr_, motions_, limit);
   const ReducedBasis& basis = reduction_.basis;
   const Index r = basis.size(), p = modes();
   MatrixXd u_i = basis.interior(ritz_.vectors.topRows(r));
@@ -153,9 +160,9 @@ void Correction::append(ResidualReport& report) {
 
 ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  double limit_hz, double target) {
+                                  const MatrixXd& motions, double limit_hz, double target) {
   constexpr int kPasses = 4;
-  Correction correction(reduction, factor_ii, K, M);
+  Correction correction(reduction, factor_ii, K, M, motions);
   ResidualReport report;
   report.estimated = true;
   std::vector<char> corrected;  // by place in the ascending list, which passes hardly reorder

@@ -27,9 +27,10 @@ struct ResidualReport {
 /// is the load) and the estimate of the error r^T delta / (2 lambda) of the frequency. Vectors
 /// whose estimate exceeds a hundredth of `target` are added, once each; passes are repeated until
 /// every estimate is below `target`, at most four times.
+/// @param motions n_b x m, boundary rows of the free rigid motions, which are no elastic modes.
 /// @param target relative frequency error; 0 only estimates.
 ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  double limit_hz, double target);
+                                  const Eigen::MatrixXd& motions, double limit_hz, double target);
 
 }  // namespace clatter::condense

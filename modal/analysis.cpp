@@ -5,8 +5,9 @@
 
 #include <numeric>
 
-#include "assembly/dof_place.hpp"
 #include "core/error.hpp"
+#include "modal/factor_trouble.hpp"
+#include "modal/free_motions.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -66,19 +67,17 @@ void spread(const std::vector<int32_t>& left, Eigen::Index size, Eigen::MatrixXd
   vectors.swap(all);
 }
 
-/// solve_modes of the rows `left` of a model; a factor that fails names the node.
+/// Modes of the rows `left` of a model, its rigid motions known beforehand; a factor that fails
+/// names the node.
 ModeSet solve_named(const assembly::FeModel& model, const std::vector<int32_t>& left,
-                    const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options) {
+                    const SparseMatrix& K, const SparseMatrix& M, EigenOptions options) {
+  // Matrices that came without places have no rigid motions to know.
+  if ((model.rigid.colwise().squaredNorm().array() > 0.0).all())
+    options.rigid = free_motions(K, M, model.rigid(left, Eigen::all)).q;
   try {
     return solve_modes(K, M, options);
   } catch (const NotPositiveDefinite& error) {
-    if (error.column < 0) throw;
-    const int32_t dof = left[static_cast<size_t>(error.column)];
-    throw NotPositiveDefinite(
-        fmt::format("{}: K - sigma M: {}, at {}; look for a part of the mesh that is not connected "
-                    "or for matrices that are not of one body",
-                    model.name, error.what(), assembly::place_of(model, dof)),
-        error.column);
+    throw explained(model, "K - sigma M", left, error);
   }
 }
 
@@ -155,11 +154,39 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
     const Eigen::MatrixXd kept = matrix(left, left);
     return Eigen::MatrixXd(kept.triangularView<Eigen::Lower>()).sparseView(0.0, 0.0);
   };
-  part.modes = solve_modes(lower(model.K_rr), lower(model.M_rr), eigen);
+  const SparseMatrix K = lower(model.K_rr), M = lower(model.M_rr);
+  eigen.rigid = free_motions(K, M, model.rigid(left, Eigen::all)).q;
+  part.modes = solve_modes(K, M, eigen);
   spread(left, model.size(), part.modes.vectors);
   part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.skin.T * q; };
   return part;
 }
+
+namespace {
+
+/// "0 (rigid)" where it is, else digits that show what it is, however low.
+std::string hz_text(double hz) {
+  return hz >= 0.1 || hz == 0.0 ? fmt::format("{:>12.4f}", hz) : fmt::format("{:>12.4g}", hz);
+}
+
+void describe_doubt(const ModeSet& modes, std::vector<std::string>& lines) {
+  constexpr double kWorthSaying = 1e-6;
+  Eigen::Index worst = 0;
+  if (modes.size() > 0 && modes.rounding.maxCoeff(&worst) > kWorthSaying)
+    lines.push_back(
+        fmt::format("rounding of the entries of K to doubles may move frequencies by up to {:.1e} "
+                    "(mode {}): thin walls or stiff jumps",
+                    modes.rounding[worst], worst + 1));
+  if (modes.rigid > modes.known_rigid)
+    lines.push_back(
+        fmt::format("{} modes are 0 Hz to rounding beside the {} rigid motions: mechanisms",
+                    modes.rigid - modes.known_rigid, modes.known_rigid));
+  if (modes.massless > 0)
+    lines.push_back(fmt::format(
+        "{} unknowns have no mass: as many eigenvalues are infinite and left out", modes.massless));
+}
+
+}  // namespace
 
 std::vector<std::string> describe(const PartModes& part) {
   const ModeSet& modes = part.modes;
@@ -169,14 +196,16 @@ std::vector<std::string> describe(const PartModes& part) {
                               modes.size(), modes.method, modes.solves, modes.rigid));
   const Eigen::VectorXd hz = modes.frequencies_hz();
   for (Eigen::Index j = 0; j < modes.size(); ++j) {
-    lines.push_back(fmt::format(
-        "{:>5}  {:>12.4f} Hz  {} {:.1e}{}", j + 1, hz[j], approximate ? "error about" : "residual",
-        approximate ? modes.errors[j] : modes.residuals[j], j < modes.rigid ? "  rigid" : ""));
+    lines.push_back(fmt::format("{:>5}  {} Hz  {} {:.1e}{}", j + 1, hz_text(hz[j]),
+                                approximate ? "error about" : "residual",
+                                approximate ? modes.errors[j] : modes.residuals[j],
+                                j < modes.rigid ? "  rigid" : ""));
   }
   if (approximate)
     lines.push_back(
         fmt::format("frequencies are approximate, from above: largest error about {:.1e}",
                     modes.errors.maxCoeff()));
+  describe_doubt(modes, lines);
   if (modes.proof.proved) {
     lines.push_back(fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
                                 modes.proof.below, hz_of_value(modes.proof.limit)));

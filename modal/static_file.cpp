@@ -43,7 +43,7 @@ void write_static(H5File& file, const assembly::FeModel& model, const StaticSolu
     file.write("points/names", model.points.names);
     file.write("points/position", model.points.position);
   }
-  double residual = 0.0, balance = 0.0;
+  double backward = 0.0, forward = 0.0, balance = 0.0;
   for (const StaticCase& one : solution.cases) {
     const std::string place = "cases/" + one.name + "/";
     file.write(place + "displacement", rows_of(one.displacement, 3));
@@ -55,13 +55,16 @@ void write_static(H5File& file, const assembly::FeModel& model, const StaticSolu
     file.write(place + "applied", one.applied);
     write_stress(file, model, one);
     file.set("cases/" + one.name, "energy", one.energy);
-    file.set("cases/" + one.name, "residual", one.residual);
+    file.set("cases/" + one.name, "backward_error", one.backward_error);
+    file.set("cases/" + one.name, "forward_error", one.forward_error);
     file.set("cases/" + one.name, "balance", one.balance);
-    residual = std::max(residual, one.residual);
+    backward = std::max(backward, one.backward_error);
+    forward = std::max(forward, one.forward_error);
     balance = std::max(balance, one.balance);
   }
   write_certificate(file, {{"cases", static_cast<double>(solution.cases.size())},
-                           {"residual_max", residual},
+                           {"backward_error_max", backward},
+                           {"forward_error_max", forward},
                            {"balance_max", balance},
                            {"factor_entries", static_cast<double>(solution.factor.entries)},
                            {"factor_rcond", solution.factor.rcond}});

@@ -31,12 +31,13 @@ std::string json_of(const assembly::FeModel& model, const StaticSolution& soluti
     for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
       largest = std::max(largest, one.displacement.segment<3>(3 * a).norm());
     const double stress = one.stress.empty() ? std::nan("") : largest_stress(model, one).von_mises;
-    cases.push_back(fmt::format(
-        "{{\"name\": {}, \"largest_displacement_m\": {}, \"energy_j\": {}, \"residual\": {}, "
-        "\"balance\": {}, \"largest_von_mises_pa\": {}, \"supports\": {}}}",
-        json_text(one.name), json_number(largest), json_number(one.energy),
-        json_number(one.residual), json_number(one.balance), json_number(stress),
-        supports_of(model, one)));
+    cases.push_back(
+        fmt::format("{{\"name\": {}, \"largest_displacement_m\": {}, \"energy_j\": {}, "
+                    "\"backward_error\": {}, \"forward_error\": {}, "
+                    "\"balance\": {}, \"largest_von_mises_pa\": {}, \"supports\": {}}}",
+                    json_text(one.name), json_number(largest), json_number(one.energy),
+                    json_number(one.backward_error), json_number(one.forward_error),
+                    json_number(one.balance), json_number(stress), supports_of(model, one)));
   }
   return fmt::format("[{}]", fmt::join(cases, ", "));
 }

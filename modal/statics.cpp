@@ -5,14 +5,22 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
+#include "modal/factor_trouble.hpp"
 #include "modal/free_motions.hpp"
+#include "modal/refined_solve.hpp"
 
 namespace clatter::modal {
 namespace {
 
-constexpr double kTolerance = 1e-8;   // of residual and balance; rounding leaves 1e-12 or so
+constexpr double kBackward = 1e-12;  // of each row; refinement leaves 1e-16 or so
+constexpr double kBalance = 1e-8;    // of forces; rounding leaves 1e-12 or so
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double kForward = 1.0;  // estimated relative error of the displacements: no digit is left
+constexpr double kDoubtful = 1e-3;    // the same, worth a warning
 constexpr double kHeldMotion = 1e-8;  // |K R| / |K| |R| of a rigid motion that an equation holds
 
 using Factors = std::map<std::string, double>;
@@ -71,17 +79,18 @@ RightSides right_sides(const assembly::FeModel& model, const std::vector<std::st
 }
 
 void refuse_free_body(const assembly::FeModel& model) {
-  const Eigen::MatrixXd motions = free_motions(model);
-  if (motions.cols() == 0) return;
+  const FreeMotions free = free_motions(model);
+  if (free.count() == 0) return;
   std::vector<std::string> names;
-  for (Eigen::Index c = 0; c < motions.cols(); ++c) {
-    std::string name = motion_name(motions.col(c), characteristic_length(model));
+  for (Eigen::Index c = 0; c < free.count(); ++c) {
+    std::string name = motion_name(free.unit.col(c), characteristic_length(model));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  throw InputError(
-      fmt::format("{}: found {} rigid motions that nothing holds (such as {}), expected a "
-                  "[[support]] that does",
-                  model.name, motions.cols(), fmt::join(names, ", ")));
+  throw InputError(fmt::format(
+      "{}: found {} rigid motions that nothing holds (such as {}){}, expected a "
+      "[[support]] that does",
+      model.name, free.count(), fmt::join(names, ", "),
+      free.bodies > 1 ? fmt::format(" in {} bodies that nothing joins", free.bodies) : ""));
 }
 
 /// 1 for the rigid motions that are free of force without supports, 0 for those that an equation
@@ -100,6 +109,22 @@ Eigen::VectorXd balanced_motions(const assembly::FeModel& model) {
 
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : part; }
 
+/// What rounding of the nodal forces may leave of their sum, in the units of the balance: bending
+/// of thin parts is a small difference of large forces.
+double rounding_of(const assembly::FeModel& model, const Eigen::VectorXd& q,
+                   const Eigen::VectorXd& s) {
+  Eigen::VectorXd sum =
+      model.rigid.cwiseAbs().transpose() * Eigen::VectorXd(magnitude_product(model.K, q));
+  const assembly::FeSupports& supports = model.supports;
+  if (supports.size() > 0) {
+    const Eigen::VectorXd forces = supports.K_sq.cwiseAbs() * q.cwiseAbs() +
+                                   Eigen::VectorXd(magnitude_product(supports.K_ss, s));
+    sum += supports.rigid.cwiseAbs().transpose() * forces;
+  }
+  sum.tail(3) /= characteristic_length(model);
+  return kRounding * sum.norm();
+}
+
 StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
                    const Eigen::VectorXd& f, const Eigen::VectorXd& f_s, const Eigen::VectorXd& s,
                    const Eigen::VectorXd& balanced) {
@@ -107,7 +132,6 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
   double size = f.lpNorm<1>();  // of forces that cancel
   const assembly::FeSupports& supports = model.supports;
   const Eigen::VectorXd elastic = multiply_symmetric(model.K, q);
-  Eigen::VectorXd driven = f;
   out.displacement = model.T * q;
   if (!model.points.names.empty()) out.points = model.points.T * q;
   out.applied = model.rigid.transpose() * f;
@@ -117,7 +141,6 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
   if (supports.size() > 0) {
     const Eigen::VectorXd on_q = supports.K_sq.transpose() * s;
     const Eigen::VectorXd on_s = multiply_symmetric(supports.K_ss, s);
-    driven -= on_q;
     out.displacement += supports.T * s;
     if (out.points.size() > 0) out.points += model.points.T_s * s;
     out.applied += supports.rigid.transpose() * f_s;
@@ -129,19 +152,55 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
       out.support_sums.row(supports.support[static_cast<size_t>(k)]) +=
           out.reactions(k) * supports.rigid.row(k);
   }
-  out.residual = ratio((elastic - driven).norm(), driven.norm());
   Eigen::VectorXd sum = out.applied + out.support_sums.colwise().sum().transpose();
   sum = sum.cwiseProduct(balanced);
   sum.tail(3) /= characteristic_length(model);
   out.balance = ratio(sum.norm(), size);
+  if (out.balance > kBalance) out.balance_rounding = ratio(rounding_of(model, q, s), size);
   return out;
+}
+
+/// Thin walls have a condition beyond 1e11 and are solved all the same: the guards of the factor
+/// leave it to the errors of the solution to judge.
+SupernodalFactor factor_of(const assembly::FeModel& model) {
+  FactorOptions options;
+  options.min_rcond = 0.0;
+  options.max_condition = 1e15;
+  try {
+    return SupernodalFactor(model.K, options);
+  } catch (const NotPositiveDefinite& error) {
+    std::vector<int32_t> all(static_cast<size_t>(model.size()));
+    std::iota(all.begin(), all.end(), 0);
+    throw explained(model, "K", all, error);
+  }
+}
+
+void refuse_inexact(const assembly::FeModel& model, const StaticCase& found) {
+  // Written so that NaN is refused too.
+  if (!(found.backward_error <= kBackward))
+    throw NumericsError(fmt::format("{}: {}: found backward error {:.3g}, expected at most {:.0e}",
+                                    model.name, found.name, found.backward_error, kBackward));
+  if (!(found.balance <= std::max(kBalance, found.balance_rounding)))
+    throw NumericsError(
+        fmt::format("{}: {}: found balance of forces {:.3g}, expected at most {:.0e}", model.name,
+                    found.name, found.balance, kBalance));
+  if (!(found.forward_error <= kForward))
+    throw NumericsError(fmt::format(
+        "{}: {}: found an error of the displacements of about {:.2g} by rounding of the "
+        "entries of K, expected at most {:g}: make the walls thicker, the jumps of "
+        "stiffness smaller, or the supports firmer",
+        model.name, found.name, found.forward_error, kForward));
+  if (found.forward_error > kDoubtful)
+    warn(fmt::format(
+        "{}: {}: rounding of the entries of K may move displacements by up to {:.1g} of "
+        "the largest: the part is very thin, or its stiffness jumps",
+        model.name, found.name, found.forward_error));
 }
 
 /// Nothing is unknown where supports hold every DoF: displacements are those prescribed, and the
 /// reactions are K_ss s - f_s.
 StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {
-  constexpr double kHeldBalance = 1e-8;  // rounding leaves 1e-12 or so
   const assembly::FeSupports& supports = model.supports;
   const Eigen::MatrixXd force = multiply_symmetric(supports.K_ss, supports.rigid);
   const double stiffness = Eigen::VectorXd(supports.K_ss.diagonal()).maxCoeff();
@@ -158,10 +217,7 @@ StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std:
                                sides.s.col(col), balanced);
     found.name = names[c];
     found.loads = factors_of(model, names[c]);
-    if (!(found.balance <= kHeldBalance))
-      throw NumericsError(
-          fmt::format("{}: {}: found balance of forces {:.3g}, expected at most {:.0e}", model.name,
-                      found.name, found.balance, kHeldBalance));
+    refuse_inexact(model, found);
     found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
                                           temperature_rise(model, found.loads));
     solution.cases.push_back(std::move(found));
@@ -177,27 +233,23 @@ StaticSolution solve_static(const assembly::FeModel& model,
   const RightSides sides = right_sides(model, names);
   if (model.size() == 0) return solve_held(model, names, sides);
   refuse_free_body(model);
-  const SupernodalFactor factor(model.K);
+  const SupernodalFactor factor = factor_of(model);
   Eigen::MatrixXd driven = sides.f;
   if (model.supports.size() > 0) driven -= model.supports.K_sq.transpose() * sides.s;
-  Eigen::MatrixXd q = factor.solve(driven);
-  // One refinement: reactions are small differences of large forces.
-  q += factor.solve(driven - multiply_symmetric(model.K, q));
+  const RefinedSolution solved = solve_refined(factor, model.K, driven);
 
   StaticSolution solution;
   solution.factor = factor.report();
   const Eigen::VectorXd balanced = balanced_motions(model);
   for (size_t c = 0; c < names.size(); ++c) {
     const auto col = static_cast<Eigen::Index>(c);
-    StaticCase found = recover(model, q.col(col), sides.f.col(col), sides.f_s.col(col),
+    StaticCase found = recover(model, solved.x.col(col), sides.f.col(col), sides.f_s.col(col),
                                sides.s.col(col), balanced);
     found.name = names[c];
     found.loads = factors_of(model, names[c]);
-    // Written so that NaN is refused too.
-    if (!(found.residual <= kTolerance && found.balance <= kTolerance))
-      throw NumericsError(fmt::format(
-          "{}: {}: found residual {:.3g} and balance of forces {:.3g}, expected at most {:.0e}",
-          model.name, found.name, found.residual, found.balance, kTolerance));
+    found.backward_error = solved.backward[col];
+    found.forward_error = solved.forward[col];
+    refuse_inexact(model, found);
     found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
                                           temperature_rise(model, found.loads));
     solution.cases.push_back(std::move(found));
@@ -216,12 +268,11 @@ std::vector<std::string> describe(const assembly::FeModel& model, const StaticSo
       most = length;
       largest = a;
     }
-    lines.push_back(
-        fmt::format("{}: largest displacement {:.6g} m at ({:.4f}, {:.4f}, {:.4f}) m, energy "
-                    "{:.6g} J, residual "
-                    "{:.1e}, balance {:.1e}",
-                    one.name, most, model.nodes(largest, 0), model.nodes(largest, 1),
-                    model.nodes(largest, 2), one.energy, one.residual, one.balance));
+    lines.push_back(fmt::format(
+        "{}: largest displacement {:.6g} m at ({:.4f}, {:.4f}, {:.4f}) m, energy "
+        "{:.6g} J, backward error {:.1e}, error by rounding about {:.1e}, balance {:.1e}",
+        one.name, most, model.nodes(largest, 0), model.nodes(largest, 1), model.nodes(largest, 2),
+        one.energy, one.backward_error, one.forward_error, one.balance));
     if (!one.stress.empty()) lines.push_back(describe_largest_stress(model, one));
     for (Eigen::Index s = 0; s < one.support_sums.rows(); ++s)
       lines.push_back(

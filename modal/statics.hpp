@@ -20,12 +20,14 @@ struct StaticCase {
   Eigen::VectorXd displacement;         // 3 n_nodes [m]: row 3 a + d is node a, direction d
   Eigen::VectorXd points;               // 6 n_points: x y z [m], rx ry rz [rad] of each
   Eigen::VectorXd reactions;            // n_s [N, N m]: what the supports do to the part
-  Eigen::MatrixXd support_sums;  // supports x 6: their force [N] and moment about the origin [N m]
-  Eigen::VectorXd applied;       // 6: force and moment about the origin of all loads
-  double energy = 0.0;           // strain energy [J]
-  double residual = 0.0;         // |K q + K_sq^T s - f| / |f|
-  double balance = 0.0;          // |applied + reactions| over the forces that cancel; moments over
-                                 // half the part's diagonal
+  Eigen::MatrixXd support_sums;   // supports x 6: their force [N] and moment about the origin [N m]
+  Eigen::VectorXd applied;        // 6: force and moment about the origin of all loads
+  double energy = 0.0;            // strain energy [J]
+  double backward_error = 0.0;    // relative change of the entries of K and f for which q is exact
+  double forward_error = 0.0;     // estimated, of q over its largest entry, by rounding of entries
+  double balance = 0.0;           // |applied + reactions| over the forces that cancel; moments over
+                                  // half the part's diagonal
+  double balance_rounding = 0.0;  // what rounding explains of it, where it is above 1e-8
   std::vector<assembly::RegionStress> stress;  // a region each; none when the model has no cells
 };
 
@@ -38,8 +40,9 @@ struct StaticSolution {
 ///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s,
 /// and stresses from u (assembly/stress.hpp). One factorisation serves all. InputError for an
 /// unknown name, a model without loads, and a part whose supports leave rigid motions free (they
-/// are named); NumericsError when the stiffness is singular otherwise, or when residual or balance
-/// exceed 1e-8.
+/// are named); NumericsError when the stiffness is singular otherwise, when the backward error
+/// exceeds 1e-12, the balance 1e-8 and what rounding explains, or the estimated error of q all of
+/// it.
 StaticSolution solve_static(const assembly::FeModel& model, const std::vector<std::string>& wanted);
 
 /// Stresses at the nodes of one region and case.

@@ -235,6 +235,22 @@ EigenResult project(const ShiftInvert& problem, const SubtreeProduct& A, const S
   return out;
 }
 
+/// The lowest pairs are near the known motions: these give way, the others lose their part in them.
+void remove_known(const KnownMotions& known, EigenResult& out) {
+  const Index count = known.count(), n = out.vectors.rows();
+  if (count == 0) return;
+  const Index left = out.values.size() - count;
+  out.values = VectorXd(out.values.tail(left));
+  RowMatrix block;
+  for (Index first = 0; first < left; first += kColumns) {
+    const Index columns = std::min(kColumns, left - first);
+    block = out.vectors.middleCols(count + first, columns);
+    known.remove(block.data(), static_cast<int>(columns));
+    out.vectors.middleCols(first, columns) = block;
+  }
+  out.vectors.conservativeResize(n, left);
+}
+
 /// Refines the pairs of a projection until a step lowers no wanted frequency by more than asked.
 void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const AmlsOptions& options,
             EigenResult& out) {
@@ -252,22 +268,26 @@ void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const Amls
 
 }  // namespace
 
-EigenResult solve_amls(const ShiftInvert& problem, const SupernodalFactor& factor,
-                       const SymmetricProduct& mass, const AmlsOptions& options) {
+EigenResult solve_amls(ShiftedPencil& pencil, const AmlsOptions& options) {
   constexpr int kTries = 4;
   constexpr double kWider = 2.25;  // of eigenvalues, from try to try
+  const ShiftInvert& problem = pencil.problem();
   const auto size = static_cast<Index>(problem.size);
+  const auto known = static_cast<int>(pencil.rigid().count());
   const int spare = std::max(8, options.count / 20);  // the highest Ritz vectors are the poorest
-  const int asked = static_cast<int>(std::min<Index>(options.count + spare, size));
+  const int asked = static_cast<int>(std::min<Index>(options.count + spare + known, size));
   require_room(size, asked, 0);
-  const SubtreeProduct A(factor, mass);
-  const double nu = ModeDensity(A, size, options.seed).nu_above(options.count);
+  const SupernodalFactor& factor = pencil.factor();
+  const SubtreeProduct A(factor, pencil.mass());
+  const double nu = ModeDensity(A, size, options.seed).nu_above(options.count + known);
   double highest = std::max(1.0 / nu + problem.sigma, 0.0) * options.cutoff * options.cutoff;
   EigenResult out;
   for (int attempt = 0; attempt < kTries && !out.ok(); ++attempt, highest *= kWider) {
     out.vectors.resize(0, 0);
     out = project(problem, A, factor.tree(), options, asked, 1.0 / (highest - problem.sigma));
-    if (out.ok()) refine(problem, mass, options, out);
+    if (!out.ok()) continue;
+    remove_known(pencil.rigid(), out);
+    refine(problem, pencil.mass(), options, out);
   }
   if (!out.ok()) return out;
   out.solves += ModeDensity::kSolves;

@@ -1,13 +1,11 @@
 #pragma once
 // Automated multilevel substructuring: many modes at engineering accuracy from the modes of parts.
-#include "modal/eigen/shift_invert.hpp"
-#include "modal/factor/supernodal_factor.hpp"
-#include "modal/symmetric_product.hpp"
+#include "modal/eigen/shifted_pencil.hpp"
 
 namespace clatter::modal {
 
 struct AmlsOptions {
-  int count = 0;           // lowest modes wanted
+  int count = 0;           // lowest modes wanted, beside those known beforehand
   double accuracy = 5e-3;  // largest relative error of a frequency, as estimated
   /// Modes of substructures are kept up to this multiple of the highest wanted frequency.
   double cutoff = 2.5;
@@ -26,8 +24,6 @@ struct AmlsOptions {
 /// t the ratio between the eigenvalue of what a vector still lacks and its own.
 /// Memory: the vectors, a twentieth more than asked for (8 at least), and two blocks of 32 beside
 /// the factor; throws NumericsError before it takes any when they do not fit.
-/// @param problem K, M in the order of the factor; @param mass P M P^T.
-EigenResult solve_amls(const ShiftInvert& problem, const SupernodalFactor& factor,
-                       const SymmetricProduct& mass, const AmlsOptions& options);
+EigenResult solve_amls(ShiftedPencil& pencil, const AmlsOptions& options);
 
 }  // namespace clatter::modal

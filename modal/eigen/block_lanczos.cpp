@@ -51,6 +51,8 @@ class Run {
  public:
   Run(const ShiftInvert& problem, const BlockLanczosOptions& options);
   EigenResult solve();
+  /// nu > 0 after so many blocks, descending; empty when the operator failed.
+  VectorXd values_after(int blocks);
 
  private:
   void fill_random(Index column);
@@ -165,10 +167,13 @@ bool Run::expand() {
   if (!Y_.finite()) return false;
   refresh_image();
   // Op is symmetric, so that the new block is coupled to the last two only (and to what a restart
-  // kept); what rounding brings of the others is small, and the second pass takes it away.
+  // kept); what rounding brings of the others the second pass takes away. It has no place in T:
+  // with thin walls the factor's rounding is not small, and taken for a coupling it would hold
+  // every residual up at its own size.
   MatrixXd H = MatrixXd::Zero(next, b_);
   remove(local_, next, H);
   remove(0, next, H);
+  H.topRows(local_).setZero();
   T_.block(0, size_, next, b_) = H;
   T_.block(size_, 0, b_, next) = H.transpose();
   R_ = orthonormalise(next);
@@ -192,7 +197,8 @@ Index Run::converged() const {
   Index count = 0;
   while (count < std::min(wanted_, size_)) {
     const double residual = (R_ * S_.col(count).tail(b_)).norm();
-    if (!(residual <= options_.tolerance * std::abs(nu_[count]))) break;
+    const double size = std::max(std::abs(nu_[count]), kSpread * std::abs(nu_[0]));
+    if (!(residual <= options_.tolerance * size)) break;
     ++count;
   }
   return count;
@@ -217,6 +223,14 @@ EigenResult Run::result() {
   out.status = EigenStatus::kConverged;
   out.solves = solves_;
   return out;
+}
+
+VectorXd Run::values_after(int blocks) {
+  start();
+  for (int k = 0; k < blocks; ++k)
+    if (!expand()) return {};
+  project();
+  return nu_.head((nu_.array() > 0.0).count());
 }
 
 EigenResult Run::solve() {
@@ -263,13 +277,28 @@ BasisRoom basis_room(const BlockLanczosOptions& options, Index block, Index size
                           static_cast<double>(columns + 3 * block + wanted)) <= left_gib;
   };
   // A restart costs the degree that convergence lives by: with few modes there is room for none.
-  const Index ample = whole(std::min(6 * wanted, 2 * wanted + 200) + 4 * block);
+  constexpr double kSmallGib = 0.25;  // where vectors cost nothing, close spectra have their degree
+  const Index roomy = whole(2 * wanted + 48 * block);
+  const bool small =
+      gib_of_doubles(static_cast<double>(size) * static_cast<double>(roomy)) < kSmallGib;
+  const Index ample =
+      std::max(whole(std::min(6 * wanted, 2 * wanted + 200) + 4 * block), small ? roomy : 0);
   const Index enough = whole(2 * wanted + 4 * block);
   const Index least = whole(wanted + wanted / 4 + 4 * block);
   if (options.storage) return {enough, chosen};
   for (const Index columns : {ample, enough, least})
     if (fits(columns)) return {columns, Storage::kMemory};
   return {enough, Storage::kDisk};
+}
+
+VectorXd ritz_values(const ShiftInvert& problem, int blocks, uint64_t seed) {
+  BlockLanczosOptions options;
+  options.count = 1;
+  options.block = kLanes;
+  options.basis = blocks * kLanes;
+  options.seed = seed;
+  const VectorXd nu = Run(problem, options).values_after(blocks);
+  return nu.cwiseInverse().array() + problem.sigma;
 }
 
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options) {

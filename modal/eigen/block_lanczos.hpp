@@ -8,6 +8,9 @@
 
 namespace clatter::modal {
 
+/// Smallest nu over the largest that one factor resolves to the tolerance.
+inline constexpr double kSpread = 1e-4;
+
 struct BlockLanczosOptions {
   int count = 0;             // pairs wanted
   int block = 0;             // vectors a block, in whole kLanes; 0: chosen from `count`
@@ -30,11 +33,16 @@ struct BasisRoom {
 BasisRoom basis_room(const BlockLanczosOptions& options, Eigen::Index block, Eigen::Index size,
                      double left_gib);
 
+/// lambda of the Ritz values after so many blocks of eight from a random start, ascending, those
+/// with nu > 0: each from above, a cheap look at where the spectrum begins.
+Eigen::VectorXd ritz_values(const ShiftInvert& problem, int blocks, uint64_t seed);
+
 /// The `count` lowest eigenpairs of K x = lambda M x from the projection of Op = (K - sigma M)^{-1}
 /// M on span{X, Op X, Op^2 X, ...} with two passes of orthogonalisation in the M inner product
 /// (Grimes, Lewis and Simon, 1994), restarted from the wanted Ritz vectors and the residual block
 /// (Wu and Simon, Thick-restart Lanczos, 2000). A block of size b finds up to b copies of a
-/// multiple eigenvalue.
+/// multiple eigenvalue. A pair is converged at `tolerance` of its nu, or of what rounding leaves of
+/// it beside the largest one, kSpread nu_1.
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options);
 
 }  // namespace clatter::modal

@@ -14,9 +14,11 @@
 #include "modal/eigen/arpack_solver.hpp"
 #include "modal/eigen/block_lanczos.hpp"
 #include "modal/eigen/dense_solver.hpp"
+#include "modal/eigen/massless.hpp"
 #include "modal/eigen/mode_check.hpp"
 #include "modal/eigen/mode_density.hpp"
 #include "modal/eigen/refinement.hpp"
+#include "modal/eigen/shifted_pencil.hpp"
 #include "modal/factor/inertia.hpp"
 #include "modal/symmetric_product.hpp"
 
@@ -40,10 +42,14 @@ class Search {
 
  private:
   bool small() const { return n_ <= options_.dense_limit; }
+  Index known() const { return rigid_.cols(); }
   /// Frequencies with an estimated error in place of a residual at rounding.
   bool approximate() const { return modes_.errors.size() > 0; }
+  /// The lowest `count` modes beside the known ones.
   EigenResult attempt(int count, int retry);
   EigenResult solve(int count, int retry);
+  /// Known modes and those that were found below a limit.
+  Index below(const VectorXd& values, double limit) const;
   /// Values below a limit that stands in a gap, with the inertia count there.
   void prove(double limit);
   void find_by_count();
@@ -59,21 +65,18 @@ class Search {
   /// So many may be, by the errors of the values: no contradiction, and no proof.
   bool may_agree() const;
   void keep_first(Index count);
-  /// The factor of K - sigma M; made anew when AMLS gave its memory back.
-  const SupernodalFactor& factor();
   /// About how many modes lie below a value.
   int estimated_below(double limit);
+  /// A residual is above the limit, and rounding alone does not explain it.
+  bool worth_refining() const;
   void finish();
 
   const SparseMatrix& K_;
   const SparseMatrix& M_;
   const EigenOptions& options_;
   const Index n_;
-  const SupernodalFactor* const given_factor_;
-  std::unique_ptr<SupernodalFactor> own_factor_;
-  std::vector<int64_t> order_;  // unknown at each place: inside, rows stand in the factor's order
-  std::optional<SymmetricProduct> mass_;
-  ShiftInvert problem_;
+  const MatrixXd rigid_;  // n x m, M-orthonormal: known modes, which modes_ takes in at last
+  ShiftedPencil pencil_;  // of large problems: inside, rows stand in the factor's order
   ModeSet modes_;
 };
 
@@ -97,36 +100,29 @@ Index values_below(const VectorXd& values, double limit) {
   return (values.array() < limit).count();
 }
 
-Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-               const SupernodalFactor* factor)
-    : K_(K), M_(M), options_(options), n_(K.rows()), given_factor_(factor) {
-  modes_.sigma = options.sigma ? *options.sigma : default_shift(K, M);
-  order_.resize(static_cast<size_t>(n_));
-  std::iota(order_.begin(), order_.end(), 0);
-  if (small()) {
-    mass_.emplace(M);
-    return;
-  }
-  modes_.factor = this->factor().report();
-  problem_.size = n_;
-  problem_.sigma = modes_.sigma;
-  order_ = this->factor().permutation();
-  mass_.emplace(reordered(M, order_));
-  problem_.solve = [this](const double* x, double* y, int count) {
-    parallel_pieces(n_ * count,
-                    [&](int64_t begin, int64_t end) { std::copy(x + begin, x + end, y + begin); });
-    this->factor().solve_in_order(y, count);
-  };
-  problem_.mass = [this](const double* x, double* y, int count) { mass_->multiply(x, y, count); };
+MatrixXd rigid_modes(const SparseMatrix& M, const EigenOptions& options) {
+  if (!options.rigid) return MatrixXd(M.rows(), 0);
+  return orthonormal_in_mass(M, *options.rigid);
 }
 
-const SupernodalFactor& Search::factor() {
-  if (given_factor_ != nullptr) return *given_factor_;
-  if (!own_factor_) {  // the same order each time
-    const SparseMatrix shifted = K_ - modes_.sigma * M_;
-    own_factor_ = std::make_unique<SupernodalFactor>(shifted, options_.factor);
-  }
-  return *own_factor_;
+Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
+               const SupernodalFactor* factor)
+    : K_(K),
+      M_(M),
+      options_(options),
+      n_(K.rows()),
+      rigid_(rigid_modes(M, options)),
+      pencil_(K, M, options.factor, rigid_) {
+  modes_.massless = bounds_of(K, M).massless;
+  if (small()) return;
+  if (factor != nullptr)
+    pencil_.use(*factor, options.sigma.value_or(0.0));
+  else if (options.sigma)
+    pencil_.shift_to(*options.sigma);
+  else
+    pencil_.find_shift(options.rigid.has_value(), options.seed);
+  modes_.sigma = pencil_.sigma();
+  modes_.factor = pencil_.report();
 }
 
 EigenResult Search::attempt(int count, int retry) {
@@ -139,29 +135,31 @@ EigenResult Search::attempt(int count, int retry) {
     amls.accuracy = options_.accuracy;
     amls.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
     amls.seed = seed;
-    return solve_amls(problem_, factor(), *mass_, amls);
+    return solve_amls(pencil_, amls);
   }
   if (options_.method == EigenMethod::kBlockLanczos && block_room < n_) {
     BlockLanczosOptions block;
     block.count = count;
     block.seed = seed;
-    if (given_start) block.start = options_.start(order_);
-    return solve_block_lanczos(problem_, block);
+    if (given_start) block.start = options_.start(pencil_.order());
+    return solve_block_lanczos(pencil_.problem(), block);
   }
   ArpackOptions arpack;
   arpack.count = count;
   arpack.seed = seed;
   arpack.basis =
       static_cast<int>(std::min<Index>(n_, static_cast<Index>((2 + retry)) * count + 10));
-  if (given_start) arpack.start = options_.start(order_);
-  return solve_arpack(problem_, arpack);
+  if (given_start) arpack.start = options_.start(pencil_.order());
+  return solve_arpack(pencil_.problem(), arpack);
 }
 
 EigenResult Search::solve(int count, int retry) {
   const Stopwatch clock;
   EigenResult found;
   if (small()) {
-    found = solve_dense(dense_symmetric(K_), dense_symmetric(M_), modes_.sigma, count);
+    const MatrixXd K = dense_symmetric(K_), M = dense_symmetric(M_);
+    modes_.sigma = options_.sigma.value_or(dense_shift(K, M));
+    found = solve_dense(K, M, rigid_, options_.sigma, count);
     modes_.method = "dense";
   } else {
     found = attempt(count, retry);
@@ -172,7 +170,7 @@ EigenResult Search::solve(int count, int retry) {
   modes_.seconds += clock.seconds();
   if (!found.ok()) throw NumericsError("modes: " + found.message);
   // The vectors of AMLS need no more solves; their memory is wanted for the count.
-  if (found.errors.size() > 0) own_factor_.reset();
+  if (found.errors.size() > 0) pencil_.give_back();
   return found;
 }
 
@@ -188,20 +186,24 @@ VectorXd Search::lower_values() const {
   return modes_.values.array() - kEstimates * modes_.errors.array() * modes_.values.array().abs();
 }
 
+Index Search::below(const VectorXd& values, double limit) const {
+  return (limit > 0.0 ? known() : 0) + values_below(values, limit);
+}
+
 bool Search::agrees() const {
-  return values_below(modes_.values, modes_.proof.limit) == modes_.proof.below;
+  return below(modes_.values, modes_.proof.limit) == modes_.proof.below;
 }
 
 bool Search::may_agree() const {
   const double limit = modes_.proof.limit;
-  return approximate() && values_below(modes_.values, limit) <= modes_.proof.below &&
-         values_below(lower_values(), limit) >= modes_.proof.below;
+  return approximate() && below(modes_.values, limit) <= modes_.proof.below &&
+         below(lower_values(), limit) >= modes_.proof.below;
 }
 
 void Search::prove(double limit) {
   modes_.proof.limit = limit;
   if (!options_.prove_count) return;
-  const InertiaCount count = count_below(K_, M_, limit, small() ? std::vector<int64_t>{} : order_);
+  const InertiaCount count = count_below(K_, M_, limit, pencil_.order());
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
     throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; ask for another limit",
@@ -215,49 +217,53 @@ void Search::match_proof(int count) {
     modes_.retries = retry;
     take(solve(count, retry));
     if (!options_.prove_count) return;
-    const Index below = values_below(modes_.values, modes_.proof.limit);
+    const Index found = below(modes_.values, modes_.proof.limit);
     modes_.proof.proved = agrees();
     if (modes_.proof.proved || may_agree()) return;
     const std::string mismatch =
         fmt::format("inertia counts {} modes below {:.6g} Hz, the solver found {}",
-                    modes_.proof.below, hz_of_value(modes_.proof.limit), below);
+                    modes_.proof.below, hz_of_value(modes_.proof.limit), found);
     if (retry >= options_.max_retries) throw NumericsError("modes: " + mismatch);
     warn(mismatch + "; searching again from a new start");
   }
 }
 
-/// The widest relative gap after the first `count` values: {values before it, limit inside it}.
+/// The widest relative gap after the first `count` elastic values: {values before it, limit inside
+/// it}.
 /// @param lower what the true values are not below.
 std::pair<Index, double> widest_gap(const VectorXd& values, const VectorXd& lower, Index count,
                                     double scale) {
   Index best = count;
   double width = -1.0, limit = 0.0;
   for (Index j = count; j < values.size(); ++j) {
-    const double here = (lower[j] - values[j - 1]) / (std::abs(values[j]) + scale);
+    const double last = j > 0 ? values[j - 1] : 0.0;
+    const double here = (lower[j] - last) / (std::abs(values[j]) + std::max(scale, 1e-300));
     if (here <= width) continue;
     best = j;
     width = here;
-    limit = 0.5 * (lower[j] + values[j - 1]);
+    limit = 0.5 * (lower[j] + last);
   }
   if (width < kSameValue) return {values.size(), 0.0};
   return {best, limit};
 }
 
 void Search::find_by_count() {
-  const auto all = static_cast<int>(n_);
+  const auto all = static_cast<int>(n_ - known() - modes_.massless);
+  const auto wanted = static_cast<int>(std::max<Index>(0, options_.count - known()));
   for (int extra = kExtra;; extra *= 4) {
-    const int asked = std::min(options_.count + extra, all);
+    const int asked = std::min(wanted + extra, all);
     take(solve(asked, modes_.retries));
     const VectorXd& values = modes_.values;
-    if (values.size() <= options_.count) {  // the whole spectrum: nothing can be missing
-      modes_.proof = {true, values.tail(1)[0], values.size(), 0.0};
+    if (values.size() <= wanted) {  // the whole spectrum: nothing can be missing
+      modes_.proof = {true, values.size() > 0 ? values.tail(1)[0] : 0.0, values.size() + known(),
+                      0.0};
       break;
     }
     const auto [before, limit] =
-        widest_gap(values, lower_values(), options_.count, 1e-6 * std::abs(modes_.sigma));
+        widest_gap(values, lower_values(), wanted, 1e-6 * std::abs(modes_.sigma));
     const bool found_gap = before < values.size();
     if (!found_gap && asked < all && !approximate()) continue;  // a cluster: look further
-    modes_.next_value = lower_values()[options_.count];
+    modes_.next_value = lower_values()[wanted];
     if (!found_gap && approximate()) break;  // the errors leave no gap: nothing can be proved
     prove(limit);
     if (options_.prove_count && !agrees()) {
@@ -265,30 +271,31 @@ void Search::find_by_count() {
       if (modes_.retries > options_.max_retries) {
         throw NumericsError(
             fmt::format("modes: inertia counts {} modes below {:.6g} Hz, the solver found {}",
-                        modes_.proof.below, hz_of_value(limit), before));
+                        modes_.proof.below, hz_of_value(limit), before + known()));
       }
       warn("a mode is missing; searching again from a new start");
-      match_proof(static_cast<int>(std::min<Index>(n_, modes_.proof.below + kExtra)));
+      match_proof(static_cast<int>(std::min<Index>(all, modes_.proof.below - known() + kExtra)));
     }
     modes_.proof.proved = options_.prove_count && agrees();
     break;
   }
-  keep_first(options_.count);
+  keep_first(std::min<Index>(wanted, modes_.size()));
 }
 
 int Search::estimated_below(double limit) {
-  const ModeDensity density(SubtreeProduct(factor(), *mass_), n_, options_.seed);
+  const ModeDensity density(SubtreeProduct(pencil_.factor(), pencil_.mass()), n_, options_.seed);
   modes_.solves += ModeDensity::kSolves;
   return static_cast<int>(density.count_above(1.0 / (limit - modes_.sigma)));
 }
 
 void Search::find_by_limit_unproved(double limit) {
   constexpr int kMore = 20;  // than estimated: what a first guess may lack of few modes
+  const Index all = n_ - known() - modes_.massless;
   int count = kMore + (small() ? 0 : estimated_below(limit));
   for (;; count += count / 2) {
-    const int asked = static_cast<int>(std::min<Index>(count, n_));
+    const int asked = static_cast<int>(std::min<Index>(count, all));
     take(solve(asked, 0));
-    if (modes_.values.tail(1)[0] >= limit || asked == n_ || modes_.values.size() < asked) return;
+    if (asked == all || modes_.values.size() < asked || modes_.values.tail(1)[0] >= limit) return;
   }
 }
 
@@ -299,12 +306,12 @@ void Search::find_by_limit() {
     find_by_limit_unproved(limit);
     if (options_.prove_count) {
       prove(limit);
-      modes_.proof.proved = values_below(modes_.values, limit) == modes_.proof.below;
+      modes_.proof.proved = agrees();
     }
     modes_.proof.limit = limit;
   } else {
     prove(limit);
-    modes_.proof.proved = modes_.proof.below == 0;
+    modes_.proof.proved = modes_.proof.below == known();
     if (modes_.proof.below > n_ / 2) {
       throw InputError(
           fmt::format("modes: {} of {} modes lie below {:.6g} Hz; expected less than "
@@ -312,11 +319,12 @@ void Search::find_by_limit() {
                       modes_.proof.below, n_, options_.fmax_hz));
     }
     // Some more than wanted: the last copies of a multiple value converge with their neighbours.
-    if (modes_.proof.below > 0) match_proof(static_cast<int>(modes_.proof.below) + kExtra);
+    const auto elastic = static_cast<int>(modes_.proof.below - known());
+    if (elastic != 0) match_proof(std::max(elastic, 0) + kExtra);
   }
   // The count knows the number; the errors may have lifted some over the limit.
   const bool counted = options_.prove_count && may_agree();
-  const Index kept = counted ? modes_.proof.below : values_below(modes_.values, limit);
+  const Index kept = counted ? modes_.proof.below - known() : values_below(modes_.values, limit);
   if (!counted && approximate() && kept < modes_.values.size())
     modes_.next_value = std::min(limit, lower_values()[kept]);
   keep_first(kept);
@@ -328,23 +336,43 @@ void Search::keep_first(Index count) {
   modes_.vectors.conservativeResize(n_, count);
 }
 
+bool Search::worth_refining() const {
+  if (modes_.residuals.maxCoeff() <= options_.max_residual) return false;
+  const SparseMatrix stiffness = reordered(K_, pencil_.order());
+  const SparseMatrix inertia = reordered(M_, pencil_.order());
+  for (Index j = 0; j < modes_.size(); ++j)
+    if (!(modes_.residuals[j] <= options_.max_residual) &&
+        !(beyond_rounding(stiffness, inertia, modes_.values[j], modes_.vectors.col(j)) <= 1.0))
+      return true;
+  return false;
+}
+
 void Search::finish() {
-  {
-    const SymmetricProduct stiffness(reordered(K_, order_));
-    const auto measure = [&] { modes_.residuals = residuals_of(stiffness, *mass_, modes_); };
+  const std::vector<int64_t>& order = pencil_.order();
+  if (modes_.size() > 0) {
+    const SymmetricProduct stiffness(small() ? K_ : reordered(K_, order));
+    std::optional<SymmetricProduct> own;
+    if (small()) own.emplace(M_);
+    const SymmetricProduct& inertia = own ? *own : pencil_.mass();
+    const auto measure = [&] { modes_.residuals = residuals_of(stiffness, inertia, modes_); };
     measure();
-    for (int k = 0; k < kMaxRefinements && !small() && !approximate() && modes_.size() > 0 &&
-                    !(modes_.residuals.maxCoeff() <= options_.max_residual);
+    // With massless unknowns, what rounding leaves of infinite modes goes with one step.
+    const int least = modes_.massless > 0 ? 1 : 0;
+    for (int k = 0;
+         k < kMaxRefinements && !small() && !approximate() && (k < least || worth_refining());
          ++k) {
       // What the factor weakens most, motion of high frequency left in the vectors, is what their
       // residuals show most.
-      refine_modes(problem_, *mass_, modes_.vectors, modes_.values);
+      refine_modes(pencil_.problem(), pencil_.mass(), modes_.vectors, modes_.values);
       modes_.solves += modes_.size();
       measure();
     }
   }
-  if (!approximate()) refuse_residuals(modes_, options_.max_residual);
-  present(order_, modes_);
+  present(order, modes_);
+  if (!approximate()) refuse_residuals(K_, M_, modes_, options_.max_residual);
+  modes_.solves += pencil_.solves();
+  modes_.factors = pencil_.factors();
+  take_rigid(K_, rigid_, options_.rigid.has_value(), modes_);
 }
 
 ModeSet Search::run() {
@@ -368,6 +396,11 @@ VectorXd ModeSet::frequencies_hz() const {
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
                     const SupernodalFactor* factor) {
   check_request(K, M, options);
+  const auto masses = K.rows() - bounds_of(K, M).massless;
+  if (masses == 0) throw InputError("modes: found no mass, expected some");
+  if (masses < K.rows() && masses <= options.dense_limit && K.rows() > options.dense_limit &&
+      factor == nullptr)
+    return solve_few_masses(K, M, options);
   return Search(K, M, options, factor).run();
 }
 

@@ -20,6 +20,7 @@ struct Body {
   const char* name;
   int rigid;
   SparseMatrix K, M;
+  MatrixXd motions;  // that are free
 };
 
 /// A bar of square section, about 5 000 unknowns, free and held at one end: its bending modes come
@@ -34,8 +35,9 @@ const std::vector<Body>& bodies() {
     for (int32_t dof = 0; dof < bar.size(); ++dof)
       if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
     return std::vector<Body>{
-        {"free", 6, bar.K, bar.M},
-        {"held", 0, principal_submatrix(bar.K, left), principal_submatrix(bar.M, left)}};
+        {"free", 6, bar.K, bar.M, bar.rigid},
+        {"held", 0, principal_submatrix(bar.K, left), principal_submatrix(bar.M, left),
+         MatrixXd(static_cast<Index>(left.size()), 0)}};
   }();
   return both;
 }
@@ -45,6 +47,7 @@ ModeSet solve(const Body& body, EigenMethod method, double accuracy = 5e-3) {
   options.count = kModes;
   options.method = method;
   options.accuracy = accuracy;
+  options.rigid = body.motions;
   ModeSet modes = solve_modes(body.K, body.M, options);
   EXPECT_EQ(modes.method, name_of(method));
   EXPECT_EQ(modes.rigid, body.rigid);

@@ -1,0 +1,80 @@
+#pragma once
+// K - sigma M, factorised: the operator that all sparse eigen-solvers work with, and the choice of
+// its shift.
+#include <memory>
+#include <vector>
+
+#include "modal/eigen/known_motions.hpp"
+#include "modal/eigen/shift_invert.hpp"
+#include "modal/factor/supernodal_factor.hpp"
+#include "modal/symmetric_product.hpp"
+
+namespace clatter::modal {
+
+/// What K and M allow, whatever the shift is.
+struct PencilBounds {
+  double top = 0.0;               // largest K_jj / M_jj [rad2/s2]: the highest eigenvalue, about
+  int64_t massless = 0;           // unknowns without any mass: as many infinite eigenvalues
+  double smallest_shift() const;  // |sigma| below which rounding of K drowns sigma M
+};
+
+PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
+
+class ShiftedPencil {
+ public:
+  /// @param K, M n x n, symmetric, lower triangle; must outlive this.
+  /// @param rigid n x m, M-orthonormal, K rigid = 0; may have no columns.
+  ShiftedPencil(const SparseMatrix& K, const SparseMatrix& M, const FactorOptions& options,
+                const Eigen::MatrixXd& rigid);
+  ShiftedPencil(const ShiftedPencil&) = delete;
+  ShiftedPencil& operator=(const ShiftedPencil&) = delete;
+
+  /// The factor of K - sigma M that the caller has.
+  void use(const SupernodalFactor& given, double sigma);
+  /// Factorises K - sigma M, in the order of the first time. Throws NotPositiveDefinite.
+  void shift_to(double sigma);
+  /// A shift a little below the lowest elastic eigenvalue, from the matrices alone: starts with 0
+  /// where nothing is free to move, else with default_shift, looks at the Ritz values of
+  /// three blocks, and moves on where these show that the shift is far above the lowest one. A
+  /// shift that is too far costs Lanczos about the square root of its distance; each new factor
+  /// brings it a factor of 1e4 or more closer.
+  /// @param known the rigid motions are all there are; else Ritz values far below the shift may be
+  /// zeros that have not converged, and are passed over.
+  void find_shift(bool known, uint64_t seed);
+
+  /// Without the rigid motions, in the order of the factor.
+  const ShiftInvert& problem() const { return problem_; }
+  /// The whole operator, rigid motions included.
+  const ShiftInvert& whole() const { return whole_; }
+  const SymmetricProduct& mass() const { return *mass_; }
+  const KnownMotions& rigid() const { return *rigid_; }
+  const std::vector<int64_t>& order() const { return order_; }
+  double sigma() const { return problem_.sigma; }
+  /// The factor; made anew when it was given back.
+  const SupernodalFactor& factor();
+  void give_back() { own_.reset(); }
+  const FactorReport& report() const { return report_; }
+  /// Vectors that went through a factor to find the shift, and factors made.
+  int64_t solves() const { return solves_; }
+  int factors() const { return factors_; }
+
+ private:
+  void set_order(const std::vector<int64_t>& order);
+  bool try_shift(double sigma);
+
+  const SparseMatrix& K_;
+  const SparseMatrix& M_;
+  FactorOptions options_;
+  const Eigen::MatrixXd& given_rigid_;
+  const SupernodalFactor* given_ = nullptr;
+  std::unique_ptr<SupernodalFactor> own_;
+  std::vector<int64_t> order_;
+  std::unique_ptr<SymmetricProduct> mass_;
+  std::unique_ptr<KnownMotions> rigid_;
+  ShiftInvert problem_, whole_;
+  FactorReport report_;
+  int64_t solves_ = 0;
+  int factors_ = 0;
+};
+
+}  // namespace clatter::modal
