@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "assembly/dof_place.hpp"
 #include "core/error.hpp"
 
 namespace clatter::condense {
@@ -94,13 +95,19 @@ void check_boundary_holds(const assembly::FeModel& model, const DofPartition& pa
   Eigen::Index rank = 0;
   while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
   if (rank == free.count()) return;
-  const Eigen::VectorXd loose = free.unit * svd.matrixV().col(free.count() - 1);
-  throw InputError(fmt::format(
-      "boundary: its {} coordinates hold {} of the {}'s {} rigid motions; free is a {}: add a "
-      "set that holds it",
-      partition.boundary.size(), rank,
-      free.bodies > 1 ? fmt::format("{} bodies", free.bodies) : "body", free.count(),
-      modal::motion_name(loose, modal::characteristic_length(model))));
+  const Eigen::VectorXd way = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd loose = free.unit * way;
+  Eigen::Index most = 0;
+  (free.q * way).cwiseAbs().maxCoeff(&most);
+  throw InputError(
+      fmt::format("boundary: its {} coordinates hold {} of the {}'s {} rigid motions; free is a "
+                  "{}, most at {}: "
+                  "add a set that holds it{}",
+                  partition.boundary.size(), rank,
+                  free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
+                  modal::motion_name(loose, modal::characteristic_length(model)),
+                  assembly::place_of(model, static_cast<int32_t>(most)),
+                  free.bodies > 1 ? ", or join what is not connected" : ""));
 }
 
 }  // namespace clatter::condense

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "mesh/defeature.hpp"
+#include "mesh/gmsh_defeature.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -11,7 +11,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/certify_mesh.hpp"
 #include "mesh/predict_cells.hpp"
-#include "mesh/small_features.hpp"
+#include "mesh/gmsh_small_features.hpp"
 #include "mesh/solid_volumes.hpp"
 #include "mesh/valid_mesh.hpp"
 

@@ -155,7 +155,7 @@ PartModes analyse(const ReducedModel& model, const ModesOptions& options) {
     return Eigen::MatrixXd(kept.triangularView<Eigen::Lower>()).sparseView(0.0, 0.0);
   };
   const SparseMatrix K = lower(model.K_rr), M = lower(model.M_rr);
-  eigen.rigid = free_motions(K, M, model.rigid(left, Eigen::all)).q;
+  eigen.rigid = free_motions(model, left);
   part.modes = solve_modes(K, M, eigen);
   spread(left, model.size(), part.modes.vectors);
   part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.skin.T * q; };

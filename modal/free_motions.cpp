@@ -61,6 +61,7 @@ MatrixXd moving_combinations(const MatrixXd& mass) {
 MatrixXd forceless(const MatrixXd& force) {
   // By QR and SVD, not by F^T F, whose rounding would hide what holds only a little.
   const Index p = force.cols();
+  if (p == 0) return MatrixXd(0, 0);
   MatrixXd R = MatrixXd::Zero(p, p);
   const Eigen::HouseholderQR<MatrixXd> qr(force);
   const Index rows = std::min(force.rows(), p);
@@ -141,6 +142,18 @@ FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M, const Mat
     at += free[b].cols();
   }
   return out;
+}
+
+MatrixXd free_motions(const ReducedModel& model, const std::vector<int32_t>& left) {
+  const MatrixXd K = model.K_rr(left, left), M = model.M_rr(left, left);
+  const MatrixXd R = model.rigid(left, Eigen::all);
+  const MatrixXd U = R * moving_combinations(R.transpose() * M * R);
+  if (U.cols() == 0) return U;
+  // All coordinates are coupled: rows are measured by what stiffness of unit diagonal would give.
+  const VectorXd scale =
+      K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 1.0; });
+  const double size = (scale.cwiseInverse().asDiagonal() * U).cwiseAbs().maxCoeff();
+  return U * forceless(scale.asDiagonal() * (K * U) / size);
 }
 
 FreeMotions free_motions(const assembly::FeModel& model) {

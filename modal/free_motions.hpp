@@ -31,6 +31,10 @@ FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M,
 /// The same of a model on its own supports: none of a held one, six of a free one.
 FreeMotions free_motions(const assembly::FeModel& model);
 
+/// The free motions of a reduced model with only the coordinates `left`, |left| x m, M-orthonormal;
+/// rows of K_rr are measured by its diagonal, since what is zero in them is so to rounding.
+Eigen::MatrixXd free_motions(const ReducedModel& model, const std::vector<int32_t>& left);
+
 /// |A| |x| with A given by its lower triangle; x is n x m.
 Eigen::MatrixXd magnitude_product(const SparseMatrix& lower, const Eigen::MatrixXd& x);
 

@@ -19,7 +19,10 @@ void write_proof(H5File& file, const ModeSet& modes) {
   certificate["rigid_modes"] = modes.rigid;
   certificate["shift"] = modes.sigma;
   certificate["solves"] = static_cast<double>(modes.solves);
+  certificate["factors"] = modes.factors;
   certificate["retries"] = modes.retries;
+  certificate["massless_unknowns"] = static_cast<double>(modes.massless);
+  if (modes.size() > 0) certificate["frequency_rounding_max"] = modes.rounding.maxCoeff();
   certificate["factor_entries"] = static_cast<double>(modes.factor.entries);
   certificate["factor_rcond"] = modes.factor.rcond;
   write_certificate(file, certificate);
@@ -36,6 +39,7 @@ void write_modes(H5File& file, const PartModes& part) {
   file.write("frequency_hz", modes.frequencies_hz());
   file.write("eigenvalue", modes.values);
   file.write("residual", modes.residuals);
+  file.write("rounding", modes.rounding);
   file.write("nodes", part.nodes);
   constexpr Eigen::Index kModes = 16;  // at a time
   std::vector<float> shapes;

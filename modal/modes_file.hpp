@@ -1,6 +1,6 @@
 #pragma once
 // The modes of a part as a file, schema "clatter/modes/2":
-//   frequency_hz, eigenvalue [rad2/s2], residual (m); shapes (m x n x 3, single precision, unit
+//   frequency_hz, eigenvalue [rad2/s2], residual, rounding (m); shapes (m x n x 3, single precision, unit
 //   modal mass [1/sqrt(kg)]), nodes (n x 3 [m]), surfaces/<name>/<face type>; attributes name,
 //   source, rigid_modes; certificate with the count that was proved.
 #include <filesystem>

@@ -292,7 +292,7 @@ class MatricesOfOthers(Exported):
         self.assembly(["dofs.tsv"], 'K = "part.dofs.tsv"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
         (self.folder / "none.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 -2.0\n")
         (self.folder / "one.tsv").write_text("1\t1\t1\tdisplacement\t0\t0\t0\t1\t0\t0\ts\ts.x\n")
-        self.assembly(["none.mtx", "row 1", "-2", "positive"], 'K = "none.mtx"\nM = "none.mtx"\ndofs = "one.tsv"\n')
+        self.assembly(["none.mtx", "row 1", "-2", "not negative"], 'K = "none.mtx"\nM = "none.mtx"\ndofs = "one.tsv"\n')
 
     def test_the_matrices_that_abaqus_wrote_have_their_frequencies(self):
         data = next((up / "shared/data/abaqus_beam" for up in stages.SOURCE.parents

@@ -170,7 +170,7 @@ TEST(HardC1, APartThatHangsOnNothingIsNamedByItsNode) {
   try {
     (void)reduce(model, 10, 0.0);
     FAIL() << "accepted";
-  } catch (const NumericsError& error) {
+  } catch (const InputError& error) {
     const std::string text = error.what();
     const bool first = text.find("node " + std::to_string(loose)) != std::string::npos;
     const bool second = text.find("node " + std::to_string(loose + 1)) != std::string::npos;

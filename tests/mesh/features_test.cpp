@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "mesh/cad_geometry.hpp"
-#include "mesh/defeature.hpp"
-#include "mesh/small_features.hpp"
+#include "mesh/gmsh_defeature.hpp"
+#include "mesh/gmsh_small_features.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
 

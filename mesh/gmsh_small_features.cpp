@@ -1,4 +1,4 @@
-#include "mesh/small_features.hpp"
+#include "mesh/gmsh_small_features.hpp"
 
 #include <fmt/ranges.h>
 

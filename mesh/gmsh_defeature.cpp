@@ -1,4 +1,4 @@
-#include "mesh/defeature.hpp"
+#include "mesh/gmsh_defeature.hpp"
 
 #include <unistd.h>
 
