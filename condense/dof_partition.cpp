@@ -100,7 +100,7 @@ void check_boundary_holds(const assembly::FeModel& model, const DofPartition& pa
   Eigen::Index most = 0;
   (free.q * way).cwiseAbs().maxCoeff(&most);
   throw InputError(
-      fmt::format("boundary: its {} coordinates hold {} of the {}'s {} rigid motions; free is a "
+      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions; free is a "
                   "{}, most at {}: "
                   "add a set that holds it{}",
                   partition.boundary.size(), rank,

@@ -120,8 +120,11 @@ int find_partner(const CommonRows& rows, const VectorXd& hz_of, double hz, int j
 ModesOptions request(const CompareOptions& options, const ReducedModel& reduced) {
   ModesOptions modes;
   modes.count = options.count;
-  if (options.count == 0)
-    modes.fmax_hz = options.fmax_hz > 0.0 ? options.fmax_hz : reduced.valid_to_hz;
+  if (options.count > 0) return modes;
+  const auto claimed = reduced.certificate.find("accurate_to_hz");
+  const bool stated = claimed != reduced.certificate.end() && claimed->second > 0.0;
+  modes.fmax_hz =
+      options.fmax_hz > 0.0 ? options.fmax_hz : (stated ? claimed->second : reduced.valid_to_hz);
   return modes;
 }
 

@@ -9,8 +9,8 @@
 
 namespace clatter::modal {
 
-/// Both zero: all modes below the reduced model's valid_to_hz, which is as far as it is meant to
-/// be used; of a model that does not say, the 20 lowest.
+/// Both zero: all modes below what the reduced model claims, accurate_to_hz of its certificate; of
+/// one that states none below its valid_to_hz, and of one without either the 20 lowest.
 struct CompareOptions {
   double fmax_hz = 0.0;  // compare all modes below
   int count = 0;         // or the lowest ones, rigid included

@@ -65,7 +65,8 @@ class Run {
   void remove(Index first, Index last, MatrixXd& H);
   void refresh_image() { problem_.mass(Y_.data.get(), MY_.data.get(), static_cast<int>(b_)); }
   bool expand();
-  void project();
+  /// False where T is not finite.
+  bool project();
   Index converged() const;
   void restart();
   EigenResult result();
@@ -84,6 +85,7 @@ class Run {
   VectorXd nu_;       // Ritz values, descending
   MatrixXd S_;        // their coordinates in V(:, :size)
   int64_t solves_ = 0;
+  bool indefinite_ = false;  // a vector of negative mass was met
   std::mt19937_64 engine_;
 };
 
@@ -130,10 +132,13 @@ MatrixXd Run::orthonormalise(Index begin) {
   // small.
   constexpr double kDependent = 1e-8;
   constexpr double kVanished = 1e-20;
+  constexpr double kIndefinite = 1e-8;  // rounding leaves less
   MatrixXd R = MatrixXd::Identity(b_, b_);
   bool repeat = true;
   for (int pass = 0; pass < 2 || (repeat && pass < 4); ++pass) {
     const MatrixXd lengths = gram(Y_, MY_);
+    indefinite_ = indefinite_ || lengths.diagonal().minCoeff() <
+                                     -kIndefinite * lengths.diagonal().cwiseAbs().maxCoeff();
     const VectorXd scale = lengths.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * lengths *
                                                       scale.asDiagonal());
@@ -183,14 +188,16 @@ bool Run::expand() {
   return true;
 }
 
-void Run::project() {
+bool Run::project() {
   MatrixXd T = T_.topLeftCorner(size_, size_);
   T = (0.5 * (T + T.transpose())).eval();
   // A second thread gains nothing at these sizes, and spins on a core of ours after each call.
   const BlasThreads one(1);
   const DenseEigen eig = symmetric_eigen(T);
+  if (!eig.ok) return false;
   nu_ = eig.values.reverse();
   S_ = eig.vectors.rowwise().reverse();
+  return true;
 }
 
 Index Run::converged() const {
@@ -229,7 +236,7 @@ VectorXd Run::values_after(int blocks) {
   start();
   for (int k = 0; k < blocks; ++k)
     if (!expand()) return {};
-  project();
+  if (!project()) return {};
   return nu_.head((nu_.array() > 0.0).count());
 }
 
@@ -247,9 +254,18 @@ EigenResult Run::solve() {
         out.message = "the solve returned values that are not finite";
         return out;
       }
+      if (indefinite_) {
+        out.status = EigenStatus::kFailed;
+        out.message = "a vector has negative mass: M is not positive semidefinite";
+        return out;
+      }
       if (size_ < check_at && size_ + b_ <= limit_) continue;
       check_at = size_ + pause;
-      project();
+      if (!project()) {
+        out.status = EigenStatus::kFailed;
+        out.message = "the projection is not finite";
+        return out;
+      }
       const Index done = converged();
       progress.update(static_cast<double>(done));
       if (done >= wanted_) return result();

@@ -18,6 +18,7 @@ using Eigen::MatrixXd;
 
 constexpr double kRounding = 2e-15;    // |sigma| over the highest eigenvalue: K holds no less
 constexpr double kCloser = 1e-4;       // next shift over the lowest Ritz value, which is too high
+constexpr double kWorthMoving = 0.1;   // lowest Ritz value over the shift: a factor costs solves
 constexpr double kBelow = 1e-2;        // the same where the shift was too small
 constexpr double kFar = 1e5;           // lowest eigenvalue over a shift that is too small
 constexpr double kZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
@@ -130,7 +131,7 @@ void ShiftedPencil::find_shift(bool known, uint64_t seed) {
         break;
       }
     double next = size;
-    if (lowest > 0.0 && lowest < size) next = kCloser * lowest;
+    if (lowest > 0.0 && lowest < kWorthMoving * size) next = kCloser * lowest;
     if (lowest > kFar * size) next = kBelow * lowest;
     next = std::max(next, least);
     if (move >= kMoves || (next > 0.3 * size && next < 3.0 * size)) return;

@@ -64,10 +64,20 @@ class InFolder : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST(Compare, ByDefaultGoesAsFarAsTheModelIsMeantFor) {
+TEST(Compare, ByDefaultGoesAsFarAsTheModelClaims) {
   const auto model = box_model();
   const ReducedModel reduced = reduce(model, 9000.0);
   const modal::Comparison result = modal::compare(model, reduced, {});
+  modal::ModesOptions claimed;
+  claimed.fmax_hz = reduced.certificate.at("accurate_to_hz");
+  EXPECT_EQ(static_cast<int>(result.modes.size()), modal::analyse(model, claimed).modes.size() - 6);
+  EXPECT_TRUE(result.without_stated_error().modes.empty());
+}
+
+TEST(Compare, BeyondThatErrorsAreSummedUpApart) {
+  const auto model = box_model();
+  const ReducedModel reduced = reduce(model, 9000.0);
+  const modal::Comparison result = modal::compare(model, reduced, {reduced.valid_to_hz, 0});
   modal::ModesOptions all;
   all.fmax_hz = reduced.valid_to_hz;
   EXPECT_EQ(static_cast<int>(result.modes.size()), modal::analyse(model, all).modes.size() - 6);
