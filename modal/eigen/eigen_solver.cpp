@@ -120,7 +120,10 @@ Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions&
   else if (options.sigma)
     pencil_.shift_to(*options.sigma);
   else
-    pencil_.find_shift(options.rigid.has_value(), options.seed);
+    pencil_.find_shift(options.rigid.has_value(),
+                       {options.count - static_cast<int>(known()),
+                        options.fmax_hz > 0.0 ? value_of_hz(options.fmax_hz) : 0.0},
+                       options.seed);
   modes_.sigma = pencil_.sigma();
   modes_.factor = pencil_.report();
 }

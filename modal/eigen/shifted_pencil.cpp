@@ -18,7 +18,6 @@ using Eigen::MatrixXd;
 
 constexpr double kRounding = 2e-15;    // |sigma| over the highest eigenvalue: K holds no less
 constexpr double kCloser = 1e-4;       // next shift over the lowest Ritz value, which is too high
-constexpr double kWorthMoving = 0.1;   // lowest Ritz value over the shift: a factor costs solves
 constexpr double kBelow = 1e-2;        // the same where the shift was too small
 constexpr double kFar = 1e5;           // lowest eigenvalue over a shift that is too small
 constexpr double kZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
@@ -28,6 +27,11 @@ constexpr int kMoves = 8;
 }  // namespace
 
 double PencilBounds::smallest_shift() const { return kRounding * top; }
+
+double Wanted::highest(double lowest) const {
+  if (limit > 0.0) return std::max(limit, lowest);
+  return lowest * std::pow(std::max(count, 1), 2.0 / 3.0);
+}
 
 PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M) {
   PencilBounds out;
@@ -104,7 +108,7 @@ bool ShiftedPencil::try_shift(double sigma) {
   }
 }
 
-void ShiftedPencil::find_shift(bool known, uint64_t seed) {
+void ShiftedPencil::find_shift(bool known, const Wanted& wanted, uint64_t seed) {
   // No guard but that elimination succeeds: what rounding leaves is judged by the modes' residuals
   // and by the count.
   const FactorOptions strict = options_;
@@ -131,7 +135,7 @@ void ShiftedPencil::find_shift(bool known, uint64_t seed) {
         break;
       }
     double next = size;
-    if (lowest > 0.0 && lowest < kWorthMoving * size) next = kCloser * lowest;
+    if (lowest > 0.0 && wanted.highest(lowest) < size) next = kCloser * lowest;
     if (lowest > kFar * size) next = kBelow * lowest;
     next = std::max(next, least);
     if (move >= kMoves || (next > 0.3 * size && next < 3.0 * size)) return;

@@ -20,6 +20,14 @@ struct PencilBounds {
 
 PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
 
+/// The modes that are asked for: all below a limit, or the lowest so many.
+struct Wanted {
+  int count = 0;
+  double limit = 0.0;  // [rad2/s2]
+  /// About the highest of them: values of a solid grow with the power 2/3 of their number (Weyl).
+  double highest(double lowest) const;
+};
+
 class ShiftedPencil {
  public:
   /// @param K, M n x n, symmetric, lower triangle; must outlive this.
@@ -40,7 +48,8 @@ class ShiftedPencil {
   /// brings it a factor of 1e4 or more closer.
   /// @param known the rigid motions are all there are; else Ritz values far below the shift may be
   /// zeros that have not converged, and are passed over.
-  void find_shift(bool known, uint64_t seed);
+  /// @param wanted how far the search goes: a new factor pays only where that lies below the shift.
+  void find_shift(bool known, const Wanted& wanted, uint64_t seed);
 
   /// Without the rigid motions, in the order of the factor.
   const ShiftInvert& problem() const { return problem_; }
