@@ -51,8 +51,8 @@ class Run {
  public:
   Run(const ShiftInvert& problem, const BlockLanczosOptions& options);
   EigenResult solve();
-  /// nu > 0 after so many blocks, descending; empty when the operator failed.
-  VectorXd values_after(int blocks);
+  /// lambda of the Ritz values of the first blocks; empty when the operator failed.
+  VectorXd first_values();
 
  private:
   void fill_random(Index column);
@@ -67,6 +67,8 @@ class Run {
   bool expand();
   /// False where T is not finite.
   bool project();
+  /// lambda of the Ritz values with nu > 0, ascending.
+  VectorXd values() const;
   Index converged() const;
   void restart();
   EigenResult result();
@@ -111,7 +113,7 @@ void Run::fill_random(Index column) {
 
 void Run::start() {
   for (Index c = 0; c < b_; ++c) fill_random(c);
-  const Index given = std::min(options_.start.cols(), b_);
+  const Index given = options_.start.rows() == n_ ? std::min(options_.start.cols(), b_) : 0;
   for (Index i = 0; i < n_; ++i)
     for (Index c = 0; c < given; ++c) Y_.row(i)[c] = options_.start(i, c);
   refresh_image();
@@ -232,12 +234,15 @@ EigenResult Run::result() {
   return out;
 }
 
-VectorXd Run::values_after(int blocks) {
+VectorXd Run::values() const {
+  return nu_.head((nu_.array() > 0.0).count()).cwiseInverse().array() + problem_.sigma;
+}
+
+VectorXd Run::first_values() {
   start();
-  for (int k = 0; k < blocks; ++k)
+  for (int k = 0; k < kLookBlocks; ++k)
     if (!expand()) return {};
-  if (!project()) return {};
-  return nu_.head((nu_.array() > 0.0).count());
+  return project() ? values() : VectorXd();
 }
 
 EigenResult Run::solve() {
@@ -259,13 +264,20 @@ EigenResult Run::solve() {
         out.message = "a vector has negative mass: M is not positive semidefinite";
         return out;
       }
-      if (size_ < check_at && size_ + b_ <= limit_) continue;
-      check_at = size_ + pause;
+      const bool look = options_.go_on && solves_ == kLookBlocks * b_;
+      if (!look && size_ < check_at && size_ + b_ <= limit_) continue;
       if (!project()) {
         out.status = EigenStatus::kFailed;
         out.message = "the projection is not finite";
         return out;
       }
+      if (look && !options_.go_on(values())) {
+        out.status = EigenStatus::kStopped;
+        out.message = "another shift is to be taken";
+        out.solves = solves_;
+        return out;
+      }
+      check_at = std::max(check_at, size_ + pause);
       const Index done = converged();
       progress.update(static_cast<double>(done));
       if (done >= wanted_) return result();
@@ -307,14 +319,13 @@ BasisRoom basis_room(const BlockLanczosOptions& options, Index block, Index size
   return {enough, Storage::kDisk};
 }
 
-VectorXd ritz_values(const ShiftInvert& problem, int blocks, uint64_t seed) {
+VectorXd first_ritz_values(const ShiftInvert& problem, uint64_t seed) {
   BlockLanczosOptions options;
   options.count = 1;
   options.block = kLanes;
-  options.basis = blocks * kLanes;
+  options.basis = kLookBlocks * kLanes;
   options.seed = seed;
-  const VectorXd nu = Run(problem, options).values_after(blocks);
-  return nu.cwiseInverse().array() + problem.sigma;
+  return Run(problem, options).first_values();
 }
 
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options) {

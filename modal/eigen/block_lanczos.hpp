@@ -1,6 +1,7 @@
 #pragma once
 // Block Lanczos with thick restart: reads the factor once for a whole block of vectors, which
 // makes it several times faster than ARPACK where many modes are wanted.
+#include <functional>
 #include <optional>
 
 #include "modal/eigen/krylov_basis.hpp"
@@ -20,7 +21,13 @@ struct BlockLanczosOptions {
   int max_restarts = 50;
   uint64_t seed = 1;      // of the random start block
   Eigen::MatrixXd start;  // first columns of the start block when not empty (tests)
+  /// Sees lambda of the Ritz values of the first kLookBlocks blocks, ascending, those with nu > 0:
+  /// each is above a true one. False ends the run with kStopped: another shift is to be taken.
+  std::function<bool(const Eigen::VectorXd& values)> go_on;
 };
+
+/// Blocks that show where the spectrum begins.
+inline constexpr int kLookBlocks = 3;
 
 /// Columns of the basis and where they stand.
 struct BasisRoom {
@@ -33,9 +40,9 @@ struct BasisRoom {
 BasisRoom basis_room(const BlockLanczosOptions& options, Eigen::Index block, Eigen::Index size,
                      double left_gib);
 
-/// lambda of the Ritz values after so many blocks of eight from a random start, ascending, those
-/// with nu > 0: each from above, a cheap look at where the spectrum begins.
-Eigen::VectorXd ritz_values(const ShiftInvert& problem, int blocks, uint64_t seed);
+/// lambda of the Ritz values of kLookBlocks blocks of eight from a random start, as go_on sees
+/// them.
+Eigen::VectorXd first_ritz_values(const ShiftInvert& problem, uint64_t seed);
 
 /// The `count` lowest eigenpairs of K x = lambda M x from the projection of Op = (K - sigma M)^{-1}
 /// M on span{X, Op X, Op^2 X, ...} with two passes of orthogonalisation in the M inner product

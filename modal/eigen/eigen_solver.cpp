@@ -8,17 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "core/stopwatch.hpp"
 #include "core/threads.hpp"
-#include "modal/eigen/amls.hpp"
-#include "modal/eigen/arpack_solver.hpp"
-#include "modal/eigen/block_lanczos.hpp"
-#include "modal/eigen/dense_solver.hpp"
 #include "modal/eigen/massless.hpp"
 #include "modal/eigen/mode_check.hpp"
-#include "modal/eigen/mode_density.hpp"
+#include "modal/eigen/mode_source.hpp"
 #include "modal/eigen/refinement.hpp"
-#include "modal/eigen/shifted_pencil.hpp"
 #include "modal/factor/inertia.hpp"
 #include "modal/symmetric_product.hpp"
 
@@ -41,12 +35,11 @@ class Search {
   ModeSet run();
 
  private:
-  bool small() const { return n_ <= options_.dense_limit; }
-  Index known() const { return rigid_.cols(); }
+  bool small() const { return source_.dense(); }
+  Index known() const { return source_.rigid().cols(); }
   /// Frequencies with an estimated error in place of a residual at rounding.
   bool approximate() const { return modes_.errors.size() > 0; }
-  /// The lowest `count` modes beside the known ones.
-  EigenResult attempt(int count, int retry);
+  /// The lowest `count` modes beside the known ones. Throws NumericsError.
   EigenResult solve(int count, int retry);
   /// Known modes and those that were found below a limit.
   Index below(const VectorXd& values, double limit) const;
@@ -65,8 +58,6 @@ class Search {
   /// So many may be, by the errors of the values: no contradiction, and no proof.
   bool may_agree() const;
   void keep_first(Index count);
-  /// About how many modes lie below a value.
-  int estimated_below(double limit);
   /// A residual is above the limit, and rounding alone does not explain it.
   bool worth_refining() const;
   void finish();
@@ -75,8 +66,7 @@ class Search {
   const SparseMatrix& M_;
   const EigenOptions& options_;
   const Index n_;
-  const MatrixXd rigid_;  // n x m, M-orthonormal: known modes, which modes_ takes in at last
-  ShiftedPencil pencil_;  // of large problems: inside, rows stand in the factor's order
+  ModeSource source_;  // inside, rows of large problems are in the factor's order
   ModeSet modes_;
 };
 
@@ -100,80 +90,15 @@ Index values_below(const VectorXd& values, double limit) {
   return (values.array() < limit).count();
 }
 
-MatrixXd rigid_modes(const SparseMatrix& M, const EigenOptions& options) {
-  if (!options.rigid) return MatrixXd(M.rows(), 0);
-  return orthonormal_in_mass(M, *options.rigid);
-}
-
 Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
                const SupernodalFactor* factor)
-    : K_(K),
-      M_(M),
-      options_(options),
-      n_(K.rows()),
-      rigid_(rigid_modes(M, options)),
-      pencil_(K, M, options.factor, rigid_) {
+    : K_(K), M_(M), options_(options), n_(K.rows()), source_(K, M, options, factor) {
   modes_.massless = bounds_of(K, M).massless;
-  if (small()) return;
-  if (factor != nullptr)
-    pencil_.use(*factor, options.sigma.value_or(0.0));
-  else if (options.sigma)
-    pencil_.shift_to(*options.sigma);
-  else
-    pencil_.find_shift(options.rigid.has_value(),
-                       {options.count - static_cast<int>(known()),
-                        options.fmax_hz > 0.0 ? value_of_hz(options.fmax_hz) : 0.0},
-                       options.seed);
-  modes_.sigma = pencil_.sigma();
-  modes_.factor = pencil_.report();
-}
-
-EigenResult Search::attempt(int count, int retry) {
-  const uint64_t seed = options_.seed + 7919 * static_cast<uint64_t>(retry);
-  const int block_room = 2 * count + 6 * 24;
-  const bool given_start = retry == 0 && options_.start.size() == n_;
-  if (options_.method == EigenMethod::kAmls && block_room < n_) {
-    AmlsOptions amls;
-    amls.count = count;
-    amls.accuracy = options_.accuracy;
-    amls.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
-    amls.seed = seed;
-    return solve_amls(pencil_, amls);
-  }
-  if (options_.method == EigenMethod::kBlockLanczos && block_room < n_) {
-    BlockLanczosOptions block;
-    block.count = count;
-    block.seed = seed;
-    if (given_start) block.start = options_.start(pencil_.order());
-    return solve_block_lanczos(pencil_.problem(), block);
-  }
-  ArpackOptions arpack;
-  arpack.count = count;
-  arpack.seed = seed;
-  arpack.basis =
-      static_cast<int>(std::min<Index>(n_, static_cast<Index>((2 + retry)) * count + 10));
-  if (given_start) arpack.start = options_.start(pencil_.order());
-  return solve_arpack(pencil_.problem(), arpack);
 }
 
 EigenResult Search::solve(int count, int retry) {
-  const Stopwatch clock;
-  EigenResult found;
-  if (small()) {
-    const MatrixXd K = dense_symmetric(K_), M = dense_symmetric(M_);
-    modes_.sigma = options_.sigma.value_or(dense_shift(K, M));
-    found = solve_dense(K, M, rigid_, options_.sigma, count);
-    modes_.method = "dense";
-  } else {
-    found = attempt(count, retry);
-    const bool fell_back = options_.method == EigenMethod::kAmls && found.errors.size() == 0;
-    modes_.method = name_of(fell_back ? EigenMethod::kArpack : options_.method);
-  }
-  modes_.solves += found.solves;
-  modes_.seconds += clock.seconds();
+  EigenResult found = source_.solve(count, retry);
   if (!found.ok()) throw NumericsError("modes: " + found.message);
-  // The vectors of AMLS need no more solves; their memory is wanted for the count.
-  if (found.errors.size() > 0) pencil_.give_back();
   return found;
 }
 
@@ -206,7 +131,7 @@ bool Search::may_agree() const {
 void Search::prove(double limit) {
   modes_.proof.limit = limit;
   if (!options_.prove_count) return;
-  const InertiaCount count = count_below(K_, M_, limit, pencil_.order());
+  const InertiaCount count = count_below(K_, M_, limit, source_.order());
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
     throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; ask for another limit",
@@ -263,7 +188,7 @@ void Search::find_by_count() {
       break;
     }
     const auto [before, limit] =
-        widest_gap(values, lower_values(), wanted, 1e-6 * std::abs(modes_.sigma));
+        widest_gap(values, lower_values(), wanted, 1e-6 * std::abs(source_.sigma()));
     const bool found_gap = before < values.size();
     if (!found_gap && asked < all && !approximate()) continue;  // a cluster: look further
     modes_.next_value = lower_values()[wanted];
@@ -285,16 +210,10 @@ void Search::find_by_count() {
   keep_first(std::min<Index>(wanted, modes_.size()));
 }
 
-int Search::estimated_below(double limit) {
-  const ModeDensity density(SubtreeProduct(pencil_.factor(), pencil_.mass()), n_, options_.seed);
-  modes_.solves += ModeDensity::kSolves;
-  return static_cast<int>(density.count_above(1.0 / (limit - modes_.sigma)));
-}
-
 void Search::find_by_limit_unproved(double limit) {
   constexpr int kMore = 20;  // than estimated: what a first guess may lack of few modes
   const Index all = n_ - known() - modes_.massless;
-  int count = kMore + (small() ? 0 : estimated_below(limit));
+  int count = kMore + (small() ? 0 : source_.estimated_below(limit));
   for (;; count += count / 2) {
     const int asked = static_cast<int>(std::min<Index>(count, all));
     take(solve(asked, 0));
@@ -341,8 +260,8 @@ void Search::keep_first(Index count) {
 
 bool Search::worth_refining() const {
   if (modes_.residuals.maxCoeff() <= options_.max_residual) return false;
-  const SparseMatrix stiffness = reordered(K_, pencil_.order());
-  const SparseMatrix inertia = reordered(M_, pencil_.order());
+  const SparseMatrix stiffness = reordered(K_, source_.order());
+  const SparseMatrix inertia = reordered(M_, source_.order());
   for (Index j = 0; j < modes_.size(); ++j)
     if (!(modes_.residuals[j] <= options_.max_residual) &&
         !(beyond_rounding(stiffness, inertia, modes_.values[j], modes_.vectors.col(j)) <= 1.0))
@@ -351,12 +270,16 @@ bool Search::worth_refining() const {
 }
 
 void Search::finish() {
-  const std::vector<int64_t>& order = pencil_.order();
+  modes_.sigma = source_.sigma();
+  modes_.method = source_.method();
+  modes_.factor = source_.report();
+  modes_.seconds = source_.seconds();
+  const std::vector<int64_t>& order = source_.order();
   if (modes_.size() > 0) {
     const SymmetricProduct stiffness(small() ? K_ : reordered(K_, order));
     std::optional<SymmetricProduct> own;
     if (small()) own.emplace(M_);
-    const SymmetricProduct& inertia = own ? *own : pencil_.mass();
+    const SymmetricProduct& inertia = own ? *own : source_.mass();
     const auto measure = [&] { modes_.residuals = residuals_of(stiffness, inertia, modes_); };
     measure();
     // With massless unknowns, what rounding leaves of infinite modes goes with one step.
@@ -366,16 +289,16 @@ void Search::finish() {
          ++k) {
       // What the factor weakens most, motion of high frequency left in the vectors, is what their
       // residuals show most.
-      refine_modes(pencil_.problem(), pencil_.mass(), modes_.vectors, modes_.values);
+      refine_modes(source_.problem(), source_.mass(), modes_.vectors, modes_.values);
       modes_.solves += modes_.size();
       measure();
     }
   }
   present(order, modes_);
   if (!approximate()) refuse_residuals(K_, M_, modes_, options_.max_residual);
-  modes_.solves += pencil_.solves();
-  modes_.factors = pencil_.factors();
-  take_rigid(K_, rigid_, options_.rigid.has_value(), modes_);
+  modes_.solves += source_.solves();
+  modes_.factors = source_.factors();
+  take_rigid(K_, source_.rigid(), options_.rigid.has_value(), modes_);
 }
 
 ModeSet Search::run() {

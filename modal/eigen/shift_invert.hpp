@@ -18,7 +18,7 @@ struct ShiftInvert {
   Apply mass;          // M x
 };
 
-enum class EigenStatus { kConverged, kNotConverged, kOperatorFailed, kBadInput, kFailed };
+enum class EigenStatus { kConverged, kNotConverged, kOperatorFailed, kBadInput, kStopped, kFailed };
 
 /// Eigenpairs, or why there are none; values and vectors are empty unless `status` is kConverged.
 struct [[nodiscard]] EigenResult {

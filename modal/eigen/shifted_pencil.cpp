@@ -22,6 +22,7 @@ constexpr double kBelow = 1e-2;        // the same where the shift was too small
 constexpr double kFar = 1e5;           // lowest eigenvalue over a shift that is too small
 constexpr double kZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
 constexpr double kZeroUnknown = 1e-2;  // the same where zeros may not have converged
+constexpr double kLarger = 30.0;       // next shift where there is no factor
 constexpr int kMoves = 8;
 
 }  // namespace
@@ -108,40 +109,58 @@ bool ShiftedPencil::try_shift(double sigma) {
   }
 }
 
-void ShiftedPencil::find_shift(bool known, const Wanted& wanted, uint64_t seed) {
+void ShiftedPencil::start_shift(bool known) {
   // No guard but that elimination succeeds: what rounding leaves is judged by the modes' residuals
   // and by the count.
-  const FactorOptions strict = options_;
+  rigid_complete_ = known;
   if (known && given_rigid_.cols() == 0 && try_shift(0.0)) return;
+  least_ = bounds_of(K_, M_).smallest_shift();
+  moves_left_ = kMoves;
+  shift_from(std::max(-default_shift(K_, M_), least_));
+}
+
+void ShiftedPencil::shift_from(double size) {
+  const FactorOptions strict = options_;
   options_.min_rcond = 0.0;
   options_.max_condition = 1.0 / kRounding;
-  const double least = bounds_of(K_, M_).smallest_shift();
-  double size = std::max(-default_shift(K_, M_), least);
-  for (int move = 0;; ++move) {
-    if (!try_shift(-size)) {
-      if (move >= kMoves) {
-        options_ = strict;
-        shift_to(-size);  // throws what the caller is to read
-      }
-      size *= 30.0;
-      continue;
+  while (!try_shift(-size)) {
+    if (moves_left_-- <= 0) {
+      options_ = strict;
+      shift_to(-size);  // throws what the caller is to read
     }
-    const Eigen::VectorXd ritz = ritz_values(problem_, 3, seed);
+    size *= kLarger;
+  }
+}
+
+bool ShiftedPencil::follow(const Eigen::VectorXd& ritz, const Wanted& wanted) {
+  if (moves_left_ <= 0) return false;
+  const double size = -sigma();
+  double lowest = 0.0;  // above what may be zero
+  for (const double value : ritz)
+    if (value > (rigid_complete_ ? kZeroKnown : kZeroUnknown) * size) {
+      lowest = value;
+      break;
+    }
+  double next = size;
+  if (lowest > 0.0 && wanted.highest(lowest) < size) next = kCloser * lowest;
+  if (lowest > kFar * size) next = kBelow * lowest;
+  next = std::max(next, least_);
+  if (next > 0.3 * size && next < 3.0 * size) {
+    moves_left_ = 0;
+    return false;
+  }
+  say(fmt::format("shift: {:.4g} Hz is far from the first mode, about {:.4g} Hz or below",
+                  hz_of_value(size), hz_of_value(lowest)));
+  --moves_left_;
+  shift_from(next);
+  return true;
+}
+
+void ShiftedPencil::find_shift(const Wanted& wanted, uint64_t seed) {
+  while (moves_left_ > 0) {
+    const Eigen::VectorXd ritz = first_ritz_values(problem_, seed);
     solves_ += ritz.size();
-    double lowest = 0.0;  // above what may be zero
-    for (const double value : ritz)
-      if (value > (known ? kZeroKnown : kZeroUnknown) * size) {
-        lowest = value;
-        break;
-      }
-    double next = size;
-    if (lowest > 0.0 && wanted.highest(lowest) < size) next = kCloser * lowest;
-    if (lowest > kFar * size) next = kBelow * lowest;
-    next = std::max(next, least);
-    if (move >= kMoves || (next > 0.3 * size && next < 3.0 * size)) return;
-    say(fmt::format("shift: {:.4g} Hz is far from the first mode, about {:.4g} Hz or below",
-                    hz_of_value(size), hz_of_value(lowest)));
-    size = next;
+    if (!follow(ritz, wanted)) return;
   }
 }
 

@@ -41,15 +41,19 @@ class ShiftedPencil {
   void use(const SupernodalFactor& given, double sigma);
   /// Factorises K - sigma M, in the order of the first time. Throws NotPositiveDefinite.
   void shift_to(double sigma);
-  /// A shift a little below the lowest elastic eigenvalue, from the matrices alone: starts with 0
-  /// where nothing is free to move, else with default_shift, looks at the Ritz values of
-  /// three blocks, and moves on where these show that the shift is far above the lowest one. A
-  /// shift that is too far costs Lanczos about the square root of its distance; each new factor
-  /// brings it a factor of 1e4 or more closer.
+  /// The first shift, from the matrices alone: 0 where nothing is free to move, else default_shift.
   /// @param known the rigid motions are all there are; else Ritz values far below the shift may be
   /// zeros that have not converged, and are passed over.
+  void start_shift(bool known);
+  /// Moves the shift where Ritz values show that it is far above the lowest elastic eigenvalue, to
+  /// a little below that one. A shift that is too far costs Lanczos about the square root of its
+  /// distance; each new factor brings it a factor of 1e4 or more closer.
+  /// @param ritz eigenvalues from above, ascending [rad2/s2].
   /// @param wanted how far the search goes: a new factor pays only where that lies below the shift.
-  void find_shift(bool known, const Wanted& wanted, uint64_t seed);
+  /// @returns true where the shift has moved; false: it is settled.
+  bool follow(const Eigen::VectorXd& ritz, const Wanted& wanted);
+  /// Looks at the Ritz values of a few blocks until the shift need not move.
+  void find_shift(const Wanted& wanted, uint64_t seed);
 
   /// Without the rigid motions, in the order of the factor.
   const ShiftInvert& problem() const { return problem_; }
@@ -70,6 +74,8 @@ class ShiftedPencil {
  private:
   void set_order(const std::vector<int64_t>& order);
   bool try_shift(double sigma);
+  /// -size, or the smallest multiple of it by powers of 30 at which K - sigma M has a factor.
+  void shift_from(double size);
 
   const SparseMatrix& K_;
   const SparseMatrix& M_;
@@ -84,6 +90,9 @@ class ShiftedPencil {
   FactorReport report_;
   int64_t solves_ = 0;
   int factors_ = 0;
+  int moves_left_ = 0;          // of the shift; none where it is settled
+  double least_ = 0.0;          // smallest shift
+  bool rigid_complete_ = true;  // the rigid motions are all there are
 };
 
 }  // namespace clatter::modal

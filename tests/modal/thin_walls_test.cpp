@@ -59,6 +59,20 @@ TEST(HardN15, SolvesDoNotGrowAsASheetGetsThinAndItsFrequenciesAreThoseOfThePlate
   }
 }
 
+TEST(HardN15, ACompactBodyPaysNothingForTheSearchOfItsShift) {
+  const FeModel model = sheet(0.1, 0.3, "", 6);
+  EigenOptions options;
+  options.count = 14;
+  options.rigid = free_motions(model).q;
+  const ModeSet found = solve_modes(model.K, model.M, options);
+  options.sigma = found.sigma;
+  const ModeSet given = solve_modes(model.K, model.M, options);
+  EXPECT_EQ(found.factors, 1);
+  EXPECT_EQ(found.solves, given.solves);
+  EXPECT_EQ(found.values, given.values);
+  EXPECT_EQ(found.vectors, given.vectors);
+}
+
 TEST(HardN15, SolvesDoNotGrowAsAMaterialBecomesIncompressible) {
   for (const EigenMethod method : kAll) {
     const int64_t compact = modes_of(sheet(0.1, 0.3, "", 6), method, 14).solves;
