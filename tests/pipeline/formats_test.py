@@ -37,8 +37,9 @@ class Formats(stages.PipelineTest):
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(artefact=path.name), h5py.File(path) as file:
                 kind = path.name.split(".")[1]
-                self.assertEqual(file.attrs["schema"].split("/")[1], kind)
-                self.assertIn(file.attrs["schema"], self.documented_schemas())
+                schema = file.attrs["schema"].decode()
+                self.assertEqual(schema.split("/")[1], kind)
+                self.assertIn(schema, self.documented_schemas())
                 self.assertIn("version", file.attrs)
                 self.assertIn("config", file.attrs)
                 self.assertEqual(len(file["inputs/path"]), len(file["inputs/sha256"]))
