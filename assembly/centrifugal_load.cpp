@@ -1,12 +1,9 @@
 #include "assembly/centrifugal_load.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
-#include "mesh/validity.hpp"
+#include "assembly/mass_integral.hpp"
 
 namespace clatter::assembly {
 
@@ -18,21 +15,12 @@ Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<Mater
         std::find(regions.begin(), regions.end(), block.region) == regions.end())
       continue;
     const double density = materials.at(static_cast<size_t>(block.region)).density;
-    const mesh::CellRule& rule = mesh::fine_rule(block.type);
-    std::vector<mesh::CellShape> shapes;
-    for (const auto& point : rule.points.rowwise())
-      shapes.push_back(mesh::cell_shape(block.type, point.transpose()));
-    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-      const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);
-      for (size_t q = 0; q < shapes.size(); ++q) {
-        const Eigen::Vector3d at = x.transpose() * shapes[q].value;
-        const Eigen::Matrix3d J = x.transpose() * shapes[q].gradient;
-        const double dm = density * rule.weights(static_cast<Eigen::Index>(q)) * J.determinant();
-        const Eigen::Vector3d body = dm * axis.arm(at);
-        for (Eigen::Index a = 0; a < x.rows(); ++a)
-          force.segment<3>(3 * block.nodes(c, a)) += shapes[q].value(a) * body;
-      }
-    }
+    for_each_mass_point(mesh, block, density,
+                        [&](Eigen::Index c, const auto& N, const Eigen::Vector3d& at, double dm) {
+                          const Eigen::Vector3d body = dm * axis.arm(at);
+                          for (Eigen::Index a = 0; a < N.size(); ++a)
+                            force.segment<3>(3 * block.nodes(c, a)) += N(a) * body;
+                        });
   }
   return force;
 }

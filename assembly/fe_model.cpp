@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "assembly/fe_checks.hpp"
 #include "assembly/fe_statics_file.hpp"
 #include "core/artefact.hpp"
 #include "core/error.hpp"
@@ -12,24 +13,6 @@
 
 namespace clatter::assembly {
 namespace {
-
-[[noreturn]] void refuse(const H5File& file, const std::string& place, const std::string& found,
-                         const std::string& expected) {
-  throw InputError(
-      fmt::format("{}: {}: found {}, expected {}", file.path().string(), place, found, expected));
-}
-
-void check_shape(const H5File& file, const std::string& place, Eigen::Index rows, Eigen::Index cols,
-                 Eigen::Index want_rows, Eigen::Index want_cols) {
-  if (rows == want_rows && cols == want_cols) return;
-  refuse(file, place, fmt::format("{} x {}", rows, cols),
-         fmt::format("{} x {}", want_rows, want_cols));
-}
-
-template <typename Matrix>
-void check_finite(const H5File& file, const std::string& place, const Matrix& values) {
-  if (!values.allFinite()) refuse(file, place, "a value that is not finite", "finite numbers");
-}
 
 /// A symmetric positive semidefinite matrix has no negative diagonal entry, and where one is zero
 /// its column is: an unknown without stiffness, or without mass.
@@ -52,11 +35,11 @@ void check_lower(const H5File& file, const std::string& place, const SparseMatri
 void check_matrices(const H5File& file, const FeModel& model) {
   const Eigen::Index n = model.K.rows();
   const Eigen::Index n_nodes = model.nodes.rows();
-  check_shape(file, "K", n, model.K.cols(), n, n);
-  check_shape(file, "M", model.M.rows(), model.M.cols(), n, n);
-  check_shape(file, "T", model.T.rows(), model.T.cols(), 3 * n_nodes, n);
-  check_shape(file, "nodes", n_nodes, model.nodes.cols(), n_nodes, 3);
-  check_shape(file, "rigid", model.rigid.rows(), model.rigid.cols(), n, 6);
+  check_shape(file, "K", model.K, n, n);
+  check_shape(file, "M", model.M, n, n);
+  check_shape(file, "T", model.T, 3 * n_nodes, n);
+  check_shape(file, "nodes", model.nodes, n_nodes, 3);
+  check_shape(file, "rigid", model.rigid, n, 6);
   check_finite(file, "nodes", model.nodes);
   check_finite(file, "rigid", model.rigid);
   check_lower(file, "K", model.K);
@@ -67,7 +50,7 @@ void read_loads(const H5File& file, FeModel& model) {
   for (const std::string& load : file.list("loads")) {
     const std::string place = "loads/" + load;
     Eigen::VectorXd values = file.read_vector(place);
-    check_shape(file, place, values.size(), 1, model.K.rows(), 1);
+    check_shape(file, place, values, model.K.rows(), 1);
     check_finite(file, place, values);
     model.loads[load] = std::move(values);
     model.load_units[load] = file.get_string(place, "unit");

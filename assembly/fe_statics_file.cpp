@@ -2,40 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "assembly/fe_checks.hpp"
 
 namespace clatter::assembly {
 namespace {
-
-[[noreturn]] void refuse(const H5File& file, const std::string& place, const std::string& found,
-                         const std::string& expected) {
-  throw InputError(
-      fmt::format("{}: {}: found {}, expected {}", file.path().string(), place, found, expected));
-}
-
-template <typename Matrix>
-void check_shape(const H5File& file, const std::string& place, const Matrix& matrix,
-                 Eigen::Index rows, Eigen::Index cols) {
-  if (matrix.rows() != rows || matrix.cols() != cols)
-    refuse(file, place, fmt::format("{} x {}", matrix.rows(), matrix.cols()),
-           fmt::format("{} x {}", rows, cols));
-}
 
 template <typename Matrix>
 void check_dense(const H5File& file, const std::string& place, const Matrix& matrix,
                  Eigen::Index rows, Eigen::Index cols) {
   check_shape(file, place, matrix, rows, cols);
-  if (!matrix.allFinite()) refuse(file, place, "a value that is not finite", "finite numbers");
+  check_finite(file, place, matrix);
 }
 
 void write_supports(H5File& file, const FeSupports& supports) {
   if (supports.names.empty()) return;
-  file.write("supports/names", supports.names);
-  file.write("supports/support", supports.support);
-  file.write("supports/labels", supports.set.labels);
-  file.write("supports/position", supports.set.position);
-  file.write("supports/direction", supports.set.direction);
-  file.write("supports/is_rotation", supports.set.is_rotation);
+  write_supported(file, supports);
   file.write("supports/rigid", supports.rigid);
   write_sparse(file, "supports/T_s", supports.T, false);
   write_sparse(file, "supports/K_sq", supports.K_sq, false);
@@ -110,6 +91,15 @@ void read_of_loads(const H5File& file, const std::string& group, const FeModel& 
 }
 
 }  // namespace
+
+void write_supported(H5File& file, const FeSupports& supports) {
+  file.write("supports/names", supports.names);
+  file.write("supports/support", supports.support);
+  file.write("supports/labels", supports.set.labels);
+  file.write("supports/position", supports.set.position);
+  file.write("supports/direction", supports.set.direction);
+  file.write("supports/is_rotation", supports.set.is_rotation);
+}
 
 void write_statics(H5File& file, const FeModel& model) {
   write_supports(file, model.supports);

@@ -14,4 +14,8 @@ void write_statics(H5File& file, const FeModel& model);
 /// and that cases name loads (InputError).
 void read_statics(const H5File& file, FeModel& model);
 
+/// What the supported coordinates are, without their matrices: `supports/names`, `support`,
+/// `labels`, `position`, `direction`, `is_rotation`.
+void write_supported(H5File& file, const FeSupports& supports);
+
 }  // namespace clatter::assembly

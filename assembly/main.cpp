@@ -8,6 +8,7 @@
 #include "core/artefact.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "core/log.hpp"
 #include "core/plausible.hpp"
 #include "mesh/mesh_file.hpp"

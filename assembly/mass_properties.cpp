@@ -1,37 +1,12 @@
 #include "assembly/mass_properties.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
-#include <vector>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
-#include "mesh/validity.hpp"
+#include "assembly/mass_integral.hpp"
 
 namespace clatter::assembly {
 namespace {
-
-void add_block(const mesh::Mesh& mesh, const mesh::CellBlock& block, double density,
-               MassMoments& sum) {
-  // Exact for x x^T det J: det J has at most the degrees that cube_bernstein.cpp lists, x adds its
-  // own twice.
-  const mesh::CellRule& rule = mesh::fine_rule(block.type);
-  std::vector<mesh::CellShape> shapes;
-  for (const auto& point : rule.points.rowwise())
-    shapes.push_back(mesh::cell_shape(block.type, point.transpose()));
-  for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-    const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);
-    for (size_t q = 0; q < shapes.size(); ++q) {
-      const Eigen::Vector3d at = x.transpose() * shapes[q].value;
-      const Eigen::Matrix3d J = x.transpose() * shapes[q].gradient;
-      const double dm = density * rule.weights(static_cast<Eigen::Index>(q)) * J.determinant();
-      sum.mass += dm;
-      sum.first += dm * at;
-      sum.second += dm * at * at.transpose();
-    }
-  }
-}
 
 Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second) {
   return second.trace() * Eigen::Matrix3d::Identity() - second;
@@ -43,7 +18,12 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<Material>& 
   MassMoments sum;
   for (const mesh::CellBlock& block : mesh.cells) {
     const double density = materials.at(static_cast<size_t>(block.region)).density;
-    add_block(mesh, block, density, sum);
+    for_each_mass_point(mesh, block, density,
+                        [&](Eigen::Index, const auto&, const Eigen::Vector3d& at, double dm) {
+                          sum.mass += dm;
+                          sum.first += dm * at;
+                          sum.second += dm * at * at.transpose();
+                        });
   }
   return sum;
 }

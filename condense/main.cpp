@@ -21,6 +21,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "core/large_pages.hpp"
 #include "core/log.hpp"
 #include "core/planned_files.hpp"

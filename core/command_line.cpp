@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <string_view>
 
 #include "core/artefact.hpp"
 #include "core/blas_kernel.hpp"
@@ -11,6 +12,7 @@
 #include "core/log.hpp"
 #include "core/memory_limit.hpp"
 #include "core/planned_files.hpp"
+#include "core/refusal.hpp"
 #include "core/threads.hpp"
 #include "core/whole_file.hpp"
 
@@ -38,8 +40,8 @@ struct CommandLine::Impl {
   }
 
   void refuse(const char* what) {
-    std::fprintf(stderr, "%s: error: %s (see %s --help)\n", program.c_str(), what, program.c_str());
-    exit_code = static_cast<int>(ExitCode::kBadInput);
+    exit_code = report_error(program, fmt::format("{} (see {} --help)", what, program),
+                             ExitCode::kBadInput);
   }
 };
 
@@ -75,7 +77,7 @@ CommandLine::CommandLine(const std::string& program, const std::string& summary,
       ->capture_default_str();
   app.add_flag("--quiet", impl_->common.quiet, "results, warnings and errors only");
   app.add_flag("--json", impl_->common.json,
-               "print the results as one machine-readable line on stdout");
+               "print the results, or the error, as one machine-readable line on stdout");
   output("--depfile", impl_->common.depfile, "write the files that were read, for make");
 }
 
@@ -142,6 +144,8 @@ void CommandLine::blas() {
 }
 
 bool CommandLine::parse(int argc, char** argv) {
+  // A wrong command line is told as it asks for.
+  set_json(std::find(argv, argv + argc, std::string_view("--json")) != argv + argc);
   try {
     impl_->app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -155,8 +159,7 @@ bool CommandLine::parse(int argc, char** argv) {
   try {
     impl_->plan_files();
   } catch (const Error& error) {
-    std::fprintf(stderr, "%s: error: %s\n", impl_->program.c_str(), error.what());
-    impl_->exit_code = static_cast<int>(error.code());
+    impl_->exit_code = report_error(impl_->program, error.what(), error.code());
     return false;
   }
   set_quiet(impl_->common.quiet);
@@ -188,34 +191,6 @@ void write_depfile(const std::filesystem::path& depfile, const std::filesystem::
   // An input that was deleted must not stop make: each is also a target without a recipe.
   for (const auto& input : inputs) stream << input.string() << ":\n";
   file.commit();
-}
-
-std::string json_text(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
-void print_json(const std::vector<std::pair<std::string, std::string>>& members) {
-  std::string line = "{";
-  for (const auto& [key, value] : members) {
-    if (line.size() > 1) line += ", ";
-    line += json_text(key) + ": " + value;
-  }
-  std::puts((line + "}").c_str());
 }
 
 }  // namespace clatter

@@ -13,7 +13,7 @@ namespace clatter {
 struct CommonOptions {
   int threads = 0;  // 0: all cores
   bool quiet = false;
-  bool json = false;              // the results as one machine-readable line on stdout
+  bool json = false;              // results or error as one machine-readable line on stdout
   std::filesystem::path depfile;  // make-style list of the files that were read
 };
 
@@ -63,11 +63,5 @@ class CommandLine {
 /// Writes "target: input input ..." for make. Nothing happens when `depfile` is empty.
 void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
                    const std::vector<std::filesystem::path>& inputs);
-
-/// Prints one JSON object on stdout from (key, value) pairs; values are already JSON text.
-void print_json(const std::vector<std::pair<std::string, std::string>>& members);
-/// A text as a JSON string with quotes; a number as JSON.
-std::string json_text(const std::string& text);
-std::string json_number(double value);
 
 }  // namespace clatter

@@ -6,6 +6,16 @@
 #include "core/h5_impl.hpp"
 
 namespace clatter {
+namespace {
+
+// Bytes that fit the head of an object, 65 535 at most with name and type.
+constexpr size_t kLongestAttribute = 60000;
+
+std::string member(std::string_view object, std::string_view name) {
+  return object == "/" ? std::string(name) : fmt::format("{}/{}", object, name);
+}
+
+}  // namespace
 
 H5File::H5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 H5File::H5File(H5File&&) noexcept = default;
@@ -38,9 +48,9 @@ H5File H5File::create(const std::filesystem::path& path) {
   impl->final_path = path;
   std::filesystem::path part = path;
   part += ".part";
-  const Id access = checked_access();
+  const Id access = checked_access(), creation = checked_creation(H5P_FILE_CREATE);
   impl->unfinished = PartName(part);
-  impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, creation, access);
   if (impl->file < 0) {
     throw FileError(fmt::format(
         "{}: cannot be created (folder missing, no permission or disk full)", part.string()));
@@ -64,10 +74,6 @@ void H5File::commit() {
   if (!synced) fail("synced");
   if (std::rename(part.c_str(), impl_->final_path.c_str()) != 0) fail("renamed");
   impl_->part_path.clear();
-}
-
-void H5File::flush() {
-  if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->trouble("/");
 }
 
 const std::filesystem::path& H5File::path() const { return impl_->final_path; }
@@ -203,10 +209,13 @@ void H5File::set(std::string_view object, std::string_view name,
   impl_->set_attribute(object, name, H5T_NATIVE_INT64, values.data(),
                        static_cast<int64_t>(values.size()));
 }
+// Of fixed length, for the same reason as in write().
 void H5File::set(std::string_view object, std::string_view name, const std::string& value) {
-  const Id type = string_type();
-  const char* pointer = value.c_str();
-  impl_->set_attribute(object, name, type, &pointer);
+  if (value.size() > kLongestAttribute)
+    return write(member(object, name), std::vector<std::string>{value});
+  std::string bytes = value;
+  bytes.resize(std::max<size_t>(bytes.size(), 1), '\0');
+  impl_->set_attribute(object, name, string_type(bytes.size()), bytes.data());
 }
 
 double H5File::get_double(std::string_view object, std::string_view name) const {
@@ -220,19 +229,12 @@ std::vector<int64_t> H5File::get_ints(std::string_view object, std::string_view 
 }
 
 std::string H5File::get_string(std::string_view object, std::string_view name) const {
-  const Id attribute = impl_->open_attribute(object, name);
-  const Id stored(H5Aget_type(attribute), &H5Tclose);
-  if (H5Tis_variable_str(stored) <= 0) {
-    impl_->refuse(object, fmt::format("attribute {} is not a text", name));
-  }
-  const Id type = string_type();
-  char* pointer = nullptr;
-  if (H5Aread(attribute, type, &pointer) < 0 || pointer == nullptr) {
-    impl_->refuse(object, fmt::format("attribute {} cannot be read", name));
-  }
-  std::string value = pointer;
-  H5free_memory(pointer);
-  return value;
+  if (has_attribute(object, name) || !has(member(object, name)))
+    return impl_->text_attribute(object, name);
+  const std::vector<std::string> values = read_strings(member(object, name));
+  if (values.size() != 1)
+    impl_->refuse(member(object, name), fmt::format("found {} texts, expected 1", values.size()));
+  return values.front();
 }
 
 std::vector<std::string> H5File::attributes(std::string_view object) const {

@@ -17,8 +17,8 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 /// One HDF5 file. Paths inside the file are "group/dataset"; missing groups are made on writing.
 /// Writing goes to `path.part`; nothing stands under the final name before commit(), and without
-/// commit() an older artefact stays. Data and heads have checksums (HDF5's own), which reading
-/// verifies; files without them are read as they are.
+/// commit() an older artefact stays. Data, attributes and heads have checksums (HDF5's own), which
+/// reading verifies; files without them are read as they are.
 /// Errors: FileError for what the disk or library refuses, InputError for wrong content; each names
 /// file, place, what was found and what was expected.
 class H5File {
@@ -34,8 +34,6 @@ class H5File {
 
   /// Flushes, closes, syncs and renames `path.part` to `path`.
   void commit();
-  /// Flushes what is written so far to the part file (hard case H1).
-  void flush();
   const std::filesystem::path& path() const;
 
   bool has(std::string_view name) const;
@@ -69,7 +67,8 @@ class H5File {
   RowMatrix read_rows(std::string_view name, int64_t first, int64_t count) const;
   IndexMatrix read_index_matrix(std::string_view name) const;
 
-  /// Attributes; `object` is a group or dataset, "/" for the root. Groups are made when missing.
+  /// Attributes; `object` is a group or dataset, "/" for the root. Groups are made when missing. A
+  /// text over 60 000 bytes becomes the one entry of dataset `object/name`.
   void set(std::string_view object, std::string_view name, double value);
   void set(std::string_view object, std::string_view name, int64_t value);
   void set(std::string_view object, std::string_view name, int value) {

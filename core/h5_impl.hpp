@@ -131,10 +131,9 @@ struct H5File::Impl {
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
     const Id space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
                    &H5Sclose);
-    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
+    ensure_group(parent_of(path));
     const Id layout = checked_layout(dims, H5Tget_size(type));
-    const Id set(H5Dcreate2(file, path.c_str(), type, space, links, layout, H5P_DEFAULT),
+    const Id set(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
                  &H5Dclose);
     const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
     if (!set.ok() || (!empty && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
@@ -211,19 +210,23 @@ struct H5File::Impl {
     return there > 0;
   }
 
-  void ensure_group(std::string_view object) {
-    const std::string path(object);
-    if (exists(path)) return;
-    const Id links(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
-    const Id group(H5Gcreate2(file, path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), &H5Gclose);
+  /// Makes what is missing of the groups on the way and of `object` itself.
+  void ensure_group(const std::string& object) {
+    if (object.empty() || object == "/" || exists(object)) return;
+    ensure_group(parent_of(object));
+    const Id creation = checked_creation(H5P_GROUP_CREATE);
+    const Id group(H5Gcreate2(file, object.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), &H5Gclose);
     if (!group.ok()) trouble(object);
+  }
+
+  static std::string parent_of(const std::string& path) {
+    return path.substr(0, path.rfind('/') == std::string::npos ? 0 : path.rfind('/'));
   }
 
   /// `extent` < 0: one value, otherwise a list of so many.
   void set_attribute(std::string_view object, std::string_view name, hid_t type, const void* value,
                      int64_t extent = -1) {
-    ensure_group(object);
+    ensure_group(std::string(object));
     const Id owner = open_object(object);
     const std::string key(name);
     if (H5Aexists(owner, key.c_str()) > 0) H5Adelete(owner, key.c_str());
@@ -243,6 +246,26 @@ struct H5File::Impl {
     Id attribute(H5Aopen(owner, std::string(name).c_str(), H5P_DEFAULT), &H5Aclose);
     if (!attribute.ok()) refuse(object, fmt::format("attribute {}: {}", name, damage()));
     return attribute;
+  }
+
+  std::string text_attribute(std::string_view object, std::string_view name) const {
+    const Id attribute = open_attribute(object, name);
+    const Id stored(H5Aget_type(attribute), &H5Tclose);
+    const Id space(H5Aget_space(attribute), &H5Sclose);
+    if (H5Tget_class(stored) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
+      refuse(object, fmt::format("attribute {} is not a text", name));
+    const auto cannot = [&] { refuse(object, fmt::format("attribute {}: {}", name, damage())); };
+    if (H5Tis_variable_str(stored) > 0) {  // of h5py, or of earlier versions of clatter
+      const Id type = string_type();
+      char* pointer = nullptr;
+      if (H5Aread(attribute, type, &pointer) < 0) cannot();
+      const std::string value = pointer == nullptr ? "" : pointer;
+      H5free_memory(pointer);
+      return value;
+    }
+    std::string bytes(H5Tget_size(stored), '\0');
+    if (H5Aread(attribute, stored, bytes.data()) < 0) cannot();
+    return bytes.substr(0, bytes.find('\0'));
   }
 
   template <class T>

@@ -45,6 +45,8 @@ void print_result(const std::string& line) {
 
 void set_json(bool json) { json_flag = json; }
 
+bool is_json() { return json_flag; }
+
 void set_quiet(bool quiet) { quiet_flag = quiet; }
 
 bool is_quiet() { return quiet_flag; }

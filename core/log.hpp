@@ -14,6 +14,7 @@ void warn(const std::string& line);
 /// stdout has the one JSON line alone, and this goes the way of say().
 void print_result(const std::string& line);
 void set_json(bool json);
+bool is_json();
 void set_quiet(bool quiet);
 bool is_quiet();
 

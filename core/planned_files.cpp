@@ -106,4 +106,13 @@ void will_read(const fs::path& path, const std::string& named_by) {
   inputs.push_back(input);
 }
 
+bool is_planned(const fs::path& path) {
+  for (const Input& input : inputs)
+    if (input.path == path) return true;
+  for (const Output& output : outputs)
+    for (const fs::path& written : output.written())
+      if (written == path) return true;
+  return false;
+}
+
 }  // namespace clatter

@@ -18,4 +18,7 @@ void will_write(const std::string& asked_by, const std::filesystem::path& path);
 /// command line). InputError when it is also an output.
 void will_read(const std::filesystem::path& path, const std::string& named_by = {});
 
+/// Whether this program said that it reads or writes a file of this very name, or the part of one.
+bool is_planned(const std::filesystem::path& path);
+
 }  // namespace clatter

@@ -9,6 +9,7 @@
 #include "core/blas_kernel.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "core/log.hpp"
 #include "core/planned_files.hpp"
 #include "core/stopwatch.hpp"

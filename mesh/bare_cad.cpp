@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/command_line.hpp"
+#include "core/json_line.hpp"
 #include "core/log.hpp"
 #include "core/whole_file.hpp"
 #include "mesh/cad_unit.hpp"

@@ -27,20 +27,20 @@ constexpr std::array<Edge, 9> kWedgeEdges = {
 constexpr std::array<Edge, 8> kPyramidEdges = {
     {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
 
-// Edges in the order of the other programs' middle nodes.
+// Edges in the order of the other programs' middle nodes, between their corners.
 constexpr std::array<Edge, 6> kTetElsewhere = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-constexpr std::array<Edge, 12> kHexVtk = {{{0, 1},
-                                           {1, 2},
-                                           {2, 3},
-                                           {3, 0},
-                                           {4, 5},
-                                           {5, 6},
-                                           {6, 7},
-                                           {7, 4},
-                                           {0, 4},
-                                           {1, 5},
-                                           {2, 6},
-                                           {3, 7}}};
+constexpr std::array<Edge, 12> kHexAbaqus = {{{0, 1},
+                                              {1, 2},
+                                              {2, 3},
+                                              {3, 0},
+                                              {4, 5},
+                                              {5, 6},
+                                              {6, 7},
+                                              {7, 4},
+                                              {0, 4},
+                                              {1, 5},
+                                              {2, 6},
+                                              {3, 7}}};
 constexpr std::array<Edge, 12> kHexNastran = {{{0, 1},
                                                {1, 2},
                                                {2, 3},
@@ -55,8 +55,6 @@ constexpr std::array<Edge, 12> kHexNastran = {{{0, 1},
                                                {7, 4}}};
 constexpr std::array<Edge, 9> kWedgeAbaqus = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
-constexpr std::array<Edge, 9> kWedgeVtk = {
-    {{0, 2}, {2, 1}, {1, 0}, {3, 5}, {5, 4}, {4, 3}, {0, 3}, {2, 5}, {1, 4}}};
 constexpr std::array<Edge, 9> kWedgeNastran = {
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4}, {2, 5}, {3, 4}, {4, 5}, {5, 3}}};
 constexpr std::array<Edge, 8> kPyramidElsewhere = {
@@ -73,28 +71,36 @@ constexpr int middle_of(const std::array<Edge, E>& edges, const Edge& edge, int 
   return -1;
 }
 
-template <int Corners, size_t E>
+// `corners`: ours in the places of theirs.
+template <size_t Corners, size_t E>
 constexpr std::array<int, Corners + E> permutation(const std::array<Edge, E>& ours,
-                                                   const std::array<Edge, E>& theirs) {
+                                                   const std::array<Edge, E>& theirs,
+                                                   const std::array<int, Corners>& corners) {
   std::array<int, Corners + E> p{};
-  for (int i = 0; i < Corners; ++i) p[static_cast<size_t>(i)] = i;
-  for (size_t e = 0; e < E; ++e) p[Corners + e] = middle_of(ours, theirs[e], Corners);
+  for (size_t i = 0; i < Corners; ++i) p[i] = corners[i];
+  for (size_t e = 0; e < E; ++e) {
+    const Edge edge = {corners[static_cast<size_t>(theirs[e][0])],
+                       corners[static_cast<size_t>(theirs[e][1])]};
+    p[Corners + e] = middle_of(ours, edge, Corners);
+  }
   return p;
 }
 
-constexpr auto kTetP = permutation<4>(kTetEdges, kTetElsewhere);
-constexpr auto kHexVtkP = permutation<8>(kHexEdges, kHexVtk);
-constexpr auto kHexNastranP = permutation<8>(kHexEdges, kHexNastran);
-// VTK's triangle 0-1-2 of a wedge points outward, ours and the others' inward: two corners swap.
-constexpr auto with_corners(std::array<int, 15> p, const std::array<int, 6>& corners) {
-  for (size_t i = 0; i < 6; ++i) p[i] = corners[i];
-  return p;
-}
-constexpr auto kWedgeVtkP =
-    with_corners(permutation<6>(kWedgeEdges, kWedgeVtk), {0, 2, 1, 3, 5, 4});
-constexpr auto kWedgeAbaqusP = permutation<6>(kWedgeEdges, kWedgeAbaqus);
-constexpr auto kWedgeNastranP = permutation<6>(kWedgeEdges, kWedgeNastran);
-constexpr auto kPyramidP = permutation<5>(kPyramidEdges, kPyramidElsewhere);
+constexpr std::array<int, 4> kTet = {0, 1, 2, 3}, kTetOver = {0, 2, 1, 3};
+constexpr std::array<int, 8> kHex = {0, 1, 2, 3, 4, 5, 6, 7}, kHexOver = {0, 3, 2, 1, 4, 7, 6, 5};
+constexpr std::array<int, 6> kWedge = {0, 1, 2, 3, 4, 5}, kWedgeOver = {0, 2, 1, 3, 5, 4};
+constexpr std::array<int, 5> kPyramid = {0, 1, 2, 3, 4}, kPyramidOver = {0, 3, 2, 1, 4};
+
+constexpr auto kTetP = permutation(kTetEdges, kTetElsewhere, kTet);
+constexpr auto kTetMedP = permutation(kTetEdges, kTetElsewhere, kTetOver);
+constexpr auto kHexAbaqusP = permutation(kHexEdges, kHexAbaqus, kHex);
+constexpr auto kHexNastranP = permutation(kHexEdges, kHexNastran, kHex);
+constexpr auto kHexMedP = permutation(kHexEdges, kHexAbaqus, kHexOver);
+constexpr auto kWedgeAbaqusP = permutation(kWedgeEdges, kWedgeAbaqus, kWedge);
+constexpr auto kWedgeNastranP = permutation(kWedgeEdges, kWedgeNastran, kWedge);
+constexpr auto kWedgeOverP = permutation(kWedgeEdges, kWedgeAbaqus, kWedgeOver);  // VTK, MED
+constexpr auto kPyramidP = permutation(kPyramidEdges, kPyramidElsewhere, kPyramid);
+constexpr auto kPyramidMedP = permutation(kPyramidEdges, kPyramidElsewhere, kPyramidOver);
 
 // A face from its corners (-1 in the fourth place: a triangle); middle nodes from the edges.
 template <size_t E>
@@ -142,28 +148,30 @@ constexpr auto kPyramid13Faces = all_faces(kPyramidCorners, kPyramidEdges, 5, 2)
 std::span<const int> first(const auto& p, size_t n) { return std::span<const int>(p).first(n); }
 
 const std::array<CellTraits, kCellTypes> kCells = {{
-    {"tet4", 4, 4, 1, 10, 4, "C3D4", "CTETRA", first(kTetP, 4), first(kTetP, 4), first(kTetP, 4),
-     kTetEdges, kTet4Faces},
-    {"tet10", 10, 4, 2, 24, 11, "C3D10", "CTETRA", kTetP, kTetP, kTetP, kTetEdges, kTet10Faces},
-    {"hex8", 8, 8, 1, 12, 5, "C3D8", "CHEXA", first(kHexVtkP, 8), first(kHexVtkP, 8),
-     first(kHexNastranP, 8), kHexEdges, kHex8Faces},
-    {"hex20", 20, 8, 2, 25, 17, "C3D20", "CHEXA", kHexVtkP, kHexVtkP, kHexNastranP, kHexEdges,
-     kHex20Faces},
-    {"wedge6", 6, 6, 1, 13, 6, "C3D6", "CPENTA", first(kWedgeVtkP, 6), first(kWedgeAbaqusP, 6),
-     first(kWedgeNastranP, 6), kWedgeEdges, kWedge6Faces},
-    {"wedge15", 15, 6, 2, 26, 18, "C3D15", "CPENTA", kWedgeVtkP, kWedgeAbaqusP, kWedgeNastranP,
-     kWedgeEdges, kWedge15Faces},
-    {"pyramid5", 5, 5, 1, 14, 7, "C3D5", "CPYRAM", first(kPyramidP, 5), first(kPyramidP, 5),
-     first(kPyramidP, 5), kPyramidEdges, kPyramid5Faces},
-    {"pyramid13", 13, 5, 2, 27, 19, "", "CPYRAM", kPyramidP, kPyramidP, kPyramidP, kPyramidEdges,
-     kPyramid13Faces},
+    {"tet4", 4, 4, 1, 10, 4, "C3D4", "CTETRA", "TE4", first(kTetP, 4), first(kTetP, 4),
+     first(kTetP, 4), first(kTetMedP, 4), kTetEdges, kTet4Faces},
+    {"tet10", 10, 4, 2, 24, 11, "C3D10", "CTETRA", "T10", kTetP, kTetP, kTetP, kTetMedP, kTetEdges,
+     kTet10Faces},
+    {"hex8", 8, 8, 1, 12, 5, "C3D8", "CHEXA", "HE8", first(kHexAbaqusP, 8), first(kHexAbaqusP, 8),
+     first(kHexNastranP, 8), first(kHexMedP, 8), kHexEdges, kHex8Faces},
+    {"hex20", 20, 8, 2, 25, 17, "C3D20", "CHEXA", "H20", kHexAbaqusP, kHexAbaqusP, kHexNastranP,
+     kHexMedP, kHexEdges, kHex20Faces},
+    {"wedge6", 6, 6, 1, 13, 6, "C3D6", "CPENTA", "PE6", first(kWedgeOverP, 6),
+     first(kWedgeAbaqusP, 6), first(kWedgeNastranP, 6), first(kWedgeOverP, 6), kWedgeEdges,
+     kWedge6Faces},
+    {"wedge15", 15, 6, 2, 26, 18, "C3D15", "CPENTA", "P15", kWedgeOverP, kWedgeAbaqusP,
+     kWedgeNastranP, kWedgeOverP, kWedgeEdges, kWedge15Faces},
+    {"pyramid5", 5, 5, 1, 14, 7, "C3D5", "CPYRAM", "PY5", first(kPyramidP, 5), first(kPyramidP, 5),
+     first(kPyramidP, 5), first(kPyramidMedP, 5), kPyramidEdges, kPyramid5Faces},
+    {"pyramid13", 13, 5, 2, 27, 19, "", "CPYRAM", "P13", kPyramidP, kPyramidP, kPyramidP,
+     kPyramidMedP, kPyramidEdges, kPyramid13Faces},
 }};
 
 constexpr std::array<FaceTraits, kFaceTypes> kFaces = {{
-    {"tri3", 3, 3, 1, 2},
-    {"tri6", 6, 3, 2, 9},
-    {"quad4", 4, 4, 1, 3},
-    {"quad8", 8, 4, 2, 16},
+    {"tri3", 3, 3, 1, 2, "TR3"},
+    {"tri6", 6, 3, 2, 9, "TR6"},
+    {"quad4", 4, 4, 1, 3, "QU4"},
+    {"quad8", 8, 4, 2, 16, "QU8"},
 }};
 
 template <class Type, class Table>

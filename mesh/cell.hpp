@@ -46,16 +46,17 @@
 //
 // Other programs have the same corners in the same places and other orders of the middle nodes;
 // only VTK's wedge is turned over: its triangle 0-1-2 points outward, its corners are ours 0 2 1
-// 3 5 4 (measured: VTK 9.1).
-// With p = to_vtk, to_abaqus or to_nastran of the type, a_other[i] = a_gmsh[p[i]]. Example (tet10,
-// all three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19) gives
-// a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their middle nodes:
+// 3 5 4 (measured: VTK 9.1), and so are all of MED's cells: tet 0 2 1 3, hex 0 3 2 1 4 7 6 5,
+// pyramid 0 3 2 1 4.
+// With p = to_vtk, to_abaqus, to_nastran or to_med of the type, a_other[i] = a_gmsh[p[i]]. Example
+// (tet10, the first three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19)
+// gives a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their middle nodes:
 //
-//   tet      all      0-1 1-2 2-0 0-3 1-3 2-3
-//   hex      VTK, Abaqus  0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7
-//            Nastran      0-1 1-2 2-3 3-0  0-4 1-5 2-6 3-7  4-5 5-6 6-7 7-4
-//   wedge    VTK, Abaqus  0-1 1-2 2-0  3-4 4-5 5-3  0-3 1-4 2-5  (of their corners)
-//            Nastran      0-1 1-2 2-0  0-3 1-4 2-5  3-4 4-5 5-3
+//   tet      all      0-1 1-2 2-0 0-3 1-3 2-3             (of their corners)
+//   hex      VTK, Abaqus, MED  0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7
+//            Nastran           0-1 1-2 2-3 3-0  0-4 1-5 2-6 3-7  4-5 5-6 6-7 7-4
+//   wedge    VTK, Abaqus, MED  0-1 1-2 2-0  3-4 4-5 5-3  0-3 1-4 2-5
+//            Nastran           0-1 1-2 2-0  0-3 1-4 2-5  3-4 4-5 5-3
 //   pyramid  all      0-1 1-2 2-3 3-0  0-4 1-4 2-4 3-4
 //
 // CalculiX numbers like Abaqus. Example (hex20): a_gmsh = (0 1 ... 19) gives
@@ -98,6 +99,7 @@ struct FaceTraits {
   int corners;            // 3 or 4
   int order;              // 1 or 2
   int gmsh_type;          // Gmsh element type
+  std::string_view med_name;
 };
 
 /// One face of a cell: local node numbers, outward for a positive cell.
@@ -118,9 +120,11 @@ struct CellTraits {
   int gmsh_type;                    // Gmsh element type
   std::string_view abaqus_name;     // "C3D4", ...; empty where Abaqus has none
   std::string_view nastran_name;    // "CTETRA", ...
+  std::string_view med_name;        // "TE4", ...
   std::span<const int> to_vtk;      // p with a_vtk[i] = a_gmsh[p[i]]
   std::span<const int> to_abaqus;   // the same for Abaqus and CalculiX
   std::span<const int> to_nastran;  // the same for Nastran
+  std::span<const int> to_med;      // the same for MED
   std::span<const Edge> edges;      // corners of the edges; middle node of edge e is corners + e
   std::span<const CellFace> faces;  // outward
 };

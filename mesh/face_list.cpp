@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/command_line.hpp"
+#include "core/json_line.hpp"
 
 namespace clatter::mesh {
 namespace {

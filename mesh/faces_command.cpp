@@ -4,6 +4,7 @@
 
 #include "core/artefact.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "core/log.hpp"
 #include "mesh/bare_cad.hpp"
 #include "mesh/cad_unit.hpp"

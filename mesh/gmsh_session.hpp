@@ -106,8 +106,6 @@ class GmshSession {
               double angle_deg);
   double volume(const Solids& solids) const;
   Eigen::Vector3d centre(Solid solid) const;
-  /// Smallest and largest coordinates of all solids, from the edges of their faces.
-  BoxFilter extent();
   Solids all_solids() const;
 
   /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
@@ -118,6 +116,8 @@ class GmshSession {
   /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says; InputError
   /// for other names.
   void write_cad(const std::filesystem::path& path, const std::string& unit);
+
+  // --- faces (gmsh_faces.cpp) ---
   /// Faces that bound exactly one solid, by ascending tag; kEdgeSamples points of each edge.
   std::vector<FaceFacts> boundary_faces();
   /// Faces of each solid in turn: those between two solids come twice.
@@ -126,6 +126,8 @@ class GmshSession {
   std::vector<double> radii(int face);
   /// The smallest of these; 0 for a plane face.
   double smallest_radius(int face);
+  /// Smallest and largest coordinates of all solids, from the edges of their faces.
+  BoxFilter extent();
 
   // --- mesh (gmsh_session.cpp) ---
   /// Linear tetrahedra in all solids, anew at each call. NumericsError, with the faces that cut

@@ -65,7 +65,7 @@ FaceTriangles triangles_of(GmshSession& session, const FaceList& list) {
   const double size = size_of_part(list.faces);
   SizeSettings sizes;
   sizes.size = size / 30;
-  sizes.min_size = size / 300;
+  sizes.min_size = size / 120;  // long narrow bores would make most of the triangles
   sizes.per_turn = 24;
   const RawMesh skin = session.generate_skin(sizes, 1);
   FaceTriangles drawn;

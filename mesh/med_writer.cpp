@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/plain_h5.hpp"
@@ -15,72 +14,6 @@ namespace {
 constexpr const char* kNoProfile = "MED_NO_PROFILE_INTERNAL";
 constexpr const char* kNoStep = "-0000000000000000001-0000000000000000001";
 constexpr size_t kLongestGroup = 80, kLongestMesh = 64;
-
-const char* name_of(CellType type) {
-  switch (type) {
-    case CellType::kTet4:
-      return "TE4";
-    case CellType::kTet10:
-      return "T10";
-    case CellType::kHex8:
-      return "HE8";
-    case CellType::kHex20:
-      return "H20";
-    case CellType::kWedge6:
-      return "PE6";
-    case CellType::kWedge15:
-      return "P15";
-    case CellType::kPyramid5:
-      return "PY5";
-    default:
-      return "P13";
-  }
-}
-
-const char* name_of(FaceType type) {
-  switch (type) {
-    case FaceType::kTri3:
-      return "TR3";
-    case FaceType::kTri6:
-      return "TR6";
-    case FaceType::kQuad4:
-      return "QU4";
-    default:
-      return "QU8";
-  }
-}
-
-/// Corners of MED's cell in ours, and its edges in the order of their middle nodes.
-struct MedCell {
-  std::vector<int> corners;
-  std::vector<Edge> edges;
-};
-
-MedCell med_cell(int corners) {
-  switch (corners) {
-    case 4:
-      return {{0, 2, 1, 3}, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-    case 8:
-      return {{0, 3, 2, 1, 4, 7, 6, 5},
-              {{0, 1},
-               {1, 2},
-               {2, 3},
-               {3, 0},
-               {4, 5},
-               {5, 6},
-               {6, 7},
-               {7, 4},
-               {0, 4},
-               {1, 5},
-               {2, 6},
-               {3, 7}}};
-    case 6:
-      return {{0, 2, 1, 3, 5, 4},
-              {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
-    default:
-      return {{0, 3, 2, 1, 4}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
-  }
-}
 
 /// Elements of one type: rows by columns, as MED stores them, their families and numbers.
 struct Elements {
@@ -182,13 +115,13 @@ class Writer {
     const auto numbers = export_cell_numbers(mesh_);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) {
       const CellBlock& block = mesh_.cells[b];
-      const std::vector<int> p = to_med(block.type);
-      Elements& elements = elements_[name_of(block.type)];
+      const CellTraits& cell = traits(block.type);
+      Elements& elements = elements_[std::string(cell.med_name)];
       const int32_t own =
           family(cell_families_, {mesh_.regions[static_cast<size_t>(block.region)]}, -1);
       for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
         std::vector<int32_t>& row = elements.nodes.emplace_back();
-        for (const int i : p) row.push_back(block.nodes(c, i) + 1);
+        for (const int i : cell.to_med) row.push_back(block.nodes(c, i) + 1);
         elements.families.push_back(own);
         elements.numbers.push_back(numbers[b][static_cast<size_t>(c)]);
         last_ = std::max(last_, elements.numbers.back());
@@ -202,7 +135,7 @@ class Writer {
     for (const ExportFace& face : export_faces(mesh_)) {
       std::vector<std::string> groups;
       for (const size_t surface : face.surfaces) groups.push_back(names[surface]);
-      Elements& elements = elements_[name_of(face.type)];
+      Elements& elements = elements_[std::string(traits(face.type).med_name)];
       std::vector<int32_t>& row = elements.nodes.emplace_back();
       for (const int32_t node : face.nodes) row.push_back(node + 1);
       elements.families.push_back(family(cell_families_, groups, -1));
@@ -254,22 +187,6 @@ class Writer {
 };
 
 }  // namespace
-
-std::vector<int> to_med(CellType type) {
-  const CellTraits& cell = traits(type);
-  const MedCell med = med_cell(cell.corners);
-  std::vector<int> p = med.corners;
-  if (cell.order == 1) return p;
-  for (const Edge& edge : med.edges) {
-    const int a = med.corners[static_cast<size_t>(edge[0])];
-    const int b = med.corners[static_cast<size_t>(edge[1])];
-    const auto at = std::find_if(cell.edges.begin(), cell.edges.end(), [&](const Edge& own) {
-      return (own[0] == a && own[1] == b) || (own[0] == b && own[1] == a);
-    });
-    p.push_back(cell.corners + static_cast<int>(at - cell.edges.begin()));
-  }
-  return p;
-}
 
 void write_med(const Mesh& mesh, const std::filesystem::path& path) {
   PlainH5 file(path);

@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "core/command_line.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "modal/analysis.hpp"
 
 namespace clatter::modal {

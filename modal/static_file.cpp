@@ -1,6 +1,7 @@
 // The file of a static solution, schema "clatter/static/1".
 #include <algorithm>
 
+#include "assembly/fe_statics_file.hpp"
 #include "core/artefact.hpp"
 #include "mesh/mesh_file.hpp"
 #include "modal/statics.hpp"
@@ -30,15 +31,7 @@ void write_static(H5File& file, const assembly::FeModel& model, const StaticSolu
   file.write("nodes", model.nodes);
   mesh::write_surfaces(file, model.surfaces);
   if (!model.cells.node_ids.empty()) file.write("node_ids", model.cells.node_ids);
-  const assembly::FeSupports& supports = model.supports;
-  if (supports.size() > 0) {
-    file.write("supports/names", supports.names);
-    file.write("supports/support", supports.support);
-    file.write("supports/labels", supports.set.labels);
-    file.write("supports/position", supports.set.position);
-    file.write("supports/direction", supports.set.direction);
-    file.write("supports/is_rotation", supports.set.is_rotation);
-  }
+  if (model.supports.size() > 0) assembly::write_supported(file, model.supports);
   if (!model.points.names.empty()) {
     file.write("points/names", model.points.names);
     file.write("points/position", model.points.position);

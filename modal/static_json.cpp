@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/command_line.hpp"
+#include "core/json_line.hpp"
 
 namespace clatter::modal {
 namespace {

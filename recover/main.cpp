@@ -6,6 +6,7 @@
 #include "core/command_line.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
+#include "core/json_line.hpp"
 #include "core/log.hpp"
 #include "core/planned_files.hpp"
 #include "recover/recover.hpp"

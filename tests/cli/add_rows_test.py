@@ -125,7 +125,7 @@ class HardC7StoredOrder(RowsTest):
     def ordering(self):
         with h5py.File(self.folder / "beam.rom.h5") as rom:
             group = rom["ordering"]
-            return group.attrs["method"], group.attrs["factor_entries"], group["permutation"][()]
+            return group.attrs["method"].decode(), group.attrs["factor_entries"], group["permutation"][()]
 
     def test_the_second_run_uses_the_stored_permutation_with_the_same_fill(self):
         (self.folder / "beam.rom.h5").unlink()

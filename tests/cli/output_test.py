@@ -37,6 +37,31 @@ class Output(stages.PipelineTest):
                 self.assertIsInstance(json.loads(done.stdout), dict)
                 self.assertIn(text, done.stderr)
 
+    # (stage, arguments behind --json, members of "error" beside program and message, words of the message)
+    ERRORS = [("mesh", ["none.mesh.toml", "-o", "x.mesh.h5"], {"file": "none.mesh.toml", "exit_code": 2}, "no such file"),
+              ("assembly", ["beam.mesh.h5", "-c", "wrong.fe.toml", "-o", "x.fe.h5"],
+               {"file": "wrong.fe.toml", "line": 3, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
+              ("modal", ["beam.mesh.h5", "-o", "x.modes.h5"], {"file": "beam.mesh.h5", "place": "schema", "exit_code": 2},
+               "found clatter/mesh/"),
+              ("condense", ["beam.fe.h5", "--nonsense"], {"exit_code": 2}, "(see clatter-condense --help)"),
+              ("dynamics", ["step.run.toml", "-o", "none/x.run.h5"], {"file": "none/x.run.h5", "exit_code": 4},
+               "cannot be written"),
+              ("recover", ["a \"b\".run.h5", "-o", "x.field.h5"], {"file": "a \"b\".run.h5", "exit_code": 2},
+               "no such file")]
+
+    def test_an_error_is_json_too_and_says_the_same_as_the_plain_line(self):
+        (self.folder / "wrong.fe.toml").write_text("[material.steel]\nE_gpa = 210.0\nrhoo = 7850.0\nnu = 0.3\n")
+        for stage, arguments, members, words in self.ERRORS:
+            with self.subTest(stage):
+                done = stages.run_stage(stage, *arguments, "--json", "--quiet", folder=self.folder)
+                error = json.loads(done.stdout)["error"]
+                self.assertEqual(done.stderr, f"{error['program']}: error: {error['message']}\n")
+                self.assertIn(words, error.pop("message"))
+                self.assertEqual(error, {"program": f"clatter-{stage}", **members})
+                self.assertEqual(done.returncode, members["exit_code"])
+                plain = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
+                self.assertEqual((plain.stdout, plain.stderr), ("", done.stderr))
+
     def test_units_that_no_material_has_are_told_once_and_not_refused(self):
         for old, new, expected in UNITS:
             with self.subTest(new):

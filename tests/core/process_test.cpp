@@ -12,7 +12,10 @@
 #include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/h5_file.hpp"
+#include "core/json_line.hpp"
 #include "core/memory_limit.hpp"
+#include "core/planned_files.hpp"
+#include "core/refusal.hpp"
 #include "core/threads.hpp"
 #include "core/whole_file.hpp"
 
@@ -127,6 +130,28 @@ TEST(CommandLine, TheDepfileNamesEachInputTwice) {
   text << std::ifstream(path).rdbuf();
   EXPECT_EQ(text.str(), "a.h5: a.toml b.csv\na.toml:\nb.csv:\n");
   std::filesystem::remove(path);
+}
+
+TEST(ErrorPlaces, AreReadOffTheMessage) {
+  const auto folder = std::filesystem::temp_directory_path() / "clatter_error_places: 7";
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "a.toml").string();
+  std::ofstream(file) << "x = 1\n";
+  const auto expect = [](const std::string& message, const ErrorPlace& expected) {
+    const ErrorPlace found = place_of(message);
+    EXPECT_EQ(found.file, expected.file) << message;
+    EXPECT_EQ(found.line, expected.line) << message;
+    EXPECT_EQ(found.place, expected.place) << message;
+  };
+  expect(file + ":3: mesh.size: found 0, expected more", {file, 3, "mesh.size"});
+  expect(file + ":3:14: not TOML: found ]", {file, 3, ""});
+  expect(file + ": K/data: checksum does not match: damaged", {file, 0, "K/data"});
+  expect(file + ": cannot be read", {file, 0, ""});
+  expect("not converged: 7 of 20 modes", {"", 0, ""});
+  std::filesystem::remove_all(folder);
+  expect(file + ":3: mesh.size: found 0", {"", 0, ""});  // neither there nor said to be used
+  will_read(file);
+  expect(file + ":3: mesh.size: found 0", {file, 3, "mesh.size"});
 }
 
 TEST(Json, QuotesAndControlCharactersAreEscaped) {

@@ -24,6 +24,22 @@ EDGES = {
 }
 LINEAR = {"TE4": "TE4", "T10": "TE4", "HE8": "HE8", "H20": "HE8", "PE6": "PE6", "P15": "PE6", "PY5": "PY5", "P13": "PY5"}
 LOWER = {"TE4": 3, "HE8": 4, "PE6": 3, "PY5": 4}  # corners of the lower face
+# Tetrahedra that fill each cell, of its corners in MED's order, all turned as MED's own tetrahedron.
+PIECES = {
+    "TE4": [(0, 1, 2, 3)],
+    "PY5": [(0, 1, 2, 4), (0, 2, 3, 4)],
+    "PE6": [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)],
+    "HE8": [(0, 1, 2, 5), (0, 2, 3, 7), (0, 5, 7, 4), (2, 7, 5, 6), (0, 2, 7, 5)],
+}
+
+
+def signed_volumes(points, rows, linear):
+    """Volume of each cell and the largest of its pieces; rows: cells x nodes from 0 in the order of MED."""
+    pieces = []
+    for a, b, c, d in PIECES[linear]:
+        x = points[rows[:, a]]
+        pieces.append(np.einsum("ij,ij->i", np.cross(points[rows[:, b]] - x, points[rows[:, c]] - x), points[rows[:, d]] - x) / 6)
+    return sum(pieces), np.max(pieces, axis=0)
 
 
 class Exports(unittest.TestCase):
@@ -95,6 +111,24 @@ class Exports(unittest.TestCase):
             number = {families[f"NOEUD/{name}"].attrs["NUM"] for name in families["NOEUD"]}
             self.assertEqual(set(node_family[mesh["node_sets/FEW & <OTHERS>"][()]]), number)
             self.assertEqual(np.count_nonzero(node_family), len(mesh["node_sets/FEW & <OTHERS>"]))
+
+    def test_every_cell_of_a_part_has_meds_orientation_and_all_of_them_its_volume(self):
+        shutil.copy(stages.SOURCE / "samples/beam/beam.mesh.toml", self.folder)
+        self.mesh("beam.mesh.toml", "-o", "beam.mesh.h5", "--export", "beam.med")
+        for name, volume in {"beam": 0.6 * 0.04 * 0.03, "cells": 2 * (1 / 6 + 1 + 1 / 2 + 1 / 3)}.items():
+            with h5py.File(self.folder / f"{name}.med") as med:
+                step = med[f"ENS_MAA/{name}/{STEP}"]
+                points, found = step["NOE/COO"][()].reshape(3, -1).T, 0.0
+                for kind, linear in LINEAR.items():
+                    if kind not in step["MAI"]:
+                        continue
+                    count = step[f"MAI/{kind}/NOD"].attrs["NBR"]
+                    rows = step[f"MAI/{kind}/NOD"][()].reshape(-1, count).T - 1
+                    cells, worst = signed_volumes(points, rows, linear)
+                    with self.subTest(part=name, kind=kind):  # MED's cells are left-handed: Gmsh turns them, too, for MED
+                        self.assertLess(worst.max(), 0)
+                    found -= cells.sum()
+            self.assertAlmostEqual(found / volume, 1, delta=1e-12)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,53 @@ import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 
+PLACE, WORD = re.compile(r"`([^`]+)`"), re.compile(r"[\w<>/]+$")
+
+
+def words(text):
+    """What stands in backticks and is a name or path, "<b>" and the like as "*"."""
+    return [re.sub("<.*?>", "*", word) for word in PLACE.findall(text) if WORD.match(word)]
+
+
+class Document:
+    """The tables of one kind of artefact in docs/formats.md: its paths, attributes and certificate."""
+
+    def __init__(self, kind, text=(stages.SOURCE / "docs/formats.md").read_text()):
+        sections = {re.match(r".*?$", part, re.M)[0]: part for part in text.split("\n## ")}
+        own = next(part for head, part in sections.items() if head.startswith(f"`.{kind}.h5`"))
+        every = sections["What every artefact carries"]
+        self.attributes = set(words(own)) | set(words(every))
+        self.paths, self.certificate = set(), set()
+        tables = own.split("| `certificate` | |\n|---|---|\n")
+        self.read(tables[0] + "".join(table.partition("\n\n")[2] for table in tables[1:]))
+        for table in tables[1:]:
+            self.certificate |= set(words(table.partition("\n\n")[0]))
+        if "| `certificate` |" in tables[0]:
+            self.certificate |= set(words(re.search(r"\| `certificate` .*", tables[0])[0]))
+        self.read(every)
+
+    def read(self, text):
+        for row in re.findall(r"^\| .*", text, re.M):
+            places, content = row.strip("| ").partition(" | ")[::2]
+            others = re.search("as in the (mesh|FE model)", content)
+            last = ""
+            for place in PLACE.findall(places):
+                place = re.sub("<.*?>", "*", place)
+                last = last.rpartition("/")[0] + place if place.startswith("/") else place
+                self.paths.add(last)
+                self.paths |= {f"{last}/{word}" for word in words(content)}
+                if others:
+                    whole = Document("mesh" if others[1] == "mesh" else "fe")
+                    self.paths |= {path for path in whole.paths if path.startswith(last.partition("/")[0])}
+                    self.attributes |= whole.attributes
+
+    def says(self, path):
+        """Whether a dataset or group of that path is in a table."""
+        pattern = path.split("/")
+        return any(len(known := place.split("/")) >= len(pattern) and
+                   all(a in ("*", b) for a, b in zip(known, pattern)) for place in self.paths)
+
+
 class Formats(stages.PipelineTest):
     def test_the_three_lines_read_a_stiffness_matrix_that_scipy_can_use(self):
         code = re.search(r"```python\n(.*?)```", (stages.SOURCE / "docs/formats.md").read_text(), re.S)[1]
@@ -37,14 +84,57 @@ class Formats(stages.PipelineTest):
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(artefact=path.name), h5py.File(path) as file:
                 kind = path.name.split(".")[1]
-                self.assertEqual(file.attrs["schema"].split("/")[1], kind)
-                self.assertIn(file.attrs["schema"], self.documented_schemas())
+                schema = file.attrs["schema"].decode()
+                self.assertEqual(schema.split("/")[1], kind)
+                self.assertIn(schema, self.documented_schemas())
                 self.assertIn("version", file.attrs)
                 self.assertIn("config", file.attrs)
                 self.assertEqual(len(file["inputs/path"]), len(file["inputs/sha256"]))
                 self.assertGreater(len(file["inputs/path"]), 0)
                 self.assertGreater(file["timing"].attrs["total_seconds"], 0)
                 self.assertTrue(np.all(file["timing/seconds"][()] >= 0))
+
+    def names(self, path):
+        """(what, whether the document says it) of all groups, datasets, attributes and certificate keys of a file."""
+        document, found = Document(path.name.split(".")[1]), []
+
+        def look(name, item):
+            matrix, _, leaf = name.rpartition("/")
+            if leaf in ("data", "indices", "indptr") and "format" in item.parent.attrs:
+                return self.assertIn(matrix.rpartition("/")[2], {"K", "M", "T", "T_s", "K_sq", "K_ss"})
+            if name == "certificate":
+                known = [word.replace("*", "") for word in document.certificate]
+                found.extend((f"certificate@{key}", any(key == word or "_" == word[-1] and key.startswith(word) for word in known))
+                             for key in item.attrs)
+                return None
+            found.append((name, document.says(name)))
+            sparse = {"format", "shape", "symmetric"} if "format" in item.attrs else set()
+            found.extend((f"{name}@{key}", key in document.attributes | {"unit", "meaning"}) for key in set(item.attrs) - sparse
+                         if not name.startswith("cases/"))  # named after the loads
+            return None
+        with h5py.File(path) as file:
+            found.extend((f"@{key}", key in document.attributes) for key in file.attrs)
+            file.visititems(look)
+        return found
+
+    def test_a_name_that_the_document_does_not_say_is_found(self):
+        document = Document("fe")
+        for path in ("K", "sets/tip/dofs", "supports/T_s", "materials/0/axes/frame", "timing/peak_gib"):
+            self.assertTrue(document.says(path), path)
+        for path in ("Q", "sets/tip/axis", "dofs", "loads/tip/force", "quality"):
+            self.assertFalse(document.says(path), path)
+
+    def test_every_name_in_an_artefact_stands_in_the_document(self):
+        stages.run_stage("modal", "beam.fe.h5", "--static", "-o", "beam.static.h5", folder=self.folder)
+        stages.run_stage("mesh", "--faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
+        kinds = set()
+        for path in sorted(self.folder.glob("*.h5")):
+            with self.subTest(artefact=path.name):
+                names = self.names(path)
+                self.assertGreater(len(names), 10)
+                self.assertEqual([name for name, said in names if not said], [])
+                kinds.add(path.name.split(".")[1])
+        self.assertEqual(kinds, {schema.split("/")[1] for schema in self.documented_schemas()})
 
 
 if __name__ == "__main__":

@@ -34,6 +34,11 @@ def open_artefact(path, kind=None):
     return file
 
 
+def configuration(file):
+    """The resolved configuration: an attribute, or a dataset of one text where it is over 60 000 bytes long."""
+    return text(file["config"][0] if "config" in file else file.attrs.get("config", ""))
+
+
 def dataset(file, name):
     """A dataset's values; BadArtefact names the file and what it holds in that place when it is absent."""
     if name in file:

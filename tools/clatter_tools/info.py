@@ -68,4 +68,4 @@ def print_verified(path):
 def print_config(path):
     """Prints the resolved configuration that the stage ran with."""
     with artefact.open_artefact(path) as file:
-        print(artefact.text(file.attrs.get("config", "")))
+        print(artefact.configuration(file))

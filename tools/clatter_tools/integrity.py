@@ -1,4 +1,4 @@
-"""Checksums of an artefact: which datasets have one (HDF5's Fletcher32), and whether every number is as it was written."""
+"""Checksums of an artefact: which datasets and texts have one, and whether all is as it was written."""
 import h5py
 
 from .artefact import BadArtefact
@@ -8,12 +8,14 @@ SHOWN = 5
 
 
 def objects(group, damaged):
-    """Datasets (path, dataset) below a group; the paths of objects that cannot be opened join `damaged`."""
+    """(path, item) of a group, all groups and datasets below it; the paths of those that cannot be opened join `damaged`."""
     try:
         names = sorted(group)
+        dict(group.attrs)
     except UNREADABLE:
         damaged.append(group.name)
         return
+    yield group.name, group
     for name in names:
         try:
             item = group[name]
@@ -32,15 +34,27 @@ def has_checksum(dataset):
     return dataset.fletcher32 or not dataset.size
 
 
+def loose_texts(item):
+    """Its attributes that are texts of variable length: HDF5 keeps them in a heap without checksums."""
+    return [f"{item.name}@{name}" for name in item.attrs if item.attrs.get_id(name).dtype.kind == "O"]
+
+
+def without_checksum(found):
+    """Datasets and attributes of these objects (path, item) that are not checked on reading."""
+    return [name for name, item in found if isinstance(item, h5py.Dataset) and not has_checksum(item)] + [
+        text for _, item in found for text in loose_texts(item)]
+
+
 def describe(file):
-    """One line: "checksums of all 34 datasets", "no checksums", "checksums of 30 of 34 datasets: without: nodes"."""
+    """One line: "checksums of all 34 datasets and all attributes", "no checksums", "no checksums of 2 places: nodes, ..."."""
     found = list(objects(file, []))
-    without = [name for name, item in found if not has_checksum(item)]
+    sets = [item for _, item in found if isinstance(item, h5py.Dataset)]
+    without = without_checksum(found)
     if not without:
-        return f"checksums of all {len(found)} datasets"
-    if len(without) == sum(bool(item.size) for _, item in found):
+        return f"checksums of all {len(sets)} datasets and all attributes"
+    if not any(item.fletcher32 for item in sets):
         return "no checksums: numbers that were damaged cannot be told from right ones"
-    return f"checksums of {len(found) - len(without)} of {len(found)} datasets, none of {shown(without)}"
+    return f"checksums, but none of {len(without)} places: {shown(without)}"
 
 
 def shown(names):
@@ -58,12 +72,13 @@ def pieces(dataset):
 
 def verify(path, file):
     """Reads everything; returns a line of praise, or BadArtefact names what is damaged or cannot be verified."""
-    damaged, without, count, size = [], [], 0, 0
-    for name, item in objects(file, damaged):
+    damaged, count, size = [], 0, 0
+    found = list(objects(file, damaged))
+    for name, item in found:
+        if not isinstance(item, h5py.Dataset):
+            continue
         count += 1
         size += item.size * item.dtype.itemsize
-        if not has_checksum(item):
-            without.append(name)
         try:
             for piece in pieces(item):
                 item[piece]
@@ -71,6 +86,7 @@ def verify(path, file):
             damaged.append(name)
     if damaged:
         raise BadArtefact(f"{path}: damaged after it was written: {shown(damaged)}")
+    without = without_checksum(found)
     if without:
-        raise BadArtefact(f"{path}: cannot be verified, no checksums of {len(without)} datasets: {shown(without)}")
-    return f"{path}: {count} datasets, {size / 1e6:.1f} MB: every number is as it was written"
+        raise BadArtefact(f"{path}: cannot be verified, no checksums of {len(without)} places: {shown(without)}")
+    return f"{path}: {count} datasets, {size / 1e6:.1f} MB: every number and text is as it was written"

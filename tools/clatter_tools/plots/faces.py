@@ -13,7 +13,7 @@ from . import raster, style
 # Azimuth, elevation [deg], direction along which the half beyond the middle is cut away.
 VIEWS = [(40, 25, None), (220, 25, None), (130, -30, None), (310, -30, None), (40, 25, (1, 0, 0)), (100, 25, (0, 1, 0))]
 KINDS = {"plane": "#c8ccd0", "cylinder": "#56B4E9", "cone": "#E69F00", "torus": "#009E73", "sphere": "#CC79A7",
-         "revolved": "#F0E442", "spline": "#D9A48F", "other": "#999999"}
+         "revolved": "#F0E442", "spline": "#D9A48F", "other": "#9A86C9"}
 SIZE = (900, 700)  # pixels of a view
 LISTED = 20  # of the faces that no view shows
 SMALLEST = 40  # pixels that a face must show to get its number
@@ -102,7 +102,17 @@ def seen(points, triangles, face, kinds, azimuth, elevation):
         canvas.draw(corners[keep][chosen], value[chosen], np.zeros((len(chosen), 3), bool), weights, 0.0)
     pixels = canvas.image.reshape(SIZE[1], SIZE[0], 4)[::-1]
     ids = np.where(pixels[..., 3] > 0, np.rint(pixels[..., 0]), 0).astype(int)
-    return shaded(ids, pixels[..., 1], kinds), ids
+    ids, bright = without_specks(ids, pixels[..., 1])
+    return shaded(ids, bright, kinds), ids
+
+
+def without_specks(ids, bright):
+    """The same without pixels that lie alone between two of one face, or of none: where a face is seen from its edge."""
+    for axis in (0, 1):
+        before = np.roll(ids, 1, axis)
+        alone = (before == np.roll(ids, -1, axis)) & (ids != before)
+        ids, bright = np.where(alone, before, ids), np.where(alone, np.roll(bright, 1, axis), bright)
+    return ids, bright
 
 
 def shaded(ids, bright, kinds):
