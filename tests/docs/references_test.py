@@ -26,7 +26,8 @@ NAME = r"(?:(?:van|von|de) )?[A-Z](?:'[A-Z])?[a-zé]+(?:[A-Z][a-z]+)?(?:-[A-Z][a
 NAMES = rf"{NAME}(?:, {NAME})*(?:,? and {NAME}| et al\.| and others)?"
 YEAR = r"(?:18|19|20)\d\d"
 # Where something was published: a title in quotes, a book's title, a journal with its volume.
-WHERE = (r"(?:\"[^\"]{5,140}\",? )?(?:in )?(?:(?:[A-Z][\w'-]*\.?|\d+(?:th|st|nd|rd)?|of|the|and|for|to|in|[a-z]+-[a-z]+)[.,:]?(?:\([\d-]+\))?,? ){1,14}")
+WORDS = r"(?:(?:[A-Z][\w'-]*\.?|\d+(?:th|st|nd|rd)?|of|the|and|for|to|in|[a-z]+-[a-z]+)[.,:]?(?:\([\d-]+\))?,? )"
+WHERE = rf"(?:\"[^\"]{{5,140}}\",? (?:in )?{WORDS}{{0,14}}|(?:in )?{WORDS}{{1,14}})"
 SHORT = re.compile(rf"\b(?P<names>{NAMES}),? \(?(?P<years>{YEAR}(?:, {YEAR})*)[a-z]?\b")
 LONG = re.compile(rf"\b(?P<names>{NAMES}), (?=\"|[A-Z]|in [A-Z]){WHERE}\(?(?P<years>{YEAR})\b")
 STANDARD = re.compile(r"\b(?P<body>ISO|IEC)(?:/TS)? (?P<number>\d{3,5}(?:-\d)?)\b")
