@@ -106,6 +106,7 @@ class Blocks(unittest.TestCase):
 
 class Run(stages.PipelineTest):
     """Every clatter command of a README's block, on the beam."""
+    before = {}  # {text of a command: what is to be done before it}
 
     def setUp(self):
         super().setUp()
@@ -130,12 +131,10 @@ class Run(stages.PipelineTest):
             text = command.text
             for name, ours in NAMES.items():
                 text = re.sub(rf"\b{name}\b", ours, text)
-            before = getattr(self, "before", {}).get(command.text)
-            if before:
-                before()
+            self.before.get(command.text, lambda: None)()
             with self.subTest(command=str(command)):
                 done = subprocess.run(["bash", "-c", text], cwd=self.folder, env=self.environment, capture_output=True,
-                                      text=True, timeout=120)
+                                      text=True, timeout=300)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 output = re.search(r" -o (\S+)", text)
                 if output:
@@ -155,8 +154,7 @@ class Run(stages.PipelineTest):
         self.named(block__mesh__h5="beam.mesh.h5", block__fe__toml="beam.fe.toml")
         stages.run_stage("condense", "beam.rom.h5", "--export", "part.mtx", folder=self.folder)
         (self.folder / "part.fe.toml").write_text('[matrices]\nK = "part.K.mtx"\nM = "part.M.mtx"\ndofs = "part.dofs.tsv"\n')
-        self.before = {next(command.text for command in commands.all_commands() if "clatter-assembly beam.mesh.h5" in command.text):
-                       self.matrices_of_the_mesh}
+        self.before = {"clatter-assembly beam.mesh.h5 -c beam.fe.toml -o beam.fe.h5": self.matrices_of_the_mesh}
         self.run_blocks("assembly/README.md")
 
     def matrices_of_the_mesh(self):
