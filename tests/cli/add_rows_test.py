@@ -120,7 +120,7 @@ class AddRows(RowsTest):
 
 
 class HardC7StoredOrder(RowsTest):
-    """hard-cases.md C7: the order of elimination is found once, kept in the file and used again."""
+    """Hard case C7: the order of elimination is found once, kept in the file and used again."""
 
     def ordering(self):
         with h5py.File(self.folder / "beam.rom.h5") as rom:

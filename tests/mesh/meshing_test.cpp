@@ -1,4 +1,4 @@
-// Hard cases of gmsh and OpenCASCADE (hard-cases.md, section G), on small parts.
+// Hard cases of gmsh and OpenCASCADE (docs/hard-cases.md, section G), on small parts.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -69,8 +69,7 @@ int64_t count_negative(const Mesh& mesh, const std::vector<Eigen::Vector4d>& poi
 }
 
 // The block of hard case G2: 3.5 mm wall around a bore. With h = 20 as the largest size gmsh 4.8.4
-// makes 1126 cells (hard-cases.md has 1130 of a slightly other mesh, 4 folded): 6 are folded at
-// their corners, none at the four Gauss points.
+// makes 1126 cells: 6 are folded at their corners, none at the four Gauss points.
 TEST(Gmsh, HardG2_FoldedCellsBehindAThinRoundWallAreFoundAndRepaired) {
   const auto thin_wall = [](GmshSession& session) {
     return session.cut({session.box({-50, -50, 0}, {50, 50, 150})},
