@@ -128,5 +128,16 @@ TEST(AbaqusSteps, OnTheStiffnessOfLoadsAreLeftOutWithAllBehindThem) {
   EXPECT_THAT(large.notes[0], HasSubstr("its displacements are large (NLGEOM)"));
 }
 
+TEST(AbaqusSteps, AnEmptyOneAtTheEndIsLeftOutAloud) {
+  const std::string push = "*STEP\n*STATIC\n*CLOAD\n5, 1, 1.\n*END STEP\n";
+  const Deck deck = read(kModel + push + "*STEP\n");
+  EXPECT_EQ(deck.steps.size(), 1u);
+  ASSERT_EQ(deck.notes.size(), 1u);
+  EXPECT_THAT(deck.notes[0], HasSubstr("deck.inp:29: the deck ends here, with a *STEP that is empty"));
+  EXPECT_THAT(refusal(kModel + push + "*STEP\n*STATIC\n"),
+              HasSubstr("deck.inp:29: found *STEP without *END STEP"));
+  EXPECT_THAT(refusal(kModel + "*STEP\n"), HasSubstr("deck.inp:24: found *STEP without"));
+}
+
 }  // namespace
 }  // namespace clatter::mesh::deck::testing
