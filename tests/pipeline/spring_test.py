@@ -61,7 +61,7 @@ DECK = f"""*NODE, NSET=NALL
 9, 1, 3
 """
 PUSH = "*STEP\n*STATIC\n*CLOAD\n6, 1, 1.\n6, 3, 2.\n*NODE PRINT, NSET=NALL\nU\n*END STEP\n"
-MODES = "*STEP\n*FREQUENCY\n6\n*END STEP\n"
+MODES = "*STEP\n*FREQUENCY\n4\n*END STEP\n"  # more are too many for 24 unknowns of CalculiX
 NODES = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]) * SIDE
 
 
@@ -113,9 +113,9 @@ class Springs(unittest.TestCase):
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX (package calculix-ccx) is not installed")
     def test_frequencies_are_those_of_calculix(self):
         rows = [line.split() for line in self.calculix(MODES).splitlines()]
-        theirs = np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()][:6])
+        theirs = np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()][:4])
         # Seven digits are printed.
-        self.assertLess(np.abs(self.hz / theirs - 1).max(), 2e-6)
+        self.assertLess(np.abs(self.hz[:4] / theirs - 1).max(), 2e-6)
 
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX (package calculix-ccx) is not installed")
     def test_displacements_are_those_of_calculix(self):
