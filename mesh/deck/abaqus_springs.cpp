@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "mesh/deck/abaqus_reading.hpp"
 
@@ -131,14 +132,17 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
 }  // namespace
 
 void read_springs(Reading* reading) {
-  std::vector<Spot> described;
+  std::set<Spot> described;
   const size_t refused = reading->refusals->size();
   bool said = false;
   for_each_card(*reading, {"SPRING", "DASHPOT"}, [&](size_t use, const Card& card) {
     const bool spring = card.keyword().key == "SPRING";
     card.keyword().allow({"ELSET", "NONLINEAR"}, reading->source, reading->ignore);
     for (const PointElement& element : point_elements(reading, use, card, card.keyword().key)) {
-      described.push_back(element.spot);
+      if (!described.insert(element.spot).second) {
+        reading->source.fail(card.spot(), fmt::format("{}: element {} has a value already",
+                                                      card.keyword().name, element.id));
+      }
       if (spring) reading->refusals->attempt([&] { add_spring(reading, element, card); });
     }
     if (spring || said) return;
@@ -148,11 +152,10 @@ void read_springs(Reading* reading) {
         reading->source.where(card.spot())));
   });
   if (reading->refusals->size() > refused) return;
-  std::sort(described.begin(), described.end());
   for (const PointElement& element : reading->model->points()) {
     const bool spring = element.type.starts_with("SPRING");
     if (!spring && !element.type.starts_with("DASHPOT")) continue;
-    if (!std::binary_search(described.begin(), described.end(), element.spot)) {
+    if (!described.contains(element.spot)) {
       reading->refusals->add(fmt::format("{}: element {} of type {} has no value (*{})",
                                          reading->source.where(element.spot), element.id,
                                          element.type, spring ? "SPRING" : "DASHPOT"));

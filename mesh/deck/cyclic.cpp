@@ -12,9 +12,9 @@
 namespace clatter::mesh::deck {
 namespace {
 
-constexpr double kApart = 1e-4;  // of the sides' extent: coordinates have six digits
-constexpr double kAlong = 1e-9;  // sine of the angle between an axis and the ring's
-constexpr int64_t kMostNodes = int64_t{1} << 26;
+constexpr double kApart = 1e-4;              // of the sides' extent: coordinates have six digits
+constexpr double kAlong = 1e-9;              // sine of the angle between an axis and the ring's
+constexpr int64_t kMost = int64_t{1} << 27;  // nodes, cells, faces, members of sets, loads
 
 Eigen::Matrix3d turn(const CyclicSector& sector, double sectors) {
   const double angle = 2.0 * std::numbers::pi * sectors / sector.count;
@@ -70,11 +70,6 @@ int32_t label(const std::vector<int32_t>& ids, int32_t at) {
 class Ring {
  public:
   Ring(const Mesh& mesh, const CyclicSector& sector) : sector_(sector), n_(mesh.nodes.rows()) {
-    if (n_ * sector.count > kMostNodes)
-      throw InputError(
-          fmt::format("{}: {} sectors of {} nodes are too many, expected {} nodes of "
-                      "the ring at most",
-                      sector.where, sector.count, n_, kMostNodes));
     join(mesh);
     int32_t next = static_cast<int32_t>(n_);
     node_.resize(static_cast<size_t>(sector.count));
@@ -147,6 +142,25 @@ class Ring {
   std::vector<std::vector<int32_t>> node_;
   int32_t size_ = 0;
 };
+
+// All that is copied, of one sector.
+int64_t size_of(const Deck& deck) {
+  const Mesh& mesh = deck.mesh;
+  auto size = static_cast<int64_t>(mesh.nodes.rows()) + mesh.cell_count();
+  for (const auto& [name, surface] : mesh.surfaces) size += surface.face_count();
+  for (const auto& [name, nodes] : mesh.node_sets) size += static_cast<int64_t>(nodes.size());
+  for (const auto& [name, field] : mesh.fields) size += field.size();
+  const auto add = [&](const std::vector<Support>& supports) {
+    for (const Support& support : supports) size += static_cast<int64_t>(support.places.size());
+  };
+  add(deck.supports);
+  add(deck.retained);
+  for (const Step& step : deck.steps) {
+    add(step.supports);
+    size += static_cast<int64_t>(step.forces.size());
+  }
+  return size;
+}
 
 class Unfolding {
  public:
@@ -348,6 +362,12 @@ void unfold(Deck* deck, const CyclicSector& sector) {
     throw InputError(
         fmt::format("{}: found node {}, which belongs to no cell, expected cells alone",
                     sector.where, deck->points.front().id));
+  const int64_t size = size_of(*deck);
+  if (size > kMost / sector.count)
+    throw InputError(
+        fmt::format("{}: found {} sectors of {} nodes, cells, faces, members of sets and "
+                    "loads, expected at most {} of the ring",
+                    sector.where, sector.count, size, kMost));
   Unfolding(deck, sector).run();
 }
 

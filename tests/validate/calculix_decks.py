@@ -29,7 +29,7 @@ from stage_run import run
 DECKS = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
 PRINTED = 6e-7  # seven digits are printed
 
-ROUNDED = 1e-5  # sides of a sector lie on each other to six digits
+ROUNDED = 2e-5  # sides of a sector lie on each other to six digits
 RING = "the sector is turned round into the ring: their frequencies of some nodal diameters among ours of all"
 
 # name, what it shows, largest error allowed, words for one that is larger than the digits printed
@@ -121,7 +121,7 @@ SECTORS = 12  # of all of them
 INSTALLED = [
     ("mpcforce", "equations across two materials", PRINTED, ""),
     ("segmentm", "transform, equations", PRINTED, ""),
-    ("disk2", "centrifugal force on a part, transform, equations", 1e-2, "clatter's load is exact, CalculiX takes the eight points of K"),
+    ("disk2", "centrifugal force on a part, transform, equations", 1e-4, "clatter's load is exact, CalculiX takes the eight points of K"),
     ("distcoup", "distributing coupling off its centre", PRINTED, "read with --ignore MOMENT"),
     ("sens_orien1", "first step: orthotropic, orientation", PRINTED, "the sensitivity is left out"),
     ("sensitivity_I", "first step: forces", PRINTED, "the sensitivity is left out"),

@@ -61,6 +61,8 @@ TEST(AbaqusSpring, WithoutMeaningIsRefusedByLine) {
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=SPRING1, ELSET=SPR\n7, 7\n"
                                "*SPRING, ELSET=SPR\n4\n1.\n"),
               HasSubstr("deck.inp:25: element 7: node 7 has no rotations"));
+  EXPECT_THAT(refusal(kModel + kAxial + "*SPRING, ELSET=SPR\n\n1.\n*SPRING, ELSET=SPR\n\n2.\n"),
+              HasSubstr("deck.inp:29: *SPRING: element 7 has a value already"));
   EXPECT_THAT(refusal(kModel + "*SPRING, ELSET=EALL\n\n1.\n"),
               HasSubstr("*SPRING: expected elements SPRING in EALL"));
 }
@@ -133,7 +135,8 @@ TEST(AbaqusSteps, AnEmptyOneAtTheEndIsLeftOutAloud) {
   const Deck deck = read(kModel + push + "*STEP\n");
   EXPECT_EQ(deck.steps.size(), 1u);
   ASSERT_EQ(deck.notes.size(), 1u);
-  EXPECT_THAT(deck.notes[0], HasSubstr("deck.inp:29: the deck ends here, with a *STEP that is empty"));
+  EXPECT_THAT(deck.notes[0],
+              HasSubstr("deck.inp:29: the deck ends here, with a *STEP that is empty"));
   EXPECT_THAT(refusal(kModel + push + "*STEP\n*STATIC\n"),
               HasSubstr("deck.inp:29: found *STEP without *END STEP"));
   EXPECT_THAT(refusal(kModel + "*STEP\n"), HasSubstr("deck.inp:24: found *STEP without"));
