@@ -124,10 +124,21 @@ void require_positive(const mesh::Mesh& mesh, const mesh::CellBlock& block, Eige
       at(0), at(1), at(2), jacobian));
 }
 
+bool in_one_body(const std::vector<int32_t>& rigid_of_node, const mesh::CellBlock& block,
+                 Eigen::Index cell) {
+  if (rigid_of_node.empty()) return false;
+  const int32_t body = rigid_of_node[static_cast<size_t>(block.nodes(cell, 0))];
+  if (body < 0) return false;
+  for (const int32_t node : block.nodes.row(cell))
+    if (rigid_of_node[static_cast<size_t>(node)] != body) return false;
+  return true;
+}
+
 }  // namespace
 
 NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                       const NodePattern& pattern, MassForm form) {
+                       const NodePattern& pattern, MassForm form,
+                       const std::vector<int32_t>& rigid_of_node) {
   const int64_t n = pattern.nodes();
   const PredictedSize size = predict_size(n, pattern.start.back() - n);
   NodalMatrices out;
@@ -149,6 +160,7 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
           compute_element(block.type, mesh::cell_nodes(mesh, block, first + c), material, cell);
           require_positive(mesh, block, first + c, cell.min_jacobian);
           if (form == MassForm::kHrz) lump_hrz(cell.mass);
+          if (in_one_body(rigid_of_node, block, first + c)) cell.stiffness.setZero();
         }
       });
       parallel_pieces(owners, [&](int64_t begin, int64_t end) {

@@ -24,7 +24,12 @@ enum class MassForm { kConsistent, kHrz };
 /// each thread to the columns of its own nodes and in the order of the cells. So every entry is
 /// summed in one order, and the bits do not depend on the thread count. Beyond M, K and the
 /// pattern only one chunk is held. InputError names an inverted cell.
+///
+/// `rigid_of_node` (n_nodes, or none) says which rigid body a node belongs to, -1 for no one: a
+/// cell whose nodes all belong to one body does not deform, and its stiffness, of which elimination
+/// would leave rounding, is left out.
 NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                       const NodePattern& pattern, MassForm mass = MassForm::kConsistent);
+                       const NodePattern& pattern, MassForm mass = MassForm::kConsistent,
+                       const std::vector<int32_t>& rigid_of_node = {});
 
 }  // namespace clatter::assembly

@@ -11,6 +11,7 @@
 #include "assembly/load_builder.hpp"
 #include "assembly/mass_properties.hpp"
 #include "assembly/point_mass.hpp"
+#include "assembly/spring.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
@@ -126,7 +127,8 @@ void Builder::add_point_masses() {
   model.mass = properties_of(moments);
 }
 
-/// A rigid body that nothing elastic holds leaves rounding, of either sign, on the diagonal of K.
+/// A rigid body that nothing elastic holds moves freely: K is zero there, exactly where its cells
+/// are its own. Otherwise elimination leaves rounding of either sign, which is no stiffness.
 void Builder::check_stiffness() const {
   const FeModel& model = out_.model;
   if (model.size() == 0) return;
@@ -137,7 +139,8 @@ void Builder::check_stiffness() const {
     if (!turns(set)) continue;
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       const double unit = set.is_rotation[k] != 0 ? length * length : 1.0;
-      if (diagonal(set.dofs[k]) > kNoStiffness * unit * diagonal.maxCoeff()) continue;
+      const double stiffness = diagonal(set.dofs[k]);
+      if (stiffness == 0.0 || stiffness > kNoStiffness * unit * diagonal.maxCoeff()) continue;
       throw InputError(fmt::format(
           "{}: found no stiffness against {}: {} moves a rigid body that nothing elastic holds, "
           "expected supports of it or a coupling to what deforms",
@@ -147,14 +150,18 @@ void Builder::check_stiffness() const {
 }
 
 /// A reference whose motion moves nothing in some combination would leave M without an inverse.
+/// What springs alone hold has no mass: modes leave such coordinates out.
 void Builder::check_points() const {
   for (const auto& [name, set] : out_.model.sets) {
     if (!turns(set)) continue;
-    const auto n = static_cast<Eigen::Index>(set.dofs.size());
+    std::vector<int32_t> dofs = set.dofs;
+    std::erase_if(dofs, [&](int32_t dof) { return out_.model.M.coeff(dof, dof) == 0.0; });
+    const auto n = static_cast<Eigen::Index>(dofs.size());
+    if (n == 0) continue;
     Eigen::MatrixXd block(n, n);
     for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = 0; b <= a; ++b) {
-        const int32_t i = set.dofs[static_cast<size_t>(a)], j = set.dofs[static_cast<size_t>(b)];
+        const int32_t i = dofs[static_cast<size_t>(a)], j = dofs[static_cast<size_t>(b)];
         block(a, b) = block(b, a) = out_.model.M.coeff(std::max(i, j), std::min(i, j));
       }
     const Eigen::VectorXd scale = block.diagonal().cwiseSqrt().cwiseInverse();
@@ -177,17 +184,19 @@ void Builder::run(StepClock& clock) {
   model.surfaces = mesh_.surfaces;
   model.cells = {mesh_.regions, recipe_.materials, mesh_.cells, mesh_.node_ids};
 
-  const NodePattern pattern = node_pattern(mesh_);
-  clock.lap("pattern");
-  NodalMatrices matrices = assemble(mesh_, recipe_.materials, pattern, recipe_.mass);
-  clock.lap("assemble");
   constrained_ = constrain(mesh_, recipe_, numbers_, surfaces_);
   take_coordinates();
   clock.lap("couplings");
+  const NodePattern pattern = node_pattern(mesh_);
+  clock.lap("pattern");
+  NodalMatrices matrices =
+      assemble(mesh_, recipe_.materials, pattern, recipe_.mass, constrained_.rigid_of_node);
+  clock.lap("assemble");
   const Eigen::MatrixXd body_force = momentum(matrices.M);
   SupportBlocks blocks;
   transform(matrices.K, constrained_.elimination, &blocks);
   transform(matrices.M, constrained_.elimination);
+  add_springs(recipe_.springs, constrained_.springs, constrained_.elimination, matrices.K, blocks);
   // Swapped, since Eigen 3.4 copies where std::move is asked for.
   model.K.swap(matrices.K);
   model.M.swap(matrices.M);

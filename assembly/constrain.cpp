@@ -186,7 +186,12 @@ void Constrainer::drop_loose(const std::string& name, const std::string& where,
 }
 
 void Constrainer::drop_loose() {
-  const std::vector<bool> moves = eliminator_->moves_nodes(numbers_.nodal());
+  std::vector<bool> moves = eliminator_->moves_nodes(numbers_.nodal());
+  for (const Functional& spring : out_.springs) {
+    for (const int32_t id : spring.dofs) moves[static_cast<size_t>(id)] = true;
+    for (const int32_t id : eliminator_->express(spring).dofs)
+      moves[static_cast<size_t>(id)] = true;
+  }
   const std::vector<bool> massive = massive_ids();
   for (size_t p = 0; p < recipe_.points.size(); ++p)
     drop_loose(recipe_.points[p].point.name, recipe_.points[p].where,
@@ -258,6 +263,9 @@ void Constrainer::finish() {
   out_.rigid.resize(e.size(), 6);
   out_.rigid_s.resize(e.supports(), 6);
   out_.held.resize(static_cast<size_t>(e.supports()));
+  out_.grounded.resize(static_cast<Eigen::Index>(grounded_.size()), 6);
+  for (size_t r = 0; r < grounded_.size(); ++r)
+    out_.grounded.row(static_cast<Eigen::Index>(r)) = grounded_[r];
   const auto given = static_cast<size_t>(numbers_.count());
   for (size_t id = 0; id < e.reduced_of.size(); ++id) {
     if (e.reduced_of[id] < 0 && e.support_of[id] < 0) continue;
@@ -274,10 +282,12 @@ void Constrainer::finish() {
 
 Constrained Constrainer::run() {
   out_.nodal_rigid = rigid_of(mesh_.nodes, numbers_);
+  out_.rigid_of_node.assign(static_cast<size_t>(mesh_.nodes.rows()), -1);
   gather_supports();
   gather_node_sets();
   gather_couplings();
   gather_equations();
+  gather_springs();
   gather_straight_edges();
   gather_ties();
   start_elimination();

@@ -22,6 +22,9 @@ struct Constrained {
   Eigen::MatrixXd rigid;        // n x 6: the same in coordinates q
   Eigen::MatrixXd rigid_s;      // n_s x 6: in supported coordinates
   Eigen::MatrixXd grounded;     // k x 6: rigid motions c with grounded c = 0 satisfy all equations
+                                // and stretch no spring
+  std::vector<Functional> springs;     // elongation of each [[spring]]
+  std::vector<int32_t> rigid_of_node;  // n_nodes: id of the rigid body that it belongs to, or -1
   std::map<std::string, DofSet> sets;
   std::map<std::string, ContactGrid> grids;
   std::vector<HeldDof> held;  // n_s, in the order of the supported coordinates

@@ -32,10 +32,13 @@ class Constrainer {
   void gather_node_sets();
   void gather_couplings();
   void gather_equations();
+  void gather_springs();
+  void note_grounded(const std::vector<EquationSpec::Term>& terms);
   void gather_straight_edges();
   void gather_ties();
   void add_tie(const TieSpec& spec, int32_t jump);
   void add_rigid(const CouplingSpec& spec);
+  void note_rigid(const CouplingSpec& spec, DofPlace place, int32_t reference);
   void add_onto_point(const CouplingSpec& spec);
   void depend(int32_t dof, Functional on, int relation);
   Functional term(const EquationSpec::Term& term) const;
@@ -74,6 +77,7 @@ class Constrainer {
   std::map<std::string, ReferenceDofs> own_references_;  // of rigid couplings, by set
   int32_t next_own_ = 0;                                 // first id of the next one
   std::vector<Eigen::RowVectorXd> motion_;               // of generalised ids
+  std::vector<Eigen::RowVectorXd> grounded_;             // rows of Constrained::grounded
   std::unique_ptr<Eliminator> eliminator_;
 };
 

@@ -138,9 +138,21 @@ void Constrainer::add_rigid(const CouplingSpec& spec) {
   }
   std::set<int32_t> done;  // a node of two places follows once
   for (const TermSpec& followers : spec.terms)
-    for (const DofPlace place : places_of(followers.place, mesh_, numbers_))
+    for (const DofPlace place : places_of(followers.place, mesh_, numbers_)) {
+      note_rigid(spec, place, reference.ids[3]);
       for (Dependence& one : rigid_dependences(numbers_, place, spec.directions, reference))
         if (done.insert(one.dof).second) depend(one.dof, std::move(one.on), relation);
+    }
+  if (spec.on_point.empty()) return;
+  const int32_t node = numbers_.points()[static_cast<size_t>(point_named(spec.on_point))].node;
+  if (node >= 0) out_.rigid_of_node[static_cast<size_t>(node)] = reference.ids[3];
+}
+
+/// Cells between nodes of one rigid body do not deform.
+void Constrainer::note_rigid(const CouplingSpec& spec, DofPlace place, int32_t reference) {
+  const bool wholly = std::count_if(spec.directions.begin(), spec.directions.end(),
+                                    [](int d) { return d < 3; }) == 3;
+  if (wholly && !place.is_point()) out_.rigid_of_node[static_cast<size_t>(place.index)] = reference;
 }
 
 void Constrainer::add_onto_point(const CouplingSpec& spec) {
@@ -173,29 +185,47 @@ Functional Constrainer::term(const EquationSpec::Term& term) const {
   return {{numbers_.of(place, term.direction)}, {term.coefficient}};
 }
 
+/// Keeps what a sum of terms makes of the unit rigid motions, when it is anything.
+void Constrainer::note_grounded(const std::vector<EquationSpec::Term>& terms) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6), alone = sum;
+  for (const EquationSpec::Term& part : terms) {
+    const Functional one = term(part);
+    const Eigen::RowVectorXd motion = one.values[0] * out_.nodal_rigid.row(one.dofs[0]);
+    sum += motion;
+    alone += motion.cwiseAbs();
+  }
+  if ((sum.cwiseAbs().array() > kGrounded * alone.maxCoeff()).any())
+    grounded_.push_back(sum / alone.maxCoeff());
+}
+
 void Constrainer::gather_equations() {
-  std::vector<Eigen::RowVectorXd> grounded;
   for (const EquationSpec& spec : recipe_.equations) {
     const int relation = graph_.add_relation(spec.where);
     const int32_t dof = term(spec.terms[0]).dofs[0];
     Functional on;
-    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6), alone = sum;
     for (const EquationSpec::Term& part : spec.terms) {
-      const Functional one = term(part);
-      const Eigen::RowVectorXd motion = one.values[0] * out_.nodal_rigid.row(one.dofs[0]);
-      sum += motion;
-      alone += motion.cwiseAbs();
       if (&part == &spec.terms[0]) continue;
+      const Functional one = term(part);
       on.dofs.push_back(one.dofs[0]);
       on.values.push_back(-one.values[0] / spec.terms[0].coefficient);
     }
     depend(dof, std::move(on), relation);
-    if ((sum.cwiseAbs().array() > kGrounded * alone.maxCoeff()).any())
-      grounded.push_back(sum / alone.maxCoeff());
+    note_grounded(spec.terms);
   }
-  out_.grounded.resize(static_cast<Eigen::Index>(grounded.size()), 6);
-  for (size_t r = 0; r < grounded.size(); ++r)
-    out_.grounded.row(static_cast<Eigen::Index>(r)) = grounded[r];
+}
+
+/// Springs relate nothing: their ends depend on what they depend on.
+void Constrainer::gather_springs() {
+  for (const SpringSpec& spec : recipe_.springs) {
+    Functional elongation;
+    for (const EquationSpec::Term& part : spec.terms) {
+      const Functional one = term(part);
+      elongation.dofs.push_back(one.dofs[0]);
+      elongation.values.push_back(one.values[0]);
+    }
+    out_.springs.push_back(std::move(elongation));
+    note_grounded(spec.terms);
+  }
 }
 
 void Constrainer::gather_straight_edges() {

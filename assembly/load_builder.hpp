@@ -36,7 +36,8 @@ class LoadBuilder {
   void add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const;
   void add_to_sets(const FeModel& model, const LoadSpec& load, Eigen::VectorXd& f) const;
   Eigen::VectorXd prescribed(const LoadSpec& load) const;
-  int32_t point_named(const std::string& name) const;  // -1: no such point
+  int32_t point_named(const std::string& name) const;
+  bool all_attached(const Eigen::VectorXd& forces) const;  // -1: no such point
 
   const mesh::Mesh& mesh_;
   const Recipe& recipe_;

@@ -139,6 +139,7 @@ Recipe RecipeReader::read() {
   supports(recipe);
   couplings(recipe);
   equations(recipe);
+  springs(recipe);
   straight_edges(recipe);
   ties(recipe);
   contacts(recipe);

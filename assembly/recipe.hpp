@@ -80,6 +80,13 @@ struct EquationSpec {
   std::vector<Term> terms;
 };
 
+/// [[spring]]: its elongation is sum coefficient * u, the force against it stiffness times that.
+struct SpringSpec {
+  std::string name, where;
+  double stiffness = 0.0;  // [N/m]; of rotations [N m/rad]
+  std::vector<EquationSpec::Term> terms;
+};
+
 /// [[straight_edges]]: middle nodes that move with the ends of their edge, the mean of both.
 struct StraightEdgesSpec {
   std::string node_set, where;
@@ -147,6 +154,7 @@ struct Recipe {
   std::vector<SupportSpec> supports;
   std::vector<CouplingSpec> couplings;
   std::vector<EquationSpec> equations;
+  std::vector<SpringSpec> springs;
   std::vector<StraightEdgesSpec> straight_edges;
   std::vector<TieSpec> ties;  // bolts too
   std::vector<ContactSpec> contacts;

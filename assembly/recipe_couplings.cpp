@@ -105,30 +105,56 @@ void RecipeReader::couplings(Recipe& recipe) {
   }
 }
 
+/// One direction of one node or point.
+EquationSpec::Term RecipeReader::term(const Config& table, const std::string& what) const {
+  EquationSpec::Term term;
+  term.place = place(table, what, true);
+  if (!term.place.surface.empty())
+    table.fail("surface", "found a surface, expected a node_set of one node or a point");
+  const bool node = term.place.point.empty();
+  if (node && mesh_.node_set(term.place.node_set).size() != 1)
+    table.fail("node_set", fmt::format("found {} nodes, expected one",
+                                       mesh_.node_set(term.place.node_set).size()));
+  const std::string name = table.text("direction");
+  const auto last = kDofNames.begin() + (node ? 3 : 6);
+  const auto at = std::find(kDofNames.begin(), last, name);
+  if (at == last) fail_unknown(table, "direction", name, {kDofNames.begin(), last});
+  term.direction = static_cast<int>(at - kDofNames.begin());
+  return term;
+}
+
 void RecipeReader::equations(Recipe& recipe) const {
   for (const Config& table : config_.tables("equation")) {
     EquationSpec spec;
     spec.where = where(table, fmt::format("equation {}", recipe.equations.size() + 1));
     for (const Config& part : table.tables("terms")) {
-      EquationSpec::Term term;
-      term.place = place(part, "equation", true);
-      if (!term.place.surface.empty())
-        part.fail("surface", "found a surface, expected a node_set of one node or a point");
-      const bool node = term.place.point.empty();
-      if (node && mesh_.node_set(term.place.node_set).size() != 1)
-        part.fail("node_set", fmt::format("found {} nodes, expected one",
-                                          mesh_.node_set(term.place.node_set).size()));
-      const std::string name = part.text("direction");
-      const auto last = kDofNames.begin() + (node ? 3 : 6);
-      const auto at = std::find(kDofNames.begin(), last, name);
-      if (at == last) fail_unknown(part, "direction", name, {kDofNames.begin(), last});
-      term.direction = static_cast<int>(at - kDofNames.begin());
-      term.coefficient = part.number("coefficient");
-      spec.terms.push_back(term);
+      spec.terms.push_back(term(part, "equation"));
+      spec.terms.back().coefficient = part.number("coefficient");
     }
     if (spec.terms.empty() || spec.terms[0].coefficient == 0.0)
       table.fail("terms", "found none or a first one of zero, expected a dependent term first");
     recipe.equations.push_back(spec);
+  }
+}
+
+/// Terms are summed up to a displacement or to an angle, never to both.
+void RecipeReader::springs(Recipe& recipe) const {
+  for (const Config& table : config_.tables("spring")) {
+    SpringSpec spec;
+    spec.name = table.text_or("name", fmt::format("spring_{}", recipe.springs.size() + 1));
+    spec.where = where(table, "spring " + spec.name);
+    spec.stiffness = table.number("stiffness", Range::positive());
+    for (const Config& part : table.tables("terms")) {
+      spec.terms.push_back(term(part, "spring " + spec.name));
+      spec.terms.back().coefficient = part.number_or("coefficient", 1.0);
+      if (spec.terms.back().coefficient == 0.0)
+        part.fail("coefficient", "found 0, expected another number");
+      if (spec.terms.back().direction / 3 != spec.terms.front().direction / 3)
+        part.fail("direction",
+                  "found a rotation beside a displacement, expected one kind in a spring");
+    }
+    if (spec.terms.empty()) table.fail("terms", "found none, expected one (to the ground) or more");
+    recipe.springs.push_back(std::move(spec));
   }
 }
 

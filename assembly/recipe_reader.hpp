@@ -48,7 +48,9 @@ class RecipeReader {
   void couplings(Recipe& recipe);
   void reference(const Config& table, CouplingSpec& spec);
   std::vector<TermSpec> terms(const Config& table, const CouplingSpec& spec) const;
+  EquationSpec::Term term(const Config& table, const std::string& what) const;
   void equations(Recipe& recipe) const;
+  void springs(Recipe& recipe) const;
   void straight_edges(Recipe& recipe) const;
   void ties(Recipe& recipe);
   void contacts(Recipe& recipe);

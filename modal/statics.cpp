@@ -20,8 +20,8 @@ constexpr double kBackward = 1e-12;  // of each row; refinement leaves 1e-16 or 
 constexpr double kBalance = 1e-8;    // of forces; rounding leaves 1e-12 or so
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 constexpr double kForward = 1.0;  // estimated relative error of the displacements: no digit is left
-constexpr double kDoubtful = 1e-3;    // the same, worth a warning
-constexpr double kHeldMotion = 1e-8;  // |K R| / |K| |R| of a rigid motion that an equation holds
+constexpr double kDoubtful = 1e-3;     // the same, worth a warning
+constexpr double kHeldMotion = 1e-10;  // of what cancels in a row of K R; rounding leaves 1e-13
 
 using Factors = std::map<std::string, double>;
 
@@ -94,16 +94,29 @@ void refuse_free_body(const assembly::FeModel& model) {
 }
 
 /// 1 for the rigid motions that are free of force without supports, 0 for those that an equation
-/// holds: its forces are no reactions.
+/// or a spring to the ground holds: their forces are no reactions. Row by row, as in
+/// free_motions(): a soft spring on a stiff part holds it.
 Eigen::VectorXd balanced_motions(const assembly::FeModel& model) {
+  const assembly::FeSupports& supports = model.supports;
   Eigen::MatrixXd force = multiply_symmetric(model.K, model.rigid);
-  if (model.supports.size() > 0) force += model.supports.K_sq.transpose() * model.supports.rigid;
-  const double stiffness = Eigen::VectorXd(model.K.diagonal()).maxCoeff();
-  Eigen::VectorXd kept(6);
-  for (Eigen::Index d = 0; d < 6; ++d) {
-    const double motion = model.rigid.col(d).cwiseAbs().maxCoeff();
-    kept(d) = force.col(d).cwiseAbs().maxCoeff() <= kHeldMotion * stiffness * motion ? 1.0 : 0.0;
+  Eigen::MatrixXd size = magnitude_product(model.K, model.rigid);
+  if (supports.size() > 0) {
+    const SparseMatrix on_q = supports.K_sq.transpose();
+    force += on_q * supports.rigid;
+    size += on_q.cwiseAbs() * supports.rigid.cwiseAbs();
+    // A spring between the ground and a held coordinate shows in the rows of s alone.
+    Eigen::MatrixXd on_s = supports.K_sq * model.rigid;
+    on_s += multiply_symmetric(supports.K_ss, supports.rigid);
+    Eigen::MatrixXd size_s = supports.K_sq.cwiseAbs() * model.rigid.cwiseAbs();
+    size_s += magnitude_product(supports.K_ss, supports.rigid);
+    force.conservativeResize(force.rows() + on_s.rows(), Eigen::NoChange);
+    force.bottomRows(on_s.rows()) = on_s;
+    size.conservativeResize(force.rows(), Eigen::NoChange);
+    size.bottomRows(on_s.rows()) = size_s;
   }
+  Eigen::VectorXd kept(6);
+  for (Eigen::Index d = 0; d < 6; ++d)
+    kept(d) = (force.col(d).cwiseAbs().array() <= kHeldMotion * size.col(d).array()).all();
   return kept;
 }
 
@@ -201,15 +214,7 @@ void refuse_inexact(const assembly::FeModel& model, const StaticCase& found) {
 /// reactions are K_ss s - f_s.
 StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {
-  const assembly::FeSupports& supports = model.supports;
-  const Eigen::MatrixXd force = multiply_symmetric(supports.K_ss, supports.rigid);
-  const double stiffness = Eigen::VectorXd(supports.K_ss.diagonal()).maxCoeff();
-  Eigen::VectorXd balanced(6);
-  for (Eigen::Index d = 0; d < 6; ++d)
-    balanced(d) = force.col(d).cwiseAbs().maxCoeff() <=
-                          kHeldMotion * stiffness * supports.rigid.col(d).cwiseAbs().maxCoeff()
-                      ? 1.0
-                      : 0.0;
+  const Eigen::VectorXd balanced = balanced_motions(model);
   StaticSolution solution;
   for (size_t c = 0; c < names.size(); ++c) {
     const auto col = static_cast<Eigen::Index>(c);

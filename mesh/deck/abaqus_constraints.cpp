@@ -235,8 +235,9 @@ void read_rigid(Reading* reading) {
 }
 
 void read_ties(Reading* reading) {
-  for_each_card(*reading, {"TIE"},
-                [&](size_t use, const Card& card) { read_tie(reading, use, card); });
+  for_each_card(*reading, {"TIE"}, [&](size_t use, const Card& card) {
+    if (!card.keyword().has("CYCLICSYMMETRY")) read_tie(reading, use, card);
+  });
 }
 
 void finish_rigid(Reading* reading) {

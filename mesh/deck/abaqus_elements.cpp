@@ -21,7 +21,23 @@ constexpr std::array kSolids = {
     SolidType{"C3D20R", CellType::kHex20, Formulation::kReduced},
 };
 
-constexpr std::array<std::string_view, 3> kPointTypes = {"MASS", "ROTARYI", "DCOUP3D"};
+constexpr std::array<std::pair<std::string_view, int>, 9> kPointTypes = {{{"MASS", 1},
+                                                                          {"ROTARYI", 1},
+                                                                          {"DCOUP3D", 1},
+                                                                          {"SPRING1", 1},
+                                                                          {"SPRING2", 2},
+                                                                          {"SPRINGA", 2},
+                                                                          {"DASHPOT1", 1},
+                                                                          {"DASHPOT2", 2},
+                                                                          {"DASHPOTA", 2}}};
+
+// Nodes of an element of one or two; 0 for other types.
+int point_nodes(std::string_view type) {
+  for (const auto& [name, nodes] : kPointTypes) {
+    if (name == type) return nodes;
+  }
+  return 0;
+}
 
 // Corners of the faces by their numbers, as sets of bits.
 constexpr unsigned bits(int a, int b, int c, int d = -1) {
@@ -172,15 +188,18 @@ Lines::Kind read_solids(Lines* lines, const SolidType& solid, Scope* scope, SetC
 
 Lines::Kind read_points(Lines* lines, const std::string& type, Scope* scope, SetChunk* chunk,
                         Ignore* ignore) {
-  return ElementWalk(lines, type, 1, ignore)
+  return ElementWalk(lines, type, point_nodes(type), ignore)
       .run(
           [&](int32_t id, Spot spot) {
-            scope->points.push_back({type, id, 0, spot});
+            scope->points.push_back({type, id, 0, 0, spot});
             if (chunk == nullptr) return;
             chunk->id_lines.emplace_back(chunk->ids.size(), spot);
             chunk->ids.push_back(id);
           },
-          [&](int32_t node) { scope->points.back().node = node; });
+          [&](int32_t node) {
+            PointElement& point = scope->points.back();
+            (point.node == 0 ? point.node : point.second) = node;
+          });
 }
 
 // Only the numbers are kept: sets may name them. A line that ends in a comma goes on.
@@ -262,7 +281,7 @@ Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* 
   }
   if (ignore->skips(type, 0)) return skip_elements(lines, type, scope, ignore);
   if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
-  if (std::find(kPointTypes.begin(), kPointTypes.end(), type) != kPointTypes.end()) {
+  if (point_nodes(type) > 0) {
     return read_points(lines, type, scope, chunk, ignore);
   }
   refusals->add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",

@@ -223,27 +223,20 @@ void Loads::list_gravity(Step* out) const {
   }
 }
 
-// Cells of one block belong to one region; a region turns as a whole.
+// A region turns as a whole: what turns of a section is one of its own (abaqus_mesh.cpp).
 void Loads::list_rotations(Step* out) const {
   const Mesh& mesh = reading_->deck->mesh;
   for (const Rotation& rotation : rotations_) {
     if (rotation.what.omega_squared == 0.0) continue;
-    std::vector<int64_t> turning(mesh.regions.size(), 0), all(mesh.regions.size(), 0);
+    std::vector<bool> turning(mesh.regions.size(), false);
     for (size_t cell = 0; cell < rotation.covered.size(); ++cell) {
       const auto region = static_cast<size_t>(reading_->region_of_cell[cell]);
-      ++all[region];
-      if (rotation.covered[cell]) ++turning[region];
+      if (rotation.covered[cell]) turning[region] = true;
     }
     out->rotations.push_back(rotation.what);
     std::vector<std::string>& names = out->rotations.back().regions;
-    for (size_t r = 0; r < all.size(); ++r) {
-      if (turning[r] > 0 && turning[r] < all[r]) {
-        reading_->source.fail(rotation.spot,
-                              fmt::format("CENTRIF acts on {} of {} elements of section {}, "
-                                          "expected all or none: give them a section of their own",
-                                          turning[r], all[r], mesh.regions[r]));
-      }
-      if (turning[r] > 0) names.push_back(mesh.regions[r]);
+    for (size_t r = 0; r < turning.size(); ++r) {
+      if (turning[r]) names.push_back(mesh.regions[r]);
     }
     if (names.size() == mesh.regions.size()) names.clear();
   }

@@ -6,16 +6,14 @@
 #include "mesh/deck/abaqus_reading.hpp"
 
 namespace clatter::mesh::deck::abaqus {
-namespace {
 
-// The elements of one node of a set; InputError for elements of another type.
 std::vector<PointElement> point_elements(Reading* reading, size_t use, const Card& card,
                                          std::string_view type) {
   const std::string& set = card.keyword().required("ELSET", reading->source);
   std::vector<PointElement> out;
   for (const int32_t element : reading->sets->elements(use, set, card.spot())) {
     const int32_t point = element - reading->model->cells();
-    if (point < 0 || reading->model->points()[static_cast<size_t>(point)].type != type) {
+    if (point < 0 || !reading->model->points()[static_cast<size_t>(point)].type.starts_with(type)) {
       reading->source.fail(card.spot(), fmt::format("{}: expected elements {} in {}",
                                                     card.keyword().name, type, set));
     }
@@ -23,6 +21,8 @@ std::vector<PointElement> point_elements(Reading* reading, size_t use, const Car
   }
   return out;
 }
+
+namespace {
 
 Fields only_line(const Reading& reading, const Card& card) {
   if (card.size() != 1) {
@@ -82,7 +82,7 @@ void read_masses(Reading* reading) {
   if (reading->refusals->size() > refused) return;
   std::sort(described.begin(), described.end());
   for (const PointElement& element : all) {
-    if (element.type == "DCOUP3D") continue;
+    if (element.type != "MASS" && element.type != "ROTARYI") continue;
     if (!std::binary_search(described.begin(), described.end(), element.spot)) {
       reading->refusals->add(fmt::format(
           "{}: element {} of type {} has no value (*{})", reading->source.where(element.spot),

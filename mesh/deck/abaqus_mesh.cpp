@@ -30,6 +30,12 @@ class Sections {
     });
     // A deck that is refused has a mesh all the same, so that its steps can be looked at.
     if (!any || reading_.refusals->any()) by_element_sets(any);
+    for_each_card(reading_, {"DLOAD"}, [&](size_t use, const Card& card) {
+      for (size_t i = 0; i < card.size(); ++i) {
+        const Fields fields = card.line(i, reading_.source);
+        if (folded(fields.text(1)) == "CENTRIF") split(use, fields);
+      }
+    });
     for (int32_t cell = 0; cell < reading_.model->cells(); ++cell) add_formulation(cell);
     return std::move(region_);
   }
@@ -74,6 +80,33 @@ class Sections {
                                          reading_.deck->regions[static_cast<size_t>(at)].where));
       }
       at = region;
+    }
+  }
+
+  // A region turns as a whole: what a load turns of it becomes one of its own.
+  void split(size_t use, const Fields& fields) {
+    std::vector<bool> turns(region_.size(), false);
+    for (const int32_t element : reading_.sets->elements_at(fields, 0, use)) {
+      if (element < reading_.model->cells()) turns[static_cast<size_t>(element)] = true;
+    }
+    std::vector<bool> stays(reading_.deck->regions.size(), false);
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      if (!turns[cell] && region_[cell] != kNoRegion)
+        stays[static_cast<size_t>(region_[cell])] = true;
+    }
+    std::map<int32_t, int32_t> part;  // of a region that stays in part
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      const int32_t whole = region_[cell];
+      if (!turns[cell] || whole == kNoRegion || !stays[static_cast<size_t>(whole)]) continue;
+      const auto [at, is_new] = part.emplace(whole, 0);
+      if (is_new) {
+        const Region region = reading_.deck->regions[static_cast<size_t>(whole)];
+        const std::string name = reading_.deck->mesh.regions[static_cast<size_t>(whole)];
+        at->second = new_region(reading_.model->main_use(),
+                                fmt::format("{}_{}", name, fields.text(0)), fields.spot());
+        reading_.deck->regions.back() = region;
+      }
+      region_[cell] = at->second;
     }
   }
 

@@ -166,6 +166,7 @@ void Model::add_cells(Scope* scope, Use* use) {
   }
   for (PointElement point : scope->points) {
     point.node = row_of(*use, point.node, point.spot);
+    point.second = point.second == 0 ? -1 : row_of(*use, point.second, point.spot);
     points_.push_back(point);
   }
 }

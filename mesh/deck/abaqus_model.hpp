@@ -73,7 +73,8 @@ class Model {
   const FlatTable& table_of(int32_t cell) const;
   /// Rows of the nodes of a cell, Abaqus order.
   std::span<const int32_t> nodes_of(int32_t cell) const;
-  /// Elements of one node; `node` is a row. Their numbers follow those of the cells.
+  /// Elements of one node or two; `node` is a row, and `second`, or -1. Their numbers follow those
+  /// of the cells.
   const std::vector<PointElement>& points() const { return points_; }
   /// Element `id` of a use: a cell, cells() + a point, kLetGo for one that the user ignores, or -1.
   int32_t find_element(size_t use, int32_t id) const;

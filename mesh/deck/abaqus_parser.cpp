@@ -82,6 +82,15 @@ class Parser {
     if (assembly_ >= 0) {
       source_.fail(assembly_, "found *ASSEMBLY without *END ASSEMBLY, the deck ends before it");
     }
+    if (step_ >= 0 && last_.key == "STEP" && steps_ > 1 && !lines_.open_keyword()) {
+      // Nothing stands in it; CalculiX takes such a deck, too.
+      if (!left_out_) scope_->cards.pop_back();
+      deck_.notes.push_back(fmt::format(
+          "{}: the deck ends here, with a *STEP that is empty: it is left out; if the file should "
+          "go on, it was cut",
+          source_.where(step_)));
+      return;
+    }
     if (step_ >= 0) {
       source_.fail(step_, "found *STEP without *END STEP, the deck ends before it");
     }

@@ -92,10 +92,12 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   read_distributing(&reading);
   read_ties(&reading);
   read_masses(&reading);
+  read_springs(&reading);
   read_equations(&reading);
   finish_rigid(&reading);
   read_steps(&reading);
   read_node_sets(&reading);
+  read_cyclic(&reading);
   refusals.raise();
   deck.files = source->files();
   deck.ignored = ignore.counted();

@@ -44,9 +44,13 @@ namespace clatter::mesh::deck {
 ///   as CalculiX does.
 /// - A *TIE or *COUPLING surface of TYPE=NODE stands for the outer faces whose nodes are all in it.
 /// - Equations between nodes with *TRANSFORM are turned into the basic axes.
-/// - *STEP, PERTURBATION behind a loaded *STATIC step is refused (its stiffness depends on the
-///   loads); ignore = ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step
-///   as linear, ignore = ["AMPLITUDE"] loads as they stand.
+/// - *STEP, PERTURBATION behind a loaded *STATIC step is left out with all that follows and a note
+///   (its stiffness depends on the loads), and so is a step with NLGEOM behind others; ignore =
+///   ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step as linear,
+///   ignore = ["AMPLITUDE"] loads as they stand. NLGEOM in the first step is refused.
+/// - SPRINGA, SPRING1 and SPRING2 become springs; dashpots are left out aloud.
+/// - *MPC, MEANROT: DoF 1 of its last node becomes the rotation rx of a point.
+/// - *CYCLIC SYMMETRY MODEL: the sector becomes the ring (cyclic.hpp).
 /// - Steps take over loads and supports from the step before (OP=MOD); within one step loads on the
 ///   same place add up. A *STEP, PERTURBATION has only its own loads.
 ///

@@ -113,6 +113,12 @@ void read_distributing(Reading* reading);
 void read_ties(Reading* reading);
 /// *MASS, *ROTARY INERTIA with their elements.
 void read_masses(Reading* reading);
+/// The elements of a card's ELSET; InputError for cells and for types that do not begin with
+/// `type`.
+std::vector<PointElement> point_elements(Reading* reading, size_t use, const Card& card,
+                                         std::string_view type);
+/// *SPRING and *DASHPOT with their elements.
+void read_springs(Reading* reading);
 /// Dependents of rigid bodies, once all points are known.
 void finish_rigid(Reading* reading);
 /// *EQUATION and *MPC.
@@ -121,6 +127,9 @@ void read_equations(Reading* reading);
 void read_steps(Reading* reading);
 /// *NSET -> Mesh::node_sets and Deck::sets.
 void read_node_sets(Reading* reading);
+
+/// *CYCLIC SYMMETRY MODEL: what was read becomes the whole ring (cyclic.hpp).
+void read_cyclic(Reading* reading);
 
 /// Name in Deck::systems of an orientation; InputError at `spot` for one that is not there.
 std::string system_named(const Reading& reading, size_t use, const std::string& name, Spot spot);

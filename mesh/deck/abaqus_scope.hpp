@@ -30,11 +30,12 @@ struct CellTable {
   std::vector<int32_t> nodes;
 };
 
-/// MASS, ROTARYI and DCOUP3D: elements of one node.
+/// Elements of one node (MASS, ROTARYI, DCOUP3D, SPRING1, DASHPOT1) or two (SPRINGA, ...).
 struct PointElement {
   std::string type;
   int32_t id = 0;
-  int32_t node = 0;  // number in the deck
+  int32_t node = 0;    // number in the deck
+  int32_t second = 0;  // the same; 0: none
   Spot spot = 0;
 };
 

@@ -100,7 +100,10 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
   for (const std::string& name : chunk.elements_of) {
     for (const int32_t element : elements(use, name, chunk.spot)) {
       if (element >= model_->cells()) {
-        out->push_back(model_->points()[static_cast<size_t>(element - model_->cells())].node);
+        const PointElement& point =
+            model_->points()[static_cast<size_t>(element - model_->cells())];
+        out->push_back(point.node);
+        if (point.second >= 0) out->push_back(point.second);
         continue;
       }
       const auto rows = model_->nodes_of(element);

@@ -23,7 +23,7 @@ class Steps {
       reading_.refusals->attempt([&] {
         if (card.keyword().key == "STEP") begin(card);
         if (number_ > 0 && open_) read(card);
-        if (card.keyword().key == "ENDSTEP") end();
+        if (card.keyword().key == "ENDSTEP" && open_) end();
       });
     }
   }
@@ -50,13 +50,38 @@ class Steps {
     ++number_;
     step_.name = name != nullptr && !name->empty() ? *name : fmt::format("step_{}", number_);
     step_.where = reading_.source.where(card.spot());
-    open_ = true;
     perturbation_ = keyword.has("PERTURBATION");
+    open_ = !leaves_out(card);
+    if (!open_) return;
     if (perturbation_) {
       base_loads_ = std::make_unique<Loads>(loads_);
       loads_ = Loads(&reading_);
     }
     check_linear(card);
+  }
+
+  // A step on the stiffness of the loads before it, or with large displacements, is none of ours;
+  // nor is one that goes on from there.
+  bool leaves_out(const Card& card) {
+    const Keyword& keyword = card.keyword();
+    const bool large = keyword.has("NLGEOM") && keyword.choice("NLGEOM", "YES") != "NO";
+    const bool loaded = perturbation_ && loaded_ && !reading_.ignore->skips("PERTURBATION", 0);
+    const char* why = nullptr;
+    if (left_out_) {
+      why = "it goes on from a step that is";
+    } else if (reading_.deck->steps.empty()) {
+      return false;
+    } else if (loaded) {
+      why =
+          "its stiffness depends on the loads of the steps before it; ignore = "
+          "[\"PERTURBATION\"] takes the stiffness without them";
+    } else if (large && !reading_.ignore->skips("NLGEOM", 0)) {
+      why = "its displacements are large (NLGEOM); ignore = [\"NLGEOM\"] takes it as linear";
+    }
+    if (why == nullptr) return false;
+    left_out_ = true;
+    reading_.deck->notes.push_back(fmt::format("{}: *STEP is left out: {}", step_.where, why));
+    return true;
   }
 
   void check_linear(const Card& card) {
@@ -69,13 +94,7 @@ class Steps {
                            "*STEP with NLGEOM is not supported: the analysis is "
                            "linear; ignore = [\"NLGEOM\"] takes it as linear");
     }
-    if (perturbation_ && loaded_ && !reading_.ignore->skips("PERTURBATION")) {
-      reading_.source.fail(
-          card.spot(),
-          "*STEP with PERTURBATION behind a loaded *STATIC step is not supported: "
-          "its stiffness depends on those loads; ignore = [\"PERTURBATION\"] takes "
-          "the stiffness without them");
-    }
+    if (perturbation_ && loaded_) reading_.ignore->skips("PERTURBATION");
   }
 
   void read(const Card& card) {
@@ -166,7 +185,7 @@ class Steps {
   std::unique_ptr<Loads> base_loads_;
   Step step_;
   StepNumber number_ = 0;
-  bool open_ = false, perturbation_ = false, loaded_ = false;
+  bool open_ = false, perturbation_ = false, loaded_ = false, left_out_ = false;
 };
 
 }  // namespace

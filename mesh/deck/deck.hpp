@@ -104,6 +104,13 @@ struct Equation {
   std::vector<Term> terms;  // the first one is the dependent
 };
 
+/// Scalar spring: its elongation is sum coefficient * u.
+struct Spring {
+  std::string where;
+  double stiffness = 0.0;  // force a length; of rotations moment an angle
+  std::vector<Equation::Term> terms;
+};
+
 struct Mass {
   std::string where;
   Place place = 0;
@@ -164,6 +171,7 @@ struct Deck {
   std::vector<Distributing> distributing;
   std::vector<Tie> ties;
   std::vector<Equation> equations;
+  std::vector<Spring> springs;
   std::vector<Mass> masses;
   std::vector<Support> supports;  // of the whole model
   std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)

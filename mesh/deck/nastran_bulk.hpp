@@ -106,6 +106,17 @@ struct RawMass {  // CONM2
   std::array<double, 6> inertia{};  // I11 I21 I22 I31 I32 I33
 };
 
+struct RawSpring {  // CELAS1, CELAS2
+  struct End {
+    int32_t grid = 0;
+    int direction = 0;
+  };
+  Origin origin = 0;
+  int32_t property = 0;  // PELAS; 0: its own stiffness
+  double stiffness = 0.0;
+  std::vector<End> ends;  // one: against the ground
+};
+
 /// SPC, SPC1, ASET, ASET1, BSET, BSET1.
 struct RawHold {
   int32_t set = 0;
@@ -205,6 +216,8 @@ struct Bulk {
   std::vector<RawRigid> rigid;
   std::vector<RawDistributing> distributing;
   std::vector<RawMass> masses;
+  std::vector<RawSpring> springs;
+  std::map<int32_t, double> spring_stiffness;   // PELAS
   std::map<int32_t, std::vector<RawHold>> spc;  // by set
   std::map<int32_t, SetSum> spc_sums, mpc_sums;
   std::map<int32_t, std::vector<RawEquation>> mpc;

@@ -18,6 +18,7 @@ struct Kind {
 // Sorted by name. Harmless ones steer solvers, output or pictures and change no model.
 constexpr std::array kKinds = {Kind{"ASET", read_aset, 8},      Kind{"ASET1", read_aset1, 0},
                                Kind{"BSET", read_aset, 8},      Kind{"BSET1", read_aset1, 0},
+                               Kind{"CELAS1", read_celas1, 8},  Kind{"CELAS2", read_celas2, 8},
                                Kind{"CHEXA", read_cell, 24},    Kind{"CONM2", read_conm2, 16},
                                Kind{"CORD1C", read_cord1, 8},   Kind{"CORD1R", read_cord1, 8},
                                Kind{"CORD1S", read_cord1, 8},   Kind{"CORD2C", read_cord2, 16},
@@ -31,13 +32,13 @@ constexpr std::array kKinds = {Kind{"ASET", read_aset, 8},      Kind{"ASET1", re
                                Kind{"LOAD", read_load, 0},      Kind{"MAT1", read_mat1, 16},
                                Kind{"MAT9", read_mat9, 32},     Kind{"MOMENT", read_force, 8},
                                Kind{"MPC", read_mpc, 0},        Kind{"MPCADD", read_mpcadd, 0},
-                               Kind{"PARAM", nullptr, 8},       Kind{"PLOAD4", read_pload4, 16},
-                               Kind{"PLOTEL", nullptr, 8},      Kind{"PSOLID", read_psolid, 8},
-                               Kind{"RBE2", read_rbe2, 0},      Kind{"RBE3", read_rbe3, 0},
-                               Kind{"RFORCE", read_rforce, 24}, Kind{"SET1", read_set1, 0},
-                               Kind{"SPC", read_spc, 8},        Kind{"SPC1", read_spc1, 0},
-                               Kind{"SPCADD", read_spcadd, 0},  Kind{"TEMP", read_temp, 8},
-                               Kind{"TEMPD", read_tempd, 8}};
+                               Kind{"PARAM", nullptr, 8},       Kind{"PELAS", read_pelas, 8},
+                               Kind{"PLOAD4", read_pload4, 16}, Kind{"PLOTEL", nullptr, 8},
+                               Kind{"PSOLID", read_psolid, 8},  Kind{"RBE2", read_rbe2, 0},
+                               Kind{"RBE3", read_rbe3, 0},      Kind{"RFORCE", read_rforce, 24},
+                               Kind{"SET1", read_set1, 0},      Kind{"SPC", read_spc, 8},
+                               Kind{"SPC1", read_spc1, 0},      Kind{"SPCADD", read_spcadd, 0},
+                               Kind{"TEMP", read_temp, 8},      Kind{"TEMPD", read_tempd, 8}};
 
 static_assert(std::is_sorted(kKinds.begin(), kKinds.end(),
                              [](const Kind& a, const Kind& b) { return a.name < b.name; }));

@@ -61,6 +61,8 @@ void complete_cells(Model& model);
 void build_regions(Model& model, const std::vector<int32_t>& properties);
 /// RBE2, RBE3, MPC, CONM2: the grids they name get places.
 void build_couplings(Model& model);
+/// CELAS1 and CELAS2, after the couplings.
+void build_springs(Model& model);
 /// SPC, permanent constraints, ASET.
 void build_supports(Model& model);
 /// The supports of an SPC set (or SPCADD).

@@ -23,6 +23,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   model.deck.notes = model.bulk.notes;
   refusals.require([&] { build_mesh(model); });
   build_couplings(model);
+  build_springs(model);
   refusals.attempt([&] { build_supports(model); });
   build_sets(model);
   build_steps(model);

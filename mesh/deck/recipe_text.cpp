@@ -35,7 +35,9 @@ class Writer {
       put("\n[[straight_edges]]  # cells of the deck without these middle nodes\nnode_set = {}\n",
           toml_text(kHangingMiddles));
     for (const Tie& tie : deck_.ties) add_tie(tie);
-    for (const Equation& equation : deck_.equations) add_equation(equation);
+    for (const Equation& equation : deck_.equations)
+      put("\n[[equation]]  # {}\n{}", equation.where, terms_text(equation.terms));
+    for (const Spring& spring : deck_.springs) add_spring(spring);
     masses();
     retained();
     const std::string steps = write_steps(deck_, names_);
@@ -174,10 +176,10 @@ class Writer {
     if (tie.distance >= 0.0) put("distance = {}\n", tie.distance);
   }
 
-  void add_equation(const Equation& equation) {
+  std::string terms_text(const std::vector<Equation::Term>& all) {
     constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
     std::vector<std::string> terms;
-    for (const Equation::Term& term : equation.terms) {
+    for (const Equation::Term& term : all) {
       const bool turns = term.direction >= 3 && !names_.is_point(term.place);
       const std::string place =
           names_.is_point(term.place) || turns
@@ -186,7 +188,12 @@ class Writer {
       terms.push_back(fmt::format("  {{ {}, direction = \"{}\", coefficient = {} }}", place,
                                   kNames[term.direction], term.coefficient));
     }
-    put("\n[[equation]]  # {}\nterms = [\n{},\n]\n", equation.where, fmt::join(terms, ",\n"));
+    return fmt::format("terms = [\n{},\n]\n", fmt::join(terms, ",\n"));
+  }
+
+  void add_spring(const Spring& spring) {
+    put("\n[[spring]]  # {}\nstiffness = {}\n{}", spring.where, spring.stiffness,
+        terms_text(spring.terms));
   }
 
   void masses() {

@@ -79,6 +79,9 @@ void convert_units(Deck& deck, const UnitSystem& units) {
   convert_equations(deck, units);
   for (Tie& tie : deck.ties)
     if (tie.distance > 0.0) tie.distance *= units.length;
+  for (Spring& spring : deck.springs)
+    spring.stiffness *=
+        units.force() * (spring.terms.front().direction >= 3 ? units.length : 1.0 / units.length);
   for (Mass& mass : deck.masses) {
     mass.mass *= units.mass;
     mass.inertia *= units.mass * units.length * units.length;

@@ -24,6 +24,17 @@ TEST(AbaqusCentrif, KeepsOmegaSquaredAxisAndTheSectionsThatTurn) {
   EXPECT_TRUE(one.regions.empty());
 }
 
+TEST(AbaqusCentrif, OnPartOfASectionMakesThatARegionOfItsOwn) {
+  const Deck deck = read(kCube +
+                         "*NODE\n11, 0, 0, 2\n12, 1, 0, 2\n13, 1, 1, 2\n14, 0, 1, 2\n"
+                         "*ELEMENT, TYPE=C3D8, ELSET=EALL\n2, 5, 6, 7, 8, 11, 12, 13, 14\n" +
+                         kSteel + kStep + "*DLOAD\n2, CENTRIF, 4., 0,0,0, 0,0,1\n*END STEP\n");
+  EXPECT_EQ(deck.mesh.regions, (std::vector<std::string>{"EALL", "EALL_2"}));
+  EXPECT_EQ(deck.regions[1].material, "Steel");
+  EXPECT_EQ(deck.steps[0].rotations.at(0).regions, std::vector<std::string>{"EALL_2"});
+  EXPECT_EQ(deck.mesh.cells[1].ids, std::vector<int32_t>{2});
+}
+
 TEST(AbaqusCentrif, IsReplacedByTheNextStepAndRefusedWithoutAnAxis) {
   const Deck deck = read(kModel + kStep + "*DLOAD\nEALL, CENTRIF, 4., 0,0,0, 0,0,1\n*END STEP\n" +
                          kStep + "*DLOAD\nEALL, CENTRIF, 9., 0,0,0, 0,0,1\n*END STEP\n");
