@@ -5,15 +5,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "assembly/assemble.hpp"
 #include "assembly/certify.hpp"
 #include "assembly/constrain.hpp"
 #include "assembly/load_builder.hpp"
 #include "assembly/mass_properties.hpp"
 #include "assembly/point_mass.hpp"
 #include "assembly/spring.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/fe/assemble.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -58,7 +58,7 @@ Eigen::MatrixXd Builder::momentum(const SparseMatrix& M) const {
 
 /// The rows of T that nodes and points have.
 void Builder::take_coordinates() {
-  FeModel& model = out_.model;
+  fe::FeModel& model = out_.model;
   const Elimination& e = constrained_.elimination;
   model.sets = constrained_.sets;
   model.grids = constrained_.grids;
@@ -68,7 +68,7 @@ void Builder::take_coordinates() {
   model.T = SparseMatrix(t.leftCols(nodal)).transpose();
   model.supports.T = SparseMatrix(t_s.leftCols(nodal)).transpose();
   if (points_.empty()) return;
-  FePoints& points = model.points;
+  fe::FePoints& points = model.points;
   const auto count = static_cast<Eigen::Index>(points_.size());
   points.position.resize(count, 3);
   std::vector<Eigen::Triplet<double, int32_t>> pick;  // 6 p + d of the DoFs
@@ -86,7 +86,7 @@ void Builder::take_coordinates() {
 }
 
 void Builder::take_supports(SupportBlocks& blocks) {
-  FeSupports& supports = out_.model.supports;
+  fe::FeSupports& supports = out_.model.supports;
   supports.K_sq.swap(blocks.sq);
   supports.K_ss.swap(blocks.ss);
   supports.rigid = constrained_.rigid_s;
@@ -108,14 +108,14 @@ void Builder::take_supports(SupportBlocks& blocks) {
 
 /// On points through their rows of T, on sets directly: these are coordinates of the model.
 void Builder::add_point_masses() {
-  FeModel& model = out_.model;
+  fe::FeModel& model = out_.model;
   MassMoments moments = integrate_mass(mesh_, recipe_.materials);
   for (const PointMassSpec& spec : recipe_.point_masses) {
     const auto point =
         std::find_if(points_.begin(), points_.end(),
                      [&](const ReferencePoint& other) { return other.name == spec.on; });
     if (point == points_.end()) {
-      const DofSet& set = model.set(spec.on);
+      const rom::DofSet& set = model.set(spec.on);
       add_to_set(model.M, spec, set);
       add_moments(moments, spec, set);
     } else {
@@ -130,7 +130,7 @@ void Builder::add_point_masses() {
 /// A rigid body that nothing elastic holds moves freely: K is zero there, exactly where its cells
 /// are its own. Otherwise elimination leaves rounding of either sign, which is no stiffness.
 void Builder::check_stiffness() const {
-  const FeModel& model = out_.model;
+  const fe::FeModel& model = out_.model;
   if (model.size() == 0) return;
   const Eigen::VectorXd diagonal = model.K.diagonal();
   const double length =
@@ -176,7 +176,7 @@ void Builder::check_points() const {
 }
 
 void Builder::run(StepClock& clock) {
-  FeModel& model = out_.model;
+  fe::FeModel& model = out_.model;
   model.name = mesh_.name;
   model.nodes = mesh_.nodes;
   model.alpha = recipe_.damping.alpha;
@@ -187,10 +187,10 @@ void Builder::run(StepClock& clock) {
   constrained_ = constrain(mesh_, recipe_, numbers_, surfaces_);
   take_coordinates();
   clock.lap("couplings");
-  const NodePattern pattern = node_pattern(mesh_);
+  const fe::NodePattern pattern = fe::node_pattern(mesh_);
   clock.lap("pattern");
-  NodalMatrices matrices =
-      assemble(mesh_, recipe_.materials, pattern, recipe_.mass, constrained_.rigid_of_node);
+  fe::NodalMatrices matrices =
+      fe::assemble(mesh_, recipe_.materials, pattern, recipe_.mass, constrained_.rigid_of_node);
   clock.lap("assemble");
   const Eigen::MatrixXd body_force = momentum(matrices.M);
   SupportBlocks blocks;

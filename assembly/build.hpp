@@ -3,15 +3,15 @@
 #include <map>
 #include <string>
 
-#include "assembly/fe_model.hpp"
 #include "assembly/recipe.hpp"
-#include "core/stopwatch.hpp"
-#include "mesh/mesh.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
 struct BuiltModel {
-  FeModel model;
+  fe::FeModel model;
   /// dofs, pivots, fixed displacements; errors of mass, centre, inertia against the sum over the
   /// elements; residue of K on rigid motions; error of T on rigid motions; largest entry of T.
   std::map<std::string, double> certificate;

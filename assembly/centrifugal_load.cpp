@@ -7,8 +7,9 @@
 
 namespace clatter::assembly {
 
-Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                                 const RotationAxis& axis, const std::vector<int32_t>& regions) {
+Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials,
+                                 const fe::RotationAxis& axis,
+                                 const std::vector<int32_t>& regions) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   for (const mesh::CellBlock& block : mesh.cells) {
     if (!regions.empty() &&
@@ -27,7 +28,7 @@ Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<Mater
 
 Eigen::Matrix<double, 6, 1> centrifugal_force(const PointMassSpec& mass,
                                               const Eigen::Vector3d& place,
-                                              const RotationAxis& axis) {
+                                              const fe::RotationAxis& axis) {
   Eigen::Matrix<double, 6, 1> out;
   const Eigen::Vector3d& n = axis.direction;
   const Eigen::Vector3d force = mass.mass * axis.arm(place + mass.offset);

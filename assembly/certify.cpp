@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "assembly/mass_properties.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -22,8 +22,8 @@ double largest(const Eigen::MatrixXd& values) {
 
 /// |K R| over |K| |R|, column by column: the force that a rigid motion should not need, on the
 /// coordinates or, where supports hold every one of them, on the supports.
-double rigid_force(const FeModel& model, const Eigen::MatrixXd& motions) {
-  const FeSupports& supports = model.supports;
+double rigid_force(const fe::FeModel& model, const Eigen::MatrixXd& motions) {
+  const fe::FeSupports& supports = model.supports;
   const Eigen::MatrixXd rigid = model.rigid * motions;
   const Eigen::MatrixXd held = supports.rigid * motions;
   const bool all_held = model.size() == 0;
@@ -57,8 +57,8 @@ void require_below(const std::string& name, const char* what, double found, doub
 
 }  // namespace
 
-std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained,
-                                      MassForm mass) {
+std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
+                                      fe::MassForm mass) {
   const Elimination& elimination = constrained.elimination;
   std::map<std::string, double> numbers;
   numbers["dofs"] = model.size();
@@ -95,7 +95,7 @@ std::map<std::string, double> certify(const FeModel& model, const Constrained& c
   numbers["inertia_error"] = error.inertia;
   require_below(model.name, "mass, R^T M R against the sum over the elements", error.mass,
                 kMassTolerance);
-  if (mass == MassForm::kHrz) return numbers;
+  if (mass == fe::MassForm::kHrz) return numbers;
   require_below(model.name, "centre of gravity, R^T M R against the sum over the elements",
                 error.centre, kMassTolerance);
   require_below(model.name, "inertia, R^T M R against the sum over the elements", error.inertia,

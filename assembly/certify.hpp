@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include "assembly/assemble.hpp"
 #include "assembly/constrain.hpp"
-#include "assembly/fe_model.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/fe/fe_model.hpp"
 
 namespace clatter::assembly {
 
@@ -16,7 +16,7 @@ namespace clatter::assembly {
 /// NumericsError when mass, centre or inertia are off by more than 1e-9 (hard case B5), or when
 /// rigid motions are not free of force or not recovered to 1e-9.
 /// A lumped mass keeps the total only: centre and inertia are measured, not required.
-std::map<std::string, double> certify(const FeModel& model, const Constrained& constrained,
-                                      MassForm mass);
+std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
+                                      fe::MassForm mass);
 
 }  // namespace clatter::assembly

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 
 namespace clatter::assembly {
 

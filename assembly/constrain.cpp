@@ -7,8 +7,8 @@
 
 #include "assembly/constrainer.hpp"
 #include "assembly/contact_patch.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -111,7 +111,7 @@ void Constrainer::ride_onto_points() {
 void Constrainer::add_generalised(const std::string& name, const Coupling& coupling,
                                   const std::string& where) {
   const int32_t first = eliminator_->add(coupling, where);
-  DofSet set = coupling.set;
+  rom::DofSet set = coupling.set;
   for (size_t k = 0; k < coupling.rows.size(); ++k)
     set.dofs.push_back(first + static_cast<int32_t>(k));
   append_motion(coupling.means);
@@ -205,7 +205,7 @@ void Constrainer::number_node_sets() {
   for (size_t s = 0; s < recipe_.nodes.size(); ++s) {
     const NodeSpec& spec = recipe_.nodes[s];
     const std::vector<int32_t>& nodes = set_nodes_[s];
-    DofSet set;
+    rom::DofSet set;
     set.kind = spec.kind;
     const auto rows = 3 * static_cast<Eigen::Index>(nodes.size());
     set.position.resize(rows, 3);
@@ -229,7 +229,7 @@ void Constrainer::number_sets() {
   number_node_sets();
   for (size_t p = 0; p < recipe_.points.size(); ++p) {
     const ReferencePoint& point = recipe_.points[p].point;
-    DofSet set = reference_set(point.name, "node", point.place, {0, 1, 2, 3, 4, 5});
+    rom::DofSet set = reference_set(point.name, "node", point.place, {0, 1, 2, 3, 4, 5});
     const ReferenceDofs reference = point_dofs(static_cast<int32_t>(p));
     set.dofs.assign(reference.ids.begin(), reference.ids.end());
     out_.sets[point.name] = std::move(set);
@@ -237,7 +237,7 @@ void Constrainer::number_sets() {
   for (const auto& [name, reference] : own_references_)
     out_.sets[name].dofs.assign(reference.ids.begin(), reference.ids.end());
   for (auto at = out_.sets.begin(); at != out_.sets.end();) {
-    DofSet& set = at->second;
+    rom::DofSet& set = at->second;
     std::vector<Eigen::Index> rows;
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       const int32_t reduced = out_.elimination.reduced_of[static_cast<size_t>(set.dofs[k])];

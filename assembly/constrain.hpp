@@ -10,8 +10,8 @@
 #include "assembly/recipe.hpp"
 #include "assembly/support.hpp"
 #include "assembly/surface_cache.hpp"
-#include "core/reduced_model.hpp"
-#include "mesh/mesh.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -25,8 +25,8 @@ struct Constrained {
                                 // and stretch no spring
   std::vector<Functional> springs;     // elongation of each [[spring]]
   std::vector<int32_t> rigid_of_node;  // n_nodes: id of the rigid body that it belongs to, or -1
-  std::map<std::string, DofSet> sets;
-  std::map<std::string, ContactGrid> grids;
+  std::map<std::string, rom::DofSet> sets;
+  std::map<std::string, rom::ContactGrid> grids;
   std::vector<HeldDof> held;  // n_s, in the order of the supported coordinates
 };
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "assembly/constrainer.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "mesh/middles.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/middles.hpp"
 
 namespace clatter::assembly {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -42,8 +42,8 @@ Eigen::Vector3d from_cylindrical(const PatchGridSpec& spec, double radius, doubl
 }
 
 /// Strips of all sectors; the grid's radius is the area-weighted mean distance from the axis.
-ContactGrid make_grid(const PatchGridSpec& spec, double radius) {
-  ContactGrid grid;
+rom::ContactGrid make_grid(const PatchGridSpec& spec, double radius) {
+  rom::ContactGrid grid;
   grid.axis_point = spec.axis_point;
   grid.axis = spec.axis;
   grid.zero_angle = spec.zero_angle;
@@ -70,7 +70,7 @@ ContactGrid make_grid(const PatchGridSpec& spec, double radius) {
 }
 
 /// The patch that holds a place, or -1.
-Eigen::Index patch_at(const ContactGrid& grid, const Cylindrical& at) {
+Eigen::Index patch_at(const rom::ContactGrid& grid, const Cylindrical& at) {
   const Eigen::VectorXd& edges = grid.axial_edges;
   if (at.axial < edges(0) || at.axial > edges(edges.size() - 1)) return -1;
   const auto upper = std::upper_bound(edges.begin(), edges.end() - 1, at.axial);
@@ -101,7 +101,8 @@ double mean_radius(const SurfaceIntegrals& surface, const std::vector<Cylindrica
 }
 
 /// Names the first patch that caught too little area and what it covers.
-void require_area(const ContactGrid& grid, const Eigen::VectorXd& area, const std::string& where) {
+void require_area(const rom::ContactGrid& grid, const Eigen::VectorXd& area,
+                  const std::string& where) {
   const double least = kLeastArea * area.cwiseAbs().mean();
   for (Eigen::Index p = 0; p < area.size(); ++p) {
     if (area(p) > least) continue;
@@ -116,8 +117,8 @@ void require_area(const ContactGrid& grid, const Eigen::VectorXd& area, const st
   }
 }
 
-void describe_set(const std::string& name, const PatchGridSpec& spec, const ContactGrid& grid,
-                  DofSet& set) {
+void describe_set(const std::string& name, const PatchGridSpec& spec, const rom::ContactGrid& grid,
+                  rom::DofSet& set) {
   const Eigen::Index patches = grid.angle.size() * grid.axial.size();
   set.kind = "contact_grid";
   set.position.resize(patches, 3);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/coupling.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -28,7 +28,7 @@ struct PatchGridSpec {
 /// A coupling and the grid that it lies on.
 struct PatchCoupling {
   Coupling coupling;  // row i * n_axial + j: strip i, axial row j
-  ContactGrid grid;
+  rom::ContactGrid grid;
   Eigen::VectorXi nodes_per_patch;
 };
 

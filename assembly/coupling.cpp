@@ -8,7 +8,7 @@
 
 #include "assembly/dof_numbers.hpp"
 #include "assembly/member_group.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -126,9 +126,9 @@ Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& p
   return coupling;
 }
 
-DofSet reference_set(const std::string& name, const std::string& kind, const Eigen::Vector3d& point,
-                     const std::vector<int>& directions) {
-  DofSet set;
+rom::DofSet reference_set(const std::string& name, const std::string& kind,
+                          const Eigen::Vector3d& point, const std::vector<int>& directions) {
+  rom::DofSet set;
   const auto count = static_cast<Eigen::Index>(directions.size());
   set.kind = kind;
   set.position = point.transpose().replicate(count, 1);

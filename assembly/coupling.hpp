@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "assembly/surface_integral.hpp"
-#include "core/h5_file.hpp"
-#include "core/reduced_model.hpp"
+#include "core/base/matrix.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -29,7 +29,7 @@ struct Coupling {
   std::vector<Functional> rows;   // on nodal DoFs; on the means' numbers when there are means
   std::vector<Functional> means;  // on nodal DoFs, no DoF in two of them
   bool disjoint = false;          // no nodal DoF occurs in two rows
-  DofSet set;                     // one entry a row; `dofs` is filled by the elimination
+  rom::DofSet set;                // one entry a row; `dofs` is filled by the elimination
 
   /// The rows in terms of nodal DoFs.
   std::vector<Functional> nodal_rows() const;
@@ -52,8 +52,8 @@ Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& p
                     const std::vector<int>& directions, const std::string& where);
 
 /// Labels, place and directions of a reference node's coordinates; no dofs yet.
-DofSet reference_set(const std::string& name, const std::string& kind, const Eigen::Vector3d& point,
-                     const std::vector<int>& directions);
+rom::DofSet reference_set(const std::string& name, const std::string& kind,
+                          const Eigen::Vector3d& point, const std::vector<int>& directions);
 
 /// The motion of a reference node at `point` (the centroid when absent) that fits the motion of a
 /// face best (distributing coupling, RBE3):

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 
 namespace clatter::assembly {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 namespace {

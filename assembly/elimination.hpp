@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "assembly/coupling.hpp"
-#include "core/sparse.hpp"
+#include "core/base/sparse.hpp"
 
 namespace clatter::assembly {
 

@@ -9,8 +9,8 @@
 #include "assembly/load_case.hpp"
 #include "assembly/point_mass.hpp"
 #include "assembly/thermal_load.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -102,14 +102,14 @@ Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
 }
 
 /// What acts on sets: a force, and the weight of point masses.
-void LoadBuilder::add_to_sets(const FeModel& model, const LoadSpec& load,
+void LoadBuilder::add_to_sets(const fe::FeModel& model, const LoadSpec& load,
                               Eigen::VectorXd& f) const {
   if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) < 0)
     f += set_load(f.size(), model.sets.at(load.set), load.force, load.moment, load.where);
   if (load.kind == LoadSpec::Kind::kCentrifugal && load.turning.empty()) {
     for (const PointMassSpec& spec : recipe_.point_masses) {
       if (point_named(spec.on) >= 0) continue;
-      const DofSet& set = model.sets.at(spec.on);
+      const rom::DofSet& set = model.sets.at(spec.on);
       if (!turns(set) && set.dofs.size() > 3)
         throw InputError(
             fmt::format("{}: found a mass shared by {} nodes ({}), expected one node "
@@ -162,7 +162,7 @@ bool LoadBuilder::all_attached(const Eigen::VectorXd& forces) const {
   return ((forces.array() == 0.0) || (most.array() > 0.0)).all();
 }
 
-void LoadBuilder::build(FeModel& model) {
+void LoadBuilder::build(fe::FeModel& model) {
   const Elimination& e = constrained_.elimination;
   for (const LoadSpec& load : recipe_.loads) {
     const Eigen::VectorXd all = forces(load);

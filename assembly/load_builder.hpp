@@ -4,10 +4,10 @@
 #include <string>
 
 #include "assembly/constrain.hpp"
-#include "assembly/fe_model.hpp"
 #include "assembly/recipe.hpp"
 #include "assembly/surface_cache.hpp"
-#include "mesh/mesh.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
@@ -27,14 +27,14 @@ class LoadBuilder {
         momentum_(momentum) {}
 
   /// Fills loads, support_loads, prescribed, load_units and cases; says each load's resultant.
-  void build(FeModel& model);
+  void build(fe::FeModel& model);
 
  private:
   Eigen::VectorXd forces(const LoadSpec& load) const;
   Eigen::VectorXd temperature_rise(const LoadSpec& load) const;
   void add_body_force(const Eigen::Vector3d& acceleration, Eigen::VectorXd& forces) const;
   void add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const;
-  void add_to_sets(const FeModel& model, const LoadSpec& load, Eigen::VectorXd& f) const;
+  void add_to_sets(const fe::FeModel& model, const LoadSpec& load, Eigen::VectorXd& f) const;
   Eigen::VectorXd prescribed(const LoadSpec& load) const;
   int32_t point_named(const std::string& name) const;
   bool all_attached(const Eigen::VectorXd& forces) const;  // -1: no such point

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 
@@ -23,7 +23,7 @@ Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& sur
   return nodal;
 }
 
-Eigen::VectorXd set_load(Eigen::Index n, const DofSet& set, const Eigen::Vector3d& force,
+Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Vector3d& force,
                          const Eigen::Vector3d& moment, const std::string& where) {
   if (set.kind == "bolt") {
     Eigen::VectorXd out = Eigen::VectorXd::Zero(n);

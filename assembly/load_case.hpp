@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "assembly/surface_integral.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -18,7 +18,7 @@ Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& sur
 /// A force [N] and moment [N m] on a set, in the model's coordinates (size n). The force is shared
 /// evenly by the places of the set. InputError, beginning with `where`, when the set has no
 /// coordinate that takes a part of it. On a bolt the force's part along it is the tension.
-Eigen::VectorXd set_load(Eigen::Index n, const DofSet& set, const Eigen::Vector3d& force,
+Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Vector3d& force,
                          const Eigen::Vector3d& moment, const std::string& where);
 
 }  // namespace clatter::assembly

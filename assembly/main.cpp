@@ -5,13 +5,13 @@
 
 #include "assembly/build.hpp"
 #include "assembly/matrix_import.hpp"
-#include "core/artefact.hpp"
-#include "core/command_line.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/log.hpp"
-#include "core/plausible.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
+#include "core/base/plausible.hpp"
+#include "core/mesh/mesh_file.hpp"
 
 namespace {
 
@@ -56,8 +56,8 @@ assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full
 Next: clatter-modal block.fe.h5 (modes; --static for load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
 
-void print_summary(const clatter::assembly::FeModel& model, double seconds, bool json) {
-  const clatter::MassProperties& mass = model.mass;
+void print_summary(const clatter::fe::FeModel& model, double seconds, bool json) {
+  const clatter::rom::MassProperties& mass = model.mass;
   clatter::print_result(fmt::format("{}: {} DoFs, {} entries in K, {} sets, {} loads", model.name,
                                     model.size(), model.K.nonZeros(), model.sets.size(),
                                     model.loads.size()));
@@ -77,10 +77,10 @@ void print_summary(const clatter::assembly::FeModel& model, double seconds, bool
 }
 
 /// One warning of all materials and the size that look like another unit.
-void warn_of_units(const clatter::assembly::FeModel& model, const std::filesystem::path& config) {
+void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::path& config) {
   using namespace clatter;
   std::vector<std::string> doubts;
-  for (const assembly::Material& material : model.cells.materials) {
+  for (const fe::Material& material : model.cells.materials) {
     doubts.push_back(doubt_of_density(material.density));
     if (!material.is_isotropic()) continue;
     doubts.push_back(doubt_of_modulus(material.youngs, material.density));
@@ -138,8 +138,8 @@ int run(int argc, char** argv) {
   print_summary(built.model, clock.total_seconds(), line.common().json);
 
   H5File file = H5File::create(output_path);
-  write_provenance(file, {assembly::kFeSchema, config.resolved(), inputs});
-  assembly::write_fe_model(file, built.model);
+  write_provenance(file, {fe::kFeSchema, config.resolved(), inputs});
+  fe::write_fe_model(file, built.model);
   write_certificate(file, built.certificate);
   clock.lap("write");
   write_timing(file, clock);

@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
-#include "mesh/validity.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
+#include "core/mesh/validity.hpp"
 
 namespace clatter::assembly {
 

@@ -14,7 +14,7 @@ Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second) {
 
 }  // namespace
 
-MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<Material>& materials) {
+MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials) {
   MassMoments sum;
   for (const mesh::CellBlock& block : mesh.cells) {
     const double density = materials.at(static_cast<size_t>(block.region)).density;
@@ -37,17 +37,17 @@ void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& place,
                     0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
 }
 
-MassProperties properties_of(const MassMoments& moments) {
-  MassProperties out;
+rom::MassProperties properties_of(const MassMoments& moments) {
+  rom::MassProperties out;
   out.mass = moments.mass;
   out.centre = moments.first / moments.mass;
   out.inertia = inertia_of(moments.second - moments.mass * out.centre * out.centre.transpose());
   return out;
 }
 
-MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+rom::MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
   const Eigen::Matrix<double, 6, 6> mass = rigid.transpose() * multiply_symmetric(M, rigid);
-  MassProperties out;
+  rom::MassProperties out;
   out.mass = mass.topLeftCorner<3, 3>().trace() / 3.0;
   // Column 3 + j holds the momentum of a unit spin about j: e_j x (m c).
   out.centre =
@@ -59,7 +59,7 @@ MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid
   return out;
 }
 
-MassDifference compare(const MassProperties& a, const MassProperties& b) {
+MassDifference compare(const rom::MassProperties& a, const rom::MassProperties& b) {
   const double gyration = std::sqrt(b.inertia.trace() / (2.0 * b.mass));
   return {std::abs(a.mass - b.mass) / b.mass, (a.centre - b.centre).norm() / gyration,
           (a.inertia - b.inertia).cwiseAbs().maxCoeff() / b.inertia.trace()};

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "assembly/material.hpp"
-#include "core/reduced_model.hpp"
-#include "core/sparse.hpp"
-#include "mesh/mesh.hpp"
+#include "core/base/sparse.hpp"
+#include "core/fe/material.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 
@@ -18,22 +18,22 @@ struct MassMoments {
 };
 
 /// Integrals of rho, rho x and rho x x^T over all cells; exact for curved cells too (degree 7).
-MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<Material>& materials);
+MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials);
 
 /// Adds a point mass [kg] at `place` [m] with inertia about itself [kg m2].
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& place,
                const Eigen::Matrix3d& inertia);
 
 /// Inertia about the centre of mass: J = tr(S) I - S of the centred second moments.
-MassProperties properties_of(const MassMoments& moments);
+rom::MassProperties properties_of(const MassMoments& moments);
 
 /// The same from the matrices: R^T M R is [m I, -m c x; m c x, J_origin] for rigid motions R.
-MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid);
+rom::MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid);
 
 /// Relative differences of mass, centre (over the radius of gyration) and inertia.
 struct MassDifference {
   double mass, centre, inertia;
 };
-MassDifference compare(const MassProperties& a, const MassProperties& b);
+MassDifference compare(const rom::MassProperties& a, const rom::MassProperties& b);
 
 }  // namespace clatter::assembly

@@ -7,16 +7,17 @@
 
 #include "assembly/mass_properties.hpp"
 #include "assembly/matrix_places.hpp"
-#include "core/error.hpp"
-#include "core/matrix_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/matrix_text.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-using Kind = MappedDof::Kind;
+using Kind = rom::MappedDof::Kind;
 
 /// To SI: a rotation's rows and columns are forces times a length.
-void scale(SparseMatrix& matrix, double unit, double length, const std::vector<MappedDof>& dofs) {
+void scale(SparseMatrix& matrix, double unit, double length,
+           const std::vector<rom::MappedDof>& dofs) {
   const auto arm = [&](Eigen::Index j) {
     return dofs[static_cast<size_t>(j)].kind == Kind::kRotation ? length : 1.0;
   };
@@ -54,7 +55,7 @@ double rigid_residue(const SparseMatrix& K, const Eigen::MatrixXd& rigid) {
 }
 
 /// Mass, centre and inertia are known when every rigid motion is.
-MassProperties mass_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+rom::MassProperties mass_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
   for (Eigen::Index d = 0; d < 3; ++d)
     if (rigid.col(d).isZero(0.0)) return {};
   return properties_of(M, rigid);
@@ -85,7 +86,7 @@ std::optional<MatrixFiles> read_matrix_files(const Config& config) {
   files.M = table->path("M");
   if (table->has("dofs")) files.dofs = table->path("dofs");
   files.name = table->text_or("name", "");
-  files.units = mesh::deck::unit_system_named(table->text_or("units", "m-kg-s"), table->where());
+  files.units = unit_system_named(table->text_or("units", "m-kg-s"), table->where());
   files.alpha = table->number_or("alpha", 0.0, Range::not_negative());
   files.beta = table->number_or("beta", 0.0, Range::not_negative());
   config.finish();
@@ -94,7 +95,7 @@ std::optional<MatrixFiles> read_matrix_files(const Config& config) {
 
 BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   const MatrixPlaces places =
-      mesh ? places_of(*mesh) : places_of(read_dof_map(files.dofs), files.dofs.string());
+      mesh ? places_of(*mesh) : places_of(rom::read_dof_map(files.dofs), files.dofs.string());
   const std::string source = mesh ? "the mesh (three a node)" : files.dofs.string();
   SparseMatrix K = read_sized(files.K, places.dofs.size(), source);
   SparseMatrix M = read_sized(files.M, places.dofs.size(), source);
@@ -113,7 +114,7 @@ BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   scale(M, files.units.mass, files.units.length, places.dofs);
 
   BuiltModel built;
-  FeModel& model = built.model;
+  fe::FeModel& model = built.model;
   model.name = !files.name.empty() ? files.name : mesh ? mesh->name : files.K.stem().string();
   model.alpha = files.alpha;
   model.beta = files.beta;

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "assembly/build.hpp"
-#include "core/config.hpp"
-#include "mesh/deck/units.hpp"
-#include "mesh/mesh.hpp"
+#include "core/base/config.hpp"
+#include "core/base/units.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
@@ -19,7 +19,7 @@ struct MatrixFiles {
   std::filesystem::path K, M;      // Matrix Market or "i j value" (core/matrix_text.hpp)
   std::filesystem::path dofs;      // DoF map (core/dof_map.hpp); empty: the nodes of the mesh
   std::string name;                // of the part; empty: the mesh's
-  mesh::deck::UnitSystem units;    // of K and M; positions of a map or mesh are in m
+  UnitSystem units;                // of K and M; positions of a map or mesh are in m
   double alpha = 0.0, beta = 0.0;  // D = alpha K + beta M [s], [1/s]
 };
 

@@ -7,18 +7,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-using Kind = MappedDof::Kind;
+using Kind = rom::MappedDof::Kind;
 
 /// DoFs of each node, for the check of their directions.
 void check_directions(const MatrixPlaces& places, const std::string& file) {
   std::vector<std::vector<size_t>> of_node(static_cast<size_t>(places.nodes.rows()));
   for (size_t j = 0; j < places.dofs.size(); ++j) {
-    const MappedDof& dof = places.dofs[j];
+    const rom::MappedDof& dof = places.dofs[j];
     if (dof.kind != Kind::kDisplacement) continue;
     auto& others = of_node[static_cast<size_t>(places.node[j])];
     for (const size_t other : others) {
@@ -49,7 +49,7 @@ MatrixPlaces places_of(const mesh::Mesh& mesh) {
   for (const int32_t a : order) {
     first[static_cast<size_t>(a)] = static_cast<int32_t>(places.dofs.size());
     for (int d = 0; d < 3; ++d) {
-      MappedDof dof;
+      rom::MappedDof dof;
       dof.kind = Kind::kDisplacement;
       dof.node = number(a);
       dof.component = d + 1;
@@ -66,12 +66,12 @@ MatrixPlaces places_of(const mesh::Mesh& mesh) {
   return places;
 }
 
-MatrixPlaces places_of(std::vector<MappedDof> map, const std::string& file) {
+MatrixPlaces places_of(std::vector<rom::MappedDof> map, const std::string& file) {
   MatrixPlaces places;
   std::map<int, int32_t> rows;
   std::vector<Eigen::Vector3d> positions;
   for (size_t j = 0; j < map.size(); ++j) {
-    const MappedDof& dof = map[j];
+    const rom::MappedDof& dof = map[j];
     places.node.push_back(-1);
     if (dof.kind == Kind::kModal) continue;
     const auto [at, added] = rows.emplace(dof.node, static_cast<int32_t>(positions.size()));
@@ -87,11 +87,11 @@ MatrixPlaces places_of(std::vector<MappedDof> map, const std::string& file) {
   return places;
 }
 
-Eigen::MatrixXd rigid_motions(const std::vector<MappedDof>& dofs) {
+Eigen::MatrixXd rigid_motions(const std::vector<rom::MappedDof>& dofs) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(dofs.size()), 6);
   for (size_t j = 0; j < dofs.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
-    const MappedDof& dof = dofs[j];
+    const rom::MappedDof& dof = dofs[j];
     if (dof.kind == Kind::kRotation) rigid.row(row).tail<3>() = dof.direction;
     if (dof.kind != Kind::kDisplacement) continue;
     rigid.row(row).head<3>() = dof.direction;
@@ -104,7 +104,7 @@ SparseMatrix displacement_of(const MatrixPlaces& places, const std::vector<int32
                              int32_t size) {
   std::vector<Eigen::Triplet<double>> entries;
   for (size_t j = 0; j < place.size(); ++j) {
-    const MappedDof& dof = places.dofs[j];
+    const rom::MappedDof& dof = places.dofs[j];
     if (place[j] < 0 || dof.kind != Kind::kDisplacement) continue;
     for (int d = 0; d < 3; ++d)
       if (dof.direction[d] != 0.0)
@@ -115,21 +115,21 @@ SparseMatrix displacement_of(const MatrixPlaces& places, const std::vector<int32
   return T;
 }
 
-std::map<std::string, DofSet> sets_of(const MatrixPlaces& places,
-                                      const std::vector<int32_t>& place) {
-  std::map<std::string, DofSet> sets;
+std::map<std::string, rom::DofSet> sets_of(const MatrixPlaces& places,
+                                           const std::vector<int32_t>& place) {
+  std::map<std::string, rom::DofSet> sets;
   for (const auto& [name, members] : places.sets) {
     std::vector<int32_t> left;
     for (const int32_t j : members)
       if (place[static_cast<size_t>(j)] >= 0) left.push_back(j);
     if (left.empty()) continue;
-    DofSet& set = sets[name];
+    rom::DofSet& set = sets[name];
     set.kind = "node";
     set.position.resize(static_cast<Eigen::Index>(left.size()), 3);
     set.direction.resize(static_cast<Eigen::Index>(left.size()), 3);
     for (size_t k = 0; k < left.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      const MappedDof& dof = places.dofs[static_cast<size_t>(left[k])];
+      const rom::MappedDof& dof = places.dofs[static_cast<size_t>(left[k])];
       set.dofs.push_back(place[static_cast<size_t>(left[k])]);
       set.labels.push_back(dof.label);
       set.position.row(row) = dof.position;

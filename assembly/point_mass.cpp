@@ -6,19 +6,19 @@
 
 #include "assembly/coupling.hpp"
 #include "assembly/dof_numbers.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::assembly {
 namespace {
 
 /// 0 ... 5: which of x y z rx ry rz a coordinate of a reference node is.
-int dof_of(const DofSet& set, size_t k) {
+int dof_of(const rom::DofSet& set, size_t k) {
   Eigen::Index axis = 0;
   set.direction.row(static_cast<Eigen::Index>(k)).cwiseAbs().maxCoeff(&axis);
   return static_cast<int>(axis) + (set.is_rotation[k] != 0 ? 3 : 0);
 }
 
-void check_takes(const PointMassSpec& spec, const DofSet& set) {
+void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
   if (set.kind == "contact_grid" || set.kind == "mean" || set.kind == "bolt")
     throw InputError(fmt::format("{}: found a set of kind {}, expected a coupling, point or nodes",
                                  spec.where, set.kind));
@@ -35,7 +35,7 @@ void check_takes(const PointMassSpec& spec, const DofSet& set) {
 
 }  // namespace
 
-bool turns(const DofSet& set) {
+bool turns(const rom::DofSet& set) {
   return std::any_of(set.is_rotation.begin(), set.is_rotation.end(), [](int r) { return r != 0; });
 }
 
@@ -46,7 +46,7 @@ Eigen::Matrix<double, 6, 6> mass_block(const PointMassSpec& spec) {
   return block;
 }
 
-void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const DofSet& set) {
+void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& set) {
   check_takes(spec, set);
   if (!turns(set)) {
     const double share = spec.mass / static_cast<double>(set.dofs.size() / 3);
@@ -78,7 +78,7 @@ void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix
   M += SparseMatrix(change.triangularView<Eigen::Lower>());
 }
 
-void add_moments(MassMoments& moments, const PointMassSpec& spec, const DofSet& set) {
+void add_moments(MassMoments& moments, const PointMassSpec& spec, const rom::DofSet& set) {
   const size_t places = turns(set) ? 1 : set.dofs.size() / 3;
   for (size_t p = 0; p < places; ++p)
     add_point(moments, spec.mass / static_cast<double>(places),

@@ -122,7 +122,7 @@ std::string RecipeReader::known_point(const Config& table, std::string_view key,
   return name;
 }
 
-Axes RecipeReader::axes(const Config& table) const {
+fe::Axes RecipeReader::axes(const Config& table) const {
   if (!table.has("system")) return {};
   const std::string name = table.text("system");
   if (!systems_.contains(name)) fail_unknown(table, "system", name, names_of(systems_));

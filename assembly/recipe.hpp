@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/assemble.hpp"
-#include "assembly/axes.hpp"
 #include "assembly/contact_patch.hpp"
 #include "assembly/dof_numbers.hpp"
-#include "assembly/material.hpp"
-#include "core/config.hpp"
-#include "mesh/mesh.hpp"
+#include "core/base/config.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/fe/axes.hpp"
+#include "core/fe/material.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 
@@ -40,7 +40,7 @@ struct SupportSpec {
   std::string name;
   Place place;
   std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
-  Axes axes;
+  fe::Axes axes;
 };
 
 /// [[coupling.term]]: places by which a reference node moves.
@@ -138,17 +138,17 @@ struct LoadSpec {
   std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
-  RotationAxis axis;                                 // centrifugal: of the part, and
+  fe::RotationAxis axis;                             // centrifugal: of the part, and
   std::vector<int32_t> turning;                      // the regions that turn; none: all and masses
   Place place;                                       // prescribed displacement:
   std::vector<int> directions;                       // of `axes`
-  Axes axes;
+  fe::Axes axes;
   double value = 0.0;  // [m] or [rad]; of a field see there; without one the rise [K]
 };
 
 struct Recipe {
-  std::vector<Material> materials;  // one a region of the mesh
-  MassForm mass = MassForm::kConsistent;
+  std::vector<fe::Material> materials;  // one a region of the mesh
+  fe::MassForm mass = fe::MassForm::kConsistent;
   DampingSpec damping;
   std::vector<PointSpec> points;
   std::vector<SupportSpec> supports;

@@ -111,9 +111,9 @@ LoadSpec RecipeReader::load(const Config& table) const {
 
 namespace {
 
-bool expands(const std::vector<Material>& materials) {
+bool expands(const std::vector<fe::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
-                     [](const Material& material) { return !material.expansion.isZero(0.0); });
+                     [](const fe::Material& material) { return !material.expansion.isZero(0.0); });
 }
 
 }  // namespace

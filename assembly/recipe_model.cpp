@@ -12,7 +12,8 @@ namespace clatter::assembly {
 void RecipeReader::systems() {
   const auto all = config_.find_table("system");
   if (!all) return;
-  for (const std::string& name : all->keys()) systems_[name] = read_axes(all->table(name), metre_);
+  for (const std::string& name : all->keys())
+    systems_[name] = fe::read_axes(all->table(name), metre_);
 }
 
 void RecipeReader::materials(Recipe& recipe) const {
@@ -21,7 +22,7 @@ void RecipeReader::materials(Recipe& recipe) const {
   recipe.materials.resize(mesh_.regions.size());
   for (const std::string& name : all.keys()) {
     const Config table = all.table(name);
-    const Material material = read_material(table, systems_);
+    const fe::Material material = fe::read_material(table, systems_);
     for (const std::string& region : table.texts("regions")) {
       const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
       if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
@@ -42,7 +43,7 @@ void RecipeReader::materials(Recipe& recipe) const {
 void RecipeReader::mass(Recipe& recipe) const {
   const auto table = config_.find_table("mass");
   if (table && table->choice("lumping", {"consistent", "hrz"}) == "hrz")
-    recipe.mass = MassForm::kHrz;
+    recipe.mass = fe::MassForm::kHrz;
 }
 
 /// zeta = alpha w / 2 + beta / (2 w): `ratio` at `at_hz` gives alpha for the beta beside it.

@@ -37,7 +37,7 @@ class RecipeReader {
   std::string new_set(const Config& table);
   std::string known_set(const Config& table, std::string_view key) const;
   std::string known_point(const Config& table, std::string_view key, const std::string& name) const;
-  Axes axes(const Config& table) const;
+  fe::Axes axes(const Config& table) const;
 
   void systems();
   void materials(Recipe& recipe) const;
@@ -73,7 +73,7 @@ class RecipeReader {
   double metre_ = 1.0;
   std::set<std::string> sets_;    // names of sets and points
   std::set<std::string> points_;  // names of points
-  std::map<std::string, Axes> systems_;
+  std::map<std::string, fe::Axes> systems_;
 };
 
 /// The keys of a map.

@@ -8,7 +8,7 @@
 #include "assembly/coupling.hpp"
 #include "assembly/dof_numbers.hpp"
 #include "assembly/recipe.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "assembly/surface_integral.hpp"
-#include "mesh/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 

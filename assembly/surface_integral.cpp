@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
 
 namespace clatter::assembly {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/h5_file.hpp"
-#include "mesh/mesh.hpp"
+#include "core/base/matrix.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly {
 

@@ -3,8 +3,8 @@
 
 #include "assembly/constrainer.hpp"
 #include "assembly/tie/mortar.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -100,7 +100,7 @@ void Constrainer::gather_ties() {
     }
     const int32_t jump = next_own_++;
     add_tie(spec, jump);
-    DofSet set;
+    rom::DofSet set;
     set.kind = "bolt";
     set.dofs = {jump};
     set.labels = {spec.name};

@@ -4,10 +4,10 @@
 
 #include <string_view>
 
-#include "assembly/assemble.hpp"
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/mesh/mesh_file.hpp"
 
 namespace {
 
@@ -21,20 +21,19 @@ int main(int argc, char** argv) {
   using namespace clatter;
   return run_guarded("assemble_mesh", [&] {
     if (argc < 2) throw InputError("expected a mesh file");
-    const auto form = argc > 2 && std::string_view(argv[2]) == "hrz"
-                          ? assembly::MassForm::kHrz
-                          : assembly::MassForm::kConsistent;
+    const auto form = argc > 2 && std::string_view(argv[2]) == "hrz" ? fe::MassForm::kHrz
+                                                                     : fe::MassForm::kConsistent;
     const mesh::Mesh mesh = mesh::read_mesh(argv[1]);
-    assembly::Material steel;
+    fe::Material steel;
     steel.youngs = 2.1e11;
     steel.poisson = 0.3;
     steel.density = 7850.0;
-    const std::vector<assembly::Material> materials(mesh.regions.size(), steel);
+    const std::vector<fe::Material> materials(mesh.regions.size(), steel);
     const Stopwatch pattern_watch;
-    const assembly::NodePattern pattern = assembly::node_pattern(mesh);
+    const fe::NodePattern pattern = fe::node_pattern(mesh);
     const double pattern_s = pattern_watch.seconds();
     const Stopwatch watch;
-    const assembly::NodalMatrices matrices = assembly::assemble(mesh, materials, pattern, form);
+    const fe::NodalMatrices matrices = fe::assemble(mesh, materials, pattern, form);
     fmt::print("{} {} {:.3f} {:.3f} {}\n", 3 * mesh.nodes.rows(), mesh.cell_count(), pattern_s,
                watch.seconds(), bytes(matrices.K) + bytes(matrices.M));
     return 0;

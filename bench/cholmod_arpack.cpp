@@ -12,9 +12,9 @@
 #include <random>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/fe_model.hpp"
 
 namespace {
 
@@ -98,7 +98,7 @@ std::vector<double> lowest(const SparseMatrix& M, Solver& solver, double sigma, 
 
 int run(int argc, char** argv) {
   if (argc != 4) throw clatter::InputError("expected model.fe.h5 count tolerance");
-  const auto model = clatter::assembly::read_fe_model(argv[1]);
+  const auto model = clatter::fe::read_fe_model(argv[1]);
   const double sigma = -std::pow(2.0 * std::numbers::pi * 100.0, 2);
   const SparseMatrix A = model.K - sigma * model.M;
   Solver solver(A);

@@ -6,21 +6,21 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "assembly/fe_model.hpp"
-#include "core/blas_kernel.hpp"
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
-#include "core/threads.hpp"
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   if (argc != 4) throw clatter::InputError("expected model.fe.h5 right-hand-sides threads");
   clatter::set_thread_count(std::atoi(argv[3]));
-  const auto model = clatter::assembly::read_fe_model(argv[1]);
+  const auto model = clatter::fe::read_fe_model(argv[1]);
   const clatter::SparseMatrix A = model.K + std::pow(2.0 * std::numbers::pi * 100.0, 2) * model.M;
-  const clatter::modal::SupernodalFactor factor(A);
+  const clatter::sparse::SupernodalFactor factor(A);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), std::atoi(argv[2]));
   const clatter::Stopwatch clock;
   const Eigen::MatrixXd x = factor.solve(b);

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "mesh/deck/abaqus_reader.hpp"
-#include "mesh/deck/nastran_reader.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/nastran/reader.hpp"
 
 namespace {
 

@@ -4,22 +4,22 @@
 
 #include <cstdlib>
 
-#include "assembly/fe_model.hpp"
-#include "core/blas_kernel.hpp"
-#include "core/error.hpp"
-#include "core/threads.hpp"
-#include "modal/eigen/mode_values.hpp"
-#include "modal/factor/inertia.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/sparse/eigen/mode_values.hpp"
+#include "core/sparse/factor/inertia.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
   if (argc < 4) throw clatter::InputError("expected model.fe.h5 threads hz...");
   clatter::set_thread_count(std::atoi(argv[2]));
-  const auto model = clatter::assembly::read_fe_model(argv[1]);
+  const auto model = clatter::fe::read_fe_model(argv[1]);
   for (int k = 3; k < argc; ++k) {
-    const double mu = clatter::modal::value_of_hz(std::atof(argv[k]));
-    fmt::print("{}\n", clatter::modal::count_below(model.K, model.M, mu).negative);
+    const double mu = clatter::sparse::value_of_hz(std::atof(argv[k]));
+    fmt::print("{}\n", clatter::sparse::count_below(model.K, model.M, mu).negative);
   }
   return 0;
 }

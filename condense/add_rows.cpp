@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -21,9 +21,9 @@ constexpr const char* kRequest = "request/text";
 constexpr double kLimit = 1e-7;
 
 /// Rows of two skins that stand at one point; points that a skin has twice are left out.
-std::vector<std::pair<Index, Index>> common_points(const Skin& a, const Skin& b) {
+std::vector<std::pair<Index, Index>> common_points(const rom::Skin& a, const rom::Skin& b) {
   using Place = std::array<double, 3>;
-  const auto places = [](const Skin& skin) {
+  const auto places = [](const rom::Skin& skin) {
     std::map<Place, Index> out;  // -1: twice
     for (Index p = 0; p < skin.nodes.rows(); ++p) {
       const auto [at, first] =
@@ -56,7 +56,7 @@ struct Evidence {
   }
 };
 
-Evidence evidence(const ReducedModel& fresh, const ReducedModel& stored) {
+Evidence evidence(const rom::ReducedModel& fresh, const rom::ReducedModel& stored) {
   Evidence out;
   const Index n_b = stored.n_boundary;
   out.append(fresh.M_rr.topRows(n_b), stored.M_rr.topRows(n_b));
@@ -75,7 +75,7 @@ Evidence evidence(const ReducedModel& fresh, const ReducedModel& stored) {
 }
 
 /// Orthogonal Q, block by block, with fresh Q next to stored.
-MatrixXd turn(const Evidence& known, const ReducedModel& stored) {
+MatrixXd turn(const Evidence& known, const rom::ReducedModel& stored) {
   const Index r = stored.size();
   MatrixXd Q = MatrixXd::Identity(r, r);
   for (Index first = stored.n_boundary, end = 0; first < r; first = end) {
@@ -103,7 +103,7 @@ void unite(std::vector<std::string>& names, const std::vector<std::string>& more
 }
 
 /// Names of sets that `stored` has beside its boundary.
-std::vector<std::string> sets_beside(const ReducedModel& stored,
+std::vector<std::string> sets_beside(const rom::ReducedModel& stored,
                                      const std::vector<std::string>& boundary) {
   std::vector<std::string> names;
   for (const std::string& name : stored.recovered_sets)
@@ -128,7 +128,7 @@ void write_request(H5File& file, const std::string& text) {
   file.write(kRequest, std::vector<std::string>{text});
 }
 
-double align_basis(ReducedModel& fresh, const ReducedModel& stored) {
+double align_basis(rom::ReducedModel& fresh, const rom::ReducedModel& stored) {
   if (fresh.size() != stored.size() || fresh.n_boundary != stored.n_boundary)
     return std::numeric_limits<double>::infinity();
   const Evidence known = evidence(fresh, stored);
@@ -145,8 +145,8 @@ double align_basis(ReducedModel& fresh, const ReducedModel& stored) {
   return worst;
 }
 
-ReducedModel add_rows(const assembly::FeModel& model, const ReducedModel& stored,
-                      CondenseOptions options, const RowRequest& request, StepClock& clock) {
+rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& stored,
+                           CondenseOptions options, const RowRequest& request, StepClock& clock) {
   options.skin = stored.skin.surfaces;
   unite(options.skin, request.surfaces);
   options.rows = sets_beside(stored, options.boundary);
@@ -155,7 +155,7 @@ ReducedModel add_rows(const assembly::FeModel& model, const ReducedModel& stored
   // The count of modes is proved again: the solver takes the same steps then, to the last bit. With
   // others its rounding, 1e-14 of a mode, comes out as 1e-4 of the weakest residual mode.
   options.certificate = options.inertia_invariants = options.modes.estimate_error = false;
-  ReducedModel fresh = condense(model, options, clock);
+  rom::ReducedModel fresh = condense(model, options, clock);
   const double error = align_basis(fresh, stored);
   clock.lap("comparison with the stored basis");
   if (!(error <= kLimit))
@@ -164,7 +164,7 @@ ReducedModel add_rows(const assembly::FeModel& model, const ReducedModel& stored
                     "expected at most {:.0e}: repeat with the threads and the BLAS kernel of that "
                     "run, or condense the part anew with these rows",
                     stored.name, error, kLimit));
-  ReducedModel out = stored;
+  rom::ReducedModel out = stored;
   out.skin = std::move(fresh.skin);
   out.combined = std::move(fresh.combined);
   out.sets = std::move(fresh.sets);

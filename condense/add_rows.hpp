@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
 #include "condense/condense.hpp"
-#include "core/reduced_model.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -35,13 +35,13 @@ struct RowRequest {
 /// NumericsError when the two bases differ by more than 1e-7 then; certificate entry
 /// `rows_added_error` keeps what was found.
 /// @param model the one that `stored` was made from (the caller compares the hashes).
-ReducedModel add_rows(const assembly::FeModel& model, const ReducedModel& stored,
-                      CondenseOptions options, const RowRequest& request, StepClock& clock);
+rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& stored,
+                           CondenseOptions options, const RowRequest& request, StepClock& clock);
 
 /// Turns the modal coordinates of `fresh` into those of `stored`, orthogonally and only among
 /// neighbours of equal stiffness (1e-6): the turn that brings mass coupling, loads and common rows
 /// nearest (Schoenemann 1966, orthogonal Procrustes). Returns the largest difference that is left
 /// in M_rr, K_rr, loads and rows, each relative to its own scale; infinity when the sizes differ.
-double align_basis(ReducedModel& fresh, const ReducedModel& stored);
+double align_basis(rom::ReducedModel& fresh, const rom::ReducedModel& stored);
 
 }  // namespace clatter::condense

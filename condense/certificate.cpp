@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "condense/frame_inertia.hpp"
-#include "core/error.hpp"
-#include "modal/dense_eigen.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/sparse/dense_eigen.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -23,30 +23,31 @@ Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) 
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
   const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
-  const modal::DenseEigen eig = modal::symmetric_eigen(
-      scale.asDiagonal() * M_rr * scale.asDiagonal(), modal::EigenParts::kValues);
+  const sparse::DenseEigen eig = sparse::symmetric_eigen(
+      scale.asDiagonal() * M_rr * scale.asDiagonal(), sparse::EigenParts::kValues);
   return eig.ok ? eig.values.maxCoeff() / eig.values.minCoeff()
                 : std::numeric_limits<double>::infinity();
 }
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
-void certify_spectrum(ReducedModel& reduced, const Eigen::MatrixXd& motions) {
+void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions) {
   constexpr double kRounding = 1e-15;  // of the highest value; a double holds no less
   auto& out = reduced.certificate;
-  const modal::EigenResult low =
-      modal::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
+  const sparse::EigenResult low =
+      sparse::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
-  const modal::DenseEigen all =
-      modal::symmetric_eigen(reduced.K_rr, reduced.M_rr, modal::EigenParts::kValues);
+  const sparse::DenseEigen all =
+      sparse::symmetric_eigen(reduced.K_rr, reduced.M_rr, sparse::EigenParts::kValues);
   if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
   const double highest = all.values.maxCoeff();
   const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
   out["rigid_modes"] = static_cast<double>(motions.cols() + zeros);
-  out["first_elastic_hz"] = zeros < low.values.size() ? modal::hz_of_value(low.values[zeros]) : 0.0;
-  out["max_frequency_hz"] = modal::hz_of_value(highest);
+  out["first_elastic_hz"] =
+      zeros < low.values.size() ? sparse::hz_of_value(low.values[zeros]) : 0.0;
+  out["max_frequency_hz"] = sparse::hz_of_value(highest);
 }
 
-void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
+void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
   auto& out = reduced.certificate;
   const Eigen::Index n_k = reduced.fixed_interface_hz.size();
   const Eigen::MatrixXd unit =
@@ -69,15 +70,15 @@ void certify_modes(ReducedModel& reduced, const CraigBampton& source) {
   out["fixed_interface_modes"] = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
   out["count_proved"] = interior.proof.proved ? 1.0 : 0.0;
   out["count_below"] = static_cast<double>(interior.proof.below);
-  out["count_limit_hz"] = modal::hz_of_value(interior.proof.limit);
+  out["count_limit_hz"] = sparse::hz_of_value(interior.proof.limit);
   out["cutoff_hz"] = interior.cutoff_hz;
   out["accurate_to_hz"] = interior.accurate_to_hz;
 }
 
 }  // namespace
 
-MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
-  MassProperties out;
+rom::MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
+  rom::MassProperties out;
   out.mass = rigid_mass.topLeftCorner<3, 3>().trace() / 3.0;
   // Column j is the momentum m e_j x c of a unit rotation about axis j.
   const Eigen::Matrix3d S = rigid_mass.topRightCorner<3, 3>();
@@ -90,7 +91,7 @@ MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
   return out;
 }
 
-MassError compare_mass(const MassProperties& found, const MassProperties& expected) {
+MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected) {
   MassError error;
   const double moment = expected.inertia.norm();
   const double gyration = std::sqrt(moment / expected.mass);
@@ -100,7 +101,7 @@ MassError compare_mass(const MassProperties& found, const MassProperties& expect
   return error;
 }
 
-double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r) {
+double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r) {
   if (r.cols() == 0) return 0.0;
   const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians weigh alike
   const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
@@ -112,12 +113,12 @@ double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r) {
   return residue;
 }
 
-void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
+void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum) {
   auto& out = reduced.certificate;
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
-  const MassProperties found = mass_properties_of(reduced_mass);
-  const MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
+  const rom::MassProperties found = mass_properties_of(reduced_mass);
+  const rom::MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
   out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, free.q);
   out["rigid_shape_error"] = source.rigid_error;
   const bool free_body = free.all_free;  // a held body cannot move rigidly

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "condense/craig_bampton.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -17,15 +17,15 @@ struct MassError {
 };
 
 /// Ten mass properties from a 6 x 6 rigid mass matrix r^T M r about the origin.
-MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass);
-MassError compare_mass(const MassProperties& found, const MassProperties& expected);
+rom::MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass);
+MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected);
 
 /// Takes out of K_rr what rounding left of a stiffness against the free motions r, K_rr <- P^T K_rr
 /// P with P = I - r (r^T M_rr r)^{-1} r^T M_rr, so that K_rr r = 0. Couplings with many nodes have
 /// entries in K that are up to 1e6 times those of K_rr, and rounding grows with them. Returns
 /// |K_rr r| / (|K_rr| |r|) before the change.
 /// @param r the free motions in reduced coordinates, size x m.
-double clear_rigid_stiffness(ReducedModel& reduced, const Eigen::MatrixXd& r);
+double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r);
 
 /// The free rigid motions of a reduced model.
 struct ReducedMotions {
@@ -50,7 +50,7 @@ struct ReducedMotions {
 /// residual_modes; inertia_invariants_error of frame_inertia.hpp when the model has them;
 /// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws
 /// NumericsError when the rigid motions or the mass did not survive the reduction.
-void certify(ReducedModel& reduced, const assembly::FeModel& model, const CraigBampton& source,
+void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum);
 
 }  // namespace clatter::condense

@@ -10,8 +10,8 @@
 #include "condense/frame_inertia.hpp"
 #include "condense/modal_damping.hpp"
 #include "condense/recovery_rows.hpp"
-#include "core/log.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/log.hpp"
+#include "core/fe/free_motions.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -41,7 +41,7 @@ int drop_dependent(CraigBampton& source) {
 }
 
 /// The boundary rows of the rigid motions; fixed-interface modes take no part in them.
-Eigen::MatrixXd reduced_rigid(const assembly::FeModel& model, const DofPartition& partition,
+Eigen::MatrixXd reduced_rigid(const fe::FeModel& model, const DofPartition& partition,
                               Eigen::Index size) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
   const auto n_b = static_cast<Eigen::Index>(partition.boundary.size());
@@ -129,7 +129,7 @@ CondenseOptions read_condense_options(const Config& config) {
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);
-  static_cast<modal::EigenChoice&>(options.modes) = modal::read_eigen_choice(config);
+  static_cast<sparse::EigenChoice&>(options.modes) = sparse::read_eigen_choice(config);
   options.inertia_invariants = config.flag_or("inertia_invariants", false);
   options.modal_damping = read_modal_damping(config);
   options.interface = read_interface_options(config, options.boundary);
@@ -137,8 +137,8 @@ CondenseOptions read_condense_options(const Config& config) {
   return options;
 }
 
-ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& options,
-                      StepClock& clock) {
+rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
+                           StepClock& clock) {
   const DofPartition partition = partition_dofs(model, options.boundary);
   report_repeated(partition);
   const PartitionedMatrix K = partition_matrix(model.K, partition);
@@ -153,7 +153,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
           ? search_cutoff(model, partition, K, M, statics, options.modes, clock, search)
           : craig_bampton(model, partition, K, M, statics, options.modes, clock);
 
-  ReducedModel reduced;
+  rom::ReducedModel reduced;
   reduced.name = model.name;
   reduced.method = options.method;
   reduced.n_boundary = static_cast<int>(partition.boundary.size());
@@ -185,7 +185,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   motions.topRows(reduced.n_boundary) = statics.free.q(partition.boundary, Eigen::all);
   if (options.interface) {
     const InterfaceReport report =
-        reduce_interface(reduced, *options.interface, motions, modal::characteristic_length(model),
+        reduce_interface(reduced, *options.interface, motions, fe::characteristic_length(model),
                          source.interior.accurate_to_hz);
     record(report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", report.modes));
@@ -195,7 +195,7 @@ ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& opt
   return reduced;
 }
 
-std::vector<std::string> describe(const ReducedModel& reduced) {
+std::vector<std::string> describe(const rom::ReducedModel& reduced) {
   const auto& c = reduced.certificate;
   const Eigen::Index n_k = reduced.fixed_interface_hz.size();
   const Eigen::Index n_z = reduced.size() - reduced.n_boundary - n_k;
@@ -227,7 +227,7 @@ std::vector<std::string> describe(const ReducedModel& reduced) {
                     reduced.mass.mass, c.at("mass_error")));
   }
   if (!reduced.modal_damping.empty()) {
-    const DampingTable& table = reduced.modal_damping;
+    const rom::DampingTable& table = reduced.modal_damping;
     lines.push_back(
         fmt::format("modal damping by table, {} rows, ratios {:g} to {:g}{}", table.hz.size(),
                     table.ratio.minCoeff(), table.ratio.maxCoeff(),

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
 #include "condense/craig_bampton.hpp"
 #include "condense/interface_modes.hpp"
-#include "core/config.hpp"
-#include "core/damping_table.hpp"
-#include "core/reduced_model.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/config.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/rom/damping_table.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -21,10 +21,10 @@ struct CondenseOptions {
   bool certificate = true;                    // false: without its costly part (certificate.hpp)
   std::vector<std::string> skin = {"skin"};   // surfaces whose displacement can be recovered
   std::vector<std::string> rows;              // sets whose displacement is kept beside the boundary
-  EliminationOrder order;                     // of K_ii, used again where it fits
+  rom::EliminationOrder order;                // of K_ii, used again where it fits
   bool inertia_invariants = false;            // of a body that rotates, eq. (9)
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
-  DampingTable modal_damping;                 // by eigenmodes of the body, beside alpha and beta
+  rom::DampingTable modal_damping;            // by eigenmodes of the body, beside alpha and beta
 };
 
 /// Reads the options; InputError for unknown keys and senseless values.
@@ -33,10 +33,10 @@ CondenseOptions read_condense_options(const Config& config);
 /// Reduces `model` by Guyan, Craig-Bampton (eq. 13, 14) or Craig-Chang and certifies the result.
 /// Steps and their times go to `clock`. Throws InputError (boundary, surfaces) and NumericsError
 /// (eigen-solver, count of modes, rigid motions or mass lost).
-ReducedModel condense(const assembly::FeModel& model, const CondenseOptions& options,
-                      StepClock& clock);
+rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
+                           StepClock& clock);
 
 /// Lines that tell a user what the reduced model holds and what was proved.
-std::vector<std::string> describe(const ReducedModel& reduced);
+std::vector<std::string> describe(const rom::ReducedModel& reduced);
 
 }  // namespace clatter::condense

@@ -4,28 +4,26 @@
 
 #include <memory>
 
-#include "assembly/dof_place.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/dof_place.hpp"
 
 namespace clatter::condense {
 namespace {
 
-std::shared_ptr<const modal::SupernodalFactor> factorise_interior(const assembly::FeModel& model,
-                                                                  const DofPartition& partition,
-                                                                  const PartitionedMatrix& K,
-                                                                  const EliminationOrder& order) {
+std::shared_ptr<const sparse::SupernodalFactor> factorise_interior(
+    const fe::FeModel& model, const DofPartition& partition, const PartitionedMatrix& K,
+    const rom::EliminationOrder& order) {
   try {
-    modal::FactorOptions options;
+    sparse::FactorOptions options;
     if (order.fits(K.ii))
       options.permutation.assign(order.permutation.begin(), order.permutation.end());
-    return std::make_shared<modal::SupernodalFactor>(K.ii, K.ib, options);
-  } catch (const modal::NotPositiveDefinite& error) {
+    return std::make_shared<sparse::SupernodalFactor>(K.ii, K.ib, options);
+  } catch (const sparse::NotPositiveDefinite& error) {
     const std::string where =
         error.column < 0
             ? std::string{}
-            : ", at " +
-                  assembly::place_of(model, partition.interior[static_cast<size_t>(error.column)]);
-    throw modal::NotPositiveDefinite(
+            : ", at " + fe::place_of(model, partition.interior[static_cast<size_t>(error.column)]);
+    throw sparse::NotPositiveDefinite(
         fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
                     "look for a part of the mesh that is not connected",
                     error.what(), where),
@@ -33,22 +31,22 @@ std::shared_ptr<const modal::SupernodalFactor> factorise_interior(const assembly
   }
 }
 
-EliminationOrder order_of(const modal::SupernodalFactor& factor, const SparseMatrix& K_ii) {
+rom::EliminationOrder order_of(const sparse::SupernodalFactor& factor, const SparseMatrix& K_ii) {
   const std::vector<int64_t> places = factor.permutation();
   return {{places.begin(), places.end()},
-          sha256_of_pattern(K_ii),
+          rom::sha256_of_pattern(K_ii),
           factor.report().ordering,
           factor.report().entries};
 }
 
 }  // namespace
 
-StaticPart static_part(const assembly::FeModel& model, const DofPartition& partition,
+StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
                        const std::vector<int32_t>& kept, StepClock& clock,
-                       const EliminationOrder& order) {
+                       const rom::EliminationOrder& order) {
   StaticPart out;
-  out.free = modal::free_motions(model);
+  out.free = fe::free_motions(model);
   check_boundary_holds(model, partition, out.free);
   out.factor_ii = factorise_interior(model, partition, K, order);
   out.order = order_of(*out.factor_ii, K.ii);
@@ -62,11 +60,11 @@ StaticPart static_part(const assembly::FeModel& model, const DofPartition& parti
   return out;
 }
 
-CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& partition,
+CraigBampton craig_bampton(const fe::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const StaticPart& statics, const ModeRequest& request,
                            StepClock& clock) {
-  const modal::SupernodalFactor& factor = *statics.factor_ii;
+  const sparse::SupernodalFactor& factor = *statics.factor_ii;
   CraigBampton out;
   out.factor = factor.report();
   out.rigid_error = statics.reduction.rigid_error;

@@ -6,9 +6,9 @@
 
 #include "condense/interior_modes.hpp"
 #include "condense/residual_modes.hpp"
-#include "core/elimination_order.hpp"
-#include "core/stopwatch.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fe/free_motions.hpp"
+#include "core/rom/elimination_order.hpp"
 
 namespace clatter::condense {
 
@@ -17,16 +17,16 @@ struct CraigBampton : Reduction {
   Eigen::VectorXd fixed_interface_hz;  // of the kept shapes: modes, load shapes, residual modes
   InteriorModes interior;              // what is known of them; the vectors moved to the basis
   ResidualReport residual;
-  modal::FactorReport factor;
+  sparse::FactorReport factor;
   double rigid_error = 0.0;  // of the static shapes
 };
 
 /// What is made once for a boundary, whatever modes are added.
 struct StaticPart {
-  std::shared_ptr<const modal::SupernodalFactor> factor_ii;
+  std::shared_ptr<const sparse::SupernodalFactor> factor_ii;
   StaticReduction reduction;
-  EliminationOrder order;   // of K_ii
-  modal::FreeMotions free;  // of the model
+  rom::EliminationOrder order;  // of K_ii
+  fe::FreeMotions free;         // of the model
 };
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
@@ -34,16 +34,16 @@ struct StaticPart {
 /// @param kept interior unknowns whose rows of Psi are wanted.
 /// @param order used again when it fits K_ii (hard case C7), in place of one that is looked for.
 /// Throws InputError when the boundary does not hold the body, NumericsError when K_ii is singular.
-StaticPart static_part(const assembly::FeModel& model, const DofPartition& partition,
+StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
                        const std::vector<int32_t>& kept, StepClock& clock,
-                       const EliminationOrder& order = {});
+                       const rom::EliminationOrder& order = {});
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is
 /// Guyan's, and the cut-off is the first fixed-interface frequency, from where on the basis holds
 /// nothing. Throws NumericsError as solve_modes does.
-CraigBampton craig_bampton(const assembly::FeModel& model, const DofPartition& partition,
+CraigBampton craig_bampton(const fe::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const StaticPart& statics, const ModeRequest& request, StepClock& clock);
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::condense {
 
@@ -13,7 +13,7 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz) {
   return estimate / (1.0 - std::pow(hz / cutoff_hz, 2));
 }
 
-CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& partition,
+CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const StaticPart& statics, const ModeRequest& request, StepClock& clock,
                            CutOffSearch& search) {

@@ -24,7 +24,7 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
 /// frequency and grows by a quarter, up to 4 times, while residual modes do not reach the target.
 /// Own modes are exact: their cut-off is the frequency itself. Throws NumericsError when no cut-off
 /// reaches the target, otherwise as craig_bampton.
-CraigBampton search_cutoff(const assembly::FeModel& model, const DofPartition& partition,
+CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const StaticPart& statics, const ModeRequest& request, StepClock& clock,
                            CutOffSearch& search);

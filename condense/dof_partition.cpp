@@ -5,19 +5,18 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "assembly/dof_place.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/dof_place.hpp"
 
 namespace clatter::condense {
-DofPartition partition_dofs(const assembly::FeModel& model,
-                            const std::vector<std::string>& set_names) {
+DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names) {
   DofPartition partition;
   std::vector<int32_t> coordinate(static_cast<size_t>(model.size()), -1);
   for (const std::string& name : set_names) {
     if (partition.sets.contains(name)) {
       throw InputError(fmt::format("boundary: set \"{}\" is named twice", name));
     }
-    DofSet set = model.set(name);
+    rom::DofSet set = model.set(name);
     if (set.dofs.empty()) throw InputError(fmt::format("boundary: set \"{}\" is empty", name));
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       const int32_t dof = set.dofs[k];
@@ -85,8 +84,8 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   return blocks;
 }
 
-void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition,
-                          const modal::FreeMotions& free) {
+void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
+                          const fe::FreeMotions& free) {
   if (free.count() == 0) return;
   const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
@@ -105,8 +104,8 @@ void check_boundary_holds(const assembly::FeModel& model, const DofPartition& pa
                   "add a set that holds it{}",
                   partition.boundary.size(), rank,
                   free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
-                  modal::motion_name(loose, modal::characteristic_length(model)),
-                  assembly::place_of(model, static_cast<int32_t>(most)),
+                  fe::motion_name(loose, fe::characteristic_length(model)),
+                  fe::place_of(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
 }
 

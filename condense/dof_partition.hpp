@@ -6,26 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
-#include "core/sparse.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/sparse.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/fe/free_motions.hpp"
 
 namespace clatter::condense {
 
 /// Boundary DoFs b in the order of the reduced coordinates, interior DoFs i ascending.
 struct DofPartition {
-  std::vector<int32_t> boundary;             // n_b indices into the model
-  std::vector<int32_t> interior;             // n_i indices into the model
-  std::map<std::string, DofSet> sets;        // the boundary sets; `dofs` index the reduced model
-  std::map<std::string, ContactGrid> grids;  // of those sets that are contact grids
-  std::vector<std::string> repeated;         // labels that name a DoF which was already retained
+  std::vector<int32_t> boundary;            // n_b indices into the model
+  std::vector<int32_t> interior;            // n_i indices into the model
+  std::map<std::string, rom::DofSet> sets;  // the boundary sets; `dofs` index the reduced model
+  std::map<std::string, rom::ContactGrid> grids;  // of those sets that are contact grids
+  std::vector<std::string> repeated;  // labels that name a DoF which was already retained
 };
 
 /// Boundary = the DoFs of the named sets, set by set. A DoF that stands in several sets gets one
 /// coordinate, which all of them share (hard case B3). InputError for an unknown or empty set, or
 /// when nothing is left inside.
-DofPartition partition_dofs(const assembly::FeModel& model,
-                            const std::vector<std::string>& set_names);
+DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names);
 
 /// A symmetric matrix in blocks, A = [A_ii A_ib; A_bi A_bb].
 struct PartitionedMatrix {
@@ -39,7 +38,7 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
 
 /// Refuses a boundary that leaves a body free to move by one of the free motions: InputError naming
 /// the motion.
-void check_boundary_holds(const assembly::FeModel& model, const DofPartition& partition,
-                          const modal::FreeMotions& free);
+void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
+                          const fe::FreeMotions& free);
 
 }  // namespace clatter::condense

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -29,7 +29,7 @@ double along(double place, double centre, double width) {
 
 }  // namespace
 
-VectorXd patch_areas(const ContactGrid& grid) {
+VectorXd patch_areas(const rom::ContactGrid& grid) {
   const Index rows = grid.axial.size();
   VectorXd areas(grid.angle.size() * rows);
   for (Index i = 0; i < grid.angle.size(); ++i) {
@@ -40,7 +40,7 @@ VectorXd patch_areas(const ContactGrid& grid) {
   return areas;
 }
 
-MatrixXd film_pressures(const ContactGrid& grid) {
+MatrixXd film_pressures(const rom::ContactGrid& grid) {
   const Index rows = grid.axial.size();
   const double bottom = grid.axial_edges[0], height = grid.axial_edges[rows] - bottom;
   MatrixXd pressures(grid.angle.size() * rows, 10);
@@ -57,7 +57,7 @@ MatrixXd film_pressures(const ContactGrid& grid) {
   return pressures;
 }
 
-MatrixXd film_forces(const ReducedModel& model, const std::string& grid) {
+MatrixXd film_forces(const rom::ReducedModel& model, const std::string& grid) {
   const std::vector<int32_t>& places = model.set(grid).dofs;
   const MatrixXd resultants =
       patch_areas(model.grid(grid)).asDiagonal() * film_pressures(model.grid(grid));

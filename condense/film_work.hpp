@@ -1,20 +1,20 @@
 #pragma once
 // What a reduced interface does to the work of film pressure.
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
 /// Areas of the patches [m2], in the order of the grid's set.
-Eigen::VectorXd patch_areas(const ContactGrid& grid);
+Eigen::VectorXd patch_areas(const rom::ContactGrid& grid);
 
 /// Pressures like those of a film between skirt and bore, at the patches, patches x 10: on each
 /// side (the grid's zero angle and opposite) cos^2 of the angle within 90 deg, along the axis a
 /// half sine over half of the grid's height, centred at 0.1, 0.3, 0.5, 0.7 and 0.9 of the height;
 /// peak 1 Pa. A side without patches gives zeros.
-Eigen::MatrixXd film_pressures(const ContactGrid& grid);
+Eigen::MatrixXd film_pressures(const rom::ContactGrid& grid);
 
 /// Forces on the coordinates of `model` by these pressures on one of its grids, r x 10.
-Eigen::MatrixXd film_forces(const ReducedModel& model, const std::string& grid);
+Eigen::MatrixXd film_forces(const rom::ReducedModel& model, const std::string& grid);
 
 /// p^T A u of the static answer u to each column of `forces`. What rests on nothing is balanced by
 /// its own inertia (inertia relief): (K + s M r r^T M) u = f - M r (r^T M r)^{-1} r^T f.

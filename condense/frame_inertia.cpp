@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "assembly/assemble.hpp"
-#include "core/error.hpp"
-#include "modal/dense_product.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/sparse/dense_product.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -48,7 +48,7 @@ double largest_entry(const SparseMatrix& A) {
   return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0.0;
 }
 
-bool gives_back(const SparseMatrix& m, const assembly::FeModel& model) {
+bool gives_back(const SparseMatrix& m, const fe::FeModel& model) {
   const SparseMatrix rest = with_directions(m, model.T) - model.M;
   return largest_entry(rest) <= 1e-10 * largest_entry(model.M);
 }
@@ -56,8 +56,7 @@ bool gives_back(const SparseMatrix& m, const assembly::FeModel& model) {
 /// Columns of T V, split by direction.
 class NodalColumns {
  public:
-  NodalColumns(const assembly::FeModel& model, const DofPartition& partition,
-               const ReducedBasis& basis)
+  NodalColumns(const fe::FeModel& model, const DofPartition& partition, const ReducedBasis& basis)
       : model_(model), partition_(partition), basis_(basis) {}
 
   std::array<MatrixXd, 3> operator()(Index first, Index count) const {
@@ -74,7 +73,7 @@ class NodalColumns {
   }
 
  private:
-  const assembly::FeModel& model_;
+  const fe::FeModel& model_;
   const DofPartition& partition_;
   const ReducedBasis& basis_;
 };
@@ -85,7 +84,7 @@ double difference(const MatrixXd& found, const MatrixXd& expected) {
 
 }  // namespace
 
-SparseMatrix nodal_mass(const assembly::FeModel& model) {
+SparseMatrix nodal_mass(const fe::FeModel& model) {
   if (model.T.rows() == model.size()) {
     const SparseMatrix m = without_directions(model.M);
     if (gives_back(m, model)) return m;
@@ -96,10 +95,10 @@ SparseMatrix nodal_mass(const assembly::FeModel& model) {
     mesh.nodes = model.nodes;
     mesh.regions = model.cells.regions;
     mesh.cells = model.cells.blocks;
-    const assembly::NodePattern pattern = assembly::node_pattern(mesh);
-    for (const auto form : {assembly::MassForm::kConsistent, assembly::MassForm::kHrz}) {
+    const fe::NodePattern pattern = fe::node_pattern(mesh);
+    for (const auto form : {fe::MassForm::kConsistent, fe::MassForm::kHrz}) {
       const SparseMatrix m =
-          without_directions(assembly::assemble(mesh, model.cells.materials, pattern, form).M);
+          without_directions(fe::assemble(mesh, model.cells.materials, pattern, form).M);
       if (gives_back(m, model)) return m;
     }
   }
@@ -109,17 +108,17 @@ SparseMatrix nodal_mass(const assembly::FeModel& model) {
       model.name));
 }
 
-InertiaInvariants frame_inertia(const assembly::FeModel& model, const DofPartition& partition,
-                                const ReducedBasis& basis) {
+rom::InertiaInvariants frame_inertia(const fe::FeModel& model, const DofPartition& partition,
+                                     const ReducedBasis& basis) {
   constexpr Index kBlock = 256;
   const SparseMatrix m = nodal_mass(model);
-  const modal::SymmetricProduct mass(m);
+  const sparse::SymmetricProduct mass(m);
   const MatrixXd x = model.nodes;
   const MatrixXd m_x = mass * x;
   const VectorXd m_1 = mass * VectorXd::Ones(x.rows());
   const NodalColumns columns(model, partition, basis);
   const Index r = basis.size();
-  InertiaInvariants out;
+  rom::InertiaInvariants out;
   out.place = x.transpose() * m_x;
   for (VectorXd& vector : out.first) vector.resize(r);
   for (VectorXd& vector : out.moment) vector.resize(r);
@@ -141,7 +140,7 @@ InertiaInvariants frame_inertia(const assembly::FeModel& model, const DofPartiti
       for (size_t k = 0; k < 3; ++k)
         for (size_t l = k; l < 3; ++l)
           out.product[3 * k + l].block(left, right, n_left, n_right) =
-              modal::transposed_product(other[k], m_U[l]);
+              sparse::transposed_product(other[k], m_U[l]);
     }
   }
   for (size_t k = 0; k < 3; ++k) {
@@ -152,8 +151,8 @@ InertiaInvariants frame_inertia(const assembly::FeModel& model, const DofPartiti
   return out;
 }
 
-double inertia_error(const ReducedModel& reduced, bool free_body) {
-  const InertiaInvariants& found = reduced.inertia;
+double inertia_error(const rom::ReducedModel& reduced, bool free_body) {
+  const rom::InertiaInvariants& found = reduced.inertia;
   double error = difference(found.product[0] + found.product[4] + found.product[8], reduced.M_rr);
   if (!free_body) return error;
   const MatrixXd momentum = reduced.M_rr * reduced.rigid;

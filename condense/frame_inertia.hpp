@@ -1,8 +1,8 @@
 #pragma once
 // The inertia invariants of a body that rotates, from its nodal masses.
 #include "condense/reduced_basis.hpp"
-#include "core/inertia_invariants.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/inertia_invariants.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -11,17 +11,17 @@ namespace clatter::condense {
 /// are the nodal displacements. n_nodes x n_nodes [kg], lower triangle. InputError when neither
 /// gives M back to 1e-10: point masses on references and imported matrices with constraints have no
 /// nodal form.
-SparseMatrix nodal_mass(const assembly::FeModel& model);
+SparseMatrix nodal_mass(const fe::FeModel& model);
 
 /// The shape integrals of core/inertia_invariants.hpp over the nodes, N = T V: with U_k the rows of
 /// direction k, product_kl = U_k^T m U_l, moment_lk = U_k^T m x_l, first_k = U_k^T m 1. Columns of
 /// the basis pass in blocks. InputError as nodal_mass.
-InertiaInvariants frame_inertia(const assembly::FeModel& model, const DofPartition& partition,
-                                const ReducedBasis& basis);
+rom::InertiaInvariants frame_inertia(const fe::FeModel& model, const DofPartition& partition,
+                                     const ReducedBasis& basis);
 
 /// Largest relative difference of what the rigid motions r and M_rr say as well: sum_k product_kk =
 /// M_rr; for a body whose six motions are free first_k = M_rr r_k, moment_lk - moment_kl = M_rr
 /// r_(3+j), and place against the mass properties.
-double inertia_error(const ReducedModel& reduced, bool free_body);
+double inertia_error(const rom::ReducedModel& reduced, bool free_body);
 
 }  // namespace clatter::condense

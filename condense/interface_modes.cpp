@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "condense/film_work.hpp"
-#include "core/error.hpp"
-#include "modal/eigen/dense_solver.hpp"
-#include "modal/eigen/eigen_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
+#include "core/sparse/eigen/eigen_solver.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -24,7 +24,7 @@ struct Split {
   std::vector<int> stay, become;
 };
 
-Split split_boundary(const ReducedModel& model, const std::vector<std::string>& sets) {
+Split split_boundary(const rom::ReducedModel& model, const std::vector<std::string>& sets) {
   std::vector<char> named(static_cast<size_t>(model.n_boundary), 0);
   for (const std::string& name : sets)
     for (const int32_t dof : model.set(name).dofs) named[static_cast<size_t>(dof)] = 1;
@@ -35,7 +35,7 @@ Split split_boundary(const ReducedModel& model, const std::vector<std::string>& 
 }
 
 /// Refuses coordinates that leave a free rigid motion; rigid_R is their part of these motions.
-void check_holds(const ReducedModel& model, const MatrixXd& rigid_R, double length) {
+void check_holds(const rom::ReducedModel& model, const MatrixXd& rigid_R, double length) {
   if (rigid_R.cols() == 0 || rigid_R.rows() == 0) return;
   MatrixXd scaled = rigid_R;  // columns of unit size; a motion that all coordinates rest in is zero
   for (Index j = 0; j < scaled.cols(); ++j)
@@ -50,7 +50,7 @@ void check_holds(const ReducedModel& model, const MatrixXd& rigid_R, double leng
 }
 
 /// Areas of the patches behind the coordinates `become`; InputError when one is no patch.
-VectorXd areas_of(const ReducedModel& model, const InterfaceOptions& options,
+VectorXd areas_of(const rom::ReducedModel& model, const InterfaceOptions& options,
                   const std::vector<int>& become) {
   VectorXd by_coordinate = VectorXd::Zero(model.n_boundary);
   for (const std::string& name : options.sets) {
@@ -74,25 +74,26 @@ struct Shapes {
 /// Elastic modes of (K_SS, N), after the `rigid` motions of all of the boundary.
 Shapes interface_shapes(const MatrixXd& K_SS, const MatrixXd& M_SS, const MatrixXd& N,
                         const MatrixXd& rigid, const InterfaceOptions& options) {
-  const double sigma = rigid.cols() > 0 ? modal::dense_shift(K_SS, N) : 0.0;
-  const modal::EigenResult all = modal::solve_dense(K_SS, N, sigma);
+  const double sigma = rigid.cols() > 0 ? sparse::dense_shift(K_SS, N) : 0.0;
+  const sparse::EigenResult all = sparse::solve_dense(K_SS, N, sigma);
   if (!all.ok()) throw NumericsError("interface modes: " + all.message);
   const Index elastic = all.values.size() - rigid.cols();
   const VectorXd values = all.values.tail(elastic);
   Index count = std::min<Index>(options.modes, elastic);
-  if (options.fmax_hz > 0.0) count = (values.array() < modal::value_of_hz(options.fmax_hz)).count();
+  if (options.fmax_hz > 0.0)
+    count = (values.array() < sparse::value_of_hz(options.fmax_hz)).count();
   Shapes out;
   out.Phi.resize(K_SS.rows(), rigid.cols() + count);
   out.Phi.leftCols(rigid.cols()) = rigid;
   out.Phi.rightCols(count) = all.vectors.middleCols(rigid.cols(), count);
   for (Index j = 0; j < out.Phi.cols(); ++j)
     out.Phi.col(j) /= std::sqrt(out.Phi.col(j).dot(M_SS * out.Phi.col(j)));
-  if (!options.by_area && count < elastic) out.next_hz = modal::hz_of_value(values[count]);
+  if (!options.by_area && count < elastic) out.next_hz = sparse::hz_of_value(values[count]);
   return out;
 }
 
 /// W of q = W (q_R, z, modal coordinates).
-MatrixXd transformation(const ReducedModel& model, const Split& split, const MatrixXd& Psi_SR,
+MatrixXd transformation(const rom::ReducedModel& model, const Split& split, const MatrixXd& Psi_SR,
                         const MatrixXd& Phi_S) {
   const auto n_R = static_cast<Index>(split.stay.size());
   const Index n_k = model.size() - model.n_boundary, p = Phi_S.cols();
@@ -113,7 +114,7 @@ MatrixXd projected(const MatrixXd& A, const MatrixXd& W) {
 
 /// Sets name coordinates that stay, after all coordinates the places of `become`, and after those
 /// the places that were combined among the coordinates `before`.
-void renumber(ReducedModel& model, const Split& split, int before, int size) {
+void renumber(rom::ReducedModel& model, const Split& split, int before, int size) {
   std::vector<int32_t> place(static_cast<size_t>(model.n_boundary));
   for (size_t k = 0; k < split.stay.size(); ++k)
     place[static_cast<size_t>(split.stay[k])] = static_cast<int32_t>(k);
@@ -126,7 +127,7 @@ void renumber(ReducedModel& model, const Split& split, int before, int size) {
 }
 
 /// Rigid motions (r x m) in the coordinates behind W: q_R as it is, z the nearest in the mass of S.
-MatrixXd carried(const ReducedModel& model, const Split& split, const MatrixXd& W,
+MatrixXd carried(const rom::ReducedModel& model, const Split& split, const MatrixXd& W,
                  const MatrixXd& motions) {
   const auto n_R = static_cast<Index>(split.stay.size());
   const Index p = W.cols() - n_R - (model.size() - model.n_boundary);
@@ -143,8 +144,9 @@ MatrixXd carried(const ReducedModel& model, const Split& split, const MatrixXd& 
 }
 
 /// The model in the coordinates behind W.
-ReducedModel transformed(const ReducedModel& model, const Split& split, const MatrixXd& W) {
-  ReducedModel out = model;
+rom::ReducedModel transformed(const rom::ReducedModel& model, const Split& split,
+                              const MatrixXd& W) {
+  rom::ReducedModel out = model;
   const auto n_R = static_cast<Index>(split.stay.size());
   out.M_rr = projected(model.M_rr, W);
   out.K_rr = projected(model.K_rr, W);
@@ -164,23 +166,24 @@ ReducedModel transformed(const ReducedModel& model, const Split& split, const Ma
 
 /// Largest relative frequency error of elastic modes below the limit.
 /// @param before, after with the free motions of each.
-double frequency_error(const ReducedModel& before, const MatrixXd& motions_before,
-                       const ReducedModel& after, const MatrixXd& motions_after, double limit_hz) {
-  const auto values = [](const ReducedModel& model, const MatrixXd& motions) {
-    const modal::EigenResult all =
-        modal::solve_dense(model.K_rr, model.M_rr, motions, std::nullopt);
+double frequency_error(const rom::ReducedModel& before, const MatrixXd& motions_before,
+                       const rom::ReducedModel& after, const MatrixXd& motions_after,
+                       double limit_hz) {
+  const auto values = [](const rom::ReducedModel& model, const MatrixXd& motions) {
+    const sparse::EigenResult all =
+        sparse::solve_dense(model.K_rr, model.M_rr, motions, std::nullopt);
     if (!all.ok()) throw NumericsError("reduced interface: " + all.message);
     return all.values;
   };
   const VectorXd exact = values(before, motions_before), found = values(after, motions_after);
   double error = 0.0;
-  for (Index j = 0; j < exact.size() && exact[j] < modal::value_of_hz(limit_hz); ++j)
+  for (Index j = 0; j < exact.size() && exact[j] < sparse::value_of_hz(limit_hz); ++j)
     error = std::max(error, j < found.size() ? std::sqrt(found[j] / exact[j]) - 1.0 : 1.0);
   return error;
 }
 
-double film_work_error(const ReducedModel& before, const MatrixXd& motions_before,
-                       const ReducedModel& after, const MatrixXd& motions_after,
+double film_work_error(const rom::ReducedModel& before, const MatrixXd& motions_before,
+                       const rom::ReducedModel& after, const MatrixXd& motions_after,
                        const InterfaceOptions& options) {
   double error = 0.0;
   for (const auto& [name, grid] : before.grids) {
@@ -221,7 +224,7 @@ std::optional<InterfaceOptions> read_interface_options(const Config& config,
   return options;
 }
 
-InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& options,
+InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOptions& options,
                                  MatrixXd& motions, double length, double limit_hz) {
   const Split split = split_boundary(model, options.sets);
   const MatrixXd rigid_R = motions(split.stay, Eigen::all);
@@ -243,7 +246,7 @@ InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& op
           (rigid_S - Psi_SR * rigid_R) * rigid_R.completeOrthogonalDecomposition().pseudoInverse();
   }
   const MatrixXd W = transformation(model, split, Psi_SR, shapes.Phi);
-  ReducedModel reduced = transformed(model, split, W);
+  rom::ReducedModel reduced = transformed(model, split, W);
   const MatrixXd after = carried(model, split, W, motions);
   InterfaceReport report;
   report.coordinates = static_cast<int>(split.become.size());

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/config.hpp"
-#include "core/reduced_model.hpp"
+#include "core/base/config.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -42,7 +42,7 @@ struct InterfaceReport {
 /// @param motions r x m, the free rigid motions; on return in the new coordinates; limit_hz up to
 /// where frequencies are compared before and after; length [m] the body's size.
 /// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.
-InterfaceReport reduce_interface(ReducedModel& model, const InterfaceOptions& options,
+InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOptions& options,
                                  Eigen::MatrixXd& motions, double length, double limit_hz);
 
 /// interface_coordinates, _modes, _cutoff_hz, _frequency_error, _film_work_error of a certificate.

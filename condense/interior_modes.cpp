@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "condense/shape_basis.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "core/named.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/named.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -17,34 +17,34 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-modal::EigenOptions eigen_options(const ModeRequest& request) {
-  modal::EigenOptions options;
+sparse::EigenOptions eigen_options(const ModeRequest& request) {
+  sparse::EigenOptions options;
   options.count = request.count;
   options.fmax_hz = request.fmax_hz;
   options.prove_count = request.prove_count;
-  static_cast<modal::EigenChoice&>(options) = request;
+  static_cast<sparse::EigenChoice&>(options) = request;
   return options;
 }
 
-void take_report(const modal::ModeSet& modes, const ModeRequest& request, InteriorModes& out) {
+void take_report(const sparse::ModeSet& modes, const ModeRequest& request, InteriorModes& out) {
   out.proof = modes.proof;
   out.residuals = modes.residuals;
   out.cutoff_hz = request.fmax_hz > 0.0 || modes.size() == 0
                       ? request.fmax_hz
-                      : modal::hz_of_value(modes.values.tail(1)[0]);
+                      : sparse::hz_of_value(modes.values.tail(1)[0]);
   if (modes.errors.size() == 0) return;
   out.frequency_error = modes.errors.maxCoeff();
-  out.cutoff_hz = std::min(out.cutoff_hz, modal::hz_of_value(modes.next_value));
+  out.cutoff_hz = std::min(out.cutoff_hz, sparse::hz_of_value(modes.next_value));
 }
 
 InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                    const modal::SupernodalFactor& factor_ii,
+                                    const sparse::SupernodalFactor& factor_ii,
                                     const ModeRequest& request) {
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
-  modal::EigenOptions options = eigen_options(request);
+  sparse::EigenOptions options = eigen_options(request);
   options.sigma = 0.0;  // K_ii itself is definite, and its factor is there
   if (guyan) options.count = 1;
-  modal::ModeSet modes = modal::solve_modes(K.ii, M.ii, options, &factor_ii);
+  sparse::ModeSet modes = sparse::solve_modes(K.ii, M.ii, options, &factor_ii);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = 0.5 * out.cutoff_hz;
@@ -53,19 +53,19 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
     out.residuals.resize(0);
     return out;
   }
-  out.hz = modes.values.unaryExpr(&modal::hz_of_value);
+  out.hz = modes.values.unaryExpr(&sparse::hz_of_value);
   out.vectors.swap(modes.vectors);
   return out;
 }
 
-InteriorModes own_modes(const assembly::FeModel& model, const DofPartition& partition,
+InteriorModes own_modes(const fe::FeModel& model, const DofPartition& partition,
                         const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const modal::SupernodalFactor& factor_ii, const MatrixXd& motions,
+                        const sparse::SupernodalFactor& factor_ii, const MatrixXd& motions,
                         const ModeRequest& request) {
-  modal::EigenOptions options = eigen_options(request);
+  sparse::EigenOptions options = eigen_options(request);
   options.rigid = motions;
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
-  const modal::ModeSet modes = modal::solve_modes(model.K, model.M, options);
+  const sparse::ModeSet modes = sparse::solve_modes(model.K, model.M, options);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = out.cutoff_hz;
@@ -73,20 +73,20 @@ InteriorModes own_modes(const assembly::FeModel& model, const DofPartition& part
   MatrixXd shapes(model.size(), motions.cols() + out.own_modes);
   shapes.leftCols(motions.cols()) = motions;
   shapes.rightCols(out.own_modes) = modes.vectors.rightCols(out.own_modes);
-  const MatrixXd inertia = modal::SymmetricProduct(model.M) * shapes;
+  const MatrixXd inertia = sparse::SymmetricProduct(model.M) * shapes;
   const MatrixXd force = inertia(partition.interior, Eigen::all);
   ShapeBasis basis = shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), K.ii, M.ii);
   if (!basis.dependent.empty())
     warn(fmt::format("{} of {} rigid and own modes depend on the static shapes and were dropped",
                      basis.dependent.size(), force.cols()));
   out.dropped = static_cast<int>(basis.dependent.size());
-  out.hz = basis.values.unaryExpr(&modal::hz_of_value);
+  out.hz = basis.values.unaryExpr(&sparse::hz_of_value);
   out.vectors.swap(basis.vectors);
   return out;
 }
 
 /// f_i of the named loads, n_i x loads.
-MatrixXd interior_loads(const assembly::FeModel& model, const DofPartition& partition,
+MatrixXd interior_loads(const fe::FeModel& model, const DofPartition& partition,
                         const std::vector<std::string>& names) {
   MatrixXd forces(static_cast<Index>(partition.interior.size()), static_cast<Index>(names.size()));
   for (Index j = 0; j < forces.cols(); ++j) {
@@ -104,7 +104,7 @@ MatrixXd interior_loads(const assembly::FeModel& model, const DofPartition& part
 }
 
 void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
-                        const PartitionedMatrix& M, const modal::SupernodalFactor& factor_ii,
+                        const PartitionedMatrix& M, const sparse::SupernodalFactor& factor_ii,
                         const std::vector<std::string>& names, InteriorModes& out) {
   const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, K.ii, M.ii);
   std::vector<std::string> dropped;
@@ -116,16 +116,16 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
   out.vectors.conservativeResize(Eigen::NoChange, k + m);
   out.vectors.rightCols(m) = basis.vectors;
   out.hz.conservativeResize(k + m);
-  out.hz.tail(m) = basis.values.unaryExpr(&modal::hz_of_value);
+  out.hz.tail(m) = basis.values.unaryExpr(&sparse::hz_of_value);
   out.load_shapes = static_cast<int>(m);
   out.dropped += static_cast<int>(dropped.size());
 }
 
 }  // namespace
 
-InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition& partition,
+InteriorModes interior_modes(const fe::FeModel& model, const DofPartition& partition,
                              const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const modal::SupernodalFactor& factor_ii, const MatrixXd& motions,
+                             const sparse::SupernodalFactor& factor_ii, const MatrixXd& motions,
                              const ModeRequest& request, StepClock& clock) {
   const MatrixXd forces = interior_loads(model, partition, request.load_shapes);
   InteriorModes out = request.own_modes

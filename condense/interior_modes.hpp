@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "condense/dof_partition.hpp"
-#include "core/stopwatch.hpp"
-#include "modal/eigen/eigen_solver.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/sparse/eigen/eigen_solver.hpp"
 
 namespace clatter::condense {
 
 /// Which shapes. Exactly one of count and fmax_hz is positive; neither for Guyan. With
 /// accurate_to_hz alone cutoff_search.hpp finds fmax_hz.
-struct ModeRequest : modal::EigenChoice {
+struct ModeRequest : sparse::EigenChoice {
   int count = 0;
   double fmax_hz = 0.0;
   double accurate_to_hz = 0.0;  // the body's frequencies below are wanted; 0: as the cut-off allows
@@ -31,7 +31,7 @@ struct InteriorModes {
   int dropped = 0;              // shapes that depended on others
   Eigen::VectorXd residuals;    // of the eigenpairs
   double frequency_error = -1;  // of AMLS: the largest, relative, estimated; else negative
-  modal::CountProof proof;      // of their number
+  sparse::CountProof proof;     // of their number
   double cutoff_hz = 0.0;       // all modes below it are there, as far as errors are known
   double accurate_to_hz = 0.0;  // up to where the body's own frequencies can be had
 };
@@ -55,9 +55,9 @@ struct InteriorModes {
 /// @param factor_ii of K_ii. @param motions n x m, the free rigid ones, M-orthonormal. InputError
 /// for an unknown load and one that prescribes displacements; NumericsError as solve_modes. Dropped
 /// shapes are reported by name. Steps go to `clock`.
-InteriorModes interior_modes(const assembly::FeModel& model, const DofPartition& partition,
+InteriorModes interior_modes(const fe::FeModel& model, const DofPartition& partition,
                              const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const modal::SupernodalFactor& factor_ii,
+                             const sparse::SupernodalFactor& factor_ii,
                              const Eigen::MatrixXd& motions, const ModeRequest& request,
                              StepClock& clock);
 

@@ -12,19 +12,19 @@
 #include <fstream>
 #include <iterator>
 
-#include "assembly/fe_model.hpp"
 #include "condense/add_rows.hpp"
 #include "condense/condense.hpp"
 #include "condense/export/export.hpp"
 #include "condense/verify.hpp"
-#include "core/artefact.hpp"
-#include "core/blas_kernel.hpp"
-#include "core/command_line.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/large_pages.hpp"
-#include "core/log.hpp"
-#include "core/planned_files.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/log.hpp"
+#include "core/base/planned_files.hpp"
+#include "core/fe/fe_model.hpp"
 
 namespace {
 
@@ -36,10 +36,10 @@ struct Paths {
 };
 
 /// A reduced model's file; the first of `inputs` is the full model.
-void write(const std::filesystem::path& output, const ReducedModel& reduced,
+void write(const std::filesystem::path& output, const rom::ReducedModel& reduced,
            const Provenance& provenance, const std::string& request, const StepClock& clock) {
   H5File file = H5File::create(output);
-  write_reduced_model(file, reduced);
+  rom::write_reduced_model(file, reduced);
   condense::write_request(file, request);
   write_provenance(file, provenance);
   write_timing(file, clock);
@@ -51,7 +51,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void print_summary(const Paths& paths, const ReducedModel& reduced, const StepClock& clock) {
+void print_summary(const Paths& paths, const rom::ReducedModel& reduced, const StepClock& clock) {
   const auto& c = reduced.certificate;
   const auto rigid = c.find("rigid_modes");
   print_json({{"output", json_text(paths.output.string())},
@@ -71,7 +71,7 @@ int write_exports(const Paths& paths, const CommonOptions& common) {
   for (const std::filesystem::path& path : paths.exports)
     for (const std::filesystem::path& file : condense::exported_files(path))
       if (file != path) will_write("--export", file);
-  const ReducedModel reduced = read_reduced_model(paths.model, false);
+  const rom::ReducedModel reduced = rom::read_reduced_model(paths.model, false);
   std::vector<std::string> files;
   for (const std::filesystem::path& path : paths.exports)
     for (const std::filesystem::path& file : condense::export_reduced(reduced, path))
@@ -102,14 +102,14 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
   StepClock clock;
   const condense::StoredRequest stored = condense::read_request(paths.add_rows);
   check_same_model(paths, stored);
-  const ReducedModel reduced = read_reduced_model(paths.add_rows);
+  const rom::ReducedModel reduced = rom::read_reduced_model(paths.add_rows);
   condense::CondenseOptions options = condense::read_condense_options(
       Config::parse(stored.text, paths.add_rows.string() + ": request"));
-  options.order = read_elimination_order(paths.add_rows);
-  const assembly::FeModel model = assembly::read_fe_model(paths.model);
-  assembly::require_unknowns(model, "a reduction");
+  options.order = rom::read_elimination_order(paths.add_rows);
+  const fe::FeModel model = fe::read_fe_model(paths.model);
+  fe::require_unknowns(model, "a reduction");
   clock.lap(fmt::format("read {} DoF", model.size()));
-  const ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
+  const rom::ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
   const double error = with_rows.certificate.at("rows_added_error");
   print_result(fmt::format(
       "{}: {} skin nodes, {} sets beside the boundary; the basis solved for again "
@@ -180,16 +180,16 @@ int run(int argc, char** argv) {
   condense::CondenseOptions options = condense::read_condense_options(config);
   if (uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
-  options.order = read_elimination_order(paths.output);
-  const assembly::FeModel model = assembly::read_fe_model(paths.model);
-  assembly::require_unknowns(model, "a reduction");
+  options.order = rom::read_elimination_order(paths.output);
+  const fe::FeModel model = fe::read_fe_model(paths.model);
+  fe::require_unknowns(model, "a reduction");
   clock.lap(fmt::format("read {} DoF", model.size()));
-  ReducedModel reduced = condense::condense(model, options, clock);
+  rom::ReducedModel reduced = condense::condense(model, options, clock);
   for (const std::string& text : condense::describe(reduced)) print_result(text);
   if (!std::isnan(verify_hz)) {
     const auto compared = condense::verify(reduced, model, verify_hz);
     clock.lap("verification by the full model");
-    if (!compared.modes.empty()) print_result(modal::table_of(compared).back());
+    if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
   }
   write(paths.output, reduced, {"clatter/rom/1", config.resolved(), {paths.model, paths.config}},
         text_of(paths.config), clock);

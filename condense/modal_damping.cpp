@@ -4,9 +4,9 @@
 
 namespace clatter::condense {
 
-DampingTable read_modal_damping(const Config& config) {
+rom::DampingTable read_modal_damping(const Config& config) {
   const std::vector<Config> rows = config.tables("modal_damping");
-  DampingTable table;
+  rom::DampingTable table;
   table.hz.resize(static_cast<Eigen::Index>(rows.size()));
   table.ratio.resize(table.hz.size());
   for (Eigen::Index k = 0; k < table.hz.size(); ++k) {

@@ -1,7 +1,7 @@
 #include "condense/recovery_rows.hpp"
 
-#include "core/named.hpp"
-#include "core/threads.hpp"
+#include "core/base/named.hpp"
+#include "core/base/threads.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -18,7 +18,7 @@ void for_each_dof(const RowSparse& T, const SkinPoint& point, Eigen::Index direc
 
 }  // namespace
 
-SkinRecovery::SkinRecovery(const assembly::FeModel& model, const DofPartition& partition,
+SkinRecovery::SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
                            const std::vector<std::string>& surfaces,
                            const std::vector<std::string>& sets)
     : model_(model),
@@ -45,8 +45,8 @@ SkinRecovery::SkinRecovery(const assembly::FeModel& model, const DofPartition& p
   }
 }
 
-Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {
-  Skin skin;
+rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {
+  rom::Skin skin;
   if (faces_.points.empty()) return skin;
   skin.triangles = faces_.triangles;
   skin.surfaces = surfaces_;
@@ -76,10 +76,10 @@ Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& 
 }
 
 void SkinRecovery::recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
-                                ReducedModel& reduced) const {
+                                rom::ReducedModel& reduced) const {
   const Eigen::Index n_b = static_rows.cols(), r = n_b + shapes.cols();
   for (const std::string& name : sets_) {
-    DofSet set = model_.sets.at(name);
+    rom::DofSet set = model_.sets.at(name);
     for (int32_t& dof : set.dofs) {
       const auto at = static_cast<size_t>(dof);
       if (boundary_[at] >= 0) {

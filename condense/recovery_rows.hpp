@@ -5,7 +5,7 @@
 
 #include "condense/dof_partition.hpp"
 #include "condense/skin_faces.hpp"
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -14,19 +14,19 @@ namespace clatter::condense {
 class SkinRecovery {
  public:
   /// InputError for an unknown surface or set.
-  SkinRecovery(const assembly::FeModel& model, const DofPartition& partition,
+  SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
                const std::vector<std::string>& surfaces, const std::vector<std::string>& sets);
   /// Interior unknowns (places in partition.interior) that move the skin and the sets, ascending.
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
-  Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+  rom::Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
   /// Adds the sets to the reduced model, their displacements as rows of `combined`.
   void recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
-                    ReducedModel& reduced) const;
+                    rom::ReducedModel& reduced) const;
 
  private:
-  const assembly::FeModel& model_;
+  const fe::FeModel& model_;
   std::vector<std::string> surfaces_, sets_;
   SkinFaces faces_;
   std::vector<int32_t> unknowns_;

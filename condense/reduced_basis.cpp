@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "modal/dense_product.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/sparse/dense_product.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-ReducedBasis::ReducedBasis(std::shared_ptr<const modal::SupernodalFactor> factor_ii,
+ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii,
                            SparseMatrix K_ib)
     : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)) {
   shapes.resize(K_ib_.rows(), 0);
@@ -20,7 +20,7 @@ ReducedBasis::ReducedBasis(std::shared_ptr<const modal::SupernodalFactor> factor
 MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
   const MatrixXd load = K_ib_ * q.topRows(boundary());
   MatrixXd u = -factor_->solve(load);
-  modal::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
+  sparse::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
   return u;
 }
 
@@ -33,14 +33,14 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
                                const Eigen::Ref<const MatrixXd>& f_b) const {
   MatrixXd out(size(), f_i.cols());
   out.topRows(boundary()) = at_boundary(f_i, f_b);
-  out.bottomRows(shapes.cols()) = modal::transposed_product(shapes, f_i);
+  out.bottomRows(shapes.cols()) = sparse::transposed_product(shapes, f_i);
   return out;
 }
 
 ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
                         const StaticReduction& statics, const ReducedBasis& basis) {
   constexpr Index kBlock = 64;
-  const modal::SymmetricProduct stiffness(K.ii), mass(M.ii);
+  const sparse::SymmetricProduct stiffness(K.ii), mass(M.ii);
   const SparseMatrix M_bi = M.ib.transpose();
   const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;
   ReducedMatrices out;
@@ -53,9 +53,11 @@ ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
     const auto known = basis.shapes.leftCols(first + count);
     MatrixXd image = mass * X;
     out.M_rr.block(0, n_b + first, n_b, count) = basis.at_boundary(image, M_bi * X);
-    out.M_rr.block(n_b, n_b + first, known.cols(), count) = modal::transposed_product(known, image);
+    out.M_rr.block(n_b, n_b + first, known.cols(), count) =
+        sparse::transposed_product(known, image);
     image = stiffness * X;
-    out.K_rr.block(n_b, n_b + first, known.cols(), count) = modal::transposed_product(known, image);
+    out.K_rr.block(n_b, n_b + first, known.cols(), count) =
+        sparse::transposed_product(known, image);
   }
   out.M_rr.triangularView<Eigen::StrictlyLower>() = out.M_rr.transpose();
   out.K_rr.triangularView<Eigen::StrictlyLower>() = out.K_rr.transpose();

@@ -6,7 +6,7 @@
 
 #include "condense/dof_partition.hpp"
 #include "condense/static_reduction.hpp"
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -16,7 +16,7 @@ class ReducedBasis {
  public:
   ReducedBasis() = default;
   /// @param K_ib n_i x n_b.
-  ReducedBasis(std::shared_ptr<const modal::SupernodalFactor> factor_ii, SparseMatrix K_ib);
+  ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii, SparseMatrix K_ib);
 
   Eigen::MatrixXd shapes;  // X, n_i x k
 
@@ -32,7 +32,7 @@ class ReducedBasis {
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
 
  private:
-  std::shared_ptr<const modal::SupernodalFactor> factor_;
+  std::shared_ptr<const sparse::SupernodalFactor> factor_;
   SparseMatrix K_ib_;
 };
 

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "modal/dense_product.hpp"
-#include "modal/eigen/dense_solver.hpp"
-#include "modal/eigen/eigen_solver.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/base/error.hpp"
+#include "core/sparse/dense_product.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
+#include "core/sparse/eigen/eigen_solver.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Rows i of A (u_i; u_b).
-MatrixXd interior_rows(const modal::SymmetricProduct& A_ii, const SparseMatrix& A_ib,
+MatrixXd interior_rows(const sparse::SymmetricProduct& A_ii, const SparseMatrix& A_ib,
                        const MatrixXd& u_i, const MatrixXd& u_b) {
   MatrixXd out = A_ii * u_i;
   out += A_ib * u_b;
@@ -35,7 +35,7 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, const MatrixXd& m
                    double limit) {
   MatrixXd rigid = MatrixXd::Zero(K_rr.rows(), motions.cols());
   rigid.topRows(motions.rows()) = motions;
-  const modal::EigenResult all = modal::solve_dense(K_rr, M_rr, rigid, std::nullopt);
+  const sparse::EigenResult all = sparse::solve_dense(K_rr, M_rr, rigid, std::nullopt);
   if (!all.ok()) throw NumericsError("reduced model: " + all.message);
   const Index kept = (all.values.array() < limit).count();
   return {all.values.head(kept), all.vectors.leftCols(kept)};
@@ -44,7 +44,7 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, const MatrixXd& m
 /// The run over the passes; X holds the added vectors, with the boundary at rest.
 class Correction {
  public:
-  Correction(Reduction& reduction, const modal::SupernodalFactor& factor,
+  Correction(Reduction& reduction, const sparse::SupernodalFactor& factor,
              const PartitionedMatrix& K, const PartitionedMatrix& M, const MatrixXd& motions)
       : reduction_(reduction),
         factor_(factor),
@@ -67,14 +67,14 @@ class Correction {
   /// K_rr and M_rr with the rows and columns of X added.
   void border();
   MatrixXd bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
-                    const modal::SymmetricProduct& A_ii) const;
+                    const sparse::SymmetricProduct& A_ii) const;
 
   Reduction& reduction_;
-  const modal::SupernodalFactor& factor_;
+  const sparse::SupernodalFactor& factor_;
   const PartitionedMatrix& K_;
   const PartitionedMatrix& M_;
   const MatrixXd& motions_;
-  modal::SymmetricProduct K_ii_, M_ii_;
+  sparse::SymmetricProduct K_ii_, M_ii_;
   MatrixXd X_;              // n_i x m
   MatrixXd K_rr_, M_rr_;    // bordered
   VectorXd pseudo_values_;  // of X
@@ -83,7 +83,7 @@ class Correction {
 };
 
 MatrixXd Correction::bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
-                              const modal::SymmetricProduct& A_ii) const {
+                              const sparse::SymmetricProduct& A_ii) const {
   const Index r = A_rr.rows(), m = X_.cols();
   MatrixXd out(r + m, r + m);
   out.topLeftCorner(r, r) = A_rr;
@@ -92,7 +92,7 @@ MatrixXd Correction::bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
   const MatrixXd image_b = A.ib.transpose() * X_;
   out.topRightCorner(r, m) = reduction_.basis.project(image, image_b);
   out.bottomLeftCorner(m, r) = out.topRightCorner(r, m).transpose();
-  const MatrixXd corner = modal::transposed_product(X_, image);
+  const MatrixXd corner = sparse::transposed_product(X_, image);
   out.bottomRightCorner(m, m) = 0.5 * (corner + corner.transpose());
   return out;
 }
@@ -107,7 +107,7 @@ VectorXd Correction::estimate(double limit) {
   const ReducedBasis& basis = reduction_.basis;
   const Index r = basis.size(), p = modes();
   MatrixXd u_i = basis.interior(ritz_.vectors.topRows(r));
-  modal::add_product(1.0, X_, ritz_.vectors.bottomRows(X_.cols()), u_i);
+  sparse::add_product(1.0, X_, ritz_.vectors.bottomRows(X_.cols()), u_i);
   const MatrixXd u_b = ritz_.vectors.topRows(basis.boundary());
   const MatrixXd force = interior_rows(M_ii_, M_.ib, u_i, u_b) * ritz_.values.asDiagonal() -
                          interior_rows(K_ii_, K_.ib, u_i, u_b);
@@ -121,25 +121,26 @@ void Correction::improve(const std::vector<Index>& chosen) {
   MatrixXd vectors = delta_(Eigen::all, chosen);
   if (X_.cols() > 0) {
     const MatrixXd parts = ritz_.vectors.bottomRows(X_.cols())(Eigen::all, chosen);
-    modal::add_product(1.0, X_, parts, vectors);
+    sparse::add_product(1.0, X_, parts, vectors);
   }
   // K-orthonormal first, since lengths differ by many powers of ten; then M-orthonormal with K
   // diagonal, so that they look like more fixed-interface modes.
-  MatrixXd gram = modal::transposed_product(vectors, K_ii_ * vectors);
+  MatrixXd gram = sparse::transposed_product(vectors, K_ii_ * vectors);
   const VectorXd unit = gram.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(unit.asDiagonal() * gram * unit.asDiagonal());
   const Index rank = (eig.eigenvalues().array() > 1e-10).count();
   const MatrixXd to_unit = unit.asDiagonal() * eig.eigenvectors().rightCols(rank) *
                            eig.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
   MatrixXd basis = MatrixXd::Zero(vectors.rows(), rank);
-  modal::add_product(1.0, vectors, to_unit, basis);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> nu(modal::transposed_product(basis, M_ii_ * basis));
+  sparse::add_product(1.0, vectors, to_unit, basis);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> nu(
+      sparse::transposed_product(basis, M_ii_ * basis));
   const MatrixXd to_modes =
       (nu.eigenvectors() * nu.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal())
           .rowwise()
           .reverse();
   X_ = MatrixXd::Zero(vectors.rows(), rank);
-  modal::add_product(1.0, basis, to_modes, X_);
+  sparse::add_product(1.0, basis, to_modes, X_);
   pseudo_values_ = nu.eigenvalues().cwiseInverse().reverse();
   border();
 }
@@ -147,7 +148,7 @@ void Correction::improve(const std::vector<Index>& chosen) {
 void Correction::append(ResidualReport& report) {
   const Index m = X_.cols();
   if (m == 0) return;
-  report.hz = pseudo_values_.unaryExpr(&modal::hz_of_value);
+  report.hz = pseudo_values_.unaryExpr(&sparse::hz_of_value);
   ReducedBasis& basis = reduction_.basis;
   const Index k = basis.shapes.cols();
   basis.shapes.conservativeResize(Eigen::NoChange, k + m);
@@ -158,7 +159,7 @@ void Correction::append(ResidualReport& report) {
 
 }  // namespace
 
-ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
+ResidualReport add_residual_modes(Reduction& reduction, const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const MatrixXd& motions, double limit_hz, double target) {
   constexpr int kPasses = 4;
@@ -167,7 +168,7 @@ ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalF
   report.estimated = true;
   std::vector<char> corrected;  // by place in the ascending list, which passes hardly reorder
   for (int pass = 0; pass <= kPasses; ++pass) {
-    const VectorXd error = correction.estimate(modal::value_of_hz(limit_hz));
+    const VectorXd error = correction.estimate(sparse::value_of_hz(limit_hz));
     report.modes = static_cast<int>(error.size());
     report.error_estimate = error.size() > 0 ? error.maxCoeff() : 0.0;
     if (pass == 0) report.error_before = report.error_estimate;

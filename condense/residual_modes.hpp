@@ -1,7 +1,7 @@
 #pragma once
 // Basis vectors that stand for the truncated fixed-interface modes, and the error that is left.
 #include "condense/reduced_basis.hpp"
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -29,7 +29,7 @@ struct ResidualReport {
 /// every estimate is below `target`, at most four times.
 /// @param motions n_b x m, boundary rows of the free rigid motions, which are no elastic modes.
 /// @param target relative frequency error; 0 only estimates.
-ResidualReport add_residual_modes(Reduction& reduction, const modal::SupernodalFactor& factor_ii,
+ResidualReport add_residual_modes(Reduction& reduction, const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const Eigen::MatrixXd& motions, double limit_hz, double target);
 

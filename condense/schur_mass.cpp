@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "core/large_pages.hpp"
-#include "modal/factor/multifrontal.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/sparse/factor/multifrontal.hpp"
 
 namespace clatter::condense {
 namespace {
 
 /// @param L the panel of K's front: L11 on top of L21.
-void carry_mass(const modal::Front& front, const double* L) {
+void carry_mass(const sparse::Front& front, const double* L) {
   const int p = front.columns, q = front.below, h = front.height();
   if (q == 0) return;
   const auto W = large_array(static_cast<size_t>(p) * static_cast<size_t>(q));
@@ -27,18 +27,18 @@ void carry_mass(const modal::Front& front, const double* L) {
 
 }  // namespace
 
-Eigen::MatrixXd schur_mass(const modal::SupernodalFactor& factor_ii, const SparseMatrix& M_ii,
+Eigen::MatrixXd schur_mass(const sparse::SupernodalFactor& factor_ii, const SparseMatrix& M_ii,
                            const SparseMatrix& M_ib) {
-  const modal::SupernodeTree& tree = factor_ii.tree();
-  const modal::FrontKernel kernel = [&](int32_t s, const modal::Front& front) {
+  const sparse::SupernodeTree& tree = factor_ii.tree();
+  const sparse::FrontKernel kernel = [&](int32_t s, const sparse::Front& front) {
     carry_mass(front, factor_ii.view().panels + tree.panel_start[static_cast<size_t>(s)]);
   };
   Eigen::MatrixXd out(tree.boundary, tree.boundary);
-  eliminate(tree, modal::permuted(tree, M_ii, factor_ii.scale(), M_ib), kernel, nullptr, &out);
+  eliminate(tree, sparse::permuted(tree, M_ii, factor_ii.scale(), M_ib), kernel, nullptr, &out);
   return out;
 }
 
-double schur_mass_flops(const modal::SupernodeTree& tree) {
+double schur_mass_flops(const sparse::SupernodeTree& tree) {
   double flops = 0.0;
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
     const double p = tree.columns(s), q = tree.below(s);

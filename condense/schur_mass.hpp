@@ -1,6 +1,6 @@
 #pragma once
 // The static mass of a boundary by elimination.
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -10,10 +10,10 @@ namespace clatter::condense {
 ///   M22 -= W N^T + N W^T.
 /// @param factor_ii of K_ii with K_ib as its boundary. Memory: the update matrices of one
 /// elimination; L is read.
-Eigen::MatrixXd schur_mass(const modal::SupernodalFactor& factor_ii, const SparseMatrix& M_ii,
+Eigen::MatrixXd schur_mass(const sparse::SupernodalFactor& factor_ii, const SparseMatrix& M_ii,
                            const SparseMatrix& M_ib);
 
 /// Multiplications and additions of that.
-double schur_mass_flops(const modal::SupernodeTree& tree);
+double schur_mass_flops(const sparse::SupernodeTree& tree);
 
 }  // namespace clatter::condense

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "modal/dense_product.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/sparse/dense_product.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -13,15 +13,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// x -= Q Q^T M x; Q^T M Q = I.
-void remove(const MatrixXd& Q, const modal::SymmetricProduct& M, MatrixXd& x) {
+void remove(const MatrixXd& Q, const sparse::SymmetricProduct& M, MatrixXd& x) {
   if (Q.cols() == 0) return;
-  modal::add_product(-1.0, Q, modal::transposed_product(Q, M * x), x);
+  sparse::add_product(-1.0, Q, sparse::transposed_product(Q, M * x), x);
 }
 
 /// Collects M-orthonormal columns.
 class Collector {
  public:
-  Collector(const MatrixXd& kept, const modal::SymmetricProduct& M, Index most)
+  Collector(const MatrixXd& kept, const sparse::SymmetricProduct& M, Index most)
       : kept_(kept), M_(M), columns_(kept.rows(), most) {}
 
   /// Takes the columns of `block`, whose first is number `first`.
@@ -67,7 +67,7 @@ class Collector {
   }
 
   const MatrixXd& kept_;
-  const modal::SymmetricProduct& M_;
+  const sparse::SymmetricProduct& M_;
   MatrixXd columns_;
   Index count_ = 0;
 };
@@ -77,7 +77,7 @@ class Collector {
 ShapeBasis shape_basis(const MatrixXd& shapes, const MatrixXd& kept, const SparseMatrix& K,
                        const SparseMatrix& M) {
   constexpr Index kBlock = 32;
-  const modal::SymmetricProduct mass(M), stiffness(K);
+  const sparse::SymmetricProduct mass(M), stiffness(K);
   ShapeBasis out;
   Collector collector(kept, mass, shapes.cols());
   for (Index first = 0; first < shapes.cols(); first += kBlock) {
@@ -85,10 +85,10 @@ ShapeBasis shape_basis(const MatrixXd& shapes, const MatrixXd& kept, const Spars
     collector.take(shapes.middleCols(first, count), first, out.dependent);
   }
   const MatrixXd columns = collector.columns();
-  const MatrixXd K_cc = modal::transposed_product(columns, stiffness * columns);
+  const MatrixXd K_cc = sparse::transposed_product(columns, stiffness * columns);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(0.5 * (K_cc + K_cc.transpose()));
   out.vectors = MatrixXd::Zero(columns.rows(), columns.cols());
-  modal::add_product(1.0, columns, eig.eigenvectors(), out.vectors);
+  sparse::add_product(1.0, columns, eig.eigenvectors(), out.vectors);
   out.values = eig.eigenvalues();
   return out;
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/sparse.hpp"
+#include "core/base/sparse.hpp"
 
 namespace clatter::condense {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "core/named.hpp"
-#include "mesh/boundary.hpp"
+#include "core/base/named.hpp"
+#include "core/mesh/boundary.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -83,7 +83,7 @@ class Builder {
 
 }  // namespace
 
-SkinFaces skin_faces(const assembly::FeModel& model, const std::vector<std::string>& surfaces) {
+SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces) {
   Builder builder(model.nodes.rows());
   for (const std::string& name : surfaces) {
     const mesh::Surface& surface =

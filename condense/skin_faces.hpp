@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
+#include "core/fe/fe_model.hpp"
 
 namespace clatter::condense {
 
@@ -21,6 +21,6 @@ struct SkinFaces {
 /// All faces of the named surfaces, each once. A quadrilateral becomes two triangles along its
 /// diagonal, exact on its edges and on the diagonal; a linear triangle gets the middles of its
 /// edges. InputError for an unknown surface.
-SkinFaces skin_faces(const assembly::FeModel& model, const std::vector<std::string>& surfaces);
+SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces);
 
 }  // namespace clatter::condense

@@ -8,13 +8,13 @@
 #include <barrier>
 
 #include "condense/schur_mass.hpp"
-#include "core/blas_kernel.hpp"
-#include "core/memory_limit.hpp"
-#include "core/progress.hpp"
-#include "core/threads.hpp"
-#include "modal/factor/buffer_pool.hpp"
-#include "modal/factor/multifrontal.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/memory_limit.hpp"
+#include "core/base/progress.hpp"
+#include "core/base/threads.hpp"
+#include "core/sparse/factor/buffer_pool.hpp"
+#include "core/sparse/factor/multifrontal.hpp"
+#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -29,7 +29,7 @@ int extent(Index value) { return static_cast<int>(value); }
 /// What the threads of one sweep share. Rows are those of z = S^{-1} Psi, S the factor's scale.
 class Sweep {
  public:
-  Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
+  Sweep(const sparse::SupernodalFactor& factor, const PartitionedMatrix& M,
         const std::vector<int32_t>& kept, bool with_mass);
   void run();
 
@@ -38,9 +38,9 @@ class Sweep {
 
  private:
   friend class Worker;
-  const modal::SupernodalFactor& factor_;
-  const modal::SupernodeTree& tree_;
-  modal::PermutedMatrix mass_;
+  const sparse::SupernodalFactor& factor_;
+  const sparse::SupernodeTree& tree_;
+  sparse::PermutedMatrix mass_;
   std::vector<int32_t> kept_at_;  // row of `rows` by place, or -1
   std::vector<int32_t> children_;
   std::vector<char> used_;  // supernodes that the sweep comes to
@@ -49,12 +49,12 @@ class Sweep {
   RowMatrix panel_, image_;  // rows of z, and of the half of M z that belongs to them
 };
 
-Sweep::Sweep(const modal::SupernodalFactor& factor, const PartitionedMatrix& M,
+Sweep::Sweep(const sparse::SupernodalFactor& factor, const PartitionedMatrix& M,
              const std::vector<int32_t>& kept, bool with_mass)
     : factor_(factor),
       tree_(factor.tree()),
-      mass_(with_mass ? modal::permuted(tree_, M.ii, factor.scale(), M.ib)
-                      : modal::PermutedMatrix()),
+      mass_(with_mass ? sparse::permuted(tree_, M.ii, factor.scale(), M.ib)
+                      : sparse::PermutedMatrix()),
       kept_at_(static_cast<size_t>(tree_.size), -1),
       children_(tree_.parent.size(), 0),
       used_(tree_.parent.size(), with_mass ? 1 : 0),
@@ -119,20 +119,20 @@ class Worker {
   void keep_rows() const;
 
   Sweep& shared_;
-  const modal::SupernodeTree& tree_;
+  const sparse::SupernodeTree& tree_;
   std::barrier<>& meeting_;
   Index begin_, width_;
-  std::vector<modal::Buffer> fronts_;  // height x width, row by row, while children need them
-  std::vector<int32_t> left_;          // children that still need the front
-  std::vector<int32_t> local_;         // row of the current front by place
-  std::vector<int32_t> places_;        // of the panel's rows
-  modal::BufferPool pool_;
+  std::vector<sparse::Buffer> fronts_;  // height x width, row by row, while children need them
+  std::vector<int32_t> left_;           // children that still need the front
+  std::vector<int32_t> local_;          // row of the current front by place
+  std::vector<int32_t> places_;         // of the panel's rows
+  sparse::BufferPool pool_;
   Index filled_ = 0;
 };
 
 void Worker::visit(int32_t s) {
   const auto entries = static_cast<size_t>(tree_.height(s) * width_);
-  modal::Buffer front = pool_.take(entries);
+  sparse::Buffer front = pool_.take(entries);
   take_rows_above(s, front.data.get());
   solve_own_rows(s, front.data.get());
   write_panel(s, front.data.get());
@@ -248,7 +248,7 @@ void Sweep::run() {
 }
 
 /// Entries that the fronts of one path take at most, all columns together.
-double path_entries(const modal::SupernodeTree& tree) {
+double path_entries(const sparse::SupernodeTree& tree) {
   std::vector<double> above(tree.parent.size(), 0.0);
   double most = 0.0;
   for (int32_t s = tree.supernodes() - 1; s >= 0; --s) {
@@ -261,7 +261,7 @@ double path_entries(const modal::SupernodeTree& tree) {
   return most * static_cast<double>(tree.boundary);
 }
 
-void require_memory_for(const modal::SupernodeTree& tree, size_t kept, bool with_mass) {
+void require_memory_for(const sparse::SupernodeTree& tree, size_t kept, bool with_mass) {
   const double n_b = tree.boundary, panels = with_mass ? 2.0 : 1.0;
   const double sweep =
       with_mass || kept > 0 ? path_entries(tree) + panels * static_cast<double>(kPanel) * n_b : 0.0;
@@ -273,7 +273,7 @@ void require_memory_for(const modal::SupernodeTree& tree, size_t kept, bool with
                  gib_of_doubles(entries), "retain fewer coordinates, or keep fewer rows (skin)");
 }
 
-bool sweep_is_cheaper(const modal::SupernodeTree& tree) {
+bool sweep_is_cheaper(const sparse::SupernodeTree& tree) {
   const double n_b = tree.boundary;
   return 2.0 * tree.size * n_b * n_b <= schur_mass_flops(tree);
 }
@@ -281,7 +281,7 @@ bool sweep_is_cheaper(const modal::SupernodeTree& tree) {
 /// Rounding in Psi must not stand in the mass properties. Psi + E P carries the rigid motions, with
 /// E = r_i - Psi r_b and P = r_b^+ the change of least norm; the kept rows are changed so, and M_bb
 /// by the symmetric change of least rank that gives it the momentum of these motions.
-void carry_rigid_motions(const modal::SupernodalFactor& factor_ii, const PartitionedMatrix& K,
+void carry_rigid_motions(const sparse::SupernodalFactor& factor_ii, const PartitionedMatrix& K,
                          const PartitionedMatrix& M, const RigidMotions& rigid,
                          const std::vector<int32_t>& kept, StaticReduction& out) {
   const MatrixXd &r_b = rigid.at_boundary, &r_i = rigid.inside;
@@ -290,7 +290,7 @@ void carry_rigid_motions(const modal::SupernodalFactor& factor_ii, const Partiti
   const MatrixXd left = r_i(kept, Eigen::all) - out.rows * r_b;
   out.rows += left * P;
 
-  const MatrixXd inertia = modal::SymmetricProduct(M.ii) * r_i + M.ib * r_b;
+  const MatrixXd inertia = sparse::SymmetricProduct(M.ii) * r_i + M.ib * r_b;
   const MatrixXd carried = -factor_ii.boundary_product(inertia);  // Psi^T f
   const MatrixXd momentum = M.bb * r_b + M.ib.transpose() * r_i + carried +
                             P.transpose() * (r_i.transpose() * inertia - r_b.transpose() * carried);
@@ -301,7 +301,7 @@ void carry_rigid_motions(const modal::SupernodalFactor& factor_ii, const Partiti
 
 }  // namespace
 
-StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
+StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
                                   StaticMass way) {

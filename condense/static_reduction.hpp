@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "condense/dof_partition.hpp"
-#include "core/h5_file.hpp"
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/base/matrix.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -39,7 +39,7 @@ enum class StaticMass { kCheaper, kSweep, kElimination };
 /// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib comes with
 /// it.
 /// @param kept interior unknowns whose rows of Psi are wanted.
-StaticReduction reduce_statically(const modal::SupernodalFactor& factor_ii,
+StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
                                   StaticMass way = StaticMass::kCheaper);

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "core/log.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::condense {
 
-modal::Comparison verify(ReducedModel& reduced, const assembly::FeModel& model, double to_hz) {
+modes::Comparison verify(rom::ReducedModel& reduced, const fe::FeModel& model, double to_hz) {
   auto& out = reduced.certificate;
   const double limit = to_hz > 0.0 ? to_hz : out.at("accurate_to_hz");
-  modal::Comparison result;
+  modes::Comparison result;
   try {
-    result = modal::compare(model, reduced, {limit, 0});
-  } catch (const modal::NothingCompared& error) {  // a certificate without it is still one
+    result = modes::compare(model, reduced, {limit, 0});
+  } catch (const modes::NothingCompared& error) {  // a certificate without it is still one
     warn(fmt::format("not verified: {}", error.what()));
     return result;
   }

@@ -1,8 +1,8 @@
 #pragma once
 // The dearest part of a certificate: modes of the full model beside those of the reduced one.
-#include "assembly/fe_model.hpp"
-#include "core/reduced_model.hpp"
-#include "modal/compare.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/modes/compare.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -13,6 +13,6 @@ namespace clatter::condense {
 /// @param to_hz all modes below [Hz]; 0: as far as the certificate states an accuracy.
 /// Without an elastic mode below, a warning says so and the certificate stays as it is. Throws
 /// NumericsError when the models differ in the number of their modes.
-modal::Comparison verify(ReducedModel& reduced, const assembly::FeModel& model, double to_hz);
+modes::Comparison verify(rom::ReducedModel& reduced, const fe::FeModel& model, double to_hz);
 
 }  // namespace clatter::condense

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "core/artefact.hpp"
-#include "core/certificate_doubt.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/rom/certificate_doubt.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 LoadedBody load_body(const BodySpec& spec) {
   LoadedBody body;
   body.spec = spec;
-  body.model = read_reduced_model(spec.rom, false);
-  const std::string doubt = certificate_doubt(body.model);
+  body.model = rom::read_reduced_model(spec.rom, false);
+  const std::string doubt = rom::certificate_doubt(body.model);
   if (!doubt.empty()) warn(fmt::format("{}: {}", spec.rom.string(), doubt));
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
@@ -49,8 +49,8 @@ const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name)
   return nullptr;
 }
 
-int set_dof(const ReducedModel& model, const std::string& set, int axis, bool rotation) {
-  const DofSet& dofs = model.set(set);
+int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {
+  const rom::DofSet& dofs = model.set(set);
   for (size_t i = 0; i < dofs.dofs.size(); ++i) {
     // A direction within half a degree of the axis is meant to be the axis.
     const bool along = std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996;
@@ -61,7 +61,7 @@ int set_dof(const ReducedModel& model, const std::string& set, int axis, bool ro
                                fmt::join(dofs.labels, ", ")));
 }
 
-const Eigen::VectorXd& unit_load(const ReducedModel& model, const std::string& load) {
+const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load) {
   const auto found = model.loads.find(load);
   if (found != model.loads.end()) return found->second;
   std::vector<std::string> names;

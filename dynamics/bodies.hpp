@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 #include "dynamics/modal_body.hpp"
 #include "dynamics/scene.hpp"
 
@@ -12,8 +12,8 @@ namespace clatter::dynamics {
 /// A body of the scene with the model behind it.
 struct LoadedBody {
   BodySpec spec;
-  std::string sha256;  // of the model's file
-  ReducedModel model;  // without its skin
+  std::string sha256;       // of the model's file
+  rom::ReducedModel model;  // without its skin
   ModalBody modal;
 };
 
@@ -26,8 +26,8 @@ const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name)
 
 /// The coordinate of a set that moves along (or turns about) axis 0, 1 or 2.
 /// InputError naming the set when it has none.
-int set_dof(const ReducedModel& model, const std::string& set, int axis, bool rotation);
+int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation);
 /// The vector of a unit load; InputError listing the names present.
-const Eigen::VectorXd& unit_load(const ReducedModel& model, const std::string& load);
+const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load);
 
 }  // namespace clatter::dynamics

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::dynamics {
 

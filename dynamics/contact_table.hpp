@@ -1,6 +1,6 @@
 #pragma once
 // The [contact] table of a scene.
-#include "core/config.hpp"
+#include "core/base/config.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 
 namespace clatter::dynamics {

@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/h5_file.hpp"
 
 namespace clatter::dynamics {
 

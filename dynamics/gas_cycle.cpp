@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/whole_file.hpp"
+#include "core/base/error.hpp"
+#include "core/base/whole_file.hpp"
 
 namespace clatter::dynamics {
 namespace {

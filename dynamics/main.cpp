@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "core/blas_kernel.hpp"
-#include "core/command_line.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/log.hpp"
-#include "core/planned_files.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
+#include "core/base/planned_files.hpp"
+#include "core/base/stopwatch.hpp"
 #include "dynamics/gas_cycle.hpp"
 #include "dynamics/run_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Rotations and displacements differ by orders of magnitude; the scale 1/sqrt(M_ii) levels them.
-VectorXd mass_scale(const ReducedModel& model) {
+VectorXd mass_scale(const rom::ReducedModel& model) {
   VectorXd scale(model.size());
   for (int i = 0; i < model.size(); ++i) {
     const double m = model.M_rr(i, i);
@@ -79,7 +79,7 @@ Spectrum elastic_spectrum(const std::string& name, const MatrixXd& M, const Matr
   return result;
 }
 
-std::vector<int32_t> rotations(const ReducedModel& model) {
+std::vector<int32_t> rotations(const rom::ReducedModel& model) {
   std::vector<int32_t> flags(static_cast<size_t>(model.places()), 0);
   for (const auto& [name, set] : model.sets) {
     for (size_t i = 0; i < set.dofs.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<int32_t> rotations(const ReducedModel& model) {
 
 }  // namespace
 
-ModalBody make_modal_body(const ReducedModel& model, const ModalBodyOptions& options) {
+ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions& options) {
   const VectorXd scale = mass_scale(model);
   const MatrixXd M = scale.asDiagonal() * model.M_rr * scale.asDiagonal();
   const MatrixXd K = scale.asDiagonal() * model.K_rr * scale.asDiagonal();

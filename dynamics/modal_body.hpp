@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::dynamics {
 
@@ -45,6 +45,6 @@ struct ModalBodyOptions {
 /// the elastic spectrum by K - s M R R^T M, and given omega = 0 and no damping.
 /// NumericsError when M_rr is not positive definite, when an elastic eigenvalue is not positive, or
 /// when a rigid variant is asked of a body that is held.
-ModalBody make_modal_body(const ReducedModel& model, const ModalBodyOptions& options);
+ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions& options);
 
 }  // namespace clatter::dynamics

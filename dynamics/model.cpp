@@ -5,7 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/joint.hpp"
 #include "dynamics/model_loads.hpp"
 #include "dynamics/mount.hpp"
@@ -93,7 +93,7 @@ class Builder {
   film::ElasticSurface surface(const std::string& body, const std::string& grid,
                                std::vector<int>& coordinates) {
     const LoadedBody& loaded = *find_body(bodies_, body);
-    const DofSet& set = loaded.model.set(grid);
+    const rom::DofSet& set = loaded.model.set(grid);
     film::ElasticSurface surface{loaded.model.grid(grid), {}};
     surface.rigid.resize(static_cast<Eigen::Index>(set.dofs.size()), 6);
     for (size_t i = 0; i < set.dofs.size(); ++i) {

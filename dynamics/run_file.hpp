@@ -2,7 +2,7 @@
 // The file of a run, schema clatter/run/1.
 #include <filesystem>
 
-#include "core/artefact.hpp"
+#include "core/base/artefact.hpp"
 #include "dynamics/simulate.hpp"
 
 namespace clatter::dynamics {

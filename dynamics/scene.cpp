@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/contact_table.hpp"
 #include "dynamics/crank.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.hpp"
+#include "core/base/config.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/radial_law.hpp"

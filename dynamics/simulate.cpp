@@ -4,9 +4,9 @@
 
 #include <numbers>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "core/progress.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/progress.hpp"
 #include "dynamics/periodicity.hpp"
 
 namespace clatter::dynamics {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/stopwatch.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace clatter::dynamics {
 

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/log.hpp"
-#include "mesh/bare_cad.hpp"
-#include "mesh/cad_unit.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
 #include "mesh/deck/import.hpp"
-#include "mesh/list_faces.hpp"
-#include "mesh/msh_reader.hpp"
+#include "mesh/deck/msh/reader.hpp"
+#include "mesh/geometry/bare_cad.hpp"
+#include "mesh/geometry/cad_unit.hpp"
+#include "mesh/part/list_faces.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -2,9 +2,9 @@
 // clatter-mesh --faces.
 #include <filesystem>
 
-#include "core/child_process.hpp"
-#include "core/command_line.hpp"
-#include "core/config.hpp"
+#include "core/base/child_process.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/config.hpp"
 
 namespace clatter::mesh {
 

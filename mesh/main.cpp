@@ -4,28 +4,28 @@
 
 #include <algorithm>
 
-#include "core/artefact.hpp"
-#include "core/command_line.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/log.hpp"
-#include "core/plausible.hpp"
-#include "core/stopwatch.hpp"
-#include "core/whole_file.hpp"
-#include "mesh/bare_cad.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/cad_unit.hpp"
-#include "mesh/certify_mesh.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
+#include "core/base/plausible.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/whole_file.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "mesh/deck/import.hpp"
-#include "mesh/deck/recipe_text.hpp"
+#include "mesh/deck/msh/reader.hpp"
+#include "mesh/deck/recipe/text.hpp"
+#include "mesh/exports/mesh_export.hpp"
 #include "mesh/faces_command.hpp"
-#include "mesh/mesh_export.hpp"
-#include "mesh/mesh_file.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/metis_partition.hpp"
-#include "mesh/msh_reader.hpp"
-#include "mesh/part_in_child.hpp"
-#include "mesh/poor_cells.hpp"
+#include "mesh/geometry/bare_cad.hpp"
+#include "mesh/geometry/cad_unit.hpp"
+#include "mesh/part/mesher.hpp"
+#include "mesh/part/metis_partition.hpp"
+#include "mesh/part/part_in_child.hpp"
+#include "mesh/repair/certify_mesh.hpp"
+#include "mesh/repair/poor_cells.hpp"
 
 namespace {
 
@@ -148,7 +148,7 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
 }
 
 /// A deck with its own cells.
-Outcome read_mesh_of_deck(const std::filesystem::path& source, const deck::UnitSystem& units,
+Outcome read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem& units,
                           const std::vector<std::string>& ignore, const std::string& name,
                           const ChildLimits& limits, StepClock& clock) {
   deck::Deck found = is_msh(source) ? read_msh(source, units, {ignore}, limits)
@@ -201,7 +201,7 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
           fmt::format("{}: found no --units, expected one (decks do not say: clatter "
                       "does not guess)",
                       a.input.string()));
-    return read_mesh_of_deck(a.input, deck::unit_system_named(a.units, "--units"), a.ignore,
+    return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"), a.ignore,
                              a.input.stem().string(), a.limits, clock);
   }
   const Config config = Config::load(a.input);
@@ -209,7 +209,7 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
   if (config.text("kind") != "deck") return mesh_geometry(a, config, name, clock);
   const Config table = config.table("deck");
   const std::filesystem::path source = table.path("source");
-  const auto units = deck::unit_system_named(table.text("units"), table.where() + ": units");
+  const auto units = unit_system_named(table.text("units"), table.where() + ": units");
   const std::vector<std::string> ignore = table.texts_or("ignore", {});
   config.finish();
   Outcome out = read_mesh_of_deck(source, units, ignore, name, a.limits, clock);

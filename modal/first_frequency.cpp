@@ -1,10 +1,10 @@
 #include "modal/first_frequency.hpp"
 
-#include "core/plausible.hpp"
+#include "core/base/plausible.hpp"
 
 namespace clatter::modal {
 
-void warn_of_first_frequency(const PartModes& part) {
+void warn_of_first_frequency(const modes::PartModes& part) {
   const Eigen::VectorXd hz = part.modes.frequencies_hz();
   if (hz.size() <= part.modes.rigid || part.nodes.rows() < 2) return;
   const double length =

@@ -11,14 +11,14 @@
 
 #include <cmath>
 
-#include "core/artefact.hpp"
-#include "core/blas_kernel.hpp"
-#include "core/command_line.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/large_pages.hpp"
-#include "core/log.hpp"
-#include "modal/compare.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/blas_kernel.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/large_pages.hpp"
+#include "core/base/log.hpp"
+#include "core/modes/compare.hpp"
 #include "modal/first_frequency.hpp"
 #include "modal/modes_file.hpp"
 #include "modal/result_export.hpp"
@@ -48,11 +48,11 @@ std::string list_of(const Eigen::VectorXd& values) {
   return fmt::format("[{}]", fmt::join(values.data(), values.data() + values.size(), ", "));
 }
 
-modal::ModesOptions choose_options(const Arguments& arguments, std::string& resolved) {
-  modal::ModesOptions options;
+modes::ModesOptions choose_options(const Arguments& arguments, std::string& resolved) {
+  modes::ModesOptions options;
   if (!arguments.config.empty()) {
     const Config config = Config::load(arguments.config);
-    options = modal::read_modes_options(config);
+    options = modes::read_modes_options(config);
     resolved = config.resolved();
   }
   if (arguments.count != 0 || arguments.fmax_hz != 0.0) {
@@ -70,21 +70,21 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
   StepClock clock;
   const Path& input = arguments.inputs.front();
   std::string resolved;
-  const modal::ModesOptions options = choose_options(arguments, resolved);
+  const modes::ModesOptions options = choose_options(arguments, resolved);
   const std::string schema = H5File::open(input).get_string("/", "schema");
-  modal::PartModes part;
-  ReducedModel reduced;
-  assembly::FeModel full;
+  modes::PartModes part;
+  rom::ReducedModel reduced;
+  fe::FeModel full;
   if (schema == "clatter/rom/1") {
-    reduced = read_reduced_model(input);
-    part = modal::analyse(reduced, options);
+    reduced = rom::read_reduced_model(input);
+    part = modes::analyse(reduced, options);
   } else {
-    full = assembly::read_fe_model(input);
+    full = fe::read_fe_model(input);
     clock.lap(fmt::format("read {} DoF", full.size()));
-    part = modal::analyse(full, options);
+    part = modes::analyse(full, options);
   }
   clock.lap("modes");
-  for (const std::string& line : modal::describe(part)) print_result(line);
+  for (const std::string& line : modes::describe(part)) print_result(line);
   modal::warn_of_first_frequency(part);
 
   std::vector<Path> read{input};
@@ -114,7 +114,7 @@ int solve_static(const Arguments& arguments, const CommonOptions& common) {
   }
   StepClock clock;
   const Path& input = arguments.inputs.front();
-  const assembly::FeModel model = assembly::read_fe_model(input);
+  const fe::FeModel model = fe::read_fe_model(input);
   clock.lap(fmt::format("read {} DoF", model.size()));
   const std::vector<int32_t> stress_nodes = modal::nodes_at(model, arguments.stress_at);
   const modal::StaticSolution solution = modal::solve_static(model, arguments.cases);
@@ -157,14 +157,14 @@ int compare(const Arguments& arguments, const CommonOptions& common) {
   if (arguments.inputs.size() != 2) {
     throw InputError("command line: --compare expects full.fe.h5 and reduced.rom.h5");
   }
-  const assembly::FeModel full = assembly::read_fe_model(arguments.inputs[0]);
-  assembly::require_unknowns(full, "modes");
-  const ReducedModel reduced = read_reduced_model(arguments.inputs[1]);
-  const modal::Comparison result =
-      modal::compare(full, reduced, {arguments.fmax_hz, arguments.count});
+  const fe::FeModel full = fe::read_fe_model(arguments.inputs[0]);
+  fe::require_unknowns(full, "modes");
+  const rom::ReducedModel reduced = rom::read_reduced_model(arguments.inputs[1]);
+  const modes::Comparison result =
+      modes::compare(full, reduced, {arguments.fmax_hz, arguments.count});
   if (common.json) {
-    const modal::Comparison stated = result.with_stated_error();
-    print_json({{"modes", modal::json_of(result)},
+    const modes::Comparison stated = result.with_stated_error();
+    print_json({{"modes", modes::json_of(result)},
                 {"rigid", number(result.rigid_full)},
                 {"largest_error", number(result.largest_error())},
                 {"smallest_mac", number(result.smallest_mac())},
@@ -175,7 +175,7 @@ int compare(const Arguments& arguments, const CommonOptions& common) {
                 {"smallest_mac_up_to_it",
                  number(stated.modes.empty() ? std::nan("") : stated.smallest_mac())}});
   } else {
-    for (const std::string& line : modal::table_of(result)) print_result(line);
+    for (const std::string& line : modes::table_of(result)) print_result(line);
   }
   return 0;
 }

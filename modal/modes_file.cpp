@@ -2,18 +2,18 @@
 
 #include <fmt/format.h>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/mesh/mesh_file.hpp"
 
 namespace clatter::modal {
 namespace {
 
-void write_proof(H5File& file, const ModeSet& modes) {
+void write_proof(H5File& file, const sparse::ModeSet& modes) {
   std::map<std::string, double> certificate;
   certificate["count_proved"] = modes.proof.proved ? 1.0 : 0.0;
   certificate["count_below"] = static_cast<double>(modes.proof.below);
-  certificate["count_limit_hz"] = hz_of_value(modes.proof.limit);
+  certificate["count_limit_hz"] = sparse::hz_of_value(modes.proof.limit);
   certificate["residual_max"] = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
   if (modes.errors.size() > 0) certificate["frequency_error_estimate"] = modes.errors.maxCoeff();
   certificate["rigid_modes"] = modes.rigid;
@@ -30,8 +30,8 @@ void write_proof(H5File& file, const ModeSet& modes) {
 
 }  // namespace
 
-void write_modes(H5File& file, const PartModes& part) {
-  const ModeSet& modes = part.modes;
+void write_modes(H5File& file, const modes::PartModes& part) {
+  const sparse::ModeSet& modes = part.modes;
   file.set("/", "name", part.name);
   file.set("/", "source", part.source);
   file.set("/", "method", modes.method);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "modal/free_motions.hpp"
+#include "core/fe/free_motions.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -46,7 +46,7 @@ double largest_ratio(const VectorXd& part, const VectorXd& whole) {
 }
 
 /// Lower bound, mostly sharp, of max_i (|A^{-1}| w)_i = |diag(w) A^{-1}|_1, w >= 0.
-double inverse_times(const SupernodalFactor& factor, const VectorXd& w) {
+double inverse_times(const sparse::SupernodalFactor& factor, const VectorXd& w) {
   const Index n = w.size();
   VectorXd x = VectorXd::Constant(n, 1.0 / static_cast<double>(n));
   double estimate = 0.0;
@@ -66,7 +66,7 @@ double inverse_times(const SupernodalFactor& factor, const VectorXd& w) {
   return estimate;
 }
 
-void refine(const SupernodalFactor& factor, const SparseMatrix& lower, const VectorXd& b,
+void refine(const sparse::SupernodalFactor& factor, const SparseMatrix& lower, const VectorXd& b,
             Eigen::Ref<VectorXd> x, int& steps) {
   double last = std::numeric_limits<double>::infinity();
   for (int step = 1; step <= kMaxSteps; ++step) {
@@ -82,7 +82,7 @@ void refine(const SupernodalFactor& factor, const SparseMatrix& lower, const Vec
 
 }  // namespace
 
-RefinedSolution solve_refined(const SupernodalFactor& factor, const SparseMatrix& lower,
+RefinedSolution solve_refined(const sparse::SupernodalFactor& factor, const SparseMatrix& lower,
                               const MatrixXd& b) {
   RefinedSolution out;
   out.x = factor.solve(b);

@@ -2,7 +2,7 @@
 // A x = b to as many digits as the entries of A allow, and how many those are.
 #include <Eigen/Core>
 
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::modal {
 
@@ -20,7 +20,7 @@ struct RefinedSolution {
 /// what is left and what rounding of the entries of A and b to doubles may move x by, by Hager's
 /// estimator of the 1-norm (Higham 1988; LAPACK's dporfs).
 /// @param lower A, n x n, symmetric, lower triangle; @param b n x m.
-RefinedSolution solve_refined(const SupernodalFactor& factor, const SparseMatrix& lower,
+RefinedSolution solve_refined(const sparse::SupernodalFactor& factor, const SparseMatrix& lower,
                               const Eigen::MatrixXd& b);
 
 }  // namespace clatter::modal

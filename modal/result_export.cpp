@@ -5,16 +5,16 @@
 #include <functional>
 #include <limits>
 
-#include "assembly/fe_cells.hpp"
-#include "assembly/fe_model.hpp"
-#include "core/artefact.hpp"
-#include "core/error.hpp"
-#include "core/h5_file.hpp"
-#include "core/h5_slab.hpp"
-#include "core/whole_file.hpp"
-#include "core/xml.hpp"
-#include "mesh/mesh_file.hpp"
-#include "mesh/vtu_writer.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/h5_file.hpp"
+#include "core/base/h5_slab.hpp"
+#include "core/base/whole_file.hpp"
+#include "core/base/xml.hpp"
+#include "core/fe/fe_cells.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "core/mesh/vtu_writer.hpp"
 #include "modal/modes_file.hpp"
 #include "modal/statics.hpp"
 
@@ -98,8 +98,7 @@ mesh::Mesh drawn_mesh(const H5File& results, const Path& cells) {
     drawn.regions = std::move(own.regions);
     drawn.node_ids = std::move(own.node_ids);
   } else {
-    assembly::FeCells own =
-        assembly::read_cells(open_artefact(cells, assembly::kFeSchema), file.read_rows("nodes"));
+    fe::FeCells own = fe::read_cells(open_artefact(cells, fe::kFeSchema), file.read_rows("nodes"));
     drawn.cells = std::move(own.blocks);
     drawn.regions = std::move(own.regions);
     drawn.node_ids = std::move(own.node_ids);

@@ -1,9 +1,9 @@
 // The file of a static solution, schema "clatter/static/1".
 #include <algorithm>
 
-#include "assembly/fe_statics_file.hpp"
-#include "core/artefact.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/fe/fe_statics_file.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "modal/statics.hpp"
 
 namespace clatter::modal {
@@ -14,10 +14,10 @@ RowMatrix rows_of(const Eigen::VectorXd& values, Eigen::Index width) {
   return Eigen::Map<const RowMatrix>(values.data(), values.size() / width, width);
 }
 
-void write_stress(H5File& file, const assembly::FeModel& model, const StaticCase& solved) {
+void write_stress(H5File& file, const fe::FeModel& model, const StaticCase& solved) {
   for (size_t r = 0; r < solved.stress.size(); ++r) {
     const std::string& region = model.cells.regions[r];
-    const assembly::RegionStress& stress = solved.stress[r];
+    const fe::RegionStress& stress = solved.stress[r];
     if (!file.has("stress_nodes/" + region)) file.write("stress_nodes/" + region, stress.nodes);
     file.write("cases/" + solved.name + "/stress/" + region, RowMatrix(stress.stress));
     file.write("cases/" + solved.name + "/von_mises/" + region, stress.von_mises);
@@ -26,12 +26,12 @@ void write_stress(H5File& file, const assembly::FeModel& model, const StaticCase
 
 }  // namespace
 
-void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution) {
+void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& solution) {
   file.set("/", "name", model.name);
   file.write("nodes", model.nodes);
   mesh::write_surfaces(file, model.surfaces);
   if (!model.cells.node_ids.empty()) file.write("node_ids", model.cells.node_ids);
-  if (model.supports.size() > 0) assembly::write_supported(file, model.supports);
+  if (model.supports.size() > 0) fe::write_supported(file, model.supports);
   if (!model.points.names.empty()) {
     file.write("points/names", model.points.names);
     file.write("points/position", model.points.position);

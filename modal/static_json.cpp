@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "core/json_line.hpp"
+#include "core/base/json_line.hpp"
 
 namespace clatter::modal {
 namespace {
 
-std::string supports_of(const assembly::FeModel& model, const StaticCase& solved) {
+std::string supports_of(const fe::FeModel& model, const StaticCase& solved) {
   std::vector<std::string> members;
   for (Eigen::Index s = 0; s < solved.support_sums.rows(); ++s) {
     std::vector<std::string> sums;
@@ -24,7 +24,7 @@ std::string supports_of(const assembly::FeModel& model, const StaticCase& solved
 
 }  // namespace
 
-std::string json_of(const assembly::FeModel& model, const StaticSolution& solution) {
+std::string json_of(const fe::FeModel& model, const StaticSolution& solution) {
   std::vector<std::string> cases;
   for (const StaticCase& one : solution.cases) {
     double largest = 0.0;

@@ -9,6 +9,6 @@ namespace clatter::modal {
 /// An object a case: name, largest_displacement_m, energy_j, residual, balance,
 /// largest_von_mises_pa (null without cells), supports: {name: [force N and moment N m about the
 /// origin]}.
-std::string json_of(const assembly::FeModel& model, const StaticSolution& solution);
+std::string json_of(const fe::FeModel& model, const StaticSolution& solution);
 
 }  // namespace clatter::modal

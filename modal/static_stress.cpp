@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "modal/statics.hpp"
 
 namespace clatter::modal {
@@ -28,19 +28,19 @@ std::vector<double> numbers_in(const std::string& text) {
   return out;
 }
 
-int32_t nearest_node(const assembly::FeModel& model, const Eigen::Vector3d& place) {
+int32_t nearest_node(const fe::FeModel& model, const Eigen::Vector3d& place) {
   Eigen::Index node = 0;
   (model.nodes.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&node);
   return static_cast<int32_t>(node);
 }
 
-std::optional<int32_t> node_labelled(const assembly::FeModel& model, double label) {
+std::optional<int32_t> node_labelled(const fe::FeModel& model, double label) {
   for (int32_t a = 0; a < model.nodes.rows(); ++a)
     if (model.cells.label(a) == label) return a;
   return std::nullopt;
 }
 
-std::set<int32_t> nodes_of(const assembly::FeModel& model, const std::string& place) {
+std::set<int32_t> nodes_of(const fe::FeModel& model, const std::string& place) {
   const std::vector<double> numbers = numbers_in(place);
   if (numbers.size() == 3) return {nearest_node(model, Eigen::Vector3d(numbers.data()))};
   if (numbers.size() == 1)
@@ -60,18 +60,18 @@ std::set<int32_t> nodes_of(const assembly::FeModel& model, const std::string& pl
       model.name, place, sensors.empty() ? "" : ", or one of: ", fmt::join(sensors, ", ")));
 }
 
-std::string place_of(const assembly::FeModel& model, int32_t node) {
+std::string place_of(const fe::FeModel& model, int32_t node) {
   return fmt::format("node {} at ({:.4f}, {:.4f}, {:.4f}) m", model.cells.label(node),
                      model.nodes(node, 0), model.nodes(node, 1), model.nodes(node, 2));
 }
 
 }  // namespace
 
-NodeStress largest_stress(const assembly::FeModel& model, const StaticCase& solved) {
+NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved) {
   NodeStress out;
   out.von_mises = -1.0;
   for (size_t r = 0; r < solved.stress.size(); ++r) {
-    const assembly::RegionStress& region = solved.stress[r];
+    const fe::RegionStress& region = solved.stress[r];
     if (region.nodes.empty()) continue;
     Eigen::Index row = 0;
     if (const double most = region.von_mises.maxCoeff(&row); most > out.von_mises)
@@ -81,14 +81,13 @@ NodeStress largest_stress(const assembly::FeModel& model, const StaticCase& solv
   return out;
 }
 
-std::string describe_largest_stress(const assembly::FeModel& model, const StaticCase& solved) {
+std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& solved) {
   const NodeStress most = largest_stress(model, solved);
   return fmt::format("  largest von Mises stress {:.6g} Pa in {}, {}", most.von_mises, most.region,
                      place_of(model, most.node));
 }
 
-std::vector<int32_t> nodes_at(const assembly::FeModel& model,
-                              const std::vector<std::string>& places) {
+std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& places) {
   if (!places.empty() && model.cells.blocks.empty())
     throw InputError(fmt::format(
         "{}: --stress-at: found a model without cells, expected one of clatter-assembly",
@@ -99,7 +98,7 @@ std::vector<int32_t> nodes_at(const assembly::FeModel& model,
   return nodes;
 }
 
-std::vector<std::string> describe_stress(const assembly::FeModel& model, const StaticCase& solved,
+std::vector<std::string> describe_stress(const fe::FeModel& model, const StaticCase& solved,
                                          int32_t node) {
   std::vector<std::string> lines;
   for (size_t r = 0; r < solved.stress.size(); ++r) {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/factor_trouble.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/fe/free_motions.hpp"
+#include "core/modes/factor_trouble.hpp"
 #include "modal/refined_solve.hpp"
 
 namespace clatter::modal {
@@ -26,7 +26,7 @@ constexpr double kHeldMotion = 1e-10;  // of what cancels in a row of K R; round
 using Factors = std::map<std::string, double>;
 
 /// The loads of a wanted name: a case's, or the one load by itself.
-Factors factors_of(const assembly::FeModel& model, const std::string& name) {
+Factors factors_of(const fe::FeModel& model, const std::string& name) {
   if (const auto found = model.cases.find(name); found != model.cases.end()) return found->second;
   if (model.loads.contains(name)) return {{name, 1.0}};
   std::vector<std::string> present;
@@ -36,7 +36,7 @@ Factors factors_of(const assembly::FeModel& model, const std::string& name) {
                                fmt::join(present, ", ")));
 }
 
-std::vector<std::string> all_names(const assembly::FeModel& model) {
+std::vector<std::string> all_names(const fe::FeModel& model) {
   std::vector<std::string> names;
   for (const auto& entry : model.loads) names.push_back(entry.first);
   for (const auto& entry : model.cases) names.push_back(entry.first);
@@ -46,7 +46,7 @@ std::vector<std::string> all_names(const assembly::FeModel& model) {
 }
 
 /// Of all loads of a case [K] (n_nodes); empty when none has a temperature.
-Eigen::VectorXd temperature_rise(const assembly::FeModel& model, const Factors& loads) {
+Eigen::VectorXd temperature_rise(const fe::FeModel& model, const Factors& loads) {
   Eigen::VectorXd sum;
   for (const auto& [load, factor] : loads) {
     const auto found = model.temperature_rise.find(load);
@@ -62,7 +62,7 @@ struct RightSides {
   Eigen::MatrixXd f, f_s, s;
 };
 
-RightSides right_sides(const assembly::FeModel& model, const std::vector<std::string>& names) {
+RightSides right_sides(const fe::FeModel& model, const std::vector<std::string>& names) {
   const auto m = static_cast<Eigen::Index>(names.size());
   const Eigen::Index n_s = model.supports.size();
   RightSides sides{Eigen::MatrixXd::Zero(model.size(), m), Eigen::MatrixXd::Zero(n_s, m),
@@ -78,12 +78,12 @@ RightSides right_sides(const assembly::FeModel& model, const std::vector<std::st
   return sides;
 }
 
-void refuse_free_body(const assembly::FeModel& model) {
-  const FreeMotions free = free_motions(model);
+void refuse_free_body(const fe::FeModel& model) {
+  const fe::FreeMotions free = fe::free_motions(model);
   if (free.count() == 0) return;
   std::vector<std::string> names;
   for (Eigen::Index c = 0; c < free.count(); ++c) {
-    std::string name = motion_name(free.unit.col(c), characteristic_length(model));
+    std::string name = fe::motion_name(free.unit.col(c), fe::characteristic_length(model));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   throw InputError(fmt::format(
@@ -96,8 +96,8 @@ void refuse_free_body(const assembly::FeModel& model) {
 /// 1 for the rigid motions that are free of force without supports, 0 for those that an equation
 /// or a spring to the ground holds: their forces are no reactions. Row by row, as in
 /// free_motions(): a soft spring on a stiff part holds it.
-Eigen::VectorXd balanced_motions(const assembly::FeModel& model) {
-  const assembly::FeSupports& supports = model.supports;
+Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
+  const fe::FeSupports& supports = model.supports;
   Eigen::MatrixXd force = multiply_symmetric(model.K, model.rigid);
   Eigen::MatrixXd size = magnitude_product(model.K, model.rigid);
   if (supports.size() > 0) {
@@ -124,26 +124,25 @@ double ratio(double part, double whole) { return whole > 0.0 ? part / whole : pa
 
 /// What rounding of the nodal forces may leave of their sum, in the units of the balance: bending
 /// of thin parts is a small difference of large forces.
-double rounding_of(const assembly::FeModel& model, const Eigen::VectorXd& q,
-                   const Eigen::VectorXd& s) {
+double rounding_of(const fe::FeModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& s) {
   Eigen::VectorXd sum =
       model.rigid.cwiseAbs().transpose() * Eigen::VectorXd(magnitude_product(model.K, q));
-  const assembly::FeSupports& supports = model.supports;
+  const fe::FeSupports& supports = model.supports;
   if (supports.size() > 0) {
     const Eigen::VectorXd forces = supports.K_sq.cwiseAbs() * q.cwiseAbs() +
                                    Eigen::VectorXd(magnitude_product(supports.K_ss, s));
     sum += supports.rigid.cwiseAbs().transpose() * forces;
   }
-  sum.tail(3) /= characteristic_length(model);
+  sum.tail(3) /= fe::characteristic_length(model);
   return kRounding * sum.norm();
 }
 
-StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
-                   const Eigen::VectorXd& f, const Eigen::VectorXd& f_s, const Eigen::VectorXd& s,
+StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
+                   const Eigen::VectorXd& f_s, const Eigen::VectorXd& s,
                    const Eigen::VectorXd& balanced) {
   StaticCase out;
   double size = f.lpNorm<1>();  // of forces that cancel
-  const assembly::FeSupports& supports = model.supports;
+  const fe::FeSupports& supports = model.supports;
   const Eigen::VectorXd elastic = multiply_symmetric(model.K, q);
   out.displacement = model.T * q;
   if (!model.points.names.empty()) out.points = model.points.T * q;
@@ -167,7 +166,7 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
   }
   Eigen::VectorXd sum = out.applied + out.support_sums.colwise().sum().transpose();
   sum = sum.cwiseProduct(balanced);
-  sum.tail(3) /= characteristic_length(model);
+  sum.tail(3) /= fe::characteristic_length(model);
   out.balance = ratio(sum.norm(), size);
   if (out.balance > kBalance) out.balance_rounding = ratio(rounding_of(model, q, s), size);
   return out;
@@ -175,20 +174,20 @@ StaticCase recover(const assembly::FeModel& model, const Eigen::VectorXd& q,
 
 /// Thin walls have a condition beyond 1e11 and are solved all the same: the guards of the factor
 /// leave it to the errors of the solution to judge.
-SupernodalFactor factor_of(const assembly::FeModel& model) {
-  FactorOptions options;
+sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
+  sparse::FactorOptions options;
   options.min_rcond = 0.0;
   options.max_condition = 1e15;
   try {
-    return SupernodalFactor(model.K, options);
-  } catch (const NotPositiveDefinite& error) {
+    return sparse::SupernodalFactor(model.K, options);
+  } catch (const sparse::NotPositiveDefinite& error) {
     std::vector<int32_t> all(static_cast<size_t>(model.size()));
     std::iota(all.begin(), all.end(), 0);
-    throw explained(model, "K", all, error);
+    throw modes::explained(model, "K", all, error);
   }
 }
 
-void refuse_inexact(const assembly::FeModel& model, const StaticCase& found) {
+void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
   // Written so that NaN is refused too.
   if (!(found.backward_error <= kBackward))
     throw NumericsError(fmt::format("{}: {}: found backward error {:.3g}, expected at most {:.0e}",
@@ -212,7 +211,7 @@ void refuse_inexact(const assembly::FeModel& model, const StaticCase& found) {
 
 /// Nothing is unknown where supports hold every DoF: displacements are those prescribed, and the
 /// reactions are K_ss s - f_s.
-StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std::string>& names,
+StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {
   const Eigen::VectorXd balanced = balanced_motions(model);
   StaticSolution solution;
@@ -223,8 +222,8 @@ StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std:
     found.name = names[c];
     found.loads = factors_of(model, names[c]);
     refuse_inexact(model, found);
-    found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
-                                          temperature_rise(model, found.loads));
+    found.stress = fe::nodal_stress(model.nodes, model.cells, found.displacement,
+                                    temperature_rise(model, found.loads));
     solution.cases.push_back(std::move(found));
   }
   return solution;
@@ -232,13 +231,12 @@ StaticSolution solve_held(const assembly::FeModel& model, const std::vector<std:
 
 }  // namespace
 
-StaticSolution solve_static(const assembly::FeModel& model,
-                            const std::vector<std::string>& wanted) {
+StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::string>& wanted) {
   const std::vector<std::string> names = wanted.empty() ? all_names(model) : wanted;
   const RightSides sides = right_sides(model, names);
   if (model.size() == 0) return solve_held(model, names, sides);
   refuse_free_body(model);
-  const SupernodalFactor factor = factor_of(model);
+  const sparse::SupernodalFactor factor = factor_of(model);
   Eigen::MatrixXd driven = sides.f;
   if (model.supports.size() > 0) driven -= model.supports.K_sq.transpose() * sides.s;
   const RefinedSolution solved = solve_refined(factor, model.K, driven);
@@ -255,14 +253,14 @@ StaticSolution solve_static(const assembly::FeModel& model,
     found.backward_error = solved.backward[col];
     found.forward_error = solved.forward[col];
     refuse_inexact(model, found);
-    found.stress = assembly::nodal_stress(model.nodes, model.cells, found.displacement,
-                                          temperature_rise(model, found.loads));
+    found.stress = fe::nodal_stress(model.nodes, model.cells, found.displacement,
+                                    temperature_rise(model, found.loads));
     solution.cases.push_back(std::move(found));
   }
   return solution;
 }
 
-std::vector<std::string> describe(const assembly::FeModel& model, const StaticSolution& solution) {
+std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution& solution) {
   std::vector<std::string> lines;
   for (const StaticCase& one : solution.cases) {
     Eigen::Index largest = 0;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "assembly/fe_model.hpp"
-#include "assembly/stress.hpp"
-#include "modal/factor/supernodal_factor.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/fe/stress.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::modal {
 
@@ -28,12 +28,12 @@ struct StaticCase {
   double balance = 0.0;           // |applied + reactions| over the forces that cancel; moments over
                                   // half the part's diagonal
   double balance_rounding = 0.0;  // what rounding explains of it, where it is above 1e-8
-  std::vector<assembly::RegionStress> stress;  // a region each; none when the model has no cells
+  std::vector<fe::RegionStress> stress;  // a region each; none when the model has no cells
 };
 
 struct StaticSolution {
   std::vector<StaticCase> cases;
-  FactorReport factor;
+  sparse::FactorReport factor;
 };
 
 /// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
@@ -43,36 +43,35 @@ struct StaticSolution {
 /// are named); NumericsError when the stiffness is singular otherwise, when the backward error
 /// exceeds 1e-12, the balance 1e-8 and what rounding explains, or the estimated error of q all of
 /// it.
-StaticSolution solve_static(const assembly::FeModel& model, const std::vector<std::string>& wanted);
+StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::string>& wanted);
 
 /// Stresses at the nodes of one region and case.
 struct NodeStress {
   std::string region;
   int32_t node = 0;
-  assembly::Voigt stress;  // xx yy zz xy yz zx [Pa]
+  fe::Voigt stress;        // xx yy zz xy yz zx [Pa]
   double von_mises = 0.0;  // [Pa]
 };
 
 /// The largest von Mises stress of a case that has stresses.
-NodeStress largest_stress(const assembly::FeModel& model, const StaticCase& solved);
+NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved);
 
 /// Says it in a line.
-std::string describe_largest_stress(const assembly::FeModel& model, const StaticCase& solved);
+std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& solved);
 
 /// Nodes at places: a node by its number ("17"), the node nearest to a place in metres
 /// ("2,0,0.6"), or a sensor by its name. InputError for a place that is none of these and for a
 /// model without cells.
-std::vector<int32_t> nodes_at(const assembly::FeModel& model,
-                              const std::vector<std::string>& places);
+std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& places);
 
 /// The stresses at a node: a line for each region there.
-std::vector<std::string> describe_stress(const assembly::FeModel& model, const StaticCase& solved,
+std::vector<std::string> describe_stress(const fe::FeModel& model, const StaticCase& solved,
                                          int32_t node);
 
 /// Writes the cases, nodes, surfaces, points and supports; provenance and timing are the caller's.
-void write_static(H5File& file, const assembly::FeModel& model, const StaticSolution& solution);
+void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& solution);
 
 /// A few lines for the user.
-std::vector<std::string> describe(const assembly::FeModel& model, const StaticSolution& solution);
+std::vector<std::string> describe(const fe::FeModel& model, const StaticSolution& solution);
 
 }  // namespace clatter::modal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/threads.hpp"
+#include "core/base/threads.hpp"
 
 namespace clatter::recover {
 

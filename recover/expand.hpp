@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 
 namespace clatter::recover {
 

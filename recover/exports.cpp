@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "core/xml.hpp"
+#include "core/base/error.hpp"
+#include "core/base/xml.hpp"
 
 namespace clatter::recover {
 namespace {

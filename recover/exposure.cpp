@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/threads.hpp"
+#include "core/base/threads.hpp"
 #include "recover/panels.hpp"
 #include "recover/ray_tree.hpp"
 

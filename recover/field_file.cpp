@@ -119,7 +119,7 @@ void write_conventions(H5File& file, const Options& options, const FrequencyLimi
   file.set("/", "spectra_limit", limit.reason);
 }
 
-void write_skin_geometry(H5File& file, const Skin& skin, const SkinGeometry& geometry) {
+void write_skin_geometry(H5File& file, const rom::Skin& skin, const SkinGeometry& geometry) {
   put(file, "skin/nodes", skin.nodes, "m", "coordinates");
   put(file, "skin/triangles", skin.triangles, "1",
       "quadratic triangles: 3 corners, then the middles of edges 01, 12, 20; outward");

@@ -4,7 +4,7 @@
 // Every dataset has attributes `unit` and `meaning`; complex ones stand as a pair x_re, x_im.
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/h5_file.hpp"
 #include "recover/analysis.hpp"
 #include "recover/lines.hpp"
 
@@ -17,7 +17,7 @@ void write_conventions(H5File& file, const Options& options, const FrequencyLimi
                        double valid_to_hz);
 
 /// Writes `skin/`: nodes, triangles, areas, normals.
-void write_skin_geometry(H5File& file, const Skin& skin, const SkinGeometry& geometry);
+void write_skin_geometry(H5File& file, const rom::Skin& skin, const SkinGeometry& geometry);
 
 /// Writes `panels/<name>`: faces and areas.
 void write_panels(H5File& file, const std::vector<Panel>& panels);
@@ -34,14 +34,14 @@ struct FrameIndex {
 };
 
 /// Expands and writes frames block by block; the whole expansion never stands in memory.
-FrameIndex write_frames(H5File& file, const RunBody& body, const Skin& skin,
+FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin,
                         const SparseRows& face_normal, const Piece& piece,
                         const std::vector<int64_t>& samples, bool displacement);
 
 /// Expands and writes `lines/`: complex velocities (n_s x 3) and normal velocities (n_f) per line,
 /// double precision, peak amplitudes.
 void write_lines(H5File& file, const Analysis& analysis, const std::vector<ChosenLine>& lines,
-                 const Skin& skin, const SparseRows& face_normal);
+                 const rom::Skin& skin, const SparseRows& face_normal);
 
 /// "00042": the member's name of frame or line 42.
 std::string member_name(size_t index);

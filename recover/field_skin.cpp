@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/progress.hpp"
+#include "core/base/progress.hpp"
 #include "recover/expand.hpp"
 #include "recover/field_file.hpp"
 
@@ -25,7 +25,7 @@ Eigen::MatrixXd frame_columns(const RunBody& body, const std::string& quantity, 
 }
 
 /// Writes one vector field per frame, and its face normal component when an operator is given.
-void write_vector_frames(H5File& file, const std::string& group, const Skin& skin,
+void write_vector_frames(H5File& file, const std::string& group, const rom::Skin& skin,
                          const Eigen::MatrixXd& reduced, const SparseRows* face_normal) {
   const int64_t n_s = skin.nodes.rows();
   Progress progress("frames: " + group, static_cast<double>(reduced.cols()), "frames");
@@ -58,7 +58,7 @@ void write_line_part(H5File& file, const std::string& part, const std::string& m
 
 }  // namespace
 
-FrameIndex write_frames(H5File& file, const RunBody& body, const Skin& skin,
+FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin,
                         const SparseRows& face_normal, const Piece& piece,
                         const std::vector<int64_t>& samples, bool displacement) {
   FrameIndex index{.displacement = displacement};
@@ -87,7 +87,7 @@ FrameIndex write_frames(H5File& file, const RunBody& body, const Skin& skin,
 }
 
 void write_lines(H5File& file, const Analysis& analysis, const std::vector<ChosenLine>& lines,
-                 const Skin& skin, const SparseRows& face_normal) {
+                 const rom::Skin& skin, const SparseRows& face_normal) {
   const LineSpectrum& spectrum = analysis.velocity;
   const auto n_l = static_cast<Eigen::Index>(lines.size());
   std::vector<double> frequency_hz, requested_hz;

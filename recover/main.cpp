@@ -2,13 +2,13 @@
 // power.
 #include <fmt/format.h>
 
-#include "core/artefact.hpp"
-#include "core/command_line.hpp"
-#include "core/config.hpp"
-#include "core/error.hpp"
-#include "core/json_line.hpp"
-#include "core/log.hpp"
-#include "core/planned_files.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/config.hpp"
+#include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
+#include "core/base/planned_files.hpp"
 #include "recover/recover.hpp"
 
 namespace {
@@ -55,7 +55,7 @@ int run(int argc, char** argv) {
   const std::string resolved = recover::resolved_text(options);
   say("options:\n" + resolved);
   const recover::RunBody body(input, options.body);
-  const ReducedModel model = body.read_model();
+  const rom::ReducedModel model = body.read_model();
   clock.lap("read");
 
   H5File file = H5File::create(output);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.hpp"
+#include "core/base/config.hpp"
 #include "recover/panels.hpp"
 #include "recover/piece.hpp"
 #include "recover/radiated_power.hpp"

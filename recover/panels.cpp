@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::recover {
 namespace {

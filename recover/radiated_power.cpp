@@ -4,8 +4,8 @@
 #include <map>
 #include <mutex>
 
-#include "core/progress.hpp"
-#include "core/threads.hpp"
+#include "core/base/progress.hpp"
+#include "core/base/threads.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -29,7 +29,7 @@ std::vector<Patch> split_into_patches(const std::vector<Panel>& panels, int64_t 
 }
 
 /// Lower triangle of the form of faces[begin .. end).
-void add_form(const Skin& skin, const std::vector<int32_t>& faces, int64_t begin, int64_t end,
+void add_form(const rom::Skin& skin, const std::vector<int32_t>& faces, int64_t begin, int64_t end,
               Eigen::MatrixXd& lower) {
   constexpr int64_t kFacesAtOnce = 128;
   for (int64_t first = begin; first < end; first += kFacesAtOnce) {
@@ -41,7 +41,7 @@ void add_form(const Skin& skin, const std::vector<int32_t>& faces, int64_t begin
   }
 }
 
-Eigen::MatrixXd patch_form(const Skin& skin, const std::vector<int32_t>& faces) {
+Eigen::MatrixXd patch_form(const rom::Skin& skin, const std::vector<int32_t>& faces) {
   const Eigen::Index r = skin.T.cols();
   std::map<int64_t, Eigen::MatrixXd> pieces;  // summed in order: same bits for the same threads
   std::mutex lock;
@@ -58,7 +58,7 @@ Eigen::MatrixXd patch_form(const Skin& skin, const std::vector<int32_t>& faces) 
 
 }  // namespace
 
-std::vector<PanelForm> normal_velocity_forms(const Skin& skin, const SkinGeometry& geometry,
+std::vector<PanelForm> normal_velocity_forms(const rom::Skin& skin, const SkinGeometry& geometry,
                                              const std::vector<Panel>& panels) {
   const Eigen::Index r = skin.T.cols();
   std::vector<PanelForm> forms;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 #include "recover/panels.hpp"
 
 namespace clatter::recover {
@@ -30,7 +30,7 @@ struct PanelForm {
 
 /// Makes the forms of all panels; a face that lies in several panels is worked on once. Blocks of
 /// faces are spread over the threads, each with its own sum.
-std::vector<PanelForm> normal_velocity_forms(const Skin& skin, const SkinGeometry& geometry,
+std::vector<PanelForm> normal_velocity_forms(const rom::Skin& skin, const SkinGeometry& geometry,
                                              const std::vector<Panel>& panels);
 
 /// v^H W v for each row of `v` (m x r): integral of |v_n|^2 dS [m4/s2].

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "core/whole_file.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/whole_file.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -94,9 +94,9 @@ std::map<std::string, double> certify(const RunBody& body, const Analysis& analy
 
 }  // namespace
 
-Summary recover(const RunBody& body, const ReducedModel& model, const Options& options,
+Summary recover(const RunBody& body, const rom::ReducedModel& model, const Options& options,
                 H5File& file, StepClock& clock) {
-  const Skin& skin = model.skin;
+  const rom::Skin& skin = model.skin;
   Summary summary{.options = options};
   const SkinGeometry geometry = measure_skin(skin.nodes, skin.triangles);
   summary.n_nodes = skin.nodes.rows();

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/h5_file.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/h5_file.hpp"
+#include "core/base/stopwatch.hpp"
 #include "recover/exports.hpp"
 #include "recover/options.hpp"
 #include "recover/run_input.hpp"
@@ -29,7 +29,7 @@ struct Summary {
 /// Recovers everything that `options` ask for and writes it to `file` (conventions, skin, panels,
 /// analyses, frames, lines, certificate; provenance and timing are the caller's).
 /// @throws InputError for spans, panels, sensors or frequencies that run or basis do not hold
-Summary recover(const RunBody& body, const ReducedModel& model, const Options& options,
+Summary recover(const RunBody& body, const rom::ReducedModel& model, const Options& options,
                 H5File& file, StepClock& clock);
 
 /// Writes the XDMF files that show the committed field file; a file of an older run that shows

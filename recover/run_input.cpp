@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/artefact.hpp"
-#include "core/certificate_doubt.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "core/planned_files.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/planned_files.hpp"
+#include "core/rom/certificate_doubt.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -103,15 +103,15 @@ void RunBody::check_shapes() const {
   }
 }
 
-ReducedModel RunBody::read_model() const {
+rom::ReducedModel RunBody::read_model() const {
   const std::string found = sha256_of_file(rom_path_);
   if (found != rom_sha256_)
     throw InputError(fmt::format(
         "{}: sha256: found {}..., expected {}... as in {}: the run used another reduced model, run "
         "it again",
         rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
-  ReducedModel model = read_reduced_model(rom_path_);
-  const std::string doubt = certificate_doubt(model);
+  rom::ReducedModel model = rom::read_reduced_model(rom_path_);
+  const std::string doubt = rom::certificate_doubt(model);
   if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
   const int64_t columns = file_.shape(place("q"))[1];
   if (columns != model.size())

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/h5_file.hpp"
-#include "core/reduced_model.hpp"
+#include "core/base/h5_file.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::recover {
 
@@ -35,7 +35,7 @@ class RunBody {
   const std::string& rom_sha256() const { return rom_sha256_; }
 
   /// Reads the reduced model beside the run, checks its hash and that its size fits the run.
-  ReducedModel read_model() const;
+  rom::ReducedModel read_model() const;
 
   /// False for a run that was stopped inside its last cycle.
   bool complete() const;

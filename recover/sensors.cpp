@@ -4,12 +4,12 @@
 
 #include <set>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::recover {
 namespace {
 
-Sensor from_set(const std::string& name, const DofSet& set, const ReducedModel& model) {
+Sensor from_set(const std::string& name, const rom::DofSet& set, const rom::ReducedModel& model) {
   const Eigen::Index channels = static_cast<Eigen::Index>(set.dofs.size());
   Sensor sensor{name, set.kind, set.labels, set.position, set.direction, set.is_rotation, {}};
   sensor.rows = Eigen::MatrixXd::Zero(channels, model.size());
@@ -18,7 +18,7 @@ Sensor from_set(const std::string& name, const DofSet& set, const ReducedModel& 
   return sensor;
 }
 
-Sensor from_point(const SensorRule& rule, const Skin& skin, const SkinGeometry& geometry) {
+Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const SkinGeometry& geometry) {
   Eigen::Index node;
   (skin.nodes.rowwise() - rule.position->transpose()).rowwise().squaredNorm().minCoeff(&node);
   std::vector<Eigen::Vector3d> directions;
@@ -47,8 +47,8 @@ Sensor from_point(const SensorRule& rule, const Skin& skin, const SkinGeometry& 
 
 }  // namespace
 
-std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules, const ReducedModel& model,
-                                 const SkinGeometry& geometry) {
+std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
+                                 const rom::ReducedModel& model, const SkinGeometry& geometry) {
   std::vector<Sensor> sensors;
   if (rules.empty())
     for (const auto& [name, set] : model.sets)

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 #include "recover/skin.hpp"
 
 namespace clatter::recover {
@@ -30,7 +30,7 @@ struct Sensor {
 
 /// Finds the sensors; with no rule every set of kind "sensor".
 /// @throws InputError for an unknown set or a name that stands twice
-std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules, const ReducedModel& model,
-                                 const SkinGeometry& geometry);
+std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
+                                 const rom::ReducedModel& model, const SkinGeometry& geometry);
 
 }  // namespace clatter::recover

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "recover/triangle6.hpp"
 
 namespace clatter::recover {

@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 
 namespace clatter::recover {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/threads.hpp"
+#include "core/base/threads.hpp"
 #include "recover/fft.hpp"
 
 namespace clatter::recover {

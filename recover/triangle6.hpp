@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 
 namespace clatter::recover {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/mesh.hpp"
-#include "mesh/shape.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/mesh/shape.hpp"
 
 namespace clatter::assembly {
 

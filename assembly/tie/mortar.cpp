@@ -7,7 +7,7 @@
 
 #include "assembly/tie/clip.hpp"
 #include "assembly/tie/face_search.hpp"
-#include "mesh/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace clatter::assembly {
 namespace {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "condense/export/pencil_modes.hpp"
-#include "core/artefact.hpp"
-#include "core/dof_map.hpp"
-#include "core/whole_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/whole_file.hpp"
+#include "core/rom/dof_map.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -20,11 +20,11 @@ struct Place {
 };
 
 /// Displacements keep the map's places; rotations and modal coordinates get nodes behind them.
-std::vector<Place> places_of(const std::vector<MappedDof>& map) {
+std::vector<Place> places_of(const std::vector<rom::MappedDof>& map) {
   int last = 0;
-  for (const MappedDof& dof : map) last = std::max(last, dof.node);
+  for (const rom::MappedDof& dof : map) last = std::max(last, dof.node);
   std::vector<Place> places;
-  for (const MappedDof& dof : map) {
+  for (const rom::MappedDof& dof : map) {
     const bool along_axis = dof.component >= 1 && dof.component <= 3;
     const bool rotation = dof.component > 3;
     places.push_back({rotation ? ++last : dof.node, along_axis ? dof.component : 1});
@@ -46,8 +46,9 @@ void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matr
   file.commit();
 }
 
-void write_head(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map,
-                const std::vector<Place>& places, const std::string& stem) {
+void write_head(std::ostream& out, const rom::ReducedModel& model,
+                const std::vector<rom::MappedDof>& map, const std::vector<Place>& places,
+                const std::string& stem) {
   out << fmt::format("** clatter {}: \"{}\" ({}), SI: m, kg, s, N\n", version(), model.name,
                      model.method);
   out << fmt::format(
@@ -60,13 +61,14 @@ void write_head(std::ostream& out, const ReducedModel& model, const std::vector<
       model.n_boundary, model.size() - model.n_boundary, stem, stem, stem, kRigidHoldHz);
   for (size_t j = 0; j < map.size(); ++j)
     out << fmt::format("** {}  {}  {}  {} {}\n", j + 1, places[j].node, places[j].component,
-                       map[j].kind == MappedDof::Kind::kRotation ? "rotation of" : "",
+                       map[j].kind == rom::MappedDof::Kind::kRotation ? "rotation of" : "",
                        map[j].label);
 }
 
 /// Nodes of the boundary coordinates; node j of the modes is `first` + j / 3, component j % 3 + 1.
-void write_nodes(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map,
-                 const std::vector<Place>& places, int first) {
+void write_nodes(std::ostream& out, const rom::ReducedModel& model,
+                 const std::vector<rom::MappedDof>& map, const std::vector<Place>& places,
+                 int first) {
   out << "*NODE,NSET=CLATTER_BOUNDARY\n";
   std::vector<bool> done(static_cast<size_t>(first), false);
   for (int j = 0; j < model.n_boundary; ++j) {
@@ -96,7 +98,7 @@ void write_modes(std::ostream& out, const PencilModes& modes, int first) {
   if (size % 3 != 0) out << fmt::format("*BOUNDARY\n{},{},3\n", first + nodes - 1, size % 3 + 1);
 }
 
-void write_equations(std::ostream& out, const ReducedModel& model, const Eigen::MatrixXd& Phi,
+void write_equations(std::ostream& out, const rom::ReducedModel& model, const Eigen::MatrixXd& Phi,
                      const std::vector<Place>& places, int first) {
   for (int i = 0; i < model.n_boundary; ++i) {
     const Place& place = places[static_cast<size_t>(i)];
@@ -115,10 +117,10 @@ std::vector<std::filesystem::path> calculix_files(const std::filesystem::path& p
   return {path, beside(".K.txt"), beside(".M.txt")};
 }
 
-std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
+std::vector<std::filesystem::path> export_calculix(const rom::ReducedModel& model,
                                                    const std::filesystem::path& path) {
   const PencilModes modes = modes_of(model);
-  const std::vector<MappedDof> map = map_of(model);
+  const std::vector<rom::MappedDof> map = rom::map_of(model);
   const std::vector<Place> places = places_of(map);
   int first = 1;  // node of the modes
   for (const Place& place : places) first = std::max(first, place.node + 1);

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> calculix_files(const std::filesystem::path& p
 /// Nodes and components are those of the DoF map with displacements only: rotations and modal
 /// coordinates stand in component 1 of a node of their own. The head of part.inp lists them.
 /// InputError when M_rr is not positive definite; FileError when a file cannot be written.
-std::vector<std::filesystem::path> export_calculix(const ReducedModel& model,
+std::vector<std::filesystem::path> export_calculix(const rom::ReducedModel& model,
                                                    const std::filesystem::path& path);
 
 }  // namespace clatter::condense

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "core/artefact.hpp"
-#include "core/dof_map.hpp"
-#include "core/whole_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/whole_file.hpp"
+#include "core/rom/dof_map.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -16,7 +16,8 @@ constexpr int kField = 16;
 /// Below it an exponent has three digits and no field holds ten digits beside it.
 constexpr double kSmallest = 1e-99;
 
-void write_head(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map) {
+void write_head(std::ostream& out, const rom::ReducedModel& model,
+                const std::vector<rom::MappedDof>& map) {
   out << fmt::format("$ clatter {}: {:.40} ({}), SI: m, kg, s, N\n", version(), model.name,
                      model.method);
   out << fmt::format("$ {} boundary coordinates, then {} modal ones\n", model.n_boundary,
@@ -29,10 +30,10 @@ void write_head(std::ostream& out, const ReducedModel& model, const std::vector<
 }
 
 /// GRIDs with what they do not move constrained, SPOINTs.
-void write_points(std::ostream& out, const std::vector<MappedDof>& map) {
+void write_points(std::ostream& out, const std::vector<rom::MappedDof>& map) {
   std::map<int, std::string> loose;  // of each grid: the components without a coordinate
   std::map<int, Eigen::Vector3d> position;
-  for (const MappedDof& dof : map) {
+  for (const rom::MappedDof& dof : map) {
     if (dof.component == 0) {
       out << fmt::format("SPOINT  {:<8}\n", dof.node);
       continue;
@@ -50,17 +51,17 @@ void write_points(std::ostream& out, const std::vector<MappedDof>& map) {
 }
 
 void write_matrix(std::ostream& out, const std::string& name, const Eigen::MatrixXd& matrix,
-                  const std::vector<MappedDof>& map) {
+                  const std::vector<rom::MappedDof>& map) {
   out << fmt::format("DMIG    {:<8}{:<8}{:<8}{:<8}\n", name, 0, 6, 2);
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const MappedDof& column = map[static_cast<size_t>(j)];
+    const rom::MappedDof& column = map[static_cast<size_t>(j)];
     bool begun = false;
     for (Eigen::Index i = j; i < matrix.rows(); ++i) {
       if (std::abs(matrix(i, j)) < kSmallest) continue;
       if (!begun)
         out << fmt::format("DMIG*   {:<16}{:<16}{:<16}\n", name, column.node, column.component);
       begun = true;
-      const MappedDof& row = map[static_cast<size_t>(i)];
+      const rom::MappedDof& row = map[static_cast<size_t>(i)];
       out << fmt::format("*       {:<16}{:<16}{:<16}\n", row.node, row.component,
                          nastran_number(matrix(i, j)));
     }
@@ -80,9 +81,9 @@ std::string nastran_number(double value) {
   }
 }
 
-std::vector<std::filesystem::path> export_dmig(const ReducedModel& model,
+std::vector<std::filesystem::path> export_dmig(const rom::ReducedModel& model,
                                                const std::filesystem::path& path) {
-  const std::vector<MappedDof> map = map_of(model);
+  const std::vector<rom::MappedDof> map = rom::map_of(model);
   WholeFile file(path);
   write_head(file.stream(), model, map);
   write_points(file.stream(), map);

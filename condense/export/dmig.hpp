@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -14,7 +14,7 @@ namespace clatter::condense {
 /// DMIG* of the lower triangles in double precision (type 2, form 6). A field of 16 columns holds
 /// 10 to 12 digits of a negative or small number: entries are off by 5e-10 of themselves at most.
 /// Comments at the head list row, node and component. FileError when it cannot be written.
-std::vector<std::filesystem::path> export_dmig(const ReducedModel& model,
+std::vector<std::filesystem::path> export_dmig(const rom::ReducedModel& model,
                                                const std::filesystem::path& path);
 
 /// A number in a field of 16 columns, with a D exponent, as many digits as go in.

@@ -6,14 +6,14 @@
 #include "condense/export/dmig.hpp"
 #include "condense/export/matrix_market.hpp"
 #include "condense/export/mbdyn.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::condense {
 
 namespace {
 
 /// Without the sets that were never coordinates: other programs have no rows for them.
-ReducedModel coordinates_only(ReducedModel model) {
+rom::ReducedModel coordinates_only(rom::ReducedModel model) {
   Eigen::Index rows = 0;
   for (const std::string& name : model.recovered_sets) {
     for (const int32_t dof : model.set(name).dofs) rows += dof >= model.size() ? 1 : 0;
@@ -38,10 +38,10 @@ std::vector<std::filesystem::path> exported_files(const std::filesystem::path& p
       path.string(), extension));
 }
 
-std::vector<std::filesystem::path> export_reduced(const ReducedModel& with_rows,
+std::vector<std::filesystem::path> export_reduced(const rom::ReducedModel& with_rows,
                                                   const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  const ReducedModel model = coordinates_only(with_rows);
+  const rom::ReducedModel model = coordinates_only(with_rows);
   if (model.combined.rows() > 0)
     throw InputError(fmt::format(
         "{}: found {} boundary coordinates that became interface modes, expected a part "

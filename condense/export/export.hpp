@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -16,7 +16,7 @@ std::vector<std::filesystem::path> exported_files(const std::filesystem::path& p
 ///   part.pch  Nastran bulk data with DMIG (dmig.hpp)
 ///   part.fem  MBDyn's modal joint (mbdyn.hpp)
 /// InputError for another extension, FileError when a file cannot be written.
-std::vector<std::filesystem::path> export_reduced(const ReducedModel& model,
+std::vector<std::filesystem::path> export_reduced(const rom::ReducedModel& model,
                                                   const std::filesystem::path& path);
 
 }  // namespace clatter::condense

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/artefact.hpp"
-#include "core/dof_map.hpp"
-#include "core/matrix_text.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/matrix_text.hpp"
+#include "core/rom/dof_map.hpp"
 
 namespace clatter::condense {
 
@@ -15,7 +15,7 @@ std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::pa
   return {beside(".K.mtx"), beside(".M.mtx"), beside(".dofs.tsv")};
 }
 
-std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
+std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
                                                         const std::filesystem::path& path) {
   const std::vector<std::filesystem::path> files = matrix_market_files(path);
   const auto &K = files[0], &M = files[1], &map = files[2];
@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& mode
     return fmt::format("clatter {}: {} of \"{}\" ({}), SI", version(), what, model.name,
                        model.method);
   };
-  write_dof_map(map, map_of(model));
+  rom::write_dof_map(map, rom::map_of(model));
   write_matrix_market(M, model.M_rr, {head("mass"), rows});
   std::vector<std::string> lines{
       head("stiffness"), rows,

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -13,7 +13,7 @@ std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::pa
 /// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits: they read back
 /// to the last bit) and part.dofs.tsv, which says what row i is (core/dof_map.hpp). Damping stands
 /// in the head of K. Returns the files; FileError when one cannot be written.
-std::vector<std::filesystem::path> export_matrix_market(const ReducedModel& model,
+std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
                                                         const std::filesystem::path& path);
 
 }  // namespace clatter::condense

@@ -5,20 +5,20 @@
 #include <map>
 
 #include "condense/export/pencil_modes.hpp"
-#include "core/artefact.hpp"
-#include "core/dof_map.hpp"
-#include "core/error.hpp"
-#include "core/whole_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/whole_file.hpp"
+#include "core/rom/dof_map.hpp"
 
 namespace clatter::condense {
 namespace {
 
-using Kind = MappedDof::Kind;
+using Kind = rom::MappedDof::Kind;
 
 /// Numbers of the nodes and, for each, its coordinates.
 using Nodes = std::map<int, std::vector<int>>;
 
-Nodes nodes_of(const std::vector<MappedDof>& map) {
+Nodes nodes_of(const std::vector<rom::MappedDof>& map) {
   Nodes nodes;
   for (size_t j = 0; j < map.size(); ++j)
     if (map[j].kind != Kind::kModal) nodes[map[j].node].push_back(static_cast<int>(j));
@@ -34,13 +34,13 @@ void write_numbers(std::ostream& out, const Eigen::VectorXd& values) {
   out << '\n';
 }
 
-void write_head(std::ostream& out, const ReducedModel& model, const std::vector<MappedDof>& map,
-                size_t nodes, int modes) {
+void write_head(std::ostream& out, const rom::ReducedModel& model,
+                const std::vector<rom::MappedDof>& map, size_t nodes, int modes) {
   out << fmt::format("** clatter {}: {} ({}), SI: m, kg, s, N\n", version(), model.name,
                      model.method);
   out << "** row  node  kind of coordinate  direction  label\n";
   for (int j = 0; j < model.n_boundary; ++j) {
-    const MappedDof& dof = map[static_cast<size_t>(j)];
+    const rom::MappedDof& dof = map[static_cast<size_t>(j)];
     out << fmt::format("** {}  {}  {}  {} {} {}  {}\n", j + 1, dof.node,
                        dof.kind == Kind::kRotation ? "rotation" : "displacement", dof.direction[0],
                        dof.direction[1], dof.direction[2], dof.label);
@@ -50,7 +50,7 @@ void write_head(std::ostream& out, const ReducedModel& model, const std::vector<
   out << fmt::format("   REV0  {}  {}  0  0  0\n", nodes, modes);
 }
 
-void write_nodes(std::ostream& out, const Nodes& nodes, const std::vector<MappedDof>& map,
+void write_nodes(std::ostream& out, const Nodes& nodes, const std::vector<rom::MappedDof>& map,
                  int modes) {
   begin_group(out, 2, "FINITE ELEMENT NODE LIST");
   for (const auto& [node, coordinates] : nodes) out << fmt::format(" {}", node);
@@ -69,11 +69,11 @@ void write_nodes(std::ostream& out, const Nodes& nodes, const std::vector<Mapped
 }
 
 /// x y z rx ry rz of a node in a mode.
-Eigen::VectorXd shape_of(const std::vector<int>& coordinates, const std::vector<MappedDof>& map,
-                         const Eigen::VectorXd& phi) {
+Eigen::VectorXd shape_of(const std::vector<int>& coordinates,
+                         const std::vector<rom::MappedDof>& map, const Eigen::VectorXd& phi) {
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(6);
   for (const int j : coordinates) {
-    const MappedDof& dof = map[static_cast<size_t>(j)];
+    const rom::MappedDof& dof = map[static_cast<size_t>(j)];
     shape.segment<3>(dof.kind == Kind::kRotation ? 3 : 0) += phi[j] * dof.direction;
   }
   return shape;
@@ -87,12 +87,12 @@ void write_matrix(std::ostream& out, int group, const char* what, const Eigen::V
 
 }  // namespace
 
-std::vector<std::filesystem::path> export_mbdyn(const ReducedModel& model,
+std::vector<std::filesystem::path> export_mbdyn(const rom::ReducedModel& model,
                                                 const std::filesystem::path& path) {
   const PencilModes modes = modes_of(model);
   const int count = model.size() - modes.rigid;
   const Eigen::VectorXd Lambda = modes.Lambda.tail(count);
-  const std::vector<MappedDof> map = map_of(model);
+  const std::vector<rom::MappedDof> map = rom::map_of(model);
   const Nodes nodes = nodes_of(map);
   if (nodes.empty())
     throw InputError(

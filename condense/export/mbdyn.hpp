@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -16,7 +16,7 @@ namespace clatter::condense {
 /// head list row, node and direction of the coordinates. 17 digits. InputError when M_rr is not
 /// positive definite or no boundary coordinate has a place; FileError when the file cannot be
 /// written.
-std::vector<std::filesystem::path> export_mbdyn(const ReducedModel& model,
+std::vector<std::filesystem::path> export_mbdyn(const rom::ReducedModel& model,
                                                 const std::filesystem::path& path);
 
 }  // namespace clatter::condense

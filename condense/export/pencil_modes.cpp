@@ -5,11 +5,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::condense {
 
-PencilModes modes_of(const ReducedModel& model) {
+PencilModes modes_of(const rom::ReducedModel& model) {
   const Eigen::LLT<Eigen::MatrixXd> factor(model.M_rr);
   if (factor.info() != Eigen::Success)
     throw InputError(

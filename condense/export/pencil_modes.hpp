@@ -2,7 +2,7 @@
 // Modes of a reduced part, for formats that want them.
 #include <Eigen/Core>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
 
@@ -14,6 +14,6 @@ struct PencilModes {
 };
 
 /// All modes by a dense solution; InputError when M_rr is not positive definite.
-PencilModes modes_of(const ReducedModel& model);
+PencilModes modes_of(const rom::ReducedModel& model);
 
 }  // namespace clatter::condense

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 #include "dynamics/film/grid.hpp"
 
 namespace clatter::film {
@@ -41,7 +41,7 @@ struct LinerShape {
 
 /// A body's surface known by mean radial displacements of patches.
 struct ElasticSurface {
-  ContactGrid grid;  // patches, axis along +z or -z
+  rom::ContactGrid grid;  // patches, axis along +z or -z
   Eigen::MatrixXd
       rigid;  // n x 6: patch values under unit rigid motions x, y, z, rx, ry, rz about the
               // frame's origin (rows of ReducedModel::rigid); 0 rows: taken from the patch centres

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/gap.hpp"
 
 namespace clatter::film {
@@ -33,7 +33,7 @@ struct Strips {
   std::vector<char> neighbours;
 };
 
-Strips strips_of(const ContactGrid& grid) {
+Strips strips_of(const rom::ContactGrid& grid) {
   const Eigen::Index n = grid.angle.size();
   Strips strips{grid.angle, std::vector<char>(static_cast<size_t>(n), 0)};
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -46,7 +46,7 @@ Strips strips_of(const ContactGrid& grid) {
   return strips;
 }
 
-CylinderStencil stencil_of(const ContactGrid& grid) {
+CylinderStencil stencil_of(const rom::ContactGrid& grid) {
   const Strips strips = strips_of(grid);
   return CylinderStencil(strips.angles, strips.neighbours, grid.axial);
 }
@@ -86,7 +86,7 @@ CylinderStencil::Axial CylinderStencil::at_axial(double axial) const {
 
 PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
     : pad_(pad), stencil_(stencil_of(surface.grid)) {
-  const ContactGrid& grid = surface.grid;
+  const rom::ContactGrid& grid = surface.grid;
   const int n_a = static_cast<int>(grid.angle.size()), n_z = static_cast<int>(grid.axial.size());
   if (std::abs(std::abs(grid.axis.z()) - 1.0) > 1e-6)
     throw InputError(fmt::format("contact grid: axis ({:.3g}, {:.3g}, {:.3g}), expected along z",

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/pad_state.hpp"
 
 namespace clatter::film {

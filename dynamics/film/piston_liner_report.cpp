@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/pad_state.hpp"
 
 namespace clatter::film {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/h5_file.hpp"
+#include "core/base/matrix.hpp"
 #include "dynamics/film/banded_lu.hpp"
 #include "dynamics/film/grid.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/flow_factors.hpp"
 
 namespace clatter::film {

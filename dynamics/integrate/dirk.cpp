@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace clatter::dynamics {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/stopwatch.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace clatter::dynamics {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

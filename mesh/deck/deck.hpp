@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::mesh::deck {
 

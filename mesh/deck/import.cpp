@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cctype>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/deck/abaqus_reader.hpp"
-#include "mesh/deck/nastran_reader.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/boundary.hpp"
+#include "mesh/deck/abaqus/reader.hpp"
+#include "mesh/deck/nastran/reader.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

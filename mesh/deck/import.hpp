@@ -2,9 +2,9 @@
 // From a deck in a file to a mesh that the next stage can take, in SI.
 #include <filesystem>
 
+#include "core/mesh/validity.hpp"
 #include "mesh/deck/deck.hpp"
 #include "mesh/deck/units.hpp"
-#include "mesh/validity.hpp"
 
 namespace clatter::mesh::deck {
 

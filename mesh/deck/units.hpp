@@ -1,26 +1,9 @@
 #pragma once
-// Units of a deck: decks carry none, so the user names them.
-#include <string>
-#include <string_view>
-
+// A deck in SI.
+#include "core/base/units.hpp"
 #include "mesh/deck/deck.hpp"
 
 namespace clatter::mesh::deck {
-
-/// A consistent system: forces are mass * length / time^2.
-struct UnitSystem {
-  std::string name = "m-kg-s";
-  double length = 1.0;  // [m] a unit
-  double mass = 1.0;    // [kg]
-  double time = 1.0;    // [s]
-
-  double force() const { return mass * length / (time * time); }
-  double pressure() const { return mass / (length * time * time); }
-};
-
-/// "m-kg-s" (N, Pa), "mm-t-s" (N, MPa), "mm-kg-ms" (kN, GPa), "mm-kg-s" (mN, kPa), "cm-g-s" or
-/// "in-lbfs2/in-s" (lbf, psi). InputError, beginning with `where`, that lists them for another.
-UnitSystem unit_system_named(std::string_view name, const std::string& where);
 
 /// Brings everything in the deck to SI; temperatures stay as they are.
 void convert_units(Deck& deck, const UnitSystem& units);

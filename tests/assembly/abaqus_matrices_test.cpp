@@ -7,8 +7,8 @@
 #include <fstream>
 #include <unordered_map>
 
-#include "assembly/assemble.hpp"
-#include "mesh/deck/abaqus_reader.hpp"
+#include "core/fe/assemble.hpp"
+#include "mesh/deck/abaqus/reader.hpp"
 #include "small_solver.hpp"
 #include "tests/shared_data.hpp"
 
@@ -44,7 +44,7 @@ double worst_difference(const SparseMatrix& ours, const Entries& theirs,
   return worst / largest;
 }
 
-const Material kAbaqusSteel{208000.0, 0.3, 7.85e-9};  // N, mm, t
+const fe::Material kAbaqusSteel{208000.0, 0.3, 7.85e-9};  // N, mm, t
 
 class AbaqusBeam : public ::testing::Test {
  protected:
@@ -56,14 +56,14 @@ class AbaqusBeam : public ::testing::Test {
     ASSERT_EQ(mesh_.cells[0].nodes.rows(), 233);
     for (int32_t n = 0; n < 518; ++n)  // so that rows are Abaqus' rows
       ASSERT_TRUE(mesh_.node_ids.empty() || mesh_.node_ids[static_cast<size_t>(n)] == n + 1);
-    matrices_ = assemble(mesh_, materials_of(mesh_, kAbaqusSteel), node_pattern(mesh_));
+    matrices_ = fe::assemble(mesh_, materials_of(mesh_, kAbaqusSteel), fe::node_pattern(mesh_));
     held_.assign(3 * 518, false);
     ASSERT_EQ(mesh_.node_sets.at("fixed").size(), 9U);
     for (const int32_t node : mesh_.node_sets.at("fixed"))
       for (int d = 0; d < 3; ++d) held_[static_cast<size_t>(3 * node + d)] = true;
   }
   mesh::Mesh mesh_;
-  NodalMatrices matrices_;
+  fe::NodalMatrices matrices_;
   std::vector<bool> held_;
 };
 

@@ -31,7 +31,7 @@ inline void hold_foot(const mesh::Mesh& mesh, Saddle& saddle) {
 }
 
 /// Solves the model for forces on all DoFs (nodes, then points); u of all DoFs.
-inline Eigen::VectorXd solve_model(const FeModel& model, const Eigen::VectorXd& f) {
+inline Eigen::VectorXd solve_model(const fe::FeModel& model, const Eigen::VectorXd& f) {
   const Eigen::Index nodal = model.T.rows(), n = model.size();
   Eigen::MatrixXd T(f.size(), n);
   T.topRows(nodal) = model.T;

@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "mesh/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly::testing {
 

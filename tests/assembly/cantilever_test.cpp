@@ -13,12 +13,12 @@
 
 #include <Eigen/LU>
 
-#include "assembly/element.hpp"
 #include "block_mesh.hpp"
-#include "core/log.hpp"
-#include "mesh/mesh_export.hpp"
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
+#include "core/base/log.hpp"
+#include "core/fe/element.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
+#include "mesh/exports/mesh_export.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -28,7 +28,7 @@ constexpr double kLength = 0.4, kWidth = 0.03, kHeight = 0.02;
 
 mesh::Mesh beam(std::array<int, 3> n) { return block_mesh(n, brick({kLength, kWidth, kHeight})); }
 
-FeModel clamped(const mesh::Mesh& mesh, const std::string& nu) {
+fe::FeModel clamped(const mesh::Mesh& mesh, const std::string& nu) {
   set_quiet(true);
   const Config config =
       Config::parse("[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = " + nu +
@@ -69,7 +69,7 @@ std::vector<double> timoshenko_hz(double height, int count) {
 TEST(Cantilever, FrequenciesAreThoseOfBeamTheory) {
   // nu = 0, so that the clamp does not hinder the section and beam theory is sharp. What remains
   // is the mesh's error, which grows with the fourth power of cells per wave: half of the bound.
-  const FeModel model = clamped(beam({40, 3, 2}), "0.0");
+  const fe::FeModel model = clamped(beam({40, 3, 2}), "0.0");
   const Eigen::VectorXd hz = lowest_hz(model.K, model.M, 8);
   std::vector<double> want = timoshenko_hz(kHeight, 3);
   for (const double f : timoshenko_hz(kWidth, 2)) want.push_back(f);
@@ -85,7 +85,7 @@ TEST(Cantilever, FrequenciesAreThoseOfBeamTheory) {
 
 TEST(Cantilever, StretchingFrequencyIsAQuarterWave) {
   // nu = 0: the rod's u = sin(pi x / 2 L) is a solution of the solid as well.
-  const FeModel model = clamped(beam({14, 1, 1}), "0.0");
+  const fe::FeModel model = clamped(beam({14, 1, 1}), "0.0");
   const Eigen::VectorXd hz = lowest_hz(model.K, model.M, 12);
   const double want = std::sqrt(2.1e11 / 7800.0) / (4.0 * kLength);
   EXPECT_LT((hz.array() / want - 1.0).cwiseAbs().minCoeff(), 1e-6);
@@ -135,7 +135,7 @@ std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
 }
 
 /// The mass with four points a cell, as CalculiX integrates C3D10; supported rows are left out.
-SparseMatrix four_point_mass(const mesh::Mesh& mesh, const FeModel& model) {
+SparseMatrix four_point_mass(const mesh::Mesh& mesh, const fe::FeModel& model) {
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   const IndexMatrix& cells = mesh.cells[0].nodes;
   for (Eigen::Index c = 0; c < cells.rows(); ++c) {
@@ -163,7 +163,7 @@ TEST(Cantilever, FrequenciesAreThoseOfCalculixOnTheExportedMesh) {
   const mesh::Mesh mesh = beam({20, 3, 2});
   const std::vector<double> theirs = calculix_hz(mesh);
   if (theirs.empty()) GTEST_SKIP() << "ccx not found: package calculix-ccx";
-  const FeModel model = clamped(mesh, "0.3");
+  const fe::FeModel model = clamped(mesh, "0.3");
   const Eigen::VectorXd ours = lowest_hz(model.K, model.M, 10);
   const Eigen::VectorXd alike = lowest_hz(model.K, four_point_mass(mesh, model), 10);
   for (size_t k = 0; k < theirs.size(); ++k) {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "assembly/fe_model.hpp"
 #include "block_mesh.hpp"
-#include "core/artefact.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "tests/places.hpp"
 
 namespace clatter::assembly::testing {
@@ -66,7 +66,7 @@ class AssemblyCommand : public ::testing::Test {
 TEST_F(AssemblyCommand, WritesAModelWithCertificateInputsAndTiming) {
   recipe(kSteel);
   ASSERT_EQ(run("part.mesh.h5 -c part.fe.toml -o part.fe.h5 --depfile part.d --json"), 0) << said_;
-  const FeModel model = read_fe_model(folder_ / "part.fe.h5");
+  const fe::FeModel model = fe::read_fe_model(folder_ / "part.fe.h5");
   EXPECT_NEAR(model.mass.mass, 7800.0 * 0.002, 1e-10);
   const H5File file = H5File::open(folder_ / "part.fe.h5");
   EXPECT_LT(read_certificate(file).at("mass_error"), 1e-9);
@@ -78,9 +78,9 @@ TEST_F(AssemblyCommand, WritesAModelWithCertificateInputsAndTiming) {
 TEST_F(AssemblyCommand, SameInputGivesTheSameMatrixBits) {
   recipe(std::string(kSteel) + "[[coupling]]\nname = \"end\"\nsurface = \"x1\"\n");
   ASSERT_EQ(run(), 0) << said_;
-  const FeModel first = read_fe_model(folder_ / "part.fe.h5");
+  const fe::FeModel first = fe::read_fe_model(folder_ / "part.fe.h5");
   ASSERT_EQ(run("part.mesh.h5 -c part.fe.toml -o part.fe.h5 --threads 1"), 0) << said_;
-  const FeModel second = read_fe_model(folder_ / "part.fe.h5");
+  const fe::FeModel second = fe::read_fe_model(folder_ / "part.fe.h5");
   EXPECT_EQ((first.K - second.K).norm(), 0.0);
   EXPECT_EQ((first.M - second.M).norm(), 0.0);
 }

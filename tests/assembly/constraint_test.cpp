@@ -36,14 +36,14 @@ TEST(RigidCoupling, FollowsItsReferenceLikeALever) {
 
 TEST(RigidCoupling, WithItsOwnReferenceNodeEqualsTheMultipliers) {
   const mesh::Mesh mesh = bar();
-  const FeModel model = build(mesh, std::string(kFoot) + R"(
+  const fe::FeModel model = build(mesh, std::string(kFoot) + R"(
 [[coupling]]
 name = "hub"
 type = "rigid"
 surface = "z1"
 point = [0.3, 0.0, 0.5]
 )")
-                            .model;
+                                .model;
   ASSERT_EQ(model.set("hub").dofs.size(), 6u);
   const std::vector<ReferencePoint> points = {{"hub", {0.3, 0.0, 0.5}, -1}};
   const DofNumbers numbers(mesh.nodes, points);
@@ -154,7 +154,7 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
   const mesh::Mesh mesh = bar();
   std::string toml = std::string(kFoot) + kChainPoints;
   for (const size_t part : GetParam()) toml += kChain[part];
-  const FeModel model = build(mesh, toml).model;
+  const fe::FeModel model = build(mesh, toml).model;
 
   const std::vector<ReferencePoint> points = {
       {"p1", {0.05, 0.05, 0.4}, -1}, {"p2", {0.2, 0.05, 0.4}, -1}, {"p3", {0.1, 0.0, 0.25}, -1}};
@@ -200,7 +200,7 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
 TEST(DistributingCoupling, OnABoundFaceDependsOnWhatBindsIt) {
   // All of the face follows hub rigidly, so that p, which rides on the face, follows hub too.
   const mesh::Mesh mesh = bar();
-  const FeModel model = build(mesh, std::string(kFoot) + R"(
+  const fe::FeModel model = build(mesh, std::string(kFoot) + R"(
 [[point]]
 name = "hub"
 at = [0.0, 0.0, 0.3]
@@ -215,7 +215,7 @@ surface = "z1"
 point = "p"
 surface = "z1"
 )")
-                            .model;
+                                .model;
   EXPECT_FALSE(model.sets.contains("p"));
   const Eigen::VectorXd q = some_forces(model.size());
   const Eigen::VectorXd u = model.points.T * q;

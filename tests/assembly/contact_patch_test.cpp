@@ -8,7 +8,7 @@
 
 #include "assembly/load_case.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -42,8 +42,8 @@ PatchGridSpec whole_circle(int strips, int rows) {
 TEST(ContactPatch, BreathingOfTheBoreMovesEveryPatchOutwards) {
   const mesh::Mesh mesh = liner();
   const BuiltModel built = build(mesh, liner_contact(3, 4));
-  const DofSet& set = built.model.set("liner");
-  const ContactGrid& grid = built.model.grids.at("liner");
+  const rom::DofSet& set = built.model.set("liner");
+  const rom::ContactGrid& grid = built.model.grids.at("liner");
   ASSERT_EQ(set.dofs.size(), 24u);
   EXPECT_NEAR(grid.radius, 0.05, 1e-5);  // parabolic arcs: h^4
   EXPECT_EQ(grid.angle.size(), 6);
@@ -68,8 +68,8 @@ TEST(ContactPatch, BreathingOfTheBoreMovesEveryPatchOutwards) {
 }
 
 TEST(ContactPatch, RigidMotionsOfTheGridAreThoseOfThePart) {
-  const FeModel model = build(liner(), liner_contact(3, 4)).model;
-  const DofSet& set = model.set("liner");
+  const fe::FeModel model = build(liner(), liner_contact(3, 4)).model;
+  const rom::DofSet& set = model.set("liner");
   for (size_t k = 0; k < set.dofs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     // The mean of cos over a patch is a little below the cosine at its middle: sin(a) / a.

@@ -4,10 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "assembly/assemble.hpp"
 #include "assembly/elimination.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -142,7 +142,7 @@ TEST_P(DistributingCouplingOn, ASolveInGeneralisedCoordinatesEqualsTheNodalOne) 
   // The oracle: nodal K with the distributed forces C^T f, then q = C u.
   const mesh::Mesh mesh = ring_mesh(GetParam(), GetParam() / 3);
   const BuiltModel built = build(mesh, kTwoCouplings);
-  const FeModel& model = built.model;
+  const fe::FeModel& model = built.model;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(model.size());
   std::vector<int32_t> dofs;
   for (const char* name : {"top", "bore", "bore_axial"})
@@ -161,7 +161,7 @@ TEST_P(DistributingCouplingOn, ASolveInGeneralisedCoordinatesEqualsTheNodalOne) 
       dense_rows(mean_displacement("c", mesh.nodes, bore, Eigen::Vector3d::UnitZ(),
                                    std::pair{0.02, 0.09}, ""),
                  n);
-  const NodalMatrices nodal = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices nodal = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   std::vector<bool> fixed(static_cast<size_t>(n), false);
   for (const int32_t node : mesh::nodes_of(mesh.surface("z0")))
     for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
@@ -180,8 +180,8 @@ TEST(Elimination, AFreeCoupledModelKeepsSixRigidMotionsAndItsFrequencies) {
   const mesh::Mesh mesh = small_ring();
   std::string free = kTwoCouplings;
   free.erase(0, free.find("[[coupling]]"));
-  const FeModel coupled = build(mesh, free).model;
-  const FeModel plain = build(mesh, "").model;
+  const fe::FeModel coupled = build(mesh, free).model;
+  const fe::FeModel plain = build(mesh, "").model;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> a(full(coupled.K),
                                                                     full(coupled.M));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> b(full(plain.K), full(plain.M));
@@ -193,8 +193,9 @@ TEST(Elimination, AFreeCoupledModelKeepsSixRigidMotionsAndItsFrequencies) {
 
 TEST(Elimination, GroupsKeepTheMatricesOfALargeFaceSparse) {
   const mesh::Mesh mesh = ring_mesh(20, 6);
-  const FeModel plain = build(mesh, "").model;
-  const FeModel coupled = build(mesh, "[[coupling]]\nname = \"bore\"\nsurface = \"y0\"\n").model;
+  const fe::FeModel plain = build(mesh, "").model;
+  const fe::FeModel coupled =
+      build(mesh, "[[coupling]]\nname = \"bore\"\nsurface = \"y0\"\n").model;
   const int64_t face = 3 * static_cast<int64_t>(mesh::nodes_of(mesh.surface("y0")).size());
   // A row over the whole face would add face^2 / 2 entries; groups of 24 nodes a few per cent.
   EXPECT_LT(coupled.K.nonZeros() - plain.K.nonZeros(), face * face / 10);
@@ -229,7 +230,7 @@ TEST(Elimination, RefusesACouplingWhoseNodesAreAllHeld) {
 
 TEST(Elimination, SensorsOnACoupledFaceStayPlainDisplacements) {
   const mesh::Mesh mesh = small_ring();
-  const FeModel model = build(mesh, R"(
+  const fe::FeModel model = build(mesh, R"(
 [[coupling]]
 name = "bore"
 surface = "y0"
@@ -238,8 +239,8 @@ name = "probe"
 surface = "y0"
 near = [0.04, 0.0, 0.05]
 )")
-                            .model;
-  const DofSet& probe = model.set("probe");
+                                .model;
+  const rom::DofSet& probe = model.set("probe");
   ASSERT_EQ(probe.dofs.size(), 3u);
   EXPECT_LT((probe.position.row(0) - Eigen::RowVector3d(0.04, 0.0, 0.05)).norm(), 1e-12);
   EXPECT_EQ(probe.labels[1], "probe.y");

@@ -1,4 +1,4 @@
-#include "assembly/fe_model.hpp"
+#include "core/fe/fe_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 #include <filesystem>
 
 #include "block_mesh.hpp"
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
-FeModel sample() {
+fe::FeModel sample() {
   return build(block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1})), R"(
 [damping]
 alpha = 1e-6
@@ -37,15 +37,15 @@ class FeModelFile : public ::testing::Test {
             ("clatter_fe_" + std::to_string(getpid()) + ".fe.h5");
   }
   void TearDown() override { std::filesystem::remove(path_); }
-  void save(const FeModel& model) const {
+  void save(const fe::FeModel& model) const {
     H5File file = H5File::create(path_);
-    write_provenance(file, {kFeSchema, "", {}});
-    write_fe_model(file, model);
+    write_provenance(file, {fe::kFeSchema, "", {}});
+    fe::write_fe_model(file, model);
     file.commit();
   }
   std::string refusal() const {
     try {
-      read_fe_model(path_);
+      fe::read_fe_model(path_);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -55,9 +55,9 @@ class FeModelFile : public ::testing::Test {
 };
 
 TEST_F(FeModelFile, ReturnsWhatWasWritten) {
-  const FeModel model = sample();
+  const fe::FeModel model = sample();
   save(model);
-  const FeModel back = read_fe_model(path_);
+  const fe::FeModel back = fe::read_fe_model(path_);
   EXPECT_EQ(back.name, model.name);
   EXPECT_EQ((back.K - model.K).norm(), 0.0);
   EXPECT_EQ((back.M - model.M).norm(), 0.0);
@@ -74,45 +74,45 @@ TEST_F(FeModelFile, ReturnsWhatWasWritten) {
 }
 
 TEST_F(FeModelFile, ReturnsTheCellsAndTheirMaterials) {
-  FeModel model = sample();
-  Axes axes;
-  axes.kind = Axes::Kind::kCylindrical;
+  fe::FeModel model = sample();
+  fe::Axes axes;
+  axes.kind = fe::Axes::Kind::kCylindrical;
   axes.origin << 1.0, 2.0, 3.0;
   axes.frame << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-  Material wood{0.0, 0.0, 450.0};
-  wood.elasticity = Elasticity::Identity() * 1e10;
+  fe::Material wood{0.0, 0.0, 450.0};
+  wood.elasticity = fe::Elasticity::Identity() * 1e10;
   wood.expansion << 1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6;
   wood.axes = axes;
-  wood.integration.hex20 = Integration::kReduced;
+  wood.integration.hex20 = fe::Integration::kReduced;
   model.cells.materials = {wood};
   for (int32_t a = 0; a < model.nodes.rows(); ++a) model.cells.node_ids.push_back(3 * a + 5);
   model.temperature_rise["gas"] = Eigen::VectorXd::LinSpaced(model.nodes.rows(), 0.0, 9.0);
   save(model);
-  const FeModel back = read_fe_model(path_);
+  const fe::FeModel back = fe::read_fe_model(path_);
   EXPECT_EQ(back.cells.regions, model.cells.regions);
   EXPECT_EQ(back.cells.node_ids, model.cells.node_ids);
   ASSERT_EQ(back.cells.blocks.size(), model.cells.blocks.size());
   EXPECT_EQ(back.cells.blocks[0].type, model.cells.blocks[0].type);
   EXPECT_EQ(back.cells.blocks[0].nodes, model.cells.blocks[0].nodes);
-  const Material& read = back.cells.materials.at(0);
+  const fe::Material& read = back.cells.materials.at(0);
   const Eigen::Vector3d place(0.3, 0.1, 0.2);
   EXPECT_EQ(read.elasticity_at(place), wood.elasticity_at(place));
   EXPECT_EQ(read.expansion_at(place), wood.expansion_at(place));
   EXPECT_EQ(read.density, 450.0);
-  EXPECT_EQ(read.integration.hex20, Integration::kReduced);
-  EXPECT_EQ(read.integration.hex8, Integration::kIncompatible);
+  EXPECT_EQ(read.integration.hex20, fe::Integration::kReduced);
+  EXPECT_EQ(read.integration.hex8, fe::Integration::kIncompatible);
   EXPECT_EQ(back.temperature_rise.at("gas"), model.temperature_rise.at("gas"));
 }
 
 TEST_F(FeModelFile, RefusesCellsOnNodesThatDoNotExist) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.cells.blocks[0].nodes(0, 1) = static_cast<int32_t>(model.nodes.rows());
   save(model);
   EXPECT_NE(refusal().find("node"), std::string::npos) << refusal();
 }
 
 TEST_F(FeModelFile, RefusesAMaterialWithoutElasticEnergy) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.cells.materials[0].poisson = 0.5;
   save(model);
   EXPECT_NE(refusal().find("materials/0: found E = 2.1e+11, nu = 0.5"), std::string::npos)
@@ -120,35 +120,35 @@ TEST_F(FeModelFile, RefusesAMaterialWithoutElasticEnergy) {
 }
 
 TEST_F(FeModelFile, RefusesMatricesOfDifferentSize) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.M.conservativeResize(model.M.rows() - 1, model.M.cols() - 1);
   save(model);
   EXPECT_NE(refusal().find(": M: found"), std::string::npos) << refusal();
 }
 
 TEST_F(FeModelFile, RefusesADiagonalThatIsNotPositive) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.K.coeffRef(7, 7) = -1.0;
   save(model);
   EXPECT_NE(refusal().find("K, column 7: found diagonal -1"), std::string::npos) << refusal();
 }
 
 TEST_F(FeModelFile, RefusesNumbersThatAreNotFinite) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.rigid(3, 3) = std::nan("");
   save(model);
   EXPECT_NE(refusal().find("rigid"), std::string::npos) << refusal();
 }
 
 TEST_F(FeModelFile, RefusesTrianglesBeyondTheNodes) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.surfaces.at("x1").faces[0].nodes(0, 0) = 100000;
   save(model);
   EXPECT_NE(refusal().find("surfaces/x1"), std::string::npos) << refusal();
 }
 
 TEST_F(FeModelFile, RefusesADofThatDoesNotExist) {
-  FeModel model = sample();
+  fe::FeModel model = sample();
   model.sets.at("end").dofs[2] = model.size();
   save(model);
   EXPECT_NE(refusal().find("end"), std::string::npos) << refusal();

@@ -4,12 +4,12 @@
 #include <Eigen/QR>
 #include <random>
 
-#include "assembly/assemble.hpp"
 #include "assembly/coupling.hpp"
 #include "assembly/elimination.hpp"
 #include "assembly/mass_properties.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 #include "two_parts.hpp"
 
@@ -120,21 +120,21 @@ TEST(AssemblyHard, HardE3_SupportedBlocksEqualTheDenseProductsOfCopies) {
 
 TEST(AssemblyHard, HardE4_AMatrixBeyond32BitIndicesIsRefusedBeforeMemoryIsTaken) {
   // 1.3 M nodes with 80 neighbours each, half of them counted: fits; three times as many do not.
-  EXPECT_NO_THROW(predict_size(1'300'000, 1'300'000LL * 40));
-  EXPECT_EQ(predict_size(2, 1).stiffness, 21);  // 6 x 7 / 2
-  EXPECT_EQ(predict_size(2, 1).mass, 9);
+  EXPECT_NO_THROW(fe::predict_size(1'300'000, 1'300'000LL * 40));
+  EXPECT_EQ(fe::predict_size(2, 1).stiffness, 21);  // 6 x 7 / 2
+  EXPECT_EQ(fe::predict_size(2, 1).mass, 9);
   try {
-    predict_size(8'000'000, 8'000'000LL * 40);
+    fe::predict_size(8'000'000, 8'000'000LL * 40);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("2928000000 entries"), std::string::npos)
         << error.what();
   }
   // The assembler asks the same question: a pattern that claims too much gets no further.
-  NodePattern pattern;
+  fe::NodePattern pattern;
   pattern.start = {0, 1'000'000'000'000};
   mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
-  EXPECT_THROW(assemble(mesh, materials_of(mesh), pattern), InputError);
+  EXPECT_THROW(fe::assemble(mesh, materials_of(mesh), pattern), InputError);
 }
 
 /// A ring that lies beside the origin.
@@ -230,8 +230,8 @@ TEST(AssemblyHard, HardB6_ADistributingCouplingLetsTheBoreOvaliseAndARigidOneDoe
 name = "bore"
 surface = "y0"
 )";
-  const FeModel plain = build(mesh, "").model;
-  const FeModel coupled = build(mesh, rest).model;
+  const fe::FeModel plain = build(mesh, "").model;
+  const fe::FeModel coupled = build(mesh, rest).model;
   // A patch load: +-y forces on the outside, balanced, so the free ring needs no support.
   const SurfaceIntegrals outside = integrate_surface(mesh.nodes, mesh.surface("y1"));
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
@@ -260,7 +260,7 @@ surface = "y0"
   EXPECT_NEAR(ovalisation(coupled.K, Eigen::MatrixXd(coupled.T)) / want, 1.0, 0.05);
 
   // RBE2 holds the bore round, which is what must not happen.
-  const FeModel stiff =
+  const fe::FeModel stiff =
       build(mesh, "[[coupling]]\nname = \"bore\"\ntype = \"rigid\"\nsurface = \"y0\"\n").model;
   EXPECT_LT(std::abs(ovalisation(stiff.K, Eigen::MatrixXd(stiff.T)) / want), 0.05);
 }
@@ -277,7 +277,8 @@ mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end,
 }
 
 TEST(AssemblyHard, HardB7_ABeamCutInTwoHasTheModesOfTheWholeAndNoMore) {
-  const FeModel whole = build(beam({16, 3, 3}, 0.0, 0.4), "[[support]]\nsurface = \"x0\"\n").model;
+  const fe::FeModel whole =
+      build(beam({16, 3, 3}, 0.0, 0.4), "[[support]]\nsurface = \"x0\"\n").model;
   const mesh::Mesh halves = two_parts(beam({8, 3, 3}, 0.0, 0.2), beam({9, 4, 3}, 0.2, 0.4));
   for (const auto& [slave, master] : {std::pair{"a_x1", "b_x0"}, std::pair{"b_x0", "a_x1"}}) {
     const BuiltModel built =
@@ -311,7 +312,7 @@ TEST_P(JointOf, HardB7_ConstantStressCrossesIt) {
     if (name(0.0, 0.04)) mesh.node_sets["z"] = {static_cast<int32_t>(a)};
   }
   for (const auto& [slave, master] : {std::pair{"a_x1", "b_x0"}, std::pair{"b_x0", "a_x1"}}) {
-    const FeModel model = build(mesh, std::string(R"(
+    const fe::FeModel model = build(mesh, std::string(R"(
 [[support]]
 node_set = "o"
 [[support]]
@@ -330,8 +331,8 @@ kind = "pressure"
 surface = "a_x0"
 [[tie]]
 )") + "slave = \"" + slave + "\"\nmaster = \"" +
-                                          master + "\"\n")
-                              .model;
+                                              master + "\"\n")
+                                  .model;
     const double strain = -1.0 / 2.1e11;  // of 1 Pa that pushes on both ends
     const Eigen::VectorXd f = model.loads.at("pull") + model.loads.at("hold");
     const Eigen::LLT<Eigen::MatrixXd> factor(full(model.K));

@@ -4,11 +4,11 @@
 #include <cstring>
 #include <numbers>
 
-#include "assembly/assemble.hpp"
 #include "assembly/coupling.hpp"
 #include "assembly/mass_properties.hpp"
 #include "block_mesh.hpp"
-#include "core/threads.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -30,7 +30,7 @@ Eigen::MatrixXd rigid_of(const mesh::Mesh& mesh) {
 TEST(AssemblyInvariant, RigidMotionsNeedNoForceAlsoFarFromTheOrigin) {
   mesh::Mesh mesh = curved_ring();
   mesh.nodes.rowwise() += Eigen::RowVector3d(1.0, -2.0, 0.5);
-  const NodalMatrices matrices = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   const Eigen::MatrixXd force = multiply_symmetric(matrices.K, rigid_of(mesh));
   // Rounding of sums of some hundred terms, times the distance over the cell size.
   EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-12 * Eigen::VectorXd(matrices.K.diagonal()).maxCoeff());
@@ -38,7 +38,7 @@ TEST(AssemblyInvariant, RigidMotionsNeedNoForceAlsoFarFromTheOrigin) {
 
 TEST(AssemblyInvariant, AFreeBodyHasExactlySixMotionsWithoutEnergy) {
   const mesh::Mesh mesh = block_mesh({1, 1, 2}, brick({0.1, 0.1, 0.2}));
-  const NodalMatrices matrices = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(full(matrices.K));
   EXPECT_LT(eigen.eigenvalues().head<6>().cwiseAbs().maxCoeff(), 1e-9 * eigen.eigenvalues()(6));
 }
@@ -49,8 +49,9 @@ TEST(AssemblyInvariant, MassOfABrickIsExact) {
     BlockOptions options;
     options.type = type;
     const mesh::Mesh mesh = block_mesh(n, shaken_brick({0.3, 0.2, 0.1}, n, 0.2), options);
-    const NodalMatrices matrices = assemble(mesh, materials_of(mesh), node_pattern(mesh));
-    const MassProperties mass = properties_of(matrices.M, rigid_of(mesh));
+    const fe::NodalMatrices matrices =
+        fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
+    const rom::MassProperties mass = properties_of(matrices.M, rigid_of(mesh));
     const double m = 7800.0 * 0.3 * 0.2 * 0.1;
     EXPECT_NEAR(mass.mass / m, 1.0, 1e-13);
     EXPECT_LT((mass.centre - Eigen::Vector3d(0.15, 0.1, 0.05)).norm(), 1e-13);
@@ -63,7 +64,7 @@ TEST(AssemblyInvariant, MassOfABrickIsExact) {
 
 TEST(AssemblyInvariant, MatricesAndIntegralsGiveTheSameTenMassProperties) {
   const mesh::Mesh mesh = curved_ring();
-  const NodalMatrices matrices = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   const MassDifference error = compare(properties_of(matrices.M, rigid_of(mesh)),
                                        properties_of(integrate_mass(mesh, materials_of(mesh))));
   EXPECT_LT(error.mass, 1e-13);
@@ -84,10 +85,10 @@ TEST(AssemblyInvariant, MassOfACurvedRingTendsToTheCylindersWithFourthOrder) {
 TEST(AssemblyInvariant, BitsDoNotDependOnTheThreadCount) {
   const std::array<int, 3> n = {9, 8, 8};  // 3456 cells: several chunks
   const mesh::Mesh mesh = block_mesh(n, shaken_brick({0.3, 0.2, 0.1}, n, 0.2));
-  std::vector<NodalMatrices> runs;
+  std::vector<fe::NodalMatrices> runs;
   for (const int threads : {1, 2, 3}) {
     set_thread_count(threads);
-    runs.push_back(assemble(mesh, materials_of(mesh), node_pattern(mesh)));
+    runs.push_back(fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh)));
   }
   set_thread_count(0);
   for (size_t r = 1; r < runs.size(); ++r) {
@@ -105,9 +106,9 @@ TEST(AssemblyInvariant, TwoRegionsAddUp) {
   mesh.regions = {"body", "liner"};
   mesh.cells.push_back({mesh::CellType::kTet10, 1, all.bottomRows(6), {}});
   mesh.cells[0].nodes = all.topRows(6);
-  const std::vector<Material> two = {{2e11, 0.3, 8000.0}, {1e11, 0.3, 2000.0}};
+  const std::vector<fe::Material> two = {{2e11, 0.3, 8000.0}, {1e11, 0.3, 2000.0}};
   EXPECT_NEAR(integrate_mass(mesh, two).mass, 0.001 * (8000.0 + 2000.0), 1e-12);
-  const NodalMatrices matrices = assemble(mesh, two, node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, two, fe::node_pattern(mesh));
   EXPECT_NEAR(properties_of(matrices.M, rigid_of(mesh)).mass, 10.0, 1e-11);
 }
 

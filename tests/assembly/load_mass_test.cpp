@@ -8,8 +8,8 @@
 #include "assembly/load_case.hpp"
 #include "assembly/mass_properties.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
@@ -21,7 +21,7 @@ TEST(LoadCase, PressureOnAClosedSkinHasNoResultant) {
   BlockOptions options;
   options.curved = options.wrap_x = true;
   const mesh::Mesh mesh = block_mesh({8, 1, 2}, ring(0.04, 0.06, 0.1), options);
-  const FeModel model =
+  const fe::FeModel model =
       build(mesh, "[[load]]\nname = \"p\"\nkind = \"pressure\"\nsurface = \"skin\"\n").model;
   const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("p");
   EXPECT_LT(resultant.norm(), 1e-15);  // against 0.01 m2 of skin, times rounding
@@ -29,7 +29,7 @@ TEST(LoadCase, PressureOnAClosedSkinHasNoResultant) {
 }
 
 TEST(LoadCase, PressurePushesAgainstTheFaceWithItsArea) {
-  const FeModel model =
+  const fe::FeModel model =
       build(bar(), "[[load]]\nname = \"gas\"\nkind = \"pressure\"\nsurface = \"z1\"\n").model;
   const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("gas");
   // 1 Pa on 0.1 x 0.2 m2 at (0.05, 0.1, 0.4), downwards: F_z = -0.02, M_x = y F_z, M_y = -x F_z.
@@ -38,7 +38,7 @@ TEST(LoadCase, PressurePushesAgainstTheFaceWithItsArea) {
 }
 
 TEST(LoadCase, AResultantIsSpreadEvenlyAndActsAtTheCentroid) {
-  const FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(bar(), R"(
 [[load]]
 name = "head"
 kind = "resultant"
@@ -47,7 +47,7 @@ direction = [0.0, 0.0, 2.0]
 total = 8.992e-3
 unit = "Pa"
 )")
-                            .model;
+                                .model;
   const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("head");
   EXPECT_NEAR(resultant(2), 8.992e-3, 1e-16);
   EXPECT_NEAR(resultant(3), 0.1 * 8.992e-3, 1e-16);
@@ -59,14 +59,14 @@ TEST(LoadCase, RotationIsTheMassTimesTheArmOfEachNodeOnCurvedCellsToo) {
   BlockOptions options;
   options.curved = options.wrap_x = true;
   const mesh::Mesh mesh = block_mesh({8, 1, 2}, ring(0.04, 0.06, 0.1), options);
-  const FeModel model = build(mesh, R"(
+  const fe::FeModel model = build(mesh, R"(
 [[load]]
 name = "spin"
 kind = "centrifugal"
 axis_point = [0.3, -0.2, 0.1]
 axis = [0.0, 3.0, 4.0]
 )")
-                            .model;
+                                .model;
   const Eigen::Vector3d point(0.3, -0.2, 0.1), axis(0.0, 0.6, 0.8);
   Eigen::VectorXd arm(model.T.rows());
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
@@ -95,8 +95,8 @@ kind = "centrifugal"
 axis_point = [-1.0, 0.0, 0.0]
 axis = [0.0, 0.0, 1.0]
 )";
-  const FeModel with = build(bar(), text).model;
-  const FeModel without =
+  const fe::FeModel with = build(bar(), text).model;
+  const fe::FeModel without =
       build(bar(), text + "regions = [\"body\"]\n").model;  // of the elements alone
   const Eigen::VectorXd change = with.loads.at("spin") - without.loads.at("spin");
   const Eigen::VectorXd resultant = with.rigid.transpose() * change;
@@ -109,7 +109,7 @@ axis = [0.0, 0.0, 1.0]
 }
 
 TEST(LoadCase, GravityIsTheWeightOfElementsAndPointMasses) {
-  const FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(bar(), R"(
 [[coupling]]
 name = "top"
 surface = "z1"
@@ -122,7 +122,7 @@ name = "weight"
 kind = "gravity"
 direction = [0.0, 0.0, -1.0]
 )")
-                            .model;
+                                .model;
   const double m = 7800.0 * 0.1 * 0.2 * 0.4 + 3.0;
   const Eigen::VectorXd resultant = model.rigid.transpose() * model.loads.at("weight");
   EXPECT_NEAR(resultant(2) / -m, 1.0, 1e-12);
@@ -131,7 +131,7 @@ direction = [0.0, 0.0, -1.0]
 }
 
 TEST(LoadCase, ForceAndMomentOnAReferenceNodeAreItsCoordinatesForces) {
-  const FeModel model = build(bar(), R"(
+  const fe::FeModel model = build(bar(), R"(
 [[coupling]]
 name = "top"
 surface = "z1"
@@ -142,8 +142,8 @@ set = "top"
 force = [1.0, 2.0, 0.0]
 moment = [0.0, 0.0, 4.0]
 )")
-                            .model;
-  const DofSet& top = model.set("top");
+                                .model;
+  const rom::DofSet& top = model.set("top");
   const Eigen::VectorXd& f = model.loads.at("push");
   EXPECT_DOUBLE_EQ(f(top.dofs[0]), 1.0);
   EXPECT_DOUBLE_EQ(f(top.dofs[1]), 2.0);
@@ -161,11 +161,11 @@ TEST(LoadCase, AMomentOnPlainNodesIsRefused) {
 
 TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {
   const std::string coupling = "[[coupling]]\nname = \"pin\"\nsurface = \"z1\"\n";
-  const FeModel bare = build(bar(), coupling).model;
-  const FeModel loaded = build(bar(), coupling +
-                                          "[[point_mass]]\non = \"pin\"\nmass = 2.0\ninertia "
-                                          "= [0.3, 0.2, 0.4, 0.01, 0.02, 0.03]\n")
-                             .model;
+  const fe::FeModel bare = build(bar(), coupling).model;
+  const fe::FeModel loaded = build(bar(), coupling +
+                                              "[[point_mass]]\non = \"pin\"\nmass = 2.0\ninertia "
+                                              "= [0.3, 0.2, 0.4, 0.01, 0.02, 0.03]\n")
+                                 .model;
   Eigen::MatrixXd change = full(loaded.M) - full(bare.M);
   const std::vector<int32_t>& dofs = loaded.set("pin").dofs;
   Eigen::MatrixXd want = Eigen::MatrixXd::Zero(6, 6);
@@ -200,14 +200,14 @@ inertia = [1e6, 1e6, 1e6]
 )",
                                       "cork.fe.toml");
   StepClock clock;
-  const FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
+  const fe::FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
   const Eigen::VectorXd f = Eigen::VectorXd::Unit(model.size(), model.set("top").dofs[2]);
   const double compliance = f.dot(full(model.K).llt().solve(f));
   EXPECT_NEAR(compliance / (0.4 / (1e6 * 0.02)), 1.0, 1e-10);
 }
 
 TEST(Damping, ARatioAtAFrequencyGivesAlpha) {
-  const FeModel model = build(bar(), "[damping]\nratio = 0.02\nat_hz = 2000.0\n").model;
+  const fe::FeModel model = build(bar(), "[damping]\nratio = 0.02\nat_hz = 2000.0\n").model;
   const double omega = 2.0 * std::numbers::pi * 2000.0;
   EXPECT_NEAR(0.5 * model.alpha * omega, 0.02, 1e-16);
   EXPECT_EQ(model.beta, 0.0);

@@ -1,23 +1,23 @@
 // Materials from a file, thermal loads and lumped mass of a whole mesh.
-#include "assembly/material.hpp"
+#include "core/fe/material.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "assembly/assemble.hpp"
 #include "assembly/thermal_load.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
-Material parse(const std::string& text, const std::map<std::string, Axes>& systems = {}) {
+fe::Material parse(const std::string& text, const std::map<std::string, fe::Axes>& systems = {}) {
   const Config config = Config::parse(text, "m.toml");
-  const Material material = read_material(config, systems);
+  const fe::Material material = fe::read_material(config, systems);
   config.finish();
   return material;
 }
@@ -28,17 +28,17 @@ std::string refusal(const std::string& text) {
 
 TEST(Material, IsotropicConstantsInBothUnits) {
   EXPECT_DOUBLE_EQ(parse("E = 2.1e11\nnu = 0.3\nrho = 7800.0").youngs, 2.1e11);
-  const Material material = parse("E_gpa = 210\nnu = 0.3\nrho = 7800\nexpansion = 1.2e-5");
+  const fe::Material material = parse("E_gpa = 210\nnu = 0.3\nrho = 7800\nexpansion = 1.2e-5");
   EXPECT_DOUBLE_EQ(material.youngs, 2.1e11);
   EXPECT_TRUE(material.is_isotropic());
-  EXPECT_EQ(material.expansion, 1.2e-5 * (Voigt() << 1, 1, 1, 0, 0, 0).finished());
-  EXPECT_EQ(material.integration.hex8, Integration::kIncompatible);
+  EXPECT_EQ(material.expansion, 1.2e-5 * (fe::Voigt() << 1, 1, 1, 0, 0, 0).finished());
+  EXPECT_EQ(material.integration.hex8, fe::Integration::kIncompatible);
 }
 
 TEST(Material, OrthotropicConstantsGiveTheComplianceBack) {
-  const Material material = parse(
+  const fe::Material material = parse(
       "E_gpa = [10, 20, 30]\nnu = [0.1, 0.2, 0.3]\nG_gpa = [1, 2, 3]\nrho = 1\nhex20 = 'reduced'");
-  const Elasticity S = material.elasticity->inverse();
+  const fe::Elasticity S = material.elasticity->inverse();
   EXPECT_NEAR(S(0, 0) * 10e9, 1.0, 1e-14);
   EXPECT_NEAR(S(0, 1) * 10e9, -0.1, 1e-14);
   EXPECT_NEAR(S(2, 0) * 10e9, -0.2, 1e-14);
@@ -46,17 +46,17 @@ TEST(Material, OrthotropicConstantsGiveTheComplianceBack) {
   EXPECT_NEAR(S(3, 3) * 1e9, 1.0, 1e-14);  // 12
   EXPECT_NEAR(S(5, 5) * 2e9, 1.0, 1e-14);  // 13
   EXPECT_NEAR(S(4, 4) * 3e9, 1.0, 1e-14);  // 23
-  EXPECT_EQ(material.integration.hex20, Integration::kReduced);
+  EXPECT_EQ(material.integration.hex20, fe::Integration::kReduced);
 }
 
 TEST(Material, AnisotropicConstantsAreReadRowByRow) {
-  const Material material =
+  const fe::Material material =
       parse("rho = 1\nC = [10, 1, 2, 0, 0, 0,  11, 3, 0, 0, 0,  12, 0, 0, 0,  4, 0, 0,  5, 0,  6]");
-  const Elasticity& C = *material.elasticity;
+  const fe::Elasticity& C = *material.elasticity;
   EXPECT_EQ(C(0, 1), 1.0);
   EXPECT_EQ(C(2, 0), 2.0);
   EXPECT_EQ(C(1, 2), 3.0);
-  EXPECT_EQ((C.diagonal()), (Voigt() << 10, 11, 12, 4, 5, 6).finished());
+  EXPECT_EQ((C.diagonal()), (fe::Voigt() << 10, 11, 12, 4, 5, 6).finished());
 }
 
 TEST(Material, WhatHasNoPositiveEnergyIsRefused) {
@@ -74,9 +74,9 @@ TEST(Material, WhatHasNoPositiveEnergyIsRefused) {
 
 TEST(Material, CylindricalAxesTurnWithThePlace) {
   // Stiff along the radius only: at (0, 1, 0) the radius is y.
-  std::map<std::string, Axes> ring = {{"ring", Axes{}}};
-  ring["ring"].kind = Axes::Kind::kCylindrical;
-  const Material material =
+  std::map<std::string, fe::Axes> ring = {{"ring", fe::Axes{}}};
+  ring["ring"].kind = fe::Axes::Kind::kCylindrical;
+  const fe::Material material =
       parse("E = [100, 1, 1]\nnu = [0, 0, 0]\nG = [1, 1, 1]\nrho = 1\nsystem = 'ring'", ring);
   EXPECT_NEAR(material.elasticity_at({2, 0, 5})(0, 0), 100.0, 1e-12);
   EXPECT_NEAR(material.elasticity_at({0, 2, 5})(1, 1), 100.0, 1e-12);
@@ -84,12 +84,12 @@ TEST(Material, CylindricalAxesTurnWithThePlace) {
 }
 
 TEST(Assembly, AHeatedFreeBrickGrowsWithoutStress) {
-  Material material = kSteel;
+  fe::Material material = kSteel;
   material.expansion.head<3>().setConstant(1.2e-5);
   const mesh::Mesh mesh = block_mesh({2, 2, 2}, brick({0.3, 0.2, 0.1}));
   const Eigen::VectorXd force =
       thermal_load(mesh, {material}, Eigen::VectorXd::Constant(mesh.nodes.rows(), 100.0));
-  const NodalMatrices matrices = assemble(mesh, {material}, node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, {material}, fe::node_pattern(mesh));
   Eigen::VectorXd u(3 * mesh.nodes.rows());
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     u.segment<3>(3 * a) = 1.2e-3 * mesh.nodes.row(a).transpose();
@@ -99,9 +99,10 @@ TEST(Assembly, AHeatedFreeBrickGrowsWithoutStress) {
 
 TEST(Assembly, LumpedMassHasTheTotalAndOneEntryAColumn) {
   const mesh::Mesh mesh = block_mesh({2, 1, 1}, brick({0.2, 0.1, 0.1}));
-  const NodePattern pattern = node_pattern(mesh);
-  const NodalMatrices full = assemble(mesh, materials_of(mesh), pattern);
-  const NodalMatrices lumped = assemble(mesh, materials_of(mesh), pattern, MassForm::kHrz);
+  const fe::NodePattern pattern = fe::node_pattern(mesh);
+  const fe::NodalMatrices full = fe::assemble(mesh, materials_of(mesh), pattern);
+  const fe::NodalMatrices lumped =
+      fe::assemble(mesh, materials_of(mesh), pattern, fe::MassForm::kHrz);
   EXPECT_EQ(lumped.M.nonZeros(), lumped.M.cols());
   EXPECT_NEAR(lumped.M.sum(), 3.0 * 7800.0 * 0.2 * 0.1 * 0.1, 1e-10);
   EXPECT_EQ((lumped.K - full.K).norm(), 0.0);

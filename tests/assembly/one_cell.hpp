@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
-#include "mesh/validity.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
+#include "core/mesh/validity.hpp"
 
 namespace clatter::assembly::testing {
 

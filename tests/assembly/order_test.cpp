@@ -6,19 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/assemble.hpp"
-#include "assembly/element.hpp"
-#include "assembly/stress.hpp"
 #include "block_mesh.hpp"
-#include "mesh/quadrature.hpp"
-#include "mesh/shape.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/fe/element.hpp"
+#include "core/fe/stress.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-const Material kMaterial{1.0, 0.3, 1.0};
+const fe::Material kMaterial{1.0, 0.3, 1.0};
 
 /// u = s (1, 1, 1), s = sin(pi x) sin(pi y) sin(pi z).
 double wave(const Eigen::Vector3d& x) {
@@ -58,11 +58,11 @@ void at_points(const mesh::Mesh& mesh, const Visit& visit) {
 }
 
 /// C eps of u.
-Voigt exact_stress(const Eigen::Vector3d& x) {
+fe::Voigt exact_stress(const Eigen::Vector3d& x) {
   Eigen::Vector3d s, c, slope;
   for (int d = 0; d < 3; ++d) s(d) = std::sin(kPi * x(d)), c(d) = std::cos(kPi * x(d));
   for (int d = 0; d < 3; ++d) slope(d) = kPi * c(d) * s((d + 1) % 3) * s((d + 2) % 3);
-  Voigt strain;
+  fe::Voigt strain;
   strain << slope(0), slope(1), slope(2), slope(0) + slope(1), slope(1) + slope(2),
       slope(2) + slope(0);
   return kMaterial.elasticity_at(x) * strain;
@@ -74,8 +74,8 @@ struct Errors {
 };
 
 double stress_error(const mesh::Mesh& mesh, const Eigen::VectorXd& u) {
-  const FeCells cells{mesh.regions, materials_of(mesh, kMaterial), mesh.cells, {}};
-  const RegionStress found = nodal_stress(mesh.nodes, cells, u, {})[0];
+  const fe::FeCells cells{mesh.regions, materials_of(mesh, kMaterial), mesh.cells, {}};
+  const fe::RegionStress found = fe::nodal_stress(mesh.nodes, cells, u, {})[0];
   double square = 0.0;
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     square += (found.stress.row(a).transpose() - exact_stress(mesh.nodes.row(a).transpose()))
@@ -88,7 +88,8 @@ Errors errors_at(int cells, mesh::CellType type) {
   options.type = type;
   const mesh::Mesh mesh = block_mesh({cells, cells, cells}, brick({1, 1, 1}), options);
   const IndexMatrix& nodes = mesh.cells[0].nodes;
-  const NodalMatrices matrices = assemble(mesh, materials_of(mesh, kMaterial), node_pattern(mesh));
+  const fe::NodalMatrices matrices =
+      fe::assemble(mesh, materials_of(mesh, kMaterial), fe::node_pattern(mesh));
   const Eigen::Index n = 3 * mesh.nodes.rows();
   Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
   at_points(mesh, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {

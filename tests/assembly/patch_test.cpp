@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "assembly/assemble.hpp"
 #include "assembly/surface_integral.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/assemble.hpp"
 #include "one_cell.hpp"
 #include "small_solver.hpp"
 
@@ -44,9 +44,10 @@ Field quadratic_field() {
 }
 
 /// Holds the boundary at the field, solves inside; returns the largest error over the largest u.
-double patch_error(const mesh::Mesh& mesh, const Field& field, const Material& material = kSteel) {
-  const NodePattern pattern = node_pattern(mesh);
-  NodalMatrices matrices = assemble(mesh, materials_of(mesh, material), pattern);
+double patch_error(const mesh::Mesh& mesh, const Field& field,
+                   const fe::Material& material = kSteel) {
+  const fe::NodePattern pattern = fe::node_pattern(mesh);
+  fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh, material), pattern);
   const Eigen::Index n = 3 * mesh.nodes.rows();
   Eigen::VectorXd exact(n), body(n);
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) {
@@ -108,9 +109,9 @@ TEST_P(EveryCell, LinearFieldIsExactOnADistortedMesh) {
 }
 
 TEST_P(EveryCell, LinearFieldIsExactWithReducedAndFullIntegration) {
-  Material material = kSteel;
-  material.integration = {Integration::kFull, Integration::kReduced, Integration::kReduced,
-                          Integration::kReduced};
+  fe::Material material = kSteel;
+  material.integration = {fe::Integration::kFull, fe::Integration::kReduced,
+                          fe::Integration::kReduced, fe::Integration::kReduced};
   EXPECT_LT(patch_error(shaken(GetParam()), linear_field(), material), 1e-11);
 }
 
@@ -147,7 +148,7 @@ TEST(PatchTest, HardG3_QuadraticFieldShowsSwappedMiddleNodes) {
 TEST(PatchTest, EnergyOfAQuadraticFieldIsExact) {
   // u = (x^2, 0, 0) on a brick a x b x c: 1/2 (lambda + 2 mu) int (2 x)^2 = (2/3) (..) a^3 b c.
   const mesh::Mesh mesh = shaken(mesh::CellType::kTet10);
-  const NodalMatrices matrices = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices matrices = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * mesh.nodes.rows());
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     u(3 * a) = mesh.nodes(a, 0) * mesh.nodes(a, 0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {

@@ -2,13 +2,13 @@
 
 #include <Eigen/QR>
 
-#include "assembly/assemble.hpp"
+#include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
 
 namespace clatter::assembly::testing {
 
 Saddle::Saddle(const mesh::Mesh& mesh, int points) {
-  const NodalMatrices nodal = assemble(mesh, materials_of(mesh), node_pattern(mesh));
+  const fe::NodalMatrices nodal = fe::assemble(mesh, materials_of(mesh), fe::node_pattern(mesh));
   const Eigen::MatrixXd K = full(nodal.K);
   n_ = K.rows() + 6 * points;
   K_ = Eigen::MatrixXd::Zero(n_, n_);

@@ -5,7 +5,7 @@
 
 #include "assembly/coupling.hpp"
 #include "assembly/rigid_coupling.hpp"
-#include "mesh/mesh.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly::testing {
 

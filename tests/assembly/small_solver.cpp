@@ -7,12 +7,12 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/log.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::assembly::testing {
 
-std::vector<Material> materials_of(const mesh::Mesh& mesh, const Material& material) {
-  return std::vector<Material>(mesh.regions.size(), material);
+std::vector<fe::Material> materials_of(const mesh::Mesh& mesh, const fe::Material& material) {
+  return std::vector<fe::Material>(mesh.regions.size(), material);
 }
 
 Eigen::VectorXd solve_fixed(const SparseMatrix& K, const Eigen::VectorXd& f,

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "assembly/build.hpp"
-#include "assembly/material.hpp"
-#include "core/sparse.hpp"
+#include "core/base/sparse.hpp"
+#include "core/fe/material.hpp"
 
 namespace clatter::assembly::testing {
 
-inline const Material kSteel{2.1e11, 0.3, 7800.0};
+inline const fe::Material kSteel{2.1e11, 0.3, 7800.0};
 
 /// One material for all regions.
-std::vector<Material> materials_of(const mesh::Mesh& mesh, const Material& material = kSteel);
+std::vector<fe::Material> materials_of(const mesh::Mesh& mesh,
+                                       const fe::Material& material = kSteel);
 
 /// Solves K u = f for the displacements that are not in `fixed`; those take their values from
 /// `given`. K is a lower triangle.

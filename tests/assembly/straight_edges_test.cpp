@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "assembly/build.hpp"
-#include "core/error.hpp"
-#include "mesh/boundary.hpp"
+#include "core/base/error.hpp"
+#include "core/mesh/boundary.hpp"
 #include "one_cell.hpp"
 #include "small_solver.hpp"
 
@@ -61,15 +61,16 @@ TEST_P(StraightEdges, OfAllEdgesMakeTheLinearCell) {
   for (auto n = static_cast<int32_t>(corners.nodes.rows()); n < whole.nodes.rows(); ++n)
     whole.node_sets[mesh::kHangingMiddles].push_back(n);
   whole.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(whole));
-  const FeModel model = build(whole, kStraight).model;
-  const NodalMatrices want = assemble(corners,
-                                      materials_of(corners,
-                                                   [] {
-                                                     Material full = kSteel;
-                                                     full.integration.hex8 = Integration::kFull;
-                                                     return full;
-                                                   }()),
-                                      node_pattern(corners));
+  const fe::FeModel model = build(whole, kStraight).model;
+  const fe::NodalMatrices want = fe::assemble(corners,
+                                              materials_of(corners,
+                                                           [] {
+                                                             fe::Material full = kSteel;
+                                                             full.integration.hex8 =
+                                                                 fe::Integration::kFull;
+                                                             return full;
+                                                           }()),
+                                              fe::node_pattern(corners));
   // Rounding; both rules integrate these cells exactly.
   EXPECT_LT((full(model.K) - full(want.K)).cwiseAbs().maxCoeff(), 1e-12 * full(want.K).maxCoeff());
   EXPECT_LT((full(model.M) - full(want.M)).cwiseAbs().maxCoeff(), 1e-12 * full(want.M).maxCoeff());
@@ -84,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Cells, StraightEdges,
 TEST(StraightEdgesOfAMesh, JoinAQuadraticCellToALinearOne) {
   const mesh::Mesh mesh = cube_under_pyramid();
   EXPECT_EQ(mesh.surface("skin").face_count(), 5 + 4);  // the common face is inside
-  const FeModel model = build(mesh, kStraight).model;
+  const fe::FeModel model = build(mesh, kStraight).model;
   EXPECT_EQ(model.size(), 3 * (mesh.nodes.rows() - 4));
   // A stretch along x: its energy is E / 2 (1 - nu) / ((1 + nu) (1 - 2 nu)) times the volume.
   const Eigen::MatrixXd T = model.T;

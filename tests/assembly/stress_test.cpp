@@ -1,12 +1,12 @@
-#include "assembly/stress.hpp"
+#include "core/fe/stress.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "assembly/cell_points.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/cell_points.hpp"
 #include "one_cell.hpp"
 #include "small_solver.hpp"
 
@@ -28,42 +28,42 @@ Eigen::VectorXd displaced(const Eigen::Ref<const Eigen::Matrix<double, -1, 3, Ei
 }
 
 /// Orthotropic, thermal, on axes that lie along none of the basic ones.
-Material spruce() {
-  Material material{0.0, 0.0, 450.0};
-  Elasticity compliance = Elasticity::Zero();
+fe::Material spruce() {
+  fe::Material material{0.0, 0.0, 450.0};
+  fe::Elasticity compliance = fe::Elasticity::Zero();
   compliance.topLeftCorner<3, 3>() << 1.0, -0.4, -0.3, -0.4, 12.0, -5.0, -0.3, -5.0, 20.0;
   compliance.diagonal().tail<3>() << 15.0, 250.0, 18.0;
   material.elasticity = (1e-10 * compliance).inverse();
   material.expansion << 4e-6, 3e-5, 5e-5, 0.0, 0.0, 0.0;
-  Axes axes;
+  fe::Axes axes;
   axes.frame = Eigen::AngleAxisd(0.7, Place(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
   material.axes = axes;
   return material;
 }
 
-Material warm_steel() {
-  Material material = kSteel;
+fe::Material warm_steel() {
+  fe::Material material = kSteel;
   material.expansion.head<3>().setConstant(1.2e-5);
   return material;
 }
 
 /// Stress of a constant displacement gradient by tensors: turned to the material's axes, Hooke
 /// there, turned back.
-Voigt tensor_stress(const Material& material, const Eigen::Matrix3d& gradient) {
+fe::Voigt tensor_stress(const fe::Material& material, const Eigen::Matrix3d& gradient) {
   const Eigen::Matrix3d R = material.axes ? material.axes->frame : Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d e = R.transpose() * (0.5 * (gradient + gradient.transpose())) * R;
-  Voigt strain;
+  fe::Voigt strain;
   strain << e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0);
-  Material on_axes = material;
+  fe::Material on_axes = material;
   on_axes.axes.reset();
-  const Voigt s = on_axes.elasticity_at(Place::Zero()) * strain;
+  const fe::Voigt s = on_axes.elasticity_at(Place::Zero()) * strain;
   Eigen::Matrix3d local;
   local << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
   const Eigen::Matrix3d g = R * local * R.transpose();
-  return (Voigt() << g(0, 0), g(1, 1), g(2, 2), g(0, 1), g(1, 2), g(2, 0)).finished();
+  return (fe::Voigt() << g(0, 0), g(1, 1), g(2, 2), g(0, 1), g(1, 2), g(2, 0)).finished();
 }
 
-FeCells cells_of(const mesh::Mesh& mesh, const Material& material) {
+fe::FeCells cells_of(const mesh::Mesh& mesh, const fe::Material& material) {
   return {mesh.regions, materials_of(mesh, material), mesh.cells, {}};
 }
 
@@ -78,12 +78,12 @@ Place sheared(const Place& x) {
   return {x(0) + 0.3 * x(1), 0.8 * x(1) - 0.1 * x(2), 1.2 * x(2) + 0.2 * x(0)};
 }
 
-double largest_error(const mesh::Mesh& mesh, const RegionStress& found,
-                     const std::function<Voigt(const Place&)>& exact) {
+double largest_error(const mesh::Mesh& mesh, const fe::RegionStress& found,
+                     const std::function<fe::Voigt(const Place&)>& exact) {
   double error = 0.0, size = 0.0;
   for (size_t k = 0; k < found.nodes.size(); ++k) {
-    const Voigt want = exact(mesh.nodes.row(found.nodes[k]).transpose());
-    const Voigt have = found.stress.row(static_cast<Eigen::Index>(k)).transpose();
+    const fe::Voigt want = exact(mesh.nodes.row(found.nodes[k]).transpose());
+    const fe::Voigt have = found.stress.row(static_cast<Eigen::Index>(k)).transpose();
     error = std::max(error, (have - want).cwiseAbs().maxCoeff());
     size = std::max(size, want.cwiseAbs().maxCoeff());
   }
@@ -101,11 +101,11 @@ TEST_P(Stress, OfAConstantStrainIsExactAtEveryNodeOfADistortedMesh) {
   gradient *= 1e-3;
   const mesh::Mesh mesh = mesh_of(GetParam(), shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2));
   const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) { return gradient * x; });
-  Material full = kSteel;
-  full.integration.hex8 = Integration::kFull;
-  for (const Material& material : {kSteel, full, spruce()}) {
-    const Voigt want = tensor_stress(material, gradient);
-    const auto found = nodal_stress(mesh.nodes, cells_of(mesh, material), u, {});
+  fe::Material full = kSteel;
+  full.integration.hex8 = fe::Integration::kFull;
+  for (const fe::Material& material : {kSteel, full, spruce()}) {
+    const fe::Voigt want = tensor_stress(material, gradient);
+    const auto found = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, {});
     ASSERT_EQ(found.size(), 1u);
     ASSERT_EQ(found[0].nodes.size(), static_cast<size_t>(mesh.nodes.rows()));
     EXPECT_LT(largest_error(mesh, found[0], [&](const Place&) { return want; }), kExact);
@@ -115,25 +115,25 @@ TEST_P(Stress, OfAConstantStrainIsExactAtEveryNodeOfADistortedMesh) {
 TEST_P(Stress, OfFreeThermalExpansionIsZero) {
   const mesh::Mesh mesh = mesh_of(GetParam(), shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2));
   const Eigen::VectorXd dT = Eigen::VectorXd::Constant(mesh.nodes.rows(), 80.0);
-  for (const Material& material : {warm_steel(), spruce()}) {
+  for (const fe::Material& material : {warm_steel(), spruce()}) {
     const Eigen::Matrix3d R = material.axes ? material.axes->frame : Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d strain =
         R * (80.0 * material.expansion.head<3>()).asDiagonal() * R.transpose();
     const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) { return strain * x; });
-    const auto free = nodal_stress(mesh.nodes, cells_of(mesh, material), u, dT);
-    const auto held = nodal_stress(mesh.nodes, cells_of(mesh, material), 0.0 * u, dT);
+    const auto free = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, dT);
+    const auto held = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), 0.0 * u, dT);
     EXPECT_LT(free[0].stress.cwiseAbs().maxCoeff(), kExact * held[0].stress.cwiseAbs().maxCoeff());
   }
 }
 
 TEST_P(Stress, OfAFullyHeldWarmBodyIsHydrostatic) {
   const mesh::Mesh mesh = mesh_of(GetParam(), shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2));
-  const Material steel = warm_steel();
-  const auto held =
-      nodal_stress(mesh.nodes, cells_of(mesh, steel), Eigen::VectorXd::Zero(3 * mesh.nodes.rows()),
-                   Eigen::VectorXd::Constant(mesh.nodes.rows(), 50.0));
+  const fe::Material steel = warm_steel();
+  const auto held = fe::nodal_stress(mesh.nodes, cells_of(mesh, steel),
+                                     Eigen::VectorXd::Zero(3 * mesh.nodes.rows()),
+                                     Eigen::VectorXd::Constant(mesh.nodes.rows(), 50.0));
   const double pressure = steel.youngs * 1.2e-5 * 50.0 / (1.0 - 2.0 * steel.poisson);
-  const Voigt want = (Voigt() << -1, -1, -1, 0, 0, 0).finished() * pressure;
+  const fe::Voigt want = (fe::Voigt() << -1, -1, -1, 0, 0, 0).finished() * pressure;
   EXPECT_LT(largest_error(mesh, held[0], [&](const Place&) { return want; }), kExact);
   EXPECT_LT(held[0].von_mises.maxCoeff(), kExact * pressure);
 }
@@ -154,13 +154,13 @@ TEST_P(QuadraticStress, ThatIsLinearIsExact) {
   const Eigen::VectorXd u = displaced(mesh.nodes, [](const Place& x) -> Place {
     return {x(0) * x(0) + x(1) * x(2), x(1) * x(1) + x(2) * x(0), x(2) * x(2) + x(0) * x(1)};
   });
-  for (const Material& material : {kSteel, spruce()}) {
+  for (const fe::Material& material : {kSteel, spruce()}) {
     const auto exact = [&](const Place& x) {
       Eigen::Matrix3d gradient;
       gradient << 2 * x(0), x(2), x(1), x(2), 2 * x(1), x(0), x(1), x(0), 2 * x(2);
       return tensor_stress(material, gradient);
     };
-    const auto found = nodal_stress(mesh.nodes, cells_of(mesh, material), u, {});
+    const auto found = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, {});
     EXPECT_LT(largest_error(mesh, found[0], exact), 10 * kExact);
   }
 }
@@ -174,30 +174,30 @@ TEST(StressOfHex8, InPureBendingIsExactWithIncompatibleModesOnly) {
             -0.5 * (x(0) * x(0) + nu * (x(2) * x(2) - x(1) * x(1)))};
   });
   const auto exact = [](const Place& x) {
-    Voigt stress = Voigt::Zero();
+    fe::Voigt stress = fe::Voigt::Zero();
     stress(0) = kSteel.youngs * x(2);
     return stress;
   };
-  Material material = kSteel;
+  fe::Material material = kSteel;
   EXPECT_LT(
-      largest_error(mesh, nodal_stress(mesh.nodes, cells_of(mesh, material), u, {})[0], exact),
+      largest_error(mesh, fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, {})[0], exact),
       10 * kExact);
-  material.integration.hex8 = Integration::kFull;
+  material.integration.hex8 = fe::Integration::kFull;
   EXPECT_GT(
-      largest_error(mesh, nodal_stress(mesh.nodes, cells_of(mesh, material), u, {})[0], exact),
+      largest_error(mesh, fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, {})[0], exact),
       0.1);
 }
 
 TEST(StressOfHex8, OfALinearTemperatureThatBendsFreelyIsZero) {
   // dT = 100 z K: a bar without supports takes the strain alpha dT everywhere.
-  const Material steel = warm_steel();
+  const fe::Material steel = warm_steel();
   const mesh::Mesh mesh = mesh_of(CellType::kHex8, brick({1.0, 0.2, 0.3}));
   const double k = 100.0 * 1.2e-5;
   const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) -> Place {
     return k * Place(x(0) * x(2), x(1) * x(2), 0.5 * (x(2) * x(2) - x(0) * x(0) - x(1) * x(1)));
   });
   const Eigen::VectorXd dT = 100.0 * mesh.nodes.col(2);
-  const auto found = nodal_stress(mesh.nodes, cells_of(mesh, steel), u, dT);
+  const auto found = fe::nodal_stress(mesh.nodes, cells_of(mesh, steel), u, dT);
   EXPECT_LT(found[0].stress.cwiseAbs().maxCoeff(), kExact * steel.youngs * k);
 }
 
@@ -209,11 +209,11 @@ TEST(StressAcrossMaterials, JumpsAndIsNotAveraged) {
   upper.region = 1;
   mesh.cells[0].nodes = IndexMatrix(mesh.cells[0].nodes.topRows(half));
   mesh.cells.push_back(upper);
-  Material soft = kSteel;
+  fe::Material soft = kSteel;
   soft.youngs *= 0.5;
-  const FeCells cells{{"hard", "soft"}, {kSteel, soft}, mesh.cells, {}};
+  const fe::FeCells cells{{"hard", "soft"}, {kSteel, soft}, mesh.cells, {}};
   const Eigen::VectorXd u = displaced(mesh.nodes, [](const Place& x) -> Place { return 1e-3 * x; });
-  const auto found = nodal_stress(mesh.nodes, cells, u, {});
+  const auto found = fe::nodal_stress(mesh.nodes, cells, u, {});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_GT(found[0].nodes.size() + found[1].nodes.size(), static_cast<size_t>(mesh.nodes.rows()));
   const double pressure = 1e-3 * kSteel.youngs / (1.0 - 2.0 * kSteel.poisson);
@@ -224,15 +224,17 @@ TEST(StressAcrossMaterials, JumpsAndIsNotAveraged) {
 }
 
 TEST(VonMises, IsTheTensionOfABarRootThreeTimesAShearAndZeroUnderPressure) {
-  EXPECT_DOUBLE_EQ(von_mises((Voigt() << 0, -7, 0, 0, 0, 0).finished()), 7.0);
-  EXPECT_DOUBLE_EQ(von_mises((Voigt() << 0, 0, 0, 0, 2, 0).finished()), 2.0 * std::sqrt(3.0));
-  EXPECT_DOUBLE_EQ(von_mises((Voigt() << 5, 5, 5, 0, 0, 0).finished()), 0.0);
+  EXPECT_DOUBLE_EQ(fe::von_mises((fe::Voigt() << 0, -7, 0, 0, 0, 0).finished()), 7.0);
+  EXPECT_DOUBLE_EQ(fe::von_mises((fe::Voigt() << 0, 0, 0, 0, 2, 0).finished()),
+                   2.0 * std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(fe::von_mises((fe::Voigt() << 5, 5, 5, 0, 0, 0).finished()), 0.0);
 }
 
 TEST(StressOfACell, IsRefusedWhenItIsInverted) {
   CellNodes x = reference(CellType::kHex8);
   x.row(0).swap(x.row(6));
-  EXPECT_THROW(point_stress(CellType::kHex8, x, kSteel, Eigen::VectorXd::Zero(24), {}), InputError);
+  EXPECT_THROW(fe::point_stress(CellType::kHex8, x, kSteel, Eigen::VectorXd::Zero(24), {}),
+               InputError);
 }
 
 }  // namespace

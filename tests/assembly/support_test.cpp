@@ -3,9 +3,9 @@
 
 #include <Eigen/LU>
 
-#include "assembly/axes.hpp"
 #include "assembly/dof_numbers.hpp"
 #include "bar_model.hpp"
+#include "core/fe/axes.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
@@ -20,13 +20,13 @@ std::string refusal(const mesh::Mesh& mesh, const std::string& toml) {
 TEST(Points, LooseDirectionsAreLeftOutAndWhollyLoosePointsRefused) {
   const mesh::Mesh mesh = bar();
   const std::string point = "[[point]]\nname = \"a\"\nat = [0.05, 0.05, 0.3]\n";
-  const FeModel model = build(mesh, point + R"(
+  const fe::FeModel model = build(mesh, point + R"(
 [[coupling]]
 point = "a"
 surface = "z1"
 directions = "xyz"
 )")
-                            .model;
+                                .model;
   EXPECT_EQ(model.set("a").dofs.size(), 3u);
   EXPECT_EQ(full(model.K).rows(), 3 * mesh.nodes.rows());
   expect_parts(refusal(mesh, point), {"point a", "nothing attached"});
@@ -52,7 +52,7 @@ TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
 
 TEST(Points, OnAMeshNodeMoveWithIt) {
   const mesh::Mesh mesh = bar();
-  const FeModel model = build(mesh, R"(
+  const fe::FeModel model = build(mesh, R"(
 [[point]]
 name = "a"
 node_set = "n0"
@@ -61,7 +61,7 @@ type = "rigid"
 point = "a"
 node_set = "z1"
 )")
-                            .model;
+                                .model;
   const Eigen::VectorXd q = some_forces(model.size());
   const Eigen::VectorXd u = model.T * q, p = model.points.T * q;
   const int32_t node = mesh.node_sets.at("n0")[0];
@@ -73,14 +73,14 @@ node_set = "z1"
 }
 
 TEST(Axes, CylindricalAndSphericalDirectionsByHand) {
-  Axes axes;
-  axes.kind = Axes::Kind::kCylindrical;
+  fe::Axes axes;
+  axes.kind = fe::Axes::Kind::kCylindrical;
   axes.origin = {1.0, 0.0, 0.0};
   const Eigen::Matrix3d c = axes.at({1.0, 2.0, 5.0});
   EXPECT_LT((c.col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_LT((c.col(1) + Eigen::Vector3d::UnitX()).norm(), 1e-15);
   EXPECT_LT((c.col(2) - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
-  axes.kind = Axes::Kind::kSpherical;
+  axes.kind = fe::Axes::Kind::kSpherical;
   const Eigen::Matrix3d s = axes.at({4.0, 0.0, 4.0});  // 3 along x, 4 along z
   EXPECT_LT((s.col(0) - Eigen::Vector3d(0.6, 0.0, 0.8)).norm(), 1e-15);
   EXPECT_LT((s.col(1) - Eigen::Vector3d(0.8, 0.0, -0.6)).norm(), 1e-15);
@@ -105,7 +105,7 @@ name = "foot"
 surface = "z0"
 directions = "z"
 )");
-  const FeModel& model = built.model;
+  const fe::FeModel& model = built.model;
   EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
   Saddle saddle(mesh, 0);
   const std::vector<int32_t> foot = mesh::nodes_of(mesh.surface("z0"));
@@ -135,8 +135,9 @@ directions = "z"
 
 TEST(Supports, HoldingADirectionTwiceIsHoldingIt) {
   const mesh::Mesh mesh = bar();
-  const FeModel twice = build(mesh, std::string(kFoot) + "[[support]]\nnode_set = \"z0\"\n").model;
-  const FeModel once = build(mesh, kFoot).model;
+  const fe::FeModel twice =
+      build(mesh, std::string(kFoot) + "[[support]]\nnode_set = \"z0\"\n").model;
+  const fe::FeModel once = build(mesh, kFoot).model;
   EXPECT_EQ((twice.K - once.K).norm(), 0.0);
   EXPECT_EQ(twice.supports.size(), once.supports.size());
 }

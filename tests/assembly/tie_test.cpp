@@ -8,9 +8,9 @@
 #include "assembly/tie/clip.hpp"
 #include "assembly/tie/mortar.hpp"
 #include "block_mesh.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "mesh/quadrature.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "small_solver.hpp"
 #include "two_parts.hpp"
 
@@ -197,7 +197,7 @@ force = [0.0, 0.0, 100.0]
 )",
                                       "bolt.fe.toml");
   StepClock clock;
-  const FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
+  const fe::FeModel model = build_fe_model(mesh, read_recipe(config, mesh), clock).model;
   const Eigen::VectorXd q = full(model.K).llt().solve(model.loads.at("tension"));
   EXPECT_NEAR(q(model.set("bolt_1").dofs[0]), 100.0 * 2.0 / 1e6, 1e-13);
   // Lower half: stretched by 1e-4 a metre, upwards.

@@ -52,7 +52,7 @@ mesh::Mesh slab(mesh::CellType type, const std::array<int, 3>& n, double shake, 
   return block_mesh(n, map, options);
 }
 
-Eigen::VectorXd free_hz(const FeModel& model, int count) {
+Eigen::VectorXd free_hz(const fe::FeModel& model, int count) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       full(model.K), full(model.M), Eigen::EigenvaluesOnly);
   return eigen.eigenvalues().head(count).cwiseAbs().cwiseSqrt() / (2.0 * std::numbers::pi);

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "assembly/fe_model.hpp"
-#include "mesh/mesh.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly::testing {
 
@@ -17,6 +17,6 @@ mesh::Mesh slab(mesh::CellType type, const std::array<int, 3>& n, double shake, 
                 double length = 1.0);
 
 /// The lowest frequencies [Hz] of a free model, dense, rigid motions first.
-Eigen::VectorXd free_hz(const FeModel& model, int count);
+Eigen::VectorXd free_hz(const fe::FeModel& model, int count);
 
 }  // namespace clatter::assembly::testing

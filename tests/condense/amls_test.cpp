@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "condense/condense.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/eigen_solver.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/eigen_solver.hpp"
 #include "tests/condense/solid_model.hpp"
 
 namespace clatter::condense {
@@ -14,13 +14,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using modal::EigenMethod;
+using sparse::EigenMethod;
 
 constexpr int kRigid = 6;  // the boundary holds the bar while it is condensed, nothing else does
 
 /// A free bar of 3 000 unknowns, large enough that AMLS does not leave the work to ARPACK.
-const assembly::FeModel& bar() {
-  static const assembly::FeModel model = test::solid_bar(
+const fe::FeModel& bar() {
+  static const fe::FeModel model = test::solid_bar(
       {0.2, 0.045, 0.04}, {9, 3, 3}, 0.3, "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n");
   return model;
 }
@@ -36,27 +36,27 @@ CondenseOptions by(EigenMethod method, int count, double fmax_hz = 0.0) {
   return options;
 }
 
-ReducedModel reduce(const CondenseOptions& options) {
+rom::ReducedModel reduce(const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(bar(), options, clock);
 }
 
 /// Elastic frequencies of a reduced model below a limit.
-VectorXd elastic_hz(const ReducedModel& reduced, double limit_hz) {
+VectorXd elastic_hz(const rom::ReducedModel& reduced, double limit_hz) {
   const VectorXd values =
       Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(reduced.K_rr, reduced.M_rr)
           .eigenvalues()
           .tail(reduced.size() - kRigid);
-  const VectorXd hz = values.unaryExpr(&modal::hz_of_value);
+  const VectorXd hz = values.unaryExpr(&sparse::hz_of_value);
   return hz.head((hz.array() < limit_hz).count());
 }
 
 TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
-  const ReducedModel exact = reduce(by(EigenMethod::kBlockLanczos, 40));
+  const rom::ReducedModel exact = reduce(by(EigenMethod::kBlockLanczos, 40));
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   const double accuracy = options.modes.accuracy = 2e-3;
-  const ReducedModel amls = reduce(options);
+  const rom::ReducedModel amls = reduce(options);
   const auto& c = amls.certificate;
   ASSERT_TRUE(c.contains("eigen_frequency_error"));  // AMLS it was
   EXPECT_FALSE(exact.certificate.contains("eigen_frequency_error"));
@@ -72,10 +72,10 @@ TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
   const VectorXd body = elastic_hz(amls, c.at("cutoff_hz"));
   ASSERT_GT(body.size(), 10);
   const VectorXd other = elastic_hz(exact, 2.0 * c.at("cutoff_hz")).head(body.size());
-  modal::EigenOptions all;
+  sparse::EigenOptions all;
   all.count = kRigid + static_cast<int>(body.size());
   const VectorXd full =
-      modal::solve_modes(bar().K, bar().M, all).frequencies_hz().tail(body.size());
+      sparse::solve_modes(bar().K, bar().M, all).frequencies_hz().tail(body.size());
   for (Index j = 0; j < body.size(); ++j) {
     EXPECT_NEAR(body[j], other[j], accuracy * other[j]) << j;
     EXPECT_GT(body[j], (1.0 - 1e-9) * full[j]) << j;  // Rayleigh and Ritz
@@ -86,7 +86,7 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   const VectorXd exact = reduce(by(EigenMethod::kBlockLanczos, 40)).fixed_interface_hz;
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   options.modes.accuracy = 0.1;
-  const ReducedModel counted = reduce(options);
+  const rom::ReducedModel counted = reduce(options);
   EXPECT_LE(counted.certificate.at("cutoff_hz"), counted.fixed_interface_hz[39]);
   const VectorXd rough = counted.fixed_interface_hz;
   Index worst = 0;  // the mode that errs most, clear of the next
@@ -95,7 +95,7 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   ASSERT_GT(rough[worst] / exact[worst] - 1.0, 1e-7);
   options.modes.count = 0;
   options.modes.fmax_hz = exact[worst] + 0.02 * (rough[worst] - exact[worst]);
-  const ReducedModel reduced = reduce(options);
+  const rom::ReducedModel reduced = reduce(options);
   const auto& c = reduced.certificate;
   EXPECT_EQ(c.at("count_proved"), 0.0);
   EXPECT_EQ(c.at("count_below"), static_cast<double>(worst + 1));

@@ -1,15 +1,15 @@
 #pragma once
 // A free elastic box of springs as an assembled model, with sets on its faces; a chain for sums by
 // hand.
-#include "assembly/fe_model.hpp"
-#include "tests/modal/spring_models.hpp"
+#include "core/fe/fe_model.hpp"
+#include "tests/core/sparse/spring_models.hpp"
 
 namespace clatter::test {
 
 /// A set of all three displacements of some nodes.
-inline DofSet node_set(const assembly::FeModel& model, const std::string& name,
-                       const std::vector<int>& nodes) {
-  DofSet set;
+inline rom::DofSet node_set(const fe::FeModel& model, const std::string& name,
+                            const std::vector<int>& nodes) {
+  rom::DofSet set;
   set.kind = "node";
   const auto count = static_cast<Eigen::Index>(3 * nodes.size());
   set.position.resize(count, 3);
@@ -29,8 +29,8 @@ inline DofSet node_set(const assembly::FeModel& model, const std::string& name,
 
 /// Four masses 2, 2, 2, 1 on unit springs, the first held to the ground; set "end" is the last
 /// mass.
-inline assembly::FeModel held_chain() {
-  assembly::FeModel model;
+inline fe::FeModel held_chain() {
+  fe::FeModel model;
   model.K = from_triplets(4, {{0, 0, 2.0},
                               {1, 1, 2.0},
                               {2, 2, 2.0},
@@ -47,8 +47,8 @@ inline assembly::FeModel held_chain() {
 }
 
 /// Mass properties straight from point masses, the independent figure.
-inline MassProperties point_mass_properties(const SpringBox& box) {
-  MassProperties out;
+inline rom::MassProperties point_mass_properties(const SpringBox& box) {
+  rom::MassProperties out;
   const Eigen::VectorXd m = box.M.diagonal();
   for (Eigen::Index a = 0; a < box.nodes.rows(); ++a) {
     out.mass += m[3 * a];
@@ -65,9 +65,9 @@ inline MassProperties point_mass_properties(const SpringBox& box) {
 /// Box of nx x ny x nz nodes. Sets: "left" (three corners of the face x = 0), "right" (two corners
 /// of the far face), "point" (one node), "same_point" (that node again). Load "pull" on the far
 /// face, surface "skin" of a few quadratic triangles.
-inline assembly::FeModel box_model(int nx = 8, int ny = 6, int nz = 6) {
+inline fe::FeModel box_model(int nx = 8, int ny = 6, int nz = 6) {
   const SpringBox box = spring_box(nx, ny, nz);
-  assembly::FeModel model;
+  fe::FeModel model;
   model.name = "box";
   model.M = box.M;
   model.K = box.K;

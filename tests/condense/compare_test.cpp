@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "condense/condense.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/compare.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/modes/compare.hpp"
 #include "modal/modes_file.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/places.hpp"
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::box_model;
 
-ReducedModel reduce(const assembly::FeModel& model, double fmax_hz) {
+rom::ReducedModel reduce(const fe::FeModel& model, double fmax_hz) {
   condense::CondenseOptions options;
   options.boundary = {"left", "right", "point"};
   options.modes.fmax_hz = fmax_hz;
@@ -36,11 +36,11 @@ class InFolder : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  fs::path write_fe(const assembly::FeModel& model) const {
+  fs::path write_fe(const fe::FeModel& model) const {
     const fs::path path = folder_ / "box.fe.h5";
     H5File file = H5File::create(path);
-    assembly::write_fe_model(file, model);
-    write_provenance(file, {assembly::kFeSchema, "", {}});
+    fe::write_fe_model(file, model);
+    write_provenance(file, {fe::kFeSchema, "", {}});
     file.commit();
     return path;
   }
@@ -66,39 +66,39 @@ class InFolder : public ::testing::Test {
 
 TEST(Compare, ByDefaultGoesAsFarAsTheModelClaims) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, 9000.0);
-  const modal::Comparison result = modal::compare(model, reduced, {});
-  modal::ModesOptions claimed;
+  const rom::ReducedModel reduced = reduce(model, 9000.0);
+  const modes::Comparison result = modes::compare(model, reduced, {});
+  modes::ModesOptions claimed;
   claimed.fmax_hz = reduced.certificate.at("accurate_to_hz");
-  EXPECT_EQ(static_cast<int>(result.modes.size()), modal::analyse(model, claimed).modes.size() - 6);
+  EXPECT_EQ(static_cast<int>(result.modes.size()), modes::analyse(model, claimed).modes.size() - 6);
   EXPECT_TRUE(result.without_stated_error().modes.empty());
 }
 
 TEST(Compare, BeyondThatErrorsAreSummedUpApart) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, 9000.0);
-  const modal::Comparison result = modal::compare(model, reduced, {reduced.valid_to_hz, 0});
-  modal::ModesOptions all;
+  const rom::ReducedModel reduced = reduce(model, 9000.0);
+  const modes::Comparison result = modes::compare(model, reduced, {reduced.valid_to_hz, 0});
+  modes::ModesOptions all;
   all.fmax_hz = reduced.valid_to_hz;
-  EXPECT_EQ(static_cast<int>(result.modes.size()), modal::analyse(model, all).modes.size() - 6);
+  EXPECT_EQ(static_cast<int>(result.modes.size()), modes::analyse(model, all).modes.size() - 6);
   EXPECT_GT(result.modes.back().full_hz, result.accurate_to_hz);
   const auto stated = result.with_stated_error(), above = result.without_stated_error();
   EXPECT_EQ(stated.modes.size() + above.modes.size(), result.modes.size());
   EXPECT_EQ(result.largest_error(), std::max(stated.largest_error(), above.largest_error()));
-  const auto lines = modal::table_of(result);
+  const auto lines = modes::table_of(result);
   EXPECT_NE(lines.back().find("up to 4500 Hz: largest error"), std::string::npos) << lines.back();
   EXPECT_NE(lines[lines.size() - 2].find("no accuracy is stated"), std::string::npos);
 }
 
 TEST(Compare, NothingToCompareIsRefusedWithTheFirstElasticFrequency) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, 9000.0);
-  const double first = modal::compare(model, reduced, {0.0, 7}).modes.front().full_hz;
-  for (const modal::CompareOptions& asked : {modal::CompareOptions{0.5 * first, 0}, {0.0, 6}}) {
+  const rom::ReducedModel reduced = reduce(model, 9000.0);
+  const double first = modes::compare(model, reduced, {0.0, 7}).modes.front().full_hz;
+  for (const modes::CompareOptions& asked : {modes::CompareOptions{0.5 * first, 0}, {0.0, 6}}) {
     try {
-      modal::compare(model, reduced, asked);
+      modes::compare(model, reduced, asked);
       ADD_FAILURE() << "accepted";
-    } catch (const modal::NothingCompared& error) {
+    } catch (const modes::NothingCompared& error) {
       const std::string said = error.what();
       EXPECT_NE(said.find("nothing was compared"), std::string::npos);
       EXPECT_NE(said.find(fmt::format("{:.6g} Hz", first)), std::string::npos) << said;
@@ -109,8 +109,8 @@ TEST(Compare, NothingToCompareIsRefusedWithTheFirstElasticFrequency) {
 
 TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, 9000.0);
-  const modal::Comparison result = modal::compare(model, reduced, {}).with_stated_error();
+  const rom::ReducedModel reduced = reduce(model, 9000.0);
+  const modes::Comparison result = modes::compare(model, reduced, {}).with_stated_error();
   EXPECT_EQ(result.accurate_to_hz, 4500.0);
   EXPECT_EQ(result.rigid_full, 6);
   ASSERT_GT(result.modes.size(), 4u);
@@ -122,38 +122,38 @@ TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
 
 TEST(Compare, AStifferModelShowsItsErrorInFrequencyOnly) {
   const auto model = box_model();
-  ReducedModel reduced = reduce(model, 9000.0);
+  rom::ReducedModel reduced = reduce(model, 9000.0);
   reduced.K_rr *= 1.21;
-  const modal::Comparison result = modal::compare(model, reduced, {0.0, 12});
+  const modes::Comparison result = modes::compare(model, reduced, {0.0, 12});
   for (const auto& mode : result.modes) EXPECT_NEAR(mode.error, 0.1, 1e-3);
 }
 
 TEST(Compare, StrangersAreRefused) {
   const auto model = box_model();
-  ReducedModel reduced = reduce(model, 6000.0);
+  rom::ReducedModel reduced = reduce(model, 6000.0);
   reduced.sets.clear();
   reduced.skin.nodes.array() += 100.0;
-  EXPECT_THROW(modal::compare(model, reduced, {0.0, 10}), InputError);
+  EXPECT_THROW(modes::compare(model, reduced, {0.0, 10}), InputError);
 }
 
 TEST(Analyse, AClampedBoxHasNoRigidModesAndZerosWhereItIsHeld) {
   const auto model = box_model();
-  modal::ModesOptions options;
+  modes::ModesOptions options;
   options.count = 5;
   options.fixed = {"left", "right"};
-  const modal::PartModes part = modal::analyse(model, options);
+  const modes::PartModes part = modes::analyse(model, options);
   EXPECT_EQ(part.modes.rigid, 0);
   for (const int dof : model.sets.at("left").dofs)
     EXPECT_EQ(part.modes.vectors.row(dof).norm(), 0.0);
   options.fixed = {"lfet"};
-  EXPECT_THROW(modal::analyse(model, options), InputError);
+  EXPECT_THROW(modes::analyse(model, options), InputError);
 }
 
 TEST_F(InFolder, ModesFileGivesBackItsTable) {
   const auto model = box_model();
-  modal::ModesOptions options;
+  modes::ModesOptions options;
   options.count = 9;
-  const modal::PartModes part = modal::analyse(model, options);
+  const modes::PartModes part = modes::analyse(model, options);
   const fs::path path = folder_ / "box.modes.h5";
   H5File file = H5File::create(path);
   modal::write_modes(file, part);
@@ -172,7 +172,7 @@ TEST_F(InFolder, CommandsReduceAndCompareAModel) {
   const std::string rom = (folder_ / "box.rom.h5").string();
   ASSERT_EQ(call("clatter-condense " + fe + " -c " + toml + " -o " + rom + " --json"), 0) << log();
   EXPECT_NE(log().find("\"count_proved\": 1"), std::string::npos) << log();
-  const ReducedModel reduced = read_reduced_model(rom);
+  const rom::ReducedModel reduced = rom::read_reduced_model(rom);
   EXPECT_EQ(reduced.method, "craig-bampton");
   EXPECT_EQ(reduced.valid_to_hz, 9000.0);
   EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);

@@ -7,9 +7,9 @@
 
 #include "condense/certificate.hpp"
 #include "condense/condense.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 
 namespace clatter::condense {
@@ -28,21 +28,21 @@ CondenseOptions options_for(std::vector<std::string> boundary, int count) {
   return options;
 }
 
-ReducedModel reduce(const assembly::FeModel& model, const CondenseOptions& options) {
+rom::ReducedModel reduce(const fe::FeModel& model, const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(model, options, clock);
 }
 
 /// Free modes of the reduced model, with a shift below the first elastic one.
-modal::EigenResult reduced_modes(const ReducedModel& reduced) {
+sparse::EigenResult reduced_modes(const rom::ReducedModel& reduced) {
   const double first = reduced.certificate.at("first_elastic_hz");
-  return modal::solve_dense(reduced.K_rr, reduced.M_rr, -0.1 * modal::value_of_hz(first));
+  return sparse::solve_dense(reduced.K_rr, reduced.M_rr, -0.1 * sparse::value_of_hz(first));
 }
 
 TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
   // K = tridiag(-1, 2, -1) with last entry 1, M = diag(2, 2, 2, 1), boundary = last mass.
-  const assembly::FeModel model = test::held_chain();
+  const fe::FeModel model = test::held_chain();
   const DofPartition partition = partition_dofs(model, {"end"});
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);
@@ -68,16 +68,16 @@ TEST(CraigBamptonTest, EveryModeBelowHalfTheCutOffIsWithinATenthOfAPercent) {
   CondenseOptions options = options_for({"left", "right", "point"}, 0);
   options.method = "craig-bampton";
   const VectorXd full =
-      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
-                         modal::default_shift(model.K, model.M))
+      sparse::solve_dense(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M),
+                          sparse::default_shift(model.K, model.M))
           .values;
-  options.modes.fmax_hz = modal::hz_of_value(full[70]);
-  const ReducedModel reduced = reduce(model, options);
+  options.modes.fmax_hz = sparse::hz_of_value(full[70]);
+  const rom::ReducedModel reduced = reduce(model, options);
   const VectorXd small = reduced_modes(reduced).values;
   int compared = 0;
-  for (Eigen::Index j = 6; modal::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j) {
-    const double f = modal::hz_of_value(full[j]);
-    EXPECT_NEAR(modal::hz_of_value(small[j]), f, 1e-3 * f) << j;
+  for (Eigen::Index j = 6; sparse::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j) {
+    const double f = sparse::hz_of_value(full[j]);
+    EXPECT_NEAR(sparse::hz_of_value(small[j]), f, 1e-3 * f) << j;
     EXPECT_GE(small[j], full[j] * (1.0 - 1e-9)) << "a subspace cannot lower a mode";
     ++compared;
   }
@@ -87,19 +87,19 @@ TEST(CraigBamptonTest, EveryModeBelowHalfTheCutOffIsWithinATenthOfAPercent) {
 TEST(CraigBamptonTest, ResidualModesRemoveTheErrorThatTheEstimateNames) {
   const auto model = box_model();
   const VectorXd full =
-      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
-                         modal::default_shift(model.K, model.M))
+      sparse::solve_dense(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M),
+                          sparse::default_shift(model.K, model.M))
           .values;
   CondenseOptions options = options_for({"left", "right", "point"}, 0);
   options.method = "craig-bampton";
-  options.modes.fmax_hz = modal::hz_of_value(full[70]);
+  options.modes.fmax_hz = sparse::hz_of_value(full[70]);
   double without = 0.0, with = 0.0;
   for (const double target : {0.0, 1e-5}) {
     options.modes.frequency_error = target;
-    const ReducedModel reduced = reduce(model, options);
+    const rom::ReducedModel reduced = reduce(model, options);
     const VectorXd small = reduced_modes(reduced).values;
     double largest = 0.0;
-    for (Eigen::Index j = 6; modal::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j)
+    for (Eigen::Index j = 6; sparse::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j)
       largest = std::max(largest, std::sqrt(small[j] / full[j]) - 1.0);
     const double estimate = reduced.certificate.at("frequency_error_estimate");
     // First order in the error, for modes up to half of the cut-off: (f / f_cut)^2 = 1/4 is left.
@@ -114,10 +114,10 @@ TEST(CraigBamptonTest, ResidualModesRemoveTheErrorThatTheEstimateNames) {
 TEST(CraigBamptonTest, AllModesGiveTheFullSpectrum) {
   const auto model = box_model(4, 3, 3);
   const int interior = model.size() - 15;
-  const ReducedModel reduced = reduce(model, options_for({"left", "right"}, interior));
+  const rom::ReducedModel reduced = reduce(model, options_for({"left", "right"}, interior));
   const VectorXd full =
-      modal::solve_dense(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M),
-                         modal::default_shift(model.K, model.M))
+      sparse::solve_dense(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M),
+                          sparse::default_shift(model.K, model.M))
           .values;
   const VectorXd small = reduced_modes(reduced).values;
   ASSERT_EQ(small.size(), full.size());
@@ -131,13 +131,13 @@ TEST(CraigBamptonTest, AllModesGiveTheFullSpectrum) {
 
 TEST(CraigBamptonTest, GuyanKeepsStaticResponsesExactly) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, options_for({"left", "right"}, 0));
+  const rom::ReducedModel reduced = reduce(model, options_for({"left", "right"}, 0));
   ASSERT_EQ(reduced.size(), 15);
   // Hold "left", pull at "right": the full model's displacement there.
   VectorXd force = VectorXd::Zero(model.size());
   const auto& right = model.sets.at("right").dofs;
   for (size_t k = 0; k < right.size(); ++k) force[right[k]] = 1.0 + static_cast<double>(k);
-  MatrixXd held = modal::dense_symmetric(model.K);
+  MatrixXd held = sparse::dense_symmetric(model.K);
   for (const int dof : model.sets.at("left").dofs) {
     held.row(dof).setZero();
     held.col(dof).setZero();
@@ -154,7 +154,7 @@ TEST(CraigBamptonTest, LoadsDoTheSameWorkOnEveryBasisVector) {
   const auto model = box_model();
   CondenseOptions options = options_for({"left", "right"}, 20);
   options.skin = {"skin"};
-  const ReducedModel reduced = reduce(model, options);
+  const rom::ReducedModel reduced = reduce(model, options);
   // A rigid shift by x: the work of the load is its resultant.
   const double resultant = model.loads.at("pull").sum();
   EXPECT_NEAR(reduced.loads.at("pull").dot(reduced.rigid.col(0)), resultant, 1e-9 * resultant);
@@ -166,7 +166,7 @@ TEST(CraigBamptonTest, SkinRowsCarryRigidMotionsToTheirNodes) {
   const auto model = box_model();
   CondenseOptions options = options_for({"left", "right"}, 10);
   options.skin = {"skin"};
-  const ReducedModel reduced = reduce(model, options);
+  const rom::ReducedModel reduced = reduce(model, options);
   const MatrixXd u = reduced.skin.T * reduced.rigid;
   ASSERT_EQ(reduced.skin.triangles.cols(), 6);
   for (Eigen::Index a = 0; a < reduced.skin.nodes.rows(); ++a) {
@@ -179,7 +179,7 @@ TEST(CraigBamptonTest, SkinRowsCarryRigidMotionsToTheirNodes) {
 
 TEST(CraigBamptonTest, BoundaryCoordinatesAreTheDisplacementsOfTheirDofs) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, options_for({"right", "left"}, 5));
+  const rom::ReducedModel reduced = reduce(model, options_for({"right", "left"}, 5));
   EXPECT_EQ(reduced.set("right").dofs.front(), 0);  // order of the sets as given
   EXPECT_EQ(reduced.set("left").dofs.front(), 6);
   for (const std::string name : {"left", "right"}) {
@@ -194,7 +194,7 @@ TEST(CraigBamptonTest, BoundaryCoordinatesAreTheDisplacementsOfTheirDofs) {
 TEST(CertificateTest, MassPropertiesOfARigidMassMatrixAreItsOwn) {
   const auto box = test::spring_box(3, 4, 5);
   const MatrixXd rigid_mass = box.rigid.transpose() * MatrixXd(box.M) * box.rigid;
-  const MassProperties found = mass_properties_of(rigid_mass);
+  const rom::MassProperties found = mass_properties_of(rigid_mass);
   EXPECT_LT(compare_mass(found, test::point_mass_properties(box)).largest(), 1e-13);
 }
 

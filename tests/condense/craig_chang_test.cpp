@@ -8,9 +8,9 @@
 #include <random>
 
 #include "condense/condense.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/condense/solid_model.hpp"
 #include "tests/refusal.hpp"
@@ -21,8 +21,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary,
-                    const std::string& method, int count, double fmax_hz = 0.0) {
+rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
+                         const std::string& method, int count, double fmax_hz = 0.0) {
   CondenseOptions options;
   options.method = method;
   options.boundary = std::move(boundary);
@@ -42,8 +42,8 @@ VectorXd spectrum(const MatrixXd& K, const MatrixXd& M) {
       .eigenvalues();
 }
 
-VectorXd full_spectrum(const assembly::FeModel& model) {
-  return spectrum(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M));
+VectorXd full_spectrum(const fe::FeModel& model) {
+  return spectrum(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M));
 }
 
 /// Largest relative frequency error of elastic modes 1 to `count`.
@@ -57,7 +57,7 @@ double frequency_error(const VectorXd& found, const VectorXd& expected, int rigi
 TEST(CraigChang, TheChainKeepsItsHandComputedFrequencies) {
   // Four masses 2, 2, 2, 1 on unit springs, the first held to the ground: -x_(j-1) + 2 x_j -
   // x_(j+1) = 2 lambda x_j with a free end has lambda = 1 - cos((2 k - 1) pi / 8).
-  const assembly::FeModel model = test::held_chain();
+  const fe::FeModel model = test::held_chain();
   const DofPartition partition = partition_dofs(model, {"end"});
   ModeRequest request;
   request.count = 2;
@@ -80,25 +80,25 @@ TEST(CraigChang, OwnFrequenciesAreExactWhereGuyanAndCraigBamptonErr) {
   const std::vector<std::string> boundary{"left", "right", "point"};
   const VectorXd full = full_spectrum(model);
   const int count = 25;
-  const double fmax = modal::hz_of_value(0.5 * (full[5 + count] + full[6 + count]));
-  const ReducedModel chang = reduce(model, boundary, "craig-chang", 0, fmax);
+  const double fmax = sparse::hz_of_value(0.5 * (full[5 + count] + full[6 + count]));
+  const rom::ReducedModel chang = reduce(model, boundary, "craig-chang", 0, fmax);
   EXPECT_EQ(chang.certificate.at("own_modes"), count);
   EXPECT_EQ(chang.certificate.at("count_proved"), 1.0);
   EXPECT_EQ(chang.certificate.at("accurate_to_hz"), fmax);
   const VectorXd own = spectrum(chang.K_rr, chang.M_rr);
   EXPECT_LT(frequency_error(own, full, 6, count), 1e-9);  // eigen-residual, squared
   EXPECT_LT(chang.certificate.at("frequency_error_estimate"), 1e-9);
-  const ReducedModel guyan = reduce(model, boundary, "guyan", 0);
+  const rom::ReducedModel guyan = reduce(model, boundary, "guyan", 0);
   EXPECT_GT(frequency_error(spectrum(guyan.K_rr, guyan.M_rr), full, 6, 6), 1e-2);
   // As many columns of fixed-interface modes.
-  const ReducedModel bampton =
+  const rom::ReducedModel bampton =
       reduce(model, boundary, "craig-bampton", chang.size() - chang.n_boundary);
   EXPECT_GT(frequency_error(spectrum(bampton.K_rr, bampton.M_rr), full, 6, count), 1e-4);
 }
 
 TEST(CraigChang, RigidMotionsAndMassAreExactAndBoundaryCoordinatesStay) {
   const auto model = test::box_model();
-  const ReducedModel reduced = reduce(model, {"right", "left"}, "craig-chang", 10);
+  const rom::ReducedModel reduced = reduce(model, {"right", "left"}, "craig-chang", 10);
   EXPECT_EQ(reduced.size(), 15 + 6 + 10);
   EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);
   EXPECT_LT(reduced.certificate.at("rigid_stiffness_residue"), 1e-10);
@@ -116,7 +116,7 @@ MatrixXd held_softly(const MatrixXd& K, const MatrixXd& R) {
 
 TEST(CraigChang, TheFreeBoundaryAnswersSelfEquilibratedLoadsAsTheFullModel) {
   const auto model = test::box_model();
-  const ReducedModel reduced = reduce(model, {"left", "right"}, "craig-chang", 4);
+  const rom::ReducedModel reduced = reduce(model, {"left", "right"}, "craig-chang", 4);
   std::vector<int32_t> dofs = model.set("left").dofs;
   const auto& right = model.set("right").dofs;
   dofs.insert(dofs.end(), right.begin(), right.end());
@@ -129,7 +129,7 @@ TEST(CraigChang, TheFreeBoundaryAnswersSelfEquilibratedLoadsAsTheFullModel) {
   f(dofs) = f_b;
   f_r.head(15) = f_b;
   const VectorXd full =
-      held_softly(modal::dense_symmetric(model.K), model.rigid).ldlt().solve(f)(dofs);
+      held_softly(sparse::dense_symmetric(model.K), model.rigid).ldlt().solve(f)(dofs);
   const VectorXd small = held_softly(reduced.K_rr, reduced.rigid).ldlt().solve(f_r).head(15);
   const VectorXd difference = small - full;  // up to a rigid motion
   const VectorXd strain = difference - rigid_b * rigid_b.colPivHouseholderQr().solve(difference);
@@ -140,7 +140,7 @@ TEST(CraigChang, HoldsForASolidOnItsSupports) {
   const auto model = test::solid_bar({0.2, 0.02, 0.03}, {6, 1, 1}, 0.3,
                                      "[[support]]\nname = \"foot\"\nsurface = \"x0\"\n"
                                      "[[coupling]]\nname = \"tip\"\nsurface = \"x1\"\n");
-  const ReducedModel reduced = reduce(model, {"tip"}, "craig-chang", 12);
+  const rom::ReducedModel reduced = reduce(model, {"tip"}, "craig-chang", 12);
   EXPECT_EQ(reduced.certificate.at("rigid_modes"), 0.0);
   EXPECT_LT(frequency_error(spectrum(reduced.K_rr, reduced.M_rr), full_spectrum(model), 0, 12),
             1e-9);

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "condense/condense.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
 
@@ -35,7 +35,7 @@ CondenseOptions wanted(double hz, double error, const std::string& method = "cra
   return options;
 }
 
-ReducedModel reduce(const assembly::FeModel& model, const CondenseOptions& options) {
+rom::ReducedModel reduce(const fe::FeModel& model, const CondenseOptions& options) {
   set_quiet(true);
   StepClock clock;
   return condense(model, options, clock);
@@ -43,11 +43,12 @@ ReducedModel reduce(const assembly::FeModel& model, const CondenseOptions& optio
 
 TEST(CutOffSearchTest, EveryModeBelowTheWantedFrequencyMeetsTheTarget) {
   const auto model = test::box_model();
-  const VectorXd full = spectrum(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M));
-  const double wanted_hz = modal::hz_of_value(0.5 * (full[29] + full[30]));
+  const VectorXd full =
+      spectrum(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M));
+  const double wanted_hz = sparse::hz_of_value(0.5 * (full[29] + full[30]));
   for (const std::string method : {"craig-bampton", "craig-chang"})
     for (const double target : {5e-3, 1e-4, 1e-6}) {
-      const ReducedModel reduced = reduce(model, wanted(wanted_hz, target, method));
+      const rom::ReducedModel reduced = reduce(model, wanted(wanted_hz, target, method));
       const VectorXd found = spectrum(reduced.K_rr, reduced.M_rr);
       for (Eigen::Index j = 6; j < 30; ++j)
         EXPECT_LT(std::sqrt(found[j] / full[j]) - 1.0, target) << method << " mode " << j;
@@ -66,7 +67,7 @@ TEST(CutOffSearchTest, TheBoundCoversWhatTheEstimateLeavesOutNearTheCutOff) {
   // One truncated interior mode lambda_k coupled to a mode lambda by g: exact lowering of lambda is
   // g^2 / (lambda_k - lambda), the static estimate g^2 / lambda_k.
   const double hz = 100.0, cutoff = 150.0;
-  const double lambda = modal::value_of_hz(hz), lambda_k = modal::value_of_hz(cutoff);
+  const double lambda = sparse::value_of_hz(hz), lambda_k = sparse::value_of_hz(cutoff);
   const double g = 1e-3 * lambda;
   const double estimate = 0.5 * g * g / lambda_k / lambda;
   const double exact = 0.5 * g * g / (lambda_k - lambda) / lambda;
@@ -75,8 +76,9 @@ TEST(CutOffSearchTest, TheBoundCoversWhatTheEstimateLeavesOutNearTheCutOff) {
 
 TEST(CutOffSearchTest, AnAccuracyOutOfReachIsSaidNotClaimed) {
   const auto model = test::box_model();
-  const VectorXd full = spectrum(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M));
-  EXPECT_THROW(reduce(model, wanted(modal::hz_of_value(full[12]), 1e-30)), NumericsError);
+  const VectorXd full =
+      spectrum(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M));
+  EXPECT_THROW(reduce(model, wanted(sparse::hz_of_value(full[12]), 1e-30)), NumericsError);
 }
 
 TEST(BadInput, AccuracyBesideACutOffOrWithoutAnErrorIsRefused) {

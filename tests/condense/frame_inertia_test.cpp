@@ -10,8 +10,8 @@
 #include <random>
 
 #include "condense/condense.hpp"
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/condense/solid_model.hpp"
 #include "tests/refusal.hpp"
@@ -23,7 +23,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary, int count) {
+rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary, int count) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = count;
@@ -35,7 +35,7 @@ ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> bou
   return condense(model, options, clock);
 }
 
-FrameMotion some_motion() {
+rom::FrameMotion some_motion() {
   return {Vector3d(3.0, -5.0, 9.81), Vector3d(20.0, -50.0, 70.0), Vector3d(400.0, 900.0, -300.0)};
 }
 
@@ -46,8 +46,7 @@ VectorXd random_vector(Eigen::Index size, double scale, unsigned seed) {
 }
 
 /// The basis of `reduce`, all DoFs in the model's order.
-MatrixXd full_basis(const assembly::FeModel& model, const std::vector<std::string>& boundary,
-                    int count) {
+MatrixXd full_basis(const fe::FeModel& model, const std::vector<std::string>& boundary, int count) {
   const DofPartition partition = partition_dofs(model, boundary);
   const PartitionedMatrix K = partition_matrix(model.K, partition);
   const PartitionedMatrix M = partition_matrix(model.M, partition);
@@ -66,9 +65,9 @@ MatrixXd full_basis(const assembly::FeModel& model, const std::vector<std::strin
 
 TEST(FrameInertia, EqualsTheSumOfEquationNineOverPartialMasses) {
   const auto model = test::box_model();  // lumped: a diagonal M, T = I
-  const ReducedModel reduced = reduce(model, {"left", "right"}, 12);
+  const rom::ReducedModel reduced = reduce(model, {"left", "right"}, 12);
   const MatrixXd V = full_basis(model, {"left", "right"}, 12);
-  const FrameMotion motion = some_motion();
+  const rom::FrameMotion motion = some_motion();
   const VectorXd q = random_vector(reduced.size(), 1e-3, 1);
   const VectorXd v = random_vector(reduced.size(), 0.5, 2);
   const VectorXd u = V * q, u_dot = V * v, m = model.M.diagonal();
@@ -86,7 +85,7 @@ TEST(FrameInertia, EqualsTheSumOfEquationNineOverPartialMasses) {
 }
 
 /// A free bar whose ends are rigid: nodes there have no coordinates of their own.
-assembly::FeModel coupled_bar(const std::string& more = "") {
+fe::FeModel coupled_bar(const std::string& more = "") {
   return test::solid_bar({0.2, 0.03, 0.02}, {5, 2, 2}, 0.3,
                          "[[coupling]]\nname = \"a\"\nsurface = \"x0\"\ntype = \"rigid\"\n"
                          "[[coupling]]\nname = \"b\"\nsurface = \"x1\"\ntype = \"rigid\"\n" +
@@ -94,10 +93,10 @@ assembly::FeModel coupled_bar(const std::string& more = "") {
 }
 
 TEST(FrameInertia, ResultantsOfASolidAreThoseOfNewtonAndEuler) {
-  const ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
-  const FrameMotion motion = some_motion();
+  const rom::ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
+  const rom::FrameMotion motion = some_motion();
   const VectorXd p = reduced.inertia.load(motion);
-  const MassProperties& mass = reduced.mass;
+  const rom::MassProperties& mass = reduced.mass;
   const Vector3d& c = mass.centre;
   const Vector3d& w = motion.omega;
   const Vector3d centre = motion.acceleration + motion.omega_rate.cross(c) + w.cross(w.cross(c));
@@ -111,10 +110,10 @@ TEST(FrameInertia, ResultantsOfASolidAreThoseOfNewtonAndEuler) {
 }
 
 TEST(FrameInertia, CoriolisForcesDoNoWorkAndCentrifugalOnesHaveAPotential) {
-  const ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
+  const rom::ReducedModel reduced = reduce(coupled_bar(), {"a", "b"}, 8);
   const MatrixXd G = reduced.inertia.gyroscopic({10.0, 20.0, 30.0});
   EXPECT_LT((G + G.transpose()).norm(), 1e-14 * G.norm());
-  FrameMotion steady = some_motion();
+  rom::FrameMotion steady = some_motion();
   steady.omega_rate.setZero();
   const MatrixXd C = reduced.inertia.softening(steady);
   EXPECT_LT((C - C.transpose()).norm(), 1e-14 * C.norm());
@@ -126,8 +125,8 @@ TEST(FrameInertia, ABarThatTurnsAboutItsEndStretchesAsInTheory) {
   const auto model = test::solid_bar({L, 0.02, 0.02}, {12, 1, 1}, 0.0,
                                      "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                                      "[[coupling]]\nname = \"tip\"\nsurface = \"x1\"\n");
-  const ReducedModel reduced = reduce(model, {"foot", "tip"}, 4);
-  FrameMotion motion;
+  const rom::ReducedModel reduced = reduce(model, {"foot", "tip"}, 4);
+  rom::FrameMotion motion;
   motion.omega.z() = omega;
   const VectorXd p = reduced.inertia.load(motion);
   const auto held = static_cast<Eigen::Index>(reduced.set("foot").dofs.size());
@@ -146,7 +145,7 @@ TEST(FrameInertia, AWhirlingMassHasTheFrequenciesOmegaPlusAndMinusSpin) {
   // A point mass on equal springs, seen from a frame that turns about z: |w0 +- Omega|, and w0
   // along the axis.
   const double m = 2.0, w0 = 300.0, spin = 70.0;
-  InertiaInvariants mass;
+  rom::InertiaInvariants mass;
   for (size_t k = 0; k < 3; ++k) {
     mass.first[k] = m * Vector3d::Unit(static_cast<int>(k));
     for (size_t l = 0; l < 3; ++l) {
@@ -155,7 +154,7 @@ TEST(FrameInertia, AWhirlingMassHasTheFrequenciesOmegaPlusAndMinusSpin) {
           m * Vector3d::Unit(static_cast<int>(k)) * Vector3d::Unit(static_cast<int>(l)).transpose();
     }
   }
-  FrameMotion motion;
+  rom::FrameMotion motion;
   motion.omega.z() = spin;
   MatrixXd state = MatrixXd::Zero(6, 6);
   state.topRightCorner(3, 3).setIdentity();
@@ -169,21 +168,21 @@ TEST(FrameInertia, AWhirlingMassHasTheFrequenciesOmegaPlusAndMinusSpin) {
 TEST(FrameInertia, RoundTripsInTheFileAndOneOfAnotherMassIsRefused) {
   const std::filesystem::path path =
       std::filesystem::path(::testing::TempDir()) / "clatter_frame_inertia.rom.h5";
-  const auto write = [&](const ReducedModel& model) {
+  const auto write = [&](const rom::ReducedModel& model) {
     H5File file = H5File::create(path);
     write_provenance(file, {"clatter/rom/1", "", {}});
-    write_reduced_model(file, model);
+    rom::write_reduced_model(file, model);
     file.commit();
   };
-  ReducedModel reduced = reduce(test::box_model(), {"left", "right"}, 5);
+  rom::ReducedModel reduced = reduce(test::box_model(), {"left", "right"}, 5);
   write(reduced);
-  const InertiaInvariants back = read_reduced_model(path).inertia;
+  const rom::InertiaInvariants back = rom::read_reduced_model(path).inertia;
   for (size_t k = 0; k < 9; ++k) EXPECT_EQ(back.product[k], reduced.inertia.product[k]) << k;
   for (size_t k = 0; k < 9; ++k) EXPECT_EQ(back.moment[k], reduced.inertia.moment[k]) << k;
   EXPECT_EQ(back.place, reduced.inertia.place);
   reduced.inertia.product[0] *= 1.01;
   write(reduced);
-  test::expect_parts(test::refusal_of([&] { read_reduced_model(path); }),
+  test::expect_parts(test::refusal_of([&] { rom::read_reduced_model(path); }),
                      {"inertia_invariants", "M_rr"});
 }
 

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "condense/condense.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 
 namespace clatter::condense {
@@ -22,8 +22,8 @@ using Eigen::VectorXd;
 using test::box_model;
 
 /// A box whose fixed-interface modes number 50, 100 and 200 end at 3.5, 4.6 and 5.8 kHz.
-assembly::FeModel heavy_box() {
-  assembly::FeModel model = box_model(10, 6, 6);
+fe::FeModel heavy_box() {
+  fe::FeModel model = box_model(10, 6, 6);
   model.M *= 3.0;
   model.mass.mass *= 3.0;
   model.mass.inertia *= 3.0;
@@ -32,7 +32,7 @@ assembly::FeModel heavy_box() {
   return model;
 }
 
-ReducedModel reduce(const assembly::FeModel& model, int count, double frequency_error) {
+rom::ReducedModel reduce(const fe::FeModel& model, int count, double frequency_error) {
   CondenseOptions options;
   options.boundary = {"left", "right", "point"};
   options.modes.count = count;
@@ -73,18 +73,18 @@ Response respond(const MatrixXd& K, const MatrixXd& M, double alpha, double beta
 
 VectorXd band() { return VectorXd::LinSpaced(10, 300.0, 3000.0); }
 
-Response full_response(const assembly::FeModel& model, const RowMatrix& skin_nodes) {
+Response full_response(const fe::FeModel& model, const RowMatrix& skin_nodes) {
   MatrixXd T_skin = MatrixXd::Zero(3 * skin_nodes.rows(), model.size());
   for (Eigen::Index a = 0; a < skin_nodes.rows(); ++a) {
     Eigen::Index node = 0;
     (model.nodes.rowwise() - skin_nodes.row(a)).rowwise().norm().minCoeff(&node);
     T_skin.block<3, 3>(3 * a, 3 * node).setIdentity();  // the box's DoFs are its displacements
   }
-  return respond(modal::dense_symmetric(model.K), modal::dense_symmetric(model.M), model.alpha,
+  return respond(sparse::dense_symmetric(model.K), sparse::dense_symmetric(model.M), model.alpha,
                  model.beta, model.loads.at("pull"), model.sets.at("left").dofs, T_skin, band());
 }
 
-Response reduced_response(const ReducedModel& reduced) {
+Response reduced_response(const rom::ReducedModel& reduced) {
   return respond(reduced.K_rr, reduced.M_rr, reduced.alpha, reduced.beta, reduced.loads.at("pull"),
                  reduced.set("left").dofs, reduced.skin.T, band());
 }
@@ -95,7 +95,7 @@ double error_of(const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected)
 }
 
 TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
-  const assembly::FeModel model = heavy_box();
+  const fe::FeModel model = heavy_box();
   const Response full = full_response(model, reduce(model, 50, 0.0).skin.nodes);
   double velocity = 1.0, force = 1.0;
   for (const int count : {50, 100, 200}) {
@@ -116,9 +116,9 @@ TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
 }
 
 TEST(HardB4, ExactlySixEigenvaluesVanish) {
-  const assembly::FeModel model = box_model();
+  const fe::FeModel model = box_model();
   for (const int count : {1, 25}) {
-    const ReducedModel reduced = reduce(model, count, 5e-4);
+    const rom::ReducedModel reduced = reduce(model, count, 5e-4);
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> all(reduced.K_rr, reduced.M_rr,
                                                                  Eigen::EigenvaluesOnly);
     const VectorXd& values = all.eigenvalues();
@@ -129,8 +129,8 @@ TEST(HardB4, ExactlySixEigenvaluesVanish) {
 }
 
 /// The box and beside it two masses that hang on each other and on nothing else.
-assembly::FeModel with_loose_pair(const assembly::FeModel& box) {
-  assembly::FeModel model = box;
+fe::FeModel with_loose_pair(const fe::FeModel& box) {
+  fe::FeModel model = box;
   const int n = box.size(), all = n + 6;
   std::vector<Eigen::Triplet<double>> stiffness, mass, identity;
   for (int j = 0; j < n; ++j) {
@@ -165,7 +165,7 @@ assembly::FeModel with_loose_pair(const assembly::FeModel& box) {
 }
 
 TEST(HardC1, APartThatHangsOnNothingIsNamedByItsNode) {
-  const assembly::FeModel model = with_loose_pair(box_model());
+  const fe::FeModel model = with_loose_pair(box_model());
   const Eigen::Index loose = model.nodes.rows() - 2;
   try {
     (void)reduce(model, 10, 0.0);

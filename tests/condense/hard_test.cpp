@@ -5,8 +5,8 @@
 
 #include "condense/certificate.hpp"
 #include "condense/condense.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 
 namespace clatter::condense {
@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::box_model;
 
-ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary, int count) {
+rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary, int count) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = count;
@@ -28,8 +28,8 @@ ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> bou
 
 TEST(HardB3, ARepeatedInterfaceDofGetsOneCoordinate) {
   const auto model = box_model();
-  const ReducedModel once = reduce(model, {"left", "point"}, 12);
-  const ReducedModel twice = reduce(model, {"left", "point", "same_point"}, 12);
+  const rom::ReducedModel once = reduce(model, {"left", "point"}, 12);
+  const rom::ReducedModel twice = reduce(model, {"left", "point", "same_point"}, 12);
   EXPECT_EQ(twice.size(), once.size());
   EXPECT_EQ(twice.set("same_point").dofs, twice.set("point").dofs);
   EXPECT_LT((twice.K_rr - once.K_rr).norm(), 1e-12 * once.K_rr.norm());
@@ -60,7 +60,7 @@ TEST(HardB3, ADuplicatedModeIsDroppedAndTheAnswerStays) {
 
 TEST(HardB4, SixRigidMotionsSurviveWithoutStiffness) {
   const auto model = box_model();
-  const ReducedModel reduced = reduce(model, {"left", "right", "point"}, 25);
+  const rom::ReducedModel reduced = reduce(model, {"left", "right", "point"}, 25);
   for (int d = 0; d < 6; ++d) {
     const VectorXd r = reduced.rigid.col(d).normalized();
     EXPECT_LT((reduced.K_rr * r).norm(), 1e-10 * reduced.K_rr.norm()) << d;
@@ -71,8 +71,8 @@ TEST(HardB4, SixRigidMotionsSurviveWithoutStiffness) {
 TEST(HardB5, TenMassPropertiesEqualTheFullModels) {
   const auto model = box_model();
   for (const int count : {1, 10, 40}) {
-    const ReducedModel reduced = reduce(model, {"left", "right"}, count);
-    const MassProperties found =
+    const rom::ReducedModel reduced = reduce(model, {"left", "right"}, count);
+    const rom::MassProperties found =
         mass_properties_of(reduced.rigid.transpose() * reduced.M_rr * reduced.rigid);
     EXPECT_LT(compare_mass(found, model.mass).largest(), 1e-9) << count;
     EXPECT_LT(reduced.certificate.at("mass_error"), 1e-9);
@@ -84,12 +84,12 @@ TEST(HardB8, ADoubleModeSpansTheSamePlaneInBothSolvers) {
   // Two equal bodies: each pair of equal modes mixes freely, the plane of the pair does not.
   const auto box = test::spring_box(9, 4, 4);
   const auto twice = test::twice(box);
-  modal::EigenOptions options;
+  sparse::EigenOptions options;
   options.count = 16;
-  const modal::ModeSet block = modal::solve_modes(twice.K, twice.M, options);
-  options.method = modal::EigenMethod::kArpack;
+  const sparse::ModeSet block = sparse::solve_modes(twice.K, twice.M, options);
+  options.method = sparse::EigenMethod::kArpack;
   options.seed = 77;
-  const modal::ModeSet arpack = modal::solve_modes(twice.K, twice.M, options);
+  const sparse::ModeSet arpack = sparse::solve_modes(twice.K, twice.M, options);
   ASSERT_EQ(block.rigid, 12);
   const MatrixXd M = MatrixXd(twice.M);
   for (int pair = 12; pair < 16; pair += 2) {

@@ -11,9 +11,9 @@
 #include "condense/condense.hpp"
 #include "condense/export/export.hpp"
 #include "condense/film_work.hpp"
-#include "core/artefact.hpp"
-#include "core/log.hpp"
-#include "modal/analysis.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/log.hpp"
+#include "core/modes/analysis.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
 
@@ -27,11 +27,11 @@ constexpr double kPi = std::numbers::pi;
 
 /// The box with a patch grid "liner": each patch is one node's displacement along y or -y, a 2 x 8
 /// grid on the sides y = 0 and y = 5 of the cells nearest to z = 0.
-assembly::FeModel lined_box() {
-  assembly::FeModel model = test::box_model();
-  DofSet set;
+fe::FeModel lined_box() {
+  fe::FeModel model = test::box_model();
+  rom::DofSet set;
   set.kind = "contact_grid";
-  ContactGrid grid;
+  rom::ContactGrid grid;
   grid.zero_angle = Eigen::Vector3d::UnitY();
   grid.radius = 0.05;
   grid.angle = Eigen::Vector2d(0.0, kPi);
@@ -54,8 +54,8 @@ assembly::FeModel lined_box() {
   return model;
 }
 
-ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary,
-                    std::optional<InterfaceOptions> interface) {
+rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
+                         std::optional<InterfaceOptions> interface) {
   CondenseOptions options;
   options.boundary = std::move(boundary);
   options.modes.count = 20;
@@ -66,7 +66,7 @@ ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> bou
   return condense(model, options, clock);
 }
 
-VectorXd spectrum(const ReducedModel& model) {
+VectorXd spectrum(const rom::ReducedModel& model) {
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(model.K_rr, model.M_rr,
                                                             Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -74,10 +74,10 @@ VectorXd spectrum(const ReducedModel& model) {
 
 TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
   const auto model = lined_box();
-  const ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const ReducedModel turned = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
+    const rom::ReducedModel turned = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 1000});
     ASSERT_EQ(turned.size(), whole.size());
     const VectorXd a = spectrum(whole).tail(whole.size() - 6);
     const VectorXd b = spectrum(turned).tail(whole.size() - 6);
@@ -85,7 +85,7 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
     EXPECT_LT(turned.certificate.at("interface_film_work_error"), 1e-9);
     EXPECT_LT(turned.certificate.at("interface_frequency_error"), 1e-9);
     // A static answer to a push on one patch and back on another, the places' own displacements.
-    const auto answer = [](const ReducedModel& reduced) {
+    const auto answer = [](const rom::ReducedModel& reduced) {
       const auto& places = reduced.set("liner").dofs;
       const MatrixXd rows =
           (MatrixXd(2, reduced.size()) << reduced.row_of(places[2]), reduced.row_of(places[11]))
@@ -105,11 +105,12 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
 
 TEST(InterfaceModes, ErrorsFallWithTheirNumberAndFrequenciesComeFromAbove) {
   const auto model = lined_box();
-  const ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
   const VectorXd exact = spectrum(whole);
   double last_frequency = 1.0, last_work = 1.0;
   for (const int count : {2, 6, 12}) {
-    const ReducedModel small = reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
+    const rom::ReducedModel small =
+        reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, count});
     EXPECT_EQ(small.size(), whole.size() - 16 + count);
     EXPECT_EQ(small.n_boundary, 9);
     const VectorXd found = spectrum(small);
@@ -128,7 +129,7 @@ TEST(InterfaceModes, KeepRigidMotionsMassInvariantsAndLoads) {
   const auto model = lined_box();
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"liner"}, std::vector<std::string>{"left", "liner"}}) {
-    const ReducedModel small = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 5});
+    const rom::ReducedModel small = reduce(model, {"left", "liner"}, InterfaceOptions{sets, 5});
     EXPECT_EQ(small.certificate.at("rigid_modes"), 6.0);
     EXPECT_LT(small.certificate.at("mass_error"), 1e-11);
     EXPECT_LT(small.certificate.at("inertia_invariants_error"), 1e-10);
@@ -150,7 +151,7 @@ TEST(InterfaceModes, KeepRigidMotionsMassInvariantsAndLoads) {
 TEST(InterfaceModes, TwoMassesOnTheBoundaryHaveTheirHandComputedMode) {
   // Coordinates (a, b, c), a stays; K_SS of (b, c) = [3 -1; -1 3], M_SS = I: modes (1, 1) with 2
   // and (1, -1) with 4. K_SR = (-2, 0), so Psi = K_SS^{-1} (2, 0) = (3, 1) / 4.
-  ReducedModel model;
+  rom::ReducedModel model;
   model.name = "three";
   model.n_boundary = 3;
   model.K_rr = MatrixXd{{2.0, -2.0, 0.0}, {-2.0, 3.0, -1.0}, {0.0, -1.0, 3.0}};
@@ -177,13 +178,13 @@ TEST(InterfaceModes, TwoMassesOnTheBoundaryHaveTheirHandComputedMode) {
 
 TEST(FilmWork, OfAPatchIsForceTimesItsDisplacement) {
   // One patch of 0.05 m * 1 rad by 8 m on a spring of 1 kN/m: W = (p A)^2 / k.
-  ReducedModel model;
+  rom::ReducedModel model;
   model.name = "patch";
   model.n_boundary = 1;
   model.K_rr = MatrixXd::Constant(1, 1, 1000.0);
   model.M_rr = MatrixXd::Identity(1, 1);
   model.sets["liner"].dofs = {0};
-  ContactGrid grid;
+  rom::ContactGrid grid;
   grid.radius = 0.05;
   grid.angle = VectorXd::Zero(1);
   grid.angle_edges = Eigen::Vector2d(-0.5, 0.5);
@@ -201,8 +202,8 @@ TEST(FilmWork, OfAPatchIsForceTimesItsDisplacement) {
 /// on the liner while the rest of the boundary is held.
 double worst_missed_work(bool by_area) {
   const auto model = lined_box();
-  const ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
-  const ReducedModel small =
+  const rom::ReducedModel whole = reduce(model, {"left", "liner"}, std::nullopt);
+  const rom::ReducedModel small =
       reduce(model, {"left", "liner"}, InterfaceOptions{{"liner"}, 4, 0.0, by_area});
   const MatrixXd K = whole.K_rr.block(9, 9, 16, 16), Phi = small.combined.middleCols(9, 4);
   const MatrixXd kept = Phi * MatrixXd(Phi.transpose() * K * Phi).ldlt().solve(Phi.transpose());
@@ -221,12 +222,13 @@ TEST(InterfaceModes, ByAreaMissTheLeastWorkOfAnyPressure) {
 TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
   const std::filesystem::path path =
       std::filesystem::path(::testing::TempDir()) / "clatter_interface.rom.h5";
-  const ReducedModel small = reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+  const rom::ReducedModel small =
+      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   H5File file = H5File::create(path);
   write_provenance(file, {"clatter/rom/1", "", {}});
-  write_reduced_model(file, small);
+  rom::write_reduced_model(file, small);
   file.commit();
-  const ReducedModel back = read_reduced_model(path);
+  const rom::ReducedModel back = rom::read_reduced_model(path);
   EXPECT_EQ(back.combined, small.combined);
   EXPECT_EQ(back.set("liner").dofs, small.set("liner").dofs);
   EXPECT_EQ(back.grid("liner").radius, 0.05);
@@ -234,13 +236,14 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
 }
 
 TEST(BadInput, OtherProgramsAndFixedSetsDoNotGetAReducedInterface) {
-  const ReducedModel small = reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
+  const rom::ReducedModel small =
+      reduce(lined_box(), {"left", "liner"}, InterfaceOptions{{"liner"}, 5});
   test::expect_parts(test::refusal_of([&] { export_reduced(small, "part.mtx"); }),
                      {"16", "interface modes", "[interface]"});
-  modal::ModesOptions modes;
+  modes::ModesOptions modes;
   modes.count = 2;
   modes.fixed = {"liner"};
-  test::expect_parts(test::refusal_of([&] { modal::analyse(small, modes); }),
+  test::expect_parts(test::refusal_of([&] { modes::analyse(small, modes); }),
                      {"liner", "interface modes"});
 }
 

@@ -6,8 +6,8 @@
 
 #include "condense/condense.hpp"
 #include "condense/shape_basis.hpp"
-#include "core/log.hpp"
-#include "modal/eigen/dense_solver.hpp"
+#include "core/base/log.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/condense/solid_model.hpp"
 #include "tests/refusal.hpp"
@@ -18,8 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ReducedModel reduce(const assembly::FeModel& model, std::vector<std::string> boundary,
-                    std::vector<std::string> load_shapes, const std::string& method) {
+rom::ReducedModel reduce(const fe::FeModel& model, std::vector<std::string> boundary,
+                         std::vector<std::string> load_shapes, const std::string& method) {
   CondenseOptions options;
   options.method = method;
   options.boundary = std::move(boundary);
@@ -44,9 +44,9 @@ VectorXd static_answer(MatrixXd K, VectorXd f, const std::vector<int32_t>& held)
 
 /// Largest error of the reduced skin under a load while the set "left" is held, over the largest
 /// displacement.
-double skin_error(const assembly::FeModel& model, const ReducedModel& reduced,
+double skin_error(const fe::FeModel& model, const rom::ReducedModel& reduced,
                   const std::string& load) {
-  const VectorXd full = model.T * static_answer(modal::dense_symmetric(model.K),
+  const VectorXd full = model.T * static_answer(sparse::dense_symmetric(model.K),
                                                 model.loads.at(load), model.set("left").dofs);
   const VectorXd q = static_answer(reduced.K_rr, reduced.loads.at(load), reduced.set("left").dofs);
   const VectorXd skin = reduced.skin.T * q;
@@ -59,8 +59,8 @@ double skin_error(const assembly::FeModel& model, const ReducedModel& reduced,
 }
 
 /// A box with a force along y on its middle section.
-assembly::FeModel pushed_box() {
-  assembly::FeModel model = test::box_model();
+fe::FeModel pushed_box() {
+  fe::FeModel model = test::box_model();
   VectorXd push = VectorXd::Zero(model.size());
   for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
     if (std::abs(model.nodes(a, 0) - model.nodes(4, 0)) < 1e-12) push[3 * a + 1] = 1.0;
@@ -71,18 +71,18 @@ assembly::FeModel pushed_box() {
 TEST(LoadShapes, MakeTheStaticAnswerExactAtEverySkinNode) {
   const auto model = pushed_box();
   for (const std::string method : {"craig-bampton", "guyan", "craig-chang"}) {
-    const ReducedModel with = reduce(model, {"left", "right"}, {"push", "pull"}, method);
+    const rom::ReducedModel with = reduce(model, {"left", "right"}, {"push", "pull"}, method);
     EXPECT_EQ(with.certificate.at("load_shapes"), 2.0);
     EXPECT_LT(skin_error(model, with, "push"), 1e-9) << method;
     EXPECT_LT(skin_error(model, with, "pull"), 1e-9) << method;
   }
   // Without them, the six modes and the static shapes of the boundary leave per cents.
-  const ReducedModel without = reduce(model, {"left", "right"}, {}, "craig-bampton");
+  const rom::ReducedModel without = reduce(model, {"left", "right"}, {}, "craig-bampton");
   EXPECT_GT(skin_error(model, without, "push"), 1e-3);
 }
 
 TEST(LoadShapes, LookLikeModesWithUnitMass) {
-  const ReducedModel reduced =
+  const rom::ReducedModel reduced =
       reduce(pushed_box(), {"left", "right"}, {"push", "pull"}, "craig-bampton");
   const auto n = reduced.size() - reduced.n_boundary;
   const MatrixXd K = reduced.K_rr.bottomRightCorner(n, n), M = reduced.M_rr.bottomRightCorner(n, n);
@@ -97,7 +97,7 @@ TEST(LoadShapes, OfUniformHeatGiveTheFreeExpansion) {
       test::solid_bar({0.12, 0.04, 0.03}, {4, 2, 2}, 0.3,
                       "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                       "[[load]]\nname = \"heat\"\nkind = \"temperature\"\nvalue = 1.0\n");
-  const ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
+  const rom::ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
   // Six rigid motions are left: the answer of least norm, then their part is taken out.
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(reduced.K_rr);
   const VectorXd u = reduced.skin.T * solver.solve(reduced.loads.at("heat"));
@@ -116,7 +116,7 @@ TEST(LoadShapes, ThatDependOnOthersAreDroppedAndCounted) {
   VectorXd at_boundary = VectorXd::Zero(model.size());
   at_boundary[model.set("right").dofs.front()] = 1.0;
   model.loads["at_boundary"] = at_boundary;
-  const ReducedModel reduced =
+  const rom::ReducedModel reduced =
       reduce(model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
   EXPECT_EQ(reduced.certificate.at("load_shapes"), 2.0);
   EXPECT_EQ(reduced.certificate.at("dropped_vectors"), 2.0);

@@ -13,10 +13,10 @@ CondenseOptions parse(const std::string& text) {
 }
 
 TEST(ModalDampingRows, AreReadInOrder) {
-  const DampingTable table = parse(
-                                 "[[modal_damping]]\nhz = 500\nratio = 0.01\n"
-                                 "[[modal_damping]]\nhz = 2000\nratio = 0.03\n")
-                                 .modal_damping;
+  const rom::DampingTable table = parse(
+                                      "[[modal_damping]]\nhz = 500\nratio = 0.01\n"
+                                      "[[modal_damping]]\nhz = 2000\nratio = 0.03\n")
+                                      .modal_damping;
   EXPECT_EQ(table.hz, Eigen::VectorXd(Eigen::Vector2d(500.0, 2000.0)));
   EXPECT_EQ(table.ratio, Eigen::VectorXd(Eigen::Vector2d(0.01, 0.03)));
   EXPECT_TRUE(parse("").modal_damping.empty());
@@ -36,9 +36,9 @@ TEST(BadInput, ModalDampingOutOfOrderOrOverCriticalIsRefusedAtItsLine) {
 }
 
 TEST(EigenSolverKeys, SayWhichSolverAndHowAccurate) {
-  EXPECT_EQ(parse("").modes.method, modal::EigenMethod::kBlockLanczos);
+  EXPECT_EQ(parse("").modes.method, sparse::EigenMethod::kBlockLanczos);
   const ModeRequest request = parse("eigen_solver = \"amls\"\naccuracy = 1e-3\n").modes;
-  EXPECT_EQ(request.method, modal::EigenMethod::kAmls);
+  EXPECT_EQ(request.method, sparse::EigenMethod::kAmls);
   EXPECT_EQ(request.accuracy, 1e-3);
 }
 

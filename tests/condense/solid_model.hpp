@@ -5,15 +5,15 @@
 
 #include "assembly/build.hpp"
 #include "block_mesh.hpp"
-#include "core/log.hpp"
+#include "core/base/log.hpp"
 
 namespace clatter::test {
 
 /// A bar of `size` [m] along x in n cells of two-by-three tetrahedra each (or another type), with
 /// node sets x0 and x1 of its ends' nodes. Steel with Poisson's ratio `nu`; `more` is fe.toml.
-inline assembly::FeModel solid_bar(const Eigen::Vector3d& size, const std::array<int, 3>& n,
-                                   double nu, const std::string& more,
-                                   mesh::CellType type = mesh::CellType::kTet10) {
+inline fe::FeModel solid_bar(const Eigen::Vector3d& size, const std::array<int, 3>& n, double nu,
+                             const std::string& more,
+                             mesh::CellType type = mesh::CellType::kTet10) {
   namespace fe = assembly;
   set_quiet(true);
   mesh::Mesh mesh = fe::testing::block_mesh(n, fe::testing::brick(size), {type, false, false});

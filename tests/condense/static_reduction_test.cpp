@@ -6,10 +6,10 @@
 #include <set>
 
 #include "condense/reduced_basis.hpp"
-#include "core/log.hpp"
-#include "core/threads.hpp"
-#include "modal/eigen/dense_solver.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/log.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/free_motions.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 
 namespace clatter::condense {
@@ -20,14 +20,14 @@ using Eigen::MatrixXd;
 
 struct Case {
   explicit Case(int nx = 8, int ny = 6, int nz = 6) : model(test::box_model(nx, ny, nz)) {}
-  assembly::FeModel model;
+  fe::FeModel model;
   DofPartition partition = partition_dofs(model, {"left", "right", "point"});
   PartitionedMatrix K = partition_matrix(model.K, partition);
   PartitionedMatrix M = partition_matrix(model.M, partition);
-  MatrixXd K_ii = modal::dense_symmetric(K.ii), M_ii = modal::dense_symmetric(M.ii);
+  MatrixXd K_ii = sparse::dense_symmetric(K.ii), M_ii = sparse::dense_symmetric(M.ii);
   MatrixXd Psi = -K_ii.llt().solve(MatrixXd(K.ib));
-  std::shared_ptr<const modal::SupernodalFactor> factor =
-      std::make_shared<modal::SupernodalFactor>(K.ii, K.ib);
+  std::shared_ptr<const sparse::SupernodalFactor> factor =
+      std::make_shared<sparse::SupernodalFactor>(K.ii, K.ib);
 
   RigidMotions rigid() const {
     return {model.rigid(partition.boundary, Eigen::all),
@@ -78,7 +78,7 @@ TEST_P(StaticReductionTest, RowsOfOneCornerOfALargeTreeAreTheRowsOfTheShapes) {
   const Case c(20, 9, 9);
   std::vector<int32_t> kept;
   for (int32_t k = 0; k < 9; ++k) kept.push_back(static_cast<int32_t>(c.K_ii.rows()) - 9 + k);
-  const modal::SupernodeTree& tree = c.factor->tree();
+  const sparse::SupernodeTree& tree = c.factor->tree();
   std::set<int32_t> on_paths;  // supernodes that these rows need
   const std::vector<int32_t> owners = tree.owners(), places = tree.places();
   for (const int32_t row : kept)

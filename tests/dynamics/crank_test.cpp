@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/crank.hpp"
 #include "dynamics/gas_cycle.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 #include "dynamics/element.hpp"
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/modal_body.hpp"

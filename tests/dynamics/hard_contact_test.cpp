@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/energy.hpp"
 #include "dynamics/radial_law.hpp"
 #include "tests/dynamics/fixtures.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/gas_cycle.hpp"
 
 namespace clatter::dynamics {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/modal_body.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/synthetic.hpp"
@@ -17,8 +17,8 @@ using testing::clamped_bar;
 
 constexpr double kPi = std::numbers::pi;
 
-ReducedModel bar_with_table() {
-  ReducedModel bar = clamped_bar(1.0, 100, 10);
+rom::ReducedModel bar_with_table() {
+  rom::ReducedModel bar = clamped_bar(1.0, 100, 10);
   bar.modal_damping.hz = Eigen::Vector2d(1000.0, 5000.0);
   bar.modal_damping.ratio = Eigen::Vector2d(0.01, 0.03);
   return bar;
@@ -45,18 +45,18 @@ double decrement(const ModalBody& body, int k, double zeta, int periods) {
 }
 
 TEST(DampingTable, IsLinearBetweenItsRowsAndConstantOutside) {
-  const DampingTable table = bar_with_table().modal_damping;
+  const rom::DampingTable table = bar_with_table().modal_damping;
   EXPECT_DOUBLE_EQ(table.at(10.0), 0.01);
   EXPECT_DOUBLE_EQ(table.at(1000.0), 0.01);
   EXPECT_DOUBLE_EQ(table.at(2000.0), 0.015);
   EXPECT_DOUBLE_EQ(table.at(5000.0), 0.03);
   EXPECT_DOUBLE_EQ(table.at(1e6), 0.03);
-  EXPECT_EQ(DampingTable{}.at(100.0), 0.0);
+  EXPECT_EQ(rom::DampingTable{}.at(100.0), 0.0);
 }
 
 TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
   const ModalBody body = make_modal_body(bar_with_table(), {});
-  const DampingTable table = bar_with_table().modal_damping;
+  const rom::DampingTable table = bar_with_table().modal_damping;
   for (const int k : {0, 1, 2}) {
     const double hz = std::sqrt(body.omega_squared(k)) / (2.0 * kPi);
     const double zeta = table.at(hz);
@@ -67,7 +67,7 @@ TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
 }
 
 TEST(ModalDamping, RayleighAndTableAddUp) {
-  ReducedModel bar = bar_with_table();
+  rom::ReducedModel bar = bar_with_table();
   bar.alpha = 5e-7;
   bar.beta = 40.0;
   const ModalBody body = make_modal_body(bar, {});
@@ -82,7 +82,7 @@ TEST(ModalDamping, RayleighAndTableAddUp) {
 }
 
 TEST(ModalDamping, RigidMotionsAreNotDamped) {
-  ReducedModel block = testing::elastic_block(0.0535, 6, 4);
+  rom::ReducedModel block = testing::elastic_block(0.0535, 6, 4);
   block.modal_damping.hz = Eigen::VectorXd::Constant(1, 500.0);
   block.modal_damping.ratio = Eigen::VectorXd::Constant(1, 0.02);
   const ModalBody body = make_modal_body(block, {});
@@ -93,17 +93,17 @@ TEST(ModalDamping, RigidMotionsAreNotDamped) {
 TEST(ModalDamping, TheTableRoundTripsAndASenselessOneIsRefused) {
   const std::filesystem::path path =
       std::filesystem::path(::testing::TempDir()) / "clatter_damping.rom.h5";
-  ReducedModel bar = bar_with_table();
+  rom::ReducedModel bar = bar_with_table();
   testing::write_rom(path, bar);
-  const DampingTable back = read_reduced_model(path).modal_damping;
+  const rom::DampingTable back = rom::read_reduced_model(path).modal_damping;
   EXPECT_EQ(back.hz, bar.modal_damping.hz);
   EXPECT_EQ(back.ratio, bar.modal_damping.ratio);
   bar.modal_damping.hz[1] = 500.0;
   testing::write_rom(path, bar);
-  EXPECT_THROW(read_reduced_model(path), InputError);
+  EXPECT_THROW(rom::read_reduced_model(path), InputError);
   bar.modal_damping = {Eigen::VectorXd::Constant(1, 500.0), Eigen::VectorXd::Constant(1, 1.5)};
   testing::write_rom(path, bar);
-  EXPECT_THROW(read_reduced_model(path), InputError);
+  EXPECT_THROW(rom::read_reduced_model(path), InputError);
 }
 
 }  // namespace

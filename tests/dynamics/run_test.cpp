@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/gas_cycle.hpp"
 #include "dynamics/run_file.hpp"
 #include "tests/dynamics/synthetic.hpp"
@@ -257,8 +257,8 @@ value = 1000.0
 
 TEST_F(Runs, ATipThatBecameACombinationOfCoordinatesMovesTheSame) {
   // The bar in coordinates z, q = W z: the tip is no coordinate any more.
-  const ReducedModel bar = testing::clamped_bar(1.0, 100, 10);
-  ReducedModel turned = bar;
+  const rom::ReducedModel bar = testing::clamped_bar(1.0, 100, 10);
+  rom::ReducedModel turned = bar;
   const int n = bar.size();
   Eigen::MatrixXd W = Eigen::MatrixXd::Identity(n, n);
   for (int i = 0; i < n; ++i)

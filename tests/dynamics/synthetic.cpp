@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/artefact.hpp"
+#include "core/base/artefact.hpp"
 
 namespace clatter::dynamics::testing {
 namespace {
@@ -18,14 +18,14 @@ constexpr double kPi = std::numbers::pi;
 
 /// Collects coordinates, each a displacement along (rotation about) a direction at a place.
 struct Assembly {
-  ReducedModel model;
+  rom::ReducedModel model;
   std::vector<Vector3d> place, direction;
   std::vector<int32_t> rotation;
   std::vector<double> mass, stiffness;
 
   void add(const std::string& set, const std::string& kind, const std::string& label,
            const Vector3d& at, const Vector3d& along, bool turns, double m, double hz) {
-    DofSet& dofs = model.sets[set];
+    rom::DofSet& dofs = model.sets[set];
     dofs.kind = kind;
     dofs.dofs.push_back(static_cast<int32_t>(place.size()));
     dofs.labels.push_back(label);
@@ -43,7 +43,7 @@ struct Assembly {
   }
 
   /// M diagonal; K = N^T S N with N the projection off the rigid motions: K r = 0 to rounding.
-  ReducedModel finish(const std::string& name) {
+  rom::ReducedModel finish(const std::string& name) {
     const auto n = static_cast<Eigen::Index>(place.size());
     model.name = name;
     model.method = "guyan";
@@ -84,7 +84,7 @@ struct Assembly {
 
   void grid(const std::string& set, double radius, const std::vector<double>& strip_edges,
             const VectorXd& axial_edges, const Vector3d& axis_point, double m, double hz) {
-    ContactGrid grid;
+    rom::ContactGrid grid;
     grid.axis_point = axis_point;
     grid.zero_angle = Vector3d::UnitY();
     grid.radius = radius;
@@ -120,14 +120,14 @@ std::vector<double> equal_strips(double begin, double end, int count) {
 
 }  // namespace
 
-ReducedModel rigid_piston(double mass, double inertia, double area) {
+rom::ReducedModel rigid_piston(double mass, double inertia, double area) {
   Assembly parts;
   parts.node("pin", "bearing", Vector3d::Zero(), mass, 1.0);
   for (int axis = 0; axis < 3; ++axis) {
     parts.add("pin", "bearing", std::string("pin.r") + "xyz"[axis], Vector3d::Zero(),
               Vector3d::Unit(axis), true, inertia, 1.0);
   }
-  ReducedModel model = parts.finish("piston");
+  rom::ReducedModel model = parts.finish("piston");
   model.K_rr.setZero();
   model.mass.mass = mass;
   model.loads["gas"] = VectorXd::Zero(6);
@@ -135,7 +135,7 @@ ReducedModel rigid_piston(double mass, double inertia, double area) {
   return model;
 }
 
-ReducedModel clamped_bar(double length, int elements, int modes) {
+rom::ReducedModel clamped_bar(double length, int elements, int modes) {
   const double area = 1e-4, E = 210e9, rho = 7850.0, h = length / elements;
   MatrixXd K = MatrixXd::Zero(elements, elements), M = K;
   for (int e = 0; e < elements; ++e) {
@@ -155,7 +155,7 @@ ReducedModel clamped_bar(double length, int elements, int modes) {
   T.col(0).head(n_i) = -K_ii.ldlt().solve(K.col(elements - 1).head(n_i));
   T(elements - 1, 0) = 1.0;
   T.topRightCorner(n_i, modes) = fixed.eigenvectors().leftCols(modes);
-  ReducedModel model;
+  rom::ReducedModel model;
   model.name = "bar";
   model.method = "craig-bampton";
   model.n_boundary = 1;
@@ -173,7 +173,7 @@ ReducedModel clamped_bar(double length, int elements, int modes) {
   return model;
 }
 
-ReducedModel elastic_piston(double radius, int strips, int rows) {
+rom::ReducedModel elastic_piston(double radius, int strips, int rows) {
   Assembly parts;
   parts.node("pin", "bearing", Vector3d::Zero(), 0.5, 6000.0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -187,14 +187,14 @@ ReducedModel elastic_piston(double radius, int strips, int rows) {
   edges.insert(edges.end(), other.begin(), other.end());
   parts.grid("skirt", radius, edges, VectorXd::LinSpaced(rows + 1, -0.045, 0.025), Vector3d::Zero(),
              0.3 / (2 * strips * rows), 9000.0);
-  ReducedModel model = parts.finish("piston");
+  rom::ReducedModel model = parts.finish("piston");
   model.alpha = 1e-7;
   model.loads["gas"] = VectorXd::Zero(model.size());
   model.loads["gas"](model.set("crown").dofs[2]) = -kPi * radius * radius;
   return model;
 }
 
-ReducedModel elastic_block(double radius, int strips, int rows) {
+rom::ReducedModel elastic_block(double radius, int strips, int rows) {
   Assembly parts;
   const Vector3d axis(0.195, 0.0, 0.0);
   parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * kPi, strips),
@@ -210,17 +210,17 @@ ReducedModel elastic_block(double radius, int strips, int rows) {
       parts.node("mounts", "mount", Vector3d(x, y, 0.05), 20.0, 900.0);
     }
   }
-  ReducedModel model = parts.finish("block");
+  rom::ReducedModel model = parts.finish("block");
   model.alpha = 2e-6;
   model.loads["head_4_gas"] = VectorXd::Zero(model.size());
   model.loads["head_4_gas"](model.set("head").dofs[2]) = kPi * radius * radius;
   return model;
 }
 
-void write_rom(const std::filesystem::path& path, const ReducedModel& model) {
+void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model) {
   H5File file = H5File::create(path);
   write_provenance(file, {"clatter/rom/1", "", {}});
-  write_reduced_model(file, model);
+  rom::write_reduced_model(file, model);
   file.commit();
 }
 

@@ -3,24 +3,24 @@
 #include <filesystem>
 #include <string>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::dynamics::testing {
 
 /// A rigid piston: one node "pin" with 6 coordinates, centre of mass at the pin; unit load "gas"
 /// (per Pa, along -z, of `area`).
-ReducedModel rigid_piston(double mass, double inertia, double area);
+rom::ReducedModel rigid_piston(double mass, double inertia, double area);
 
 /// A clamped bar of `elements` two-node rod elements (area 1 cm2, steel) by Craig-Bampton in closed
 /// form: tip coordinate (set "tip", x) and `modes` fixed-interface modes.
-ReducedModel clamped_bar(double length, int elements, int modes);
+rom::ReducedModel clamped_bar(double length, int elements, int modes);
 
 /// An elastic piston: pin node and a skirt grid ("skirt", two sides of `strips` x `rows` patches).
-ReducedModel elastic_piston(double radius, int strips, int rows);
+rom::ReducedModel elastic_piston(double radius, int strips, int rows);
 /// An elastic block: liner grid "liner_4", "liner_4_axial", "main_4", "main_5", "mounts", "sensor".
-ReducedModel elastic_block(double radius, int strips, int rows);
+rom::ReducedModel elastic_block(double radius, int strips, int rows);
 
 /// Writes the model as a .rom.h5.
-void write_rom(const std::filesystem::path& path, const ReducedModel& model);
+void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model);
 
 }  // namespace clatter::dynamics::testing

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "mesh/deck/abaqus_reader.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/abaqus/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -16,13 +16,13 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
 def sources(reader):
     """The reader and what it stands on."""
     if reader == 'msh':
-        return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/error.cpp', HERE / 'msh_fuzz.cpp')]
+        return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/base/error.cpp', HERE / 'msh_fuzz.cpp')]
     if reader == 'matrix':
         names = ('matrix_text', 'text_lines', 'whole_file', 'error')
-        return [str(ROOT / f'core/{name}.cpp') for name in names] + [str(HERE / 'matrix_fuzz.cpp')]
+        return [str(ROOT / f'core/base/{name}.cpp') for name in names] + [str(HERE / 'matrix_fuzz.cpp')]
     deck = sorted((ROOT / 'mesh/deck').glob(f'{reader}_*.cpp'))
-    shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'mesh/cell.cpp',
-              ROOT / 'mesh/mesh.cpp', ROOT / 'core/error.cpp', ROOT / 'core/whole_file.cpp',
+    shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'core/mesh/cell.cpp',
+              ROOT / 'core/mesh/mesh.cpp', ROOT / 'core/base/error.cpp', ROOT / 'core/base/whole_file.cpp',
               HERE / f'{reader}_fuzz.cpp']
     return [str(path) for path in deck + shared if path.exists()]
 

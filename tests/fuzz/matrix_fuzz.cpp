@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/matrix_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/matrix_text.hpp"
 
 namespace {
 

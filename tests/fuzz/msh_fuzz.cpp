@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.hpp"
-#include "mesh/msh_scan.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/msh/scan.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::istringstream file(std::string(reinterpret_cast<const char*>(data), size));

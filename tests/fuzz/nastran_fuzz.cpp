@@ -6,9 +6,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "mesh/deck/nastran_reader.hpp"
-#include "mesh/deck/nastran_writer.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/nastran/reader.hpp"
+#include "mesh/deck/nastran/writer.hpp"
 
 namespace {
 

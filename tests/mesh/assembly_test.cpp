@@ -7,8 +7,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/error.hpp"
-#include "mesh/solid_volumes.hpp"
+#include "core/base/error.hpp"
+#include "mesh/part/solid_volumes.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <fstream>
 
-#include "core/config.hpp"
-#include "core/error.hpp"
+#include "core/base/config.hpp"
+#include "core/base/error.hpp"
 #include "iges_box.hpp"
-#include "mesh/bare_cad.hpp"
-#include "mesh/cad_unit.hpp"
+#include "mesh/geometry/bare_cad.hpp"
+#include "mesh/geometry/cad_unit.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {

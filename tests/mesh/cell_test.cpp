@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "core/error.hpp"
-#include "mesh/quality.hpp"
+#include "core/base/error.hpp"
+#include "mesh/repair/quality.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {

@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "core/error.hpp"
-#include "mesh/gmsh_in_child.hpp"
-#include "mesh/part_in_child.hpp"
+#include "core/base/error.hpp"
+#include "mesh/part/gmsh_in_child.hpp"
+#include "mesh/part/part_in_child.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
 

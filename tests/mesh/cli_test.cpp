@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "mesh/mesh_file.hpp"
+#include "core/mesh/mesh_file.hpp"
 #include "support.hpp"
 #include "tests/places.hpp"
 

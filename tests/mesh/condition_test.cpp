@@ -4,8 +4,8 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "assembly/assemble.hpp"
-#include "mesh/validity.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/mesh/validity.hpp"
 #include "mesh_toml.hpp"
 #include "tests/assembly/block_mesh.hpp"
 
@@ -15,11 +15,11 @@ namespace {
 /// Ratio of the largest and the smallest eigenvalue of K, held at x = 0, by vector iteration: both
 /// within a few per cent.
 double condition(const Mesh& mesh) {
-  assembly::Material steel;
+  fe::Material steel;
   steel.youngs = 2.1e11;
   steel.poisson = 0.3;
   steel.density = 7850.0;
-  const SparseMatrix all = assembly::assemble(mesh, {steel}, assembly::node_pattern(mesh)).K;
+  const SparseMatrix all = fe::assemble(mesh, {steel}, fe::node_pattern(mesh)).K;
   std::vector<int32_t> index(static_cast<size_t>(all.cols()), -1);
   int32_t n = 0;
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "mesh/face_shape.hpp"
+#include "mesh/face/face_shape.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gmsh.h>
 
-#include "core/error.hpp"
-#include "mesh/cad_geometry.hpp"
-#include "mesh/gmsh_defeature.hpp"
-#include "mesh/gmsh_small_features.hpp"
+#include "core/base/error.hpp"
+#include "mesh/cad/gmsh_defeature.hpp"
+#include "mesh/cad/gmsh_small_features.hpp"
+#include "mesh/geometry/cad_geometry.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
 

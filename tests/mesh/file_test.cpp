@@ -4,10 +4,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
-#include "mesh/mesh_export.hpp"
-#include "mesh/mesh_file.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "mesh/exports/mesh_export.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {

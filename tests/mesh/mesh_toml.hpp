@@ -2,11 +2,11 @@
 // Meshes of part.mesh.toml texts.
 #include <string>
 
-#include "core/config.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/gmsh_session.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/part_geometry.hpp"
+#include "core/base/config.hpp"
+#include "core/mesh/boundary.hpp"
+#include "mesh/cad/gmsh_session.hpp"
+#include "mesh/geometry/part_geometry.hpp"
+#include "mesh/part/mesher.hpp"
 
 namespace clatter::mesh::testing {
 

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/validity.hpp"
 #include "iges_box.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/unfold.hpp"
-#include "mesh/validity.hpp"
+#include "mesh/part/mesher.hpp"
+#include "mesh/repair/unfold.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
 

@@ -7,11 +7,11 @@
 #include <random>
 
 #include "../assembly/block_mesh.hpp"
-#include "core/error.hpp"
-#include "mesh/gmsh_session.hpp"
-#include "mesh/mesh_export.hpp"
-#include "mesh/msh_reader.hpp"
-#include "mesh/quality.hpp"
+#include "core/base/error.hpp"
+#include "mesh/cad/gmsh_session.hpp"
+#include "mesh/deck/msh/reader.hpp"
+#include "mesh/exports/mesh_export.hpp"
+#include "mesh/repair/quality.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {
@@ -21,7 +21,7 @@ using assembly::testing::block_mesh;
 using assembly::testing::brick;
 using testing::Folder;
 
-const deck::UnitSystem kSi;
+const UnitSystem kSi;
 
 deck::Deck read(const std::filesystem::path& path, const std::vector<std::string>& ignore = {}) {
   return read_msh(path, kSi, {ignore});

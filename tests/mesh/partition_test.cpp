@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/error.hpp"
-#include "mesh/metis_partition.hpp"
+#include "core/base/error.hpp"
+#include "mesh/part/metis_partition.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 #include <set>
 
-#include "core/error.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/poor_cell_effect.hpp"
-#include "mesh/poor_cells.hpp"
+#include "core/base/error.hpp"
+#include "core/mesh/boundary.hpp"
+#include "mesh/repair/poor_cell_effect.hpp"
+#include "mesh/repair/poor_cells.hpp"
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/assembly/small_solver.hpp"
 

@@ -1,8 +1,8 @@
 // The number of cells is known before meshing to a factor of two, and absurd ones are refused.
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/stopwatch.hpp"
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "mesh_toml.hpp"
 
 namespace clatter::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // What lifts slivers and unfolds curved cells, on meshes that can be drawn by hand.
 #include <gtest/gtest.h>
 
-#include "mesh/quality.hpp"
-#include "mesh/skin_crossing.hpp"
-#include "mesh/sliver.hpp"
-#include "mesh/straighten.hpp"
-#include "mesh/unfold.hpp"
+#include "mesh/cad/skin_crossing.hpp"
+#include "mesh/repair/quality.hpp"
+#include "mesh/repair/sliver.hpp"
+#include "mesh/repair/straighten.hpp"
+#include "mesh/repair/unfold.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {

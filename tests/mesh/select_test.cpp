@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-#include "mesh/select.hpp"
+#include "core/base/error.hpp"
+#include "mesh/face/select.hpp"
 
 namespace clatter::mesh {
 namespace {

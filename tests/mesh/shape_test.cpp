@@ -1,5 +1,5 @@
 // Shape functions, node orders and det J bounds of every cell.
-#include "mesh/shape.hpp"
+#include "core/mesh/shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/cube_bernstein.hpp"
-#include "mesh/quality.hpp"
-#include "mesh/validity.hpp"
+#include "core/mesh/cube_bernstein.hpp"
+#include "core/mesh/validity.hpp"
+#include "mesh/repair/quality.hpp"
 
 namespace clatter::mesh {
 namespace {

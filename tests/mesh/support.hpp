@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "mesh/boundary.hpp"
-#include "mesh/mesh.hpp"
-#include "mesh/validity.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/mesh/validity.hpp"
 
 namespace clatter::mesh::testing {
 

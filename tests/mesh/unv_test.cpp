@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "../assembly/block_mesh.hpp"
-#include "core/error.hpp"
-#include "mesh/gmsh_session.hpp"
-#include "mesh/unv_writer.hpp"
+#include "core/base/error.hpp"
+#include "mesh/cad/gmsh_session.hpp"
+#include "mesh/exports/unv_writer.hpp"
 #include "support.hpp"
 
 namespace clatter::mesh {

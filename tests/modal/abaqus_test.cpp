@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "modal/analysis.hpp"
-#include "tests/modal/spring_models.hpp"
+#include "core/modes/analysis.hpp"
+#include "tests/core/sparse/spring_models.hpp"
 #include "tests/shared_data.hpp"
 
 namespace clatter::modal {
@@ -36,12 +36,14 @@ TEST(AbaqusMatrices, TenFrequenciesOfTheBeamAreFound) {
   }
   const Eigen::VectorXd expected{{66.79947, 66.81689, 416.1196, 416.2134, 1154.0607, 1154.3076,
                                   1596.5447, 2235.0158, 2235.2421, 2578.8752}};
-  for (const EigenMethod method : {EigenMethod::kBlockLanczos, EigenMethod::kArpack}) {
-    EigenOptions options;
+  for (const sparse::EigenMethod method :
+       {sparse::EigenMethod::kBlockLanczos, sparse::EigenMethod::kArpack}) {
+    sparse::EigenOptions options;
     options.count = 10;
     options.method = method;
-    const ModeSet modes =
-        solve_modes(principal_submatrix(K, free_dofs), principal_submatrix(M, free_dofs), options);
+    const sparse::ModeSet modes =
+        sparse::solve_modes(modes::principal_submatrix(K, free_dofs),
+                            modes::principal_submatrix(M, free_dofs), options);
     EXPECT_EQ(modes.rigid, 0);
     EXPECT_TRUE(modes.proof.proved);
     const Eigen::VectorXd hz = modes.frequencies_hz();

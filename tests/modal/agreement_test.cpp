@@ -3,8 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "modal/analysis.hpp"
-#include "modal/symmetric_product.hpp"
+#include "core/modes/analysis.hpp"
+#include "core/sparse/symmetric_product.hpp"
 #include "tests/condense/solid_model.hpp"
 
 namespace clatter::modal {
@@ -36,20 +36,20 @@ const std::vector<Body>& bodies() {
       if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
     return std::vector<Body>{
         {"free", 6, bar.K, bar.M, bar.rigid},
-        {"held", 0, principal_submatrix(bar.K, left), principal_submatrix(bar.M, left),
-         MatrixXd(static_cast<Index>(left.size()), 0)}};
+        {"held", 0, modes::principal_submatrix(bar.K, left),
+         modes::principal_submatrix(bar.M, left), MatrixXd(static_cast<Index>(left.size()), 0)}};
   }();
   return both;
 }
 
-ModeSet solve(const Body& body, EigenMethod method, double accuracy = 5e-3) {
-  EigenOptions options;
+sparse::ModeSet solve(const Body& body, sparse::EigenMethod method, double accuracy = 5e-3) {
+  sparse::EigenOptions options;
   options.count = kModes;
   options.method = method;
   options.accuracy = accuracy;
   options.rigid = body.motions;
-  ModeSet modes = solve_modes(body.K, body.M, options);
-  EXPECT_EQ(modes.method, name_of(method));
+  sparse::ModeSet modes = sparse::solve_modes(body.K, body.M, options);
+  EXPECT_EQ(modes.method, sparse::name_of(method));
   EXPECT_EQ(modes.rigid, body.rigid);
   return modes;
 }
@@ -76,7 +76,7 @@ std::vector<Cluster> clusters_of(const VectorXd& values, int rigid) {
 }
 
 /// Sine of the largest principal angle, in M, between the motions of a cluster.
-double largest_sine(const SymmetricProduct& M, const MatrixXd& X, const MatrixXd& Y,
+double largest_sine(const sparse::SymmetricProduct& M, const MatrixXd& X, const MatrixXd& Y,
                     const Cluster& at) {
   const Index count = at.last - at.first;
   const MatrixXd x = X.middleCols(at.first, count), y = Y.middleCols(at.first, count);
@@ -87,7 +87,7 @@ double largest_sine(const SymmetricProduct& M, const MatrixXd& X, const MatrixXd
 
 TEST(Agreement, TheBarHasClosePairsOfBendingModes) {
   for (const Body& body : bodies()) {
-    const ModeSet modes = solve(body, EigenMethod::kArpack);
+    const sparse::ModeSet modes = solve(body, sparse::EigenMethod::kArpack);
     int pairs = 0;
     for (const Cluster& cluster : clusters_of(modes.values, body.rigid))
       pairs += cluster.last - cluster.first == 2 ? 1 : 0;
@@ -97,9 +97,9 @@ TEST(Agreement, TheBarHasClosePairsOfBendingModes) {
 
 TEST(Agreement, BlockLanczosFindsTheFrequenciesAndMotionsOfArpack) {
   for (const Body& body : bodies()) {
-    const SymmetricProduct M(body.M);
-    const ModeSet arpack = solve(body, EigenMethod::kArpack);
-    const ModeSet block = solve(body, EigenMethod::kBlockLanczos);
+    const sparse::SymmetricProduct M(body.M);
+    const sparse::ModeSet arpack = solve(body, sparse::EigenMethod::kArpack);
+    const sparse::ModeSet block = solve(body, sparse::EigenMethod::kBlockLanczos);
     EXPECT_TRUE(arpack.proof.proved && block.proof.proved);
     for (Index j = body.rigid; j < kModes; ++j)  // errors are squares of residuals, then rounding
       EXPECT_NEAR(block.values[j], arpack.values[j], 1e-9 * arpack.values[j]) << body.name << j;
@@ -114,11 +114,11 @@ TEST(Agreement, BlockLanczosFindsTheFrequenciesAndMotionsOfArpack) {
 
 TEST(Agreement, AmlsFindsThemFromAboveWithinItsAccuracy) {
   for (const Body& body : bodies()) {
-    const SymmetricProduct M(body.M);
-    const ModeSet exact = solve(body, EigenMethod::kBlockLanczos);
+    const sparse::SymmetricProduct M(body.M);
+    const sparse::ModeSet exact = solve(body, sparse::EigenMethod::kBlockLanczos);
     for (const double accuracy : {5e-3, 1e-5}) {
-      const ModeSet amls = solve(body, EigenMethod::kAmls, accuracy);
-      const auto elastic = [&](const ModeSet& modes) {
+      const sparse::ModeSet amls = solve(body, sparse::EigenMethod::kAmls, accuracy);
+      const auto elastic = [&](const sparse::ModeSet& modes) {
         return VectorXd(modes.frequencies_hz().tail(kModes - body.rigid));
       };
       const VectorXd error = (elastic(amls) - elastic(exact)).cwiseQuotient(elastic(exact));
@@ -139,12 +139,13 @@ TEST(Agreement, AmlsFindsThemFromAboveWithinItsAccuracy) {
 
 TEST(Agreement, EachGivesTheSameBitsTwice) {
   const Body& body = bodies().front();
-  for (const EigenMethod method :
-       {EigenMethod::kArpack, EigenMethod::kBlockLanczos, EigenMethod::kAmls}) {
-    const ModeSet one = solve(body, method), two = solve(body, method);
-    EXPECT_EQ(one.values, two.values) << name_of(method);
-    EXPECT_EQ(one.vectors, two.vectors) << name_of(method);
-    EXPECT_EQ(one.residuals, two.residuals) << name_of(method);
+  for (const sparse::EigenMethod method :
+       {sparse::EigenMethod::kArpack, sparse::EigenMethod::kBlockLanczos,
+        sparse::EigenMethod::kAmls}) {
+    const sparse::ModeSet one = solve(body, method), two = solve(body, method);
+    EXPECT_EQ(one.values, two.values) << sparse::name_of(method);
+    EXPECT_EQ(one.vectors, two.vectors) << sparse::name_of(method);
+    EXPECT_EQ(one.residuals, two.residuals) << sparse::name_of(method);
   }
 }
 

@@ -9,17 +9,17 @@
 #include <filesystem>
 
 #include "block_mesh.hpp"
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "small_solver.hpp"
 #include "tests/places.hpp"
 
 namespace clatter::modal {
 namespace {
 
-using assembly::FeModel;
 using assembly::testing::block_mesh;
 using assembly::testing::brick;
+using fe::FeModel;
 
 /// A bar of 0.1 x 0.2 x 0.4 m that stands on z0.
 FeModel bar(const std::string& toml) {
@@ -63,8 +63,8 @@ loads = { pull = 2.0 }
   }
   ASSERT_EQ(pull.stress.size(), 1u);
   EXPECT_EQ(pull.stress[0].nodes.size(), static_cast<size_t>(model.nodes.rows()));
-  const assembly::Voigt tension = (assembly::Voigt() << 0, 0, 2000.0 / A, 0, 0, 0).finished();
-  const assembly::StressRows off = pull.stress[0].stress.rowwise() - tension.transpose();
+  const fe::Voigt tension = (fe::Voigt() << 0, 0, 2000.0 / A, 0, 0, 0).finished();
+  const fe::StressRows off = pull.stress[0].stress.rowwise() - tension.transpose();
   EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-9 * tension(2));
   EXPECT_NEAR(largest_stress(model, pull).von_mises, 2000.0 / A, 1e-9 * tension(2));
   EXPECT_NEAR(pull.energy, 0.5 * 2000.0 * strain * 0.4, 1e-9 * pull.energy);
@@ -288,8 +288,8 @@ class StaticFiles : public ::testing::Test {
         std::filesystem::temp_directory_path() / ("clatter_static_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     H5File file = H5File::create(folder_ / "bar.fe.h5");
-    write_provenance(file, {assembly::kFeSchema, "", {}});
-    assembly::write_fe_model(file, model_);
+    write_provenance(file, {fe::kFeSchema, "", {}});
+    fe::write_fe_model(file, model_);
     file.commit();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -332,7 +332,7 @@ loads = { lift = 2.0, push = 100.0 }
 };
 
 TEST_F(StaticFiles, TheModelReadFromItsFileGivesTheSameSolution) {
-  const FeModel back = assembly::read_fe_model(folder_ / "bar.fe.h5");
+  const FeModel back = fe::read_fe_model(folder_ / "bar.fe.h5");
   const StaticCase want = solve_static(model_, {"both"}).cases[0];
   const StaticCase got = solve_static(back, {"both"}).cases[0];
   EXPECT_EQ((got.displacement - want.displacement).norm(), 0.0);
@@ -374,19 +374,19 @@ TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {
 TEST_F(StaticFiles, CasesOfLoadsThatAreNotThereAreRefused) {
   model_.cases["both"]["gone"] = 1.0;
   H5File file = H5File::create(folder_ / "bad.fe.h5");
-  write_provenance(file, {assembly::kFeSchema, "", {}});
-  assembly::write_fe_model(file, model_);
+  write_provenance(file, {fe::kFeSchema, "", {}});
+  fe::write_fe_model(file, model_);
   file.commit();
-  EXPECT_THROW(assembly::read_fe_model(folder_ / "bad.fe.h5"), InputError);
+  EXPECT_THROW(fe::read_fe_model(folder_ / "bad.fe.h5"), InputError);
 }
 
 TEST_F(StaticFiles, SupportsBeyondTheirNamesAreRefused) {
   model_.supports.support[0] = 17;
   H5File file = H5File::create(folder_ / "bad.fe.h5");
-  write_provenance(file, {assembly::kFeSchema, "", {}});
-  assembly::write_fe_model(file, model_);
+  write_provenance(file, {fe::kFeSchema, "", {}});
+  fe::write_fe_model(file, model_);
   file.commit();
-  EXPECT_THROW(assembly::read_fe_model(folder_ / "bad.fe.h5"), InputError);
+  EXPECT_THROW(fe::read_fe_model(folder_ / "bad.fe.h5"), InputError);
 }
 
 }  // namespace

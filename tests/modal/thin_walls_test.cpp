@@ -6,26 +6,26 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "modal/analysis.hpp"
-#include "modal/compare.hpp"
-#include "modal/free_motions.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/fe/free_motions.hpp"
+#include "core/modes/analysis.hpp"
+#include "core/modes/compare.hpp"
 #include "modal/statics.hpp"
 #include "tests/assembly/small_solver.hpp"
 #include "tests/condense/solid_model.hpp"
-#include "tests/modal/spring_models.hpp"
+#include "tests/core/sparse/spring_models.hpp"
 
 namespace clatter::modal {
 namespace {
 
-using assembly::FeModel;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using fe::FeModel;
 using ::testing::HasSubstr;
 
-constexpr EigenMethod kAll[] = {EigenMethod::kBlockLanczos, EigenMethod::kArpack,
-                                EigenMethod::kAmls};
+constexpr sparse::EigenMethod kAll[] = {sparse::EigenMethod::kBlockLanczos,
+                                        sparse::EigenMethod::kArpack, sparse::EigenMethod::kAmls};
 constexpr const char* kClamp = "[[support]]\nname = \"wall\"\nnode_set = \"x0\"\n";
 
 FeModel sheet(double thickness, double nu, const std::string& more = "", int cells = 10) {
@@ -34,39 +34,40 @@ FeModel sheet(double thickness, double nu, const std::string& more = "", int cel
                          mesh::CellType::kHex20);
 }
 
-ModeSet modes_of(const FeModel& model, EigenMethod method, int count) {
-  ModesOptions options;
+sparse::ModeSet modes_of(const FeModel& model, sparse::EigenMethod method, int count) {
+  modes::ModesOptions options;
   options.count = count;
   options.method = method;
-  return analyse(model, options).modes;
+  return modes::analyse(model, options).modes;
 }
 
 TEST(HardN15, SolvesDoNotGrowAsASheetGetsThinAndItsFrequenciesAreThoseOfThePlate) {
   constexpr int kCount = 14;
-  for (const EigenMethod method : kAll) {
+  for (const sparse::EigenMethod method : kAll) {
     const int64_t compact = modes_of(sheet(0.1, 0.3), method, kCount).solves;
     for (const double t : {5e-3, 1e-3, 1e-4}) {
-      const ModeSet modes = modes_of(sheet(t, 0.3), method, kCount);
-      EXPECT_LE(modes.solves, 3 * compact / 2) << name_of(method) << " t = " << t;
-      EXPECT_TRUE(modes.proof.proved) << name_of(method) << " t = " << t;
+      const sparse::ModeSet modes = modes_of(sheet(t, 0.3), method, kCount);
+      EXPECT_LE(modes.solves, 3 * compact / 2) << sparse::name_of(method) << " t = " << t;
+      EXPECT_TRUE(modes.proof.proved) << sparse::name_of(method) << " t = " << t;
       EXPECT_EQ(modes.rigid, 6);
       // Free square plate, nu = 0.3 (Leissa 1973): 13.4682 / a^2 sqrt(D / rho t).
       const double D = 2.0e11 * t * t * t / (12.0 * (1.0 - 0.09));
       const double hz = 13.4682 / 0.04 * std::sqrt(D / (8000.0 * t)) / (2.0 * std::numbers::pi);
       // A mesh of ten cells a side, the shear of a plate of t / a = 1 / 40, rounding at t = 0.1 mm.
-      EXPECT_NEAR(modes.frequencies_hz()[6], hz, 0.01 * hz) << name_of(method) << " t = " << t;
+      EXPECT_NEAR(modes.frequencies_hz()[6], hz, 0.01 * hz)
+          << sparse::name_of(method) << " t = " << t;
     }
   }
 }
 
 TEST(HardN15, ACompactBodyPaysNothingForTheSearchOfItsShift) {
   const FeModel model = sheet(0.1, 0.3, "", 6);
-  EigenOptions options;
+  sparse::EigenOptions options;
   options.count = 14;
-  options.rigid = free_motions(model).q;
-  const ModeSet found = solve_modes(model.K, model.M, options);
+  options.rigid = fe::free_motions(model).q;
+  const sparse::ModeSet found = sparse::solve_modes(model.K, model.M, options);
   options.sigma = found.sigma;
-  const ModeSet given = solve_modes(model.K, model.M, options);
+  const sparse::ModeSet given = sparse::solve_modes(model.K, model.M, options);
   EXPECT_EQ(found.factors, 1);
   EXPECT_EQ(found.solves, given.solves);
   EXPECT_EQ(found.values, given.values);
@@ -74,11 +75,11 @@ TEST(HardN15, ACompactBodyPaysNothingForTheSearchOfItsShift) {
 }
 
 TEST(HardN15, SolvesDoNotGrowAsAMaterialBecomesIncompressible) {
-  for (const EigenMethod method : kAll) {
+  for (const sparse::EigenMethod method : kAll) {
     const int64_t compact = modes_of(sheet(0.1, 0.3, "", 6), method, 14).solves;
     for (const double nu : {0.4999, 0.499999}) {
-      const ModeSet modes = modes_of(sheet(0.1, nu, "", 6), method, 14);
-      EXPECT_LE(modes.solves, 3 * compact / 2) << name_of(method) << " nu = " << nu;
+      const sparse::ModeSet modes = modes_of(sheet(0.1, nu, "", 6), method, 14);
+      EXPECT_LE(modes.solves, 3 * compact / 2) << sparse::name_of(method) << " nu = " << nu;
       EXPECT_TRUE(modes.proof.proved);
     }
   }
@@ -86,11 +87,11 @@ TEST(HardN15, SolvesDoNotGrowAsAMaterialBecomesIncompressible) {
 
 TEST(HardN15, AClampedSheetHasTheFrequenciesOfAllSolvers) {
   const FeModel model = sheet(1e-3, 0.3, kClamp);
-  const VectorXd exact = modes_of(model, EigenMethod::kArpack, 10).frequencies_hz();
-  EXPECT_EQ(modes_of(model, EigenMethod::kArpack, 10).rigid, 0);
-  for (const EigenMethod method : kAll) {
+  const VectorXd exact = modes_of(model, sparse::EigenMethod::kArpack, 10).frequencies_hz();
+  EXPECT_EQ(modes_of(model, sparse::EigenMethod::kArpack, 10).rigid, 0);
+  for (const sparse::EigenMethod method : kAll) {
     const VectorXd hz = modes_of(model, method, 10).frequencies_hz();
-    const double accuracy = method == EigenMethod::kAmls ? 5e-3 : 1e-6;  // rounding: 1e-6
+    const double accuracy = method == sparse::EigenMethod::kAmls ? 5e-3 : 1e-6;  // rounding: 1e-6
     for (int j = 0; j < 10; ++j) EXPECT_NEAR(hz[j], exact[j], accuracy * exact[j]) << j;
   }
 }
@@ -120,20 +121,20 @@ TEST(HardN15, JumpsOfStiffnessDoNotGrowTheSolvesAnyFurther) {
     const Config config = Config::parse(toml, "jump.fe.toml");
     return assembly::build_fe_model(mesh, assembly::read_recipe(config, mesh), clock).model;
   };
-  for (const EigenMethod method : kAll) {
+  for (const sparse::EigenMethod method : kAll) {
     // Frequencies scale with the rubber's alone once the plates are rigid beside it.
-    const ModeSet soft = modes_of(model_of(1e-6), method, 12);
-    const ModeSet softer = modes_of(model_of(1e-10), method, 12);
-    EXPECT_TRUE(soft.proof.proved && softer.proof.proved) << name_of(method);
+    const sparse::ModeSet soft = modes_of(model_of(1e-6), method, 12);
+    const sparse::ModeSet softer = modes_of(model_of(1e-10), method, 12);
+    EXPECT_TRUE(soft.proof.proved && softer.proof.proved) << sparse::name_of(method);
     // AMLS counts vectors in substructures too, whose number its estimate of the density moves.
-    EXPECT_LE(softer.solves, (method == EigenMethod::kAmls ? 4 : 3) * soft.solves / 2)
-        << name_of(method);
+    EXPECT_LE(softer.solves, (method == sparse::EigenMethod::kAmls ? 4 : 3) * soft.solves / 2)
+        << sparse::name_of(method);
     EXPECT_EQ(softer.rigid, 6);  // and twelve are not: the plates on the rubber are elastic
     for (int j = 6; j < 12; ++j) {
       const double ratio = softer.frequencies_hz()[j] / soft.frequencies_hz()[j];
       // AMLS within its accuracy; else what the plates' own stiffness adds, about 1e-5, and
       // rounding.
-      EXPECT_NEAR(ratio, 1e-2, 1e-2 * (method == EigenMethod::kAmls ? 1e-2 : 1e-3)) << j;
+      EXPECT_NEAR(ratio, 1e-2, 1e-2 * (method == sparse::EigenMethod::kAmls ? 1e-2 : 1e-3)) << j;
     }
   }
 }
@@ -148,7 +149,7 @@ TEST(HardN15, AStripIsSolvedToWhatRoundingAllowsAndSaysHowMuchThatIs) {
                             "\"x1\"\ndirection = [0.0, 0.0, "
                             "1.0]\ntotal = 1.0\n",
                         mesh::CellType::kHex20);
-    EXPECT_EQ(free_motions(model).count(), 0);
+    EXPECT_EQ(fe::free_motions(model).count(), 0);
     const StaticCase tip = solve_static(model, {}).cases[0];
     const double I = 0.02 * std::pow(thickness, 3) / 12.0;
     const double exact = std::pow(length, 3) / (3.0 * 2.0e11 * I);
@@ -170,7 +171,7 @@ TEST(HardN16, AHeavyTipMassLeavesElasticModesThatAreElastic) {
       std::string(kClamp) +
           "[[coupling]]\nname = \"tip\"\ntype = \"rigid\"\nsurface = \"x1\"\n"
           "[[point_mass]]\non = \"tip\"\nmass = 1.0e7\ninertia = [1e3, 1e3, 1e3]\n");
-  const ModeSet modes = modes_of(model, EigenMethod::kBlockLanczos, 10);
+  const sparse::ModeSet modes = modes_of(model, sparse::EigenMethod::kBlockLanczos, 10);
   EXPECT_EQ(modes.rigid, 0);
   EXPECT_TRUE(modes.proof.proved);
   const VectorXd hz = modes.frequencies_hz();
@@ -181,9 +182,9 @@ TEST(HardN16, AHeavyTipMassLeavesElasticModesThatAreElastic) {
   EXPECT_NEAR(hz[1], tip, 0.02 * tip);
   for (int j = 0; j < 6; ++j) EXPECT_LT(hz[j], 5.0);
   EXPECT_GT(hz[6], 100.0);  // the beam's own
-  ModesOptions lowest;
+  modes::ModesOptions lowest;
   lowest.count = 6;
-  for (const std::string& line : describe(analyse(model, lowest)))
+  for (const std::string& line : modes::describe(modes::analyse(model, lowest)))
     EXPECT_THAT(line, ::testing::Not(HasSubstr("  rigid"))) << line;
 }
 
@@ -192,16 +193,16 @@ TEST(HardN16, TwoPartsInOneMeshHaveTwelveRigidMotions) {
   const test::Pencil both = test::twice(one);
   MatrixXd rigid(2 * one.rigid.rows(), 6);
   rigid << one.rigid, one.rigid;
-  const FreeMotions free = free_motions(both.K, both.M, rigid);
+  const fe::FreeMotions free = fe::free_motions(both.K, both.M, rigid);
   EXPECT_EQ(free.bodies, 2);
   EXPECT_EQ(free.count(), 12);
   EXPECT_TRUE(free.all_free());
   const MatrixXd gram = free.q.transpose() * multiply_symmetric(both.M, free.q);
   EXPECT_LT((gram - MatrixXd::Identity(12, 12)).cwiseAbs().maxCoeff(), 1e-12);
-  for (const EigenMethod method : kAll) {
-    EigenOptions options = test::by_count(16, method);
+  for (const sparse::EigenMethod method : kAll) {
+    sparse::EigenOptions options = test::by_count(16, method);
     options.rigid = free.q;
-    const ModeSet modes = solve_modes(both.K, both.M, options);
+    const sparse::ModeSet modes = sparse::solve_modes(both.K, both.M, options);
     EXPECT_EQ(modes.rigid, 12);
     EXPECT_EQ(modes.values.head(12).cwiseAbs().maxCoeff(), 0.0);
     EXPECT_NEAR(modes.values[12], modes.values[13], 1e-2 * modes.values[13]);  // twice, AMLS too
@@ -211,7 +212,7 @@ TEST(HardN16, TwoPartsInOneMeshHaveTwelveRigidMotions) {
 TEST(HardN16, ASoftMountHoldsABody) {
   auto box = test::spring_box(5, 4, 4);
   for (int d = 0; d < 3; ++d) box.K.coeffRef(d, d) *= 1.0 + 1e-8;  // springs to the ground
-  const FreeMotions free = free_motions(box.K, box.M, box.rigid);
+  const fe::FreeMotions free = fe::free_motions(box.K, box.M, box.rigid);
   EXPECT_EQ(free.count(), 3);  // rotations about the held point
   EXPECT_FALSE(free.all_free());
 }
@@ -228,11 +229,11 @@ TEST(MasslessUnknowns, GiveInfiniteEigenvaluesThatAreCountedAndLeftOut) {
   };
   const MatrixXd motion = VectorXd::Ones(n);
   for (const int limit : {300, 500}) {  // iterative, and condensed onto the 401 masses
-    for (const EigenMethod method : test::kBoth) {
-      EigenOptions options = test::by_count(8, method);
+    for (const sparse::EigenMethod method : test::kBoth) {
+      sparse::EigenOptions options = test::by_count(8, method);
       options.rigid = motion;
       options.dense_limit = limit;
-      const ModeSet modes = solve_modes(chain.K, M, options);
+      const sparse::ModeSet modes = sparse::solve_modes(chain.K, M, options);
       EXPECT_EQ(modes.massless, n / 2);
       EXPECT_EQ(modes.rigid, 1);
       EXPECT_TRUE(modes.proof.proved);
@@ -253,9 +254,9 @@ TEST(FactorTrouble, NamesTheNodeTheDirectionAndTheCause) {
     for (SparseMatrix::InnerIterator it(model.M, j); it; ++it)
       if (it.row() == 7 || j == 7) it.valueRef() = 0.0;
   try {
-    modes_of(model, EigenMethod::kBlockLanczos, 3);
+    modes_of(model, sparse::EigenMethod::kBlockLanczos, 3);
     FAIL();
-  } catch (const NotPositiveDefinite& error) {
+  } catch (const sparse::NotPositiveDefinite& error) {
     EXPECT_THAT(error.what(), HasSubstr("at node"));
     EXPECT_THAT(error.what(), HasSubstr("direction"));
     EXPECT_THAT(error.what(), HasSubstr("it has no stiffness and no mass"));

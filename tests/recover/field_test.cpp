@@ -5,8 +5,8 @@
 #include <complex>
 #include <numbers>
 
-#include "core/artefact.hpp"
-#include "core/error.hpp"
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
 #include "recover/recover.hpp"
 #include "synthetic.hpp"
 
@@ -31,7 +31,7 @@ std::filesystem::path recover_file(const std::filesystem::path& run, const std::
   const Config parsed = Config::parse(config, "test");
   const Options options = read_options(parsed);
   const RunBody body(run, options.body);
-  const ReducedModel model = body.read_model();
+  const rom::ReducedModel model = body.read_model();
   const auto path = run.parent_path() / "out.field.h5";
   StepClock clock;
   H5File file = H5File::create(path);

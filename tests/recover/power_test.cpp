@@ -39,7 +39,7 @@ TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
 TEST(RadiatedPower, QuadraticFormEqualsBruteForceExpansion) {
   const Mesh6 mesh = unit_sphere(2);  // curved faces
   const int r = 7;
-  const Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, r, 1)};
+  const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, r, 1)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
   const auto forms = normal_velocity_forms(skin, geometry, panels);
@@ -65,7 +65,7 @@ TEST(RadiatedPower, QuadraticFormEqualsBruteForceExpansion) {
 
 TEST(RadiatedPower, PanelsThatShareFacesSumAsTheirPartsDo) {
   const Mesh6 mesh = box({1, 1, 1}, 2);
-  const Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, 4, 2)};
+  const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, 4, 2)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
   const auto forms = normal_velocity_forms(skin, geometry, panels);

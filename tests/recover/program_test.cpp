@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/h5_file.hpp"
+#include "core/base/h5_file.hpp"
 #include "synthetic.hpp"
 #include "tests/places.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "recover/panels.hpp"
 #include "recover/triangle6.hpp"
 #include "synthetic.hpp"

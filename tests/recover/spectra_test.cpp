@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "recover/fft.hpp"
 #include "recover/lines.hpp"
 

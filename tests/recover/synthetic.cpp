@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "core/artefact.hpp"
+#include "core/base/artefact.hpp"
 
 namespace clatter::recover::testing {
 namespace {
@@ -131,9 +131,9 @@ RowMatrix random_rows(const Mesh6& mesh, int r, unsigned seed) {
   return T;
 }
 
-ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz) {
+rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz) {
   const Eigen::Index r = T.cols();
-  ReducedModel model;
+  rom::ReducedModel model;
   model.name = "block";
   model.method = "craig-bampton";
   model.n_boundary = 1;
@@ -143,7 +143,7 @@ ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz)
   model.valid_to_hz = valid_to_hz;
   model.certificate["certified"] = 1.0;
   model.skin = {mesh.nodes, mesh.triangles, T};
-  DofSet sensor;
+  rom::DofSet sensor;
   sensor.kind = "sensor";
   sensor.dofs = {0};
   sensor.labels = {"sensor_block.y"};
@@ -154,11 +154,11 @@ ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz)
   return model;
 }
 
-std::filesystem::path write_run(const std::filesystem::path& folder, const ReducedModel& model,
+std::filesystem::path write_run(const std::filesystem::path& folder, const rom::ReducedModel& model,
                                 const RunPlan& plan, const MotionLaw& law) {
   const auto rom_path = folder / "rom.h5", run_path = folder / "run.h5";
   H5File rom = H5File::create(rom_path);
-  write_reduced_model(rom, model);
+  rom::write_reduced_model(rom, model);
   write_provenance(rom, {"clatter/rom/1", "", {}});
   rom.commit();
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/reduced_model.hpp"
+#include "core/rom/reduced_model.hpp"
 
 namespace clatter::recover::testing {
 
@@ -30,7 +30,7 @@ RowMatrix random_rows(const Mesh6& mesh, int r, unsigned seed);
 
 /// A reduced model with the given skin, identity mass, one sensor set "sensor_block" (coordinate
 /// 0).
-ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz);
+rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_to_hz);
 
 /// Motion of reduced coordinates: displacement, velocity and acceleration at a time.
 struct Motion {
@@ -49,7 +49,7 @@ struct RunPlan {
 
 /// Writes rom.h5 and run.h5 into `folder`; `law` is given times from angle 0. Returns the run's
 /// path.
-std::filesystem::path write_run(const std::filesystem::path& folder, const ReducedModel& model,
+std::filesystem::path write_run(const std::filesystem::path& folder, const rom::ReducedModel& model,
                                 const RunPlan& plan, const MotionLaw& law);
 
 /// A fresh folder under the system's temporary one.

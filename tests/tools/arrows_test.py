@@ -9,47 +9,76 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", SOURCE / "build/release"))
 
-# core <- mesh <- assembly <- modal <- condense; core <- dynamics <- recover
-BELOW = {
-    "core": set(),
-    "mesh": {"core"},
-    "assembly": {"core", "mesh"},
-    "modal": {"core", "mesh", "assembly"},
-    "condense": {"core", "mesh", "assembly", "modal"},
-    "dynamics": {"core"},
-    "recover": {"core", "dynamics"},
+# Libraries: each folder of core/ is one, and may use these of the others.
+LIBRARIES = {
+    "core/base": set(),
+    "core/mesh": {"core/base"},
+    "core/rom": {"core/base"},
+    "core/sparse": {"core/base"},
+    "core/fe": {"core/base", "core/mesh", "core/rom"},
+    "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
+# Stages: each is one program, hands the next one files, and uses no other stage.
+STAGES = {
+    "mesh": {"core/base", "core/mesh"},
+    "assembly": {"core/base", "core/mesh", "core/rom", "core/fe"},
+    "modal": set(LIBRARIES),
+    "condense": set(LIBRARIES),
+    "dynamics": {"core/base", "core/rom"},
+    "recover": {"core/base", "core/rom"},
+}
+ALLOWED = LIBRARIES | STAGES
+# Library targets that are not named after the folder of their stage.
+FOLDER_OF_TARGET = {"meshing": "mesh", "film": "dynamics"}
 # A foreign library's headers may be included in files of one name only (h5_file, h5_impl, ...).
 HEADER_OWNERS = {
-    r"gmsh\.h": ["mesh/gmsh_"],
-    r"cholmod\.h": ["modal/factor/cholmod_", "modal/cholmod_"],
-    r"hdf5\.h|H5\w*\.h": ["core/h5_"],
-    r"toml\+\+/.*|toml\+\+\.h": ["core/config"],
-    r"CLI/.*": ["core/command_line"],
-    r"metis\.h": ["modal/factor/metis_", "modal/metis_", "mesh/metis_"],
+    r"gmsh\.h": ["mesh/cad/gmsh_"],
+    r"cholmod\.h": ["core/sparse/factor/cholmod_"],
+    r"hdf5\.h|H5\w*\.h": ["core/base/h5_"],
+    r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
+    r"CLI/.*": ["core/base/command_line"],
+    r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")
 
 
-def folder_of_library(library):
-    """The folder in which a library target of ours is made."""
-    return "mesh" if library == "meshing" else library
+def folder_of_library(target):
+    """The folder in which a library target of ours is made; None for a foreign one."""
+    if target in FOLDER_OF_TARGET:
+        return FOLDER_OF_TARGET[target]
+    if target.startswith("mesh_"):
+        return "mesh"
+    return next((folder for folder in LIBRARIES if folder == f"core/{target}"),
+                target if target in STAGES else None)
 
 
 def sources(folder):
     return [p for p in (SOURCE / folder).rglob("*") if p.suffix in (".cpp", ".hpp", ".h")]
 
 
+def complaint(folder, name):
+    """What is wrong when `folder` uses `name`, for people."""
+    if name in STAGES:
+        return f"{folder} uses {name}, which is a stage: stages hand each other files; what two of them need " \
+               f"belongs into a library below core/"
+    return f"{folder} uses {name}, but may use only: {', '.join(sorted(ALLOWED[folder])) or 'no other folder'}"
+
+
+def wrong_uses(folder, names):
+    return [complaint(folder, name) for name in names
+            if name in ALLOWED and name != folder and name not in ALLOWED[folder]]
+
+
 def wrong_includes(folder, text):
-    """Folders that `text`, a source of `folder`, includes although the design forbids it."""
-    included = re.findall(r'^\s*#\s*include\s+["<](\w+)/', text, re.M)
-    return [name for name in included if name in BELOW and name != folder and name not in BELOW[folder]]
+    """What is wrong with the #include lines of `text`, a source of `folder`."""
+    included = re.findall(r'^\s*#\s*include\s+["<]((?:core/)?\w+)/', text, re.M)
+    return wrong_uses(folder, included)
 
 
 def wrong_links(folder, cmake_text):
-    """Libraries that a folder's CMakeLists.txt links although the design forbids it."""
-    used = map(folder_of_library, re.findall(r"\bclatter(?:::|_)(\w+)", re.sub(r"#.*", "", cmake_text)))
-    return [name for name in used if name in BELOW and name != folder and name not in BELOW[folder]]
+    """What is wrong with the libraries that a folder's CMakeLists.txt links."""
+    named = re.findall(r"\bclatter(?:::|_)(\w+)", re.sub(r"#.*", "", cmake_text))
+    return wrong_uses(folder, [f for f in map(folder_of_library, named) if f])
 
 
 def includes_header(path, header):
@@ -58,34 +87,58 @@ def includes_header(path, header):
 
 class Arrows(unittest.TestCase):
     def test_no_include_runs_against_the_design(self):
-        wrong = [f"{p.relative_to(SOURCE)} includes {name}" for folder in BELOW for p in sources(folder)
-                 for name in wrong_includes(folder, p.read_text())]
+        wrong = [f"{p.relative_to(SOURCE)}: {what}" for folder in ALLOWED for p in sources(folder)
+                 for what in wrong_includes(folder, p.read_text())]
         self.assertEqual(wrong, [])
 
     def test_no_link_runs_against_the_design(self):
-        wrong = [f"{folder} links {name}" for folder in BELOW
+        wrong = [f"{cmake.relative_to(SOURCE)}: {what}" for folder in ALLOWED
                  for cmake in (SOURCE / folder).rglob("CMakeLists.txt")
-                 for name in wrong_links(folder, cmake.read_text())]
+                 for what in wrong_links(folder, cmake.read_text())]
+        self.assertEqual(wrong, [])
+
+    def test_every_source_is_in_a_library_or_a_stage(self):
+        known = {str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)}
+        self.assertEqual([str(p.relative_to(SOURCE)) for p in sources("core")
+                          if str(p.relative_to(SOURCE)) not in known], [])
+
+    def test_no_circle(self):
+        for folder, below in ALLOWED.items():
+            for name in below:
+                with self.subTest(folder=folder, below=name):
+                    self.assertNotIn(folder, ALLOWED[name])
+                    self.assertLessEqual(ALLOWED[name], below)
+
+    def test_a_namespace_is_named_after_its_folder(self):
+        wrong = []
+        for folder in LIBRARIES:
+            wanted = "clatter" if folder == "core/base" else folder.replace("core/", "clatter::")
+            for p in sources(folder):
+                wrong += [f"{p.relative_to(SOURCE)}: found namespace {name}, expected {wanted}"
+                          for name in re.findall(r"^namespace (clatter[\w:]*) \{$", p.read_text(), re.M) if name != wanted]
         self.assertEqual(wrong, [])
 
     def test_a_wrong_arrow_is_noticed(self):
-        self.assertEqual(wrong_includes("core", '#include "mesh/mesh.hpp"\n'), ["mesh"])
-        self.assertEqual(wrong_includes("dynamics", '#include <Eigen/Core>\n#include "modal/x.hpp"\n'), ["modal"])
-        self.assertEqual(wrong_includes("condense", '#include "mesh/mesh.hpp"\n'), [])
-        self.assertEqual(wrong_links("dynamics", "LINKS clatter::core clatter::condense"), ["condense"])
+        self.assertEqual(wrong_includes("core/base", '#include "core/mesh/mesh.hpp"\n'),
+                         ["core/base uses core/mesh, but may use only: no other folder"])
+        self.assertRegex(wrong_includes("dynamics", '#include <Eigen/Core>\n#include "modal/x.hpp"\n')[0],
+                         "dynamics uses modal, which is a stage")
+        self.assertEqual(wrong_includes("condense", '#include "core/mesh/mesh.hpp"\n'), [])
+        self.assertRegex(wrong_links("dynamics", "LINKS clatter::base clatter::condense")[0], "condense, which is a stage")
+        self.assertRegex(wrong_links("recover", "LINKS clatter::fe")[0], "recover uses core/fe, but may use only: ")
 
     def test_a_foreign_header_stays_behind_files_of_one_name(self):
         for header, owners in HEADER_OWNERS.items():
-            users = [str(p.relative_to(SOURCE)) for folder in BELOW for p in sources(folder)
+            users = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                      if includes_header(p, header)]
             with self.subTest(header=header):
                 self.assertEqual([user for user in users if not user.startswith(tuple(owners))], [])
 
     def test_no_header_of_ours_shows_a_foreign_type_to_others(self):
         for header, owners in HEADER_OWNERS.items():
-            private = [str(p.relative_to(SOURCE)) for folder in BELOW for p in sources(folder)
+            private = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                        if p.suffix != ".cpp" and includes_header(p, header)]
-            users = [str(p.relative_to(SOURCE)) for folder in BELOW for p in sources(folder)
+            users = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                      if any(includes_header(p, re.escape(name)) for name in private)]
             with self.subTest(header=header):
                 self.assertEqual([user for user in users if not user.startswith(tuple(owners))], [])
@@ -124,7 +177,7 @@ class Linking(unittest.TestCase):
                 self.assertEqual([name for name in libraries if name.startswith("libgmsh")], [])
 
     def test_hardH6_one_libhdf5_per_executable(self):
-        for stage in BELOW.keys() - {"core"}:
+        for stage in STAGES:
             with self.subTest(stage=stage):
                 found = [name for name in loaded(self.executable(stage)) if re.match(r"libhdf5(_serial|_openmpi)?\.so", name)]
                 self.assertEqual(len(found), 1, f"clatter-{stage} loads {found}")

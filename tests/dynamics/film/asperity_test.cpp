@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/asperity.hpp"
 
 namespace clatter::film {

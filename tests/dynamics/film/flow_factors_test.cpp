@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/flow_factors.hpp"
 #include "dynamics/film/roughness.hpp"
 

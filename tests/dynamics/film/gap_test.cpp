@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "dynamics/film/gap.hpp"
 
 namespace clatter::film {
@@ -16,8 +16,8 @@ constexpr double kPi = std::numbers::pi;
 PadGrid pad() { return PadGrid::uniform(-0.6, 0.6, 9, -0.03, 0.02, 7, 0.05); }
 
 // Patches all around; axis may point down and angles may start anywhere.
-ContactGrid ring(int n_a, int n_z, double low, double high, bool upside_down) {
-  ContactGrid grid;
+rom::ContactGrid ring(int n_a, int n_z, double low, double high, bool upside_down) {
+  rom::ContactGrid grid;
   grid.radius = 0.05;
   grid.axis_point = {0.3, 0.0, upside_down ? high : low};
   grid.axis = {0.0, 0.0, upside_down ? -1.0 : 1.0};
@@ -32,7 +32,7 @@ ContactGrid ring(int n_a, int n_z, double low, double high, bool upside_down) {
 }
 
 // Mean radial displacement of each patch under rigid motions: normals averaged over the strip.
-Eigen::MatrixXd patch_rigid(const ContactGrid& grid) {
+Eigen::MatrixXd patch_rigid(const rom::ContactGrid& grid) {
   const auto n_a = grid.angle.size(), n_z = grid.axial.size();
   Eigen::MatrixXd rigid(n_a * n_z, 6);
   const Eigen::Vector3d across = grid.axis.cross(grid.zero_angle);
@@ -68,7 +68,7 @@ TEST(PatchMap, SmoothFieldsAreInterpolatedToSecondOrder) {
   double last = 0.0;
   for (int n : {12, 24, 48}) {
     const ElasticSurface surface{ring(n, n / 2, 0.0, 0.2, false), {}};
-    const ContactGrid& grid = surface.grid;
+    const rom::ContactGrid& grid = surface.grid;
     Eigen::VectorXd field(n * n / 2);
     auto value = [](double angle, double z) { return std::cos(2 * angle) * (1.0 + 30.0 * z * z); };
     for (int i = 0; i < n; ++i)
@@ -106,7 +106,7 @@ TEST(PatchMap, SlopeIsTheDerivativeAlongTheStroke) {
 }
 
 TEST(PatchMap, PatchesOfTwoSectorsDoNotReachAcrossTheSpaceBetween) {
-  ContactGrid grid = ring(8, 4, -0.03, 0.02, false);
+  rom::ContactGrid grid = ring(8, 4, -0.03, 0.02, false);
   grid.zero_angle = Eigen::Vector3d::UnitY();
   grid.angle.resize(4);
   grid.angle << -0.3, 0.3, kPi - 0.3, kPi + 0.3;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 #include "film_march.hpp"
 #include "piston_scene.hpp"
 
@@ -44,7 +44,7 @@ TEST(PistonLiner, ElasticBodiesInRigidMotionFeelTheSameForceAsRigidOnes) {
   const auto rigid = make_element(options, false);
   PistonLinerBodies bodies;
   bodies.stroke = crank_stroke;
-  const ContactGrid skirt =
+  const rom::ContactGrid skirt =
       make_patches(8, 3, options.skirt_bottom, options.skirt_top, options.bore_radius);
   bodies.piston = ElasticSurface{skirt, {}};
   std::vector<int> coordinates(30);

@@ -10,8 +10,8 @@
 namespace clatter::film {
 
 /// Patches all around, `n_a` x `n_z` over [low, high] along z.
-inline ContactGrid make_patches(int n_a, int n_z, double low, double high, double radius) {
-  ContactGrid grid;
+inline rom::ContactGrid make_patches(int n_a, int n_z, double low, double high, double radius) {
+  rom::ContactGrid grid;
   grid.radius = radius;
   grid.axis_point = {0.0, 0.0, low};
   grid.zero_angle = Eigen::Vector3d::UnitY();
@@ -65,7 +65,7 @@ inline Eigen::VectorXd pushed(const PistonLiner& element, bool elastic, double d
   y[pin + 1] = depth;
   y[pin + 3] = tilt;
   if (!elastic) return y;
-  const ContactGrid skirt =
+  const rom::ContactGrid skirt =
       make_patches(8, 3, element.options().skirt_bottom, element.options().skirt_top, 1.0);
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 3; ++j) {

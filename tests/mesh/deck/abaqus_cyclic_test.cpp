@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "abaqus_support.hpp"
-#include "mesh/boundary.hpp"
+#include "core/mesh/boundary.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {
@@ -27,11 +27,12 @@ const std::string kTie = "*TIE, CYCLIC SYMMETRY, POSITION TOLERANCE=1., NAME=T\n
 const std::string kFour = "*CYCLIC SYMMETRY MODEL, N=4, NGRAPH=4\n0,0,0,0,0,1\n";
 
 TEST(AbaqusCyclic, SectorsAreCopiedAndJoinedNodeByNode) {
-  const Deck deck = read(kQuarter + kTie + kFour + "*BOUNDARY\n1, 1, 3\n");
+  Deck deck = read(kQuarter + kTie + kFour + "*BOUNDARY\n1, 1, 3\n");
+  deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   EXPECT_EQ(deck.mesh.cell_count(), 4);
   EXPECT_EQ(deck.mesh.nodes.rows(), 16);
   check_structure(deck.mesh, "ring");
-  EXPECT_EQ(skin_of(boundary_faces(deck.mesh)).face_count(), 4 * 4);  // the sides are inside
+  EXPECT_EQ(deck.mesh.surface("skin").face_count(), 4 * 4);  // the sides are inside
   for (Eigen::Index a = 0; a < 16; ++a) {
     const double radius = deck.mesh.nodes.row(a).head<2>().norm();
     EXPECT_NEAR(std::abs(radius - 1.5), 0.5, 1e-15);

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "mesh/deck/abaqus_fields.hpp"
+#include "mesh/deck/abaqus/fields.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 #include "tests/mesh/support.hpp"
 

@@ -1,7 +1,7 @@
 // Materials and the systems of their axes.
 #include <cmath>
 
-#include "mesh/deck/abaqus_reading.hpp"
+#include "mesh/deck/abaqus/reading.hpp"
 #include "mesh/deck/system_axes.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/deck/abaqus_elements.hpp"
+#include "mesh/deck/abaqus/elements.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 
 namespace clatter::mesh::deck {

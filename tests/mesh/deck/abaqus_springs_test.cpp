@@ -1,6 +1,8 @@
 // *SPRING and *DASHPOT, *MPC MEANROT, steps on the stiffness of loads.
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
+
 #include "abaqus_support.hpp"
 #include "mesh/deck/units.hpp"
 

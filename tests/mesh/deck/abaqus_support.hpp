@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "mesh/deck/abaqus_reader.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/abaqus/reader.hpp"
 
 namespace clatter::mesh::deck::testing {
 

@@ -6,9 +6,9 @@
 #include <random>
 #include <sstream>
 
-#include "mesh/deck/abaqus_elements.hpp"
-#include "mesh/deck/abaqus_fields.hpp"
-#include "mesh/deck/abaqus_writer.hpp"
+#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/fields.hpp"
+#include "mesh/deck/abaqus/writer.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 #include "tests/mesh/support.hpp"
 

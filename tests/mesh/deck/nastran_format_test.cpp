@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mesh/deck/nastran_fields.hpp"
+#include "mesh/deck/nastran/fields.hpp"
 #include "tests/mesh/deck/nastran_support.hpp"
 
 namespace clatter::test {

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "mesh/boundary.hpp"
+#include "core/mesh/boundary.hpp"
 #include "tests/mesh/deck/nastran_support.hpp"
 #include "tests/shared_data.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-#include "mesh/deck/nastran_reader.hpp"
+#include "core/base/error.hpp"
+#include "mesh/deck/nastran/reader.hpp"
 
 namespace clatter::test {
 

@@ -1,4 +1,4 @@
-#include "mesh/deck/nastran_writer.hpp"
+#include "mesh/deck/nastran/writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <random>
 #include <sstream>
 
-#include "mesh/deck/nastran_fields.hpp"
-#include "mesh/mesh_export.hpp"
+#include "mesh/deck/nastran/fields.hpp"
+#include "mesh/exports/mesh_export.hpp"
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/mesh/deck/nastran_support.hpp"
 

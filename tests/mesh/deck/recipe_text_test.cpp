@@ -1,5 +1,5 @@
 // The fe.toml of a deck, read back by clatter-assembly's own reader.
-#include "mesh/deck/recipe_text.hpp"
+#include "mesh/deck/recipe/text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "assembly/recipe.hpp"
-#include "core/config.hpp"
-#include "mesh/boundary.hpp"
+#include "core/base/config.hpp"
+#include "core/mesh/boundary.hpp"
 #include "mesh/deck/import.hpp"
-#include "mesh/deck/recipe_names.hpp"
+#include "mesh/deck/recipe/names.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 
 namespace clatter::mesh::deck::testing {
@@ -43,7 +43,7 @@ TEST(RecipeText, SaysMaterialSupportForceAndStep) {
   EXPECT_EQ(told.recipe.materials[0].youngs, 2.1e5);
   EXPECT_EQ(told.recipe.materials[0].poisson, 0.3);
   EXPECT_EQ(told.recipe.materials[0].density, 7.8e-9);
-  EXPECT_EQ(told.recipe.materials[0].integration.hex8, assembly::Integration::kFull);
+  EXPECT_EQ(told.recipe.materials[0].integration.hex8, fe::Integration::kFull);
   ASSERT_THAT(told.recipe.supports, SizeIs(1));
   EXPECT_EQ(told.recipe.supports[0].place.node_set, "BOT");
   EXPECT_THAT(told.recipe.supports[0].directions, ElementsAre(0, 1, 2));
@@ -112,7 +112,9 @@ TEST(RecipeText, SharesANodeSetAndMakesNoSecondOne) {
 class DeckFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "clatter_deck_file";
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              (std::string("clatter_deck_file_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

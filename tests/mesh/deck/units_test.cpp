@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "core/error.hpp"
+#include "core/base/error.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {

@@ -1,0 +1,47 @@
+#pragma once
+// What every artefact carries besides its data: schema, version, configuration, inputs with their
+// hashes, timing. See docs/formats.md.
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/h5_file.hpp"
+#include "core/base/stopwatch.hpp"
+
+namespace clatter {
+
+/// SHA-256 of a file's bytes as 64 hexadecimal digits. FileError when it cannot be read.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+/// The same of pieces of memory, one behind the other.
+std::string sha256_of_bytes(std::initializer_list<std::string_view> pieces);
+
+/// The head of an artefact.
+struct Provenance {
+  std::string schema;                         // "clatter/mesh/1"
+  std::string config;                         // Config::resolved()
+  std::vector<std::filesystem::path> inputs;  // files that were read
+};
+
+/// Writes schema, version, configuration and the inputs' paths and hashes to root attributes and
+/// `inputs/`.
+void write_provenance(H5File& file, const Provenance& provenance);
+
+/// Writes group `timing`: per step seconds and peak memory, and the run's totals.
+void write_timing(H5File& file, const StepClock& clock);
+
+/// Writes numbers as attributes of group `certificate`.
+void write_certificate(H5File& file, const std::map<std::string, double>& certificate);
+/// Reads them back; empty when the group is absent.
+std::map<std::string, double> read_certificate(const H5File& file);
+
+/// Opens an artefact and checks its schema: InputError "file: schema: found X, expected Y".
+H5File open_artefact(const std::filesystem::path& path, const std::string& schema);
+
+/// The version of clatter that is running, "0.1.0".
+std::string version();
+
+}  // namespace clatter

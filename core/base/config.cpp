@@ -1,0 +1,275 @@
+// The values of a configuration, each checked, noted and told with its place when it is wrong.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "core/base/config_impl.hpp"
+#include "core/base/error.hpp"
+#include "core/base/planned_files.hpp"
+
+namespace clatter {
+namespace {
+
+std::string shown(const toml::node& node) {
+  std::ostringstream stream;
+  node.visit([&](const auto& concrete) {
+    if constexpr (toml::is_table<decltype(concrete)>) {
+      stream << "a table";
+    } else if constexpr (toml::is_array<decltype(concrete)>) {
+      stream << "an array";
+    } else {
+      stream << concrete;
+    }
+  });
+  return stream.str();
+}
+
+std::string expectation(const Range& range) {
+  const bool below = std::isfinite(range.max);
+  const bool above = std::isfinite(range.min);
+  const char* lower = range.open_min ? "above" : "at least";
+  if (above && below)
+    return fmt::format("a number {} {} and at most {}", lower, range.min, range.max);
+  if (above) return fmt::format("a number {} {}", lower, range.min);
+  if (below) return fmt::format("a number of at most {}", range.max);
+  return "a finite number";
+}
+
+bool inside(double value, const Range& range) {
+  return std::isfinite(value) && value <= range.max &&
+         (range.open_min ? value > range.min : value >= range.min);
+}
+
+std::string joined(const std::vector<double>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::string joined(const std::vector<std::string>& values) {
+  std::vector<std::string> quoted;
+  for (const auto& value : values) quoted.push_back("\"" + value + "\"");
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+}  // namespace
+
+Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
+    : document_(std::move(document)), node_(std::move(node)) {}
+
+std::string Config::where() const { return place_in_file(document_->origin, node_->table); }
+
+void Config::fail(std::string_view key, const std::string& message) const {
+  const toml::node* at = node_->table->get(key);
+  throw InputError(fmt::format("{}: {}{}: {}",
+                               place_in_file(document_->origin, at != nullptr ? at : node_->table),
+                               node_->prefix, key, message));
+}
+
+bool Config::has(std::string_view key) const {
+  document_->asked[node_->table].insert(std::string(key));
+  return node_->table->get(key) != nullptr;
+}
+
+std::vector<std::string> Config::keys() const {
+  std::vector<std::pair<toml::source_position, std::string>> ordered;
+  for (const auto& [key, value] : *node_->table) {
+    ordered.emplace_back(value.source().begin, std::string(key.str()));
+  }
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (auto& entry : ordered) names.push_back(std::move(entry.second));
+  return names;
+}
+
+std::optional<Config> Config::find_table(std::string_view key) const {
+  if (!has(key)) return std::nullopt;
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_table()) fail(key, fmt::format("found {}, expected a table", shown(*node)));
+  document_->known.insert(node);
+  return Config(document_, std::make_shared<Node>(
+                               Node{node->as_table(), fmt::format("{}{}.", node_->prefix, key)}));
+}
+
+Config Config::table(std::string_view key) const {
+  auto found = find_table(key);
+  if (!found) fail(key, fmt::format("found nothing, expected a table [{}{}]", node_->prefix, key));
+  return *found;
+}
+
+std::vector<Config> Config::tables(std::string_view key) const {
+  std::vector<Config> result;
+  if (!has(key)) return result;
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_array_of_tables()) {
+    fail(key, fmt::format("found {}, expected tables [[{}{}]]", shown(*node), node_->prefix, key));
+  }
+  document_->known.insert(node);
+  for (const auto& element : *node->as_array()) {
+    document_->known.insert(&element);
+    const auto prefix = fmt::format("{}{}[{}].", node_->prefix, key, result.size());
+    result.push_back(Config(document_, std::make_shared<Node>(Node{element.as_table(), prefix})));
+  }
+  return result;
+}
+
+bool Config::is_list(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_array();
+}
+
+double Config::number(std::string_view key, Range range) const {
+  if (!has(key)) fail(key, "found nothing, expected " + expectation(range));
+  const toml::node* node = node_->table->get(key);
+  const auto value = node->value<double>();
+  if (!value || node->is_string() || node->is_boolean() || !inside(*value, range)) {
+    fail(key, fmt::format("found {}, expected {}", shown(*node), expectation(range)));
+  }
+  document_->known.insert(node);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), fmt::format("{}", *value));
+  return *value;
+}
+
+double Config::number_or(std::string_view key, double fallback, Range range) const {
+  if (has(key)) return number(key, range);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), fmt::format("{}", fallback));
+  return fallback;
+}
+
+int64_t Config::integer(std::string_view key, Range range) const {
+  if (!has(key)) fail(key, "found nothing, expected a whole number");
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_integer() || !inside(static_cast<double>(*node->value<int64_t>()), range)) {
+    fail(key,
+         fmt::format("found {}, expected a whole number, {}", shown(*node), expectation(range)));
+  }
+  document_->known.insert(node);
+  const int64_t value = *node->value<int64_t>();
+  document_->resolved.emplace_back(node_->prefix + std::string(key), fmt::format("{}", value));
+  return value;
+}
+
+int64_t Config::integer_or(std::string_view key, int64_t fallback, Range range) const {
+  if (has(key)) return integer(key, range);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), fmt::format("{}", fallback));
+  return fallback;
+}
+
+bool Config::flag_or(std::string_view key, bool fallback) const {
+  bool value = fallback;
+  if (has(key)) {
+    const toml::node* node = node_->table->get(key);
+    if (!node->is_boolean()) {
+      fail(key, fmt::format("found {}, expected true or false", shown(*node)));
+    }
+    document_->known.insert(node);
+    value = *node->value<bool>();
+  }
+  document_->resolved.emplace_back(node_->prefix + std::string(key), value ? "true" : "false");
+  return value;
+}
+
+std::string Config::text(std::string_view key) const {
+  if (!has(key)) fail(key, "found nothing, expected a text in quotes");
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_string()) {
+    fail(key, fmt::format("found {}, expected a text in quotes", shown(*node)));
+  }
+  document_->known.insert(node);
+  const std::string value = *node->value<std::string>();
+  document_->resolved.emplace_back(node_->prefix + std::string(key), "\"" + value + "\"");
+  return value;
+}
+
+std::string Config::text_or(std::string_view key, const std::string& fallback) const {
+  if (has(key)) return text(key);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), "\"" + fallback + "\"");
+  return fallback;
+}
+
+std::string Config::choice(std::string_view key,
+                           std::initializer_list<std::string_view> allowed) const {
+  const std::string value = text_or(key, std::string(*allowed.begin()));
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    fail(key, fmt::format("found \"{}\", expected one of: {}", value, fmt::join(allowed, ", ")));
+  }
+  return value;
+}
+
+std::vector<double> Config::numbers(std::string_view key) const {
+  if (!has(key)) fail(key, "found nothing, expected a list of numbers");
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_array())
+    fail(key, fmt::format("found {}, expected a list of numbers", shown(*node)));
+  std::vector<double> values;
+  for (const auto& element : *node->as_array()) {
+    const auto value = element.value<double>();
+    if (!value || !element.is_number() || !std::isfinite(*value)) {
+      fail(key, fmt::format("found {} in the list, expected a finite number", shown(element)));
+    }
+    values.push_back(*value);
+  }
+  document_->known.insert(node);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), joined(values));
+  return values;
+}
+
+std::vector<double> Config::numbers_or(std::string_view key,
+                                       const std::vector<double>& fallback) const {
+  if (has(key)) return numbers(key);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), joined(fallback));
+  return fallback;
+}
+
+std::vector<double> Config::numbers(std::string_view key, size_t count) const {
+  auto values = numbers(key);
+  if (values.size() != count) {
+    fail(key, fmt::format("found {} numbers, expected {}", values.size(), count));
+  }
+  return values;
+}
+
+std::vector<std::string> Config::texts(std::string_view key) const {
+  if (!has(key)) fail(key, "found nothing, expected a list of texts");
+  const toml::node* node = node_->table->get(key);
+  if (!node->is_array()) fail(key, fmt::format("found {}, expected a list of texts", shown(*node)));
+  std::vector<std::string> values;
+  for (const auto& element : *node->as_array()) {
+    if (!element.is_string()) {
+      fail(key, fmt::format("found {} in the list, expected a text in quotes", shown(element)));
+    }
+    values.push_back(*element.value<std::string>());
+  }
+  document_->known.insert(node);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), joined(values));
+  return values;
+}
+
+std::vector<std::string> Config::texts_or(std::string_view key,
+                                          const std::vector<std::string>& fallback) const {
+  if (has(key)) return texts(key);
+  document_->resolved.emplace_back(node_->prefix + std::string(key), joined(fallback));
+  return fallback;
+}
+
+std::filesystem::path Config::path(std::string_view key) const {
+  std::filesystem::path named = text(key);
+  const toml::node* node = node_->table->get(key);
+  if (named.is_relative()) {
+    const auto& file = node->source().path;
+    const bool from_base = file && *file != document_->origin;
+    named = (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
+  }
+  will_read(named, fmt::format("{}: {}", place_in_file(document_->origin, node), key));
+  return named;
+}
+
+std::string Config::resolved() const {
+  std::string text;
+  std::set<std::string> seen;
+  for (const auto& [key, value] : document_->resolved) {
+    if (seen.insert(key).second) text += fmt::format("{} = {}\n", key, value);
+  }
+  return text;
+}
+
+}  // namespace clatter

@@ -1,0 +1,29 @@
+#include "core/base/error.hpp"
+
+#include <new>
+
+#include "core/base/part_names.hpp"
+#include "core/base/refusal.hpp"
+
+namespace clatter {
+
+int run_guarded(std::string_view program, const std::function<int()>& body) {
+  remove_parts_on_signals();
+  try {
+    return body();
+  } catch (const Error& error) {
+    return report_error(program, error.what(), error.code());
+  } catch (const std::bad_alloc&) {
+    return report_error(program,
+                        "out of memory: use a coarser mesh or fewer retained degrees of freedom",
+                        ExitCode::kNumerics);
+  } catch (const std::exception& error) {
+    return report_error(program, std::string("internal: ") + error.what(), ExitCode::kNumerics);
+  } catch (const std::string& message) {
+    return report_error(program, message, ExitCode::kNumerics);
+  } catch (...) {
+    return report_error(program, "internal: an exception of unknown kind", ExitCode::kNumerics);
+  }
+}
+
+}  // namespace clatter

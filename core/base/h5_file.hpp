@@ -1,0 +1,93 @@
+#pragma once
+// The HDF5 store behind one file: plain calls in terms of vectors and Eigen matrices.
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/matrix.hpp"
+
+namespace clatter {
+
+/// One HDF5 file. Paths inside the file are "group/dataset"; missing groups are made on writing.
+/// Writing goes to `path.part`; nothing stands under the final name before commit(), and without
+/// commit() an older artefact stays. Data, attributes and heads have checksums (HDF5's own), which
+/// reading verifies; files without them are read as they are.
+/// Errors: FileError for what the disk or library refuses, InputError for wrong content; each names
+/// file, place, what was found and what was expected.
+class H5File {
+ public:
+  /// Opens a finished file for reading.
+  static H5File open(const std::filesystem::path& path);
+  /// Starts a new file that commit() puts in place of `path`.
+  static H5File create(const std::filesystem::path& path);
+
+  H5File(H5File&&) noexcept;
+  H5File& operator=(H5File&&) noexcept;
+  ~H5File();
+
+  /// Flushes, closes, syncs and renames `path.part` to `path`.
+  void commit();
+  const std::filesystem::path& path() const;
+
+  bool has(std::string_view name) const;
+  bool has_attribute(std::string_view object, std::string_view name) const;
+  /// Names of the members of a group, sorted; empty when the group is absent.
+  std::vector<std::string> list(std::string_view group) const;
+  /// Extents of a dataset.
+  std::vector<int64_t> shape(std::string_view name) const;
+
+  void write(std::string_view name, const std::vector<double>& values);
+  void write(std::string_view name, const std::vector<int32_t>& values);
+  void write(std::string_view name, const std::vector<int64_t>& values);
+  void write(std::string_view name, const std::vector<std::string>& values);
+  void write(std::string_view name, const Eigen::VectorXd& values);
+  /// The file shows the matrix's natural (rows, columns) whatever the storage order in memory.
+  void write(std::string_view name, const Eigen::MatrixXd& values);
+  void write(std::string_view name, const RowMatrix& values);
+  void write(std::string_view name, const IndexMatrix& values);
+  /// Single precision, for what is only looked at.
+  void write_float(std::string_view name, const std::vector<float>& values,
+                   const std::vector<int64_t>& shape);
+
+  std::vector<double> read_doubles(std::string_view name) const;
+  std::vector<int32_t> read_ints(std::string_view name) const;
+  std::vector<int64_t> read_longs(std::string_view name) const;
+  std::vector<std::string> read_strings(std::string_view name) const;
+  Eigen::VectorXd read_vector(std::string_view name) const;
+  Eigen::MatrixXd read_matrix(std::string_view name) const;
+  RowMatrix read_rows(std::string_view name) const;
+  /// Rows [first, first + count) of a two-dimensional dataset.
+  RowMatrix read_rows(std::string_view name, int64_t first, int64_t count) const;
+  IndexMatrix read_index_matrix(std::string_view name) const;
+
+  /// Attributes; `object` is a group or dataset, "/" for the root. Groups are made when missing. A
+  /// text over 60 000 bytes becomes the one entry of dataset `object/name`.
+  void set(std::string_view object, std::string_view name, double value);
+  void set(std::string_view object, std::string_view name, int64_t value);
+  void set(std::string_view object, std::string_view name, int value) {
+    set(object, name, static_cast<int64_t>(value));
+  }
+  void set(std::string_view object, std::string_view name, const std::vector<int64_t>& values);
+  void set(std::string_view object, std::string_view name, const std::string& value);
+  void set(std::string_view object, std::string_view name, const char* value) {
+    set(object, name, std::string(value));
+  }
+  double get_double(std::string_view object, std::string_view name) const;
+  int64_t get_int(std::string_view object, std::string_view name) const;
+  /// A list of whole numbers, at least one.
+  std::vector<int64_t> get_ints(std::string_view object, std::string_view name) const;
+  std::string get_string(std::string_view object, std::string_view name) const;
+  /// Names of all attributes of an object, sorted.
+  std::vector<std::string> attributes(std::string_view object) const;
+
+ private:
+  struct Impl;
+  explicit H5File(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clatter

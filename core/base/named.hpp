@@ -1,0 +1,25 @@
+#pragma once
+// Things found by name in a map, or a line that says which names there are.
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace clatter {
+
+/// The entry `name` of `map`; InputError "`owner`: no `kind` named ..., expected one of: ..." when
+/// there is none.
+template <class Map>
+const typename Map::mapped_type& find_named(const Map& map, const std::string& owner,
+                                            const std::string& kind, const std::string& name) {
+  const auto at = map.find(name);
+  if (at != map.end()) return at->second;
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  throw InputError(fmt::format("{}: no {} named {}, expected one of: {}", owner, kind, name,
+                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace clatter

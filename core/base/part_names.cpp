@@ -1,0 +1,59 @@
+#include "core/base/part_names.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace clatter {
+namespace {
+
+// A program writes a few files at a time; beyond the table a name is not noted, which costs a part
+// file after a signal and nothing else.
+std::array<std::atomic<char*>, 32> names;
+
+// Calls only what a signal handler may.
+void remove_and_end(int signal) {
+  for (std::atomic<char*>& name : names)
+    if (const char* path = name.load()) ::unlink(path);
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+}  // namespace
+
+PartName::PartName(const std::filesystem::path& path) {
+  char* name = ::strdup(path.c_str());
+  for (size_t i = 0; i < names.size(); ++i) {
+    char* empty = nullptr;
+    if (!names[i].compare_exchange_strong(empty, name)) continue;
+    slot_ = static_cast<int>(i);
+    return;
+  }
+  std::free(name);
+}
+
+PartName::PartName(PartName&& other) noexcept : slot_(std::exchange(other.slot_, -1)) {}
+
+PartName& PartName::operator=(PartName&& other) noexcept {
+  std::swap(slot_, other.slot_);
+  return *this;
+}
+
+PartName::~PartName() {
+  if (slot_ >= 0) std::free(names[static_cast<size_t>(slot_)].exchange(nullptr));
+}
+
+void remove_parts_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old = {};
+    ::sigaction(signal, nullptr, &old);
+    if (old.sa_handler == SIG_DFL) ::signal(signal, remove_and_end);
+  }
+}
+
+}  // namespace clatter

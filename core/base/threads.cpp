@@ -1,0 +1,45 @@
+#include "core/base/threads.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace clatter {
+namespace {
+
+int chosen_count = 0;
+
+}  // namespace
+
+void set_thread_count(int count) { chosen_count = std::max(0, count); }
+
+int thread_count() {
+  if (chosen_count > 0) return chosen_count;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& body) {
+  const int64_t pieces = std::min<int64_t>(thread_count(), n);
+  if (pieces <= 1) {
+    if (n > 0) body(0, n);
+    return;
+  }
+  std::vector<std::exception_ptr> failures(static_cast<size_t>(pieces));
+  const auto run = [&](int64_t piece) {
+    try {
+      body(n * piece / pieces, n * (piece + 1) / pieces);
+    } catch (...) {
+      failures[static_cast<size_t>(piece)] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int64_t piece = 1; piece < pieces; ++piece) workers.emplace_back(run, piece);
+  run(0);  // here: a thread less to start
+  for (auto& worker : workers) worker.join();
+  for (const auto& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+}  // namespace clatter

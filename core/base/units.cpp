@@ -1,0 +1,38 @@
+#include "core/base/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double kInch = 25.4e-3;                // [m]
+constexpr double kPoundForce = 4.4482216152605;  // [N]
+constexpr double kSlinch = kPoundForce / kInch;  // lbf s2 / in [kg]
+
+}  // namespace
+
+UnitSystem unit_system_named(std::string_view name, const std::string& where) {
+  static const std::array<UnitSystem, 6> known = {{
+      {"m-kg-s", 1.0, 1.0, 1.0},
+      {"mm-t-s", 1e-3, 1e3, 1.0},
+      {"mm-kg-ms", 1e-3, 1.0, 1e-3},
+      {"mm-kg-s", 1e-3, 1.0, 1.0},
+      {"cm-g-s", 1e-2, 1e-3, 1.0},
+      {"in-lbfs2/in-s", kInch, kSlinch, 1.0},
+  }};
+  std::vector<std::string> names;
+  for (const UnitSystem& units : known) {
+    if (units.name == name) return units;
+    names.push_back(units.name);
+  }
+  throw InputError(fmt::format("{}: found units '{}', expected one of: {}", where, name,
+                               fmt::join(names, ", ")));
+}
+
+}  // namespace clatter

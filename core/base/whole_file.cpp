@@ -1,0 +1,56 @@
+#include "core/base/whole_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.hpp"
+
+namespace clatter {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw FileError(
+      fmt::format("{}: cannot be written (folder missing or disk full?)", path.string()));
+}
+
+bool synced(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool good = ::fsync(file) == 0;
+  return ::close(file) == 0 && good;
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const std::filesystem::path& path)
+    : path_(path),
+      part_(path.string() + ".part"),
+      unfinished_(part_),
+      stream_(part_, std::ios::binary) {
+  if (!stream_) fail(path_);
+}
+
+WholeFile::~WholeFile() {
+  if (part_.empty()) return;
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void WholeFile::commit() {
+  stream_.close();
+  if (!stream_ || !synced(part_)) fail(path_);
+  std::error_code trouble;
+  std::filesystem::rename(part_, path_, trouble);
+  if (trouble) throw FileError(fmt::format("{}: {}", path_.string(), trouble.message()));
+  part_.clear();
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  WholeFile file(path);
+  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.commit();
+}
+
+}  // namespace clatter

@@ -1,0 +1,38 @@
+#pragma once
+// Systems of axes for directions: [system.NAME] of a part's fe.toml.
+#include <Eigen/Core>
+#include <string>
+
+#include "core/base/config.hpp"
+
+namespace clatter::fe {
+
+/// Rectangular, cylindrical or spherical axes. In a rectangular system the directions are x, y, z;
+/// in a cylindrical one radial, tangential, axial; in a spherical one radial, along the meridian
+/// (away from +z), along the circle of latitude.
+struct Axes {
+  enum class Kind { kRectangular, kCylindrical, kSpherical };
+  Kind kind = Kind::kRectangular;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();     // [m]
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: x, y, z
+
+  /// The three directions at a place [m], as columns; right-handed and orthonormal. On the axis of
+  /// revolution the zero angle is taken.
+  Eigen::Matrix3d at(const Eigen::Vector3d& place) const;
+};
+
+/// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x lies along z.
+Axes read_axes(const Config& table, double metre);
+
+/// A line in space about which a part turns.
+struct RotationAxis {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       // [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
+  /// From the axis to `x`, square to it [m].
+  Eigen::Vector3d arm(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d r = x - point;
+    return r - r.dot(direction) * direction;
+  }
+};
+
+}  // namespace clatter::fe

@@ -1,0 +1,135 @@
+#include "core/fe/fe_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/mesh/mesh_file.hpp"
+
+namespace clatter::fe {
+namespace {
+
+template <typename Value>
+using Names = std::array<std::pair<std::string_view, Value>, 3>;
+
+constexpr Names<Integration> kIntegrations = {{{"full", Integration::kFull},
+                                               {"reduced", Integration::kReduced},
+                                               {"incompatible", Integration::kIncompatible}}};
+constexpr Names<Axes::Kind> kAxes = {{{"rectangular", Axes::Kind::kRectangular},
+                                      {"cylindrical", Axes::Kind::kCylindrical},
+                                      {"spherical", Axes::Kind::kSpherical}}};
+
+using Choice = Integration IntegrationChoice::*;
+constexpr std::array<std::pair<const char*, Choice>, 4> kChoices = {
+    {{"hex8", &IntegrationChoice::hex8},
+     {"hex20", &IntegrationChoice::hex20},
+     {"wedge6", &IntegrationChoice::wedge6},
+     {"wedge15", &IntegrationChoice::wedge15}}};
+
+template <typename Value>
+std::string name_of(const Names<Value>& names, Value value) {
+  for (const auto& [name, known] : names)
+    if (known == value) return std::string(name);
+  return {};
+}
+
+template <typename Value>
+Value value_of(const H5File& file, const std::string& group, const std::string& key,
+               const Names<Value>& names) {
+  const std::string found = file.get_string(group, key);
+  for (const auto& [name, value] : names)
+    if (name == found) return value;
+  throw InputError(fmt::format("{}: {}: found {} = \"{}\", expected {}, {} or {}",
+                               file.path().string(), group, key, found, names[0].first,
+                               names[1].first, names[2].first));
+}
+
+/// A finite dataset of that shape.
+Eigen::MatrixXd read_matrix(const H5File& file, const std::string& place, Eigen::Index rows,
+                            Eigen::Index cols) {
+  const Eigen::MatrixXd values =
+      cols == 1 ? Eigen::MatrixXd(file.read_vector(place)) : file.read_matrix(place);
+  if (values.rows() != rows || values.cols() != cols || !values.allFinite())
+    throw InputError(fmt::format("{}: {}: found {} x {} numbers, expected {} x {}, all finite",
+                                 file.path().string(), place, values.rows(), values.cols(), rows,
+                                 cols));
+  return values;
+}
+
+void write_material(H5File& file, const std::string& group, const Material& material) {
+  file.set(group, "rho", material.density);
+  if (material.is_isotropic()) {
+    file.set(group, "E", material.youngs);
+    file.set(group, "nu", material.poisson);
+  } else {
+    file.write(group + "/elasticity", Eigen::MatrixXd(*material.elasticity));
+  }
+  file.write(group + "/expansion", Eigen::VectorXd(material.expansion));
+  if (material.axes) {
+    file.set(group + "/axes", "kind", name_of(kAxes, material.axes->kind));
+    file.write(group + "/axes/origin", Eigen::VectorXd(material.axes->origin));
+    file.write(group + "/axes/frame", Eigen::MatrixXd(material.axes->frame));
+  }
+  for (const auto& [key, member] : kChoices)
+    file.set(group, key, name_of(kIntegrations, material.integration.*member));
+}
+
+Material read_material(const H5File& file, const std::string& group) {
+  Material material;
+  material.density = file.get_double(group, "rho");
+  if (file.has(group + "/elasticity")) {
+    material.elasticity = read_matrix(file, group + "/elasticity", 6, 6);
+  } else {
+    material.youngs = file.get_double(group, "E");
+    material.poisson = file.get_double(group, "nu");
+    if (!(material.youngs > 0.0 && std::isfinite(material.youngs) && material.poisson > -1.0 &&
+          material.poisson < 0.5))
+      throw InputError(
+          fmt::format("{}: {}: found E = {:g}, nu = {:g}, expected E > 0 and -1 < nu "
+                      "< 0.5",
+                      file.path().string(), group, material.youngs, material.poisson));
+  }
+  material.expansion = read_matrix(file, group + "/expansion", 6, 1);
+  if (file.has(group + "/axes")) {
+    material.axes = Axes{value_of(file, group + "/axes", "kind", kAxes),
+                         read_matrix(file, group + "/axes/origin", 3, 1),
+                         read_matrix(file, group + "/axes/frame", 3, 3)};
+  }
+  for (const auto& [key, member] : kChoices)
+    material.integration.*member = value_of(file, group, key, kIntegrations);
+  return material;
+}
+
+}  // namespace
+
+void write_cells(H5File& file, const FeCells& cells) {
+  if (cells.blocks.empty()) return;
+  file.write("regions", cells.regions);
+  for (size_t r = 0; r < cells.materials.size(); ++r)
+    write_material(file, fmt::format("materials/{}", r), cells.materials[r]);
+  mesh::write_cells(file, cells.blocks);
+  if (!cells.node_ids.empty()) file.write("node_ids", cells.node_ids);
+}
+
+FeCells read_cells(const H5File& file, const RowMatrix& nodes) {
+  if (!file.has("cells")) return {};
+  mesh::Mesh mesh;
+  mesh.nodes = nodes;
+  mesh.regions = file.read_strings("regions");
+  mesh.cells = mesh::read_cells(file);
+  if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
+  mesh.surfaces["skin"];  // the check asks for it; surfaces are checked by themselves
+  mesh::check_structure(mesh, file.path().string());
+  FeCells cells;
+  for (size_t r = 0; r < mesh.regions.size(); ++r)
+    cells.materials.push_back(read_material(file, fmt::format("materials/{}", r)));
+  cells.regions = std::move(mesh.regions);
+  cells.blocks = std::move(mesh.cells);
+  cells.node_ids = std::move(mesh.node_ids);
+  return cells;
+}
+
+}  // namespace clatter::fe

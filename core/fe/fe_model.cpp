@@ -1,0 +1,127 @@
+#include "core/fe/fe_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/fe/fe_checks.hpp"
+#include "core/fe/fe_statics_file.hpp"
+#include "core/mesh/mesh_file.hpp"
+
+namespace clatter::fe {
+namespace {
+
+/// A symmetric positive semidefinite matrix has no negative diagonal entry, and where one is zero
+/// its column is: an unknown without stiffness, or without mass.
+void check_lower(const H5File& file, const std::string& place, const SparseMatrix& matrix) {
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    SparseMatrix::InnerIterator entry(matrix, j);
+    if (!entry) continue;
+    if (entry.row() != j)
+      refuse(file, fmt::format("{}, column {}", place, j), "no entry on the diagonal first",
+             "the lower triangle");
+    const double diagonal = entry.value();
+    bool alone = true;
+    while (++entry) alone = alone && entry.value() == 0.0;
+    if (!(diagonal > 0.0 || (diagonal == 0.0 && alone)))
+      refuse(file, fmt::format("{}, column {}", place, j), fmt::format("diagonal {:g}", diagonal),
+             "a positive number, or an empty column");
+  }
+}
+
+void check_matrices(const H5File& file, const FeModel& model) {
+  const Eigen::Index n = model.K.rows();
+  const Eigen::Index n_nodes = model.nodes.rows();
+  check_shape(file, "K", model.K, n, n);
+  check_shape(file, "M", model.M, n, n);
+  check_shape(file, "T", model.T, 3 * n_nodes, n);
+  check_shape(file, "nodes", model.nodes, n_nodes, 3);
+  check_shape(file, "rigid", model.rigid, n, 6);
+  check_finite(file, "nodes", model.nodes);
+  check_finite(file, "rigid", model.rigid);
+  check_lower(file, "K", model.K);
+  check_lower(file, "M", model.M);
+}
+
+void read_loads(const H5File& file, FeModel& model) {
+  for (const std::string& load : file.list("loads")) {
+    const std::string place = "loads/" + load;
+    Eigen::VectorXd values = file.read_vector(place);
+    check_shape(file, place, values, model.K.rows(), 1);
+    check_finite(file, place, values);
+    model.loads[load] = std::move(values);
+    model.load_units[load] = file.get_string(place, "unit");
+  }
+}
+
+}  // namespace
+
+const rom::DofSet& FeModel::set(const std::string& set_name) const {
+  const auto found = sets.find(set_name);
+  if (found != sets.end()) return found->second;
+  std::vector<std::string> present;
+  for (const auto& [key, value] : sets) present.push_back(key);
+  throw InputError(fmt::format("{}: set: found \"{}\", expected one of: {}", name, set_name,
+                               fmt::join(present, ", ")));
+}
+
+void require_unknowns(const FeModel& model, const std::string& what) {
+  if (model.size() > 0) return;
+  throw InputError(fmt::format(
+      "{}: found all {} degrees of freedom held by supports ({}), expected some free ones for {}; "
+      "clatter-modal --static gives their reactions",
+      model.name, model.supports.size(), fmt::join(model.supports.names, ", "), what));
+}
+
+void write_fe_model(H5File& file, const FeModel& model) {
+  file.set("/", "name", model.name);
+  write_sparse(file, "M", model.M, true);
+  write_sparse(file, "K", model.K, true);
+  write_sparse(file, "T", model.T, false);
+  file.write("nodes", model.nodes);
+  file.write("rigid", model.rigid);
+  file.set("damping", "alpha", model.alpha);
+  file.set("damping", "beta", model.beta);
+  rom::write_dof_sets(file, model.sets, model.grids);
+  for (const auto& [load, values] : model.loads) {
+    file.write("loads/" + load, values);
+    const auto unit = model.load_units.find(load);
+    file.set("loads/" + load, "unit", unit == model.load_units.end() ? "1" : unit->second);
+  }
+  mesh::write_surfaces(file, model.surfaces);
+  rom::write_mass_properties(file, model.mass);
+  write_statics(file, model);
+  write_cells(file, model.cells);
+}
+
+FeModel read_fe_model(const std::filesystem::path& path) {
+  const H5File file = open_artefact(path, kFeSchema);
+  FeModel model;
+  model.name = file.get_string("/", "name");
+  model.M = read_sparse(file, "M");
+  model.K = read_sparse(file, "K");
+  model.T = read_sparse(file, "T");
+  model.nodes = file.read_rows("nodes");
+  model.rigid = file.read_matrix("rigid");
+  check_matrices(file, model);
+  model.alpha = file.get_double("damping", "alpha");
+  model.beta = file.get_double("damping", "beta");
+  if (!(std::isfinite(model.alpha) && model.alpha >= 0.0 && std::isfinite(model.beta) &&
+        model.beta >= 0.0))
+    refuse(file, "damping", fmt::format("alpha {:g}, beta {:g}", model.alpha, model.beta),
+           "numbers not below zero");
+  rom::read_dof_sets(file, model.size(), model.sets, model.grids);
+  read_loads(file, model);
+  model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
+  model.mass = rom::read_mass_properties(file);
+  read_statics(file, model);
+  if (model.size() == 0 && model.supports.size() == 0)
+    refuse(file, "K", "no degrees of freedom", "at least one");
+  model.cells = read_cells(file, model.nodes);
+  return model;
+}
+
+}  // namespace clatter::fe

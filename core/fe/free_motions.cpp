@@ -1,0 +1,165 @@
+#include "core/fe/free_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace clatter::fe {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNoForce = 1e-10;  // rounding of assembly and elimination leaves some 1e-13
+
+/// Unknowns joined to sets (Tarjan's union by halving of paths).
+class Union {
+ public:
+  explicit Union(Index size) : above_(static_cast<size_t>(size)) {
+    std::iota(above_.begin(), above_.end(), 0);
+  }
+  int32_t root(int32_t i) {
+    while (above(i) != i) i = above(i) = above(above(i));
+    return i;
+  }
+  void join(int32_t i, int32_t j) {
+    const int32_t a = root(i), b = root(j);
+    above(std::max(a, b)) = std::min(a, b);
+  }
+
+ private:
+  int32_t& above(int32_t i) { return above_[static_cast<size_t>(i)]; }
+  std::vector<int32_t> above_;
+};
+
+void join_entries(const SparseMatrix& lower, Union& sets) {
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
+      if (it.value() != 0.0) sets.join(static_cast<int32_t>(it.row()), j);
+}
+
+/// Combinations (6 x p) of motions with the mass matrix R^T M R that are M-orthonormal. A row of
+/// points has no rotation about itself.
+MatrixXd moving_combinations(const MatrixXd& mass) {
+  const VectorXd scale =
+      mass.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(scale.asDiagonal() * mass *
+                                                     scale.asDiagonal());
+  const Index moving = (gram.eigenvalues().array() > 1e-12).count();
+  return scale.asDiagonal() * gram.eigenvectors().rightCols(moving) *
+         gram.eigenvalues().tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+/// Combinations (p x m) of motions that need no force; row i of `force` (rows x p) is over what
+/// would cancel there.
+MatrixXd forceless(const MatrixXd& force) {
+  // By QR and SVD, not by F^T F, whose rounding would hide what holds only a little.
+  const Index p = force.cols();
+  if (p == 0) return MatrixXd(0, 0);
+  MatrixXd R = MatrixXd::Zero(p, p);
+  const Eigen::HouseholderQR<MatrixXd> qr(force);
+  const Index rows = std::min(force.rows(), p);
+  R.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  const MatrixXd V = Eigen::JacobiSVD<MatrixXd>(R, Eigen::ComputeFullV).matrixV();
+  const Eigen::RowVectorXd most = (force * V).cwiseAbs().colwise().maxCoeff();
+  std::vector<Index> free;
+  for (Index c = 0; c < p; ++c)
+    if (most[c] <= kNoForce) free.push_back(c);
+  return V(Eigen::all, free);
+}
+
+/// The unknowns of each body, ascending.
+std::vector<std::vector<Index>> rows_of(const std::vector<int>& body, int bodies) {
+  std::vector<std::vector<Index>> rows(static_cast<size_t>(bodies));
+  for (size_t i = 0; i < body.size(); ++i)
+    rows[static_cast<size_t>(body[i])].push_back(static_cast<Index>(i));
+  return rows;
+}
+
+}  // namespace
+
+std::vector<int> bodies_of(const SparseMatrix& K, const SparseMatrix& M) {
+  Union sets(K.cols());
+  join_entries(K, sets);
+  join_entries(M, sets);
+  std::vector<int> body(static_cast<size_t>(K.cols()), -1);
+  int count = 0;
+  for (int32_t i = 0; i < K.cols(); ++i) {
+    const int32_t root = sets.root(i);  // not after i
+    body[static_cast<size_t>(i)] = root == i ? count++ : body[static_cast<size_t>(root)];
+  }
+  return body;
+}
+
+FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& rigid) {
+  FreeMotions out;
+  const std::vector<int> body = bodies_of(K, M);
+  out.bodies = body.empty() ? 0 : 1 + *std::max_element(body.begin(), body.end());
+  const auto rows = rows_of(body, out.bodies);
+  // Each body's motions side by side in the same six columns: its rows alone are its own.
+  const MatrixXd momentum = multiply_symmetric(M, rigid);
+  MatrixXd motion = MatrixXd::Zero(K.cols(), 6);
+  std::vector<MatrixXd> moving;
+  for (const auto& own : rows) {
+    const MatrixXd R = rigid(own, Eigen::all);
+    moving.push_back(moving_combinations(R.transpose() * momentum(own, Eigen::all)));
+    motion(own, Eigen::seqN(0, moving.back().cols())) = R * moving.back();
+  }
+  const VectorXd size = magnitude_product(K, motion).rowwise().maxCoeff();
+  MatrixXd force = multiply_symmetric(K, motion);
+  for (Index i = 0; i < force.rows(); ++i) force.row(i) *= size[i] > 0.0 ? 1.0 / size[i] : 0.0;
+
+  std::vector<MatrixXd> free;
+  for (size_t b = 0; b < rows.size(); ++b) {
+    free.push_back(forceless(force(rows[b], Eigen::seqN(0, moving[b].cols()))));
+    out.body.insert(out.body.end(), static_cast<size_t>(free[b].cols()), static_cast<int>(b));
+  }
+  out.q = MatrixXd::Zero(K.cols(), static_cast<Index>(out.body.size()));
+  out.unit.resize(6, out.q.cols());
+  Index at = 0;
+  for (size_t b = 0; b < rows.size(); ++b) {
+    const auto columns = Eigen::seqN(at, free[b].cols());
+    out.q(rows[b], columns) = motion(rows[b], Eigen::seqN(0, moving[b].cols())) * free[b];
+    out.unit(Eigen::all, columns) = moving[b] * free[b];
+    at += free[b].cols();
+  }
+  return out;
+}
+
+MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>& left) {
+  const MatrixXd K = model.K_rr(left, left), M = model.M_rr(left, left);
+  const MatrixXd R = model.rigid(left, Eigen::all);
+  const MatrixXd U = R * moving_combinations(R.transpose() * M * R);
+  if (U.cols() == 0) return U;
+  // All coordinates are coupled: rows are measured by what stiffness of unit diagonal would give.
+  const VectorXd scale =
+      K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 1.0; });
+  const double size = (scale.cwiseInverse().asDiagonal() * U).cwiseAbs().maxCoeff();
+  return U * forceless(scale.asDiagonal() * (K * U) / size);
+}
+
+FreeMotions free_motions(const fe::FeModel& model) {
+  return free_motions(model.K, model.M, model.rigid);
+}
+
+double characteristic_length(const fe::FeModel& model) {
+  const Eigen::RowVector3d span =
+      model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff();
+  return std::max(0.5 * span.norm(), 1e-12);
+}
+
+std::string motion_name(const Eigen::VectorXd& motion, double length) {
+  const Eigen::Vector3d shift = motion.head(3), turn = motion.tail(3);
+  const bool turns = turn.norm() * length > 1e-3 * shift.norm();
+  Index axis = 0;
+  (turns ? turn : shift).cwiseAbs().maxCoeff(&axis);
+  return fmt::format("{} {}", turns ? "rotation about" : "displacement along", "xyz"[axis]);
+}
+
+}  // namespace clatter::fe

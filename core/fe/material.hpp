@@ -1,0 +1,60 @@
+#pragma once
+// Linear elastic materials: isotropic, orthotropic, anisotropic; thermal expansion.
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/config.hpp"
+#include "core/fe/axes.hpp"
+
+namespace clatter::fe {
+
+/// Stresses 11 22 33 12 23 31 over strains in the same order, shear strains engineering ones
+/// (gamma = 2 eps) [Pa].
+using Elasticity = Eigen::Matrix<double, 6, 6>;
+using Voigt = Eigen::Matrix<double, 6, 1>;
+
+/// How stiffness is integrated (element.hpp says with what points).
+enum class Integration { kFull, kReduced, kIncompatible };
+
+/// The choice for each cell type that has one.
+struct IntegrationChoice {
+  Integration hex8 = Integration::kIncompatible;
+  Integration hex20 = Integration::kFull;
+  Integration wedge6 = Integration::kFull;
+  Integration wedge15 = Integration::kFull;
+};
+
+/// A linear elastic material. Isotropic: sigma = lambda tr(eps) I + 2 mu eps.
+struct Material {
+  double youngs = 0.0;                                  // E [Pa]; isotropic only
+  double poisson = 0.0;                                 // nu [1]; isotropic only
+  double density = 0.0;                                 // rho [kg/m3]
+  std::optional<Elasticity> elasticity = std::nullopt;  // of any other material, on its axes [Pa]
+  Voigt expansion = Voigt::Zero();          // thermal strain per kelvin on its axes [1/K]
+  std::optional<Axes> axes = std::nullopt;  // absent: the basic frame
+  IntegrationChoice integration = {};
+
+  /// First Lame constant E nu / ((1 + nu) (1 - 2 nu)) [Pa].
+  double lambda() const { return youngs * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+  /// Shear modulus E / (2 (1 + nu)) [Pa].
+  double mu() const { return 0.5 * youngs / (1.0 + poisson); }
+  bool is_isotropic() const { return !elasticity; }
+
+  /// Elasticity and thermal strain per kelvin on the basic frame at the place `x` [m].
+  Elasticity elasticity_at(const Eigen::Vector3d& x) const;
+  Voigt expansion_at(const Eigen::Vector3d& x) const;
+};
+
+/// Reads `rho` [kg/m3] and the constants:
+///   isotropic    `E` [Pa] or `E_gpa` [GPa], `nu`
+///   orthotropic  `E` (or `E_gpa`) = [E1, E2, E3], `nu` = [nu12, nu13, nu23], `G` (or `G_gpa`) =
+///                [G12, G13, G23]; nu12/E1 = nu21/E2
+///   anisotropic  `C` (or `C_gpa`) = 21 numbers: upper triangle of Elasticity row by row
+/// then `expansion` [1/K], one number or three along the axes, `system` (one of `systems`), and
+/// `hex8`, `hex20`, `wedge6`, `wedge15`. InputError unless rho > 0 and the elasticity is positive
+/// definite (isotropic: E > 0, -1 < nu < 0.5): else the elastic energy has no lower bound.
+Material read_material(const Config& table, const std::map<std::string, Axes>& systems = {});
+
+}  // namespace clatter::fe

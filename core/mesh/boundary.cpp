@@ -1,0 +1,192 @@
+#include "core/mesh/boundary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/mesh/cell_faces.hpp"
+#include "core/mesh/quadrature.hpp"
+#include "core/mesh/shape.hpp"
+#include "core/mesh/validity.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+// "cell 12 (tet10)"
+std::string name_of(const Mesh& mesh, const FacePlace& place) {
+  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
+  return fmt::format("cell {} ({})", cell_label(block, place.cell), traits(block.type).name);
+}
+
+std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
+  std::vector<int32_t> labels;
+  for (const int32_t node : key)
+    if (node >= 0)
+      labels.push_back(mesh.node_ids.empty() ? node : mesh.node_ids[static_cast<size_t>(node)]);
+  return labels;
+}
+
+/// A linear face and a quadratic one whose middle nodes all hang move alike.
+bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
+  const auto hanging = mesh.node_sets.find(kHangingMiddles);
+  if (hanging == mesh.node_sets.end()) return false;
+  const auto middles = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
+  return std::all_of(middles.begin(), middles.end(), [&](int32_t node) {
+    return std::binary_search(hanging->second.begin(), hanging->second.end(), node);
+  });
+}
+
+void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b) {
+  const auto sorted = [&](const FacePlace& place) {
+    std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, place).ids;
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  };
+  if (sorted(a) == sorted(b)) return;
+  const BoundaryFace one = face_at(mesh, a), other = face_at(mesh, b);
+  if (one.type != other.type && linear_along_edges(mesh, one) && linear_along_edges(mesh, other))
+    return;
+  throw InputError(fmt::format(
+      "mesh '{}': {} and {} share the face with corners {} but not its middle nodes, expected the "
+      "same nodes on both sides",
+      mesh.name, name_of(mesh, a), name_of(mesh, b), fmt::join(corner_labels(mesh, a.key), ", ")));
+}
+
+using FaceNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxFaceNodes, 3>;
+
+template <class Ids>
+FaceNodes face_nodes(const Mesh& mesh, const Ids& ids) {
+  FaceNodes x(static_cast<Eigen::Index>(ids.size()), 3);
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    x.row(i) = mesh.nodes.row(ids[static_cast<size_t>(i)]);
+  return x;
+}
+
+std::span<const int32_t> row_of(const IndexMatrix& faces, Eigen::Index f) {
+  return {faces.data() + f * faces.cols(), static_cast<size_t>(faces.cols())};
+}
+
+struct PointOnFace {
+  Eigen::Vector3d x, normal;  // normal = dx/dl1 x dx/dl2, not scaled
+};
+
+PointOnFace evaluate(const FaceNodes& nodes, const FaceShape& shape) {
+  const Eigen::Matrix<double, 3, 2> tangent = nodes.transpose() * shape.gradient;
+  return {nodes.transpose() * shape.value, tangent.col(0).cross(tangent.col(1))};
+}
+
+void add_faces(const Mesh& mesh, const FaceBlock& block, SurfaceIntegrals& sum) {
+  const FaceRule& rule = face_rule(block.type);
+  std::vector<FaceShape> shapes;
+  for (const auto& point : rule.points.rowwise())
+    shapes.push_back(face_shape(block.type, point.transpose()));
+  for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+    const FaceNodes nodes = face_nodes(mesh, row_of(block.nodes, f));
+    for (size_t q = 0; q < shapes.size(); ++q) {
+      const PointOnFace p = evaluate(nodes, shapes[q]);
+      const double weight = rule.weights(static_cast<Eigen::Index>(q));
+      const double dS = weight * p.normal.norm();
+      sum.area += dS;
+      sum.centre += dS * p.x;
+      sum.normal += weight * p.normal;
+      sum.enclosed += weight * p.x.dot(p.normal) / 3.0;
+    }
+  }
+}
+
+// Image at the middle of a cell's face of the straight way out of its reference cell. Where det J
+// is positive it leaves the cell however curved that is; the way from the middle of the real
+// corners need not.
+Eigen::Vector3d way_out(const Mesh& mesh, const BoundaryFace& face) {
+  const CellBlock& cells = mesh.cells[static_cast<size_t>(face.block)];
+  const auto reference = reference_nodes(cells.type);
+  const auto cell = cells.nodes.row(face.cell);
+  const int corners = traits(face.type).corners;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const int32_t id : face.nodes().first(static_cast<size_t>(corners)))
+    middle += reference.row(std::find(cell.begin(), cell.end(), id) - cell.begin()).transpose();
+  middle /= corners;
+  const Eigen::Vector3d centre =
+      reference.topRows(traits(cells.type).corners).colwise().mean().transpose();
+  const Eigen::Matrix3d jacobian =
+      cell_nodes(mesh, cells, face.cell).transpose() * cell_shape(cells.type, middle).gradient;
+  return jacobian * (middle - centre);
+}
+
+}  // namespace
+
+FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
+  FaceKey key = {-1, -1, -1, -1};
+  const auto corners = static_cast<size_t>(traits(type).corners);
+  for (size_t i = 0; i < corners; ++i) key[4 - corners + i] = nodes[i];
+  std::sort(key.end() - static_cast<std::ptrdiff_t>(corners), key.end());
+  return key;
+}
+
+BoundaryFaces boundary_faces(const Mesh& mesh) {
+  const std::vector<FacePlace> faces = all_faces(mesh);
+  BoundaryFaces boundary;
+  for_each_face(faces, [&](auto first, auto last) {
+    if (last - first > 2)
+      throw InputError(
+          fmt::format("mesh '{}': the face with corners {} belongs to {} cells, "
+                      "expected at most two: {}, {}, {}",
+                      mesh.name, fmt::join(corner_labels(mesh, first->key), ", "), last - first,
+                      name_of(mesh, first[0]), name_of(mesh, first[1]), name_of(mesh, first[2])));
+    if (last - first == 1)
+      boundary.emplace_hint(boundary.end(), first->key, face_at(mesh, *first));
+    else
+      require_same_nodes(mesh, first[0], first[1]);
+  });
+  return boundary;
+}
+
+Surface skin_of(const BoundaryFaces& faces) {
+  SurfaceBuilder skin;
+  for (const auto& [key, face] : faces) skin.add(face.type, face.ids);
+  return skin.finish();
+}
+
+SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface) {
+  SurfaceIntegrals sum;
+  for (const FaceBlock& block : surface.faces) add_faces(mesh, block, sum);
+  if (sum.area > 0.0) sum.centre /= sum.area;
+  return sum;
+}
+
+double cell_volume(const Mesh& mesh, int32_t region) {
+  double volume = 0.0;
+  for (const CellBlock& block : mesh.cells) {
+    if (region >= 0 && block.region != region) continue;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      volume += volume_of(block.type, cell_nodes(mesh, block, c));
+  }
+  return volume;
+}
+
+int64_t count_inward(const Mesh& mesh, const Surface& skin) {
+  const BoundaryFaces boundary = boundary_faces(mesh);
+  int64_t inward = 0;
+  for (const FaceBlock& block : skin.faces) {
+    const Eigen::Vector2d middle = traits(block.type).corners == 3
+                                       ? Eigen::Vector2d::Constant(1.0 / 3.0)
+                                       : Eigen::Vector2d::Zero();
+    const FaceShape shape = face_shape(block.type, middle);
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+      const auto ids = row_of(block.nodes, f);
+      const auto found = boundary.find(face_key(block.type, ids));
+      if (found == boundary.end()) {
+        ++inward;
+        continue;
+      }
+      const PointOnFace point = evaluate(face_nodes(mesh, ids), shape);
+      if (!(point.normal.dot(way_out(mesh, found->second)) > 0.0)) ++inward;
+    }
+  }
+  return inward;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,54 @@
+#pragma once
+// The boundary of the solid and what integrals over it prove (hard cases G4, G9).
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+
+#include "core/mesh/mesh.hpp"
+
+namespace clatter::mesh {
+
+/// Corner nodes of a face, ascending, a triangle with -1 before them: the same for both cells that
+/// share it.
+using FaceKey = std::array<int32_t, 4>;
+FaceKey face_key(FaceType type, std::span<const int32_t> nodes);
+
+/// A face of one cell.
+struct BoundaryFace {
+  FaceType type;
+  std::array<int32_t, kMaxFaceNodes> ids;  // outward
+  int32_t block, cell;                     // whose face it is
+
+  std::span<const int32_t> nodes() const {
+    return std::span(ids).first(static_cast<size_t>(traits(type).nodes));
+  }
+};
+
+/// Boundary faces by their corners.
+using BoundaryFaces = std::map<FaceKey, BoundaryFace>;
+
+/// Faces that belong to exactly one cell. InputError when a face has three cells or more, or when
+/// two cells that share its corners do not share its middle nodes: displacements would gape there.
+BoundaryFaces boundary_faces(const Mesh& mesh);
+
+/// All boundary faces as a surface, ordered by corners.
+Surface skin_of(const BoundaryFaces& faces);
+
+/// Integrals over curved faces, exact but for the area.
+struct SurfaceIntegrals {
+  double area = 0.0;                                 // integral of |n| dS [m2]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // integral of n dS [m2]; 0 when closed
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // area-weighted mean of x [m]
+  double enclosed = 0.0;  // (1/3) integral of x . n dS [m3]; the volume when closed
+};
+SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface);
+
+/// Volume of all cells of a region, -1 for all [m3]; exact.
+double cell_volume(const Mesh& mesh, int32_t region = -1);
+
+/// How many skin faces have a normal that points into their cell, or no cell; 0 in a proper mesh.
+int64_t count_inward(const Mesh& mesh, const Surface& skin);
+
+}  // namespace clatter::mesh

@@ -1,0 +1,165 @@
+#include "core/mesh/cube_bernstein.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/mesh/shape.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+// Degrees of det J along the cube's axes; a test finds the interpolation exact.
+std::array<int, 3> degree_of(CellType type) {
+  switch (type) {
+    case CellType::kHex8:
+      return {2, 2, 2};
+    case CellType::kHex20:
+      return {5, 5, 5};
+    case CellType::kWedge6:
+      return {1, 1, 2};
+    case CellType::kWedge15:
+      return {4, 4, 5};
+    case CellType::kPyramid5:
+      return {2, 2, 0};
+    default:
+      return {5, 5, 3};
+  }
+}
+
+// Chebyshev points of (0, 1): inside, where the pyramid's functions have gradients.
+Eigen::VectorXd line_points(int degree) {
+  Eigen::VectorXd at(degree + 1);
+  for (int i = 0; i <= degree; ++i)
+    at(i) = 0.5 - 0.5 * std::cos((i + 0.5) * std::numbers::pi / (degree + 1));
+  return at;
+}
+
+// Values at the line points to Bernstein coefficients.
+Eigen::MatrixXd to_bernstein(int degree) {
+  const Eigen::VectorXd at = line_points(degree);
+  Eigen::MatrixXd basis(degree + 1, degree + 1);
+  for (int i = 0; i <= degree; ++i) {
+    double binomial = 1.0;
+    for (int k = 0; k <= degree; ++k) {
+      basis(i, k) = binomial * std::pow(at(i), k) * std::pow(1.0 - at(i), degree - k);
+      binomial = binomial * (degree - k) / (k + 1);
+    }
+  }
+  return basis.inverse();
+}
+
+struct Sampling {
+  std::array<int, 3> degree;
+  std::array<Eigen::MatrixXd, 3> bernstein;
+  std::vector<CellShape> shapes;  // at all points, last axis fastest
+};
+
+Sampling make_sampling(CellType type) {
+  Sampling s{degree_of(type), {}, {}};
+  std::array<Eigen::VectorXd, 3> at;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    at[axis] = line_points(s.degree[axis]);
+    s.bernstein[axis] = to_bernstein(s.degree[axis]);
+  }
+  for (double a : at[0])
+    for (double b : at[1])
+      for (double c : at[2]) s.shapes.push_back(cell_shape(type, from_cube(type, {a, b, c})));
+  return s;
+}
+
+const Sampling& sampling_of(CellType type) {
+  static const std::array<Sampling, kCellTypes> all = [] {
+    std::array<Sampling, kCellTypes> out;
+    for (int t = 2; t < kCellTypes; ++t)
+      out[static_cast<size_t>(t)] = make_sampling(static_cast<CellType>(t));
+    return out;
+  }();
+  return all[static_cast<size_t>(type)];
+}
+
+// Applies `matrix` along one axis.
+void transform_axis(CubePolynomial& p, int axis, const Eigen::MatrixXd& matrix) {
+  const int n = p.degree[static_cast<size_t>(axis)] + 1;
+  int stride = 1;
+  for (int later = axis + 1; later < 3; ++later) stride *= p.degree[static_cast<size_t>(later)] + 1;
+  const Eigen::Index outer = p.coefficients.size() / (n * stride);
+  for (Eigen::Index o = 0; o < outer; ++o)
+    for (int s = 0; s < stride; ++s) {
+      Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>> line(
+          p.coefficients.data() + o * n * stride + s, n, Eigen::InnerStride<>(stride));
+      line = (matrix * line).eval();
+    }
+}
+
+}  // namespace
+
+Eigen::Vector3d from_cube(CellType type, const Eigen::Vector3d& at) {
+  const Eigen::Vector3d centred = 2.0 * at - Eigen::Vector3d::Ones();
+  switch (traits(type).corners) {
+    case 8:
+      return centred;
+    case 6:
+      return {at(0) * (1.0 - at(1)), at(1), centred(2)};
+    default:
+      return {centred(0) * (1.0 - at(2)), centred(1) * (1.0 - at(2)), at(2)};
+  }
+}
+
+CubePolynomial jacobian_polynomial(CellType type, const Eigen::Ref<const Eigen::MatrixXd>& x) {
+  const Sampling& s = sampling_of(type);
+  CubePolynomial p{s.degree, Eigen::VectorXd(static_cast<Eigen::Index>(s.shapes.size()))};
+  for (size_t q = 0; q < s.shapes.size(); ++q) {
+    const Eigen::Matrix3d J = x.transpose() * s.shapes[q].gradient;
+    p.coefficients(static_cast<Eigen::Index>(q)) = J.determinant();
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    transform_axis(p, axis, s.bernstein[static_cast<size_t>(axis)]);
+  return p;
+}
+
+double CubePolynomial::smallest_corner() const {
+  double low = coefficients(0);
+  for (int corner = 1; corner < 8; ++corner)
+    low = std::min(low, coefficients(index((corner & 1) != 0 ? degree[0] : 0,
+                                           (corner & 2) != 0 ? degree[1] : 0,
+                                           (corner & 4) != 0 ? degree[2] : 0)));
+  return low;
+}
+
+// de Casteljau's construction at 1/2, as a matrix: row k of the lower half is the k-th row of
+// Pascal's triangle over 2^k; the upper half is its mirror image.
+CubePolynomial CubePolynomial::half(int axis, bool upper) const {
+  const int n = degree[static_cast<size_t>(axis)];
+  Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  cut(0, 0) = 1.0;
+  for (int k = 1; k <= n; ++k)
+    for (int i = 0; i <= k; ++i)
+      cut(k, i) = 0.5 * ((i < k ? cut(k - 1, i) : 0.0) + (i > 0 ? cut(k - 1, i - 1) : 0.0));
+  CubePolynomial out = *this;
+  transform_axis(out, axis, upper ? Eigen::MatrixXd(cut.reverse()) : cut);
+  return out;
+}
+
+int CubePolynomial::steepest_axis() const {
+  int best = 0;
+  double steepest = -1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double jump = 0.0;
+    for (int i = 0; i <= degree[0]; ++i)
+      for (int j = 0; j <= degree[1]; ++j)
+        for (int k = 0; k <= degree[2]; ++k) {
+          const std::array<int, 3> here = {i, j, k};
+          if (here[static_cast<size_t>(axis)] == degree[static_cast<size_t>(axis)]) continue;
+          const int next = index(i + (axis == 0), j + (axis == 1), k + (axis == 2));
+          jump = std::max(jump, std::abs(coefficients(next) - coefficients(index(i, j, k))));
+        }
+    if (jump <= steepest) continue;
+    steepest = jump;
+    best = axis;
+  }
+  return best;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,78 @@
+#pragma once
+// A finite element mesh of one part: nodes, cells by region, named surfaces and node sets.
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/matrix.hpp"
+#include "core/mesh/cell.hpp"
+
+namespace clatter::mesh {
+
+/// Cells of one type and one region.
+struct CellBlock {
+  CellType type = CellType::kTet10;
+  int32_t region = 0;        // index into Mesh::regions
+  IndexMatrix nodes;         // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
+  std::vector<int32_t> ids;  // what the imported file calls them; empty: no numbers of their own
+};
+
+/// Faces of one type.
+struct FaceBlock {
+  FaceType type = FaceType::kTri6;
+  IndexMatrix nodes;  // faces x nodes per face, order of cell.hpp, outward
+};
+
+/// Boundary faces of the solid, each a face of exactly one cell or of two in different regions.
+struct Surface {
+  std::vector<FaceBlock> faces;  // each type at most once
+
+  int64_t face_count() const;
+};
+
+/// Collects faces one by one.
+class SurfaceBuilder {
+ public:
+  /// `face` has at least as many entries as the type has nodes.
+  void add(FaceType type, std::span<const int32_t> face);
+  Surface finish() const;
+
+ private:
+  std::array<std::vector<int32_t>, kFaceTypes> nodes_;
+};
+
+/// Node set of the middle nodes that some cell has only to be whole: the deck's cell was linear
+/// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
+/// fe.toml), so that such a cell fits linear cells beside it.
+inline constexpr const char* kHangingMiddles = "hanging_middles";
+
+/// One part. Every mesh has the surface "skin": all boundary faces of the solid.
+struct Mesh {
+  std::string name;
+  RowMatrix nodes;                   // n x 3 [m]
+  std::vector<int32_t> node_ids;     // what the imported file calls them; empty: index + 1
+  std::vector<std::string> regions;  // names; a region is what gets one material
+  std::vector<CellBlock> cells;
+  std::map<std::string, Surface> surfaces;
+  std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
+  std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
+
+  int64_t cell_count() const;
+  /// InputError that lists the names present when there is none of that name.
+  const Surface& surface(const std::string& surface_name) const;
+  const std::vector<int32_t>& node_set(const std::string& set_name) const;
+};
+
+/// Nodes that the faces use, ascending.
+std::vector<int32_t> nodes_of(const Surface& surface);
+
+/// Checks columns and node numbers (0 ... n_nodes - 1); InputError, beginning with `where`.
+void check_surface(const Surface& surface, int64_t n_nodes, const std::string& where);
+
+/// Checks sizes, index ranges, finite coordinates and that every node belongs to a cell.
+/// InputError, beginning with `where`, for the first thing that is wrong.
+void check_structure(const Mesh& mesh, const std::string& where);
+
+}  // namespace clatter::mesh

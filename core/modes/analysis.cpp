@@ -1,0 +1,219 @@
+#include "core/modes/analysis.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numeric>
+
+#include "core/base/error.hpp"
+#include "core/fe/free_motions.hpp"
+#include "core/modes/factor_trouble.hpp"
+
+namespace clatter::modes {
+namespace {
+
+constexpr int kDefaultCount = 20;
+
+sparse::EigenOptions eigen_options(const ModesOptions& options, int size) {
+  sparse::EigenOptions eigen;
+  eigen.fmax_hz = options.fmax_hz;
+  eigen.count = options.count;
+  if (options.count == 0 && options.fmax_hz == 0.0) eigen.count = std::min(kDefaultCount, size);
+  eigen.prove_count = options.prove_count;
+  static_cast<sparse::EigenChoice&>(eigen) = options;
+  return eigen;
+}
+
+std::string why_unproved(const sparse::ModeSet& modes) {
+  if (modes.errors.size() == 0) return " (prove_count = false)";
+  if (modes.proof.below < 0) return " (prove_count = false, or the errors leave no gap clear)";
+  return fmt::format(": inertia counts {} below {:.4f} Hz, where the errors leave it open",
+                     modes.proof.below, sparse::hz_of_value(modes.proof.limit));
+}
+
+template <typename Model>
+std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string>& fixed) {
+  std::vector<char> held(static_cast<size_t>(model.size()), 0);
+  for (const std::string& name : fixed) {
+    for (const int32_t dof : model.set(name).dofs) {
+      if (dof >= model.size())
+        throw InputError(
+            fmt::format("{}: fixed: found \"{}\", whose coordinates became interface "
+                        "modes, expected a set that kept its own",
+                        model.name, name));
+      held[static_cast<size_t>(dof)] = 1;
+    }
+  }
+  std::vector<int32_t> left;
+  for (int32_t dof = 0; dof < model.size(); ++dof) {
+    if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
+  }
+  if (left.empty()) throw InputError(model.name + ": fixed: found every degree of freedom");
+  return left;
+}
+
+/// Vectors on all DoFs, zero where they are held; moved from the last on, so that memory never
+/// holds both whole.
+void spread(const std::vector<int32_t>& left, Eigen::Index size, Eigen::MatrixXd& vectors) {
+  constexpr Eigen::Index kColumns = 32;
+  Eigen::MatrixXd all(size, vectors.cols());
+  while (vectors.cols() > 0) {
+    const Eigen::Index count = std::min(kColumns, vectors.cols()), first = vectors.cols() - count;
+    auto columns = all.middleCols(first, count);
+    columns.setZero();
+    columns(left, Eigen::all) = vectors.rightCols(count);
+    vectors.conservativeResize(Eigen::NoChange, first);
+  }
+  vectors.swap(all);
+}
+
+/// Modes of the rows `left` of a model, its rigid motions known beforehand; a factor that fails
+/// names the node.
+sparse::ModeSet solve_named(const fe::FeModel& model, const std::vector<int32_t>& left,
+                            const SparseMatrix& K, const SparseMatrix& M,
+                            sparse::EigenOptions options) {
+  // Matrices that came without places have no rigid motions to know.
+  if ((model.rigid.colwise().squaredNorm().array() > 0.0).all())
+    options.rigid = fe::free_motions(K, M, model.rigid(left, Eigen::all)).q;
+  try {
+    return sparse::solve_modes(K, M, options);
+  } catch (const sparse::NotPositiveDefinite& error) {
+    throw explained(model, "K - sigma M", left, error);
+  }
+}
+
+}  // namespace
+
+ModesOptions read_modes_options(const Config& config) {
+  ModesOptions options;
+  if (config.has("count")) options.count = static_cast<int>(config.integer("count", {1.0, 1e6}));
+  if (config.has("fmax_hz")) options.fmax_hz = config.number("fmax_hz", Range::positive());
+  if (options.count > 0 && options.fmax_hz > 0.0) {
+    config.fail("fmax_hz", "found both count and fmax_hz, expected one of them");
+  }
+  options.fixed = config.texts_or("fixed", {});
+  options.prove_count = config.flag_or("prove_count", true);
+  static_cast<sparse::EigenChoice&>(options) = sparse::read_eigen_choice(config);
+  config.finish();
+  return options;
+}
+
+SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept) {
+  std::vector<int32_t> place(static_cast<size_t>(lower.cols()), -1);
+  for (size_t k = 0; k < kept.size(); ++k) {
+    place[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(lower.nonZeros()));
+  for (int j = 0; j < lower.outerSize(); ++j) {
+    const int column = place[static_cast<size_t>(j)];
+    if (column < 0) continue;
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      const int row = place[static_cast<size_t>(it.row())];
+      if (row >= 0) entries.emplace_back(row, column, it.value());
+    }
+  }
+  const auto size = static_cast<int>(kept.size());
+  SparseMatrix out(size, size);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+PartModes analyse(const fe::FeModel& model, const ModesOptions& options) {
+  fe::require_unknowns(model, "modes");
+  PartModes part;
+  part.name = model.name;
+  part.source = "fe";
+  part.nodes = model.nodes;
+  part.surfaces = model.surfaces;
+  part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.T * q; };
+  const std::vector<int32_t> left = dofs_left(model, options.fixed);
+  const sparse::EigenOptions eigen = eigen_options(options, static_cast<int>(left.size()));
+  if (options.fixed.empty()) {
+    part.modes = solve_named(model, left, model.K, model.M, eigen);
+    return part;
+  }
+  part.modes = solve_named(model, left, principal_submatrix(model.K, left),
+                           principal_submatrix(model.M, left), eigen);
+  spread(left, model.size(), part.modes.vectors);
+  return part;
+}
+
+PartModes analyse(const rom::ReducedModel& model, const ModesOptions& options) {
+  PartModes part;
+  part.name = model.name;
+  part.source = "rom";
+  part.nodes = model.skin.nodes;
+  if (model.skin.triangles.rows() > 0) {
+    part.surfaces["skin"].faces = {{mesh::FaceType::kTri6, model.skin.triangles}};
+  }
+  const std::vector<int32_t> left = dofs_left(model, options.fixed);
+  const auto size = static_cast<int>(left.size());
+  sparse::EigenOptions eigen = eigen_options(options, size);
+  eigen.dense_limit = size;
+  const auto lower = [&](const Eigen::MatrixXd& matrix) -> SparseMatrix {
+    const Eigen::MatrixXd kept = matrix(left, left);
+    return Eigen::MatrixXd(kept.triangularView<Eigen::Lower>()).sparseView(0.0, 0.0);
+  };
+  const SparseMatrix K = lower(model.K_rr), M = lower(model.M_rr);
+  eigen.rigid = fe::free_motions(model, left);
+  part.modes = sparse::solve_modes(K, M, eigen);
+  spread(left, model.size(), part.modes.vectors);
+  part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.skin.T * q; };
+  return part;
+}
+
+namespace {
+
+/// "0 (rigid)" where it is, else digits that show what it is, however low.
+std::string hz_text(double hz) {
+  return hz >= 0.1 || hz == 0.0 ? fmt::format("{:>12.4f}", hz) : fmt::format("{:>12.4g}", hz);
+}
+
+void describe_doubt(const sparse::ModeSet& modes, std::vector<std::string>& lines) {
+  constexpr double kWorthSaying = 1e-6;
+  Eigen::Index worst = 0;
+  if (modes.size() > 0 && modes.rounding.maxCoeff(&worst) > kWorthSaying)
+    lines.push_back(
+        fmt::format("rounding of the entries of K to doubles may move frequencies by up to {:.1e} "
+                    "(mode {}): thin walls or stiff jumps",
+                    modes.rounding[worst], worst + 1));
+  if (modes.rigid > modes.known_rigid)
+    lines.push_back(
+        fmt::format("{} modes are 0 Hz to rounding beside the {} rigid motions: mechanisms",
+                    modes.rigid - modes.known_rigid, modes.known_rigid));
+  if (modes.massless > 0)
+    lines.push_back(fmt::format(
+        "{} unknowns have no mass: as many eigenvalues are infinite and left out", modes.massless));
+}
+
+}  // namespace
+
+std::vector<std::string> describe(const PartModes& part) {
+  const sparse::ModeSet& modes = part.modes;
+  const bool approximate = modes.errors.size() > 0;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{}: {} modes ({}, {} solves), {} of them rigid", part.name,
+                              modes.size(), modes.method, modes.solves, modes.rigid));
+  const Eigen::VectorXd hz = modes.frequencies_hz();
+  for (Eigen::Index j = 0; j < modes.size(); ++j) {
+    lines.push_back(fmt::format("{:>5}  {} Hz  {} {:.1e}{}", j + 1, hz_text(hz[j]),
+                                approximate ? "error about" : "residual",
+                                approximate ? modes.errors[j] : modes.residuals[j],
+                                j < modes.rigid ? "  rigid" : ""));
+  }
+  if (approximate)
+    lines.push_back(
+        fmt::format("frequencies are approximate, from above: largest error about {:.1e}",
+                    modes.errors.maxCoeff()));
+  describe_doubt(modes, lines);
+  if (modes.proof.proved) {
+    lines.push_back(fmt::format("none is missing: inertia counts {} below {:.4f} Hz",
+                                modes.proof.below, sparse::hz_of_value(modes.proof.limit)));
+  } else {
+    lines.push_back("their number is not proved" + why_unproved(modes));
+  }
+  return lines;
+}
+
+}  // namespace clatter::modes

@@ -1,0 +1,64 @@
+#pragma once
+// How well a reduced model keeps the modes of the full one.
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/fe/fe_model.hpp"
+#include "core/rom/reduced_model.hpp"
+
+namespace clatter::modes {
+
+/// Both zero: all modes below what the reduced model claims, accurate_to_hz of its certificate; of
+/// one that states none below its valid_to_hz, and of one without either the 20 lowest.
+struct CompareOptions {
+  double fmax_hz = 0.0;  // compare all modes below
+  int count = 0;         // or the lowest ones, rigid included
+};
+
+/// One elastic mode of the full model and its partner.
+struct ComparedMode {
+  double full_hz = 0.0;
+  double reduced_hz = 0.0;
+  double error = 0.0;  // reduced / full - 1
+  double mac = 0.0;    // modal assurance criterion
+};
+
+struct Comparison {
+  std::vector<ComparedMode> modes;
+  int rigid_full = 0;
+  int rigid_reduced = 0;
+  int rows = 0;  // displacements on which shapes were compared
+  double accurate_to_hz =
+      0.0;  // up to where the reduced model's certificate states an error; 0: no
+
+  double largest_error() const;
+  double smallest_mac() const;
+  /// The modes up to accurate_to_hz, and those above, where errors are only shown.
+  Comparison with_stated_error() const;
+  Comparison without_stated_error() const;
+};
+
+/// No elastic mode lies in the range that was asked for: an error, as "largest error 0" proves
+/// nothing.
+struct NothingCompared : NumericsError {
+  using NumericsError::NumericsError;
+};
+
+/// Pairs each elastic mode with the likest one within 5 % of its frequency (by order when none has
+/// a MAC over 0.5). Shapes are compared at the boundary coordinates and the
+/// skin nodes that both models have (found by their coordinates) by
+///   MAC = |P phi|^2 / |phi|^2,
+/// P the projector on the reduced modes within 0.5 % of the frequency: for a single mode this is
+/// Allemang's criterion (Allemang and Brown, 1982), for near-multiple modes, which mix freely, it
+/// compares subspaces (hard case B8). InputError when the two models share no place, NumericsError
+/// when their modes differ in number, NothingCompared with the first elastic frequency.
+Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
+                   const CompareOptions& options);
+
+/// The comparison as an aligned table; the last line sums up the modes up to accurate_to_hz, a line
+/// before it those above. The modes as one JSON array of objects.
+std::vector<std::string> table_of(const Comparison& comparison);
+std::string json_of(const Comparison& comparison);
+
+}  // namespace clatter::modes

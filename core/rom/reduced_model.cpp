@@ -1,0 +1,248 @@
+#include "core/rom/reduced_model.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/base/named.hpp"
+
+namespace clatter::rom {
+namespace {
+
+constexpr const char* kSchema = "clatter/rom/1";
+const std::string kUnits = "SI: m kg s N rad";
+
+/// Refuses a matrix whose shape or values are not what the reader expects.
+void check(const H5File& file, const std::string& name, const Eigen::MatrixXd& matrix,
+           Eigen::Index rows, Eigen::Index columns) {
+  if (matrix.rows() != rows || matrix.cols() != columns) {
+    throw InputError(fmt::format("{}: {}: found {} x {}, expected {} x {}", file.path().string(),
+                                 name, matrix.rows(), matrix.cols(), rows, columns));
+  }
+  if (!matrix.allFinite()) {
+    throw InputError(
+        fmt::format("{}: {}: found a value that is not finite", file.path().string(), name));
+  }
+}
+
+Eigen::MatrixXd read_checked(const H5File& file, const std::string& name, Eigen::Index rows,
+                             Eigen::Index columns) {
+  Eigen::MatrixXd matrix = file.read_matrix(name);
+  check(file, name, matrix, rows, columns);
+  return matrix;
+}
+
+Eigen::MatrixXd read_symmetric(const H5File& file, const std::string& name, Eigen::Index size) {
+  Eigen::MatrixXd matrix = read_checked(file, name, size, size);
+  const double skew = (matrix - matrix.transpose()).cwiseAbs().maxCoeff();
+  // Written symmetric to the last bit; a file from elsewhere may carry roundoff.
+  if (skew > 1e-9 * matrix.cwiseAbs().maxCoeff()) {
+    throw InputError(fmt::format("{}: {}: not symmetric, largest difference {:.3g}",
+                                 file.path().string(), name, skew));
+  }
+  return matrix;
+}
+
+void write_grid(H5File& file, const std::string& at, const ContactGrid& grid) {
+  file.write(at + "/axis_point", Eigen::VectorXd(grid.axis_point));
+  file.write(at + "/axis", Eigen::VectorXd(grid.axis));
+  file.write(at + "/zero_angle", Eigen::VectorXd(grid.zero_angle));
+  file.write(at + "/angle", grid.angle);
+  file.write(at + "/axial", grid.axial);
+  file.write(at + "/angle_edges", grid.angle_edges);
+  file.write(at + "/axial_edges", grid.axial_edges);
+  file.set(at, "radius", grid.radius);
+}
+
+Eigen::VectorXd read_sized(const H5File& file, const std::string& name, Eigen::Index size) {
+  Eigen::VectorXd values = file.read_vector(name);
+  check(file, name, values, size, 1);
+  return values;
+}
+
+ContactGrid read_grid(const H5File& file, const std::string& at) {
+  ContactGrid grid;
+  grid.axis_point = read_sized(file, at + "/axis_point", 3);
+  grid.axis = read_sized(file, at + "/axis", 3);
+  grid.zero_angle = read_sized(file, at + "/zero_angle", 3);
+  grid.angle = file.read_vector(at + "/angle");
+  grid.axial = file.read_vector(at + "/axial");
+  grid.angle_edges = read_sized(file, at + "/angle_edges", 2 * grid.angle.size());
+  grid.axial_edges = read_sized(file, at + "/axial_edges", grid.axial.size() + 1);
+  grid.radius = file.get_double(at, "radius");
+  return grid;
+}
+
+DofSet read_dof_set(const H5File& file, const std::string& at, int n_dofs) {
+  DofSet set;
+  set.kind = file.get_string(at, "kind");
+  set.dofs = file.read_ints(at + "/dofs");
+  set.labels = file.read_strings(at + "/labels");
+  const auto count = static_cast<Eigen::Index>(set.dofs.size());
+  set.position = read_checked(file, at + "/position", count, 3);
+  set.direction = read_checked(file, at + "/direction", count, 3);
+  set.is_rotation = file.read_ints(at + "/is_rotation");
+  if (set.labels.size() != set.dofs.size() || set.is_rotation.size() != set.dofs.size()) {
+    throw InputError(fmt::format("{}: {}: found {} labels for {} degrees of freedom",
+                                 file.path().string(), at, set.labels.size(), set.dofs.size()));
+  }
+  for (const int32_t dof : set.dofs) {
+    if (dof < 0 || dof >= n_dofs) {
+      throw InputError(fmt::format("{}: {}/dofs: found {}, expected 0 to {}", file.path().string(),
+                                   at, dof, n_dofs - 1));
+    }
+  }
+  return set;
+}
+
+void write_skin(H5File& file, const Skin& skin) {
+  file.write("skin/nodes", skin.nodes);
+  file.write("skin/triangles", skin.triangles);
+  file.write("skin/T", skin.T);
+  file.write("skin/surfaces", skin.surfaces);
+}
+
+Skin read_skin(const H5File& file, Eigen::Index size) {
+  Skin skin;
+  skin.nodes = file.read_rows("skin/nodes");
+  skin.triangles = file.read_index_matrix("skin/triangles");
+  skin.T = file.read_rows("skin/T");
+  if (file.has("skin/surfaces")) skin.surfaces = file.read_strings("skin/surfaces");
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: skin: {}", file.path().string(), what));
+  };
+  if (skin.nodes.cols() != 3 || skin.triangles.cols() != 6) {
+    refuse(fmt::format("found {} coordinates and {} nodes a triangle, expected 3 and 6",
+                       skin.nodes.cols(), skin.triangles.cols()));
+  }
+  if (skin.T.rows() != 3 * skin.nodes.rows() || skin.T.cols() != size) {
+    refuse(fmt::format("T is {} x {}, expected {} x {}", skin.T.rows(), skin.T.cols(),
+                       3 * skin.nodes.rows(), size));
+  }
+  if (skin.triangles.size() > 0 &&
+      (skin.triangles.minCoeff() < 0 || skin.triangles.maxCoeff() >= skin.nodes.rows())) {
+    refuse(fmt::format("a triangle names node {}, there are {}", skin.triangles.maxCoeff(),
+                       skin.nodes.rows()));
+  }
+  if (!skin.T.allFinite() || !skin.nodes.allFinite()) refuse("found a value that is not finite");
+  return skin;
+}
+
+}  // namespace
+
+const DofSet& ReducedModel::set(const std::string& set_name) const {
+  return find_named(sets, name, "set", set_name);
+}
+
+const ContactGrid& ReducedModel::grid(const std::string& grid_name) const {
+  return find_named(grids, name, "contact grid", grid_name);
+}
+
+Eigen::RowVectorXd ReducedModel::row_of(int place) const {
+  if (place >= size()) return combined.row(place - size());
+  return Eigen::RowVectorXd::Unit(size(), place);
+}
+
+void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
+                    const std::map<std::string, ContactGrid>& grids) {
+  for (const auto& [name, set] : sets) {
+    const std::string at = "sets/" + name;
+    file.write(at + "/dofs", set.dofs);
+    file.write(at + "/labels", set.labels);
+    file.write(at + "/position", set.position);
+    file.write(at + "/direction", set.direction);
+    file.write(at + "/is_rotation", set.is_rotation);
+    file.set(at, "kind", set.kind);
+  }
+  for (const auto& [name, grid] : grids) write_grid(file, "grids/" + name, grid);
+}
+
+void read_dof_sets(const H5File& file, int n_dofs, std::map<std::string, DofSet>& sets,
+                   std::map<std::string, ContactGrid>& grids) {
+  for (const auto& name : file.list("sets")) {
+    sets[name] = read_dof_set(file, "sets/" + name, n_dofs);
+  }
+  for (const auto& name : file.list("grids")) {
+    const ContactGrid grid = read_grid(file, "grids/" + name);
+    const auto patches = static_cast<size_t>(grid.angle.size() * grid.axial.size());
+    const auto at = sets.find(name);
+    if (at == sets.end() || at->second.dofs.size() != patches) {
+      throw InputError(fmt::format("{}: grids/{}: found {} patches, expected a set with as many",
+                                   file.path().string(), name, patches));
+    }
+    grids[name] = grid;
+  }
+}
+
+void write_mass_properties(H5File& file, const MassProperties& mass) {
+  file.write("mass/centre", Eigen::VectorXd(mass.centre));
+  file.write("mass/inertia", Eigen::MatrixXd(mass.inertia));
+  file.set("mass", "mass", mass.mass);
+}
+
+MassProperties read_mass_properties(const H5File& file) {
+  MassProperties mass;
+  mass.mass = file.get_double("mass", "mass");
+  mass.centre = read_sized(file, "mass/centre", 3);
+  mass.inertia = read_checked(file, "mass/inertia", 3, 3);
+  return mass;
+}
+
+void write_reduced_model(H5File& file, const ReducedModel& model) {
+  file.set("/", "name", model.name);
+  file.set("/", "method", model.method);
+  file.set("/", "n_boundary", model.n_boundary);
+  file.set("/", "alpha", model.alpha);
+  file.set("/", "beta", model.beta);
+  file.set("/", "valid_to_hz", model.valid_to_hz);
+  file.set("/", "units", kUnits);
+  write_damping_table(file, model.modal_damping);
+  file.write("M_rr", model.M_rr);
+  file.write("K_rr", model.K_rr);
+  file.write("rigid", model.rigid);
+  file.write("fixed_interface_hz", model.fixed_interface_hz);
+  for (const auto& [name, load] : model.loads) file.write("loads/" + name, load);
+  write_dof_sets(file, model.sets, model.grids);
+  write_mass_properties(file, model.mass);
+  write_inertia_invariants(file, model.inertia);
+  if (model.combined.rows() > 0) file.write("combined", model.combined);
+  if (!model.recovered_sets.empty()) file.write("recovered_sets", model.recovered_sets);
+  write_elimination_order(file, model.elimination);
+  if (model.skin.nodes.rows() > 0) write_skin(file, model.skin);
+  write_certificate(file, model.certificate);
+}
+
+ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin) {
+  const H5File file = open_artefact(path, kSchema);
+  ReducedModel model;
+  model.name = file.get_string("/", "name");
+  model.method = file.get_string("/", "method");
+  model.n_boundary = static_cast<int>(file.get_int("/", "n_boundary"));
+  model.alpha = file.get_double("/", "alpha");
+  model.beta = file.get_double("/", "beta");
+  model.valid_to_hz = file.get_double("/", "valid_to_hz");
+  model.modal_damping = read_damping_table(file);
+  const auto size = file.shape("M_rr").at(0);
+  model.M_rr = read_symmetric(file, "M_rr", size);
+  model.K_rr = read_symmetric(file, "K_rr", size);
+  model.rigid = read_checked(file, "rigid", size, 6);
+  model.fixed_interface_hz = file.read_vector("fixed_interface_hz");
+  for (const auto& name : file.list("loads")) {
+    model.loads[name] = read_sized(file, "loads/" + name, size);
+  }
+  model.combined.resize(0, static_cast<Eigen::Index>(size));
+  if (file.has("combined"))
+    model.combined = read_checked(file, "combined", file.shape("combined").at(0), size);
+  if (file.has("recovered_sets")) model.recovered_sets = file.read_strings("recovered_sets");
+  read_dof_sets(file, model.places(), model.sets, model.grids);
+  model.inertia = read_inertia_invariants(file, model.M_rr);
+  model.mass = read_mass_properties(file);
+  if (with_skin && file.has("skin")) model.skin = read_skin(file, size);
+  model.certificate = read_certificate(file);
+  if (model.n_boundary < 0 || model.n_boundary > size) {
+    throw InputError(fmt::format("{}: n_boundary: found {}, expected 0 to {}", path.string(),
+                                 model.n_boundary, size));
+  }
+  return model;
+}
+
+}  // namespace clatter::rom

@@ -1,0 +1,21 @@
+#pragma once
+// Products of tall dense matrices through BLAS.
+#include <Eigen/Core>
+
+#include "core/base/sparse.hpp"
+
+namespace clatter::sparse {
+
+using DenseView = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using DenseOut = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+/// A^T B; A is n x p, B is n x q.
+Eigen::MatrixXd transposed_product(const DenseView& A, const DenseView& B);
+
+/// The same with B row by row.
+Eigen::MatrixXd transposed_rows_product(const DenseView& A, const RowMatrix& B);
+
+/// C += factor A B; A is n x p, B is p x q, C is n x q and overlaps neither.
+void add_product(double factor, const DenseView& A, const DenseView& B, DenseOut C);
+
+}  // namespace clatter::sparse

@@ -1,0 +1,50 @@
+#include "core/sparse/eigen/known_motions.hpp"
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+
+namespace clatter::sparse {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+KnownMotions::KnownMotions(MatrixXd U, MatrixXd MU) : U_(std::move(U)), MU_(std::move(MU)) {}
+
+void KnownMotions::remove(double* x, int count) const {
+  if (U_.cols() == 0) return;
+  constexpr Index kRows = 4096;  // of a piece, so that sums do not depend on the threads
+  const Index n = U_.rows(), pieces = (n + kRows - 1) / kRows;
+  Eigen::Map<RowMatrix> X(x, n, count);
+  std::vector<MatrixXd> part(static_cast<size_t>(pieces));
+  parallel_pieces(pieces, [&](int64_t begin, int64_t end) {
+    for (Index k = begin; k < end; ++k) {
+      const Index rows = std::min(kRows, n - k * kRows);
+      part[static_cast<size_t>(k)] =
+          MU_.middleRows(k * kRows, rows).transpose() * X.middleRows(k * kRows, rows);
+    }
+  });
+  MatrixXd sum = MatrixXd::Zero(U_.cols(), count);
+  for (const MatrixXd& one : part) sum += one;
+  parallel_pieces(pieces, [&](int64_t begin, int64_t end) {
+    for (Index k = begin; k < end; ++k) {
+      const Index rows = std::min(kRows, n - k * kRows);
+      X.middleRows(k * kRows, rows) -= U_.middleRows(k * kRows, rows) * sum;
+    }
+  });
+}
+
+MatrixXd orthonormal_in_mass(const SparseMatrix& M, const MatrixXd& R) {
+  MatrixXd U = R;
+  for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) {
+    const Eigen::LLT<MatrixXd> gram(U.transpose() * multiply_symmetric(M, U));
+    if (gram.info() != Eigen::Success)
+      throw NumericsError("modes: the rigid motions depend on each other in M");
+    U = gram.matrixU().solve<Eigen::OnTheRight>(U).eval();
+  }
+  return U;
+}
+
+}  // namespace clatter::sparse

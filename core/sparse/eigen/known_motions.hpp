@@ -1,0 +1,30 @@
+#pragma once
+// Eigenvectors that are known beforehand, taken out of what a solver sees.
+#include <Eigen/Core>
+
+#include "core/base/sparse.hpp"
+#include "core/sparse/eigen/shift_invert.hpp"
+
+namespace clatter::sparse {
+
+/// Motions U with K U = 0, U^T M U = 1: rigid motions. With P = 1 - U U^T M the operator
+/// P (K - sigma M)^{-1} M has the same other eigenpairs, and 0 in place of -1 / sigma for those of
+/// U, however small the shift is.
+class KnownMotions {
+ public:
+  /// @param U n x m, M-orthonormal, rows in the order of the problem; @param MU M U.
+  KnownMotions(Eigen::MatrixXd U, Eigen::MatrixXd MU);
+  Eigen::Index count() const { return U_.cols(); }
+  const Eigen::MatrixXd& vectors() const { return U_; }
+  /// x <- P x for `count` vectors that stand row by row, n x count; the same bits on any number of
+  /// threads.
+  void remove(double* x, int count) const;
+
+ private:
+  Eigen::MatrixXd U_, MU_;
+};
+
+/// A basis of span(R) with U^T M U = 1; R n x m, of full rank in M.
+Eigen::MatrixXd orthonormal_in_mass(const SparseMatrix& M, const Eigen::MatrixXd& R);
+
+}  // namespace clatter::sparse

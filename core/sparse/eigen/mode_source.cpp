@@ -1,0 +1,121 @@
+#include "core/sparse/eigen/mode_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+#include "core/sparse/eigen/amls.hpp"
+#include "core/sparse/eigen/arpack_solver.hpp"
+#include "core/sparse/eigen/block_lanczos.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
+#include "core/sparse/eigen/mode_density.hpp"
+
+namespace clatter::sparse {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd rigid_modes(const SparseMatrix& M, const EigenOptions& options) {
+  if (!options.rigid) return MatrixXd(M.rows(), 0);
+  return orthonormal_in_mass(M, *options.rigid);
+}
+
+}  // namespace
+
+ModeSource::ModeSource(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
+                       const SupernodalFactor* factor)
+    : K_(K),
+      M_(M),
+      options_(options),
+      n_(K.rows()),
+      rigid_(rigid_modes(M, options)),
+      wanted_{options.count - static_cast<int>(rigid_.cols()),
+              options.fmax_hz > 0.0 ? value_of_hz(options.fmax_hz) : 0.0},
+      pencil_(K, M, options.factor, rigid_) {
+  if (dense()) return;
+  if (factor != nullptr)
+    pencil_.use(*factor, options.sigma.value_or(0.0));
+  else if (options.sigma)
+    pencil_.shift_to(*options.sigma);
+  else
+    pencil_.start_shift(options.rigid.has_value());
+}
+
+EigenResult ModeSource::solve(int count, int retry) {
+  const Stopwatch clock;
+  EigenResult found = attempt(count, retry);
+  solves_ += found.solves;
+  seconds_ += clock.seconds();
+  // The vectors of AMLS need no more solves; their memory is wanted for the count.
+  if (found.errors.size() > 0) pencil_.give_back();
+  return found;
+}
+
+EigenResult ModeSource::attempt(int count, int retry) {
+  if (dense()) return by_dense(count);
+  const bool room = 2 * count + 6 * 24 < n_;
+  if (room && options_.method == EigenMethod::kBlockLanczos) return by_block_lanczos(count, retry);
+  pencil_.find_shift(wanted_, options_.seed);
+  if (room && options_.method == EigenMethod::kAmls) return by_amls(count, retry);
+  return by_arpack(count, retry);
+}
+
+EigenResult ModeSource::by_dense(int count) {
+  const MatrixXd K = dense_symmetric(K_), M = dense_symmetric(M_);
+  dense_sigma_ = options_.sigma.value_or(dense_shift(K, M));
+  method_ = "dense";
+  return solve_dense(K, M, rigid_, options_.sigma, count);
+}
+
+EigenResult ModeSource::by_block_lanczos(int count, int retry) {
+  BlockLanczosOptions options;
+  options.count = count;
+  options.seed = seed(retry);
+  options.start = start(retry);
+  options.go_on = [this](const VectorXd& ritz) { return !pencil_.follow(ritz, wanted_); };
+  method_ = name_of(EigenMethod::kBlockLanczos);
+  int64_t solves = 0;
+  for (;;) {
+    EigenResult found = solve_block_lanczos(pencil_.problem(), options);
+    found.solves = solves += found.solves;
+    if (found.status != EigenStatus::kStopped) return found;
+  }
+}
+
+EigenResult ModeSource::by_amls(int count, int retry) {
+  AmlsOptions options;
+  options.count = count;
+  options.accuracy = options_.accuracy;
+  options.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
+  options.seed = seed(retry);
+  EigenResult found = solve_amls(pencil_, options);
+  // Where nothing can be left out it hands over to ARPACK.
+  method_ = name_of(found.errors.size() > 0 ? EigenMethod::kAmls : EigenMethod::kArpack);
+  return found;
+}
+
+EigenResult ModeSource::by_arpack(int count, int retry) {
+  ArpackOptions options;
+  options.count = count;
+  options.seed = seed(retry);
+  options.basis = static_cast<int>(std::min<Index>(n_, static_cast<Index>(2 + retry) * count + 10));
+  options.start = start(retry);
+  method_ = name_of(EigenMethod::kArpack);
+  return solve_arpack(pencil_.problem(), options);
+}
+
+VectorXd ModeSource::start(int retry) const {
+  if (retry > 0 || options_.start.size() != n_) return {};
+  return options_.start(pencil_.order());
+}
+
+int ModeSource::estimated_below(double limit) {
+  pencil_.find_shift(wanted_, options_.seed);
+  const ModeDensity density(SubtreeProduct(pencil_.factor(), pencil_.mass()), n_, options_.seed);
+  solves_ += ModeDensity::kSolves;
+  return static_cast<int>(density.count_above(1.0 / (limit - sigma())));
+}
+
+}  // namespace clatter::sparse

@@ -1,0 +1,65 @@
+#include "core/sparse/eigen/refinement.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+#include "core/sparse/dense_eigen.hpp"
+#include "core/sparse/dense_product.hpp"
+
+namespace clatter::sparse {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr Index kColumns = 32;  // of vectors that are handled at a time
+constexpr Index kRows = 2048;   // the same
+
+}  // namespace
+
+void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, MatrixXd& X,
+                  VectorXd& values) {
+  const Index m = X.cols(), n = X.rows();
+  MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
+  // Beside X, which may fill half the memory, two blocks are held, row by row.
+  RowMatrix image(n, kColumns), block(n, kColumns);
+  const auto project = [&](Index first, MatrixXd& onto) {  // rows of X up to the block itself
+    const Index count = std::min(kColumns, m - first), end = first + count;
+    onto.block(0, first, end, count) =
+        transposed_rows_product(X.leftCols(end), image).leftCols(count);
+  };
+  const auto take_image = [&](Index first) {
+    const Index count = std::min(kColumns, m - first);
+    block.rightCols(kColumns - count).setZero();
+    block.leftCols(count) = X.middleCols(first, count);
+    mass_of.multiply(block.data(), image.data(), static_cast<int>(kColumns));
+  };
+  for (Index first = 0; first < m; first += kColumns) {
+    const Index count = std::min(kColumns, m - first);
+    take_image(first);
+    problem.solve(image.data(), block.data(), static_cast<int>(kColumns));
+    X.middleCols(first, count) = block.leftCols(count);
+    project(first, shifted);
+  }
+  for (Index first = 0; first < m; first += kColumns) {
+    take_image(first);
+    project(first, mass);
+  }
+  const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
+  if (!ritz.ok) throw NumericsError("modes: the refined vectors depend on each other");
+  const VectorXd nu = ritz.values.reverse();
+  values = problem.sigma + nu.array().inverse();
+  const MatrixXd to_modes =
+      ritz.vectors.rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal();
+  parallel_pieces(n, [&](int64_t begin, int64_t end) {
+    for (int64_t row = begin; row < end; row += kRows) {
+      auto tile = X.middleRows(row, std::min(kRows, end - row));
+      tile = (tile * to_modes).eval();
+    }
+  });
+}
+
+}  // namespace clatter::sparse

@@ -1,0 +1,124 @@
+#include "core/sparse/factor/sweep_kernel.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "core/base/each_cpu.hpp"
+
+namespace clatter::sparse {
+namespace {
+
+/// kLanes doubles; the compiler splits them where registers are narrower. Vectors never cross a
+/// call, since each CPU's clone of the functions below has registers of its own.
+using Vector = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+
+// Sums that fit the registers; two products a cycle with a latency of four want eight at least.
+#ifdef __AVX512F__
+constexpr int kRows = 12;
+#else
+constexpr int kRows = 6;
+#endif
+
+#define CLATTER_INLINE inline __attribute__((always_inline))
+
+CLATTER_INLINE Vector& vector_at(const Lanes& lanes, int64_t i) {
+  return *reinterpret_cast<Vector*>(lanes.at + i * lanes.stride);
+}
+
+/// R rows of y.
+template <int R>
+CLATTER_INLINE void product_rows(const double* A, int64_t stride, int columns, const Lanes& x,
+                                 const Lanes& y) {
+  Vector sum[R];
+  for (int r = 0; r < R; ++r) sum[r] = vector_at(y, r);
+  for (int j = 0; j < columns; ++j) {
+    const Vector xj = vector_at(x, j);
+    const double* a = A + j * stride;
+    for (int r = 0; r < R; ++r) sum[r] -= a[r] * xj;
+  }
+  for (int r = 0; r < R; ++r) vector_at(y, r) = sum[r];
+}
+
+/// R rows of x.
+template <int R>
+CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, const Lanes& y,
+                                    const Lanes& x) {
+  Vector sum[R];
+  for (int j = 0; j < R; ++j) sum[j] = vector_at(x, j);
+  for (int r = 0; r < rows; ++r) {
+    const Vector yr = vector_at(y, r);
+    for (int j = 0; j < R; ++j) sum[j] -= A[r + j * stride] * yr;
+  }
+  for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
+}
+
+/// body(constant of value `count`) for count <= Most, nothing for 0: the rows that are left over in
+/// one go. One row by itself would wait for its own last product all the time.
+template <int Most, class Body>
+CLATTER_INLINE void with_count(int count, Body&& body) {
+  if constexpr (Most > 0) {
+    if (count == Most) return body(std::integral_constant<int, Most>());
+    with_count<Most - 1>(count, body);
+  }
+}
+
+CLATTER_INLINE void product(const double* A, int64_t stride, int rows, int columns, const Lanes& x,
+                            const Lanes& y) {
+  int r = 0;
+  for (; r + kRows <= rows; r += kRows) product_rows<kRows>(A + r, stride, columns, x, y.row(r));
+  with_count<kRows - 1>(
+      rows - r, [&](auto left) __attribute__((always_inline)) {
+        product_rows<left()>(A + r, stride, columns, x, y.row(r));
+      });
+}
+
+CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int columns,
+                               const Lanes& y, const Lanes& x) {
+  int j = 0;
+  for (; j + kRows <= columns; j += kRows)
+    transposed_rows<kRows>(A + j * stride, stride, rows, y, x.row(j));
+  with_count<kRows - 1>(
+      columns - j, [&](auto left) __attribute__((always_inline)) {
+        transposed_rows<left()>(A + j * stride, stride, rows, y, x.row(j));
+      });
+}
+
+}  // namespace
+
+CLATTER_EACH_CPU void subtract_product(const double* A, int64_t stride, int rows, int columns,
+                                       Lanes x, Lanes y) {
+  product(A, stride, rows, columns, x, y);
+}
+
+CLATTER_EACH_CPU void subtract_transposed(const double* A, int64_t stride, int rows, int columns,
+                                          Lanes y, Lanes x) {
+  transposed(A, stride, rows, columns, y, x);
+}
+
+CLATTER_EACH_CPU void solve_lower(const double* L, int64_t stride, int n, Lanes x) {
+  for (int begin = 0; begin < n; begin += kRows) {
+    const int end = std::min(n, begin + kRows);
+    for (int j = begin; j < end; ++j) {
+      const double* column = L + j * stride;
+      const Vector xj = vector_at(x, j) * (1.0 / column[j]);
+      vector_at(x, j) = xj;
+      for (int r = j + 1; r < end; ++r) vector_at(x, r) -= column[r] * xj;
+    }
+    product(L + begin * stride + end, stride, n - end, end - begin, x.row(begin), x.row(end));
+  }
+}
+
+CLATTER_EACH_CPU void solve_lower_transposed(const double* L, int64_t stride, int n, Lanes x) {
+  for (int begin = (n - 1) / kRows * kRows; begin >= 0; begin -= kRows) {
+    const int end = std::min(n, begin + kRows);
+    transposed(L + begin * stride + end, stride, n - end, end - begin, x.row(end), x.row(begin));
+    for (int j = end - 1; j >= begin; --j) {
+      const double* column = L + j * stride;
+      Vector sum = vector_at(x, j);
+      for (int r = j + 1; r < end; ++r) sum -= column[r] * vector_at(x, r);
+      vector_at(x, j) = sum * (1.0 / column[j]);
+    }
+  }
+}
+
+}  // namespace clatter::sparse

@@ -1,0 +1,144 @@
+// What Gmsh and OpenCASCADE know of the faces of solids: samples, shapes, curvature.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/cad/gmsh_call.hpp"
+#include "mesh/cad/gmsh_session.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr int kSurfaceSamples = 5;  // per direction
+
+std::vector<Eigen::Vector3d> points_of(int dim, int tag, const std::vector<double>& parameters) {
+  std::vector<double> coordinates;
+  gmsh::model::getValue(dim, tag, parameters, coordinates);
+  std::vector<Eigen::Vector3d> points;
+  for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> sample_edges(int face) {
+  gmsh::vectorpair curves;
+  gmsh::model::getBoundary({{2, face}}, curves, false, false, false);
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [dim, tag] : curves) {
+    std::vector<double> low, high, t;
+    gmsh::model::getParametrizationBounds(1, tag, low, high);
+    for (int i = 0; i < kEdgeSamples; ++i) {
+      t.push_back(low[0] + (high[0] - low[0]) * i / (kEdgeSamples - 1));
+    }
+    const auto on_curve = points_of(1, tag, t);
+    points.insert(points.end(), on_curve.begin(), on_curve.end());
+  }
+  return points;
+}
+
+std::vector<double> surface_parameters(int face) {
+  std::vector<double> low, high, uv;
+  gmsh::model::getParametrizationBounds(2, face, low, high);
+  for (int i = 0; i < kSurfaceSamples; ++i) {
+    for (int j = 0; j < kSurfaceSamples; ++j) {
+      uv.push_back(low[0] + (high[0] - low[0]) * (i + 0.5) / kSurfaceSamples);
+      uv.push_back(low[1] + (high[1] - low[1]) * (j + 0.5) / kSurfaceSamples);
+    }
+  }
+  return uv;
+}
+
+// Normals are missing at poles and apexes: those samples are left out.
+FaceShape shape_of(int face, const FaceFacts& facts, const std::vector<double>& uv) {
+  std::vector<double> n;
+  gmsh::model::getNormal(face, uv, n);
+  std::vector<Eigen::Vector3d> points, normals;
+  for (size_t i = 0; i < facts.surface_points.size(); ++i) {
+    const Eigen::Vector3d normal(n[3 * i], n[3 * i + 1], n[3 * i + 2]);
+    if (!normal.allFinite() || !(std::abs(normal.norm() - 1.0) < 1e-6)) continue;
+    points.push_back(facts.surface_points[i]);
+    normals.push_back(normal);
+  }
+  return find_shape(facts.kind, points, normals);
+}
+
+FaceFacts facts_of(int face) {
+  FaceFacts facts;
+  facts.tag = face;
+  gmsh::model::getType(2, face, facts.kind);
+  gmsh::model::occ::getMass(2, face, facts.area);
+  double x, y, z;
+  gmsh::model::occ::getCenterOfMass(2, face, x, y, z);
+  facts.centre = {x, y, z};
+  facts.edge_points = sample_edges(face);
+  const std::vector<double> uv = surface_parameters(face);
+  facts.surface_points = points_of(2, face, uv);
+  facts.shape = shape_of(face, facts, uv);
+  if (facts.kind == "Cylinder") {
+    std::vector<double> largest, smallest, direction_1, direction_2;
+    gmsh::model::getPrincipalCurvatures(face, {uv[0], uv[1]}, largest, smallest, direction_1,
+                                        direction_2);
+    facts.radius = 1.0 / std::max(std::abs(largest[0]), std::abs(smallest[0]));
+  }
+  return facts;
+}
+
+}  // namespace
+
+std::vector<double> GmshSession::radii(int face) {
+  return gmsh_call("gmsh: curvature", [&] {
+    synchronize();
+    std::vector<double> largest, smallest, direction_1, direction_2;
+    gmsh::model::getPrincipalCurvatures(face, surface_parameters(face), largest, smallest,
+                                        direction_1, direction_2);
+    std::vector<double> found;
+    for (size_t i = 0; i < largest.size(); ++i) {
+      double curvature = 0.0;
+      for (const double k : {largest[i], smallest[i]})
+        if (std::isfinite(k)) curvature = std::max(curvature, std::abs(k));
+      found.push_back(1.0 / curvature);
+    }
+    return found;
+  });
+}
+
+double GmshSession::smallest_radius(int face) {
+  const std::vector<double> all = radii(face);
+  const auto least = std::min_element(all.begin(), all.end());
+  return least == all.end() || std::isinf(*least) ? 0.0 : *least;
+}
+
+std::vector<FaceFacts> GmshSession::boundary_faces() { return faces(false); }
+
+std::vector<FaceFacts> GmshSession::faces_of_solids() { return faces(true); }
+
+std::vector<FaceFacts> GmshSession::faces(bool shared) {
+  return gmsh_call("faces", [&] {
+    synchronize();
+    gmsh::vectorpair tags;
+    gmsh::model::getEntities(tags, 2);
+    std::vector<FaceFacts> facts;
+    for (const auto& [dim, tag] : tags) {
+      std::vector<int> up, down;
+      gmsh::model::getAdjacencies(2, tag, up, down);
+      if (up.size() == 1) facts.push_back(facts_of(tag));
+      if (up.size() == 2 && shared) facts.insert(facts.end(), 2, facts_of(tag));
+    }
+    return facts;
+  });
+}
+
+BoxFilter GmshSession::extent() {
+  constexpr double kFar = 1e300;
+  BoxFilter box{Eigen::Vector3d::Constant(kFar), Eigen::Vector3d::Constant(-kFar)};
+  for (const FaceFacts& face : boundary_faces()) {
+    for (const Eigen::Vector3d& x : face.edge_points) {
+      box.min = box.min.cwiseMin(x);
+      box.max = box.max.cwiseMax(x);
+    }
+  }
+  return box;
+}
+
+}  // namespace clatter::mesh

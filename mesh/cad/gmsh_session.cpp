@@ -1,0 +1,319 @@
+#include "mesh/cad/gmsh_session.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+
+#include "mesh/cad/gmsh_call.hpp"
+#include "mesh/cad/skin_crossing.hpp"
+
+#ifdef __SANITIZE_ADDRESS__
+// OpenCASCADE's STEP reader keeps some memory for the life of the process; that is not ours to
+// free.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libTK\nleak:libgmsh\n"; }
+#endif
+
+namespace clatter::mesh {
+namespace {
+
+constexpr int kTri3 = 2, kTet4 = 4, kTri6 = 9, kTet10 = 11;  // Gmsh element types
+std::atomic<bool> session_lives = false;
+
+void set_options() {
+  const std::vector<std::pair<const char*, double>> options = {
+      {"General.Terminal", is_child()},  // there it says where it is, should it crash
+      {"General.NumThreads", 1},
+      {"Mesh.MaxNumThreads1D", 1},
+      {"Mesh.MaxNumThreads2D", 1},
+      {"Mesh.MaxNumThreads3D", 1},
+      {"Mesh.Algorithm3D", 1},  // Delaunay: the reproducible one (G7)
+      {"Mesh.Optimize", 1},
+      {"Mesh.ElementOrder", 1},
+      {"Mesh.SecondOrderLinear", 0},
+      {"Mesh.HighOrderOptimize", 0},  // repaired on purpose, after a look at what is broken
+      {"Mesh.RandomSeed", 1},
+  };
+  for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
+}
+
+// Curves of the faces that have a size of their own get it too: faces are meshed from their edges.
+std::map<int, double> curve_sizes(const std::map<int, double>& face_sizes) {
+  std::map<int, double> sizes;
+  for (const auto& [face, size] : face_sizes) {
+    std::vector<int> up, curves;
+    gmsh::model::getAdjacencies(2, face, up, curves);
+    for (int curve : curves) {
+      const auto known = sizes.find(curve);
+      if (known == sizes.end() || size < known->second) sizes[curve] = size;
+    }
+  }
+  return sizes;
+}
+
+// The size that the spots allow at x.
+double spot_size(const std::vector<FineSpot>& spots, double size, const Eigen::Vector3d& x) {
+  constexpr double kGrowth = 0.5;  // per length: neighbours differ by less than a factor of 2
+  for (const FineSpot& spot : spots) {
+    const double beyond = std::max(0.0, (x - spot.centre).norm() - spot.radius);
+    size = std::min(size, spot.size + kGrowth * beyond);
+  }
+  return size;
+}
+
+// Gmsh's fields: the distance from points all over the face, and a size that grows with it.
+void set_gradations(const SizeSettings& settings) {
+  constexpr double kSampling = 40;  // points along each direction of a face
+  namespace field = gmsh::model::mesh::field;
+  std::vector<double> thresholds;
+  for (const Gradation& g : settings.gradations) {
+    const int distance = field::add("Distance"), threshold = field::add("Threshold");
+    field::setNumbers(distance, "FacesList", {static_cast<double>(g.face)});
+    field::setNumber(distance, "NNodesByEdge", kSampling);
+    field::setNumber(threshold, "IField", distance);
+    field::setNumber(threshold, "LcMin", g.size);
+    field::setNumber(threshold, "LcMax", settings.size);
+    field::setNumber(threshold, "DistMin", 0.0);
+    field::setNumber(threshold, "DistMax", (settings.size - g.size) / g.growth);
+    thresholds.push_back(threshold);
+  }
+  if (thresholds.empty()) return;
+  const int smallest = field::add("Min");
+  field::setNumbers(smallest, "FieldsList", thresholds);
+  field::setAsBackgroundMesh(smallest);
+}
+
+void set_sizes(const SizeSettings& settings) {
+  constexpr double kMeshAdapt = 1, kFrontalDelaunay = 6;
+  gmsh::option::setNumber("Mesh.Algorithm",
+                          settings.adaptive_faces ? kMeshAdapt : kFrontalDelaunay);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", settings.size);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", settings.min_size);
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", settings.per_turn);
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
+  gmsh::model::mesh::removeSizeCallback();
+  set_gradations(settings);
+  if (settings.face_sizes.empty() && settings.spots.empty()) return;
+  gmsh::model::mesh::setSizeCallback([settings, curves = curve_sizes(settings.face_sizes)](
+                                         int dim, int tag, double x, double y, double z) {
+    double size = spot_size(settings.spots, settings.size, {x, y, z});
+    if (dim != 1 && dim != 2) return size;
+    const auto& sizes = dim == 2 ? settings.face_sizes : curves;
+    const auto found = sizes.find(tag);
+    return found == sizes.end() ? size : std::min(size, found->second);
+  });
+}
+
+// Gmsh's node tags -> rows; only nodes of cells are kept, in ascending order of their tags.
+class NodeNumbers {
+ public:
+  void use(const std::vector<size_t>& tags) { used_.insert(used_.end(), tags.begin(), tags.end()); }
+  void close() {
+    std::sort(used_.begin(), used_.end());
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+  }
+  int32_t row(size_t tag) const {
+    const auto at = std::lower_bound(used_.begin(), used_.end(), tag);
+    if (at == used_.end() || *at != tag) {
+      throw NumericsError("Gmsh left a face with a node that belongs to no cell");
+    }
+    return static_cast<int32_t>(at - used_.begin());
+  }
+  bool has(size_t tag) const { return std::binary_search(used_.begin(), used_.end(), tag); }
+  const std::vector<size_t>& tags() const { return used_; }
+
+ private:
+  std::vector<size_t> used_;
+};
+
+IndexMatrix table_of(const std::vector<size_t>& tags, int columns, const NodeNumbers& numbers) {
+  IndexMatrix table(static_cast<Eigen::Index>(tags.size()) / columns, columns);
+  for (size_t i = 0; i < tags.size(); ++i) table.data()[i] = numbers.row(tags[i]);
+  return table;
+}
+
+std::vector<size_t> element_nodes(int type, int entity) {
+  std::vector<size_t> elements, nodes;
+  gmsh::model::mesh::getElementsByType(type, elements, nodes, entity);
+  return nodes;
+}
+
+RowMatrix coordinates_of(const NodeNumbers& numbers) {
+  std::vector<size_t> tags;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(tags, xyz, parameters, -1, -1, false, false);
+  RowMatrix nodes(static_cast<Eigen::Index>(numbers.tags().size()), 3);
+  for (size_t i = 0; i < tags.size(); ++i) {
+    if (!numbers.has(tags[i])) continue;
+    nodes.row(numbers.row(tags[i])) << xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2];
+  }
+  return nodes;
+}
+
+}  // namespace
+
+GmshSession::GmshSession(const std::string& model_name) {
+  if (session_lives.exchange(true)) {
+    throw std::logic_error("a Gmsh session is already open; Gmsh holds one global state");
+  }
+  try {
+    gmsh_call("gmsh", [&] {
+      gmsh::initialize(0, nullptr, false);
+      set_options();
+      gmsh::model::add(model_name);
+    });
+  } catch (...) {
+    session_lives = false;
+    throw;
+  }
+}
+
+GmshSession::~GmshSession() {
+  try {
+    gmsh::model::mesh::removeSizeCallback();
+    gmsh::finalize();
+  } catch (...) {  // nothing left to save
+  }
+  session_lives = false;
+}
+
+std::string GmshSession::library_version() {
+  return fmt::format("{}.{}", GMSH_API_VERSION_MAJOR, GMSH_API_VERSION_MINOR);
+}
+
+std::string GmshSession::running_version() const {
+  return gmsh_call("gmsh: version", [] {
+    std::string version;
+    gmsh::option::getString("General.Version", version);
+    return version;
+  });
+}
+
+void GmshSession::generate(const SizeSettings& settings) {
+  order_ = 1;
+  try {
+    gmsh_call("gmsh: meshing", [&] {
+      synchronize();
+      gmsh::model::mesh::clear();
+      set_sizes(settings);
+      gmsh::model::mesh::generate(3);
+    });
+  } catch (const NumericsError& error) {
+    throw NumericsError(
+        fmt::format("{}: choose smaller elements or more per turn where walls are thin{}",
+                    error.what(), reason_of_failure()));
+  }
+}
+
+RawMesh GmshSession::generate_skin(const SizeSettings& settings, int order) {
+  return gmsh_call("gmsh: meshing faces", [&] {
+    synchronize();
+    gmsh::model::mesh::clear();
+    set_sizes(settings);
+    gmsh::model::mesh::generate(2);
+    if (order == 2) gmsh::model::mesh::setOrder(2);
+    order_ = order;
+    return extract_skin();
+  });
+}
+
+RawMesh GmshSession::extract_skin() const {
+  const int type = order_ == 2 ? kTri6 : kTri3, columns = order_ == 2 ? 6 : 3;
+  RawMesh mesh;
+  NodeNumbers numbers;
+  gmsh::vectorpair faces;
+  gmsh::model::getEntities(faces, 2);
+  for (const auto& [dim, tag] : faces) numbers.use(element_nodes(type, tag));
+  numbers.close();
+  for (const auto& [dim, tag] : faces)
+    mesh.face_cells[tag] = table_of(element_nodes(type, tag), columns, numbers);
+  mesh.nodes = coordinates_of(numbers);
+  mesh.node_tags = numbers.tags();
+  return mesh;
+}
+
+// Faces cut each other where chords leave no wall between them.
+std::string GmshSession::reason_of_failure() const {
+  const RawMesh skin = gmsh_call("gmsh: reading the faces", [&] { return extract_skin(); });
+  const std::string crossings = describe_crossings(find_crossings(skin.nodes, skin.face_cells));
+  return crossings.empty() ? ""
+                           : fmt::format("; to blame, as their triangles cross: {}", crossings);
+}
+
+void GmshSession::replace_cells(const RawMesh& raw) {
+  gmsh_call("gmsh: replacing cells", [&] {
+    gmsh::vectorpair solids;
+    gmsh::model::getEntities(solids, 3);
+    gmsh::model::mesh::clear(solids);
+    std::vector<size_t> present;
+    std::vector<double> xyz, parameters;
+    gmsh::model::mesh::getNodes(present, xyz, parameters, -1, -1, false, false);
+    std::set<size_t> known(present.begin(), present.end());
+    std::vector<size_t> tags = raw.node_tags;
+    size_t next = std::max(tags.back(), known.empty() ? 0 : *known.rbegin());
+    while (tags.size() < static_cast<size_t>(raw.nodes.rows())) tags.push_back(++next);
+    for (const auto& [solid, cells] : raw.cells) {
+      std::vector<size_t> inner, corners;
+      std::vector<double> places;
+      for (Eigen::Index i = 0; i < cells.size(); ++i) {
+        const int32_t row = cells.data()[i];
+        const size_t tag = tags[static_cast<size_t>(row)];
+        corners.push_back(tag);
+        if (!known.insert(tag).second) continue;
+        inner.push_back(tag);
+        for (int d = 0; d < 3; ++d) places.push_back(raw.nodes(row, d));
+      }
+      gmsh::model::mesh::addNodes(3, solid, inner, places);
+      gmsh::model::mesh::addElementsByType(solid, kTet4, {}, corners);
+    }
+  });
+}
+
+void GmshSession::make_quadratic() {
+  gmsh_call("gmsh: second order", [&] {
+    gmsh::model::mesh::setOrder(2);
+    order_ = 2;
+  });
+}
+
+bool GmshSession::optimise_curved_cells() {
+  try {
+    gmsh_call("gmsh: HighOrder", [] { gmsh::model::mesh::optimize("HighOrder"); });
+    return true;
+  } catch (const NumericsError&) {
+    return false;
+  }
+}
+
+void GmshSession::repair_curved_cells() {
+  gmsh_call("gmsh: HighOrderElastic", [] { gmsh::model::mesh::optimize("HighOrderElastic"); });
+}
+
+RawMesh GmshSession::extract() const {
+  return gmsh_call("gmsh: reading the mesh", [&] {
+    RawMesh mesh;
+    NodeNumbers numbers;
+    gmsh::vectorpair solids, faces;
+    gmsh::model::getEntities(solids, 3);
+    gmsh::model::getEntities(faces, 2);
+    std::map<Solid, std::vector<size_t>> cells;
+    for (const auto& [dim, tag] : solids) {
+      cells[tag] = element_nodes(order_ == 2 ? kTet10 : kTet4, tag);
+      if (cells[tag].empty()) {
+        throw NumericsError(fmt::format("gmsh: solid {} got no cells", tag));
+      }
+      numbers.use(cells[tag]);
+    }
+    numbers.close();
+    for (const auto& [tag, nodes] : cells)
+      mesh.cells[tag] = table_of(nodes, order_ == 2 ? 10 : 4, numbers);
+    for (const auto& [dim, tag] : faces) {
+      const int type = order_ == 2 ? kTri6 : kTri3;
+      mesh.face_cells[tag] = table_of(element_nodes(type, tag), order_ == 2 ? 6 : 3, numbers);
+    }
+    mesh.nodes = coordinates_of(numbers);
+    mesh.node_tags = numbers.tags();
+    return mesh;
+  });
+}
+
+}  // namespace clatter::mesh

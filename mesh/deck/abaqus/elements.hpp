@@ -1,0 +1,39 @@
+#pragma once
+// Element types, their face numbers, and the tables of nodes and elements.
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mesh/deck/abaqus/scope.hpp"
+#include "mesh/deck/refusals.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R
+/// stands for reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
+struct SolidType {
+  std::string_view name;
+  CellType type;
+  Formulation formulation;
+};
+
+/// By folded name; none for what is not a solid that is read here.
+std::optional<SolidType> solid_type(std::string_view name);
+
+/// Index into traits(type).faces of face `number` (1 for S1, P1); -1 where the cell has no such
+/// face.
+///   tet      1 1-2-3    2 1-4-2    3 2-4-3    4 3-4-1
+///   wedge    1 1-2-3    2 4-6-5    3 1-4-5-2  4 2-5-6-3  5 3-6-4-1
+///   hex      1 1-2-3-4  2 5-8-7-6  3 1-5-6-2  4 2-6-7-3  5 3-7-8-4  6 4-8-5-1
+///   pyramid  1 1-2-3-4  2 1-5-2    3 2-5-3    4 3-5-4    5 4-5-1
+int face_of_number(CellType type, int number);
+/// The inverse: 1, 2, ...
+int number_of_face(CellType type, int face);
+
+/// Reads the data lines of *NODE or *ELEMENT into `scope`, until the next keyword, and returns what
+/// came there. InputError for the first line that is wrong.
+Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore);
+/// An element type that is not read is refused and passed over like one that the user ignores.
+Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* refusals);
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,70 @@
+#pragma once
+// *CLOAD, *DLOAD, *DSLOAD, *TEMPERATURE: what acts, as the steps go by. What a step says again
+// replaces what earlier steps said (OP=MOD) or everything of its kind (OP=NEW); within one step
+// loads on the same place add up, as in CalculiX.
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "mesh/deck/abaqus/supports.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+class Loads {
+ public:
+  explicit Loads(Reading* reading) : reading_(reading) {}
+
+  void read_forces(size_t use, const Card& card, StepNumber step);         // *CLOAD
+  void read_element_loads(size_t use, const Card& card, StepNumber step);  // *DLOAD
+  void read_pressures(size_t use, const Card& card, StepNumber step);      // *DSLOAD
+  void read_temperatures(size_t use, const Card& card, StepNumber step);   // *TEMPERATURE
+
+  bool empty() const;
+  /// Writes all that acts into `out`; surfaces and fields of the mesh come with it. InputError
+  /// where gravity acts on some elements only, or CENTRIF on a part of a region.
+  void list(Step* out, StepNumber step);
+
+ private:
+  struct Value {
+    double value = 0.0;
+    StepNumber step = 0;
+    const std::string* system = nullptr;
+  };
+  struct Gravity {
+    std::vector<bool> covered;  // by cell
+    StepNumber step = 0;
+    Spot spot = 0;
+  };
+  using Vector = std::array<double, 3>;
+  // One line of CENTRIF: the same axis and cells again replace it.
+  struct Rotation {
+    Step::Rotation what;
+    std::vector<bool> covered;  // by cell
+    StepNumber step = 0;
+    Spot spot = 0;
+  };
+
+  double begin(const Card& card);
+  void add_gravity(size_t use, const Fields& fields, double factor, StepNumber step);
+  void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
+  void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
+  void list_pressures(Step* out);
+  void list_rotations(Step* out) const;
+  void list_gravity(Step* out) const;
+  void list_temperature(Step* out, StepNumber step);
+  std::vector<double> initial_field() const;
+
+  Reading* reading_;
+  std::map<std::pair<Place, int>, Value> forces_;
+  std::map<CellFaceId, Value> faces_;
+  std::map<std::string, Value> surfaces_;
+  std::map<Vector, Gravity> gravity_;
+  std::vector<Rotation> rotations_;
+  std::vector<double> temperature_;  // by row; empty: nothing said
+  std::map<std::vector<CellFaceId>, std::string> made_surfaces_;
+};
+
+}  // namespace clatter::mesh::deck::abaqus

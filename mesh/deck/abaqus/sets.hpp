@@ -1,0 +1,57 @@
+#pragma once
+// What numbers and names of nodes and elements stand for.
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/deck/abaqus/model.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// Sets by name, resolved when first asked for and kept. A name is one of the scope, or
+/// "instance.name" from outside; a number is one of the scope, or "instance.number".
+class Sets {
+ public:
+  explicit Sets(const Model* model) : model_(model) {}
+
+  /// Rows of the nodes of a set, ascending. InputError at `spot` for a name that is not there, at
+  /// the set's line for numbers that are not there and for sets that hold themselves.
+  const std::vector<int32_t>& nodes(size_t use, const std::string& name, Spot spot);
+  /// The same for elements; those of one node come behind the cells (Model::points).
+  const std::vector<int32_t>& elements(size_t use, const std::string& name, Spot spot);
+
+  /// What stands in field `i`: a number or the name of a set.
+  std::vector<int32_t> nodes_at(const Fields& fields, size_t i, size_t use);
+  std::vector<int32_t> elements_at(const Fields& fields, size_t i, size_t use);
+  /// One node: its number, or the name of a set of one node.
+  int32_t node_at(const Fields& fields, size_t i, size_t use);
+  int32_t node_named(const std::string& text, size_t use, Spot spot);
+
+ private:
+  enum class Kind { kNodes, kElements };
+  using Key = std::pair<size_t, std::string>;
+  struct Entry {
+    std::vector<int32_t> members;
+    bool done = false;
+  };
+
+  Key key_of(size_t use, const std::string& name) const;
+  const IdSets& sets_of(Kind kind, size_t use) const;
+  const std::vector<int32_t>& resolve(Kind kind, const Key& key, Spot spot);
+  void add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out);
+  void add_numbers(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const;
+  void add_range(Kind kind, size_t use, const SetChunk::Range& range,
+                 std::vector<int32_t>* out) const;
+  void add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const;
+  int32_t find(Kind kind, size_t use, int32_t id) const;
+  std::vector<int32_t> at(Kind kind, const Fields& fields, size_t i, size_t use);
+  void compact(std::vector<int32_t>* out) const;
+
+  const Model* model_;
+  std::map<Key, Entry> done_[2];
+  int depth_ = 0;
+  size_t members_ = 0;  // of all sets
+};
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,145 @@
+#include "mesh/deck/abaqus/supports.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <tuple>
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+// Degrees of freedom by name, as Abaqus defines them.
+constexpr std::array<std::pair<std::string_view, DofMask>, 8> kNamed = {{
+    {"XSYMM", 0b110001},
+    {"YSYMM", 0b101010},
+    {"ZSYMM", 0b011100},
+    {"XASYMM", 0b001110},
+    {"YASYMM", 0b010101},
+    {"ZASYMM", 0b100011},
+    {"PINNED", 0b000111},
+    {"ENCASTRE", 0b111111},
+}};
+
+}  // namespace
+
+double amplitude_factor(const Reading& reading, const Card& card) {
+  const std::string* name = card.keyword().find("AMPLITUDE");
+  if (name == nullptr) return 1.0;
+  const auto known = reading.amplitudes.find(folded(*name));
+  if (known == reading.amplitudes.end()) {
+    reading.source.fail(card.spot(), fmt::format("there is no amplitude '{}'", *name));
+  }
+  const Card* amplitude = known->second;
+  std::vector<double> values;
+  const bool table = amplitude->keyword().choice("DEFINITION", "TABULAR") == "TABULAR";
+  for (size_t i = 0; table && i < amplitude->size(); ++i) {
+    const Fields fields = amplitude->line(i, reading.source);
+    for (size_t k = 1; k < fields.size(); k += 2) values.push_back(fields.number(k, "amplitude"));
+  }
+  for (const double value : values) {
+    if (value != values.front()) values.clear();
+    if (values.empty()) break;
+  }
+  if (values.empty()) {
+    reading.source.fail(card.spot(),
+                        fmt::format("amplitude {} changes with time, which is not supported; "
+                                    "ignore = [\"AMPLITUDE\"] takes the values as they stand",
+                                    *name));
+  }
+  return values.front();
+}
+
+std::pair<Place, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask) {
+  const Place rotated = reading.places->rotation_of(row);
+  if (rotated != Places::kNone) {
+    return {rotated, static_cast<DofMask>((mask & kTranslations) << 3)};
+  }
+  const Place place = reading.places->find(row);
+  if (place == Places::kNone || reading.places->is_point(place)) return {place, mask};
+  return {place, static_cast<DofMask>(mask & kTranslations)};
+}
+
+void Supports::read(size_t use, const Card& card, StepNumber step) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"OP", "AMPLITUDE", "TYPE"}, reading_->source, reading_->ignore);
+  if (keyword.choice("TYPE", "DISPLACEMENT") != "DISPLACEMENT") {
+    reading_->source.fail(card.spot(), "*BOUNDARY: expected TYPE=DISPLACEMENT");
+  }
+  if (keyword.choice("OP", "MOD") == "NEW") {
+    std::erase_if(held_, [&](const auto& entry) { return entry.second.step != step; });
+  }
+  const double factor =
+      reading_->ignore->skips("AMPLITUDE", 0) ? 1.0 : amplitude_factor(*reading_, card);
+  cards_.push_back(reading_->source.where(card.spot()));
+  for (size_t i = 0; i < card.size(); ++i) {
+    reading_->refusals->attempt(
+        [&] { read_line(use, card.line(i, reading_->source), factor, step); });
+  }
+}
+
+void Supports::read_line(size_t use, const Fields& fields, double factor, StepNumber step) {
+  const std::vector<int32_t> rows = reading_->sets->nodes_at(fields, 0, use);
+  const std::string word = folded(fields.text(1));
+  DofMask mask = 0;
+  double value = 0.0;
+  for (const auto& [name, bits] : kNamed) {
+    if (name == word) mask = bits;
+  }
+  if (mask != 0) {
+    fields.at_most(2, "nodes and the name of a support");
+  } else {
+    fields.at_most(4, "nodes, first and last degree of freedom, value");
+    mask = dof_range(fields, 1);
+    value = factor * fields.number_or(3, 0.0, "value");
+  }
+  for (const int32_t row : rows) hold(row, mask, value, step, fields.spot());
+}
+
+void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot) {
+  const auto [place, dofs] = held_dofs(*reading_, row, mask);
+  if (place == Places::kNone) return;
+  for (int k = 0; k < 6; ++k) {
+    if ((dofs >> k & 1) == 0) continue;
+    const Held held{value, &reading_->places->system(row), step,
+                    static_cast<int32_t>(cards_.size()) - 1};
+    const auto [at, is_new] = held_.emplace(std::pair(place, k), held);
+    if (is_new) continue;
+    if (at->second.step == step && at->second.value != value) {
+      reading_->source.fail(spot, fmt::format("node {} is held at {} and at {} in direction {}",
+                                              reading_->model->node_ids()[static_cast<size_t>(row)],
+                                              at->second.value, value, k + 1));
+    }
+    // The same again: it stays where it was said first.
+    if (at->second.value != value || at->second.step != step) at->second = held;
+  }
+}
+
+std::vector<Support> Supports::list(const Supports* other) const {
+  // By card, value and axes; in each the mask by place.
+  std::map<std::tuple<int32_t, double, std::string>, std::map<Place, DofMask>> groups;
+  for (const auto& [dof, held] : held_) {
+    if (other != nullptr) {
+      const auto at = other->held_.find(dof);
+      if (at != other->held_.end() && at->second.value == held.value) continue;
+    }
+    DofMask& mask = groups[{held.card, held.value, *held.system}][dof.first];
+    mask = static_cast<DofMask>(mask | 1 << dof.second);
+  }
+  std::vector<Support> supports;
+  for (const auto& [key, places] : groups) {
+    std::map<DofMask, std::vector<Place>> by_mask;
+    for (const auto& [place, mask] : places) by_mask[mask].push_back(place);
+    for (auto& [mask, members] : by_mask) {
+      Support support;
+      support.where = cards_[static_cast<size_t>(std::get<0>(key))];
+      support.places = std::move(members);
+      support.dofs = mask;
+      support.value = std::get<1>(key);
+      support.system = std::get<2>(key);
+      supports.push_back(std::move(support));
+    }
+  }
+  return supports;
+}
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,48 @@
+#pragma once
+// *BOUNDARY: which DoFs are held, and at which value, as the steps go by.
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/deck/abaqus/reading.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// Number of a step; the model itself is step 0.
+using StepNumber = int32_t;
+
+/// Factor of a card's AMPLITUDE; 1 without one. InputError for an amplitude that is not constant.
+double amplitude_factor(const Reading& reading, const Card& card);
+
+/// The DoFs of a node in `mask` (1 to 6 of the deck): its place, and the mask there. No place
+/// (kNone) for a node without stiffness; a mask of 0 for rotations of a node that has none.
+std::pair<Place, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
+
+class Supports {
+ public:
+  explicit Supports(Reading* reading) : reading_(reading) {}
+
+  /// One *BOUNDARY. OP=NEW releases what other steps held. InputError for a DoF that one step holds
+  /// at two values.
+  void read(size_t use, const Card& card, StepNumber step);
+  /// What is held and is not held in the same way by `other` (null: nothing).
+  std::vector<Support> list(const Supports* other) const;
+
+ private:
+  struct Held {
+    double value = 0.0;
+    const std::string* system = nullptr;
+    StepNumber step = 0;
+    int32_t card = 0;  // index into cards_
+  };
+
+  void read_line(size_t use, const Fields& fields, double factor, StepNumber step);
+  void hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot);
+
+  Reading* reading_;
+  std::map<std::pair<Place, int>, Held> held_;
+  std::vector<std::string> cards_;  // where they stand
+};
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,263 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/reading.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+// Rows of a face of a cell, in our order: the first `count` of them.
+struct FaceRows {
+  std::array<int32_t, kMaxFaceNodes> rows;
+  size_t count, corners;
+  auto begin() const { return rows.begin(); }
+  auto end() const { return rows.begin() + static_cast<long>(count); }
+};
+
+FaceRows face_rows(const Model& model, CellFaceId id) {
+  const CellType type = model.table_of(id.first).type;
+  const CellFace& face = traits(type).faces[static_cast<size_t>(id.second)];
+  const std::span<const int> p = traits(type).to_abaqus;
+  const auto rows = model.nodes_of(id.first);
+  FaceRows out{{},
+               static_cast<size_t>(traits(face.type).nodes),
+               static_cast<size_t>(traits(face.type).corners)};
+  for (size_t i = 0; i < out.count; ++i) {
+    out.rows[i] =
+        rows[static_cast<size_t>(std::find(p.begin(), p.end(), face.nodes[i]) - p.begin())];
+  }
+  return out;
+}
+
+// A face that may be free, by its corners, ascending: the same for both cells that share it.
+struct Candidate {
+  std::array<int32_t, 4> corners;
+  CellFaceId id;
+  bool chosen;
+};
+
+Candidate candidate(const FaceRows& face, CellFaceId id, bool chosen) {
+  Candidate out{{-1, -1, -1, -1}, id, chosen};
+  std::copy_n(face.rows.begin(), face.corners, out.corners.begin());
+  std::sort(out.corners.begin(), out.corners.end());
+  return out;
+}
+
+int32_t face_count(const Model& model, int32_t cell) {
+  return static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
+}
+
+// Faces of all other cells whose nodes are all touched.
+void add_neighbours(const Model& model, const std::vector<bool>& chosen,
+                    const std::vector<bool>& touched, std::vector<Candidate>* faces) {
+  const auto is_touched = [&](int32_t row) { return touched[static_cast<size_t>(row)]; };
+  for (int32_t cell = 0; cell < model.cells(); ++cell) {
+    const auto nodes = model.nodes_of(cell);
+    if (chosen[static_cast<size_t>(cell)] ||
+        std::count_if(nodes.begin(), nodes.end(), is_touched) < 3) {
+      continue;
+    }
+    for (int32_t f = 0; f < face_count(model, cell); ++f) {
+      const FaceRows face = face_rows(model, {cell, f});
+      if (std::all_of(face.begin(), face.end(), is_touched)) {
+        faces->push_back(candidate(face, {cell, f}, false));
+      }
+    }
+  }
+}
+
+// Of the faces of those cells, those for which `wanted` is true of all rows and that no other cell
+// of the model has.
+template <class Wanted>
+std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t>& cells,
+                                   const Wanted& wanted) {
+  std::vector<Candidate> all;
+  std::vector<bool> chosen(static_cast<size_t>(model.cells()), false);
+  std::vector<bool> touched(static_cast<size_t>(model.nodes()), false);
+  for (const int32_t cell : cells) {
+    chosen[static_cast<size_t>(cell)] = true;
+    for (int32_t f = 0; f < face_count(model, cell); ++f) {
+      const FaceRows face = face_rows(model, {cell, f});
+      if (!std::all_of(face.begin(), face.end(), wanted)) continue;
+      all.push_back(candidate(face, {cell, f}, true));
+      for (const int32_t row : face) touched[static_cast<size_t>(row)] = true;
+    }
+  }
+  add_neighbours(model, chosen, touched, &all);
+  std::sort(all.begin(), all.end(),
+            [](const Candidate& a, const Candidate& b) { return a.corners < b.corners; });
+  std::vector<CellFaceId> faces;
+  for (size_t i = 0, end = 0; i < all.size(); i = end) {
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1 && all[i].chosen) faces.push_back(all[i].id);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+// Key of Reading::surface_names; "instance.name" points into the instance.
+std::string key_of(const Reading& reading, size_t use, const std::string& name) {
+  std::string rest = name;
+  for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
+    const int instance = reading.model->find_use(name.substr(0, dot));
+    if (instance < 0) continue;
+    use = static_cast<size_t>(instance);
+    rest = name.substr(dot + 1);
+    break;
+  }
+  return fmt::format("{}:{}", use, folded(rest));
+}
+
+class SurfaceReader {
+ public:
+  explicit SurfaceReader(Reading* reading) : reading_(*reading), model_(*reading->model) {}
+
+  void read(size_t use, const Card& card) {
+    const Keyword& keyword = card.keyword();
+    keyword.allow({"NAME", "TYPE", "INTERNAL"}, reading_.source, reading_.ignore);
+    const std::string& name = keyword.required("NAME", reading_.source);
+    const std::string type = keyword.choice("TYPE", "ELEMENT");
+    const std::string key = key_of(reading_, use, name);
+    if (reading_.surface_names.contains(key) || reading_.node_surfaces.contains(key)) {
+      reading_.source.fail(card.spot(), fmt::format("found a second surface {}", name));
+    }
+    if (type == "NODE") return read_nodes(use, card, key);
+    if (type != "ELEMENT") {
+      reading_.source.fail(card.spot(), fmt::format("*SURFACE: found TYPE={}, expected ELEMENT or "
+                                                    "NODE",
+                                                    *keyword.find("TYPE")));
+    }
+    std::vector<CellFaceId> faces;
+    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, reading_.source), &faces);
+    // Without faces because the user lets its elements go: not in the mesh.
+    const bool none = faces.empty() && card.size() > 0;
+    reading_.surface_names[key] =
+        none ? "" : add_surface(&reading_, model_.public_name(use, name), faces);
+  }
+
+ private:
+  void read_nodes(size_t use, const Card& card, const std::string& key) {
+    std::vector<int32_t> rows;
+    for (size_t i = 0; i < card.size(); ++i) {
+      const Fields fields = card.line(i, reading_.source);
+      fields.at_most(2, "a node or node set, area");
+      const auto more = reading_.sets->nodes_at(fields, 0, use);
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    reading_.node_surfaces[key] = std::move(rows);
+  }
+
+  // "elements, S3", or "elements": all their faces on the outside of the model.
+  void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>* faces) {
+    fields.at_most(2, "elements, face");
+    std::vector<int32_t> cells = reading_.sets->elements_at(fields, 0, use);
+    std::erase_if(cells, [&](int32_t element) { return element >= model_.cells(); });
+    if (fields.empty(1)) {
+      const auto found = free_faces(model_, cells, [](int32_t) { return true; });
+      faces->insert(faces->end(), found.begin(), found.end());
+      return;
+    }
+    const std::string face = folded(fields.text(1));
+    const auto number = face.starts_with('S') ? to_integer(face.substr(1)) : std::nullopt;
+    if (!number) {
+      fields.fail(
+          fmt::format("found face '{}', expected S1 to S6: faces of solids", fields.text(1)));
+    }
+    for (const int32_t cell : cells) {
+      const int32_t f = face_of_number(model_.table_of(cell).type, *number);
+      if (f < 0) {
+        fields.fail(fmt::format("found face {}, which elements {} do not have", face,
+                                model_.table_of(cell).name));
+      }
+      faces->emplace_back(cell, f);
+    }
+  }
+
+  Reading& reading_;
+  const Model& model_;
+};
+
+}  // namespace
+
+std::string add_surface(Reading* reading, const std::string& name,
+                        const std::vector<CellFaceId>& faces) {
+  constexpr int64_t kMostFaces = int64_t{1} << 25;  // of all surfaces: a gigabyte
+  reading->faces += static_cast<int64_t>(faces.size());
+  if (reading->faces > kMostFaces) {
+    throw InputError(fmt::format("{}: surface {}: all surfaces have more than {} faces",
+                                 reading->source.files().front(), name, kMostFaces));
+  }
+  SurfaceBuilder surface;
+  std::set<CellFaceId> known;
+  for (const CellFaceId& id : faces) {
+    if (!known.insert(id).second) continue;
+    FaceRows face = face_rows(*reading->model, id);
+    for (int32_t& row : face.rows) row = reading->places->mesh_node(row);
+    const CellType type = reading->model->table_of(id.first).type;
+    surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
+  }
+  auto& surfaces = reading->deck->mesh.surfaces;
+  std::string free_name = name;
+  for (int i = 2; surfaces.contains(free_name); ++i) free_name = fmt::format("{}_{}", name, i);
+  surfaces[free_name] = surface.finish();
+  return free_name;
+}
+
+void read_surfaces(Reading* reading) {
+  SurfaceReader reader(reading);
+  for_each_card(*reading, {"SURFACE"},
+                [&](size_t use, const Card& card) { reader.read(use, card); });
+}
+
+std::string surface_named(Reading* reading, size_t use, const std::string& name, Spot spot) {
+  const std::string key = key_of(*reading, use, name);
+  const auto known = reading->surface_names.find(key);
+  if (known != reading->surface_names.end() && known->second.empty()) {
+    reading->source.fail(spot, fmt::format("surface '{}' has no face of a solid", name));
+  }
+  if (known != reading->surface_names.end()) return known->second;
+  const std::vector<int32_t>* rows = node_surface(*reading, use, name);
+  if (rows == nullptr && reading->refusals->has_lost(folded(name))) throw FollowUp();
+  if (rows == nullptr) reading->source.fail(spot, fmt::format("there is no surface '{}'", name));
+  return reading->surface_names[key] = surface_of_nodes(reading, *rows, name, spot);
+}
+
+const std::vector<int32_t>* node_surface(const Reading& reading, size_t use,
+                                         const std::string& name) {
+  const auto rows = reading.node_surfaces.find(key_of(reading, use, name));
+  return rows != reading.node_surfaces.end() ? &rows->second : nullptr;
+}
+
+std::string surface_of_nodes(Reading* reading, const std::vector<int32_t>& rows,
+                             const std::string& name, Spot spot) {
+  const Model& model = *reading->model;
+  std::vector<bool> wanted(static_cast<size_t>(model.nodes()), false);
+  for (const int32_t row : rows) wanted[static_cast<size_t>(row)] = true;
+  const auto is_wanted = [&](int32_t row) {
+    return static_cast<bool>(wanted[static_cast<size_t>(row)]);
+  };
+  std::vector<int32_t> cells;
+  for (int32_t cell = 0; cell < model.cells(); ++cell) {
+    const auto nodes = model.nodes_of(cell);
+    if (std::count_if(nodes.begin(), nodes.end(), is_wanted) >= 3) cells.push_back(cell);
+  }
+  const auto faces = free_faces(model, cells, is_wanted);
+  for (const CellFaceId& id : faces) {
+    for (const int32_t row : face_rows(model, id)) wanted[static_cast<size_t>(row)] = false;
+  }
+  for (const int32_t row : rows) {
+    if (!wanted[static_cast<size_t>(row)]) continue;
+    reading->source.fail(spot, fmt::format("surface {} of nodes: node {} belongs to no outer face "
+                                           "whose nodes all belong to it, expected whole faces",
+                                           name, model.node_ids()[static_cast<size_t>(row)]));
+  }
+  return add_surface(reading, name, faces);
+}
+
+}  // namespace clatter::mesh::deck::abaqus

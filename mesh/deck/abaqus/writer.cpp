@@ -1,0 +1,235 @@
+#include "mesh/deck/abaqus/writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+
+#include "core/base/error.hpp"
+#include "core/base/whole_file.hpp"
+#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/lines.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+// Abaqus reads sixteen entries a line.
+constexpr size_t kEntries = 16;
+
+// The first nodes of faces of cells, in their turn: where a face belongs.
+using FaceCorners = std::array<int32_t, 4>;
+
+FaceCorners turned(std::span<const int32_t> nodes, size_t corners) {
+  FaceCorners out{-1, -1, -1, -1};
+  const auto first =
+      std::min_element(nodes.begin(), nodes.begin() + static_cast<long>(corners)) - nodes.begin();
+  for (size_t i = 0; i < corners; ++i) out[i] = nodes[(static_cast<size_t>(first) + i) % corners];
+  return out;
+}
+
+class Writer {
+ public:
+  Writer(const Mesh& mesh, std::ostream& out) : mesh_(mesh), out_(out) {}
+
+  void run() {
+    number_nodes();
+    number_cells();
+    put("*HEADING\n{} (lengths in metres)\n*NODE\n", one_line(mesh_.name));
+    for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
+      put("{}, {}, {}, {}\n", node_ids_[static_cast<size_t>(n)], abaqus_number(mesh_.nodes(n, 0)),
+          abaqus_number(mesh_.nodes(n, 1)), abaqus_number(mesh_.nodes(n, 2)));
+    }
+    check_names(mesh_.regions);
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) write_cells(b);
+    std::vector<std::string> names;
+    for (const auto& [name, nodes] : mesh_.node_sets) names.push_back(name);
+    check_names(names);
+    for (const auto& [name, nodes] : mesh_.node_sets) write_node_set(name, nodes);
+    names.clear();
+    for (const auto& [name, surface] : mesh_.surfaces) names.push_back(name);
+    check_names(names);
+    if (!mesh_.surfaces.empty()) index_faces();
+    for (const auto& [name, surface] : mesh_.surfaces) write_surface(name, surface);
+    put("{}\n", abaqus::kEndMark);
+    flush();
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    if (text_.size() > (size_t{1} << 20)) flush();
+  }
+
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.clear();
+  }
+
+  static std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.starts_with('*') ? " " + text : text;
+  }
+
+  static bool all_different(std::vector<int32_t> ids) {
+    std::sort(ids.begin(), ids.end());
+    return std::adjacent_find(ids.begin(), ids.end()) == ids.end() &&
+           (ids.empty() || ids.front() > 0);
+  }
+
+  void number_nodes() {
+    node_ids_ = mesh_.node_ids;
+    const auto count = static_cast<size_t>(mesh_.nodes.rows());
+    if (node_ids_.size() == count && all_different(node_ids_)) return;
+    node_ids_.resize(count);
+    for (size_t n = 0; n < count; ++n) node_ids_[n] = static_cast<int32_t>(n) + 1;
+  }
+
+  void number_cells() {
+    std::vector<int32_t> all;
+    bool known = true;
+    for (const CellBlock& block : mesh_.cells) {
+      known = known && static_cast<Eigen::Index>(block.ids.size()) == block.nodes.rows();
+      cell_ids_.push_back(block.ids);
+      all.insert(all.end(), block.ids.begin(), block.ids.end());
+    }
+    if (known && all_different(all)) return;
+    int32_t next = 0;
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) {
+      cell_ids_[b].resize(static_cast<size_t>(mesh_.cells[b].nodes.rows()));
+      for (int32_t& id : cell_ids_[b]) id = ++next;
+    }
+  }
+
+  // Names are compared without case and blanks.
+  void check_names(const std::vector<std::string>& names) const {
+    std::map<std::string, std::string> known;
+    for (const std::string& name : names) {
+      if (name.empty() || name.find_first_of("\"\n\r") != std::string::npos) {
+        throw InputError(fmt::format("mesh '{}': the name '{}' cannot be written to an Abaqus deck",
+                                     mesh_.name, name));
+      }
+      const auto [at, is_new] = known.emplace(abaqus::folded(name), name);
+      if (!is_new) {
+        throw InputError(fmt::format("mesh '{}': the names '{}' and '{}' are the same to Abaqus",
+                                     mesh_.name, at->second, name));
+      }
+    }
+  }
+
+  static std::string quoted(const std::string& name) {
+    return name.find_first_of(", =\t") == std::string::npos ? name : "\"" + name + "\"";
+  }
+
+  // Entry i of n, and what stands behind it.
+  void put_entry(int32_t value, size_t i, size_t n) {
+    put("{}{}", value, i + 1 == n ? "\n" : i % kEntries == kEntries - 1 ? ",\n" : ", ");
+  }
+
+  void write_cells(size_t b) {
+    const CellBlock& block = mesh_.cells[b];
+    const CellTraits& cell = traits(block.type);
+    if (block.nodes.rows() == 0) return;
+    if (cell.abaqus_name.empty()) {
+      throw InputError(
+          fmt::format("mesh '{}': Abaqus has no element for {}", mesh_.name, cell.name));
+    }
+    put("*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
+        quoted(mesh_.regions[static_cast<size_t>(block.region)]));
+    const std::span<const int> p = cell.to_abaqus;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      put_entry(cell_ids_[b][static_cast<size_t>(c)], 0, p.size() + 1);
+      for (size_t i = 0; i < p.size(); ++i) {
+        put_entry(node_ids_[static_cast<size_t>(block.nodes(c, p[i]))], i + 1, p.size() + 1);
+      }
+    }
+  }
+
+  void write_node_set(const std::string& name, const std::vector<int32_t>& nodes) {
+    put("*NSET, NSET={}\n", quoted(name));
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      put_entry(node_ids_[static_cast<size_t>(nodes[i])], i, nodes.size());
+    }
+  }
+
+  // Element and face number of each face that a surface may have: those with all corners on one.
+  void index_faces() {
+    std::vector<bool> on_surface(static_cast<size_t>(mesh_.nodes.rows()), false);
+    for (const auto& [name, surface] : mesh_.surfaces) {
+      for (const int32_t node : nodes_of(surface)) on_surface[static_cast<size_t>(node)] = true;
+    }
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) {
+      const CellBlock& block = mesh_.cells[b];
+      const auto& faces = traits(block.type).faces;
+      for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+        for (size_t f = 0; f < faces.size(); ++f) {
+          std::array<int32_t, 4> nodes{};
+          const auto corners = static_cast<size_t>(traits(faces[f].type).corners);
+          bool wanted = true;
+          for (size_t i = 0; i < corners; ++i) {
+            nodes[i] = block.nodes(c, faces[f].nodes[i]);
+            wanted = wanted && on_surface[static_cast<size_t>(nodes[i])];
+          }
+          if (!wanted) continue;
+          faces_.push_back({turned(nodes, corners), cell_ids_[b][static_cast<size_t>(c)],
+                            abaqus::number_of_face(block.type, static_cast<int>(f))});
+        }
+      }
+    }
+    std::sort(faces_.begin(), faces_.end(),
+              [](const Face& a, const Face& b) { return a.corners < b.corners; });
+  }
+
+  void write_surface(const std::string& name, const Surface& surface) {
+    put("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted(name));
+    for (const FaceBlock& block : surface.faces) {
+      const auto corners = static_cast<size_t>(traits(block.type).corners);
+      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+        const std::span<const int32_t> nodes(block.nodes.data() + f * block.nodes.cols(), corners);
+        const Face& face = face_at(nodes, name);
+        put("{}, S{}\n", face.cell, face.number);
+      }
+    }
+  }
+
+  struct Face {
+    FaceCorners corners;
+    int32_t cell;
+    int number;
+  };
+
+  // The face with those corners in that turn: it looks out of its cell.
+  const Face& face_at(std::span<const int32_t> nodes, const std::string& surface) const {
+    const FaceCorners wanted = turned(nodes, nodes.size());
+    const auto at = std::lower_bound(
+        faces_.begin(), faces_.end(), wanted,
+        [](const Face& face, const FaceCorners& corners) { return face.corners < corners; });
+    if (at == faces_.end() || at->corners != wanted) {
+      throw InputError(
+          fmt::format("mesh '{}': surface {}: the face of nodes {} is no outward face "
+                      "of a cell",
+                      mesh_.name, surface, fmt::join(nodes, " ")));
+    }
+    return *at;
+  }
+
+  const Mesh& mesh_;
+  std::ostream& out_;
+  fmt::memory_buffer text_;
+  std::vector<int32_t> node_ids_;
+  std::vector<std::vector<int32_t>> cell_ids_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace
+
+void write_abaqus(const Mesh& mesh, const std::filesystem::path& path) {
+  WholeFile file(path);
+  Writer(mesh, file.stream()).run();
+  file.commit();
+}
+
+}  // namespace clatter::mesh::deck

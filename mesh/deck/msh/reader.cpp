@@ -1,0 +1,287 @@
+#include "mesh/deck/msh/reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/cell_faces.hpp"
+#include "mesh/deck/import.hpp"
+#include "mesh/deck/msh/groups.hpp"
+#include "mesh/part/gmsh_in_child.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+std::optional<CellType> cell_type_of(int gmsh_type) {
+  for (int t = 0; t < kCellTypes; ++t)
+    if (traits(static_cast<CellType>(t)).gmsh_type == gmsh_type) return static_cast<CellType>(t);
+  return std::nullopt;
+}
+
+std::optional<FaceType> face_type_of(int gmsh_type) {
+  for (int t = 0; t < kFaceTypes; ++t)
+    if (traits(static_cast<FaceType>(t)).gmsh_type == gmsh_type) return static_cast<FaceType>(t);
+  return std::nullopt;
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, const deck::ReadOptions& options,
+         const ChildLimits& limits)
+      : path_(path.string()), scan_(scan_msh(path)), groups_(path_, scan_, options.ignore) {
+    contents_ = read_msh_contents(path, limits);
+    for (const std::string& warning : contents_.warnings)
+      say(fmt::format("{}: Gmsh: {}", path_, warning));
+    groups_.learn(contents_);
+    deck_.mesh.name = path.stem().string();
+    deck_.files = {path_};
+  }
+
+  deck::Deck run() {
+    number_nodes();
+    add_cells();
+    place_nodes();
+    add_surfaces();
+    add_node_sets();
+    deck_.ignored = groups_.ignored();
+    const int64_t unused =
+        scan_.nodes - deck_.mesh.nodes.rows() - static_cast<int64_t>(deck_.points.size());
+    if (unused > 0) deck_.ignored["nodes that nothing uses"] = unused;
+    return std::move(deck_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", path_, what));
+  }
+
+  int32_t id_of(size_t tag) const {
+    if (tag == 0 || tag > static_cast<size_t>(std::numeric_limits<int32_t>::max()))
+      fail(fmt::format("found number {}, expected 1 to 2147483647", tag));
+    return static_cast<int32_t>(tag);
+  }
+
+  // Where each node's number stands among the file's nodes.
+  void number_nodes() {
+    by_tag_.resize(contents_.node_tags.size());
+    for (size_t i = 0; i < by_tag_.size(); ++i) by_tag_[i] = i;
+    std::sort(by_tag_.begin(), by_tag_.end(),
+              [&](size_t a, size_t b) { return contents_.node_tags[a] < contents_.node_tags[b]; });
+    row_.assign(by_tag_.size(), -1);
+    used_.assign(by_tag_.size(), 0);
+  }
+
+  size_t node_at(size_t tag, size_t element) const {
+    const auto at = std::lower_bound(by_tag_.begin(), by_tag_.end(), tag, [&](size_t i, size_t t) {
+      return contents_.node_tags[i] < t;
+    });
+    if (at == by_tag_.end() || contents_.node_tags[*at] != tag)
+      fail(fmt::format("element {}: found no node {}", element, tag));
+    return *at;
+  }
+
+  void refuse_kind(const MshElements& elements, const char* known) const {
+    fail(fmt::format("element {} is a {}, expected {}; --ignore \"{}\" skips all of these",
+                     elements.tags.front(), elements.kind, known, elements.kind));
+  }
+
+  // Cells of one type and region together, in the file's order.
+  void add_cells() {
+    std::map<std::pair<int, CellType>, std::vector<std::pair<const MshElements*, size_t>>> blocks;
+    for (const MshElements& elements : contents_.elements) {
+      if (elements.dim != 3 || elements.tags.empty() || groups_.skips(elements)) continue;
+      const auto type = cell_type_of(elements.gmsh_type);
+      if (!type) refuse_kind(elements, "tet4/10, hex8/20, wedge6/15 or pyramid5/13");
+      for (size_t e = 0; e < elements.tags.size(); ++e)
+        if (const auto region = groups_.region_of(elements, e))
+          blocks[{*region, *type}].emplace_back(&elements, e);
+    }
+    std::map<int, int32_t> number_of;
+    for (const auto& [key, cells] : blocks) {
+      const auto [at, is_new] = number_of.emplace(key.first, deck_.mesh.regions.size());
+      if (is_new) {
+        deck_.mesh.regions.push_back(groups_.region_name(key.first));
+        deck_.regions.push_back({{}, {}, path_, {}});
+      }
+      add_block(key.second, at->second, cells);
+    }
+  }
+
+  void add_block(CellType type, int32_t region,
+                 const std::vector<std::pair<const MshElements*, size_t>>& cells) {
+    CellBlock block{type, region, {}, {}};
+    const int n = traits(type).nodes;
+    block.nodes.resize(static_cast<Eigen::Index>(cells.size()), n);
+    for (size_t c = 0; c < cells.size(); ++c) {
+      const auto& [elements, e] = cells[c];
+      block.ids.push_back(id_of(elements->tags[e]));
+      for (int i = 0; i < n; ++i) {
+        const size_t node =
+            node_at(elements->nodes[e * static_cast<size_t>(n) + static_cast<size_t>(i)],
+                    elements->tags[e]);
+        used_[node] = 1;
+        block.nodes(static_cast<Eigen::Index>(c), i) = static_cast<int32_t>(node);
+      }
+    }
+    deck_.mesh.cells.push_back(std::move(block));
+  }
+
+  Eigen::Vector3d point_at(size_t node) const {
+    return Eigen::Vector3d::Map(contents_.coordinates.data() + 3 * node);
+  }
+
+  // Rows in ascending order of the numbers; nodes that only groups of curves and points use follow
+  // as points.
+  void place_nodes() {
+    for (const MshElements& elements : contents_.elements) {
+      if (elements.dim > 1 || groups_.skips(elements)) continue;
+      for (size_t e = 0; e < elements.tags.size(); ++e) {
+        if (groups_.of(elements, e).empty()) continue;
+        for (size_t i = 0; i < static_cast<size_t>(elements.nodes_each); ++i) {
+          char& used = used_[node_at(
+              elements.nodes[e * static_cast<size_t>(elements.nodes_each) + i], elements.tags[e])];
+          if (used == 0) used = 2;
+        }
+      }
+    }
+    Mesh& mesh = deck_.mesh;
+    const auto n = std::count(used_.begin(), used_.end(), 1);
+    mesh.nodes.resize(n, 3);
+    int32_t row = 0, point = static_cast<int32_t>(n);
+    for (size_t node : by_tag_) {
+      const int32_t id = used_[node] == 0 ? 0 : id_of(contents_.node_tags[node]);
+      if (used_[node] == 1) {
+        mesh.nodes.row(row) = point_at(node).transpose();
+        mesh.node_ids.push_back(id);
+        row_[node] = row++;
+      } else if (used_[node] == 2) {
+        deck_.points.push_back({id, point_at(node)});
+        row_[node] = point++;
+      }
+    }
+    for (CellBlock& block : mesh.cells)
+      for (Eigen::Index i = 0; i < block.nodes.size(); ++i)
+        block.nodes.data()[i] = row_[static_cast<size_t>(block.nodes.data()[i])];
+  }
+
+  void add_surfaces() {
+    std::map<std::string, SurfaceBuilder> builders;
+    std::vector<FacePlace> faces;
+    for (const MshElements& elements : contents_.elements) {
+      if (elements.dim != 2 || elements.tags.empty() || groups_.skips(elements)) continue;
+      for (size_t e = 0; e < elements.tags.size(); ++e) {
+        const auto names = groups_.of(elements, e);
+        if (names.empty()) continue;
+        if (!face_type_of(elements.gmsh_type)) refuse_kind(elements, "tri3, tri6, quad4 or quad8");
+        if (faces.empty()) faces = all_faces(deck_.mesh);
+        const BoundaryFace face = face_of(elements, e, names.front(), faces);
+        for (const std::string& name : names) builders[name].add(face.type, face.ids);
+      }
+    }
+    for (const auto& [name, builder] : builders) {
+      Surface surface = builder.finish();
+      if (name == "skin") {
+        check_skin(surface);
+      } else {
+        deck_.mesh.surfaces[name] = std::move(surface);
+      }
+    }
+  }
+
+  // The cell's face that the element is.
+  BoundaryFace face_of(const MshElements& elements, size_t e, const std::string& group,
+                       const std::vector<FacePlace>& faces) const {
+    const FaceType type = *face_type_of(elements.gmsh_type);
+    std::array<int32_t, kMaxFaceNodes> ids{};
+    const auto n = static_cast<size_t>(traits(type).nodes);
+    for (size_t i = 0; i < n; ++i)
+      ids[i] = row_[node_at(elements.nodes[e * n + i], elements.tags[e])];
+    const std::string what =
+        fmt::format("element {} ({}) of surface '{}'", elements.tags[e], elements.kind, group);
+    const FaceKey key = face_key(type, std::span(ids).first(n));
+    const auto [first, last] =
+        std::equal_range(faces.begin(), faces.end(), FacePlace{key, 0, 0, 0},
+                         [](const FacePlace& a, const FacePlace& b) { return a.key < b.key; });
+    if (first == last)
+      fail(
+          fmt::format("{} is no face of a cell; --ignore \"{}\" skips the group, --ignore \"{}\" "
+                      "all elements of the kind",
+                      what, group, elements.kind));
+    const BoundaryFace face = face_at(deck_.mesh, *first);
+    if (face.type != type ||
+        !std::is_permutation(ids.begin(), ids.begin() + static_cast<long>(n), face.ids.begin()))
+      fail(fmt::format("{} has other nodes than the {} of its cell there", what,
+                       traits(face.type).name));
+    if (last - first == 1) return face;
+    const BoundaryFace other = face_at(deck_.mesh, *(first + 1));
+    const auto region = [&](const BoundaryFace& f) {
+      return deck_.mesh.cells[static_cast<size_t>(f.block)].region;
+    };
+    if (region(face) == region(other))
+      fail(
+          fmt::format("{} lies within region '{}', expected a face of the boundary or between "
+                      "regions; --ignore \"{}\" skips the group",
+                      what, deck_.mesh.regions[static_cast<size_t>(region(face))], group));
+    const auto corners = static_cast<size_t>(traits(type).corners);
+    const auto at =
+        std::find(face.ids.begin(), face.ids.begin() + static_cast<long>(corners), ids[0]);
+    const auto next = (static_cast<size_t>(at - face.ids.begin()) + 1) % corners;
+    return face.ids[next] == ids[1] ? face : other;
+  }
+
+  void check_skin(const Surface& surface) const {
+    const Surface whole = skin_of(boundary_faces(deck_.mesh));
+    if (surface.face_count() == whole.face_count() && nodes_of(surface) == nodes_of(whole)) return;
+    fail("found a group 'skin' that is not the whole boundary, expected another name");
+  }
+
+  void add_node_sets() {
+    std::map<std::string, std::set<int32_t>> sets;
+    for (const MshElements& elements : contents_.elements) {
+      if (elements.dim > 1 || groups_.skips(elements)) continue;
+      const auto n = static_cast<size_t>(elements.nodes_each);
+      for (size_t e = 0; e < elements.tags.size(); ++e)
+        for (const std::string& name : groups_.of(elements, e))
+          for (size_t i = 0; i < n; ++i)
+            sets[name].insert(row_[node_at(elements.nodes[e * n + i], elements.tags[e])]);
+    }
+    for (const auto& [name, places] : sets) {
+      const std::vector<int32_t> list(places.begin(), places.end());
+      if (list.back() < deck_.mesh.nodes.rows())
+        deck_.mesh.node_sets[name] = list;
+      else
+        deck_.sets[name] = list;
+    }
+  }
+
+  std::string path_;
+  MshScan scan_;
+  MshGroups groups_;
+  MshContents contents_;
+  deck::Deck deck_;
+  std::vector<size_t> by_tag_;
+  std::vector<int32_t> row_;
+  std::vector<char> used_;  // 1: by a cell, 2: by a group of curves or points only
+};
+
+}  // namespace
+
+bool is_msh(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".msh" || extension == ".MSH" || extension == ".Msh";
+}
+
+deck::Deck read_msh(const std::filesystem::path& path, const UnitSystem& units,
+                    const deck::ReadOptions& options, const ChildLimits& limits) {
+  deck::Deck found = Reader(path, options, limits).run();
+  deck::finish_deck(found, units, path.string());
+  return found;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,237 @@
+// RBE2, RBE3, MPC and CONM2.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "mesh/deck/nastran/model.hpp"
+#include "mesh/deck/nastran/sets.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr DofMask kRotations = kAllDofs & ~kTranslations;
+
+// All three directions or none: the same in every frame.
+bool frame_free(DofMask dofs, bool has_rotations) {
+  const auto whole = [dofs](DofMask three) {
+    return (dofs & three) == three || (dofs & three) == 0;
+  };
+  return whole(kTranslations) && (!has_rotations || whole(kRotations));
+}
+
+void add_term(Equation& equation, Place place, int direction, double coefficient) {
+  if (coefficient != 0.0) equation.terms.push_back({place, direction, coefficient});
+}
+
+// Rows t so that each has a column of its own (its pivot: 1 there, 0 in the other rows), by
+// elimination with the largest pivots. Returns the pivots.
+std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
+  std::vector<int> pivots;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Eigen::Index pivot = 0;
+    rows[i].cwiseAbs().maxCoeff(&pivot);
+    rows[i] /= rows[i][pivot];
+    for (size_t j = 0; j < rows.size(); ++j) {
+      if (j != i) rows[j] -= rows[j][pivot] * rows[i];
+    }
+    for (size_t j = 0; j < rows.size(); ++j) {
+      if (j != i) rows[j][pivot] = 0.0;
+    }
+    pivots.push_back(static_cast<int>(pivot));
+  }
+  return pivots;
+}
+
+// RBE2 in some directions of a displacement system: for each direction t of the dependent d,
+// t . (u_d - u_r - theta_r x (x_d - x_r)) = 0, and for rotations t . (theta_d - theta_r) = 0.
+void add_rigid_rows(Model& model, const RawRigid& raw, Place reference, Place dependent) {
+  const Matrix3d axes = model.systems.directions(model.displacement_system(dependent),
+                                                 model.position(dependent), raw.origin);
+  const Vector3d arm = model.position(dependent) - model.position(reference);
+  for (const int base : {0, 3}) {
+    if (base == 3 && model.is_node(dependent)) break;
+    std::vector<Vector3d> rows;
+    for (int k = 0; k < 3; ++k) {
+      if (raw.dofs >> (base + k) & 1) rows.push_back(axes.col(k));
+    }
+    const std::vector<int> pivots = reduce_rows(rows);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const Vector3d& t = rows[i];
+      const Vector3d turn = arm.cross(t);
+      Equation equation;
+      equation.where = model.where(raw.origin);
+      add_term(equation, dependent, base + pivots[i], 1.0);
+      for (int k = 0; k < 3; ++k) {
+        if (k != pivots[i]) add_term(equation, dependent, base + k, t[k]);
+      }
+      for (int k = 0; k < 3; ++k) add_term(equation, reference, base + k, -t[k]);
+      for (int k = 0; base == 0 && k < 3; ++k) add_term(equation, reference, 3 + k, -turn[k]);
+      model.deck.equations.push_back(std::move(equation));
+    }
+  }
+}
+
+void add_rigid(Model& model, const RawRigid& raw) {
+  Rigid rigid;
+  rigid.name = fmt::format("rbe2_{}", raw.id);
+  rigid.where = model.where(raw.origin);
+  rigid.reference = model.require(raw.reference, raw.origin);
+  rigid.dofs = raw.dofs;
+  for (const Place place : model.places(raw.dependents, raw.origin, true)) {
+    if (place == rigid.reference) {
+      model.source.fail(raw.origin, fmt::format("RBE2 {}: its reference {} is a dependent, too",
+                                                raw.id, raw.reference));
+    }
+    const bool basic = model.displacement_system(place) == 0;
+    if (basic || frame_free(raw.dofs, !model.is_node(place))) {
+      rigid.dependents.push_back(place);
+    } else if (model.is_node(rigid.reference)) {
+      model.source.fail(
+          raw.origin,
+          fmt::format("RBE2 {}: found some directions of a displacement system (CD) and "
+                      "a node of solids as reference, expected one of both",
+                      raw.id));
+    } else {
+      add_rigid_rows(model, raw, rigid.reference, place);
+    }
+  }
+  if (!rigid.dependents.empty()) model.deck.rigid.push_back(std::move(rigid));
+}
+
+void add_distributing(Model& model, const RawDistributing& raw) {
+  Distributing rbe3;
+  rbe3.name = fmt::format("rbe3_{}", raw.id);
+  rbe3.where = model.where(raw.origin);
+  rbe3.reference = model.require(raw.reference, raw.origin);
+  rbe3.dofs = raw.dofs;
+  const auto check_frame = [&](Place place, DofMask dofs) {
+    if (model.displacement_system(place) == 0 || frame_free(dofs, true)) return;
+    model.source.fail(raw.origin,
+                      fmt::format("RBE3 {}: some directions of a displacement system (CD) "
+                                  "are not supported, expected 123, 456 or 123456",
+                                  raw.id));
+  };
+  check_frame(rbe3.reference, raw.dofs);
+  for (const auto& raw_term : raw.terms) {
+    Distributing::Term term{raw_term.weight, raw_term.dofs,
+                            model.places(raw_term.grids, raw.origin, true)};
+    for (const Place place : term.places) {
+      check_frame(place, term.dofs);
+      if (model.is_node(place) && (term.dofs & kRotations) != 0) {
+        model.source.fail(
+            raw.origin,
+            fmt::format("RBE3 {}: found rotations of node {} of solids, which has none; "
+                        "expected components 123",
+                        raw.id, model.deck.mesh.node_ids[static_cast<size_t>(place)]));
+      }
+    }
+    rbe3.terms.push_back(std::move(term));
+  }
+  model.deck.distributing.push_back(std::move(rbe3));
+}
+
+void add_mass(Model& model, const RawMass& raw) {
+  Mass mass;
+  mass.where = model.where(raw.origin);
+  mass.place = model.require(raw.grid, raw.origin);
+  const double factor = model.bulk.control.mass_factor;
+  mass.mass = factor * raw.mass;
+  const Vector3d offset(raw.offset[0], raw.offset[1], raw.offset[2]);
+  const auto& i = raw.inertia;
+  Matrix3d inertia;
+  // I21, I31, I32 are integrals of products; the tensor has their negatives.
+  inertia << i[0], -i[1], -i[3], -i[1], i[2], -i[4], -i[3], -i[4], i[5];
+  if (raw.system < 0) {
+    mass.offset = offset - model.position(mass.place);
+    mass.inertia = factor * inertia;
+  } else {
+    const Matrix3d axes =
+        model.systems.directions(raw.system, model.position(mass.place), raw.origin);
+    mass.offset = axes * offset;
+    mass.inertia = factor * axes * inertia * axes.transpose();
+  }
+  if (!mass.offset.allFinite() || !mass.inertia.allFinite() || !std::isfinite(mass.mass)) {
+    model.source.fail(raw.origin, "CONM2: its numbers are too large");
+  }
+  model.deck.masses.push_back(mass);
+}
+
+void add_equation(Model& model, const RawEquation& raw) {
+  Equation equation;
+  equation.where = model.where(raw.origin);
+  for (const auto& term : raw.terms) {
+    const Place place = model.require(term.grid, raw.origin);
+    const int base = term.direction < 3 ? 0 : 3;
+    if (base == 3 && model.is_node(place)) {
+      model.source.fail(raw.origin, fmt::format("MPC: found a rotation of node {} of solids, which "
+                                                "has none",
+                                                term.grid));
+    }
+    const int32_t system = model.displacement_system(place);
+    if (system == 0) {
+      add_term(equation, place, term.direction, term.coefficient);
+      continue;
+    }
+    const Vector3d t =
+        term.coefficient * model.systems.directions(system, model.position(place), raw.origin)
+                               .col(term.direction - base);
+    Eigen::Index largest = 0;  // first: the first term of an equation is the dependent
+    t.cwiseAbs().maxCoeff(&largest);
+    add_term(equation, place, base + static_cast<int>(largest), t[largest]);
+    for (int k = 0; k < 3; ++k) {
+      if (k != largest) add_term(equation, place, base + k, t[k]);
+    }
+  }
+  model.deck.equations.push_back(std::move(equation));
+}
+
+// The MPC set of the case control, or the only one.
+int32_t chosen_mpc(const Model& model) {
+  const Bulk& bulk = model.bulk;
+  if (bulk.control.has_cases) {
+    const int32_t first = bulk.control.subcases.front().choice.mpc;
+    for (const Subcase& subcase : bulk.control.subcases) {
+      if (subcase.choice.mpc == first) continue;
+      model.source.fail(
+          subcase.origin,
+          fmt::format("subcase {}: found MPC = {}, expected {} as in the first subcase", subcase.id,
+                      subcase.choice.mpc, first));
+    }
+    return first;
+  }
+  return only_set(model, "MPC", bulk.mpc, bulk.mpc_sums);
+}
+
+void add_chosen_mpc(Model& model) {
+  const int32_t mpc = chosen_mpc(model);
+  if (mpc == 0) return;
+  const Origin origin =
+      model.bulk.control.has_cases ? model.bulk.control.subcases.front().origin : 0;
+  for (const int32_t set :
+       members_of(model, "MPC", mpc, model.bulk.mpc, model.bulk.mpc_sums, origin)) {
+    for (const RawEquation& raw : model.bulk.mpc.at(set)) {
+      model.refusals.attempt([&] { add_equation(model, raw); });
+    }
+  }
+}
+
+}  // namespace
+
+void build_couplings(Model& model) {
+  Refusals& refusals = model.refusals;
+  for (const RawRigid& raw : model.bulk.rigid) refusals.attempt([&] { add_rigid(model, raw); });
+  for (const RawDistributing& raw : model.bulk.distributing) {
+    refusals.attempt([&] { add_distributing(model, raw); });
+  }
+  for (const RawMass& raw : model.bulk.masses) refusals.attempt([&] { add_mass(model, raw); });
+  refusals.attempt([&] { add_chosen_mpc(model); });
+}
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,90 @@
+// Cells and nodes: numbers of the deck become rows; grids without cells stay out.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "mesh/deck/nastran/model.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+void check_cell_numbers(Model& model) {
+  std::vector<int32_t> ids;
+  std::vector<Origin> origins;
+  for (const RawBlock& block : model.bulk.blocks) {
+    ids.insert(ids.end(), block.ids.begin(), block.ids.end());
+    origins.insert(origins.end(), block.origins.begin(), block.origins.end());
+  }
+  model.cells = IdIndex(ids);
+  if (model.cells.duplicates().empty()) return;
+  const auto& [first, second] = model.cells.duplicates().front();
+  const Origin here = origins[static_cast<size_t>(second)];
+  model.source.fail(here, fmt::format("cell {}: found another one with this number at {}",
+                                      ids[static_cast<size_t>(second)],
+                                      model.where(origins[static_cast<size_t>(first)])));
+}
+
+// GRID numbers of the cells become rows of the GRID table.
+void find_rows(Model& model) {
+  for (RawBlock& block : model.bulk.blocks) {
+    const auto per_cell = static_cast<size_t>(traits(block.type).nodes);
+    for (size_t i = 0; i < block.nodes.size(); ++i) {
+      if (block.nodes[i] == 0) {
+        block.nodes[i] = kNoRow;
+        continue;
+      }
+      const int32_t row = model.grids.find(block.nodes[i]);
+      if (row < 0) {
+        const size_t cell = i / per_cell;
+        model.source.fail(block.origins[cell], fmt::format("cell {}: found no GRID {}",
+                                                           block.ids[cell], block.nodes[i]));
+      }
+      block.nodes[i] = row;
+      model.place_of_row[static_cast<size_t>(row)] = 0;
+    }
+    block.origins = {};
+  }
+}
+
+}  // namespace
+
+void build_mesh(Model& model) {
+  check_cell_numbers(model);
+  std::vector<int32_t> properties;  // of the regions, ascending
+  std::set<int32_t> found;
+  for (const RawBlock& block : model.bulk.blocks) found.insert(block.property);
+  properties.assign(found.begin(), found.end());
+  build_regions(model, properties);
+  find_rows(model);
+  complete_cells(model);
+
+  Grids& grids = model.bulk.grids;
+  Mesh& mesh = model.deck.mesh;
+  for (size_t row = 0; row < grids.size(); ++row) {
+    if (model.place_of_row[row] < 0) continue;
+    model.place_of_row[row] = model.node_count++;
+    model.row_of_place_.push_back(static_cast<int32_t>(row));
+  }
+  for (RawBlock& block : model.bulk.blocks) {
+    CellBlock cells;
+    cells.type = block.type;
+    const auto at = std::lower_bound(properties.begin(), properties.end(), block.property);
+    cells.region = static_cast<int32_t>(at - properties.begin());
+    cells.ids = std::move(block.ids);
+    cells.nodes.resize(static_cast<Eigen::Index>(cells.ids.size()), traits(block.type).nodes);
+    int32_t* node = cells.nodes.data();
+    block.nodes.drain([&](int32_t row) { *node++ = model.place_of_row[static_cast<size_t>(row)]; });
+    mesh.cells.push_back(std::move(cells));
+  }
+  mesh.nodes.resize(model.node_count, 3);
+  mesh.node_ids.resize(static_cast<size_t>(model.node_count));
+  for (Place node = 0; node < model.node_count; ++node) {
+    const auto row = static_cast<size_t>(model.row_of_place_[static_cast<size_t>(node)]);
+    mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
+    mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
+  }
+  for (const int32_t row : model.hanging_rows)
+    mesh.node_sets[kHangingMiddles].push_back(model.place_of_row[static_cast<size_t>(row)]);
+}
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,66 @@
+// SET1, and the surfaces that comments define.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mesh/deck/nastran/model.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+void sort_unique(std::vector<Place>& places) {
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+}
+
+// Nodes go to the mesh; a set that holds points, too, stands whole in Deck::sets.
+void add_set(Model& model, const std::string& name, std::vector<Place> places, Origin origin) {
+  if (model.deck.sets.contains(name) || model.deck.mesh.node_sets.contains(name)) {
+    model.source.fail(origin, fmt::format("found a second set {}", shown(name)));
+  }
+  sort_unique(places);
+  const auto points = std::lower_bound(places.begin(), places.end(), model.node_count);
+  if (points != places.end()) model.deck.sets[name] = places;
+  if (points != places.begin()) {
+    places.erase(points, places.end());
+    model.deck.mesh.node_sets[name] = std::move(places);
+  }
+}
+
+void add_surface(Model& model, const Bulk::NamedSurface& raw) {
+  SurfaceBuilder surface;
+  std::array<int32_t, kMaxFaceNodes> face{};
+  for (size_t i = 0; i < raw.types.size(); ++i) {
+    const auto nodes = static_cast<size_t>(traits(raw.types[i]).nodes);
+    for (size_t k = 0; k < nodes; ++k) {
+      const int32_t grid = raw.nodes[kMaxFaceNodes * i + k];
+      face[k] = model.find(grid, raw.origin);
+      if (face[k] >= 0 && model.is_node(face[k])) continue;
+      model.source.fail(raw.origin, fmt::format("surface {}: node {} belongs to no solid",
+                                                shown(raw.name), grid));
+    }
+    surface.add(raw.types[i], face);
+  }
+  if (!model.deck.mesh.surfaces.emplace(raw.name, surface.finish()).second) {
+    model.source.fail(raw.origin, fmt::format("found a second surface {}", shown(raw.name)));
+  }
+}
+
+}  // namespace
+
+void build_sets(Model& model) {
+  for (const auto& [id, set] : model.bulk.node_sets) {
+    const auto named = model.bulk.set_names.find(id);
+    const std::string name =
+        named == model.bulk.set_names.end() ? fmt::format("set_{}", id) : named->second;
+    model.refusals.attempt([&, &one = set] {
+      add_set(model, name, model.places(one.grids, one.origin, false), one.origin);
+    });
+  }
+  for (const auto& surface : model.bulk.surfaces) {
+    model.refusals.attempt([&] { add_surface(model, surface); });
+  }
+}
+
+}  // namespace clatter::mesh::deck::nastran

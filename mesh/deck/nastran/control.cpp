@@ -1,0 +1,287 @@
+#include "mesh/deck/nastran/control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "mesh/deck/nastran/fields.hpp"
+#include "mesh/deck/nastran/lines.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+constexpr std::array<std::string_view, 23> kHarmlessExecutive = {
+    "ACQUIRE",   "APP",    "ASSIGN",       "CEND", "CONNECT", "DIAG",   "DOMAINSOLVER", "ECHO",
+    "ECHOOFF",   "ECHOON", "GEOMCHECK",    "ID",   "INIT",    "LABEL",  "MODEL_CHECK",  "NASTRAN",
+    "RFINCLUDE", "SOL",    "SPARSESOLVER", "TIME", "VERSION", "EXPAND", "DBSETDEL"};
+
+constexpr std::array<std::string_view, 68> kHarmlessCase = {
+    "ACCELERATION", "ACFPMRESULT",  "ANALYSIS", "AUTOSPC",     "BCRESULTS",     "BGRESULTS",
+    "BOUTPUT",      "DISPLACEMENT", "ECHO",     "ECHOOFF",     "ECHOON",        "EDE",
+    "EKE",          "ELFORCE",      "ELSDCON",  "ELSTRAIN",    "ELSTRESS",      "ELSUM",
+    "ENDTIME",      "ESE",          "FLUX",     "FORCE",       "GPFORCE",       "GPKE",
+    "GPSDCON",      "GPSTRAIN",     "GPSTRESS", "GROUNDCHECK", "HOUTPUT",       "LABEL",
+    "LINE",         "MAXLINES",     "MAXMIN",   "MEFFMASS",    "MODALKE",       "MODALSE",
+    "MPCFORCES",    "NLSTRESS",     "NOUTPUT",  "OLOAD",       "OMODES",        "OUTPUT",
+    "PAGE",         "PLOTID",       "PRESSURE", "RESVEC",      "SACCELERATION", "SDISPLACEMENT",
+    "SET",          "SHELLTHK",     "SKIP",     "SPCFORCES",   "STRAIN",        "STRESS",
+    "STRFIELD",     "SUBTITLE",     "SURFACE",  "SVECTOR",     "SVELOCITY",     "THERMAL",
+    "TITLE",        "VECTOR",       "VELOCITY", "VOLUME",      "VUGRID",        "WEIGHTCHECK",
+    "XTITLE",       "YTITLE"};
+
+// NAME(OPTIONS) = VALUE, in capitals.
+struct Command {
+  std::string name, options, value;
+  bool assigned = false;  // there is a =
+};
+
+std::string capitals(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return out;
+}
+
+Command parse_command(std::string_view line) {
+  Command out;
+  const auto word = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  line = trimmed(without_comment(line));
+  const auto end = std::find_if_not(line.begin(), line.end(), word);
+  out.name = capitals(line.substr(0, static_cast<size_t>(end - line.begin())));
+  line = trimmed(line.substr(out.name.size()));
+  if (line.starts_with('(')) {
+    const size_t close = std::min(line.find(')'), line.size() - 1);
+    out.options = capitals(line.substr(1, close - 1));
+    line = trimmed(line.substr(close + 1));
+  }
+  if (line.starts_with('=')) {
+    out.assigned = true;
+    line = trimmed(line.substr(1));
+  } else if (line.starts_with(',')) {
+    line = trimmed(line.substr(1));
+  }
+  out.value = capitals(line);
+  return out;
+}
+
+// Four letters are enough for the name of a command.
+bool is(const std::string& word, std::string_view name) {
+  return word == name || (word.size() >= 4 && name.starts_with(word));
+}
+
+template <class Names>
+bool is_one_of(const std::string& word, const Names& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return is(word, name); });
+}
+
+bool has_option(const Command& command, std::string_view option) {
+  return command.options.find(option) != std::string::npos;
+}
+
+class Parser {
+ public:
+  Parser(Source& source, Ignored& ignored, Refusals& refusals)
+      : source_(source), ignored_(ignored), refusals_(refusals) {}
+
+  Control run() {
+    while (const auto line = source_.next()) {
+      if (follow_include(source_, *line)) continue;
+      const Command command = parse_command(*line);
+      if (command.name.empty() && trimmed(without_comment(*line)).empty()) continue;
+      if (part_ == Part::kUnknown && !begins(command)) {
+        source_.unread();
+        return {};
+      }
+      if (command.name == "BEGIN") {
+        begin_bulk(command);
+        return finish();
+      }
+      const std::string text(*line);
+      refusals_.attempt([&] {
+        if (part_ == Part::kExecutive) {
+          executive(command);
+        } else {
+          case_control(command, text);
+        }
+      });
+    }
+    if (part_ == Part::kUnknown) return {};
+    refusals_.require(
+        [&] { source_.fail(source_.origin(), "found the end of the deck, expected BEGIN BULK"); });
+    return {};
+  }
+
+ private:
+  enum class Part { kUnknown, kExecutive, kCase };
+
+  // Whether the first line of the deck is control, and of which part.
+  bool begins(const Command& command) {
+    const bool executive = std::find(kHarmlessExecutive.begin(), kHarmlessExecutive.end(),
+                                     command.name) != kHarmlessExecutive.end();
+    if (executive && !(command.assigned && command.name.starts_with("ECHO"))) {
+      part_ = Part::kExecutive;
+    } else if (command.assigned || command.name == "SUBCASE" || command.name == "TITLE") {
+      part_ = Part::kCase;
+    }
+    return part_ != Part::kUnknown || command.name == "BEGIN";
+  }
+
+  void begin_bulk(const Command& command) {
+    if (command.value.empty() || command.value == "BULK") return;
+    source_.fail(source_.origin(),
+                 fmt::format("found BEGIN {}, expected BEGIN BULK", shown(command.value)));
+  }
+
+  void executive(const Command& command) {
+    if (command.name == "CEND") {
+      part_ = Part::kCase;
+    } else if (command.name == "SOL") {
+      solution(command.value);
+    } else if (!is_one_of(command.name, kHarmlessExecutive)) {
+      refuse(command.name, "executive statement");
+    }
+  }
+
+  void solution(std::string_view value) {
+    value = value.substr(0, value.find_first_of(" ,"));
+    if (const auto number = parse_integer(value)) {
+      control_.solution = *number;
+    } else if (value == "SESTATIC" || value == "SESTATICS") {
+      control_.solution = 101;
+    } else if (value == "SEMODES") {
+      control_.solution = 103;
+    }
+  }
+
+  void case_control(const Command& command, const std::string& line) {
+    control_.has_cases = true;
+    if (plots_ && command.name != "SUBCASE") return;
+    if (command.name == "SUBCASE") {
+      plots_ = false;
+      control_.subcases.push_back({set_number(command), source_.origin(), above_});
+    } else if (command.name == "PARAM") {
+      const std::string_view text = command.value;
+      const size_t gap = std::min(text.find_first_of(", ="), text.size());
+      const size_t value = std::min(text.find_first_not_of(", =", gap), text.size());
+      read_parameter(control_, text.substr(0, gap), text.substr(value), source_, source_.origin());
+    } else if (!choose(command)) {
+      if (is(command.name, "OUTPUT"))
+        plots_ = has_option(command, "PLOT") || has_option(command, "XYOUT");
+      if (command.name == "SET") skip_list(line);
+      if (!is_one_of(command.name, kHarmlessCase)) refuse(command.name, "case control command");
+    }
+  }
+
+  bool choose(const Command& command) {
+    Choice& choice = control_.subcases.empty() ? above_ : control_.subcases.back().choice;
+    if (command.name == "SPC") {
+      choice.spc = set_number(command);
+    } else if (command.name == "MPC") {
+      choice.mpc = set_number(command);
+    } else if (command.name == "LOAD") {
+      choice.load = set_number(command);
+    } else if (is(command.name, "METHOD")) {
+      choice.method = set_number(command);
+    } else if (is(command.name, "TEMPERATURE")) {
+      temperature(command, choice);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void temperature(const Command& command, Choice& choice) {
+    const int32_t set = set_number(command);
+    const bool both = command.options.empty() || has_option(command, "BOTH");
+    if (has_option(command, "MATE")) return;  // constants do not depend on temperature here
+    if (has_option(command, "INIT")) {
+      control_.initial_temperature = set;
+    } else if (both || has_option(command, "LOAD")) {
+      choice.temperature = set;
+    } else {
+      source_.fail(source_.origin(),
+                   fmt::format("{}({}) is not supported, expected LOAD or INITIAL", command.name,
+                               command.options));
+    }
+  }
+
+  int32_t set_number(const Command& command) {
+    const auto number = parse_integer(command.value);
+    if (number && *number > 0) return *number;
+    source_.fail(source_.origin(), fmt::format("{}: found {}, expected the number of a set",
+                                               command.name, shown(command.value)));
+  }
+
+  // Lists of output sets go on behind a comma.
+  void skip_list(std::string_view line) {
+    while (without_comment(line).ends_with(',')) {
+      const auto more = source_.next();
+      if (!more) return;
+      line = *more;
+    }
+  }
+
+  void refuse(const std::string& name, const char* kind) {
+    if (ignored_.skip(name)) return;
+    source_.fail(source_.origin(), fmt::format("{} {} is not supported; ignore = [\"{}\"] skips it",
+                                               kind, shown(name), name));
+  }
+
+  Control finish() {
+    control_.has_cases = control_.has_cases || part_ == Part::kCase;
+    if (control_.has_cases && control_.subcases.empty()) {
+      control_.subcases.push_back({1, source_.origin(), above_});
+    }
+    return control_;
+  }
+
+  Source& source_;
+  Ignored& ignored_;
+  Refusals& refusals_;
+  Part part_ = Part::kUnknown;
+  Control control_;
+  Choice above_;        // chosen above the first subcase: holds for all
+  bool plots_ = false;  // behind OUTPUT(PLOT): plotter commands
+};
+
+}  // namespace
+
+Ignored::Ignored(const std::vector<std::string>& names) {
+  for (const std::string& name : names) counts_[capitals(name)] = 0;
+}
+
+bool Ignored::skip(std::string_view name) {
+  const auto at = counts_.find(name);
+  if (at == counts_.end()) return false;
+  ++at->second;
+  return true;
+}
+
+std::map<std::string, int64_t> Ignored::counts() const {
+  std::map<std::string, int64_t> came;
+  for (const auto& [name, count] : counts_) {
+    if (count > 0) came[name] = count;
+  }
+  return came;
+}
+
+Control read_control(Source& source, Ignored& ignored, Refusals& refusals) {
+  return Parser(source, ignored, refusals).run();
+}
+
+void read_parameter(Control& control, std::string_view name, std::string_view value,
+                    const Source& source, Origin origin) {
+  if (name != "WTMASS") return;
+  const auto factor = parse_real(value);
+  if (!factor || !(*factor > 0.0)) {
+    source.fail(origin,
+                fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));
+  }
+  control.mass_factor = *factor;
+}
+
+}  // namespace clatter::mesh::deck::nastran

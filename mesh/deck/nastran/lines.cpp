@@ -1,0 +1,202 @@
+#include "mesh/deck/nastran/lines.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+constexpr size_t kLongestFileName = 4096;
+
+bool starts_with_word(std::string_view line, std::string_view word) {
+  if (line.size() < word.size()) return false;
+  for (size_t i = 0; i < word.size(); ++i) {
+    if ((line[i] & ~0x20) != word[i]) return false;
+  }
+  return true;
+}
+
+class Reader {
+ public:
+  Reader(Source& source, CardSink& sink, Refusals& refusals)
+      : source_(source), sink_(sink), refusals_(refusals), current_(source) {}
+
+  CardsEnd run() {
+    bool more = true;
+    while (more) go_on([&] { more = read_line(); });
+    if (!current_.empty()) end_.last = current_.name();
+    const bool full = most_ > 0 && current_.size() >= most_;
+    if (!current_.empty() && !orphan_ && !full && !orphans_.contains(current_.next())) {
+      end_.wanted = current_.next();
+    }
+    go_on([&] { finish(); });
+    go_on([&] { join_waiting(); });
+    return end_;
+  }
+
+ private:
+  // A card that is refused goes, the next ones are read.
+  template <class Body>
+  void go_on(const Body& body) {
+    if (refusals_.attempt(body)) return;
+    end_.complete = false;
+    current_.clear();
+  }
+
+  // False behind the last line.
+  bool read_line() {
+    const auto line = source_.next();
+    if (!line) return false;
+    std::string_view text = *line;
+    if (!text.empty() && text[0] == '$') {
+      sink_.comment(text, source_.origin());
+      return true;
+    }
+    if (follow_include(source_, text)) return true;
+    text = without_comment(text);
+    if (text.empty()) return true;
+    end_.end_data = starts_with_word(text, "ENDDATA");
+    if (!end_.end_data) take(text);
+    return !end_.end_data;
+  }
+
+  void take(std::string_view line) {
+    const Origin origin = source_.origin();
+    const std::string trouble = split_line(line, fields_);
+    if (!trouble.empty()) source_.fail(origin, trouble);
+    if (!fields_.continuation) {
+      finish();
+      current_.start(fields_, origin);
+      most_ = sink_.begin(current_.name(), origin);
+      orphan_ = false;
+      return;
+    }
+    capitals_ = fields_.head;
+    for (char& c : capitals_) c = c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
+    if (capitals_.empty() || (!current_.empty() && capitals_ == current_.next())) {
+      if (current_.empty() && !end_.complete) throw FollowUp();
+      if (current_.empty()) {
+        source_.fail(origin, "found a continuation line, expected a card before it");
+      }
+      const std::string refusal = current_.append(fields_, origin);
+      if (!refusal.empty()) source_.fail(origin, refusal);
+      return;
+    }
+    finish();
+    current_.start(fields_, origin);
+    orphan_ = true;
+  }
+
+  // Gives the current card away, or puts it or the continuation aside.
+  void finish() {
+    if (current_.empty()) return;
+    if (orphan_) {
+      const std::string name(current_.name());
+      if (!orphans_.emplace(name, current_).second) {
+        source_.fail(current_.origin(),
+                     fmt::format("found a second continuation named {}, expected "
+                                 "one, or each behind its own card",
+                                 shown(name)));
+      }
+    } else if (current_.next().empty() || (most_ > 0 && current_.size() >= most_)) {
+      sink_.card(current_);
+    } else {
+      waiting_.push_back(current_);
+    }
+    current_.clear();
+  }
+
+  void join_waiting() {
+    if (!orphans_.empty()) refuse_ambiguous();
+    for (Card& card : waiting_) {
+      for (auto at = orphans_.find(card.next()); at != orphans_.end();
+           at = orphans_.find(card.next())) {
+        const std::string refusal = card.append(at->second);
+        if (!refusal.empty()) source_.fail(at->second.origin(), refusal);
+        orphans_.erase(at);
+      }
+      sink_.card(card);
+      card = Card(source_);  // its memory
+    }
+    for (const auto& [name, continuation] : orphans_) {
+      source_.fail(continuation.origin(),
+                   fmt::format("found continuation {}, expected a card that ends in this name",
+                               shown(name)));
+    }
+  }
+
+  // A continuation that two cards ask for.
+  void refuse_ambiguous() {
+    std::map<std::string_view, Origin> asked;
+    for (const Card& card : waiting_) {
+      const auto orphan = orphans_.find(card.next());
+      if (orphan == orphans_.end()) continue;
+      const auto [first, fresh] = asked.emplace(card.next(), card.origin());
+      if (fresh) continue;
+      source_.fail(orphan->second.origin(),
+                   fmt::format("continuation {} belongs to one card, found two that ask for it: {} "
+                               "and {}",
+                               shown(card.next()), source_.where(first->second),
+                               source_.where(card.origin())));
+    }
+  }
+
+  Source& source_;
+  CardSink& sink_;
+  Refusals& refusals_;
+  CardsEnd end_;
+  LineFields fields_;
+  std::string capitals_;
+  Card current_;
+  size_t most_ = 0;
+  bool orphan_ = false;
+  std::vector<Card> waiting_;
+  std::map<std::string, Card, std::less<>> orphans_;
+};
+
+}  // namespace
+
+CardsEnd read_cards(Source& source, CardSink& sink, Refusals& refusals) {
+  return Reader(source, sink, refusals).run();
+}
+
+bool follow_include(Source& source, std::string_view line) {
+  line = trimmed(line);
+  if (!starts_with_word(line, "INCLUDE")) return false;
+  line.remove_prefix(7);
+  if (!line.empty() && line[0] != ' ' && line[0] != '\t' && line[0] != '\'' && line[0] != '"' &&
+      line[0] != '=') {
+    return false;
+  }
+  const Origin origin = source.origin();
+  line = trimmed(line);
+  if (line.starts_with('=')) line = trimmed(line.substr(1));
+  std::string name;
+  if (line.empty() || (line[0] != '\'' && line[0] != '"')) {
+    name = without_comment(line);
+  } else {
+    const char quote = line[0];
+    line.remove_prefix(1);
+    for (;;) {
+      const size_t end = line.find(quote);
+      name += trimmed(line.substr(0, end));
+      if (end != std::string_view::npos) break;
+      const auto more = name.size() <= kLongestFileName ? source.next() : std::nullopt;
+      if (!more) source.fail(origin, "INCLUDE: found no quote at the end of the file name");
+      line = *more;
+    }
+  }
+  if (name.empty() || name.size() > kLongestFileName) {
+    source.fail(origin, "INCLUDE: expected the name of a file");
+  }
+  source.include(name);
+  return true;
+}
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,70 @@
+// Cells with some middle nodes and not others, as meshes have them between linear and quadratic
+// cells. Without the middle node of an edge the cell's displacement is linear along it, which is
+// what a middle node does whose displacement is the mean of the edge's ends: one is added, and set
+// down as hanging.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/deck/nastran/model.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+/// Rows of the two ends, the lower one first, and the middle node that was made for them.
+using Middles = std::map<std::pair<int32_t, int32_t>, int32_t>;
+
+class Completer {
+ public:
+  explicit Completer(Model& model) : model_(model) {}
+
+  void complete(RawBlock& block) {
+    const CellTraits& cell = traits(block.type);
+    const auto per_cell = static_cast<size_t>(cell.nodes);
+    for (size_t first = 0; first < block.nodes.size(); first += per_cell)
+      for (size_t e = 0; cell.order == 2 && e < cell.edges.size(); ++e) {
+        int32_t& middle = block.nodes[first + static_cast<size_t>(cell.corners) + e];
+        if (middle != kNoRow) continue;
+        const auto [a, b] = cell.edges[e];
+        middle = between(block.nodes[first + static_cast<size_t>(a)],
+                         block.nodes[first + static_cast<size_t>(b)]);
+      }
+  }
+
+ private:
+  int32_t between(int32_t a, int32_t b) {
+    const auto [at, fresh] = middles_.emplace(std::minmax(a, b), 0);
+    if (fresh) at->second = add(static_cast<size_t>(a), static_cast<size_t>(b));
+    return at->second;
+  }
+
+  int32_t add(size_t a, size_t b) {
+    Grids& grids = model_.bulk.grids;
+    if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
+    if (next_ == std::numeric_limits<int32_t>::max())
+      model_.source.fail(grids.origins[a], "found no free numbers above that of the last GRID");
+    const auto row = static_cast<int32_t>(grids.size());
+    std::array<double, 3> at{};
+    for (size_t k = 0; k < 3; ++k) at[k] = 0.5 * (grids.at[a][k] + grids.at[b][k]);
+    grids.ids.push_back(++next_);
+    grids.at.push_back(at);
+    grids.origins.push_back(grids.origins[a]);
+    model_.place_of_row.push_back(0);
+    model_.hanging_rows.push_back(row);
+    return row;
+  }
+
+  Model& model_;
+  Middles middles_;
+  int32_t next_ = 0;  // last number given
+};
+
+}  // namespace
+
+void complete_cells(Model& model) {
+  Completer completer(model);
+  for (RawBlock& block : model.bulk.blocks) completer.complete(block);
+}
+
+}  // namespace clatter::mesh::deck::nastran

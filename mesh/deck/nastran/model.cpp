@@ -1,0 +1,124 @@
+#include "mesh/deck/nastran/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+// What the lists of a deck may cost: about a second of visits, or half a gigabyte of entries.
+constexpr int64_t kMostEffort = 500'000'000, kMostEffortPerGrid = 2000;
+
+// Blank fields of GRID take GRDSET's values.
+void fill_defaults(Bulk& bulk) {
+  Grids& grids = bulk.grids;
+  const auto fill = [&](auto& column, auto blank, auto zero, auto value) {
+    if (value != blank) column.resize(grids.size(), blank);
+    for (auto& entry : column) entry = entry == blank ? value : entry == zero ? blank : entry;
+  };
+  fill(grids.cp, kBlank, kZero, bulk.defaults.cp);
+  fill(grids.cd, kBlank, kZero, bulk.defaults.cd);
+  fill(grids.held, DofMask{0}, kNoneHeld, bulk.defaults.held);
+}
+
+// Decks that include the same grids twice are common; they must agree.
+IdIndex index_of(const Grids& grids, const Source& source) {
+  IdIndex index(grids.ids);
+  for (const auto& [a, b] : index.duplicates()) {
+    const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
+    const bool same = grids.at[i] == grids.at[j] &&
+                      column_at(grids.cp, i) == column_at(grids.cp, j) &&
+                      column_at(grids.cd, i) == column_at(grids.cd, j) &&
+                      column_at(grids.held, i) == column_at(grids.held, j);
+    if (same) continue;
+    source.fail(grids.origins[j], fmt::format("GRID {}: found another one with this number at {}",
+                                              grids.ids[j], source.where(grids.origins[i])));
+  }
+  return index;
+}
+
+Bulk with_defaults(Bulk bulk) {
+  fill_defaults(bulk);
+  return bulk;
+}
+
+}  // namespace
+
+Model::Model(const Source& deck_source, Bulk cards, Refusals& all_refusals)
+    : source(deck_source),
+      refusals(all_refusals),
+      bulk(with_defaults(std::move(cards))),
+      grids(index_of(bulk.grids, source)),
+      systems(bulk, grids, source),
+      place_of_row(bulk.grids.size(), -1) {
+  for (size_t row = 0; row < bulk.grids.cp.size(); ++row) {
+    Eigen::Map<Eigen::Vector3d> at(bulk.grids.at[row].data());
+    at = systems.to_basic(bulk.grids.cp[row], at, bulk.grids.origins[row]);
+  }
+}
+
+size_t Model::row_of(int32_t grid, Origin origin) const {
+  const int32_t row = grids.find(grid);
+  if (row < 0) source.fail(origin, fmt::format("found no GRID {}", grid));
+  return static_cast<size_t>(row);
+}
+
+Place Model::place_of(size_t row, Origin origin, bool make_points) {
+  Place& place = place_of_row[row];
+  if (place >= 0 || !make_points) return place;
+  spend(16, origin);
+  place = node_count + static_cast<Place>(deck.points.size());
+  const auto& at = bulk.grids.at[row];
+  deck.points.push_back({bulk.grids.ids[row], {at[0], at[1], at[2]}});
+  row_of_place_.push_back(static_cast<int32_t>(row));
+  return place;
+}
+
+Place Model::require(int32_t grid, Origin origin) {
+  return place_of(row_of(grid, origin), origin, true);
+}
+
+Place Model::find(int32_t grid, Origin origin) const { return place_of_row[row_of(grid, origin)]; }
+
+std::vector<Place> Model::places(const IdList& list, Origin origin, bool make_points) {
+  std::vector<Place> out;
+  for_each_grid(list, origin, [&](size_t row) {
+    const Place place = place_of(row, origin, make_points);
+    if (place < 0) return;
+    spend(16, origin);
+    out.push_back(place);
+  });
+  return out;
+}
+
+Eigen::Vector3d Model::position(Place place) const {
+  if (is_node(place)) return deck.mesh.nodes.row(place).transpose();
+  return deck.points[static_cast<size_t>(place - node_count)].at;
+}
+
+int32_t Model::displacement_system(Place place) const {
+  return column_at(bulk.grids.cd, static_cast<size_t>(row_of_place_[static_cast<size_t>(place)]));
+}
+
+std::string Model::system_name(int32_t system, Origin origin) {
+  if (system == 0) return {};
+  const System& found = systems.get(system, origin);
+  deck.systems[found.name] = found;
+  return found.name;
+}
+
+void Model::spend(int64_t effort, Origin origin) {
+  effort_ += effort;
+  const auto grid_count = static_cast<int64_t>(bulk.grids.size());
+  if (effort_ > std::max(kMostEffort, kMostEffortPerGrid * grid_count)) {
+    source.fail(origin, "the lists of this deck name the same grids too many times over");
+  }
+}
+
+void count_unused(Model& model) {
+  const auto unused = std::count(model.place_of_row.begin(), model.place_of_row.end(), -1);
+  if (unused > 0) model.deck.ignored["GRID (of no solid and no coupling)"] = unused;
+}
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,33 @@
+#pragma once
+// Coordinate systems of a deck in the basic frame.
+//
+// A, B, C of CORD2 (grids of CORD1): origin, a point of the z axis, a point of the xz plane.
+// Coordinates and directions: rectangular x y z; cylindrical r theta z; spherical r theta phi,
+// where theta opens from the z axis and phi turns about it (MSC Nastran Quick Reference Guide,
+// CORD2C, CORD2S). Angles in degrees. Numbers: those of the deck, 0 is the basic system.
+#include <map>
+
+#include "mesh/deck/id_index.hpp"
+#include "mesh/deck/nastran/bulk.hpp"
+
+namespace clatter::mesh::deck::nastran {
+
+class Systems {
+ public:
+  /// Follows references in any order. InputError for a system that is not there, for cycles and for
+  /// points that span no axes. The grids' coordinates are those of the deck.
+  Systems(const Bulk& bulk, const IdIndex& grids, const Source& source);
+
+  /// Position in the basic frame. InputError (origin) for an unknown system.
+  Eigen::Vector3d to_basic(int32_t system, const Eigen::Vector3d& local, Origin origin) const;
+  /// Columns: the system's directions at a point of the basic frame, in basic components.
+  Eigen::Matrix3d directions(int32_t system, const Eigen::Vector3d& at, Origin origin) const;
+  const System& get(int32_t system, Origin origin) const;
+
+ private:
+  friend class SystemsBuilder;
+  const Source& source_;
+  std::map<int32_t, System> systems_;  // 0 is the basic one
+};
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,225 @@
+#include "mesh/deck/nastran/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+#include "core/base/error.hpp"
+#include "core/base/whole_file.hpp"
+#include "mesh/deck/nastran/fields.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+constexpr int kLargeField = 16, kSmallField = 8;
+constexpr int32_t kNoField = -1;  // left blank
+constexpr int32_t kMostInSmallField = 99999999;
+constexpr size_t kFlushAt = 1 << 20;
+
+using Text = fmt::memory_buffer;
+
+template <class... Args>
+void put(Text& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+// "1.50e-03" to "1.5-3", "0.25" to ".25", "5" to "5."; as few characters as say the same.
+std::string compact(std::string_view plain) {
+  const size_t e = std::min(plain.find('e'), plain.size());
+  std::string mantissa(plain.substr(0, e));
+  if (mantissa.find('.') == std::string::npos) mantissa += '.';
+  while (mantissa.back() == '0') mantissa.pop_back();
+  const size_t first = mantissa.find_first_not_of('-');
+  if (mantissa[first] == '0' && mantissa.size() > first + 2) mantissa.erase(first, 1);
+  if (e == plain.size()) return mantissa;
+  const char sign = plain[e + 1] == '-' ? '-' : '+';
+  const std::string_view digits = plain.substr(plain.find_first_of("123456789", e));
+  return mantissa + sign + std::string(digits);
+}
+
+// Digits after the point, in fixed or scientific notation.
+std::string rounded(double value, std::chars_format format, int digits) {
+  char text[400];
+  const auto end = std::to_chars(text, text + sizeof text, value, format, digits).ptr;
+  return compact({text, static_cast<size_t>(end - text)});
+}
+
+// Numbers of the nodes and cells as they are written.
+class Numbers {
+ public:
+  explicit Numbers(const Mesh& mesh) : mesh_(mesh) {
+    for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) note(node(static_cast<int32_t>(n)));
+    for (const CellBlock& block : mesh.cells) {
+      for (int32_t id : block.ids) {
+        note(id);
+        last_cell_ = std::max(last_cell_, id);
+      }
+    }
+  }
+  int32_t node(int32_t index) const {
+    return mesh_.node_ids.empty() ? index + 1 : mesh_.node_ids[static_cast<size_t>(index)];
+  }
+  int32_t cell(const CellBlock& block, Eigen::Index row) {
+    return block.ids.empty() ? ++last_cell_ : block.ids[static_cast<size_t>(row)];
+  }
+  /// Width of the fields that hold them all.
+  int width(int64_t more) const {
+    return std::max<int64_t>(largest_, last_cell_ + more) > kMostInSmallField ? kLargeField
+                                                                              : kSmallField;
+  }
+
+ private:
+  void note(int32_t id) {
+    if (id < 1) {
+      throw InputError(
+          fmt::format("mesh '{}': found the number {}, Nastran expects 1 or more", mesh_.name, id));
+    }
+    largest_ = std::max(largest_, id);
+  }
+  const Mesh& mesh_;
+  int32_t largest_ = 0, last_cell_ = 0;
+};
+
+class Writer {
+ public:
+  Writer(const Mesh& mesh, std::ostream& out)
+      : mesh_(mesh), out_(out), numbers_(mesh), width_(numbers_.width(mesh.cell_count())) {}
+
+  void run() {
+    put(text_, "$ {} (lengths in metres)\nBEGIN BULK\n", mesh_.name);
+    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
+      put(text_, "$ clatter region {} {}\nPSOLID  {:<8}1\n", r + 1, mesh_.regions[r], r + 1);
+    }
+    nodes();
+    for (const CellBlock& block : mesh_.cells) cells(block);
+    size_t number = 0;
+    for (const auto& [name, nodes] : mesh_.node_sets) {
+      if (!nodes.empty() && name != kHangingMiddles) node_set(++number, name, nodes);
+    }
+    for (const auto& [name, surface] : mesh_.surfaces) faces(name, surface);
+    put(text_, "ENDDATA\n");
+    flush();
+  }
+
+ private:
+  void nodes() {
+    for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
+      if (hangs(static_cast<int32_t>(n))) continue;
+      const int32_t id = numbers_.node(static_cast<int32_t>(n));
+      const auto at = mesh_.nodes.row(n);
+      std::string fields[3];
+      bool exact = true;
+      for (int k = 0; k < 3; ++k) {
+        fields[k] = nastran_real(at[k], kLargeField);
+        exact = exact && nastran::parse_real(fields[k]) == at[k];
+      }
+      if (!exact) put(text_, "$ clatter at {} {} {} {}\n", id, at[0], at[1], at[2]);
+      put(text_, "GRID*   {:<16}{:16}{:<16}{:<16}*\n*       {}\n", id, "", fields[0], fields[1],
+          fields[2]);
+      flush_when_full();
+    }
+  }
+
+  void cells(const CellBlock& block) {
+    const CellTraits& cell = traits(block.type);
+    std::vector<int32_t> fields;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      fields = {numbers_.cell(block, c), block.region + 1};
+      for (int i : cell.to_nastran)
+        fields.push_back(hangs(block.nodes(c, i)) ? kNoField : numbers_.node(block.nodes(c, i)));
+      while (fields.back() == kNoField) fields.pop_back();
+      card(cell.nastran_name, fields);
+    }
+  }
+
+  /// Middle nodes that hang are left out of their cells: the reader adds them again.
+  bool hangs(int32_t node) const {
+    const auto set = mesh_.node_sets.find(kHangingMiddles);
+    return set != mesh_.node_sets.end() &&
+           std::binary_search(set->second.begin(), set->second.end(), node);
+  }
+
+  void node_set(size_t number, const std::string& name, const std::vector<int32_t>& nodes) {
+    put(text_, "$ clatter set {} {}\n", number, name);
+    std::vector<int32_t> fields = {static_cast<int32_t>(number)};
+    for (int32_t node : nodes) fields.push_back(numbers_.node(node));
+    card("SET1", fields);
+  }
+
+  void faces(const std::string& name, const Surface& surface) {
+    put(text_, "$ clatter surface {}\n", name);
+    for (const FaceBlock& block : surface.faces) {
+      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+        put(text_, "$ clatter {}", traits(block.type).name);
+        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) {
+          put(text_, " {}", numbers_.node(block.nodes(f, i)));
+        }
+        put(text_, "\n");
+        flush_when_full();
+      }
+    }
+  }
+
+  // Whole numbers in small fields, or in large ones where they need them.
+  void card(std::string_view name, const std::vector<int32_t>& fields) {
+    const bool large = width_ == kLargeField;
+    put(text_, "{:<8}", large ? fmt::format("{}*", name) : std::string(name));
+    const size_t per_line = large ? 4 : 8;
+    for (size_t i = 0; i < fields.size(); ++i) {
+      if (i > 0 && i % per_line == 0) put(text_, "{0}\n{0:<8}", large ? '*' : '+');
+      if (fields[i] == kNoField)
+        put(text_, "{:<{}}", "", width_);
+      else
+        put(text_, "{:<{}}", fields[i], width_);
+    }
+    put(text_, "\n");
+    flush_when_full();
+  }
+
+  void flush_when_full() {
+    if (text_.size() > kFlushAt) flush();
+  }
+
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.clear();
+  }
+
+  const Mesh& mesh_;
+  std::ostream& out_;
+  Numbers numbers_;
+  int width_;
+  Text text_;
+};
+
+}  // namespace
+
+std::string nastran_real(double value, int width) {
+  const std::string shortest = compact(fmt::format("{}", value));
+  if (static_cast<int>(shortest.size()) <= width) return shortest;
+  const int sign = std::signbit(value) ? 1 : 0;
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const int exponent_width = std::abs(exponent) < 10 ? 2 : std::abs(exponent) < 100 ? 3 : 4;
+  // Significant digits beside sign, point and exponent, or sign, point and leading zeros.
+  const int scientific = width - sign - 1 - exponent_width;
+  const int fixed = width - sign - 1 - std::max(0, -exponent - 1);
+  const bool is_fixed = fixed >= scientific && exponent < width - sign - 2;
+  int digits = is_fixed ? width - sign - 1 - std::max(0, exponent + 1) : scientific - 1;
+  const auto format = is_fixed ? std::chars_format::fixed : std::chars_format::scientific;
+  std::string text = rounded(value, format, digits);
+  while (static_cast<int>(text.size()) > width) text = rounded(value, format, --digits);
+  return text;
+}
+
+void write_nastran(const Mesh& mesh, std::ostream& out) { Writer(mesh, out).run(); }
+
+void write_nastran(const Mesh& mesh, const std::filesystem::path& path) {
+  WholeFile file(path);
+  write_nastran(mesh, file.stream());
+  file.commit();
+}
+
+}  // namespace clatter::mesh::deck

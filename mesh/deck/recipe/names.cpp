@@ -1,0 +1,95 @@
+#include "mesh/deck/recipe/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace clatter::mesh::deck {
+
+RecipeNames::RecipeNames(Deck& deck)
+    : deck_(deck), n_nodes_(static_cast<int32_t>(deck.mesh.nodes.rows())) {
+  for (const auto& [name, nodes] : deck.mesh.node_sets) sets_.try_emplace(nodes, name);
+}
+
+int32_t RecipeNames::label(int32_t node) const {
+  const std::vector<int32_t>& ids = deck_.mesh.node_ids;
+  return ids.empty() ? node + 1 : ids[static_cast<size_t>(node)];
+}
+
+std::string RecipeNames::point(Place place) const {
+  return fmt::format("point_{}", deck_.points[static_cast<size_t>(place - n_nodes_)].id);
+}
+
+std::string RecipeNames::node(Place place) {
+  return node_set({place}, fmt::format("node_{}", label(place)));
+}
+
+std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string& wish) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto known = sets_.find(nodes);
+  if (known != sets_.end()) return known->second;
+  const std::string base = wish.empty() ? "nodes" : wish;
+  std::string name = base;
+  for (int k = 2; deck_.mesh.node_sets.contains(name); ++k) name = fmt::format("{}_{}", base, k);
+  deck_.mesh.node_sets[name] = nodes;
+  sets_[std::move(nodes)] = name;
+  return name;
+}
+
+NamedPlaces RecipeNames::places(const std::vector<Place>& places, const std::string& wish) {
+  NamedPlaces named;
+  std::vector<int32_t> nodes;
+  for (const Place place : places) {
+    if (is_point(place))
+      named.points.push_back(point(place));
+    else
+      nodes.push_back(place);
+  }
+  if (!nodes.empty()) named.node_set = node_set(std::move(nodes), wish);
+  return named;
+}
+
+std::string RecipeNames::point_on_node(Place place) {
+  const std::string name = fmt::format("on_node_{}", label(place));
+  on_nodes_[name] = node(place);
+  return name;
+}
+
+std::string toml_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", static_cast<int>(static_cast<unsigned char>(c)));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+std::string toml_key(std::string_view text) {
+  const bool bare = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+  });
+  return bare ? std::string(text) : toml_text(text);
+}
+
+std::string toml_list(const std::vector<double>& values) {
+  std::string out = "[";
+  for (size_t i = 0; i < values.size(); ++i)
+    out += fmt::format("{}{}", i == 0 ? "" : ", ", values[i]);
+  return out + "]";
+}
+
+std::string toml_directions(DofMask mask) {
+  constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
+  std::string out = "[";
+  for (int d = 0; d < 6; ++d)
+    if ((mask >> d & 1) != 0) out += fmt::format("{}\"{}\"", out.size() > 1 ? ", " : "", kNames[d]);
+  return out + "]";
+}
+
+}  // namespace clatter::mesh::deck

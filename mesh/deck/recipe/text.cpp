@@ -1,0 +1,238 @@
+#include "mesh/deck/recipe/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "mesh/deck/recipe/loads.hpp"
+#include "mesh/deck/recipe/names.hpp"
+
+namespace clatter::mesh::deck {
+namespace {
+
+std::vector<double> numbers(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
+
+class Writer {
+ public:
+  explicit Writer(Deck& deck) : deck_(deck), names_(deck) {}
+
+  std::string write() {
+    put("# Read from {}; SI units.\nlength_unit = \"m\"\n",
+        deck_.files.empty() ? "a deck" : deck_.files.front());
+    for (const auto& [card, count] : deck_.ignored)
+      put("# ignored in the deck: {} ({} times)\n", card, count);
+    for (const std::string& note : deck_.notes) put("# {}\n", note);
+    systems();
+    materials();
+    std::string relations = std::exchange(text_, {});
+    // Couplings say which points on nodes they need, so points are written after them.
+    couplings();
+    if (deck_.mesh.node_sets.contains(kHangingMiddles))
+      put("\n[[straight_edges]]  # cells of the deck without these middle nodes\nnode_set = {}\n",
+          toml_text(kHangingMiddles));
+    for (const Tie& tie : deck_.ties) add_tie(tie);
+    for (const Equation& equation : deck_.equations)
+      put("\n[[equation]]  # {}\n{}", equation.where, terms_text(equation.terms));
+    for (const Spring& spring : deck_.springs) add_spring(spring);
+    masses();
+    retained();
+    const std::string steps = write_steps(deck_, names_);
+    std::string rest = std::exchange(text_, {});
+    points();
+    for (const Support& support : deck_.supports) text_ += support_text(support, names_);
+    return relations + text_ + rest + steps;
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  void systems() {
+    constexpr const char* kKinds[] = {"rectangular", "cylindrical", "spherical"};
+    for (const auto& [name, system] : deck_.systems)
+      put("\n[system.{}]\nkind = \"{}\"\norigin = {}\nx = {}\nz = {}\n", toml_key(name),
+          kKinds[static_cast<int>(system.kind)], toml_list(numbers(system.origin)),
+          toml_list(numbers(system.axes.col(0))), toml_list(numbers(system.axes.col(2))));
+  }
+
+  /// Regions with the same material, axes and integration share a table.
+  void materials() {
+    std::map<std::string, std::vector<std::string>> regions_of;  // by the text of the table
+    std::vector<std::pair<std::string, std::string>> order;      // material name, text
+    for (size_t r = 0; r < deck_.regions.size(); ++r) {
+      const Region& region = deck_.regions[r];
+      if (region.material.empty()) {
+        put("\n# region {} has no material in the deck: name it in a [material.NAME]\n",
+            toml_text(deck_.mesh.regions[r]));
+        continue;
+      }
+      const std::string body = material_body(region);
+      auto& regions = regions_of[region.material + "\n" + body];
+      if (regions.empty()) order.emplace_back(region.material, body);
+      regions.push_back(toml_text(deck_.mesh.regions[r]));
+    }
+    std::map<std::string, int> used;
+    for (const auto& [name, body] : order) {
+      const int count = ++used[name];
+      put("\n[material.{}]\nregions = [{}]\n{}",
+          toml_key(count == 1 ? name : fmt::format("{}_{}", name, count)),
+          fmt::join(regions_of.at(name + "\n" + body), ", "), body);
+    }
+  }
+
+  std::string material_body(const Region& region) const {
+    const auto found = deck_.materials.find(region.material);
+    if (found == deck_.materials.end())
+      throw InputError(
+          fmt::format("{}: material {} is not in the deck", region.where, region.material));
+    const Material& material = found->second;
+    const std::vector<double>& c = material.constants;
+    std::string out;
+    switch (material.kind) {
+      case Material::Kind::kIsotropic:
+        out += fmt::format("E = {}\nnu = {}\n", c.at(0), c.at(1));
+        break;
+      case Material::Kind::kOrthotropic:
+        out += fmt::format("E = {}\nnu = {}\nG = {}\n", toml_list({c.at(0), c.at(1), c.at(2)}),
+                           toml_list({c.at(3), c.at(4), c.at(5)}),
+                           toml_list({c.at(6), c.at(7), c.at(8)}));
+        break;
+      case Material::Kind::kAnisotropic:
+        out += fmt::format("C = {}\n", toml_list(c));
+        break;
+    }
+    out +=
+        material.density > 0.0
+            ? fmt::format("rho = {}\n", material.density)
+            : "rho = 1.0  # the deck has none: mass and frequencies mean nothing with this one\n";
+    if (material.expansion.size() == 1)
+      out += fmt::format("expansion = {}\n", material.expansion[0]);
+    if (material.expansion.size() == 3)
+      out += fmt::format("expansion = {}\n", toml_list(material.expansion));
+    if (!region.system.empty()) out += fmt::format("system = {}\n", toml_text(region.system));
+    for (const auto& [type, formulation] : region.formulation)
+      out += integration(type, formulation);
+    return out;
+  }
+
+  static std::string integration(CellType type, Formulation formulation) {
+    const bool linear_hex = type == CellType::kHex8;
+    if (formulation == Formulation::kDefault) return "";
+    if (linear_hex && formulation == Formulation::kReduced)
+      return "hex8 = \"incompatible\"  # the deck asks for one point and hourglass control\n";
+    if (linear_hex || type == CellType::kHex20 || type == CellType::kWedge6 ||
+        type == CellType::kWedge15)
+      return fmt::format("{} = \"{}\"\n", traits(type).name,
+                         formulation == Formulation::kFull      ? "full"
+                         : formulation == Formulation::kReduced ? "reduced"
+                                                                : "incompatible");
+    return "";
+  }
+
+  void points() {
+    for (const Point& point : deck_.points)
+      put("\n[[point]]\nname = \"point_{}\"\nat = {}\n", point.id, toml_list(numbers(point.at)));
+    for (const auto& [name, set] : names_.points_on_nodes())
+      put("\n[[point]]\nname = {}\nnode_set = {}\n", toml_text(name), toml_text(set));
+  }
+
+  std::string reference(Place place) {
+    return names_.is_point(place) ? names_.point(place) : names_.point_on_node(place);
+  }
+
+  void put_places(const std::vector<Place>& places, const std::string& wish) {
+    const NamedPlaces named = names_.places(places, wish);
+    if (!named.node_set.empty()) put("node_set = {}\n", toml_text(named.node_set));
+    if (!named.points.empty()) put("points = [\"{}\"]\n", fmt::join(named.points, "\", \""));
+  }
+
+  void couplings() {
+    for (const Rigid& rigid : deck_.rigid) {
+      put("\n[[coupling]]\nname = {}\ntype = \"rigid\"\npoint = \"{}\"\ndirections = {}\n",
+          toml_text(rigid.name), reference(rigid.reference), toml_directions(rigid.dofs));
+      put_places(rigid.dependents, rigid.name);
+    }
+    for (const Distributing& one : deck_.distributing) {
+      put("\n[[coupling]]\nname = {}\npoint = \"{}\"\ndirections = {}\n", toml_text(one.name),
+          reference(one.reference), toml_directions(one.dofs));
+      if (!one.surface.empty()) put("surface = {}\n", toml_text(one.surface));
+      for (const Distributing::Term& term : one.terms) {
+        put("[[coupling.term]]\nweight = {}\ndirections = {}\n", term.weight,
+            toml_directions(term.dofs));
+        put_places(term.places, one.name);
+      }
+    }
+  }
+
+  void add_tie(const Tie& tie) {
+    put("\n[[tie]]\nname = {}\nslave = {}\nmaster = {}\n", toml_text(tie.name),
+        toml_text(tie.slave), toml_text(tie.master));
+    if (tie.distance >= 0.0) put("distance = {}\n", tie.distance);
+  }
+
+  std::string terms_text(const std::vector<Equation::Term>& all) {
+    constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
+    std::vector<std::string> terms;
+    for (const Equation::Term& term : all) {
+      const bool turns = term.direction >= 3 && !names_.is_point(term.place);
+      const std::string place =
+          names_.is_point(term.place) || turns
+              ? fmt::format("point = \"{}\"", reference(term.place))
+              : fmt::format("node_set = {}", toml_text(names_.node(term.place)));
+      terms.push_back(fmt::format("  {{ {}, direction = \"{}\", coefficient = {} }}", place,
+                                  kNames[term.direction], term.coefficient));
+    }
+    return fmt::format("terms = [\n{},\n]\n", fmt::join(terms, ",\n"));
+  }
+
+  void add_spring(const Spring& spring) {
+    put("\n[[spring]]  # {}\nstiffness = {}\n{}", spring.where, spring.stiffness,
+        terms_text(spring.terms));
+  }
+
+  void masses() {
+    for (const Mass& mass : deck_.masses) {
+      const bool plain = mass.inertia.isZero(0.0) && mass.offset.isZero(0.0);
+      std::string on;
+      if (names_.is_point(mass.place) || !plain) {
+        on = reference(mass.place);
+      } else {
+        const std::string set = names_.node(mass.place);
+        on = "mass_" + set;
+        put("\n[[nodes]]\nname = {}\nnode_set = {}\n", toml_text(on), toml_text(set));
+      }
+      const Eigen::Matrix3d& J = mass.inertia;
+      put("\n[[point_mass]]\non = {}\nmass = {}\n", toml_text(on), mass.mass);
+      if (!J.isZero(0.0))
+        put("inertia = {}\n", toml_list({J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(2, 0)}));
+      if (!mass.offset.isZero(0.0)) put("offset = {}\n", toml_list(numbers(mass.offset)));
+    }
+  }
+
+  /// Retained nodes stay coordinates of the model; points are sets already.
+  void retained() {
+    std::vector<Place> nodes;
+    for (const Support& set : deck_.retained)
+      for (const Place place : set.places)
+        if (!names_.is_point(place)) nodes.push_back(place);
+    if (!nodes.empty())
+      put("\n[[nodes]]\nname = \"retained\"\nnode_set = {}\n",
+          toml_text(names_.places(nodes, "retained").node_set));
+  }
+
+  Deck& deck_;
+  RecipeNames names_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string recipe_text(Deck& deck) { return Writer(deck).write(); }
+
+}  // namespace clatter::mesh::deck

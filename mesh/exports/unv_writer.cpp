@@ -1,0 +1,192 @@
+#include "mesh/exports/unv_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+
+#include "core/base/error.hpp"
+#include "mesh/exports/export_groups.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr int kElement = 8, kNode = 7;  // entities of groups
+
+struct UnvKind {
+  int descriptor;              // 0: the format has no such element
+  std::span<const int> nodes;  // p with a_unv[i] = a_ours[p[i]]
+};
+
+UnvKind kind_of(CellType type) {
+  static constexpr std::array<int, 8> kCorners = {0, 1, 2, 3, 4, 5, 6, 7};
+  static constexpr std::array<int, 10> kTet10 = {0, 4, 1, 5, 2, 6, 7, 9, 8, 3};
+  static constexpr std::array<int, 20> kHex20 = {0,  8,  1, 11, 2, 13, 3, 9,  10, 12,
+                                                 14, 15, 4, 16, 5, 18, 6, 19, 7,  17};
+  static constexpr std::array<int, 15> kWedge15 = {0,  6, 1,  9, 2,  7, 8, 10,
+                                                   11, 3, 12, 4, 14, 5, 13};
+  const std::span<const int> corners(kCorners);
+  switch (type) {
+    case CellType::kTet4:
+      return {111, corners.first(4)};
+    case CellType::kTet10:
+      return {118, kTet10};
+    case CellType::kWedge6:
+      return {112, corners.first(6)};
+    case CellType::kWedge15:
+      return {113, kWedge15};
+    case CellType::kHex8:
+      return {115, corners.first(8)};
+    case CellType::kHex20:
+      return {116, kHex20};
+    default:
+      return {0, {}};
+  }
+}
+
+UnvKind kind_of(FaceType type) {
+  static constexpr std::array<int, 6> kTri6 = {0, 3, 1, 4, 2, 5};
+  static constexpr std::array<int, 8> kQuad8 = {0, 4, 1, 5, 2, 6, 3, 7};
+  static constexpr std::array<int, 4> kCorners = {0, 1, 2, 3};
+  const std::span<const int> corners(kCorners);
+  switch (type) {
+    case FaceType::kTri3:
+      return {91, corners.first(3)};
+    case FaceType::kTri6:
+      return {92, kTri6};
+    case FaceType::kQuad4:
+      return {94, corners};
+    default:
+      return {95, kQuad8};
+  }
+}
+
+// Fortran's D in place of e.
+std::string real(double value) {
+  std::string text = fmt::format("{:25.16E}", value);
+  std::replace(text.begin(), text.end(), 'E', 'D');
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Mesh& mesh)
+      : mesh_(mesh),
+        node_numbers_(export_node_numbers(mesh)),
+        cell_numbers_(export_cell_numbers(mesh)),
+        faces_(export_faces(mesh)) {}
+
+  std::string run() {
+    begin(164);
+    put("{:>10}{:<20}{:>10}\n", 1, "SI: Meter (newton)", 2);
+    put("{}{}{}\n{}\n", real(1.0), real(1.0), real(1.0), real(273.15));
+    end();
+    begin(2411);
+    for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
+      put("{:>10}{:>10}{:>10}{:>10}\n", node_numbers_[static_cast<size_t>(n)], 1, 1, 11);
+      put("{}{}{}\n", real(mesh_.nodes(n, 0)), real(mesh_.nodes(n, 1)), real(mesh_.nodes(n, 2)));
+    }
+    end();
+    begin(2412);
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) cells(b);
+    for (const ExportFace& face : faces_) {
+      face_numbers_.push_back(++last_);
+      element(last_, kind_of(face.type), static_cast<int>(mesh_.regions.size()) + 1, face.nodes);
+    }
+    end();
+    begin(2467);
+    groups();
+    end();
+    return fmt::to_string(out_);
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+  void begin(int dataset) { put("    -1\n{:>6}\n", dataset); }
+  void end() { put("    -1\n"); }
+
+  void element(int32_t number, const UnvKind& kind, int property, std::span<const int32_t> nodes) {
+    put("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", number, kind.descriptor, property, property, 7,
+        kind.nodes.size());
+    for (size_t i = 0; i < kind.nodes.size(); ++i) {
+      const auto row = nodes[static_cast<size_t>(kind.nodes[i])];
+      put("{:>10}", node_numbers_[static_cast<size_t>(row)]);
+      if (i % 8 == 7 || i + 1 == kind.nodes.size()) put("\n");
+    }
+  }
+
+  void cells(size_t b) {
+    const CellBlock& block = mesh_.cells[b];
+    const UnvKind kind = kind_of(block.type);
+    if (kind.descriptor == 0)
+      throw InputError(fmt::format("mesh '{}': universal files have no element for {}", mesh_.name,
+                                   traits(block.type).name));
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const int32_t number = cell_numbers_[b][static_cast<size_t>(c)];
+      last_ = std::max(last_, number);
+      element(
+          number, kind, block.region + 1,
+          {block.nodes.data() + c * block.nodes.cols(), static_cast<size_t>(block.nodes.cols())});
+    }
+  }
+
+  void group(const std::string& name, int entity, const std::vector<int32_t>& members) {
+    constexpr size_t kLongest = 40;
+    if (name.empty() || name.size() > kLongest || name.find('\n') != std::string::npos)
+      throw InputError(
+          fmt::format("mesh '{}': the name '{}' is not one line of 1 to {} characters, "
+                      "which universal files have for it",
+                      mesh_.name, name, kLongest));
+    put("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n{}\n", ++groups_, 0, 0, 0, 0, 0, 0,
+        members.size(), name);
+    for (size_t i = 0; i < members.size(); ++i) {
+      put("{:>10}{:>10}{:>10}{:>10}", entity, members[i], 0, 0);
+      if (i % 2 == 1 || i + 1 == members.size()) put("\n");
+    }
+  }
+
+  void groups() {
+    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
+      std::vector<int32_t> members;
+      for (size_t b = 0; b < mesh_.cells.size(); ++b)
+        if (mesh_.cells[b].region == static_cast<int32_t>(r))
+          members.insert(members.end(), cell_numbers_[b].begin(), cell_numbers_[b].end());
+      group(mesh_.regions[r], kElement, members);
+    }
+    size_t index = 0;
+    for (const auto& [name, surface] : mesh_.surfaces) {
+      std::vector<int32_t> members;
+      for (size_t f = 0; f < faces_.size(); ++f) {
+        const auto& in = faces_[f].surfaces;
+        if (std::binary_search(in.begin(), in.end(), index)) members.push_back(face_numbers_[f]);
+      }
+      ++index;
+      group(name, kElement, members);
+    }
+    for (const auto& [name, nodes] : mesh_.node_sets) {
+      std::vector<int32_t> members;
+      for (const int32_t row : nodes) members.push_back(node_numbers_[static_cast<size_t>(row)]);
+      group(name, kNode, members);
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<int32_t> node_numbers_;
+  std::vector<std::vector<int32_t>> cell_numbers_;
+  std::vector<ExportFace> faces_;
+  std::vector<int32_t> face_numbers_;
+  fmt::memory_buffer out_;
+  int groups_ = 0;
+  int32_t last_ = 0;
+};
+
+}  // namespace
+
+std::string unv_text(const Mesh& mesh) { return Writer(mesh).run(); }
+
+}  // namespace clatter::mesh

@@ -1,0 +1,56 @@
+#pragma once
+// The faces of a part for someone who wants to name them: a table, JSON, and a file to draw.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/h5_file.hpp"
+#include "mesh/face/select.hpp"
+
+namespace clatter::mesh {
+
+inline constexpr const char* kFacesSchema = "clatter/faces/1";
+
+/// Faces of a part with the surfaces that each belongs to.
+struct FaceList {
+  std::string name, unit = "mm";                     // of the part; of all lengths here
+  double volume = 0.0;                               // of the part's solids
+  bool oriented = false;                             // orient_faces() has been here
+  std::vector<FaceFacts> faces;                      // by ascending number
+  std::map<int, std::vector<std::string>> surfaces;  // names by face number
+};
+
+/// Where to look for a face: the point of its axis beside its centre of area; a cone's apex, a
+/// sphere's or torus' centre; else the centre of area.
+Eigen::Vector3d place_of(const FaceFacts& face);
+
+/// The filters that select the face alone among its like: keys of a table [surface.NAME], one a
+/// line: its cylinder or plane, and the box around its edges, widened by `margin`.
+std::vector<std::string> filter_lines(const FaceFacts& face, double margin);
+
+/// Aligned columns: number, kind, radius, axis or (when oriented, outward) normal, place, area,
+/// surfaces; the first line says what they are and in which unit.
+std::vector<std::string> table_of(const FaceList& list);
+
+/// A JSON list, an object a face: number, kind, spline, concave, radius, minor_radius,
+/// half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
+std::string json_of(const FaceList& list);
+
+/// Triangles to draw: rows of `nodes`, and the face that each lies on.
+struct FaceTriangles {
+  RowMatrix nodes;         // n x 3, in the unit of the list
+  IndexMatrix triangles;   // m x 3
+  std::vector<int> faces;  // m
+};
+
+/// Finds which side of each face is outside, and says it to the faces' shapes (orient()). CAD
+/// kernels keep no reliable side of faces that came out of booleans; here a ray from the middle of
+/// the face's largest triangle tells: it starts inside when it meets the other triangles an odd
+/// number of times. Of five rays the majority counts, as a ray may graze an edge.
+void orient_faces(FaceList& list, const FaceTriangles& drawn);
+
+/// Writes schema "clatter/faces/1" but for provenance: the table, and the triangles in metres.
+void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
+                 double metres_per_unit);
+
+}  // namespace clatter::mesh

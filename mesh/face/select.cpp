@@ -1,0 +1,260 @@
+#include "mesh/face/select.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "core/base/error.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using Eigen::Vector3d;
+
+// How far x reaches out of the box; negative inside: how deep it lies.
+double outside_by(const BoxFilter& box, const Vector3d& x) {
+  return std::max((box.min - x).maxCoeff(), (x - box.max).maxCoeff());
+}
+
+// Of the edges: the carrying surface may reach beyond the face, only the edges bound it.
+double outside_by(const BoxFilter& box, const FaceFacts& face) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& x : face.edge_points) largest = std::max(largest, outside_by(box, x));
+  return largest;
+}
+
+template <class Distance>
+double largest(const FaceFacts& face, const Distance& distance) {
+  double result = 0.0;
+  for (const auto* points : {&face.edge_points, &face.surface_points})
+    for (const Vector3d& x : *points) result = std::max(result, std::abs(distance(x)));
+  return result;
+}
+
+/// A face and the filter that it is nearest to.
+struct Candidate {
+  const FaceFacts* face;
+  const SurfaceFilter* filter;
+  double distance;
+  bool like;  // of the kind that the filter asks for
+};
+
+bool is_like(const FaceFacts& face, const SurfaceFilter& filter) {
+  return (!filter.cylinder || face.shape.kind == ShapeKind::kCylinder) &&
+         (!filter.plane || face.shape.kind == ShapeKind::kPlane);
+}
+
+// Nearest first; what is too far to be selected, those of the right kind first.
+std::vector<Candidate> candidates(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
+                                  double exact) {
+  std::vector<Candidate> found;
+  for (const FaceFacts& face : faces) {
+    Candidate best{&face, nullptr, std::numeric_limits<double>::infinity(), false};
+    for (const SurfaceFilter& filter : surface.filters) {
+      const double distance = distance_from(face, filter, exact);
+      if (distance < best.distance) best = {&face, &filter, distance, is_like(face, filter)};
+    }
+    if (best.filter != nullptr) found.push_back(best);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  return found;
+}
+
+double degrees_between(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180.0 / std::numbers::pi;
+}
+
+// "radius 0.5 mm more, axis 0.005 mm away, turned by 2 deg", without what is right.
+std::string cylinder_offsets(const FaceFacts& face, const CylinderFilter& wanted,
+                             const std::string& unit) {
+  constexpr double kShown = 1e-9, kShownDegrees = 1e-4;
+  const FaceShape& shape = face.shape;
+  std::vector<std::string> parts;
+  const double more = shape.radius - wanted.radius;
+  if (std::abs(more) > kShown * wanted.radius)
+    parts.push_back(
+        fmt::format("radius {:.3g} {} {}", std::abs(more), unit, more > 0 ? "more" : "less"));
+  const Vector3d beside =
+      shape.point + (face.centre - shape.point).dot(shape.direction) * shape.direction;
+  const double away = (beside - wanted.point).cross(wanted.axis).norm();
+  if (away > kShown * wanted.radius)
+    parts.push_back(fmt::format("axis {:.3g} {} away", away, unit));
+  const double turned = degrees_between(shape.direction, wanted.axis);
+  if (turned > kShownDegrees) parts.push_back(fmt::format("axis turned by {:.3g} deg", turned));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string plane_offsets(const FaceFacts& face, const PlaneFilter& wanted,
+                          const std::string& unit) {
+  constexpr double kShownDegrees = 1e-4;
+  const double turned = degrees_between(face.shape.direction, wanted.normal);
+  if (turned > kShownDegrees) return fmt::format("turned by {:.3g} deg", turned);
+  const double height = wanted.normal.dot(face.centre);
+  return fmt::format("at height {:.9g}, {:.3g} {} away", height, std::abs(height - wanted.height),
+                     unit);
+}
+
+// "face 17, cylinder of radius 46.5 mm, axis 0.005 mm away".
+std::string describe_candidate(const Candidate& candidate, const std::string& unit) {
+  const FaceFacts& face = *candidate.face;
+  const SurfaceFilter& filter = *candidate.filter;
+  std::vector<std::string> parts = {fmt::format("face {}", face.tag), describe(face.shape, unit)};
+  std::string offsets;
+  if (filter.cylinder && face.shape.kind == ShapeKind::kCylinder)
+    offsets = cylinder_offsets(face, *filter.cylinder, unit);
+  if (filter.plane && face.shape.kind == ShapeKind::kPlane)
+    offsets = plane_offsets(face, *filter.plane, unit);
+  if (!offsets.empty()) parts.push_back(offsets);
+  const double out = filter.box ? outside_by(*filter.box, face) : 0.0;
+  if (out >= candidate.distance && out > 0.0)
+    parts.push_back(fmt::format("reaches {:.3g} {} out of the box", out, unit));
+  else if (offsets.empty())
+    parts.push_back(fmt::format("up to {:.3g} {} off", candidate.distance, unit));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string describe_nearest(std::vector<Candidate> found, const std::string& unit) {
+  constexpr size_t kNamed = 3;
+  if (found.empty()) return "";
+  std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return c.like; });
+  std::vector<std::string> named;
+  for (size_t i = 0; i < std::min(kNamed, found.size()); ++i)
+    named.push_back(describe_candidate(found[i], unit));
+  return fmt::format("nearest: {}; ", fmt::join(named, "; "));
+}
+
+Eigen::Vector3d vector_of(const Config& config, std::string_view key) {
+  const std::vector<double> v = config.numbers(key, 3);
+  return {v[0], v[1], v[2]};
+}
+
+Eigen::Vector3d direction_of(const Config& config, std::string_view key) {
+  const Eigen::Vector3d v = vector_of(config, key);
+  if (v.norm() == 0.0) config.fail(key, "found a zero vector, expected a direction");
+  return v.normalized();
+}
+
+BoxFilter read_box(const Config& config) {
+  const BoxFilter box{vector_of(config, "min"), vector_of(config, "max")};
+  if ((box.min.array() > box.max.array()).any()) config.fail("min", "expected min <= max");
+  return box;
+}
+
+SurfaceFilter read_filter(const Config& table, const std::string& name) {
+  SurfaceFilter filter;
+  if (const auto c = table.find_table("cylinder")) {
+    filter.cylinder = CylinderFilter{c->number("radius", Range::positive()), vector_of(*c, "point"),
+                                     direction_of(*c, "axis")};
+  }
+  if (const auto p = table.find_table("plane")) {
+    filter.plane = PlaneFilter{direction_of(*p, "normal"), p->number("height")};
+  }
+  if (const auto b = table.find_table("box")) filter.box = read_box(*b);
+  if (const auto b = table.find_table("outside")) filter.outside.push_back(read_box(*b));
+  if (!filter.cylinder && !filter.plane && !filter.box && filter.outside.empty()) {
+    throw InputError(
+        fmt::format("{}: surface.{}: found no filter, expected cylinder, plane, box or outside",
+                    table.where(), name));
+  }
+  return filter;
+}
+
+}  // namespace
+
+double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact) {
+  double distance = 0.0;
+  if (const auto& c = filter.cylinder)
+    distance = largest(
+        face, [&](const Vector3d& x) { return (x - c->point).cross(c->axis).norm() - c->radius; });
+  if (const auto& p = filter.plane)
+    distance = std::max(
+        distance, largest(face, [&](const Vector3d& x) { return p->normal.dot(x) - p->height; }));
+  if (filter.box) distance = std::max(distance, outside_by(*filter.box, face));
+  for (const BoxFilter& box : filter.outside)
+    if (outside_by(box, face) <= exact) return std::numeric_limits<double>::infinity();
+  return distance;
+}
+
+bool matches(const FaceFacts& face, const SurfaceFilter& filter, double tolerance) {
+  return distance_from(face, filter, tolerance) <= tolerance;
+}
+
+Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
+                       const SelectionScale& scale, const std::string& where) {
+  const bool own = surface.tolerance > 0.0;
+  const double exact = own ? surface.tolerance : kExactSelection * scale.size;
+  const double near = own ? surface.tolerance : kNearSelection * scale.size;
+  const std::vector<Candidate> found = candidates(faces, surface, exact);
+  const bool any_exact = !found.empty() && found.front().distance <= exact;
+  const auto is_near = [&](const Candidate& c) { return c.distance > exact && c.distance <= near; };
+  Selection selection;
+  for (const Candidate& c : found)
+    if (c.distance <= (any_exact ? exact : near)) selection.tags.push_back(c.face->tag);
+  if (selection.tags.empty())
+    throw InputError(fmt::format("{}: surface '{}' selects no face; {}the part has {}", where,
+                                 surface.name, describe_nearest(found, scale.unit),
+                                 describe_faces(faces)));
+  for (const Candidate& c : found) {
+    if (!is_near(c)) continue;
+    auto& lines = any_exact ? selection.remarks : selection.doubts;
+    lines.push_back(fmt::format(
+        "{}: surface '{}': {}, is {}: tolerance = {:.2g} in [surface.{}] {}", where, surface.name,
+        describe_candidate(c, scale.unit), any_exact ? "left out" : "taken as none is closer",
+        1.1 * c.distance, surface.name, any_exact ? "takes it too" : "says that it is meant"));
+  }
+  std::sort(selection.tags.begin(), selection.tags.end());
+  return selection;
+}
+
+std::vector<NamedSurface> read_named_surfaces(const Config& config) {
+  std::vector<NamedSurface> surfaces;
+  const auto tables = config.find_table("surface");
+  if (!tables) return surfaces;
+  for (const std::string& name : tables->keys()) {
+    if (name == "skin") tables->fail(name, "the name 'skin' is taken: it is the whole boundary");
+    const Config table = tables->table(name);
+    const double tolerance =
+        table.has("tolerance") ? table.number("tolerance", Range::positive()) : 0.0;
+    surfaces.push_back({name, {read_filter(table, name)}, tolerance});
+  }
+  return surfaces;
+}
+
+double size_of_part(const std::vector<FaceFacts>& faces) {
+  Vector3d low = Vector3d::Constant(1e300), high = -low;
+  for (const FaceFacts& face : faces)
+    for (const Vector3d& x : face.edge_points) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  return (high - low).norm();
+}
+
+std::string describe_faces(const std::vector<FaceFacts>& faces) {
+  std::map<std::string, int> radii;  // text of the radius -> count
+  int planes = 0, others = 0;
+  for (const FaceFacts& face : faces) {
+    if (face.kind == "Plane") {
+      ++planes;
+    } else if (face.radius > 0.0) {
+      ++radii[fmt::format("{:.6g}", face.radius)];
+    } else {
+      ++others;
+    }
+  }
+  std::vector<std::string> cylinders;
+  for (const auto& [radius, count] : radii) {
+    cylinders.push_back(fmt::format("{} ({})", radius, count));
+  }
+  return fmt::format("{} planes, cylinders of radius {}, {} other faces", planes,
+                     cylinders.empty() ? "- (0)" : fmt::format("{}", fmt::join(cylinders, ", ")),
+                     others);
+}
+
+}  // namespace clatter::mesh

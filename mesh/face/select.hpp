@@ -1,0 +1,101 @@
+#pragma once
+// Faces of a part found by where they lie, never by number: booleans and imports renumber freely
+// (hard case G5).
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/config.hpp"
+#include "mesh/face/face_shape.hpp"
+
+namespace clatter::mesh {
+
+/// Points on each curve of FaceFacts::edge_points: they hit the four quadrants of a full circle.
+inline constexpr int kEdgeSamples = 33;
+
+/// What is known of one face of the geometry, in the part's length unit.
+struct FaceFacts {
+  int tag = 0;
+  std::string kind;  // "Plane", "Cylinder", "Torus", ...
+  double area = 0.0;
+  double radius = 0.0;                          // of a cylinder, else 0
+  FaceShape shape;                              // what kind, radius, axis are, as measured
+  Eigen::Vector3d centre;                       // centre of the area
+  std::vector<Eigen::Vector3d> edge_points;     // samples of the boundary curves
+  std::vector<Eigen::Vector3d> surface_points;  // samples of the surface that carries the face
+};
+
+struct CylinderFilter {
+  double radius;
+  Eigen::Vector3d point, axis;  // a point on the axis, unit direction
+};
+struct PlaneFilter {
+  Eigen::Vector3d normal;  // unit
+  double height;           // normal . x
+};
+struct BoxFilter {
+  Eigen::Vector3d min, max;
+};
+
+/// All parts that are given must hold.
+struct SurfaceFilter {
+  std::optional<CylinderFilter> cylinder;  // the face lies on this cylinder
+  std::optional<PlaneFilter> plane;        // the face lies in this plane
+  std::optional<BoxFilter> box;            // the whole face lies inside
+  std::vector<BoxFilter> outside;          // the face lies wholly inside none of these
+};
+
+/// A surface of the mesh: the faces that any of the filters selects.
+struct NamedSurface {
+  std::string name;
+  std::vector<SurfaceFilter> filters;
+  double tolerance = 0.0;  // how far a face may be from where the filter has it; 0: as below
+};
+
+/// Where selection of faces ends without a `tolerance`, both in parts of the part's size. A face
+/// within the first is what the filter means: CAD kernels keep about 1e-7. Only where no face is
+/// that close, those within the second are taken and it is told: numbers read off a drawing.
+inline constexpr double kExactSelection = 1e-6;
+inline constexpr double kNearSelection = 1e-4;
+
+/// How far the face is from what the filter asks for: the largest of
+///   cylinder   | distance of x from the axis - radius |, over the points x of edges and surface
+///   plane      | normal . x - height |
+///   box        how far an edge reaches out of it
+/// and infinite when the face lies wholly in a box of `outside`, to within `exact`. [part's unit]
+double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact);
+
+/// Is the face that close?
+bool matches(const FaceFacts& face, const SurfaceFilter& filter, double tolerance);
+
+/// The part in which faces are selected.
+struct SelectionScale {
+  double size = 1.0;        // diagonal of the part
+  std::string unit = "mm";  // its unit, for messages
+};
+
+/// Selected faces, and what the user should hear of it.
+struct Selection {
+  std::vector<int> tags;             // ascending
+  std::vector<std::string> doubts;   // faces that were taken though they are not exactly there
+  std::vector<std::string> remarks;  // faces nearly there that were left out
+};
+
+/// The faces that a surface means. InputError, beginning with `where`, when there are none: it
+/// names the three nearest, how far off each is, and what faces there are.
+Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
+                       const SelectionScale& scale, const std::string& where);
+
+/// Reads the tables [surface.NAME] with the keys cylinder = {radius, point, axis},
+/// plane = {normal, height}, box = {min, max}, outside = {min, max}, tolerance; lengths in the
+/// part's unit.
+std::vector<NamedSurface> read_named_surfaces(const Config& config);
+
+/// Diagonal of the box around all edges of the faces.
+double size_of_part(const std::vector<FaceFacts>& faces);
+
+/// "12 planes, cylinders of radius 20 (4), 53.5 (4)".
+std::string describe_faces(const std::vector<FaceFacts>& faces);
+
+}  // namespace clatter::mesh

@@ -1,0 +1,304 @@
+#include "mesh/geometry/block_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clatter::mesh {
+namespace {
+
+using Eigen::Vector3d;
+
+// --- reading -------------------------------------------------------------------------------------
+
+void require(const Config& table, bool holds, const char* key, const std::string& message) {
+  if (!holds) table.fail(key, message);
+}
+
+void check_block(const Config& t, const BlockParameters& p) {
+  require(t, p.cylinder_pitch > 2.0 * p.liner_radius(), "cylinder_pitch",
+          fmt::format("found {}, expected more than the liners' outer diameter {}",
+                      p.cylinder_pitch, 2.0 * p.liner_radius()));
+  require(t, p.cylinder_pitch - p.bearing_wall > p.bore, "bearing_wall",
+          fmt::format("found {}, expected less than pitch - bore = {}: the piston passes",
+                      p.bearing_wall, p.cylinder_pitch - p.bore));
+  require(t, p.deck_height > 0.5 * p.stroke + p.rod_length, "deck_height",
+          fmt::format("found {}, expected above the pin at top dead centre, {}", p.deck_height,
+                      0.5 * p.stroke + p.rod_length));
+  require(t, p.liner_bottom() > 0.5 * p.stroke, "liner_length",
+          fmt::format("found {}, expected the liner to end above the crank pin's circle (z = {})",
+                      p.liner_length, 0.5 * p.stroke));
+  require(t, p.end_wall + p.jacket_thickness > p.liner_wall, "end_wall",
+          "expected to stand clear of the opening around the last liner");
+  require(t, p.jacket_bottom() > p.roof(), "jacket_depth",
+          fmt::format("found {}, expected less than {}: the liner needs a lower land",
+                      p.jacket_depth, p.jacket_top() - p.roof()));
+  require(t, p.crankcase_top > p.roof() && p.crankcase_top < p.jacket_top(), "crankcase_top",
+          "expected between the crankcase's roof and the deck plate");
+  require(t, p.shoulder_height > 0.0 && p.shoulder_height < p.liner_bottom(), "shoulder_height",
+          "expected between the crank axis and the liner's lower end");
+  require(t, p.crankcase_half_width - p.crankcase_wall > 0.5 * p.stroke + 0.35 * p.bore,
+          "crankcase_half_width", "expected room for the crank: half stroke + 0.35 bore + wall");
+  require(t, p.column_reach < p.housing_radius() + p.deck_overhang, "column_reach",
+          "expected below the deck plate's edge");
+  require(t, p.bearing_boss > p.bearing_bore, "bearing_boss", "expected more than bearing_bore");
+  require(t, p.bearing_width >= p.bearing_wall, "bearing_width", "expected at least bearing_wall");
+  require(t, -0.5 * p.bearing_boss > -p.skirt_depth, "skirt_depth",
+          "expected the pan flange below the bearing bosses");
+  require(t, p.bearing_wall_bottom > -0.5 * p.bearing_boss && p.bearing_wall_bottom < 0.0,
+          "bearing_wall_bottom", "expected between the boss's lower edge and the crank axis");
+}
+
+// Half width of the openings in the bearing walls, of the liner's radius: wider than the part of
+// the liner that stands above the wall.
+constexpr double kWindow = 0.75;
+
+// --- solids --------------------------------------------------------------------------------------
+
+// A polygon of (y, z), mirrored at y = 0, pushed along x.
+Solid symmetric_prism(GmshSession& s, const std::vector<std::array<double, 2>>& right, double x0,
+                      double x1) {
+  std::vector<Vector3d> polygon;
+  for (const auto& [y, z] : right) polygon.emplace_back(x0, y, z);
+  for (auto p = right.rbegin(); p != right.rend(); ++p) polygon.emplace_back(x0, -(*p)[0], (*p)[1]);
+  return s.prism(polygon, {x1 - x0, 0.0, 0.0});
+}
+
+Solid upright(GmshSession& s, double x, double radius, double z0, double z1) {
+  return s.cylinder({x, 0.0, z0}, {0.0, 0.0, z1 - z0}, radius);
+}
+
+// Half width of the crankcase's roof step: a little more than the housing, so that no cylinder
+// touches an edge in a point.
+double top_half_width(const BlockParameters& p) { return p.housing_radius() + p.outer_wall; }
+
+Solid outer_shell(GmshSession& s, const BlockParameters& p) {
+  const double l = p.half_length(), w = p.crankcase_half_width;
+  const Solid crankcase = symmetric_prism(
+      s, {{w, -p.skirt_depth}, {w, p.shoulder_height}, {top_half_width(p), p.crankcase_top}}, -l,
+      l);
+  const double low = 0.5 * (p.roof() + p.crankcase_top);  // inside the crankcase's roof
+  const double plate = p.housing_radius() + p.deck_overhang;
+  Solids parts;
+  for (int i = 0; i < p.cylinders; ++i) {
+    parts.push_back(upright(s, p.x_of_cylinder(i), p.housing_radius(), low, p.deck_height));
+  }
+  for (int k = 0; k <= p.cylinders; ++k) {
+    const double x = p.x_of_bearing(k), half = 0.5 * p.column_width;
+    parts.push_back(s.box({std::max(x - half, -l), -p.column_reach, low},
+                          {std::min(x + half, l), p.column_reach, p.deck_height}));
+  }
+  for (double side : {-1.0, 1.0}) {
+    const double a = side * l, b = side * (l - p.end_wall - 0.5 * p.outer_wall);
+    parts.push_back(s.box({std::min(a, b), -p.column_reach, low},
+                          {std::max(a, b), p.column_reach, p.deck_height}));
+  }
+  parts.push_back(s.box({-l, -plate, p.jacket_top()}, {l, plate, p.deck_height}));
+  parts.push_back(s.box({-l, -w - p.flange_width, -p.skirt_depth},
+                        {l, w + p.flange_width, -p.skirt_depth + p.flange_thickness}));
+  return require_one(s.fuse({crankcase}, parts), "block: outer shape");
+}
+
+// The slope's inner line, `wall` inside the outer one: y at height z.
+double inner_slope(const BlockParameters& p, double z) {
+  const double dy = p.crankcase_half_width - top_half_width(p);
+  const double dz = p.crankcase_top - p.shoulder_height;
+  const double outer = p.crankcase_half_width - dy * (z - p.shoulder_height) / dz;
+  return outer - p.crankcase_wall * std::hypot(dy, dz) / dz;
+}
+
+Solids hollows(GmshSession& s, const BlockParameters& p) {
+  const double w = p.crankcase_half_width - p.crankcase_wall, roof = p.roof();
+  // Where the vertical inner wall meets the inner slope.
+  const double dy = p.crankcase_half_width - top_half_width(p);
+  const double slope = dy / (p.crankcase_top - p.shoulder_height);
+  const double bend = p.shoulder_height + (inner_slope(p, p.shoulder_height) - w) / slope;
+  const double below = -p.skirt_depth;
+  Solids tools;
+  const double half = 0.5 * (p.cylinder_pitch - p.bearing_wall);
+  for (int i = 0; i < p.cylinders; ++i) {
+    const double x = p.x_of_cylinder(i);
+    tools.push_back(symmetric_prism(s, {{w, below}, {w, bend}, {inner_slope(p, roof), roof}},
+                                    x - half, x + half));
+    tools.push_back(upright(s, x, p.jacket_radius(), p.jacket_bottom(), p.jacket_top()));
+    tools.push_back(upright(s, x, p.liner_radius(), roof, p.deck_height + 1.0));
+  }
+  // The bearing walls are open around the liners' free lower ends: the chambers breathe there.
+  const double reach = p.x_of_cylinder(p.cylinders - 1) + p.liner_radius() + p.liner_wall;
+  const double window = kWindow * p.liner_radius();
+  tools.push_back(
+      s.box({-reach, -window, p.liner_bottom() - p.liner_protrusion}, {reach, window, roof}));
+  const double end = p.half_length() - 1.5 * p.end_wall;
+  tools.push_back(s.box({-end, -w, below}, {end, w, p.bearing_wall_bottom}));
+  return tools;
+}
+
+Solids bearing_bosses(GmshSession& s, const BlockParameters& p) {
+  Solids bosses;
+  const double l = p.half_length();
+  for (int k = 0; k <= p.cylinders; ++k) {
+    const double a = std::max(p.x_of_bearing(k) - 0.5 * p.bearing_width, -l);
+    const double b = std::min(p.x_of_bearing(k) + 0.5 * p.bearing_width, l);
+    bosses.push_back(s.cylinder({a, 0.0, 0.0}, {b - a, 0.0, 0.0}, 0.5 * p.bearing_boss));
+  }
+  return bosses;
+}
+
+// Bearing walls that carry the pads: the second from each end where there are that many.
+std::array<int, 2> mount_walls(const BlockParameters& p) {
+  if (p.cylinders < 3) return {0, p.cylinders};
+  return {1, p.cylinders - 1};
+}
+
+Solids mount_pads(GmshSession& s, const BlockParameters& p) {
+  Solids pads;
+  const double w = p.crankcase_half_width, root = w - 0.5 * p.crankcase_wall;
+  const double l = p.half_length();
+  for (int k : mount_walls(p)) {
+    const double a = std::max(p.x_of_bearing(k) - 0.5 * p.mount_length, -l);
+    const double b = std::min(p.x_of_bearing(k) + 0.5 * p.mount_length, l);
+    const double out = w + p.mount_thickness;
+    pads.push_back(s.box({a, root, 0.0}, {b, out, p.mount_height}));
+    pads.push_back(s.box({a, -out, 0.0}, {b, -root, p.mount_height}));
+  }
+  return pads;
+}
+
+Solids liners(GmshSession& s, const BlockParameters& p) {
+  Solids result;
+  for (int i = 0; i < p.cylinders; ++i) {
+    const double x = p.x_of_cylinder(i);
+    const Solid outside = upright(s, x, p.liner_radius(), p.liner_bottom(), p.deck_height);
+    const Solid inside = upright(s, x, 0.5 * p.bore, p.liner_bottom(), p.deck_height);
+    result.push_back(require_one(s.cut({outside}, {inside}), "block: liner"));
+  }
+  return result;
+}
+
+// --- surfaces ------------------------------------------------------------------------------------
+
+constexpr double kFar = 1e9;
+
+NamedSurface in_plane(const std::string& name, const Vector3d& normal, double height,
+                      const BoxFilter& box) {
+  SurfaceFilter filter;
+  filter.plane = PlaneFilter{normal, height};
+  filter.box = box;
+  return {name, {filter}};
+}
+
+NamedSurface outer_surface(const BlockParameters& p) {
+  const double roof = p.roof(), w = p.crankcase_half_width - p.crankcase_wall;
+  const double r = p.jacket_radius(), deck = p.deck_height, pan = -p.skirt_depth;
+  SurfaceFilter filter;
+  filter.outside = {
+      {{-kFar, -w, pan}, {kFar, w, roof}},                                // crankcase
+      {{-kFar, -r, p.jacket_bottom()}, {kFar, r, p.jacket_top()}},        // jackets
+      {{-kFar, -p.liner_radius(), 0.0}, {kFar, p.liner_radius(), deck}},  // bores
+      {{-kFar, -kFar, pan}, {kFar, kFar, pan}},                           // pan flange
+      {{-kFar, -kFar, deck}, {kFar, kFar, deck}},                         // deck
+  };
+  return {"outer", {filter}};
+}
+
+std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
+  std::vector<NamedSurface> surfaces;
+  for (int i = 0; i < p.cylinders; ++i) {
+    const double x = p.x_of_cylinder(i), r = p.liner_radius();
+    SurfaceFilter bore;
+    bore.cylinder = CylinderFilter{0.5 * p.bore, {x, 0.0, 0.0}, Vector3d::UnitZ()};
+    surfaces.push_back({fmt::format("liner_{}_bore", i + 1), {bore}});
+    surfaces.push_back(in_plane(fmt::format("head_{}", i + 1), Vector3d::UnitZ(), p.deck_height,
+                                {{x - r, -r, -kFar}, {x + r, r, kFar}}));
+  }
+  for (int k = 0; k <= p.cylinders; ++k) {
+    SurfaceFilter bearing;
+    const double x = p.x_of_bearing(k), half = 0.5 * p.cylinder_pitch;
+    bearing.cylinder = CylinderFilter{0.5 * p.bearing_bore, Vector3d::Zero(), Vector3d::UnitX()};
+    bearing.box = BoxFilter{{x - half, -kFar, -kFar}, {x + half, kFar, kFar}};
+    surfaces.push_back({fmt::format("bearing_{}", k + 1), {bearing}});
+  }
+  int mount = 1;
+  for (int k : mount_walls(p)) {
+    const double x = p.x_of_bearing(k), half = 0.5 * p.cylinder_pitch;
+    for (double side : {1.0, -1.0}) {
+      surfaces.push_back(in_plane(fmt::format("mount_{}", mount++), {0.0, side, 0.0},
+                                  p.crankcase_half_width + p.mount_thickness,
+                                  {{x - half, -kFar, 0.0}, {x + half, kFar, p.mount_height}}));
+    }
+  }
+  const BoxFilter anywhere{Vector3d::Constant(-kFar), Vector3d::Constant(kFar)};
+  surfaces.push_back(in_plane("pan_flange", Vector3d::UnitZ(), -p.skirt_depth, anywhere));
+  surfaces.push_back(in_plane("deck", Vector3d::UnitZ(), p.deck_height, anywhere));
+  surfaces.push_back(outer_surface(p));
+  return surfaces;
+}
+
+}  // namespace
+
+BlockParameters read_block(const Config& t) {
+  BlockParameters p;
+  p.cylinders = static_cast<int>(t.integer_or("cylinders", p.cylinders, {1, 8}));
+  const auto length = [&](const char* key, double& value) {
+    value = t.number_or(key, value, Range::positive());
+  };
+  length("bore", p.bore);
+  length("stroke", p.stroke);
+  length("rod_length", p.rod_length);
+  length("cylinder_pitch", p.cylinder_pitch);
+  length("deck_height", p.deck_height);
+  length("deck_thickness", p.deck_thickness);
+  length("deck_overhang", p.deck_overhang);
+  length("liner_wall", p.liner_wall);
+  length("liner_length", p.liner_length);
+  length("liner_protrusion", p.liner_protrusion);
+  length("jacket_thickness", p.jacket_thickness);
+  length("jacket_depth", p.jacket_depth);
+  length("outer_wall", p.outer_wall);
+  length("end_wall", p.end_wall);
+  length("column_width", p.column_width);
+  length("column_reach", p.column_reach);
+  length("crankcase_half_width", p.crankcase_half_width);
+  length("crankcase_wall", p.crankcase_wall);
+  length("shoulder_height", p.shoulder_height);
+  length("crankcase_top", p.crankcase_top);
+  length("skirt_depth", p.skirt_depth);
+  length("flange_width", p.flange_width);
+  length("flange_thickness", p.flange_thickness);
+  length("bearing_wall", p.bearing_wall);
+  p.bearing_wall_bottom = t.number_or("bearing_wall_bottom", p.bearing_wall_bottom);
+  length("bearing_bore", p.bearing_bore);
+  length("bearing_boss", p.bearing_boss);
+  length("bearing_width", p.bearing_width);
+  length("mount_length", p.mount_length);
+  length("mount_height", p.mount_height);
+  length("mount_thickness", p.mount_thickness);
+  check_block(t, p);
+  return p;
+}
+
+PartGeometry build_block(GmshSession& s, const BlockParameters& p) {
+  Solid block = outer_shell(s, p);
+  block = require_one(s.cut({block}, hollows(s, p)), "block: hollows");
+  Solids added = bearing_bosses(s, p);
+  const Solids pads = mount_pads(s, p);
+  added.insert(added.end(), pads.begin(), pads.end());
+  block = require_one(s.fuse({block}, added), "block: bearing bosses and mounts");
+  const double l = p.half_length() + 1.0;
+  const Solid bore = s.cylinder({-l, 0.0, 0.0}, {2.0 * l, 0.0, 0.0}, 0.5 * p.bearing_bore);
+  block = require_one(s.cut({block}, {bore}), "block: bearing bore");
+
+  Solids all = {block};
+  const Solids sleeves = liners(s, p);
+  all.insert(all.end(), sleeves.begin(), sleeves.end());
+  const std::vector<Solids> pieces = s.fragment(all);
+  PartGeometry part;
+  part.regions = {{"block", pieces.front()}, {"liner", {}}};
+  for (size_t i = 1; i < pieces.size(); ++i) {
+    part.regions[1].solids.push_back(require_one(pieces[i], "block: liner"));
+  }
+  part.surfaces = block_surfaces(p);
+  return part;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,104 @@
+#include "mesh/geometry/cad_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "mesh/cad/gmsh_defeature.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kBoxTolerance = 0.01;  // a wrong unit is off by 2.54 at least
+
+void check_box(GmshSession& session, const Config& table, const std::string& unit) {
+  if (!table.has("expected_box")) return;
+  const std::vector<double> expected = table.numbers("expected_box", 3);
+  const BoxFilter box = session.extent();
+  const Eigen::Vector3d found = box.max - box.min;
+  for (int d = 0; d < 3; ++d) {
+    if (std::abs(found[d] - expected[d]) <= kBoxTolerance * expected[d]) continue;
+    table.fail(
+        "expected_box",
+        fmt::format("found a part of {:.6g} x {:.6g} x {:.6g} {}, expected {:.6g} x {:.6g} "
+                    "x {:.6g}: is the file in another unit?",
+                    found[0], found[1], found[2], unit, expected[0], expected[1], expected[2]));
+  }
+}
+
+Solids without_small_features(GmshSession& session, const Solids& solids, double below,
+                              const std::string& unit) {
+  const Defeatured d = defeature(session, solids, below);
+  say(fmt::format(
+      "mesh: {} faces are narrower than {:g} {}; without them and with faces of one "
+      "surface united {} of {} faces are left; volume {:+.3g} %, box {:.6g} x {:.6g} x "
+      "{:.6g} {} (before {:.6g} x {:.6g} x {:.6g})",
+      d.asked, below, unit, d.faces_after, d.faces_before,
+      100.0 * (d.volume_after / d.volume_before - 1.0), d.box_after.x(), d.box_after.y(),
+      d.box_after.z(), unit, d.box_before.x(), d.box_before.y(), d.box_before.z()));
+  if (!d.kept.empty()) {
+    const auto& [width, place] = d.kept.front();
+    warn(
+        fmt::format("mesh: {} narrow faces stay, as their neighbours do not meet without them: "
+                    "{:.3g} {} wide at ({:.5g}, {:.5g}, {:.5g}){}",
+                    d.kept.size(), width, unit, place.x(), place.y(), place.z(),
+                    d.kept.size() > 1 ? ", ..." : ""));
+  }
+  return d.solids;
+}
+
+// Order by place, not by the tag that the import happened to give.
+Solids in_order(const GmshSession& session, Solids solids) {
+  std::sort(solids.begin(), solids.end(), [&](Solid a, Solid b) {
+    const Eigen::Vector3d p = session.centre(a), q = session.centre(b);
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  });
+  return solids;
+}
+
+// Makes the solids share their faces, and keeps what they were.
+std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
+  std::vector<CadSolid> known;
+  for (size_t i = 0; i < solids.size(); ++i) {
+    CadSolid solid{session.name_of(solids[i]), i + 1, solids.size(), session.centre(solids[i])};
+    solid.volume = session.volume({solids[i]});
+    known.push_back(std::move(solid));
+  }
+  const std::vector<Solids> pieces = session.join(solids);
+  for (size_t i = 0; i < solids.size(); ++i) {
+    known[i].pieces = pieces[i];
+    known[i].joined = session.volume(pieces[i]);
+  }
+  return known;
+}
+
+}  // namespace
+
+PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit) {
+  const std::string region = table.text_or("region", "solid");
+  Solids solids = session.import_cad(table.path("source"), unit);
+  const double narrow = table.number_or("defeature_below", 0.0, Range::not_negative());
+  if (narrow > 0.0) solids = without_small_features(session, solids, narrow, unit);
+  PartGeometry part;
+  part.volume_tolerance =
+      table.number_or("volume_tolerance", part.volume_tolerance, {0.0, 1.0, true});
+  if (solids.size() > 1) {
+    part.cad_solids = join_solids(session, solids);
+    Solids pieces;
+    for (const CadSolid& solid : part.cad_solids)
+      pieces.insert(pieces.end(), solid.pieces.begin(), solid.pieces.end());
+    std::sort(pieces.begin(), pieces.end());
+    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+    solids = in_order(session, pieces);
+  }
+  check_box(session, table, unit);
+  for (size_t i = 0; i < solids.size(); ++i) {
+    const std::string name = solids.size() == 1 ? region : fmt::format("{}_{}", region, i + 1);
+    part.regions.push_back({name, {solids[i]}});
+  }
+  return part;
+}
+
+}  // namespace clatter::mesh

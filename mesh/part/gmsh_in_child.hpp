@@ -1,0 +1,24 @@
+#pragma once
+// Gmsh and OpenCASCADE in a child process: both crash on real CAD files and damaged meshes, by
+// signals, by exit and by throwing across callbacks (hard case N17).
+#include <filesystem>
+#include <string>
+
+#include "core/base/child_process.hpp"
+#include "mesh/cad/gmsh_session.hpp"
+
+namespace clatter::mesh {
+
+/// What Gmsh was at: its own last line about its work ("Meshing surface 7 (Cylinder,
+/// Frontal-Delaunay)"), else the step of gmsh_call().
+std::string place_of(const ChildEnd& end);
+
+/// "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (...)", with what was said
+/// on stderr last.
+std::string describe_end(const ChildEnd& end, const ChildLimits& limits);
+
+/// Reads an MSH file with Gmsh in a child process. InputError for all that Gmsh reports and where
+/// it crashes on the file; NumericsError when a limit ended it.
+MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimits& limits);
+
+}  // namespace clatter::mesh

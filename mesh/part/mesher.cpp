@@ -1,0 +1,250 @@
+#include "mesh/part/mesher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/base/child_process.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/boundary.hpp"
+#include "mesh/cad/gmsh_small_features.hpp"
+#include "mesh/part/predict_cells.hpp"
+#include "mesh/part/solid_volumes.hpp"
+#include "mesh/part/valid_mesh.hpp"
+#include "mesh/repair/certify_mesh.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kCoarsest = 0.1;          // of the part's size: what Gmsh gives edges at most
+constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin round walls stay below
+
+using FaceTags = std::map<std::string, std::vector<int>>;
+
+FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& part,
+                       const std::string& where) {
+  const SelectionScale scale{size_of_part(faces), part.unit};
+  FaceTags tags;
+  for (const NamedSurface& surface : part.surfaces) {
+    const Selection selection = select_faces(faces, surface, scale, where);
+    for (const std::string& doubt : selection.doubts) warn(doubt);
+    for (const std::string& remark : selection.remarks) say(remark);
+    tags[surface.name] = selection.tags;
+  }
+  return tags;
+}
+
+// Gmsh gives edges a tenth of the part's size at most; so that larger sizes are one and the same
+// mesh, faces and solids get no more either. Coarser chords would cut through walls.
+void cap_size(SizeSettings& sizes, double coarsest) {
+  if (sizes.size <= coarsest) return;
+  say(
+      fmt::format("mesh: element size {:g} is above a tenth of the part's diagonal: {:.4g}, the "
+                  "coarsest there is, is taken (lengths in the part's unit)",
+                  sizes.size, coarsest));
+  sizes.size = std::max(coarsest, sizes.min_size);
+}
+
+// Features far below the size asked for: cells there are as small as they are.
+void say_small_features(GmshSession& session, const std::vector<FaceFacts>& faces, double size) {
+  constexpr double kFarBelow = 0.2;  // of the size: cells grow to it over several layers
+  const SmallFeatures features = find_small_features(session, faces, kFarBelow * size);
+  if (features.count() == 0) return;
+  say(
+      fmt::format("mesh: the part has features far smaller than its elements ({:g}), which rule "
+                  "the mesh around them: {}",
+                  size, describe_small_features(features)));
+}
+
+// A face's own size: the smaller of what the factor and the curvature ask for.
+double size_on(GmshSession& session, int face, const LocalSize& local, const SizeSettings& sizes) {
+  double size = local.factor * sizes.size;
+  const double radius = local.elements_per_turn > 0 ? session.smallest_radius(face) : 0.0;
+  if (radius > 0.0)
+    size = std::min(size, 2.0 * std::numbers::pi * radius / local.elements_per_turn);
+  return std::max(size, sizes.min_size);
+}
+
+SizeSettings size_settings(GmshSession& session, const MeshSettings& settings,
+                           const FaceTags& surfaces, double metres_per_unit,
+                           const std::string& where) {
+  SizeSettings sizes;
+  sizes.size = settings.element_size / metres_per_unit;
+  sizes.min_size = settings.min_size / metres_per_unit;
+  sizes.per_turn = settings.elements_per_turn;
+  sizes.adaptive_faces = settings.adaptive_faces;
+  for (const LocalSize& local : settings.local) {
+    const auto found = surfaces.find(local.surface);
+    if (found == surfaces.end()) {
+      std::string names;
+      for (const auto& entry : surfaces) names += (names.empty() ? "" : ", ") + entry.first;
+      throw InputError(fmt::format("{}: mesh.local: surface '{}' not found, expected one of: {}",
+                                   where, local.surface, names.empty() ? "none" : names));
+    }
+    for (int tag : found->second) {
+      const double size = size_on(session, tag, local, sizes);
+      const auto [at, is_new] = sizes.face_sizes.emplace(tag, size);
+      at->second = std::min(at->second, size);
+      if (local.growth > 0.0 && size < sizes.size)
+        sizes.gradations.push_back({tag, size, local.growth});
+    }
+  }
+  return sizes;
+}
+
+// Gmsh's triangles say which face they lie on; the cell they belong to says where outside is.
+Surface surface_of(const RawMesh& raw, const std::vector<int>& tags,
+                   const BoundaryFaces& boundary) {
+  SurfaceBuilder surface;
+  for (int tag : tags) {
+    const IndexMatrix& faces = raw.face_cells.at(tag);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      const std::array<int32_t, 3> corners = {faces(f, 0), faces(f, 1), faces(f, 2)};
+      const BoundaryFace& face = boundary.at(face_key(FaceType::kTri3, corners));
+      surface.add(face.type, face.ids);
+    }
+  }
+  return surface.finish();
+}
+
+// A face's triangles have the face's own normal: 1 where that points out of the solid, else -1.
+int side_of(const IndexMatrix& triangles, const BoundaryFaces& boundary) {
+  const std::array<int32_t, 3> corners = {triangles(0, 0), triangles(0, 1), triangles(0, 2)};
+  const BoundaryFace& outward = boundary.at(face_key(FaceType::kTri3, corners));
+  const auto at = std::find(outward.ids.begin(), outward.ids.begin() + 3, corners[0]);
+  return outward.ids[static_cast<size_t>(at - outward.ids.begin() + 1) % 3] == corners[1] ? 1 : -1;
+}
+
+// Volume within the faces by a skin twice as fine as the mesh [cubed unit of the part].
+double volume_of_finer_skin(GmshSession& session, const RawMesh& raw, const BoundaryFaces& boundary,
+                            SizeSettings sizes) {
+  sizes.size /= 2.0;
+  sizes.min_size /= 2.0;
+  sizes.per_turn *= 2;
+  for (auto& entry : sizes.face_sizes) entry.second /= 2.0;
+  for (Gradation& gradation : sizes.gradations) gradation.size /= 2.0;
+  const std::vector<FaceFacts> faces = session.boundary_faces();
+  const RawMesh fine = session.generate_skin(sizes);
+  Mesh mesh;
+  mesh.nodes = fine.nodes;
+  double volume = 0.0;
+  for (const FaceFacts& face : faces) {
+    Surface surface;
+    surface.faces = {{FaceType::kTri6, fine.face_cells.at(face.tag)}};
+    volume += side_of(raw.face_cells.at(face.tag), boundary) * integrate(mesh, surface).enclosed;
+  }
+  return volume;
+}
+
+double cad_volume_of(const GmshSession& session, const PartGeometry& part) {
+  double volume = 0.0;
+  for (const RegionSolids& region : part.regions) volume += session.volume(region.solids);
+  return volume;
+}
+
+// Where OpenCASCADE's integral over the solid and the mesh disagree, one of them is wrong: it takes
+// a fixed number of points on splines of any length, and is far off on wavy ones.
+void certify_volume(GmshSession& session, const PartGeometry& part, const RawMesh& raw,
+                    const BoundaryFaces& boundary, const SizeSettings& sizes,
+                    double metres_per_unit, std::map<std::string, double>& certificate) {
+  const double cubed = metres_per_unit * metres_per_unit * metres_per_unit;
+  const double volume = certificate.at("volume_m3");
+  double cad_volume = cubed * cad_volume_of(session, part);
+  certificate["occ_volume_m3"] = cad_volume;
+  if (std::abs(volume / cad_volume - 1.0) > kVolumeTolerance) {
+    const double integrated = cubed * volume_of_finer_skin(session, raw, boundary, sizes);
+    if (std::abs(volume / integrated - 1.0) > kVolumeTolerance)
+      throw NumericsError(
+          fmt::format("mesh: volume {:.9g} m3, expected the CAD volume {:.9g} m3 (or {:.9g} by a "
+                      "finer skin) within 1 %: choose smaller elements or more per turn",
+                      volume, cad_volume, integrated));
+    say(
+        fmt::format("mesh: OpenCASCADE integrates the part to {:.6g} m3, a skin twice as fine to "
+                    "{:.6g} m3: the second is taken as the CAD volume",
+                    cad_volume, integrated));
+    cad_volume = integrated;
+  }
+  certificate["cad_volume_m3"] = cad_volume;
+  certificate["volume_against_cad"] = volume / cad_volume - 1.0;
+}
+
+}  // namespace
+
+MeshSettings read_mesh_settings(const Config& config) {
+  MeshSettings settings;
+  const auto table = config.find_table("mesh");
+  if (!table) return settings;
+  settings.element_size =
+      1e-3 * table->number_or("element_size_mm", 1e3 * settings.element_size, Range::positive());
+  settings.min_size = 1e-3 * table->number_or("min_size_mm", 0.0, Range::not_negative());
+  settings.elements_per_turn =
+      static_cast<int>(table->integer_or("elements_per_turn", 0, {0.0, 1000.0}));
+  settings.min_dihedral_deg =
+      table->number_or("min_dihedral_deg", settings.min_dihedral_deg, {0.0, 60.0});
+  settings.min_scaled_jacobian =
+      table->number_or("min_scaled_jacobian", settings.min_scaled_jacobian, {0.0, 0.9});
+  settings.refine_passes =
+      static_cast<int>(table->integer_or("refine_passes", settings.refine_passes, {0.0, 20.0}));
+  settings.max_cells = table->number_or("max_cells", settings.max_cells, Range::positive());
+  settings.accept_poor_cells = table->flag_or("accept_poor_cells", false);
+  if (settings.min_size > settings.element_size) {
+    table->fail("min_size_mm", "expected at most element_size_mm");
+  }
+  for (const Config& local : table->tables("local")) {
+    const std::string surface = local.text("surface");
+    LocalSize size{surface};
+    size.factor = local.number_or("factor", 1.0, {0.0, 1.0, true});
+    size.elements_per_turn =
+        static_cast<int>(local.integer_or("elements_per_turn", 0, {0.0, 1000.0}));
+    size.growth = local.number_or("growth", 0.0, {0.0, 10.0});
+    if (!local.has("factor") && size.elements_per_turn == 0)
+      local.fail("factor", "found neither factor nor elements_per_turn, expected one of them");
+    settings.local.push_back(size);
+  }
+  return settings;
+}
+
+QualityLimits aims_of(const MeshSettings& settings) {
+  return {settings.min_dihedral_deg, settings.min_scaled_jacobian};
+}
+
+PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                   double metres_per_unit, const std::string& name, const std::string& where) {
+  const std::vector<FaceFacts> faces = session.boundary_faces();
+  const FaceTags tags = find_surfaces(faces, part, where);
+  SizeSettings sizes = size_settings(session, settings, tags, metres_per_unit, where);
+  cap_size(sizes, kCoarsest * size_of_part(faces));
+  say_small_features(session, faces, sizes.size);
+  const double predicted = require_few_cells(session, cad_volume_of(session, part), sizes, settings,
+                                             metres_per_unit, where);
+  PartMesh result;
+  const Repair repair =
+      make_valid_mesh(session, part, settings, sizes, metres_per_unit, result.mesh);
+  const RawMesh raw = session.extract();
+  enter_step("proving the mesh");
+  Mesh& mesh = result.mesh;
+  mesh.name = name;
+  const BoundaryFaces boundary = boundary_faces(mesh);
+  mesh.surfaces["skin"] = skin_of(boundary);
+  for (const auto& [surface, selected] : tags) {
+    mesh.surfaces[surface] = surface_of(raw, selected, boundary);
+    mesh.node_sets[surface] = nodes_of(mesh.surfaces[surface]);
+  }
+  check_structure(mesh, "mesh");
+  result.quality = measure_quality(mesh);
+  result.certificate = certify_mesh(mesh, result.quality);
+  check_solid_volumes(part, mesh, metres_per_unit, where);
+  certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
+  result.certificate["predicted_cells"] = predicted;
+  result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
+  result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
+  result.certificate["optimiser_repair"] = repair.optimised ? 1.0 : 0.0;
+  result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;
+  result.certificate["nodes_off_geometry"] = static_cast<double>(repair.pulled);
+  result.certificate["largest_distance_off_geometry_m"] = repair.largest_pull;
+  return result;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,50 @@
+#pragma once
+// From a part's geometry to a proved mesh.
+#include <map>
+#include <string>
+
+#include "core/mesh/mesh.hpp"
+#include "mesh/geometry/part_geometry.hpp"
+#include "mesh/repair/poor_cells.hpp"
+#include "mesh/repair/quality.hpp"
+
+namespace clatter::mesh {
+
+/// Finer cells on one named surface.
+struct LocalSize {
+  std::string surface;
+  double factor = 1.0;  // of the element size, so that the one number still refines everything
+  int elements_per_turn = 0;  // on a full circle of the surface's smallest radius; 0: not asked for
+  double growth = 0.0;        // of the size per distance from the surface; 0: left to Gmsh
+};
+
+/// Table [mesh].
+struct MeshSettings {
+  double element_size = 0.012;       // key element_size_mm [m]
+  double min_size = 0.0;             // key min_size_mm [m]: curvature asks for nothing below
+  int elements_per_turn = 0;         // on a full circle; 0: curvature is not looked at
+  double min_dihedral_deg = 8.0;     // aimed at: cells below are meshed anew with finer neighbours
+  double min_scaled_jacobian = 0.2;  // aimed at: curved cells below are unfolded
+  int refine_passes = 4;             // at most so many times; 0: never
+  double max_cells = 5e6;            // more are refused before meshing, by predict_cells()
+  bool accept_poor_cells = false;    // below the floor of poor_cells.hpp: warned of, not refused
+  std::vector<LocalSize> local;      // [[mesh.local]]
+  bool adaptive_faces = false;       // no key: for parts on which Gmsh's frontal algorithm crashes
+};
+MeshSettings read_mesh_settings(const Config& config);
+QualityLimits aims_of(const MeshSettings& settings);
+
+struct PartMesh {
+  Mesh mesh;
+  QualityReport quality;
+  std::map<std::string, double> certificate;
+};
+
+/// Meshes the part with quadratic tetrahedra, lifts slivers, unfolds and proves the curved cells,
+/// names the surfaces, measures. `where` begins messages about surfaces that select nothing
+/// (InputError). NumericsError when a cell stays invalid, the boundary is not closed and outward,
+/// or the mesh's volume differs from the CAD volume by more than 1 %.
+PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                   double metres_per_unit, const std::string& name, const std::string& where);
+
+}  // namespace clatter::mesh

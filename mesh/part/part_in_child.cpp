@@ -1,0 +1,170 @@
+#include "mesh/part/part_in_child.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "mesh/part/gmsh_in_child.hpp"
+#include "mesh/part/mesh_wire.hpp"
+
+namespace clatter {
+
+template <class Archive, SelfOf<StepClock::Step> Self>
+void wire(Archive& archive, Self& s) {
+  auto& [name, seconds, peak_gib] = s;
+  archive(name, seconds, peak_gib);
+}
+
+}  // namespace clatter
+
+namespace clatter::mesh {
+
+template <class Archive, SelfOf<MadePart> Self>
+void wire(Archive& archive, Self& s) {
+  auto& [part, config, steps, cad] = s;
+  archive(part, config, steps, cad);
+}
+
+namespace {
+
+// A folder under $TMPDIR that goes with its owner.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string path = (std::filesystem::temp_directory_path() / "clatter-mesh-XXXXXX").string();
+    if (::mkdtemp(path.data()) == nullptr)
+      throw FileError(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
+    path_ = path;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  if (!file) throw FileError(fmt::format("{}: cannot be read again", path.string()));
+  return std::move(bytes).str();
+}
+
+// In the child.
+MadePart make_part(const PartJob& job, const MeshSettings& settings,
+                   const std::filesystem::path& scratch) {
+  const Config& config = *job.config;
+  const LengthUnit unit = read_length_unit(config);
+  StepClock clock;
+  MadePart made;
+  GmshSession session(job.name);
+  const PartGeometry part = build_part(session, config);
+  config.finish();
+  clock.lap("geometry");
+  if (!job.cad_extension.empty()) {
+    const std::filesystem::path file = scratch / ("part" + job.cad_extension);
+    session.write_cad(file, unit.name);
+    made.cad = bytes_of(file);
+  }
+  made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
+  clock.lap("mesh");
+  made.config = config.resolved();
+  made.steps = clock.steps();
+  return made;
+}
+
+std::string sizes_of(const MeshSettings& settings) {
+  std::string text = fmt::format("element_size_mm = {:g}", 1e3 * settings.element_size);
+  if (settings.elements_per_turn > 0)
+    text += fmt::format(", elements_per_turn = {}", settings.elements_per_turn);
+  if (!settings.local.empty()) text += fmt::format(", {} local sizes", settings.local.size());
+  return text;
+}
+
+bool limit_ended(const ChildEnd& end) {
+  return end.kind == ChildEnd::Kind::kTimeLimit || end.kind == ChildEnd::Kind::kMemoryLimit;
+}
+
+// Steps of meshing bear Gmsh's name, those of the geometry do not (gmsh_call).
+bool fell_while_meshing(const ChildEnd& end) {
+  return !limit_ended(end) && end.step.starts_with("gmsh: ");
+}
+
+std::string advice_of(const ChildEnd& end) {
+  if (end.kind == ChildEnd::Kind::kTimeLimit) return "raise the limit or choose larger elements";
+  if (end.kind == ChildEnd::Kind::kMemoryLimit)
+    return "choose larger elements, or raise the limit where the machine has more";
+  return "heal the part in its CAD program (tiny edges, faces that overlap) or export it in "
+         "another "
+         "format (STEP, BREP)";
+}
+
+struct Attempt {
+  MeshSettings settings;
+  std::string difference;  // from what was asked for
+};
+
+Attempt simpler_than(MeshSettings settings) {
+  if (settings.elements_per_turn > 0) {
+    settings.elements_per_turn = 0;
+    return {settings, "without elements_per_turn (local sizes stay)"};
+  }
+  settings.adaptive_faces = true;
+  return {settings, "with Gmsh's MeshAdapt on the faces"};
+}
+
+}  // namespace
+
+MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
+  const Stopwatch clock;
+  MeshSettings asked = read_mesh_settings(*job.config);
+  if (job.element_size > 0.0) asked.element_size = job.element_size;
+  std::optional<ScratchFolder> scratch;
+  ChildLimits mine = limits;
+  if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();
+  const auto attempt = [&](const MeshSettings& settings) {
+    return run_in_child(mine, [&] { return to_wire(make_part(job, settings, mine.scratch)); });
+  };
+  const auto made_of = [&](const ChildEnd& end, double simpler) {
+    auto made = from_wire<MadePart>(end.result);
+    made.part.certificate["simpler_setting"] = simpler;
+    return made;
+  };
+
+  const ChildEnd first = attempt(asked);
+  if (first.done()) return made_of(first, 0.0);
+  const std::string fall =
+      fmt::format("{}: {}, with {}", job.where, describe_end(first, limits), sizes_of(asked));
+  if (!fell_while_meshing(first))
+    throw NumericsError(fmt::format("{}; {}", fall, advice_of(first)));
+
+  const Attempt simpler = simpler_than(asked);
+  warn(fmt::format("{}; trying once more {}", fall, simpler.difference));
+  if (limits.seconds > 0.0) mine.seconds = std::max(1.0, limits.seconds - clock.seconds());
+  const ChildEnd second = attempt(simpler.settings);
+  if (second.done()) {
+    warn(fmt::format("{}: meshed {}: Gmsh does not survive what was asked for", job.where,
+                     simpler.difference));
+    return made_of(second, asked.elements_per_turn > 0 ? 1.0 : 2.0);
+  }
+  throw NumericsError(fmt::format("{}; then, {}: {}; try another element_size_mm{}, or {}", fall,
+                                  simpler.difference, describe_end(second, limits),
+                                  asked.local.empty() ? "" : " or local sizes", advice_of(second)));
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,235 @@
+#include "mesh/part/valid_mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "core/base/child_process.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/validity.hpp"
+#include "mesh/repair/sliver.hpp"
+#include "mesh/repair/straighten.hpp"
+#include "mesh/repair/unfold.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kSpotFactor = 0.6;  // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;  // and where cells folded
+constexpr size_t kHopeless = 2;      // times as many slivers: the part itself is so sharp there
+constexpr int64_t kMostGrowth = 2;   // times as many cells: no aim is worth more, slivers are told
+constexpr size_t kManyFolds = 500;   // HighOrder takes 0.2 s for each
+constexpr double kLargestPull = 0.05;  // of the edge
+constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
+
+Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_unit) {
+  Mesh mesh;
+  mesh.nodes = raw.nodes * metres_per_unit;
+  for (const RegionSolids& region : part.regions) {
+    Eigen::Index rows = 0;
+    for (Solid s : region.solids) rows += raw.cells.at(s).rows();
+    CellBlock block{CellType::kTet10, static_cast<int32_t>(mesh.regions.size()), {}, {}};
+    block.nodes.resize(rows, 10);
+    rows = 0;
+    for (Solid s : region.solids) {
+      const IndexMatrix& cells = raw.cells.at(s);
+      block.nodes.middleRows(rows, cells.rows()) = cells;
+      rows += cells.rows();
+    }
+    mesh.regions.push_back(region.name);
+    mesh.cells.push_back(std::move(block));
+  }
+  return mesh;
+}
+
+// Four corner rows of a cell.
+Eigen::Matrix<double, 4, 3> corners_of(const Mesh& mesh, const CellBlock& block, Eigen::Index c) {
+  Eigen::Matrix<double, 4, 3> x;
+  for (int i = 0; i < 4; ++i) x.row(i) = mesh.nodes.row(block.nodes(c, i));
+  return x;
+}
+
+double mean_edge(const Eigen::Matrix<double, 4, 3>& x) {
+  double sum = 0.0;
+  for (const auto& [a, b] : kTetEdges) sum += (x.row(a) - x.row(b)).norm();
+  return sum / 6.0;
+}
+
+// The session's linear mesh, one block a solid, in the session's unit.
+Mesh linear_mesh(const RawMesh& raw) {
+  Mesh mesh;
+  mesh.nodes = raw.nodes;
+  for (const auto& entry : raw.cells) {
+    mesh.cells.push_back({CellType::kTet4, 0, entry.second, {}});
+  }
+  return mesh;
+}
+
+// Where slivers cannot be lifted, the size does not fit a thin wall or a sharp corner. Finer cells
+// there make room for better ones.
+std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
+  std::vector<FineSpot> spots;
+  for (const CellBlock& block : mesh.cells) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const Eigen::Matrix<double, 4, 3> x = corners_of(mesh, block, c);
+      if (smallest_dihedral(x, limit_deg) >= limit_deg) continue;
+      const double mean = mean_edge(x);
+      spots.push_back({x.colwise().mean().transpose(), mean, kSpotFactor * mean});
+    }
+  }
+  return spots;
+}
+
+bool has_angle_below(const Mesh& mesh, double limit_deg) {
+  return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellBlock& block) {
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c)
+      if (smallest_dihedral(corners_of(mesh, block, c), limit_deg) < limit_deg) return true;
+    return false;
+  });
+}
+
+// Meshes and lifts slivers; while some stay, meshes again with finer spots. Leaves the attempt with
+// the fewest in the session, made quadratic, and its sizes in `sizes`.
+void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
+                              SizeSettings& sizes, bool split_corners) {
+  const double target = settings.min_dihedral_deg;
+  int64_t cells = 0;         // of the attempt, as Gmsh made it
+  bool below_floor = false;  // it would be refused
+  const auto attempt = [&](const SizeSettings& trial) {
+    session.generate(trial);
+    RawMesh raw = session.extract();
+    enter_step("lifting slivers");
+    Mesh linear = linear_mesh(raw);
+    cells = linear.cell_count();
+    int64_t edits = lift_slivers(linear, target).before;
+    if (split_corners) edits += split_blunt_corners(linear, target);
+    if (edits > 0) {
+      raw.nodes = linear.nodes;
+      size_t b = 0;
+      for (auto& entry : raw.cells) entry.second = linear.cells[b++].nodes;
+      session.replace_cells(raw);
+    }
+    below_floor = has_angle_below(linear, kQualityFloor.dihedral_deg);
+    return spots_at_slivers(linear, target);
+  };
+  SizeSettings trial = sizes;
+  std::vector<FineSpot> spots = attempt(trial);
+  size_t fewest = spots.size();
+  const int64_t most = below_floor ? std::numeric_limits<int64_t>::max() : kMostGrowth * cells;
+  for (int pass = 0; !spots.empty() && pass < settings.refine_passes; ++pass) {
+    say(fmt::format("mesh: {} cells have a dihedral angle below {:.1f} deg, refining there",
+                    spots.size(), target));
+    trial.spots.insert(trial.spots.end(), spots.begin(), spots.end());
+    spots = attempt(trial);
+    if (spots.size() > kHopeless * fewest || cells > most) break;
+    if (spots.size() >= fewest) continue;
+    fewest = spots.size();
+    sizes = trial;
+  }
+  if (!spots.empty()) attempt(sizes);
+  session.make_quadratic();
+}
+
+// Where cells stay folded, the size does not fit the curvature.
+void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityReport& folded,
+                        double metres_per_unit) {
+  for (const InvalidCell& cell : folded.invalid) {
+    const auto x = corners_of(mesh, mesh.cells[static_cast<size_t>(cell.block)], cell.cell);
+    const double mean = mean_edge(x) / metres_per_unit;
+    sizes.spots.push_back({cell.centre / metres_per_unit, mean, kFoldFactor * mean});
+  }
+}
+
+// "face 7 (Plane, centre (1, 2, 3))" of those that hold any of the nodes, in the part's unit.
+std::string describe_faces_at(GmshSession& session, const std::set<int32_t>& nodes) {
+  constexpr size_t kMost = 8;
+  const RawMesh raw = session.extract();
+  std::vector<std::string> faces;
+  for (const FaceFacts& face : session.boundary_faces()) {
+    const IndexMatrix& cells = raw.face_cells.at(face.tag);
+    const bool holds = std::any_of(cells.data(), cells.data() + cells.size(),
+                                   [&](int32_t node) { return nodes.contains(node); });
+    if (!holds || faces.size() == kMost) continue;
+    faces.push_back(fmt::format("face {} ({}, centre ({:.5g}, {:.5g}, {:.5g}))", face.tag,
+                                face.kind == "Unknown" ? "spline" : face.kind, face.centre.x(),
+                                face.centre.y(), face.centre.z()));
+  }
+  return fmt::format("{}", fmt::join(faces, ", "));
+}
+
+// The last means; `mesh` has cells that stay folded.
+void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mesh, Repair& repair) {
+  const std::vector<PulledNode> pulled = straighten_cells(mesh, kPulledRatio);
+  std::set<int32_t> too_far;
+  for (const PulledNode& p : pulled)
+    if (p.distance > kLargestPull * p.edge) too_far.insert(p.node);
+  if (!too_far.empty())
+    throw NumericsError(fmt::format(
+        "mesh: {} of {} cells stay invalid after repair and {} nodes would have to leave the "
+        "geometry by more than {:g} of their edge; to blame: {}; choose smaller elements or "
+        "more per turn there: {}",
+        folded.invalid.size(), mesh.cell_count(), too_far.size(), kLargestPull,
+        describe_faces_at(session, too_far), describe_invalid(folded, 5)));
+  repair.pulled = static_cast<int64_t>(pulled.size());
+  if (!pulled.empty()) repair.largest_pull = pulled.front().distance;
+  say(fmt::format("mesh: {} middle nodes leave the geometry, by {:.2g} m at most", repair.pulled,
+                  repair.largest_pull));
+}
+
+// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
+void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+              double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
+  session.optimise_curved_cells();
+  Mesh trial = convert(session.extract(), part, metres_per_unit);
+  unfold_cells(trial, settings.min_scaled_jacobian);
+  ValidityReport report = check_validity(trial);
+  if (report.min_ratio <= folded.min_ratio) return;
+  mesh = std::move(trial);
+  folded = std::move(report);
+  repair.optimised = true;
+  say("mesh: curved cells unfolded by Gmsh's HighOrder: another run may give other bits");
+}
+
+}  // namespace
+
+Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
+                       SizeSettings sizes, double metres_per_unit, Mesh& mesh) {
+  Repair repair;
+  ValidityReport folded;
+  for (int pass = 0;; ++pass) {
+    generate_without_slivers(session, settings, sizes, pass > 0);
+    mesh = convert(session.extract(), part, metres_per_unit);
+    enter_step("unfolding curved cells");
+    const ValidityReport before = check_validity(mesh);
+    repair.invalid_before = before.invalid.size();
+    repair.min_ratio_before = before.min_ratio;
+    unfold_cells(mesh, settings.min_scaled_jacobian);
+    folded = check_validity(mesh);
+    // HighOrder depends on where memory lies: other bits at each run. Finer cells come first.
+    const bool last = pass >= settings.refine_passes;
+    if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
+        before.invalid.size() <= kManyFolds)
+      optimise(session, part, settings, metres_per_unit, mesh, folded, repair);
+    if (folded.invalid.empty()) return repair;
+    if (last) break;
+    repair.optimised = false;
+    say(fmt::format("mesh: {} curved cells stay folded, refining there", folded.invalid.size()));
+    add_spots_at_folds(sizes, mesh, folded, metres_per_unit);
+  }
+  say(fmt::format("mesh: {} curved cells stay folded, smoothing the whole mesh",
+                  folded.invalid.size()));
+  session.repair_curved_cells();
+  mesh = convert(session.extract(), part, metres_per_unit);
+  unfold_cells(mesh, settings.min_scaled_jacobian);
+  repair.elastic = true;
+  folded = check_validity(mesh);
+  if (!folded.invalid.empty()) pull_straight(session, folded, mesh, repair);
+  return repair;
+}
+
+}  // namespace clatter::mesh

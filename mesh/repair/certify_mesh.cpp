@@ -1,0 +1,46 @@
+#include "mesh/repair/certify_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/mesh/boundary.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr double kClosedTolerance = 1e-10;  // relative; rounding of some 1e5 sums
+
+}  // namespace
+
+std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality) {
+  const Surface& skin = mesh.surface("skin");
+  const SurfaceIntegrals closed = integrate(mesh, skin);
+  const double volume = cell_volume(mesh);
+  const double against_surface = std::abs(closed.enclosed / volume - 1.0);
+  const double open = closed.normal.norm() / closed.area;
+  const auto inward = static_cast<double>(count_inward(mesh, skin));
+  if (against_surface > kClosedTolerance || open > kClosedTolerance || inward > 0.0) {
+    throw NumericsError(fmt::format(
+        "mesh: the boundary is not closed and outward: volume differs by {:.3g}, |sum n dS| / area "
+        "= {:.3g}, {} inward normals: choose smaller elements or more per turn where walls are "
+        "thin",
+        against_surface, open, inward));
+  }
+  return {{"cells", static_cast<double>(mesh.cell_count())},
+          {"nodes", static_cast<double>(mesh.nodes.rows())},
+          {"dofs", 3.0 * static_cast<double>(mesh.nodes.rows())},
+          {"volume_m3", volume},
+          {"volume_against_surface_integral", against_surface},
+          {"closed_surface_residue", open},
+          {"inward_normals", inward},
+          {"skin_area_m2", closed.area},
+          {"invalid_cells", 0.0},
+          {"min_scaled_jacobian", quality.scaled_jacobian.worst},
+          {"min_dihedral_deg", quality.min_dihedral_deg.worst},
+          {"max_dihedral_deg", quality.max_dihedral_deg.worst},
+          {"min_radius_ratio", quality.radius_ratio.worst}};
+}
+
+}  // namespace clatter::mesh

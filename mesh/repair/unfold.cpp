@@ -1,0 +1,112 @@
+#include "mesh/repair/unfold.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/validity.hpp"
+#include "mesh/repair/pattern_search.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+constexpr int kSweeps = 10;
+constexpr double kFirstStep = 0.1;  // of the cell's size: middle nodes have little room
+
+using CellId = std::pair<size_t, Eigen::Index>;  // block, row
+
+class CurvedCells {
+ public:
+  explicit CurvedCells(Mesh& mesh) : mesh_(mesh) {
+    const auto n = static_cast<size_t>(mesh.nodes.rows());
+    fixed_.assign(n, false);
+    around_.resize(n);
+    for (size_t b = 0; b < mesh.cells.size(); ++b) {
+      const CellBlock& block = mesh.cells[b];
+      for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+        for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) {
+          around_[static_cast<size_t>(block.nodes(c, i))].push_back({b, c});
+        }
+      }
+      Mesh alone;
+      alone.cells = {block};
+      for (const auto& entry : boundary_faces(alone)) {
+        for (int32_t node : entry.second.nodes()) fixed_[static_cast<size_t>(node)] = true;
+      }
+    }
+  }
+
+  double ratio(const CellId& id) const {
+    return jacobian_bounds(tet_nodes(mesh_, mesh_.cells[id.first], id.second)).ratio();
+  }
+
+  std::vector<CellId> below(double target) const {
+    std::vector<CellId> found;
+    for (size_t b = 0; b < mesh_.cells.size(); ++b) {
+      for (Eigen::Index c = 0; c < mesh_.cells[b].nodes.rows(); ++c) {
+        if (ratio({b, c}) < target) found.push_back({b, c});
+      }
+    }
+    return found;
+  }
+
+  // Moves the free nodes of the cell until it is good enough, middle nodes before corners: those
+  // leave the straight shape alone. True when the cell got better.
+  bool improve(const CellId& id, double target) {
+    const double before = ratio(id);
+    const CellBlock& block = mesh_.cells[id.first];
+    const double size = std::cbrt(6.0 * std::abs(volume_of(tet_nodes(mesh_, block, id.second))));
+    for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
+      const int32_t node = block.nodes(id.second, i);
+      if (fixed_[static_cast<size_t>(node)]) continue;
+      search_place(Node{mesh_.nodes, node}, kFirstStep * size,
+                   [&](double best) { return worst_around(node, best); });
+    }
+    return ratio(id) > before;
+  }
+
+ private:
+  struct Node {
+    RowMatrix& nodes;
+    int32_t row;
+    Eigen::Vector3d get() const { return nodes.row(row).transpose(); }
+    void set(const Eigen::Vector3d& x) { nodes.row(row) = x.transpose(); }
+  };
+
+  // Exact where it is above `best`. The cell that ends the search goes to the front: it will end
+  // the next one too, mostly.
+  double worst_around(int32_t node, double best) {
+    double worst = 1.0;
+    std::vector<CellId>& cells = around_[static_cast<size_t>(node)];
+    for (CellId& id : cells) {
+      worst = std::min(worst, ratio(id));
+      if (worst > best) continue;
+      std::swap(id, cells.front());
+      break;
+    }
+    return worst;
+  }
+
+  Mesh& mesh_;
+  std::vector<bool> fixed_;
+  std::vector<std::vector<CellId>> around_;
+};
+
+}  // namespace
+
+int64_t unfold_cells(Mesh& mesh, double target) {
+  CurvedCells cells(mesh);
+  std::vector<CellId> bad = cells.below(target);
+  const auto before = static_cast<int64_t>(bad.size());
+  for (int sweep = 0; sweep < kSweeps && !bad.empty(); ++sweep) {
+    bool better = false;
+    for (const CellId& id : bad) better = cells.improve(id, target) || better;
+    if (!better) break;
+    bad = cells.below(target);
+  }
+  return before;
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,243 @@
+// A child process that aborts, hangs, eats memory, exits or throws what is no exception (hard case
+// N17): each is told, nothing is left behind, and what it hands back is whole.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "core/base/child_process.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/base/wire.hpp"
+
+namespace clatter {
+namespace {
+
+using Kind = ChildEnd::Kind;
+using namespace std::chrono_literals;
+
+ChildEnd child(const std::function<std::string()>& body, const ChildLimits& limits = {}) {
+  const ChildEnd end = run_in_child(limits, body);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+  return end;
+}
+
+std::string fall() {
+  enter_step("falling");
+  std::abort();
+}
+
+void throw_text() { throw std::string("lost"); }
+// As a library's that must not throw.
+void callback() noexcept { throw_text(); }
+
+TEST(HardN17_ChildProcess, HandsBackWhatItMadeBitByBit) {
+  std::string large(10'000'000, '\0');
+  for (size_t i = 0; i < large.size(); ++i) large[i] = static_cast<char>(i * i % 251);
+  const ChildEnd end = child([&] { return large; });
+  EXPECT_TRUE(end.done());
+  EXPECT_EQ(end.result, large);
+  EXPECT_TRUE(child([] { return std::string(); }).done());
+}
+
+TEST(HardN17_ChildProcess, AbortAndSegmentationFaultAreToldWithTheStep) {
+  const ChildEnd aborted = child(fall);
+  EXPECT_EQ(aborted.kind, Kind::kCrashed);
+  EXPECT_EQ(aborted.describe({}), "crashed (signal 6, Aborted)");
+  EXPECT_EQ(aborted.step, "falling");
+  const ChildEnd faulted = child([]() -> std::string {
+    ::raise(SIGSEGV);
+    return "never";
+  });
+  EXPECT_EQ(faulted.describe({}), "crashed (signal 11, Segmentation fault)");
+}
+
+TEST(HardN17_ChildProcess, ExitInAnyWayWithoutAResultIsNoSuccess) {
+  for (const int code : {0, 3}) {
+    const ChildEnd end = child([code]() -> std::string { std::exit(code); });
+    EXPECT_EQ(end.kind, Kind::kNoResult);
+    EXPECT_EQ(end.exit_code, code);
+    EXPECT_EQ(end.describe({}), "ended with exit code " + std::to_string(code) + " and no result");
+  }
+}
+
+TEST(HardN17_ChildProcess, WhateverIsThrownIsCaughtAndOurErrorsKeepTheirKind) {
+  const ChildEnd number = child([]() -> std::string { throw 42; });
+  EXPECT_EQ(number.kind, Kind::kThrew);
+  EXPECT_EQ(child([]() -> std::string { throw std::string("lost"); }).words, "lost");
+  EXPECT_EQ(child([]() -> std::string { throw std::out_of_range("far"); }).words, "far");
+  // Where nobody can catch it, the run-time library ends the process.
+  const ChildEnd terminated = child([]() -> std::string {
+    callback();
+    return "never";
+  });
+  EXPECT_EQ(terminated.signal, SIGABRT);
+  EXPECT_NE(terminated.chatter.find("terminate called after throwing"), std::string::npos);
+  EXPECT_THROW(child([]() -> std::string { throw InputError("words"); }), InputError);
+  EXPECT_THROW(child([]() -> std::string { throw NumericsError("words"); }), NumericsError);
+  try {
+    child([]() -> std::string { throw FileError("no room"); });
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "no room");
+  }
+}
+
+TEST(HardN17_ChildProcess, AHangEndsAtTheTimeLimit) {
+  const Stopwatch clock;
+  ChildLimits limits;
+  limits.seconds = 0.2;
+  const ChildEnd end = child(
+      []() -> std::string {
+        for (;;) std::this_thread::sleep_for(1h);
+      },
+      limits);
+  EXPECT_EQ(end.kind, Kind::kTimeLimit);
+  EXPECT_EQ(end.describe(limits), "was stopped after 0.2 s (--time-limit)");
+  EXPECT_LT(clock.seconds(), 10.0);  // a loaded machine; alone it takes 0.23 s
+}
+
+TEST(HardN17_ChildProcess, AChildThatEatsMemoryIsStoppedAtTheLimit) {
+  ChildLimits limits;
+  limits.memory_gib = 0.25;
+  const ChildEnd slowly = child(
+      []() -> std::string {
+        std::vector<std::vector<char>> eaten;
+        for (;;) eaten.emplace_back(std::size_t{1} << 22, 'x');
+      },
+      limits);
+  EXPECT_EQ(slowly.kind, Kind::kMemoryLimit);
+  EXPECT_EQ(slowly.describe(limits), "ran out of memory (0.25 GiB, --memory-limit)");
+#ifndef __SANITIZE_ADDRESS__  // which aborts at such a request
+  const ChildEnd at_once =
+      child([]() -> std::string { return {std::vector<char>(std::size_t{1} << 44, 'x').back()}; },
+            limits);
+  EXPECT_EQ(at_once.kind, Kind::kMemoryLimit);
+#endif
+}
+
+TEST(HardN17_ChildProcess, LibrariesThatPrintDoNotReachOurStdoutAndItsLinesDo) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  const ChildEnd end = child([]() -> std::string {
+    enter_step("first");
+    std::printf("old news\n");
+    enter_step("second");
+    std::printf("transfer of 7 entities\n");
+    std::cout << "and more\n" << std::flush;
+    std::fprintf(stderr, "trouble\n");
+    say("a line of ours");
+    warn("mind this");
+    ::raise(SIGSEGV);
+    return "never";
+  });
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "a line of ours\nwarning: mind this\n");
+  EXPECT_EQ(end.chatter, "transfer of 7 entities\nand more\ntrouble\n");
+  EXPECT_EQ(end.step, "second");
+}
+
+TEST(HardN17_ChildProcess, MuchTalkNeitherBlocksNorGrows) {
+  const ChildEnd end = child([]() -> std::string {
+    for (int i = 0; i < 200'000; ++i) std::printf("line %d of a library that talks a lot\n", i);
+    return "done";
+  });
+  EXPECT_EQ(end.result, "done");
+  EXPECT_LE(end.chatter.size(), 4096u);
+}
+
+// A process that waits for a child which hangs; the child writes its number into `file`.
+pid_t start_waiter(const std::filesystem::path& file, const std::filesystem::path& scratch) {
+  const pid_t waiter = ::fork();
+  if (waiter != 0) return waiter;
+  ChildLimits limits;
+  limits.scratch = scratch;
+  run_in_child(limits, [&]() -> std::string {
+    std::ofstream(file.string() + ".new") << ::getpid() << std::endl;
+    std::filesystem::rename(file.string() + ".new", file);
+    for (;;) std::this_thread::sleep_for(1h);
+  });
+  ::_exit(7);
+}
+
+bool comes_true(const std::function<bool()>& holds) {
+  for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(10ms);
+  return holds();
+}
+
+TEST(HardN17_ChildProcess, ASignalToTheParentTakesTheChildAndTheScratchWithIt) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
+    const auto folder = std::filesystem::temp_directory_path() /
+                        ("clatter_child_" + std::to_string(::getpid()) + std::to_string(signal));
+    std::filesystem::create_directories(folder / "scratch");
+    const pid_t waiter = start_waiter(folder / "pid", folder / "scratch");
+    ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(folder / "pid"); }));
+    pid_t hanging = 0;
+    std::ifstream(folder / "pid") >> hanging;
+    ASSERT_GT(hanging, 1);
+    ASSERT_EQ(::kill(hanging, 0), 0);
+    ::kill(waiter, signal);
+    int status = 0;
+    ::waitpid(waiter, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
+    // An orphan that is dead and waits for init to collect it counts as gone.
+    EXPECT_TRUE(comes_true([&] {
+      std::ifstream stat("/proc/" + std::to_string(hanging) + "/stat");
+      std::string number, name, state;
+      return !(stat >> number >> name >> state) || state == "Z";
+    })) << signal;
+    EXPECT_EQ(std::filesystem::exists(folder / "scratch"), signal == SIGKILL) << signal;
+    std::filesystem::remove_all(folder);
+  }
+}
+
+TEST(HardN17_ChildProcess, NoCoreFileIsAskedForAndTheParentsStateStays) {
+  rlimit before{}, after{};
+  ::getrlimit(RLIMIT_CORE, &before);
+  const ChildEnd end = child([] {
+    rlimit here{};
+    ::getrlimit(RLIMIT_CORE, &here);
+    return to_wire(static_cast<int>(is_child()) + 10 * static_cast<int>(here.rlim_cur));
+  });
+  EXPECT_EQ(from_wire<int>(end.result), 1);
+  ::getrlimit(RLIMIT_CORE, &after);
+  EXPECT_EQ(before.rlim_cur, after.rlim_cur);
+  EXPECT_FALSE(is_child());
+}
+
+TEST(Wire, ValuesComeBackAndBytesThatEndEarlyAreRefused) {
+  std::map<std::string, std::vector<double>> map = {{"a", {1.0 / 3.0, -0.0}}, {"", {}}};
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(3, 4);
+  const std::pair<int, std::string> both = {7, "x"};
+  WireWriter writer;
+  writer(map, matrix, both);
+  const std::string bytes = writer.take();
+  const auto read = [&](const std::string& from) {
+    std::map<std::string, std::vector<double>> map_again;
+    Eigen::MatrixXd matrix_again;
+    std::pair<int, std::string> both_again;
+    WireReader reader(from);
+    reader(map_again, matrix_again, both_again);
+    EXPECT_EQ(map, map_again);
+    EXPECT_EQ(matrix, matrix_again);
+    EXPECT_EQ(both, both_again);
+  };
+  read(bytes);
+  for (size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(read(bytes.substr(0, size)), NumericsError) << size;
+}
+
+}  // namespace
+}  // namespace clatter

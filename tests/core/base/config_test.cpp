@@ -1,0 +1,104 @@
+#include "core/base/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/error.hpp"
+
+namespace clatter {
+namespace {
+
+std::string message_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Config, ReadsNumbersTextsAndLists) {
+  const Config config = Config::parse("a = 1\nb = 2.5\nc = \"x\"\n[t]\nd = [1, 2.0]\n", "file");
+  EXPECT_EQ(config.integer("a"), 1);
+  EXPECT_EQ(config.number("a"), 1.0);
+  EXPECT_EQ(config.number("b"), 2.5);
+  EXPECT_EQ(config.text("c"), "x");
+  EXPECT_EQ(config.table("t").numbers("d", 2), (std::vector<double>{1.0, 2.0}));
+  EXPECT_NO_THROW(config.finish());
+}
+
+TEST(Config, AnUnknownKeyNamesTheNearestKnownOne) {
+  const Config config = Config::parse("[oil]\nviscosty = 1\n", "scene.toml");
+  config.table("oil").number_or("viscosity", 0.01);
+  EXPECT_EQ(message_of([&] { config.finish(); }),
+            "scene.toml:2: oil.viscosty: unknown key, did you mean viscosity?");
+}
+
+TEST(Config, AnUnknownTableIsAnUnknownKey) {
+  const Config config = Config::parse("[[load]]\nset = \"tip\"\nforse = 3\n", "s");
+  for (const auto& load : config.tables("load")) {
+    load.text("set");
+    load.number_or("force", 0.0);
+  }
+  EXPECT_EQ(message_of([&] { config.finish(); }),
+            "s:3: load[0].forse: unknown key, did you mean force?");
+}
+
+TEST(Config, AValueOutOfRangeSaysWhatWasFoundAndExpected) {
+  const Config config = Config::parse("clearance_um = -3\n", "s.toml");
+  EXPECT_EQ(message_of([&] { config.number("clearance_um", Range::not_negative()); }),
+            "s.toml:1: clearance_um: found -3, expected a number at least 0");
+}
+
+TEST(Config, NotANumberIsRefused) {
+  const Config config = Config::parse("a = nan\nb = true\nc = \"1\"\n", "s");
+  for (const char* key : {"a", "b", "c", "missing"}) {
+    EXPECT_THROW(config.number(key), InputError) << key;
+  }
+}
+
+TEST(Config, BrokenTomlNamesLineAndColumn) {
+  const std::string text = message_of([] { Config::parse("a = \n", "s.toml"); });
+  EXPECT_EQ(text.rfind("s.toml:1:", 0), 0U) << text;
+}
+
+TEST(Config, DefaultsStandInTheResolvedConfiguration) {
+  const Config config = Config::parse("a = 1\n", "s");
+  config.number("a");
+  config.number_or("b", 4.5);
+  config.choice("c", {"one", "two"});
+  EXPECT_EQ(config.resolved(), "a = 1\nb = 4.5\nc = \"one\"\n");
+}
+
+TEST(Config, AChoiceListsWhatIsAllowed) {
+  const Config config = Config::parse("mode = \"oily\"\n", "s");
+  EXPECT_EQ(message_of([&] {
+              config.choice("mode", {"film", "none"});
+            }),
+            "s:1: mode: found \"oily\", expected one of: film, none");
+}
+
+TEST(Config, WhatAFileDoesNotSayComesFromItsBase) {
+  const std::filesystem::path folder = ::testing::TempDir() + "clatter_config_base";
+  std::filesystem::create_directories(folder / "below");
+  std::ofstream(folder / "below/base.toml") << "table = \"gas.csv\"\n[oil]\nmu = 0.01\nkeep = 1\n";
+  std::ofstream(folder / "top.toml") << "base = \"below/base.toml\"\n[oil]\nmu = -2\n";
+  const Config config = Config::load_with_base(folder / "top.toml");
+  EXPECT_EQ(config.table("oil").number("mu"), -2.0);
+  EXPECT_EQ(config.table("oil").number("keep"), 1.0);
+  EXPECT_EQ(config.path("table"), folder / "below/gas.csv");
+  EXPECT_EQ(config.files().size(), 2U);
+  EXPECT_NO_THROW(config.finish());
+  const auto message = [&](const char* key) {
+    return message_of([&] { config.table("oil").number(key, Range{5.0, 9.0, false}); });
+  };
+  EXPECT_NE(message("mu").find("top.toml:3: oil.mu"), std::string::npos) << message("mu");
+  EXPECT_NE(message("keep").find("base.toml:4: oil.keep"), std::string::npos) << message("keep");
+  std::ofstream(folder / "loop.toml") << "base = \"loop.toml\"\n";
+  EXPECT_THROW(Config::load_with_base(folder / "loop.toml"), InputError);
+}
+
+}  // namespace
+}  // namespace clatter

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/sparse.hpp"
+#include "core/rom/reduced_model.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("clatter_core_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+SparseMatrix small_lower() {
+  SparseMatrix matrix(3, 3);
+  std::vector<Eigen::Triplet<double>> entries{{0, 0, 2.0}, {1, 0, -1.0}, {1, 1, 2.0}, {2, 2, 5.0}};
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+rom::ReducedModel small_model() {
+  rom::ReducedModel model;
+  model.name = "bar";
+  model.method = "craig-bampton";
+  model.n_boundary = 1;
+  model.M_rr = Eigen::MatrixXd::Identity(2, 2);
+  model.K_rr = Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 2.0}};
+  model.rigid = Eigen::MatrixXd::Ones(2, 6);
+  model.fixed_interface_hz = Eigen::VectorXd::Constant(1, 100.0);
+  rom::DofSet tip{"node", {0}, {"tip.x"}, Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Ones(1, 3),
+                  {0}};
+  model.sets["tip"] = tip;
+  model.loads["gas"] = Eigen::Vector2d(1.0, 2.0);
+  return model;
+}
+
+TEST_F(Files, MatricesComeBackAsTheyWere) {
+  const RowMatrix rows{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
+  H5File out = H5File::create(folder_ / "a.h5");
+  out.write("group/rows", rows);
+  out.write("group/matrix", Eigen::MatrixXd(rows));
+  out.write("texts", std::vector<std::string>{"one", ""});
+  out.set("group", "unit", "m");
+  out.commit();
+  const H5File in = H5File::open(folder_ / "a.h5");
+  EXPECT_EQ(in.read_rows("group/rows"), rows);
+  EXPECT_EQ(in.read_matrix("group/matrix"), Eigen::MatrixXd(rows));
+  EXPECT_EQ(in.read_rows("group/rows", 1, 1), rows.row(1));
+  EXPECT_EQ(in.read_strings("texts"), (std::vector<std::string>{"one", ""}));
+  EXPECT_EQ(in.get_string("group", "unit"), "m");
+}
+
+TEST_F(Files, NothingStandsUnderTheFinalNameBeforeCommit) {
+  const fs::path path = folder_ / "a.h5";
+  std::ofstream(path) << "older artefact";
+  {
+    H5File out = H5File::create(path);
+    out.write("x", std::vector<double>{1.0});
+  }
+  std::string content;
+  std::getline(std::ifstream(path), content);
+  EXPECT_EQ(content, "older artefact");
+  EXPECT_FALSE(fs::exists(folder_ / "a.h5.part"));
+}
+
+TEST_F(Files, ATruncatedFileIsOneClearLine) {
+  const fs::path path = folder_ / "a.h5";
+  H5File out = H5File::create(path);
+  out.write("x", std::vector<double>(1000, 1.0));
+  out.commit();
+  fs::resize_file(path, 3000);
+  EXPECT_THROW(H5File::open(path), InputError);
+}
+
+TEST_F(Files, AWrongSchemaNamesBoth) {
+  H5File out = H5File::create(folder_ / "a.h5");
+  write_provenance(out, {"clatter/mesh/1", "", {}});
+  out.commit();
+  try {
+    open_artefact(folder_ / "a.h5", "clatter/fe/1");
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("found clatter/mesh/1, expected clatter/fe/1"),
+              std::string::npos);
+  }
+}
+
+TEST_F(Files, ASparseMatrixRoundTripsAndMultiplies) {
+  const SparseMatrix lower = small_lower();
+  H5File out = H5File::create(folder_ / "a.h5");
+  write_sparse(out, "K", lower, true);
+  out.commit();
+  const SparseMatrix back = read_sparse(H5File::open(folder_ / "a.h5"), "K");
+  EXPECT_EQ(Eigen::MatrixXd(back), Eigen::MatrixXd(lower));
+  // By hand: [2 -1 0; -1 2 0; 0 0 5] times (1, 1, 1).
+  EXPECT_EQ(multiply_symmetric(back, Eigen::VectorXd::Ones(3)), Eigen::Vector3d(1.0, 1.0, 5.0));
+}
+
+TEST_F(Files, ASparseMatrixWithAnIndexOutOfRangeIsRefused) {
+  H5File out = H5File::create(folder_ / "a.h5");
+  write_sparse(out, "K", small_lower(), true);
+  out.set("K", "shape", std::vector<int64_t>{2, 3});
+  out.commit();
+  EXPECT_THROW(read_sparse(H5File::open(folder_ / "a.h5"), "K"), InputError);
+}
+
+TEST_F(Files, AnAttributeWithSeveralNumbersIsNotReadAsOne) {
+  H5File out = H5File::create(folder_ / "a.h5");
+  out.set("K", "shape", std::vector<int64_t>{2, 3});
+  out.commit();
+  const H5File back = H5File::open(folder_ / "a.h5");
+  EXPECT_EQ(back.get_ints("K", "shape"), (std::vector<int64_t>{2, 3}));
+  EXPECT_THROW(back.get_int("K", "shape"), InputError);
+}
+
+TEST_F(Files, AReducedModelRoundTrips) {
+  const rom::ReducedModel model = small_model();
+  H5File out = H5File::create(folder_ / "a.rom.h5");
+  write_provenance(out, {"clatter/rom/1", "", {}});
+  rom::write_reduced_model(out, model);
+  out.commit();
+  const rom::ReducedModel back = rom::read_reduced_model(folder_ / "a.rom.h5");
+  EXPECT_EQ(back.K_rr, model.K_rr);
+  EXPECT_EQ(back.set("tip").labels, model.set("tip").labels);
+  EXPECT_EQ(back.loads.at("gas"), model.loads.at("gas"));
+  EXPECT_THROW(back.set("tap"), InputError);
+}
+
+TEST_F(Files, AReducedModelWithAValueThatIsNotFiniteIsRefused) {
+  rom::ReducedModel model = small_model();
+  model.M_rr(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  H5File out = H5File::create(folder_ / "a.rom.h5");
+  write_provenance(out, {"clatter/rom/1", "", {}});
+  rom::write_reduced_model(out, model);
+  out.commit();
+  EXPECT_THROW(rom::read_reduced_model(folder_ / "a.rom.h5"), InputError);
+}
+
+TEST_F(Files, TheHashIsThatOfTheStandard) {
+  std::ofstream(folder_ / "abc") << "abc";
+  // FIPS 180-2, appendix B.1.
+  EXPECT_EQ(sha256_of_file(folder_ / "abc"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+}  // namespace
+}  // namespace clatter

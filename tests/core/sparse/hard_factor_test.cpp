@@ -1,0 +1,99 @@
+// Factorisations that must be refused, and that other solvers accept.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/base/blas_kernel.hpp"
+#include "core/sparse/factor/inertia.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
+#include "tests/core/sparse/spring_models.hpp"
+
+namespace clatter::sparse {
+namespace {
+
+using test::diagonal;
+using test::spring_box;
+
+TEST(HardC1, AnIndefiniteMatrixIsRefusedWithItsColumn) {
+  for (const Ordering ordering : {Ordering::kMetis, Ordering::kAmd, Ordering::kNatural}) {
+    // diag(1, -1, 2) hidden from the check of the diagonal by an orthogonal turn of rows 1 and 2.
+    const SparseMatrix A =
+        test::from_triplets(3, {{0, 0, 1.0}, {1, 1, 0.5}, {2, 2, 0.5}, {1, 2, 1.5}, {2, 1, 1.5}});
+    FactorOptions options;
+    options.ordering = ordering;
+    try {
+      const SupernodalFactor factor(A, options);
+      FAIL() << "accepted";
+    } catch (const NotPositiveDefinite& error) {
+      EXPECT_TRUE(error.column == 1 || error.column == 2) << error.column;
+    }
+  }
+  try {
+    const SupernodalFactor factor(diagonal(Eigen::Vector3d(1.0, -1.0, 2.0)));
+    FAIL() << "accepted";
+  } catch (const NotPositiveDefinite& error) {
+    EXPECT_EQ(error.column, 1);
+  }
+}
+
+TEST(HardC2, ASingularFreeBodyIsRefused) {
+  EXPECT_THROW(SupernodalFactor{test::free_chain(50).K}, NotPositiveDefinite);
+  for (const int n : {3, 5, 8}) {
+    EXPECT_THROW(SupernodalFactor{spring_box(n, n, n).K}, NotPositiveDefinite) << n;
+  }
+}
+
+TEST(HardC3, InertiaAgreesWithDenseOnBothSidesOfTheSpectrum) {
+  const auto box = spring_box(4, 3, 3);
+  const SparseMatrix full = box.K.selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd M = Eigen::MatrixXd(box.M);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(Eigen::MatrixXd(full), M);
+  const Eigen::VectorXd& values = dense.eigenvalues();
+  for (Eigen::Index j = 6; j < values.size(); j += 7) {
+    if (values[j] - values[j - 1] < 1e-6 * values[j]) continue;
+    const double mu = 0.5 * (values[j] + values[j - 1]);
+    EXPECT_EQ(count_below(box.K, box.M, mu).negative, j);
+  }
+}
+
+TEST(HardC4, FactorsBeyond32BitsAreCountedAndRefusedBeforeTheyAreMade) {
+  // A 3-D grid in its natural order has a band of 74 x 74: lnz is about 74^5 > 2^31.
+  const int n = 76;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(4) * n * n * n);
+  for (int i = 0; i < n * n * n; ++i) {
+    entries.emplace_back(i, i, 7.0);
+    if (i % n != n - 1) entries.emplace_back(i + 1, i, -1.0);
+    if (i / n % n != n - 1) entries.emplace_back(i + n, i, -1.0);
+    if (i / (n * n) != n - 1) entries.emplace_back(i + n * n, i, -1.0);
+  }
+  const SparseMatrix A = test::from_triplets(n * n * n, entries);
+  FactorOptions options;
+  options.ordering = Ordering::kNatural;
+  EXPECT_GT(SupernodalFactor::predict(A, options).entries, int64_t{1} << 31);
+  options.memory_limit_gib = 4.0;
+  EXPECT_THROW(SupernodalFactor(A, options), NumericsError);
+}
+
+TEST(HardC5, MetisIsNotGivenMoreEntriesThanItCanCount) {
+  EXPECT_EQ(safe_ordering(Ordering::kMetis, 1000, int64_t{1} << 20), Ordering::kMetis);
+  EXPECT_EQ(safe_ordering(Ordering::kMetis, 1000, int64_t{1} << 31), Ordering::kAmd);
+  EXPECT_EQ(safe_ordering(Ordering::kMetis, int64_t{1} << 32, int64_t{1} << 32), Ordering::kAmd);
+}
+
+TEST(HardC9, TheVerdictOnABorderlineMatrixDoesNotDependOnThreads) {
+  const auto box = spring_box(6, 6, 6);
+  // Held so weakly that the ratio of pivots is near 1e-10, a thousand times the limit.
+  const SparseMatrix A = box.K + 2.5e-2 * box.M;
+  for (const int threads : {1, 2, 4}) {
+    set_blas_threads(threads);
+    const SupernodalFactor factor(A);
+    EXPECT_GT(factor.report().rcond, 1e-12) << threads;
+    EXPECT_LT(factor.report().rcond, 1e-8) << threads;
+    EXPECT_THROW(SupernodalFactor{box.K}, NotPositiveDefinite);
+  }
+  set_blas_threads(2);
+}
+
+}  // namespace
+}  // namespace clatter::sparse
