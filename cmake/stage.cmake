@@ -9,6 +9,29 @@ find_package(PkgConfig REQUIRED)
 add_library(clatter_eigen INTERFACE)
 target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
 
+# The standard library, Eigen and fmt are parsed once for all libraries, once more with GoogleTest for
+# all tests: most of a file's compilation is these headers. Every file still includes what it uses.
+option(CLATTER_PRECOMPILE "precompile the headers of others" ON)
+function(clatter_precompiled name)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} STATIC ${PROJECT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE clatter_eigen fmt::fmt Threads::Threads ${ARG_LINKS})
+  target_precompile_headers(${name} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
+endfunction()
+function(clatter_use_precompiled target from)
+  if(CLATTER_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM ${from})
+  endif()
+endfunction()
+set(clatter_foreign_headers
+  <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
+  <fstream> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <string>
+  <string_view> <utility> <vector>)
+if(CLATTER_PRECOMPILE)
+  clatter_precompiled(clatter_headers ${clatter_foreign_headers})
+endif()
+
 # clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ...)
 # makes the static library clatter_<name>, alias clatter::<name>; headers are included as "<folder>/x.hpp".
 function(clatter_library name)
@@ -17,6 +40,7 @@ function(clatter_library name)
   add_library(clatter::${name} ALIAS clatter_${name})
   target_include_directories(clatter_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(clatter_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  clatter_use_precompiled(clatter_${name} clatter_headers)
 endfunction()
 
 # clatter_stage(<name> SOURCES main.cpp LINKS clatter::<name>) makes the executable clatter-<name>.
@@ -24,6 +48,7 @@ function(clatter_stage name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(clatter-${name} ${ARG_SOURCES})
   target_link_libraries(clatter-${name} PRIVATE ${ARG_LINKS})
+  clatter_use_precompiled(clatter-${name} clatter_headers)
   set_target_properties(clatter-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS clatter-${name})
 endfunction()
@@ -38,6 +63,7 @@ function(clatter_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  clatter_use_precompiled(${name} clatter_test_headers)
   target_compile_definitions(${name} PRIVATE ${ARG_DEFINES})
   target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
