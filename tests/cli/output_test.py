@@ -40,7 +40,7 @@ class Output(stages.PipelineTest):
     # (stage, arguments behind --json, members of "error" beside program and message, words of the message)
     ERRORS = [("mesh", ["none.mesh.toml", "-o", "x.mesh.h5"], {"file": "none.mesh.toml", "exit_code": 2}, "no such file"),
               ("assembly", ["beam.mesh.h5", "-c", "wrong.fe.toml", "-o", "x.fe.h5"],
-               {"file": "wrong.fe.toml", "line": 3, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
+               {"file": "wrong.fe.toml", "line": 7, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
               ("modal", ["beam.mesh.h5", "-o", "x.modes.h5"], {"file": "beam.mesh.h5", "place": "schema", "exit_code": 2},
                "found clatter/mesh/"),
               ("condense", ["beam.fe.h5", "--nonsense"], {"exit_code": 2}, "(see clatter-condense --help)"),
@@ -50,7 +50,9 @@ class Output(stages.PipelineTest):
                "no such file")]
 
     def test_an_error_is_json_too_and_says_the_same_as_the_plain_line(self):
-        (self.folder / "wrong.fe.toml").write_text("[material.steel]\nE_gpa = 210.0\nrhoo = 7850.0\nnu = 0.3\n")
+        right = (self.folder / "beam.fe.toml").read_text().splitlines()
+        after = next(i for i, line in enumerate(right) if line.startswith("rho")) + 1
+        (self.folder / "wrong.fe.toml").write_text("\n".join(right[:after] + ["rhoo = 1.0"] + right[after:]))
         for stage, arguments, members, words in self.ERRORS:
             with self.subTest(stage):
                 done = stages.run_stage(stage, *arguments, "--json", "--quiet", folder=self.folder)

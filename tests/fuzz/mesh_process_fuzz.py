@@ -105,7 +105,7 @@ def check(run, done, folder, before):
         run.predicted = summary.get('predicted_cells', 0.0)
         if not (run.cells > 0 and 0.0 < run.dihedral <= 70.6):
             run.faults.append(f'quality: {summary}')
-    elif done.stdout:
+    elif json.loads(done.stdout)['error']['exit_code'] != done.returncode:
         run.faults.append(f'stdout: {done.stdout[:80]}')
     run.said = errors[0].removeprefix('clatter-mesh: error: ') if errors else ' '.join(done.stderr.splitlines())
 
