@@ -16,8 +16,8 @@ inline constexpr double kHeldStiffness = 1e30;
 
 /// Table [matrices] of the fe.toml: what to read instead of assembling.
 struct MatrixFiles {
-  std::filesystem::path K, M;      // Matrix Market or "i j value" (core/matrix_text.hpp)
-  std::filesystem::path dofs;      // DoF map (core/dof_map.hpp); empty: the nodes of the mesh
+  std::filesystem::path K, M;      // Matrix Market or "i j value" (core/base/matrix_text.hpp)
+  std::filesystem::path dofs;      // DoF map (core/rom/dof_map.hpp); empty: the nodes of the mesh
   std::string name;                // of the part; empty: the mesh's
   UnitSystem units;                // of K and M; positions of a map or mesh are in m
   double alpha = 0.0, beta = 0.0;  // D = alpha K + beta M [s], [1/s]

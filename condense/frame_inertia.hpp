@@ -13,9 +13,9 @@ namespace clatter::condense {
 /// nodal form.
 SparseMatrix nodal_mass(const fe::FeModel& model);
 
-/// The shape integrals of core/inertia_invariants.hpp over the nodes, N = T V: with U_k the rows of
-/// direction k, product_kl = U_k^T m U_l, moment_lk = U_k^T m x_l, first_k = U_k^T m 1. Columns of
-/// the basis pass in blocks. InputError as nodal_mass.
+/// The shape integrals of core/rom/inertia_invariants.hpp over the nodes, N = T V: with U_k the
+/// rows of direction k, product_kl = U_k^T m U_l, moment_lk = U_k^T m x_l, first_k = U_k^T m 1.
+/// Columns of the basis pass in blocks. InputError as nodal_mass.
 rom::InertiaInvariants frame_inertia(const fe::FeModel& model, const DofPartition& partition,
                                      const ReducedBasis& basis);
 

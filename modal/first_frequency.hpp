@@ -5,7 +5,7 @@
 namespace clatter::modal {
 
 /// One warning where the first elastic frequency cannot be that of a part of this size
-/// (core/plausible.hpp); nothing without elastic modes.
+/// (core/base/plausible.hpp); nothing without elastic modes.
 void warn_of_first_frequency(const modes::PartModes& part);
 
 }  // namespace clatter::modal

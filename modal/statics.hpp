@@ -38,7 +38,7 @@ struct StaticSolution {
 
 /// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
 ///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s,
-/// and stresses from u (assembly/stress.hpp). One factorisation serves all. InputError for an
+/// and stresses from u (core/fe/stress.hpp). One factorisation serves all. InputError for an
 /// unknown name, a model without loads, and a part whose supports leave rigid motions free (they
 /// are named); NumericsError when the stiffness is singular otherwise, when the backward error
 /// exceeds 1e-12, the balance 1e-8 and what rounding explains, or the estimated error of q all of

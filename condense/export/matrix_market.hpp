@@ -11,8 +11,8 @@ namespace clatter::condense {
 std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::path& path);
 
 /// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits: they read back
-/// to the last bit) and part.dofs.tsv, which says what row i is (core/dof_map.hpp). Damping stands
-/// in the head of K. Returns the files; FileError when one cannot be written.
+/// to the last bit) and part.dofs.tsv, which says what row i is (core/rom/dof_map.hpp). Damping
+/// stands in the head of K. Returns the files; FileError when one cannot be written.
 std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
                                                         const std::filesystem::path& path);
 

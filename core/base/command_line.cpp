@@ -29,7 +29,7 @@ struct CommandLine::Impl {
   std::vector<std::pair<CLI::Option*, std::function<std::vector<std::filesystem::path>()>>> inputs,
       outputs;
 
-  /// Tells core/planned_files.hpp what is read and written.
+  /// Tells core/base/planned_files.hpp what is read and written.
   void plan_files() const {
     for (const auto& [option, paths] : inputs)
       if (option->count() > 0)

@@ -24,7 +24,7 @@ class CommandLine {
   CommandLine(const std::string& program, const std::string& summary, const std::string& epilog);
   ~CommandLine();
 
-  /// Files that are read: parse() says so to core/planned_files.hpp.
+  /// Files that are read: parse() says so to core/base/planned_files.hpp.
   void positional(const std::string& name, std::filesystem::path& value, const std::string& help,
                   bool required = true);
   void positional(const std::string& name, std::vector<std::filesystem::path>& value,
@@ -44,7 +44,7 @@ class CommandLine {
 
   /// Declares --blas NAME|auto, for stages that call ensure_fast_blas(); parse() reports it.
   void blas();
-  /// Declares --memory-limit GIB, for stages that ask core/memory_limit.hpp; parse() sets it.
+  /// Declares --memory-limit GIB, for stages that ask core/base/memory_limit.hpp; parse() sets it.
   /// `effect`: what happens at the limit.
   void memory_limit(const std::string& effect =
                         "fewer Lanczos vectors, then vectors on disk; refused when it cannot be");

@@ -1,6 +1,6 @@
 #pragma once
-// Inner side of config: the document behind all tables of one file. Only core/config*.cpp include
-// this; nobody else sees a toml++ type.
+// Inner side of config: the document behind all tables of one file. Only core/base/config*.cpp
+// include this; nobody else sees a toml++ type.
 #include <toml++/toml.h>
 
 #include <map>

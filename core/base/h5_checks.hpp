@@ -1,6 +1,6 @@
 #pragma once
 // Checksums in HDF5 files: what is asked for when one is written, and what a failure to read says.
-// Seen by core/h5_*.cpp alone.
+// Seen by core/base/h5_*.cpp alone.
 #include <hdf5.h>
 
 #include <algorithm>

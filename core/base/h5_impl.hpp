@@ -1,6 +1,6 @@
 #pragma once
-// Inner side of h5_file: identifiers that close themselves and typed access. Only core/h5_*.cpp
-// include this; nobody else sees an HDF5 type.
+// Inner side of h5_file: identifiers that close themselves and typed access. Only
+// core/base/h5_*.cpp include this; nobody else sees an HDF5 type.
 #include <fmt/format.h>
 
 #include <algorithm>

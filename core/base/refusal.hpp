@@ -18,7 +18,7 @@ struct ErrorPlace {
 };
 ErrorPlace place_of(const std::string& message);
 
-/// Prints "`program`: error: `message`" on stderr; with --json (core/log.hpp) also, on stdout,
+/// Prints "`program`: error: `message`" on stderr; with --json (core/base/log.hpp) also, on stdout,
 /// {"error": {"program", "message", "file", "line", "place", "exit_code"}} without the members that
 /// the message does not say. Returns the exit code.
 int report_error(std::string_view program, const std::string& message, ExitCode code);

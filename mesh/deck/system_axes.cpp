@@ -5,7 +5,7 @@
 namespace clatter::mesh::deck {
 namespace {
 
-constexpr double kOnAxis = 1e-12;  // as in assembly/axes.cpp
+constexpr double kOnAxis = 1e-12;  // as in core/fe/axes.cpp
 
 }  // namespace
 

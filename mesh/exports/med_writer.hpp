@@ -11,8 +11,8 @@ namespace clatter::mesh {
 /// cells, node sets groups of nodes; nodes and cells keep their numbers. A face that several
 /// surfaces have is there once, in a family of all their groups.
 ///
-/// MED's solids are turned over against ours (mesh/cell.hpp), faces have our order. InputError for
-/// names over 80 bytes (of the mesh: 64 are kept).
+/// MED's solids are turned over against ours (core/mesh/cell.hpp), faces have our order. InputError
+/// for names over 80 bytes (of the mesh: 64 are kept).
 void write_med(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace clatter::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// A finished mesh as bytes (core/wire.hpp), from the child process in which gmsh works.
+// A finished mesh as bytes (core/base/wire.hpp), from the child process in which gmsh works.
 #include "core/base/stopwatch.hpp"
 #include "core/base/wire.hpp"
 #include "mesh/cad/gmsh_session.hpp"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "assembly/mass_integral.hpp"
 #include "block_mesh.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/element.hpp"
 #include "core/fe/stress.hpp"
-#include "core/mesh/quadrature.hpp"
 #include "core/mesh/shape.hpp"
 #include "small_solver.hpp"
 
@@ -38,23 +38,6 @@ Eigen::Vector3d body_force(const Eigen::Vector3d& x) {
            kMaterial.mu() * 3.0 * kPi * kPi * s.prod();
   }
   return b;
-}
-
-template <typename Visit>
-void at_points(const mesh::Mesh& mesh, const Visit& visit) {
-  const mesh::CellBlock& block = mesh.cells[0];
-  const mesh::CellRule& rule = mesh::fine_rule(block.type);
-  std::vector<mesh::CellShape> shapes;
-  for (const auto& point : rule.points.rowwise())
-    shapes.push_back(mesh::cell_shape(block.type, point.transpose()));
-  for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
-    const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);
-    for (size_t q = 0; q < shapes.size(); ++q) {
-      const Eigen::Matrix3d J = x.transpose() * shapes[q].gradient;
-      visit(c, shapes[q].value, Eigen::Vector3d(x.transpose() * shapes[q].value),
-            rule.weights(static_cast<Eigen::Index>(q)) * J.determinant());
-    }
-  }
 }
 
 /// C eps of u.
@@ -92,7 +75,7 @@ Errors errors_at(int cells, mesh::CellType type) {
       fe::assemble(mesh, materials_of(mesh, kMaterial), fe::node_pattern(mesh));
   const Eigen::Index n = 3 * mesh.nodes.rows();
   Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
-  at_points(mesh, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
+  for_each_mass_point(mesh, mesh.cells[0], 1.0, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
     for (Eigen::Index a = 0; a < value.size(); ++a)
       f.segment<3>(3 * nodes(c, a)) += dV * value(a) * body_force(x);
   });
@@ -101,7 +84,7 @@ Errors errors_at(int cells, mesh::CellType type) {
     for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
   const Eigen::VectorXd u = solve_fixed(matrices.K, f, fixed, Eigen::VectorXd::Zero(n));
   double square = 0.0;
-  at_points(mesh, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
+  for_each_mass_point(mesh, mesh.cells[0], 1.0, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
     Eigen::Vector3d at = Eigen::Vector3d::Constant(-wave(x));
     for (Eigen::Index a = 0; a < value.size(); ++a) at += value(a) * u.segment<3>(3 * nodes(c, a));
     square += dV * at.squaredNorm();

@@ -118,6 +118,12 @@ class Arrows(unittest.TestCase):
                           for name in re.findall(r"^namespace (clatter[\w:]*) \{$", p.read_text(), re.M) if name != wanted]
         self.assertEqual(wrong, [])
 
+    def test_paths_in_comments_lead_to_files(self):
+        wrong = [f"{p.relative_to(SOURCE)}: names {path}, which is not there" for folder in ALLOWED for p in sources(folder)
+                 for path in re.findall(r"(?<!/)\b((?:core|%s)/[\w/]+\.[ch]pp)" % "|".join(STAGES), p.read_text())
+                 if not (SOURCE / path).exists()]
+        self.assertEqual(wrong, [])
+
     def test_a_wrong_arrow_is_noticed(self):
         self.assertEqual(wrong_includes("core/base", '#include "core/mesh/mesh.hpp"\n'),
                          ["core/base uses core/mesh, but may use only: no other folder"])

@@ -1,0 +1,137 @@
+"""The decks of calculix_decks.py: what each shows, how near it must come, and why others are refused."""
+
+PRINTED = 6e-7  # seven digits are printed
+
+ROUNDED = 2e-5  # sides of a sector lie on each other to six digits
+RING = "the sector is turned round into the ring: their frequencies of some nodal diameters among ours of all"
+
+# name, what it shows, largest error allowed, words for one that is larger than the digits printed
+CASES = [
+    ("beam8p", "C3D8, forces", PRINTED, ""),
+    ("beam10p", "C3D10, forces", PRINTED, ""),
+    ("beam20p", "C3D20, forces", PRINTED, ""),
+    ("c3d15", "C3D15, pressure, orientation", PRINTED, ""),
+    ("beamp", "C3D20R, forces", 1e-6, "six digits in the .frd file"),
+    ("beamd", "C3D20R, pressure", PRINTED, ""),
+    ("beamidset", "sets within sets", PRINTED, ""),
+    ("beampset", "sets of nodes", PRINTED, ""),
+    ("beamp2stage", "two stages of loading", PRINTED, ""),
+    ("beampis", "iterative solver of CalculiX", PRINTED, ""),
+    ("beampic", "iterative solver of CalculiX", 2e-3, "their solver stops early: beampis, the same deck with the other one, agrees"),
+    ("beampo1", "orthotropic, orientation", PRINTED, ""),
+    ("beampo2", "orthotropic, orientation", PRINTED, ""),
+    ("aniso", "anisotropic, 21 constants", PRINTED, ""),
+    ("achteld", "prescribed displacement", PRINTED, ""),
+    ("achtelp", "forces, symmetry planes", PRINTED, ""),
+    ("achtelg", "gravity", PRINTED, ""),
+    ("achtel2", "equations", PRINTED, ""),
+    ("achtel29", "equations", PRINTED, ""),
+    ("achtel9", "equations", PRINTED, ""),
+    ("achtelcas", "equations", PRINTED, ""),
+    ("beampdepmpc", "dependent equations", PRINTED, ""),
+    ("segmentf", "transform, cylindrical", PRINTED, ""),
+    ("beamprb", "rigid body with rotation node", 3e-6, "six digits in the .frd file"),
+    ("beamptied1", "tie", PRINTED, ""),
+    ("beamptied2", "tie", PRINTED, ""),
+    ("beam8t", "C3D8, temperature", PRINTED, ""),
+    ("beamt", "C3D20R, temperature", PRINTED, ""),
+    ("beamt2", "C3D20R, temperature", PRINTED, ""),
+    ("beamt3", "C3D20R, temperature of middle nodes", PRINTED, ""),
+    ("beam8f", "C3D8, frequencies", PRINTED, ""),
+    ("beamf", "C3D20R, frequencies", 2e-3, "clatter's mass is exact, CalculiX takes the eight points of K"),
+    *((f"beamdy{i}", "first step: C3D20R, frequencies", 2e-3, "mass as in beamf; the dynamic step is left out")
+      for i in range(1, 20)),
+    ("dloadlinIf", "C3D8I, frequencies, nodes too many", 1e-6, "likely the inertia that CalculiX gives incompatible modes"),
+    ("achtelc", "centrifugal force", PRINTED, ""),
+    ("segment1", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX takes the eight points of K"),
+    ("segment1, eight-point load", "the same with CalculiX's load", PRINTED, "what explains the line above (reduced_mass.py)"),
+    ("segment2", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX takes the eight points of K"),
+    ("segment2, eight-point load", "the same with CalculiX's load", PRINTED, "what explains the line above (reduced_mass.py)"),
+    ("beampfix", "first step: forces", PRINTED, "the step that holds what the first one moved is left out"),
+    ("changesolidsection", "first step: forces", PRINTED, "the step with another material is left out"),
+    ("beamt6", "first step: temperature", PRINTED, "the coupled step is left out"),
+    ("beamf, eight-point mass", "the same with CalculiX's mass", PRINTED, "what explains the line above (reduced_mass.py)"),
+    ("c3d6", "C3D6, forces", PRINTED, "read with --ignore *MEMBRANE, a section without elements"),
+    ("beammrlin", "mean rotation (*MPC)", PRINTED, ""),
+    ("dashpot1", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
+    ("dashpot2", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
+    ("dashpot3", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
+    ("spring5", "first step: spring, frequency", PRINTED, "the dynamic step is left out"),
+    ("damper1", "first step: a rigid body that moves freely beside a held part", PRINTED, "the dynamic step is left out"),
+    ("segment", "cyclic symmetry, one nodal diameter", ROUNDED, RING),
+    ("segmentface", "cyclic symmetry, one nodal diameter", ROUNDED, RING),
+    ("segdyn", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
+    ("segststate", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
+]
+
+# Why decks are refused: a deck counts once, for the first line that one of its refusals fits.
+CAUSES = [
+    ("networks of fluids, fluid cells", r"element type (D|F3D\w*) "),
+    ("shells, membranes", r"element type (S|M3D)\d"),
+    ("beams, trusses", r"element type (B|T3D)\d"),
+    ("plane and axisymmetric cells", r"element type C(PS|PE|AX)\d"),
+    ("gaps", r"element type GAP"),
+    ("user elements", r"element type U"),
+    ("contact", r"keyword \*(CONTACT|SURFACE (INTERACTION|BEHAVIOR)|FRICTION|GAP CONDUCTANCE)"),
+    ("plasticity, creep, hyperelasticity, materials of users",
+     r"keyword \*(PLASTIC|CREEP|CYCLIC HARDENING|DEFORMATION PLASTICITY|HYPER|USER MATERIAL|DEPVAR|MOHR|VISCO)"),
+    ("heat, mass and acoustics alone or coupled",
+     r"keyword \*(HEAT TRANSFER|COUPLED TEMP|UNCOUPLED TEMP|FLUID CONSTANTS|ELECTRO|MAGNETIC|FILM|RADIATE|DFLUX|CFLUX)"),
+    ("dynamics in time as the first step", r"keyword \*(DYNAMIC|MODAL DYNAMIC|STEADY STATE)"),
+    ("buckling as the first step", r"keyword \*BUCKLE"),
+    ("sensitivities, Green functions, crack growth", r"keyword \*(SENSITIVITY|GREEN|CRACK|FEASIBLE|ROBUST|OBJECTIVE)"),
+    ("large displacements in the first step (read with --ignore NLGEOM)", r"NLGEOM"),
+    ("parts of other models, pre-tension, changes of the model",
+     r"\*(SUBMODEL|PRE-TENSION|MODEL CHANGE|CHANGE |RESTART|INCLUDE)"),
+    ("springs or points alone, no cell", r"found no solid cells|no cells"),
+    ("initial stress or strain", r"\*INITIAL CONDITIONS"),
+    ("cyclic symmetry of several stages or of sides not meshed alike", r"CYCLIC|MULTISTAGE|on the sides"),
+    ("constants that depend on the temperature in steps that change it", r"depend on the temperature|change it"),
+]
+RINGS = ("segment", "segmentface", "segdyn", "segststate")
+SECTORS = 12  # of all of them
+# The same, beside the installed ccx.
+INSTALLED = [
+    ("mpcforce", "equations across two materials", PRINTED, ""),
+    ("segmentm", "transform, equations", PRINTED, ""),
+    ("disk2", "centrifugal force on a part, transform, equations", 1e-4, "clatter's load is exact, CalculiX takes the eight points of K"),
+    ("distcoup", "distributing coupling off its centre", PRINTED, "read with --ignore MOMENT"),
+    ("sens_orien1", "first step: orthotropic, orientation", PRINTED, "the sensitivity is left out"),
+    ("sensitivity_I", "first step: forces", PRINTED, "the sensitivity is left out"),
+    ("sensitivity_V", "first step: forces", PRINTED, "the sensitivity is left out"),
+    ("sensitivity_VI", "first step: forces", PRINTED, "the sensitivity is left out"),
+    ("beampsensfreq", "first step: forces", PRINTED, "read with --ignore 'EXTRA NODES'; frequencies under load and sensitivity are left out"),
+    ("beamf2", "first step: forces", PRINTED, "frequencies under load are left out"),
+]
+SMALL = "CalculiX at 1e-5 of the load: with these *MPC it counts large displacements whether the deck has NLGEOM or not"
+# The same, NLGEOM let go on both sides.
+LINEAR = [
+    ("beamnlp", "forces", PRINTED, ""),
+    ("beamnlptp", "forces", PRINTED, ""),
+    ("beamnld", "prescribed displacement", PRINTED, ""),
+    ("beamnlmpc", "equations", PRINTED, ""),
+    ("beamnlt", "temperature", PRINTED, ""),
+    ("beammr", "mean rotation (*MPC)", PRINTED, ""),
+    ("beammrco", "mean rotation (*MPC)", PRINTED, ""),
+    ("beamplane", "nodes in a plane (*MPC)", 2e-5, SMALL),
+    ("beamstraight", "nodes on a line (*MPC)", 2e-5, SMALL),
+    ("beamrb", "rigid body", PRINTED, ""),
+    ("beamrb2", "rigid body", PRINTED, ""),
+    ("beamp1rotate", "prescribed displacement", PRINTED, ""),
+    ("beamp2rotate", "first step: prescribed displacement", PRINTED, "the next steps are left out"),
+    ("beamdynamic", "first step: forces", PRINTED, "the dynamic step is left out"),
+    ("spring3", "first step: spring, forces", PRINTED, "the step behind it is left out"),
+    ("rotor", "first step: centrifugal force, curved C3D20R", 1e-2, "as segment1; frequencies under load are left out"),
+    ("dloadlinI", "C3D8I, pressure", 3e-6, "read with --ignore 'EXTRA NODES'; as dloadlinIf"),
+]
+# Loads of the decks of SMALL, as they stand and a hundred thousandth of it.
+SMALL_LOADS = {"beamplane": ("22,2,200.", "22,2,.002"), "beamstraight": ("22,2,200.", "22,2,.002")}
+
+# Words that a deck needs beside its own, as the user writes them after --ignore.
+IGNORE = {
+    "dloadlinI": ("EXTRA NODES", "NLGEOM"),
+    "dloadlinIf": ("EXTRA NODES",),
+    "distcoup": ("MOMENT",),
+    "beampsensfreq": ("EXTRA NODES",),
+    "c3d6": ("*MEMBRANE",),
+}
