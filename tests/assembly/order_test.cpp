@@ -75,20 +75,23 @@ Errors errors_at(int cells, mesh::CellType type) {
       fe::assemble(mesh, materials_of(mesh, kMaterial), fe::node_pattern(mesh));
   const Eigen::Index n = 3 * mesh.nodes.rows();
   Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
-  for_each_mass_point(mesh, mesh.cells[0], 1.0, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
-    for (Eigen::Index a = 0; a < value.size(); ++a)
-      f.segment<3>(3 * nodes(c, a)) += dV * value(a) * body_force(x);
-  });
+  for_each_mass_point(mesh, mesh.cells[0], 1.0,
+                      [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
+                        for (Eigen::Index a = 0; a < value.size(); ++a)
+                          f.segment<3>(3 * nodes(c, a)) += dV * value(a) * body_force(x);
+                      });
   std::vector<bool> fixed(static_cast<size_t>(n), false);
   for (const int32_t node : mesh::nodes_of(mesh.surface("skin")))
     for (int d = 0; d < 3; ++d) fixed[static_cast<size_t>(3 * node + d)] = true;
   const Eigen::VectorXd u = solve_fixed(matrices.K, f, fixed, Eigen::VectorXd::Zero(n));
   double square = 0.0;
-  for_each_mass_point(mesh, mesh.cells[0], 1.0, [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
-    Eigen::Vector3d at = Eigen::Vector3d::Constant(-wave(x));
-    for (Eigen::Index a = 0; a < value.size(); ++a) at += value(a) * u.segment<3>(3 * nodes(c, a));
-    square += dV * at.squaredNorm();
-  });
+  for_each_mass_point(mesh, mesh.cells[0], 1.0,
+                      [&](Eigen::Index c, const auto& value, const Eigen::Vector3d& x, double dV) {
+                        Eigen::Vector3d at = Eigen::Vector3d::Constant(-wave(x));
+                        for (Eigen::Index a = 0; a < value.size(); ++a)
+                          at += value(a) * u.segment<3>(3 * nodes(c, a));
+                        square += dV * at.squaredNorm();
+                      });
   return {std::sqrt(square), stress_error(mesh, u)};
 }
 
