@@ -5,13 +5,13 @@ find_package(fmt REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 
-# Foreign headers are not ours to fix: no warnings from them, in any target.
+# No warnings from third-party headers, in any target.
 add_library(clatter_eigen INTERFACE)
 target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
 
-# The standard library, Eigen and fmt are parsed once for all libraries, once more with GoogleTest for
-# all tests: most of a file's compilation is these headers. Every file still includes what it uses.
-option(CLATTER_PRECOMPILE "precompile the headers of others" ON)
+# The standard library, Eigen and fmt are precompiled once for all libraries, and once with GoogleTest for
+# all tests: they dominate the compile time. Every file still includes what it uses.
+option(CLATTER_PRECOMPILE "precompile third-party headers" ON)
 function(clatter_precompiled name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -33,7 +33,7 @@ if(CLATTER_PRECOMPILE)
 endif()
 
 # clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ...)
-# makes the static library clatter_<name>, alias clatter::<name>; headers are included as "<folder>/x.hpp".
+# creates the static library clatter_<name>, alias clatter::<name>; include headers as "<folder>/x.hpp".
 function(clatter_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(clatter_${name} STATIC ${ARG_SOURCES})
@@ -43,7 +43,7 @@ function(clatter_library name)
   clatter_use_precompiled(clatter_${name} clatter_headers)
 endfunction()
 
-# clatter_stage(<name> SOURCES main.cpp LINKS clatter::<name>) makes the executable clatter-<name>.
+# clatter_stage(<name> SOURCES main.cpp LINKS clatter::<name>) creates the executable clatter-<name>.
 function(clatter_stage name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(clatter-${name} ${ARG_SOURCES})
@@ -54,7 +54,7 @@ function(clatter_stage name)
 endfunction()
 
 # clatter_test(<name> LABEL unit SOURCES x_test.cpp LINKS clatter::core [DEFINES A=B] [TIMEOUT s])
-# makes one test program; CTest sees each GoogleTest case with the label.
+# creates one test program; each GoogleTest case is a CTest test with the label.
 include(GoogleTest)
 function(clatter_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINKS;DEFINES" ${ARGN})
@@ -68,7 +68,7 @@ function(clatter_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
-  # Tests named after an entry of the hard cases are labelled so wherever they stand.
+  # Tests named after a hard case get the label `hard` in every program.
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "*Hard??_*:*Hard???_*"
     TEST_LIST ${name}_hard PROPERTIES LABELS hard TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -1,6 +1,6 @@
 #pragma once
-// What every artefact carries besides its data: schema, version, configuration, inputs with their
-// hashes, timing. See docs/formats.md.
+// Metadata of every artefact: schema, version, configuration, inputs with their hashes, timing. See
+// docs/formats.md.
 #include <filesystem>
 #include <initializer_list>
 #include <map>
@@ -16,10 +16,10 @@ namespace clatter {
 /// SHA-256 of a file's bytes as 64 hexadecimal digits. FileError when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
-/// The same of pieces of memory, one behind the other.
+/// SHA-256 of the concatenated pieces.
 std::string sha256_of_bytes(std::initializer_list<std::string_view> pieces);
 
-/// The head of an artefact.
+/// Origin of an artefact.
 struct Provenance {
   std::string schema;                         // "clatter/mesh/1"
   std::string config;                         // Config::resolved()
@@ -30,18 +30,18 @@ struct Provenance {
 /// `inputs/`.
 void write_provenance(H5File& file, const Provenance& provenance);
 
-/// Writes group `timing`: per step seconds and peak memory, and the run's totals.
+/// Writes group `timing`: seconds and peak memory per step, and totals.
 void write_timing(H5File& file, const StepClock& clock);
 
 /// Writes numbers as attributes of group `certificate`.
 void write_certificate(H5File& file, const std::map<std::string, double>& certificate);
-/// Reads them back; empty when the group is absent.
+/// Reads the certificate; empty when the group is absent.
 std::map<std::string, double> read_certificate(const H5File& file);
 
 /// Opens an artefact and checks its schema: InputError "file: schema: found X, expected Y".
 H5File open_artefact(const std::filesystem::path& path, const std::string& schema);
 
-/// The version of clatter that is running, "0.1.0".
+/// Version of the running clatter, "0.1.0".
 std::string version();
 
 }  // namespace clatter

@@ -1,6 +1,6 @@
 #pragma once
-// TOML reading with the manners of design.md section 5: an unknown key is an error that names the
-// nearest known one, every value that was used (also each default) can be printed and stored.
+// TOML input by the rules of design.md section 5: an unknown key is an error that names the nearest
+// known key; every value used, including defaults, can be printed and stored.
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -21,25 +21,24 @@ struct Range {
   static Range not_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
 };
 
-/// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses the
-/// rest. Every reader throws InputError with "file:line: key: found ..., expected ...".
+/// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses all
+/// other keys. Every getter throws InputError with "file:line: key: found ..., expected ...".
 class Config {
  public:
   /// Reads a file; InputError with line and column when it is missing or not TOML.
   static Config load(const std::filesystem::path& path);
-  /// Like load(), but the file may say `base = "other.toml"`: what it does not say itself is taken
-  /// from there, table by table (lists and values are replaced whole); a base may have a base.
-  static Config load_with_base(const std::filesystem::path& path);
-  /// Reads TOML from memory; `origin` stands for the file name in messages.
+  /// Like load(), but the file may contain `base = "other.toml"`: keys that it does not define are
+  /// taken from there, table by table (arrays and values are replaced entirely). Bases may be
+  /// nested. Reads TOML from memory; `origin` is used as the file name in messages.
   static Config parse(std::string_view text, const std::string& origin);
 
   bool has(std::string_view key) const;
-  /// True when the key is there and its value is a list.
+  /// True when the key exists and its value is a list.
   bool is_list(std::string_view key) const;
-  /// Keys of this table in order of the file; for tables whose keys are the user's own names.
+  /// Keys of this table in file order; for tables whose keys are user-defined names.
   std::vector<std::string> keys() const;
 
-  /// A sub-table; the form without `find_` is an error when absent.
+  /// A sub-table; table() throws when it is absent.
   Config table(std::string_view key) const;
   std::optional<Config> find_table(std::string_view key) const;
   /// An array of tables ([[key]]); empty when absent.
@@ -52,7 +51,7 @@ class Config {
   bool flag_or(std::string_view key, bool fallback) const;
   std::string text(std::string_view key) const;
   std::string text_or(std::string_view key, const std::string& fallback) const;
-  /// A text that must be one of `allowed`; the first is the default when the key is absent.
+  /// A string that must be one of `allowed`; the first is the default when the key is absent.
   std::string choice(std::string_view key, std::initializer_list<std::string_view> allowed) const;
   std::vector<double> numbers(std::string_view key) const;
   std::vector<double> numbers_or(std::string_view key, const std::vector<double>& fallback) const;
@@ -64,16 +63,16 @@ class Config {
   /// Path of a file to read, relative to the TOML file; InputError when it is also an output.
   std::filesystem::path path(std::string_view key) const;
 
-  /// The TOML files that were read: the file itself, then its bases.
+  /// The TOML files read: the file itself, then its bases.
   const std::vector<std::filesystem::path>& files() const;
 
-  /// Refuses every key of the whole file that nobody asked for. Call once all tables were read.
+  /// Refuses every key of the file that was never read. Call after all tables were read.
   void finish() const;
-  /// Every value that was asked for, defaults included, as TOML-like lines "table.key = value".
+  /// Every value that was read, defaults included, as TOML-like lines "table.key = value".
   std::string resolved() const;
   /// "file:line: key: message" as an InputError.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  /// Where this table stands, for messages: "file:line".
+  /// Position of this table for messages: "file:line".
   std::string where() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Inner side of config: the document behind all tables of one file. Only core/base/config*.cpp
-// include this; nobody else sees a toml++ type.
+// Implementation of config: the document shared by all tables of one file. Included by
+// core/base/config*.cpp only, so that toml++ types stay hidden.
 #include <toml++/toml.h>
 
 #include <map>
@@ -16,11 +16,11 @@ namespace clatter {
 struct Config::Document {
   toml::table root;
   std::string origin;                        // file name for messages
-  std::filesystem::path folder;              // relative paths start here
-  std::vector<std::filesystem::path> files;  // that were read
-  std::set<const toml::node*> known;         // values and tables that somebody asked for
-  std::map<const toml::table*, std::set<std::string>> asked;  // keys asked for, found or not
-  std::vector<std::pair<std::string, std::string>> resolved;  // in order of asking
+  std::filesystem::path folder;              // relative paths refer to it
+  std::vector<std::filesystem::path> files;  // files read
+  std::set<const toml::node*> known;         // values and tables that were read
+  std::map<const toml::table*, std::set<std::string>> requested;  // keys read, found or not
+  std::vector<std::pair<std::string, std::string>> resolved;      // in order of reading
 };
 
 struct Config::Node {
@@ -28,7 +28,7 @@ struct Config::Node {
   std::string prefix;  // "contact.film." for messages
 };
 
-/// "file:line" of a node; the origin alone when the node stands in no file.
+/// "file:line" of a node; only the origin when the node has no source position.
 std::string place_in_file(const std::string& origin, const toml::node* node);
 
 }  // namespace clatter

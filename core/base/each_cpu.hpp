@@ -1,6 +1,6 @@
 #pragma once
-// Inner loops compiled for several generations of one processor family; the right one is chosen
-// when the program starts.
+// Compiles inner loops for several generations of a processor family; the loader selects the
+// version for the CPU.
 
 #if defined(__x86_64__)
 #define CLATTER_EACH_CPU \

@@ -1,6 +1,6 @@
 #pragma once
-// Checksums in HDF5 files: what is asked for when one is written, and what a failure to read says.
-// Seen by core/base/h5_*.cpp alone.
+// Checksums in HDF5 files: settings for writing, and the message for a failed read.
+// Included by core/base/h5_*.cpp only.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
-/// Access in which the library checksums everything that is not data: heads, names, indices.
+/// File access with checksums on all metadata: object headers, names, indices.
 inline Id checked_access() {
   Id access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -36,16 +36,17 @@ inline Id checked_access() {
   return access;
 }
 
-/// How a dataset, a group or a file with its root is made (`kind` H5P_DATASET_CREATE, ...): with
-/// the attributes in its head, which has a checksum. In the heap that HDF5 makes for more than 8 of
-/// them, those over 4 KiB have none.
+/// Creation properties of a dataset, a group or a file (`kind` H5P_DATASET_CREATE, ...) that keep
+/// the attributes in the object header, which has a checksum. By default HDF5 moves more than 8 of
+/// them to a heap, where those over 4 KiB have none.
 inline Id checked_creation(hid_t kind) {
   Id creation(H5Pcreate(kind), &H5Pclose);
   H5Pset_attr_phase_change(creation, 1000, 900);
   return creation;
 }
 
-/// Extents of a chunk: whole rows, about 128 KiB, so that some chunks fit the library's cache.
+/// Extents of a chunk: complete rows, about 128 KiB, so that several chunks fit into the library's
+/// cache.
 inline std::vector<hsize_t> chunk_of(std::vector<hsize_t> extents, size_t bytes_each) {
   hsize_t left = std::max<hsize_t>(131072 / std::max<size_t>(bytes_each, 1), 1);
   for (size_t d = extents.size(); d-- > 0;) {
@@ -55,8 +56,8 @@ inline std::vector<hsize_t> chunk_of(std::vector<hsize_t> extents, size_t bytes_
   return extents;
 }
 
-/// How a dataset lies in the file: in chunks with a Fletcher32 checksum each, which the library
-/// verifies whenever one is read. An empty dataset has no chunks.
+/// Dataset layout in chunks with a Fletcher32 checksum each, which the library
+/// verifies on reading. An empty dataset has no chunks.
 inline Id checked_layout(const std::vector<hsize_t>& extents, size_t bytes_each) {
   Id layout = checked_creation(H5P_DATASET_CREATE);
   if (std::find(extents.begin(), extents.end(), hsize_t{0}) != extents.end()) return layout;
@@ -67,7 +68,7 @@ inline Id checked_layout(const std::vector<hsize_t>& extents, size_t bytes_each)
   return layout;
 }
 
-/// What the library's failure means: call it before any other call of the library.
+/// Cause of the last HDF5 failure; call it before any other HDF5 function.
 inline std::string damage() {
   bool checksum = false;
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {

@@ -1,5 +1,5 @@
 #pragma once
-// The HDF5 store behind one file: plain calls in terms of vectors and Eigen matrices.
+// Reads and writes one HDF5 file in terms of vectors and Eigen matrices.
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
@@ -12,17 +12,17 @@
 
 namespace clatter {
 
-/// One HDF5 file. Paths inside the file are "group/dataset"; missing groups are made on writing.
-/// Writing goes to `path.part`; nothing stands under the final name before commit(), and without
-/// commit() an older artefact stays. Data, attributes and heads have checksums (HDF5's own), which
-/// reading verifies; files without them are read as they are.
-/// Errors: FileError for what the disk or library refuses, InputError for wrong content; each names
-/// file, place, what was found and what was expected.
+/// One HDF5 file. Paths inside the file are "group/dataset"; missing groups are created on writing.
+/// Data is written to `path.part`; commit() renames it, and without commit() an older file stays
+/// unchanged. Data, attributes and headers have HDF5 checksums, which are verified on reading;
+/// files without checksums can be read too. Errors: FileError for failures of the disk or library,
+/// InputError for invalid content; each names the file, the position in it, what was found and what
+/// was expected.
 class H5File {
  public:
   /// Opens a finished file for reading.
   static H5File open(const std::filesystem::path& path);
-  /// Starts a new file that commit() puts in place of `path`.
+  /// Starts a new file that commit() renames to `path`.
   static H5File create(const std::filesystem::path& path);
 
   H5File(H5File&&) noexcept;
@@ -37,7 +37,7 @@ class H5File {
   bool has_attribute(std::string_view object, std::string_view name) const;
   /// Names of the members of a group, sorted; empty when the group is absent.
   std::vector<std::string> list(std::string_view group) const;
-  /// Extents of a dataset.
+  /// Dimensions of a dataset.
   std::vector<int64_t> shape(std::string_view name) const;
 
   void write(std::string_view name, const std::vector<double>& values);
@@ -45,11 +45,11 @@ class H5File {
   void write(std::string_view name, const std::vector<int64_t>& values);
   void write(std::string_view name, const std::vector<std::string>& values);
   void write(std::string_view name, const Eigen::VectorXd& values);
-  /// The file shows the matrix's natural (rows, columns) whatever the storage order in memory.
+  /// Stored as (rows, columns) regardless of the storage order in memory.
   void write(std::string_view name, const Eigen::MatrixXd& values);
   void write(std::string_view name, const RowMatrix& values);
   void write(std::string_view name, const IndexMatrix& values);
-  /// Single precision, for what is only looked at.
+  /// Single precision, for visualisation data.
   void write_float(std::string_view name, const std::vector<float>& values,
                    const std::vector<int64_t>& shape);
 
@@ -64,8 +64,8 @@ class H5File {
   RowMatrix read_rows(std::string_view name, int64_t first, int64_t count) const;
   IndexMatrix read_index_matrix(std::string_view name) const;
 
-  /// Attributes; `object` is a group or dataset, "/" for the root. Groups are made when missing. A
-  /// text over 60 000 bytes becomes the one entry of dataset `object/name`.
+  /// Attributes; `object` is a group or dataset, "/" for the root. Missing groups are created. A
+  /// string over 60 000 bytes is stored as the single entry of dataset `object/name`.
   void set(std::string_view object, std::string_view name, double value);
   void set(std::string_view object, std::string_view name, int64_t value);
   void set(std::string_view object, std::string_view name, int value) {
@@ -78,7 +78,7 @@ class H5File {
   }
   double get_double(std::string_view object, std::string_view name) const;
   int64_t get_int(std::string_view object, std::string_view name) const;
-  /// A list of whole numbers, at least one.
+  /// A list of integers, at least one.
   std::vector<int64_t> get_ints(std::string_view object, std::string_view name) const;
   std::string get_string(std::string_view object, std::string_view name) const;
   /// Names of all attributes of an object, sorted.

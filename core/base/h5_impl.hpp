@@ -1,6 +1,6 @@
 #pragma once
-// Inner side of h5_file: identifiers that close themselves and typed access. Only
-// core/base/h5_*.cpp include this; nobody else sees an HDF5 type.
+// Implementation of h5_file: RAII identifiers and typed access. Included by
+// core/base/h5_*.cpp only, so that HDF5 types stay hidden.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,10 +17,9 @@
 namespace clatter {
 
 inline void silence_library() {
-  // The library's own stack of messages is for its developers; ours is one line.
+  // HDF5's error stack is replaced by our one-line messages.
   static const bool once = [] {
-    // After a full disk the library's own clean-up at exit crashes (1.10.8); files are closed by
-    // us.
+    // After a full disk HDF5's clean-up at exit crashes (1.10.8); we close files ourselves.
     H5dont_atexit();
     H5check_version(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);  // hard case H6
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -48,7 +47,7 @@ inline hid_t memory_type<int64_t>() {
   return H5T_NATIVE_INT64;
 }
 
-/// UTF-8 of variable length, or of `length` bytes with zeros behind.
+/// UTF-8 of variable length, or of `length` bytes, padded with zeros.
 inline Id string_type(size_t length = H5T_VARIABLE) {
   Id type(H5Tcopy(H5T_C_S1), &H5Tclose);
   H5Tset_size(type, length);
@@ -88,11 +87,11 @@ struct H5File::Impl {
     return linked(name);
   }
 
-  /// Whether the last group on the way has this member.
+  /// Whether the parent group has this member.
   bool linked(const std::string& name) const {
-    const htri_t there = H5Lexists(file, name.c_str(), H5P_DEFAULT);
-    if (there < 0) refuse(name, damage());
-    return there > 0;
+    const htri_t exists = H5Lexists(file, name.c_str(), H5P_DEFAULT);
+    if (exists < 0) refuse(name, damage());
+    return exists > 0;
   }
 
   Id open_dataset(std::string_view name) const {
@@ -159,7 +158,7 @@ struct H5File::Impl {
     return values;
   }
 
-  /// Texts of one length.
+  /// Strings of fixed length.
   std::vector<std::string> read_texts(std::string_view name, hid_t set, hid_t stored,
                                       size_t count) const {
     const size_t length = H5Tget_size(stored);
@@ -172,7 +171,7 @@ struct H5File::Impl {
     return values;
   }
 
-  /// Texts of variable length, as h5py and earlier versions of clatter write them.
+  /// Strings of variable length, as h5py and earlier versions of clatter write them.
   std::vector<std::string> read_long_texts(std::string_view name, hid_t set, size_t count) const {
     std::vector<char*> pointers(count, nullptr);
     if (pointers.empty()) return {};
@@ -205,12 +204,12 @@ struct H5File::Impl {
   }
 
   bool has_attribute(hid_t owner, std::string_view object, std::string_view name) const {
-    const htri_t there = H5Aexists(owner, std::string(name).c_str());
-    if (there < 0) refuse(object, damage());
-    return there > 0;
+    const htri_t exists = H5Aexists(owner, std::string(name).c_str());
+    if (exists < 0) refuse(object, damage());
+    return exists > 0;
   }
 
-  /// Makes what is missing of the groups on the way and of `object` itself.
+  /// Creates `object` and its parent groups where missing.
   void ensure_group(const std::string& object) {
     if (object.empty() || object == "/" || exists(object)) return;
     ensure_group(parent_of(object));
@@ -223,7 +222,7 @@ struct H5File::Impl {
     return path.substr(0, path.rfind('/') == std::string::npos ? 0 : path.rfind('/'));
   }
 
-  /// `extent` < 0: one value, otherwise a list of so many.
+  /// `extent` < 0: a scalar, otherwise a list of that length.
   void set_attribute(std::string_view object, std::string_view name, hid_t type, const void* value,
                      int64_t extent = -1) {
     ensure_group(std::string(object));
@@ -255,7 +254,7 @@ struct H5File::Impl {
     if (H5Tget_class(stored) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
       refuse(object, fmt::format("attribute {} is not a text", name));
     const auto cannot = [&] { refuse(object, fmt::format("attribute {}: {}", name, damage())); };
-    if (H5Tis_variable_str(stored) > 0) {  // of h5py, or of earlier versions of clatter
+    if (H5Tis_variable_str(stored) > 0) {  // written by h5py or earlier versions of clatter
       const Id type = string_type();
       char* pointer = nullptr;
       if (H5Aread(attribute, type, &pointer) < 0) cannot();

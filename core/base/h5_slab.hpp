@@ -1,5 +1,5 @@
 #pragma once
-// One entry of a dataset of three extents, so that many shapes need not be in memory at once.
+// One slab of a three-dimensional dataset, so that mode shapes need not all be in memory.
 #include <filesystem>
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-/// Entry `index` of the first extent of dataset `name`, (second, third). InputError when it is not
-/// of three extents, of numbers, or shorter.
+/// Slab `index` along the first dimension of dataset `name`. InputError when the dataset is not
+/// three-dimensional, not numeric, or too short.
 RowMatrix read_slab(const std::filesystem::path& path, const std::string& name, int64_t index);
 
 }  // namespace clatter

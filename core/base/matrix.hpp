@@ -1,13 +1,13 @@
 #pragma once
-// Matrices row by row, as files hold them.
+// Row-major matrices, as stored in files.
 #include <Eigen/Core>
 #include <cstdint>
 
 namespace clatter {
 
-/// Integer matrix stored row by row: connectivity tables, (rows, columns) as in the file.
+/// Row-major integer matrix: connectivity tables, (rows, columns) as in the file.
 using IndexMatrix = Eigen::Matrix<int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-/// Double matrix stored row by row: coordinates (n, 3), histories (n_t, n_columns).
+/// Row-major double matrix: coordinates (n, 3), histories (n_t, n_columns).
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace clatter

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory the process may take.
+// Memory limit of the process.
 #include <limits>
 #include <string>
 
@@ -9,22 +9,22 @@ namespace clatter {
 void set_memory_limit_gib(double gib);
 double memory_limit_gib();
 
-/// Resident memory of this process now [GiB]; 0 where there is no /proc.
+/// Current resident memory of this process [GiB]; 0 where there is no /proc.
 double memory_in_use_gib();
 
-/// What is left below the limit [GiB], at least 0. Memory that was freed but kept for later arrays
-/// (keep_freed_memory) goes back to the kernel first where less than `enough` would be left: it
-/// costs time to have it again.
+/// Memory left below the limit [GiB], at least 0. Where less than `enough` would be left, freed
+/// memory kept for reuse (keep_freed_memory) is first returned to the kernel; allocating it again
+/// costs time.
 double memory_left_gib(double enough = std::numeric_limits<double>::infinity());
 
 /// Throws NumericsError "<what> needs 1.25 GiB, 340 MiB of 1 GiB are left: <advice>" when `gib` is
-/// more than what is left.
+/// more than is left.
 void require_memory(const std::string& what, double gib, const std::string& advice);
 
-/// An amount of memory for people, three digits: "1.25 GiB", "20.5 MiB", "512 KiB".
+/// An amount of memory as text with three digits: "1.25 GiB", "20.5 MiB", "512 KiB".
 std::string memory_text(double gib);
 
-/// GiB of so many doubles.
+/// GiB of `count` doubles.
 double gib_of_doubles(double count);
 
 }  // namespace clatter

@@ -1,5 +1,5 @@
 #pragma once
-// Things found by name in a map, or a line that says which names there are.
+// Look-up by name in a map; the error lists the existing names.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,12 +1,11 @@
 #pragma once
-// Files that are being written under a name of their own until they are complete, and what a signal
-// leaves of them: nothing.
+// Files that are written under a temporary name until they are complete; signals remove them.
 #include <filesystem>
 
 namespace clatter {
 
-/// A name that stands for an unfinished file while this lives: SIGINT, SIGTERM and SIGHUP remove it
-/// before they end the process.
+/// Registers an unfinished file for its lifetime: SIGINT, SIGTERM and SIGHUP remove the file
+/// before they terminate the process.
 class PartName {
  public:
   PartName() = default;
@@ -19,8 +18,8 @@ class PartName {
   int slot_ = -1;
 };
 
-/// Makes these signals remove the unfinished files; one that is ignored (nohup) stays ignored, one
-/// that has a handler of its own keeps it.
+/// Installs handlers that remove the unfinished files. An ignored signal (nohup) stays ignored, one
+/// with a handler keeps it.
 void remove_parts_on_signals();
 
 }  // namespace clatter

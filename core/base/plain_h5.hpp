@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 files in the layouts of other programs: their types, no filters, nothing of our own.
+// HDF5 files in the layouts of other programs: their types, no filters, no clatter metadata.
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace clatter {
 
-/// Writes to `path.part`; commit() syncs it and gives it its name, else the part goes. Groups are
-/// made when missing. FileError when the disk refuses.
+/// Writes to `path.part`; commit() syncs and renames it; without commit() it is removed. Missing
+/// groups are created. FileError when writing fails.
 class PlainH5 {
  public:
   explicit PlainH5(const std::filesystem::path& path);
@@ -18,12 +18,12 @@ class PlainH5 {
   PlainH5& operator=(const PlainH5&) = delete;
 
   void group(const std::string& name);
-  /// Lists: 64-bit floats, 32-bit whole numbers.
+  /// Lists: 64-bit floats, 32-bit integers.
   void write(const std::string& name, const std::vector<double>& values);
   void write(const std::string& name, const std::vector<int32_t>& values);
-  /// Texts as a list of arrays of `length` bytes each, filled with zeros.
+  /// Strings of `length` bytes each, padded with zeros.
   void write_fixed(const std::string& name, const std::vector<std::string>& texts, size_t length);
-  /// Attributes of one value; a text has its own length and ends with a zero.
+  /// Scalar attributes; a string is null-terminated with its own length.
   void set(const std::string& object, const std::string& name, int32_t value);
   void set(const std::string& object, const std::string& name, double value);
   void set(const std::string& object, const std::string& name, const std::string& text);

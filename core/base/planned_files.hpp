@@ -1,24 +1,24 @@
 #pragma once
-// What a program reads and writes, known before it works: an output never overwrites an input, and
-// an output that cannot be written is told at once.
+// Inputs and outputs of a program, registered before it starts work: no output overwrites an input,
+// and an output that cannot be written is reported at once.
 #include <filesystem>
 #include <string>
 
 namespace clatter {
 
-/// Says that this program is going to write `path`, because `asked_by` ("-o", "--export") asks for
-/// it; `path.part`, the name until it is complete, counts as the same output.
+/// Registers `path` as an output requested by `requested_by` ("-o", "--export"); the temporary name
+/// `path.part` counts as the same output.
 ///
-/// InputError when that is a file said to be read or another output, also by a link or another
-/// spelling. FileError when the folder is missing or cannot be written, when the name is a folder
-/// or no regular file, or when a file there may not be overwritten.
-void will_write(const std::string& asked_by, const std::filesystem::path& path);
+/// InputError when that is a registered input or another output, also through a link or another
+/// spelling. FileError when the folder is missing or not writable, when the path is a folder or not
+/// a regular file, or when an existing file may not be overwritten.
+void will_write(const std::string& requested_by, const std::filesystem::path& path);
 
-/// Says that this program reads `path`, which `named_by` names ("a.toml:3: source"; empty: the
+/// Registers `path` as an input, named by `named_by` ("a.toml:3: source"; empty: the
 /// command line). InputError when it is also an output.
 void will_read(const std::filesystem::path& path, const std::string& named_by = {});
 
-/// Whether this program said that it reads or writes a file of this very name, or the part of one.
+/// Whether exactly this path, or the final name of this .part file, was registered.
 bool is_planned(const std::filesystem::path& path);
 
 }  // namespace clatter

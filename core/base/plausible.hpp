@@ -1,29 +1,30 @@
 #pragma once
-// Values that no material and no part of an engine has: most often another unit. Such values are
-// told, with a guess of the unit, and never refused.
+// Material and part data outside physical ranges, most often because of a wrong unit. Reported with
+// the unit that was probably meant, never refused.
 #include <string>
 #include <vector>
 
 namespace clatter {
 
-/// Each returns what is doubted about a value, with a guess where one unit makes it right ("density
-/// 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?"), or nothing for a value that can be.
+/// Each returns a warning about an implausible value, with a guess where one unit makes it
+/// plausible
+/// ("density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?"), or "" for a plausible value.
 ///
 /// Density [kg/m3]: 10 (foams) to 23 000 (osmium: 22 590).
 std::string doubt_of_density(double density);
 /// Young's modulus [Pa]: 3e5 (soft rubber) to 1.3e12 (diamond: 1.2e12). Where the density is that
 /// of a metal (over 2 500 kg/m3), sqrt(E / rho) is at least 500 m/s (lead: 1 200).
 std::string doubt_of_modulus(double modulus, double density);
-/// Poisson's ratio: not negative (foams made for it apart, no material is).
+/// Poisson's ratio: not negative (only special foams have such).
 std::string doubt_of_poisson(double poisson);
-/// Largest side of the part's box [m]: 1 mm to 30 m (ship engines).
+/// Largest side of the part's bounding box [m]: 1 mm to 30 m (ship engines).
 std::string doubt_of_length(double length);
-/// First elastic frequency f [Hz] of a part of largest side L [m]: f L is below the speed of sound
-/// in any solid (20 000 m/s), and above 0.02 m/s (a steel strip of 1 : 10 000).
+/// First elastic frequency f [Hz] of a part with largest side L [m]: f L is below the speed of
+/// sound in any solid (20 000 m/s), and above 0.02 m/s (a steel strip of 1 : 10 000).
 std::string doubt_of_first_frequency(double hz, double length);
 
-/// One warning "where: a; b" of all doubts that are not empty; none when all are. Equal ones are
-/// told once.
+/// Issues one warning "where: a; b" of all texts that are not empty, without duplicates; none when
+/// all are empty.
 void warn_of_doubts(const std::string& where, const std::vector<std::string>& doubts);
 
 }  // namespace clatter

@@ -1,5 +1,5 @@
 #pragma once
-// Progress of work over two seconds: a bar on a terminal, plain lines elsewhere.
+// Progress of work that takes over two seconds: a bar on a terminal, plain lines elsewhere.
 #include <cstdint>
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clatter {
 
-/// Shows nothing before two seconds have passed; then rate and time left. Silent with --quiet.
+/// Silent for the first two seconds, then shows rate and time left. Silent with --quiet.
 class Progress {
  public:
   Progress(std::string label, double total, std::string unit = "");

@@ -12,16 +12,16 @@ namespace clatter {
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;
 
 /// Writes group `name` with data, indices, indptr and attributes format="csc", shape, symmetric
-/// ("lower" or "no"). Rows within a column are sorted.
+/// ("lower" or "no"). Row indices ascend within a column.
 void write_sparse(H5File& file, std::string_view name, const SparseMatrix& matrix, bool lower);
 
-/// Reads it back; checks lengths, index ranges, sortedness and finite values (InputError).
+/// Reads it; checks lengths, index ranges, sortedness and finite values (InputError).
 SparseMatrix read_sparse(const H5File& file, std::string_view name);
 
-/// y = A x with A given by its lower triangle; x is n x m.
+/// y = A x for A given by its lower triangle; x is n x m.
 Eigen::MatrixXd multiply_symmetric(const SparseMatrix& lower, const Eigen::MatrixXd& x);
 
-/// |A| |x|, entry by entry, of the same.
+/// |A| |x| with entrywise magnitudes.
 Eigen::MatrixXd magnitude_product(const SparseMatrix& lower, const Eigen::MatrixXd& x);
 
 }  // namespace clatter

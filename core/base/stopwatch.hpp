@@ -1,5 +1,5 @@
 #pragma once
-// Seconds and memory of the steps of a stage.
+// Time and memory of the steps of a stage.
 #include <chrono>
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ class Stopwatch {
 /// Peak resident memory of this process so far [bytes]; 0 where there is no /proc.
 long long peak_memory_bytes();
 
-/// Records the named steps of a stage, prints each as it ends.
+/// Records the named steps of a stage, prints each at its end.
 class StepClock {
  public:
   struct Step {
@@ -30,7 +30,7 @@ class StepClock {
   };
   /// Ends the step that began at the previous call (or at construction) and records it.
   void lap(const std::string& name);
-  /// Records steps that another process has timed and told; the next one begins here.
+  /// Records steps timed by another process; the next step begins here.
   void adopt(const std::vector<Step>& steps);
   const std::vector<Step>& steps() const { return steps_; }
   double total_seconds() const { return total_.seconds(); }

@@ -1,15 +1,15 @@
 #pragma once
-// How many threads clatter's own loops use, and the loop itself.
+// Thread count of clatter's own loops, and the parallel loop.
 #include <cstdint>
 #include <functional>
 
 namespace clatter {
 
-/// Sets the count for the whole process; 0 means all cores.
+/// Sets the count for the process; 0 means all cores.
 void set_thread_count(int count);
 int thread_count();
 
-/// Calls body(begin, end) on contiguous pieces of [0, n), one piece a thread. The pieces depend
+/// Calls body(begin, end) on contiguous pieces of [0, n), one per thread. The pieces depend
 /// only on n and the thread count, so results do too. An exception in any piece is rethrown.
 void parallel_pieces(int64_t n, const std::function<void(int64_t begin, int64_t end)>& body);
 

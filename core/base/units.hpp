@@ -1,5 +1,5 @@
 #pragma once
-// Consistent systems of units: decks and matrix files carry none, so the user names them.
+// Consistent unit systems: decks and matrix files name none, so the user specifies it.
 #include <string>
 #include <string_view>
 
@@ -8,7 +8,7 @@ namespace clatter {
 /// A consistent system: forces are mass * length / time^2.
 struct UnitSystem {
   std::string name = "m-kg-s";
-  double length = 1.0;  // [m] a unit
+  double length = 1.0;  // [m] per unit
   double mass = 1.0;    // [kg]
   double time = 1.0;    // [s]
 
@@ -17,7 +17,7 @@ struct UnitSystem {
 };
 
 /// "m-kg-s" (N, Pa), "mm-t-s" (N, MPa), "mm-kg-ms" (kN, GPa), "mm-kg-s" (mN, kPa), "cm-g-s" or
-/// "in-lbfs2/in-s" (lbf, psi). InputError, beginning with `where`, that lists them for another.
+/// "in-lbfs2/in-s" (lbf, psi). InputError, prefixed with `where`, lists them for an unknown name.
 UnitSystem unit_system_named(std::string_view name, const std::string& where);
 
 }  // namespace clatter

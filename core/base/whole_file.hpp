@@ -1,5 +1,5 @@
 #pragma once
-// Text files that appear complete or not at all.
+// Text files that are written completely or not at all.
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace clatter {
 
-/// Writes to `path.part`; commit() syncs it to disk and gives it its name. Without commit() nothing
-/// stands under the name, an older file there stays, and the part is removed.
+/// Writes to `path.part`; commit() syncs it to disk and renames it. Without commit() the part
+/// is removed and an older file stays unchanged.
 class WholeFile {
  public:
   /// FileError when the part cannot be opened.
@@ -19,7 +19,7 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   std::ostream& stream() { return stream_; }
-  /// FileError when anything could not be written.
+  /// FileError when a write failed.
   void commit();
 
  private:
@@ -28,7 +28,7 @@ class WholeFile {
   std::ofstream stream_;
 };
 
-/// The whole text at once.
+/// Writes `text` as the complete file.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace clatter

@@ -1,12 +1,12 @@
 #pragma once
-// Values as bytes and back, bit by bit, for a parent and its child process: same program, same
-// machine, so no format to keep.
+// Binary serialisation between a parent and its child process: same program, same machine, so no
+// stable format is needed.
 //
-// Numbers, texts, vectors, maps, pairs and Eigen matrices go by themselves. A struct S needs beside
-// it, found by its namespace,
+// Numbers, texts, vectors, maps, pairs and Eigen matrices are built in. A struct S needs, found by
+// argument-dependent look-up,
 //   template <class Archive, class Self> requires same_as<remove_const_t<Self>, S>
 //   void wire(Archive& archive, Self& s) { auto& [a, b] = s; archive(a, b); }
-// whose binding stops compiling when S gets another member.
+// whose binding fails to compile when S gets another member.
 #include <Eigen/Core>
 #include <concepts>
 #include <cstdint>
@@ -77,7 +77,7 @@ class WireWriter {
   std::string bytes_;
 };
 
-/// Takes them out again in the same order. NumericsError when the bytes end too early.
+/// Reads values in the order written. NumericsError when the bytes end too early.
 class WireReader {
  public:
   explicit WireReader(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
@@ -88,17 +88,17 @@ class WireReader {
 
  private:
   void raw(void* to, size_t size) {
-    if (size > left_) throw NumericsError("the result of a child process is cut short");
+    if (size > left_) throw NumericsError("the result of a child process is truncated");
     if (size > 0) std::memcpy(to, at_, size);
     at_ += size;
     left_ -= size;
   }
-  // Each counted thing takes at least `bytes_each`, so a wrong count asks for no memory.
+  // Each entry takes at least `bytes_each`, so a wrong count allocates no memory.
   size_t count(size_t bytes_each) {
     uint64_t n = 0;
     get(n);
     if (bytes_each > 0 && n > left_ / bytes_each)
-      throw NumericsError("the result of a child process is cut short");
+      throw NumericsError("the result of a child process is truncated");
     return static_cast<size_t>(n);
   }
 
@@ -136,7 +136,7 @@ class WireReader {
   void get(Eigen::Matrix<S, R, C, O, MR, MC>& matrix) {
     const size_t rows = count(0), columns = count(0);
     if (columns > 0 && rows > left_ / sizeof(S) / columns)
-      throw NumericsError("the result of a child process is cut short");
+      throw NumericsError("the result of a child process is truncated");
     matrix.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
     raw(matrix.data(), static_cast<size_t>(matrix.size()) * sizeof(S));
   }

@@ -1,11 +1,11 @@
 #pragma once
-// Text in XML.
+// XML escapes.
 #include <string>
 #include <string_view>
 
 namespace clatter {
 
-/// With & < > " as entities, for attributes and content.
+/// Replaces & < > " by entities, for attributes and content.
 std::string escape_xml(std::string_view text);
 
 }  // namespace clatter

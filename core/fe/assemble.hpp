@@ -1,5 +1,5 @@
 #pragma once
-// Sparse M and K of a mesh, on nodal displacements.
+// Assembly of sparse M and K of a mesh on nodal displacements.
 #include <vector>
 
 #include "core/base/sparse.hpp"
@@ -12,22 +12,21 @@ namespace clatter::fe {
 /// M q'' + K q = f on 3 n_nodes nodal displacements, node-major (3 a + d); lower triangles.
 struct NodalMatrices {
   SparseMatrix M;  // [kg]
-  SparseMatrix K;  // [N/m], singular: six rigid motions
+  SparseMatrix K;  // [N/m], singular: six rigid-body motions
 };
 
-/// Consistent mass, or its diagonal scaled to the same total (lump_hrz): M is diagonal then.
-enum class MassForm { kConsistent, kHrz };
+/// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz).
 
-/// Assembles all cells; `materials` has one entry a region of the mesh.
+/// Assembles all cells; `materials` has one entry per region of the mesh.
 ///
-/// Cells go through in chunks: their matrices are computed in parallel, then added in parallel,
-/// each thread to the columns of its own nodes and in the order of the cells. So every entry is
-/// summed in one order, and the bits do not depend on the thread count. Beyond M, K and the
-/// pattern only one chunk is held. InputError names an inverted cell.
+/// Cells are processed in chunks: their matrices are computed in parallel, then added in parallel,
+/// each thread to the columns of its own nodes and in cell order, so that the result does not
+/// depend on the thread count. Beyond M, K and the pattern only one chunk is held. InputError names
+/// an inverted cell.
 ///
-/// `rigid_of_node` (n_nodes, or none) says which rigid body a node belongs to, -1 for no one: a
-/// cell whose nodes all belong to one body does not deform, and its stiffness, of which elimination
-/// would leave rounding, is left out.
+/// `rigid_of_node` (n_nodes, or empty) is the rigid body of each node, or -1: a cell whose nodes
+/// all belong to one body does not deform; its stiffness is omitted, since elimination would leave
+/// rounding errors of it.
 NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                        const NodePattern& pattern, MassForm mass = MassForm::kConsistent,
                        const std::vector<int32_t>& rigid_of_node = {});

@@ -1,5 +1,5 @@
 #pragma once
-// Systems of axes for directions: [system.NAME] of a part's fe.toml.
+// Coordinate systems for directions: [system.NAME] of a part's fe.toml.
 #include <Eigen/Core>
 #include <string>
 
@@ -16,19 +16,19 @@ struct Axes {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();     // [m]
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: x, y, z
 
-  /// The three directions at a place [m], as columns; right-handed and orthonormal. On the axis of
-  /// revolution the zero angle is taken.
-  Eigen::Matrix3d at(const Eigen::Vector3d& place) const;
+  /// The three directions at a position [m], as columns; right-handed and orthonormal. On the axis
+  /// of revolution angle zero is used.
+  Eigen::Matrix3d at(const Eigen::Vector3d& position) const;
 };
 
-/// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x lies along z.
+/// Reads `kind`, `origin` (in `metre` metres), `z` and `x`. InputError when x is parallel to z.
 Axes read_axes(const Config& table, double metre);
 
-/// A line in space about which a part turns.
+/// An axis of rotation.
 struct RotationAxis {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       // [m]
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
-  /// From the axis to `x`, square to it [m].
+  /// Vector from the axis to `x`, perpendicular to the axis [m].
   Eigen::Vector3d arm(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d r = x - point;
     return r - r.dot(direction) * direction;

@@ -1,5 +1,5 @@
 #pragma once
-// How a part of a model's file is refused: "file: place: found X, expected Y".
+// Errors and checks for FE model files: "file: dataset: found X, expected Y".
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -10,24 +10,24 @@
 
 namespace clatter::fe {
 
-[[noreturn]] inline void refuse(const H5File& file, const std::string& place,
+[[noreturn]] inline void refuse(const H5File& file, const std::string& name,
                                 const std::string& found, const std::string& expected) {
   throw InputError(
-      fmt::format("{}: {}: found {}, expected {}", file.path().string(), place, found, expected));
+      fmt::format("{}: {}: found {}, expected {}", file.path().string(), name, found, expected));
 }
 
 /// Dense or sparse.
 template <typename Matrix>
-void check_shape(const H5File& file, const std::string& place, const Matrix& matrix,
+void check_shape(const H5File& file, const std::string& name, const Matrix& matrix,
                  Eigen::Index rows, Eigen::Index cols) {
   if (matrix.rows() != rows || matrix.cols() != cols)
-    refuse(file, place, fmt::format("{} x {}", matrix.rows(), matrix.cols()),
+    refuse(file, name, fmt::format("{} x {}", matrix.rows(), matrix.cols()),
            fmt::format("{} x {}", rows, cols));
 }
 
 template <typename Matrix>
-void check_finite(const H5File& file, const std::string& place, const Matrix& values) {
-  if (!values.allFinite()) refuse(file, place, "a value that is not finite", "finite numbers");
+void check_finite(const H5File& file, const std::string& name, const Matrix& values) {
+  if (!values.allFinite()) refuse(file, name, "a value that is not finite", "finite numbers");
 }
 
 }  // namespace clatter::fe

@@ -2,7 +2,7 @@
 // The assembled model of one part and its file, schema "clatter/fe/2":
 //   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group
 //   `damping`, sets/, grids/, loads/<name> with attribute `unit`, surfaces/<name>/<face type>,
-//   mass/, what statics need (fe_statics_file.hpp), and the cells (fe_cells.hpp).
+//   mass/, data for statics (fe_statics_file.hpp), and the cells (fe_cells.hpp).
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
@@ -18,21 +18,21 @@ namespace clatter::fe {
 
 inline constexpr const char* kFeSchema = "clatter/fe/2";
 
-/// What supports hold: the coordinates s that are zero, or prescribed, beside q. With them
+/// Supported DoFs: coordinates s that are zero or prescribed, in addition to q. With them
 ///   u = T q + T_s s,   K q + K_sq^T s = f,   K_sq q + K_ss s = f_s + reactions.
 struct FeSupports {
-  std::vector<std::string> names;  // of the supports
+  std::vector<std::string> names;  // of supports
   std::vector<int32_t> support;    // n_s: index into names
-  rom::DofSet set;                 // n_s entries: labels, places, directions; kind "support"
+  rom::DofSet set;                 // n_s entries: labels, positions, directions; kind "support"
   SparseMatrix T;                  // T_s, 3 n_nodes x n_s
   SparseMatrix K_sq;               // n_s x n [N/m]
   SparseMatrix K_ss;               // n_s x n_s, lower triangle [N/m]
-  Eigen::MatrixXd rigid;           // n_s x 6: s of the unit rigid motions
+  Eigen::MatrixXd rigid;           // n_s x 6: s of unit rigid-body motions
 
   int size() const { return static_cast<int>(support.size()); }
 };
 
-/// Reference points: rows 6 p + d (x y z rx ry rz) of the transformation.
+/// Reference points: rows 6 p + d (x y z rx ry rz) of the transformations.
 struct FePoints {
   std::vector<std::string> names;
   RowMatrix position;  // n_points x 3 [m]
@@ -40,49 +40,51 @@ struct FePoints {
   SparseMatrix T_s;    // 6 n_points x n_s
 };
 
-/// The linear elastic model of one part after its couplings and supports were eliminated:
+/// The linear elastic model of one part after elimination of couplings and supports:
 ///   M q'' + (alpha K + beta M) q' + K q = f,   u = T q.
-/// q holds nodal displacements [m] and the generalised coordinates that took the place of pivot
+/// q holds nodal displacements [m] and generalised coordinates that replace pivot
 /// displacements: displacement [m] or rotation [rad] of a reference node, mean displacement of a
 /// patch or bore [m]. The force on a generalised coordinate is a force [N] or moment [N m].
 struct FeModel {
   std::string name;
-  SparseMatrix M;         // n x n, lower triangle [kg, or kg m2 on rotations]
-  SparseMatrix K;         // n x n, lower triangle [N/m]
-  SparseMatrix T;         // 3 n_nodes x n: row 3 a + d is node a, direction d
-  RowMatrix nodes;        // n_nodes x 3 [m]
-  Eigen::MatrixXd rigid;  // n x 6: q of unit rigid motions x, y, z, rx, ry, rz about the origin
-  FeSupports supports;    // what is held
+  SparseMatrix M;   // n x n, lower triangle [kg, or kg m2 on rotations]
+  SparseMatrix K;   // n x n, lower triangle [N/m]
+  SparseMatrix T;   // 3 n_nodes x n: row 3 a + d is node a, direction d
+  RowMatrix nodes;  // n_nodes x 3 [m]
+  Eigen::MatrixXd
+      rigid;            // n x 6: q of unit rigid-body motions x, y, z, rx, ry, rz about the origin
+  FeSupports supports;  // supported DoFs
   FePoints points;
-  double alpha = 0.0;                             // D = alpha K + beta M [s]
-  double beta = 0.0;                              // [1/s]
-  std::map<std::string, rom::DofSet> sets;        // what stays visible: contacts, bearings, sensors
-  std::map<std::string, rom::ContactGrid> grids;  // keyed like their set
-  std::map<std::string, Eigen::VectorXd> loads;   // n, forces of unit load cases
-  std::map<std::string, Eigen::VectorXd> support_loads;  // n_s: the loads' forces on s itself
-  std::map<std::string, Eigen::VectorXd> prescribed;     // n_s: s of the loads that prescribe any
-  std::map<std::string, Eigen::VectorXd> temperature_rise;     // n_nodes [K], of loads with one
-  std::map<std::string, std::map<std::string, double>> cases;  // sums of loads
+  double alpha = 0.0;                                    // D = alpha K + beta M [s]
+  double beta = 0.0;                                     // [1/s]
+  std::map<std::string, rom::DofSet> sets;               // named DoFs: contacts, bearings, sensors
+  std::map<std::string, rom::ContactGrid> grids;         // key: name of their set
+  std::map<std::string, Eigen::VectorXd> loads;          // n, forces of unit load cases
+  std::map<std::string, Eigen::VectorXd> support_loads;  // n_s: forces of the loads on s
+  std::map<std::string, Eigen::VectorXd>
+      prescribed;  // n_s: s of loads with prescribed displacements
+  std::map<std::string, Eigen::VectorXd> temperature_rise;     // n_nodes [K], of temperature loads
+  std::map<std::string, std::map<std::string, double>> cases;  // factors of loads
   std::map<std::string, mesh::Surface> surfaces;               // outward
   FeCells cells;                                               // for stresses
-  rom::MassProperties mass;                                    // of the elements and point masses
-  std::map<std::string, std::string> load_units;  // "gas" -> "Pa": what one unit of the load is
+  rom::MassProperties mass;                                    // of elements and point masses
+  std::map<std::string, std::string> load_units;               // "gas" -> "Pa": unit of the load
 
   int size() const { return static_cast<int>(K.rows()); }
   const rom::DofSet& set(
-      const std::string& set_name) const;  // InputError listing the names present
+      const std::string& set_name) const;  // InputError listing the existing names
 };
 
-/// InputError naming the supports when they hold every degree of freedom; `what` is what needs
-/// unknowns ("modes").
+/// InputError naming the supports when they hold every DoF; `what` is the operation that needs
+/// free DoFs ("modes").
 void require_unknowns(const FeModel& model, const std::string& what);
 
 /// Writes `model` into an open file; provenance, timing and certificate are the caller's.
 void write_fe_model(H5File& file, const FeModel& model);
 
 /// Reads a model; checks schema, shapes, index ranges, finite values, a positive diagonal of M and
-/// K, and that every DoF of a set exists. n is 0 where supports hold every degree of freedom.
-/// InputError names the file, place, found and expected.
+/// K, and that every DoF of a set exists. n is 0 where supports hold every DoF.
+/// InputError names the file, dataset, found and expected.
 FeModel read_fe_model(const std::filesystem::path& path);
 
 }  // namespace clatter::fe

@@ -10,15 +10,15 @@
 
 namespace clatter::fe {
 
-/// Stresses 11 22 33 12 23 31 over strains in the same order, shear strains engineering ones
+/// Stresses 11 22 33 12 23 31 from strains in the same order, with engineering shear strains
 /// (gamma = 2 eps) [Pa].
 using Elasticity = Eigen::Matrix<double, 6, 6>;
 using Voigt = Eigen::Matrix<double, 6, 1>;
 
-/// How stiffness is integrated (element.hpp says with what points).
+/// Integration of the stiffness (element.hpp lists the points).
 enum class Integration { kFull, kReduced, kIncompatible };
 
-/// The choice for each cell type that has one.
+/// The choice for each cell type with alternatives.
 struct IntegrationChoice {
   Integration hex8 = Integration::kIncompatible;
   Integration hex20 = Integration::kFull;
@@ -31,9 +31,9 @@ struct Material {
   double youngs = 0.0;                                  // E [Pa]; isotropic only
   double poisson = 0.0;                                 // nu [1]; isotropic only
   double density = 0.0;                                 // rho [kg/m3]
-  std::optional<Elasticity> elasticity = std::nullopt;  // of any other material, on its axes [Pa]
-  Voigt expansion = Voigt::Zero();          // thermal strain per kelvin on its axes [1/K]
-  std::optional<Axes> axes = std::nullopt;  // absent: the basic frame
+  std::optional<Elasticity> elasticity = std::nullopt;  // of any other material, in its axes [Pa]
+  Voigt expansion = Voigt::Zero();          // thermal strain per kelvin in its axes [1/K]
+  std::optional<Axes> axes = std::nullopt;  // absent: the global frame
   IntegrationChoice integration = {};
 
   /// First Lame constant E nu / ((1 + nu) (1 - 2 nu)) [Pa].
@@ -42,7 +42,7 @@ struct Material {
   double mu() const { return 0.5 * youngs / (1.0 + poisson); }
   bool is_isotropic() const { return !elasticity; }
 
-  /// Elasticity and thermal strain per kelvin on the basic frame at the place `x` [m].
+  /// Elasticity and thermal strain per kelvin in the global frame at position `x` [m].
   Elasticity elasticity_at(const Eigen::Vector3d& x) const;
   Voigt expansion_at(const Eigen::Vector3d& x) const;
 };
@@ -54,7 +54,7 @@ struct Material {
 ///   anisotropic  `C` (or `C_gpa`) = 21 numbers: upper triangle of Elasticity row by row
 /// then `expansion` [1/K], one number or three along the axes, `system` (one of `systems`), and
 /// `hex8`, `hex20`, `wedge6`, `wedge15`. InputError unless rho > 0 and the elasticity is positive
-/// definite (isotropic: E > 0, -1 < nu < 0.5): else the elastic energy has no lower bound.
+/// definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic energy has no lower bound.
 Material read_material(const Config& table, const std::map<std::string, Axes>& systems = {});
 
 }  // namespace clatter::fe

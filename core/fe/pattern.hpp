@@ -1,5 +1,5 @@
 #pragma once
-// Which nodes share a cell, hence where M and K have entries.
+// Sparsity pattern of M and K: nodes that share a cell.
 #include <cstdint>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace clatter::fe {
 
-/// Lower triangle of the node adjacency, column by column: rows[start[j]] = j itself, then the
+/// Lower triangle of the node adjacency, by columns: rows[start[j]] = j itself, then the
 /// nodes above j that share a cell with it, ascending.
 struct NodePattern {
   std::vector<int64_t> start;  // n_nodes + 1
@@ -18,11 +18,11 @@ struct NodePattern {
   int64_t position(int32_t column, int32_t node) const;
 };
 
-/// Entries of the lower triangles, predicted before any memory is taken.
+/// Entries of the lower triangles, predicted before memory is allocated.
 struct PredictedSize {
   int64_t dofs;        // 3 n_nodes
   int64_t stiffness;   // entries of K
-  int64_t mass;        // entries of M: M couples no directions
+  int64_t mass;        // entries of M: M does not couple directions
   double gib() const;  // of both matrices together
 };
 
@@ -30,8 +30,8 @@ struct PredictedSize {
 /// K would not fit 32-bit indices (hard case E4).
 PredictedSize predict_size(int64_t nodes, int64_t pairs);
 
-/// Adjacency of all cells. Each node collects its neighbours from its own cells: no list of
-/// entries with repetitions is held.
+/// Adjacency from all cells. Each node collects its neighbours from its own cells; no list of
+/// duplicate entries is held.
 NodePattern node_pattern(const mesh::Mesh& mesh);
 
 }  // namespace clatter::fe

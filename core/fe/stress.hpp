@@ -1,9 +1,9 @@
 #pragma once
 // Stresses from displacements: sigma = C (eps - alpha dT).
 //
-// In a cell they are taken at the points where they are best and fitted by the linear functions of
-// its corners (cell_points.hpp); middle nodes get the mean of their edge's corners. A node's stress
-// is the mean over its cells of one region: across materials stress may jump.
+// In a cell they are evaluated at the optimal points and extrapolated by the linear shape functions
+// of its corners (cell_points.hpp); mid-side nodes get the mean of their edge's corners. Nodal
+// stress is averaged over the cells of one region only, since stress may jump between materials.
 #include <Eigen/Core>
 #include <vector>
 
@@ -12,26 +12,26 @@
 
 namespace clatter::fe {
 
-/// Rows xx yy zz xy yz zx [Pa] in the basic frame.
+/// Rows xx yy zz xy yz zx [Pa] in the global frame.
 using StressRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 /// Nodal stresses of one region.
 struct RegionStress {
   std::vector<int32_t> nodes;  // of the region, ascending
-  StressRows stress;           // a row for each of them
-  Eigen::VectorXd von_mises;   // of the means, not the mean of the cells' [Pa]
+  StressRows stress;           // one row per node
+  Eigen::VectorXd von_mises;   // of the averaged stress [Pa]
 };
 
 /// sqrt(((s_xx - s_yy)^2 + (s_yy - s_zz)^2 + (s_zz - s_xx)^2) / 2 + 3 (s_xy^2 + s_yz^2 + s_zx^2)).
 double von_mises(const Voigt& stress);
 
 /// Stresses at the stress_points of one cell: nodes `x` (n x 3 [m]), displacements `u` (3n) [m],
-/// temperature rise `dT` (n) [K] or empty. A hex8 counts the strain of its incompatible modes.
-/// InputError for an inverted cell.
+/// temperature rise `dT` (n) [K] or empty. For a hex8 the strain of its incompatible modes is
+/// included. InputError for an inverted cell.
 StressRows point_stress(mesh::CellType type, const mesh::CellNodes& x, const Material& material,
                         const Eigen::VectorXd& u, const Eigen::VectorXd& dT);
 
-/// Nodal stresses, one entry a region. `nodes` n x 3 [m], `u` 3 n, `dT` n or empty.
+/// Nodal stresses, one entry per region. `nodes` n x 3 [m], `u` 3 n, `dT` n or empty.
 std::vector<RegionStress> nodal_stress(const RowMatrix& nodes, const FeCells& cells,
                                        const Eigen::VectorXd& u, const Eigen::VectorXd& dT);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The stiffness of isotropic tetrahedra, which most meshes consist of: sizes fixed at compile time.
+// Stiffness of isotropic tetrahedra, the most common cells, with sizes fixed at compile time.
 #include <Eigen/Core>
 
 #include "core/fe/cell_points.hpp"
@@ -8,7 +8,7 @@
 namespace clatter::fe {
 
 /// K_e (3n x 3n, both triangles) of a tet4 or tet10 at the points of its rule; returns the smallest
-/// det J met, where it is not positive K is not finished.
+/// det J found; where it is not positive, K is incomplete.
 double tet_stiffness(mesh::CellType type, const mesh::CellNodes& x, const Material& material,
                      const CellPoints& points, Eigen::MatrixXd& K);
 

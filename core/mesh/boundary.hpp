@@ -1,5 +1,5 @@
 #pragma once
-// The boundary of the solid and what integrals over it prove (hard cases G4, G9).
+// The boundary of the solid and integrals over it (hard cases G4, G9).
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -19,24 +19,25 @@ FaceKey face_key(FaceType type, std::span<const int32_t> nodes);
 struct BoundaryFace {
   FaceType type;
   std::array<int32_t, kMaxFaceNodes> ids;  // outward
-  int32_t block, cell;                     // whose face it is
+  int32_t block, cell;                     // cell that has the face
 
   std::span<const int32_t> nodes() const {
     return std::span(ids).first(static_cast<size_t>(traits(type).nodes));
   }
 };
 
-/// Boundary faces by their corners.
+/// Boundary faces by corner nodes.
 using BoundaryFaces = std::map<FaceKey, BoundaryFace>;
 
 /// Faces that belong to exactly one cell. InputError when a face has three cells or more, or when
-/// two cells that share its corners do not share its middle nodes: displacements would gape there.
+/// two cells that share its corners do not share its mid-side nodes: displacements would be
+/// discontinuous there.
 BoundaryFaces boundary_faces(const Mesh& mesh);
 
 /// All boundary faces as a surface, ordered by corners.
 Surface skin_of(const BoundaryFaces& faces);
 
-/// Integrals over curved faces, exact but for the area.
+/// Integrals over curved faces, exact except for the area.
 struct SurfaceIntegrals {
   double area = 0.0;                                 // integral of |n| dS [m2]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // integral of n dS [m2]; 0 when closed
@@ -48,7 +49,7 @@ SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface);
 /// Volume of all cells of a region, -1 for all [m3]; exact.
 double cell_volume(const Mesh& mesh, int32_t region = -1);
 
-/// How many skin faces have a normal that points into their cell, or no cell; 0 in a proper mesh.
+/// Number of skin faces without a cell or with a normal into their cell; 0 in a valid mesh.
 int64_t count_inward(const Mesh& mesh, const Surface& skin);
 
 }  // namespace clatter::mesh

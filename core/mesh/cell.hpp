@@ -1,8 +1,8 @@
 #pragma once
-// Node orders of the cells, their faces and edges, and how other programs number the same cell.
+// Node orders of the cells, their faces and edges, and the node orders of other programs.
 //
-// Ours is Gmsh's order: the corners, then one node in the middle of each edge. The middle node of
-// edge e is node `corners + e`; the edges stand in this order:
+// We use Gmsh's order: the corners, then one mid-side node per edge. The mid-side node of edge e is
+// node `corners + e`, with the edges in this order:
 //
 //   tet      0-1 1-2 0-2 0-3 2-3 1-3
 //   hex      0-1 0-3 0-4 1-2 1-5 2-3 2-6 3-7 4-5 4-7 5-6 6-7
@@ -44,13 +44,13 @@
 //
 // A cell is positive when its map has det J > 0; for a tet, det(x1 - x0, x2 - x0, x3 - x0) > 0.
 //
-// Other programs have the same corners in the same places and other orders of the middle nodes;
-// only VTK's wedge is turned over: its triangle 0-1-2 points outward, its corners are ours 0 2 1
-// 3 5 4 (measured: VTK 9.1), and so are all of MED's cells: tet 0 2 1 3, hex 0 3 2 1 4 7 6 5,
-// pyramid 0 3 2 1 4.
+// Other programs have the same corner order and other orders of the mid-side nodes. Exceptions:
+// VTK's wedge has reversed orientation, its triangle 0-1-2 points outward, its corners are ours
+// 0 2 1 3 5 4 (measured: VTK 9.1), and so have all of MED's cells: tet 0 2 1 3, hex
+// 0 3 2 1 4 7 6 5, pyramid 0 3 2 1 4.
 // With p = to_vtk, to_abaqus, to_nastran or to_med of the type, a_other[i] = a_gmsh[p[i]]. Example
 // (tet10, the first three): p = (0 1 2 3 4 5 6 7 9 8), so a_gmsh = (10 11 12 13 14 15 16 17 18 19)
-// gives a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their middle nodes:
+// gives a_vtk = (10 11 12 13 14 15 16 17 19 18). Their edges, in the order of their mid-side nodes:
 //
 //   tet      all      0-1 1-2 2-0 0-3 1-3 2-3             (of their corners)
 //   hex      VTK, Abaqus, MED  0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7
@@ -59,11 +59,11 @@
 //            Nastran           0-1 1-2 2-0  0-3 1-4 2-5  3-4 4-5 5-3
 //   pyramid  all      0-1 1-2 2-3 3-0  0-4 1-4 2-4 3-4
 //
-// CalculiX numbers like Abaqus. Example (hex20): a_gmsh = (0 1 ... 19) gives
+// CalculiX uses the order of Abaqus. Example (hex20): a_gmsh = (0 1 ... 19) gives
 // a_vtk = (0 1 2 3 4 5 6 7 8 11 13 9 16 18 19 17 10 12 14 15) and
 // a_nastran = (0 1 2 3 4 5 6 7 8 11 13 9 10 12 14 15 16 18 19 17).
 //
-// Faces: corners 0, 1, ..., then the middles of 0-1, 1-2, ...; all programs agree on them. The
+// Faces: corners 0, 1, ..., then the mid-side nodes of 0-1, 1-2, ..., in all programs. The
 // normal (x1 - x0) x (x2 - x0) points out of the solid.
 #include <array>
 #include <cstdint>
@@ -88,11 +88,11 @@ inline constexpr int kCellTypes = 8;
 enum class FaceType : int32_t { kTri3, kTri6, kQuad4, kQuad8 };
 inline constexpr int kFaceTypes = 4;
 
-/// Most nodes that a cell or a face has.
+/// Largest number of nodes of a cell or a face.
 inline constexpr int kMaxCellNodes = 20;
 inline constexpr int kMaxFaceNodes = 8;
 
-/// What is known of a face type.
+/// Properties of a face type.
 struct FaceTraits {
   std::string_view name;  // "tri3", "tri6", "quad4", "quad8": as written in files
   int nodes;              // nodes per face
@@ -105,12 +105,12 @@ struct FaceTraits {
 /// One face of a cell: local node numbers, outward for a positive cell.
 struct CellFace {
   FaceType type;
-  std::array<int, kMaxFaceNodes> nodes;  // the first traits(type).nodes of them
+  std::array<int, kMaxFaceNodes> nodes;  // the first traits(type).nodes entries
 };
 
 using Edge = std::array<int, 2>;
 
-/// What is known of a cell type.
+/// Properties of a cell type.
 struct CellTraits {
   std::string_view name;            // "tet4", "hex20", ...: as written in files
   int nodes;                        // nodes per cell
@@ -125,21 +125,21 @@ struct CellTraits {
   std::span<const int> to_abaqus;   // the same for Abaqus and CalculiX
   std::span<const int> to_nastran;  // the same for Nastran
   std::span<const int> to_med;      // the same for MED
-  std::span<const Edge> edges;      // corners of the edges; middle node of edge e is corners + e
+  std::span<const Edge> edges;      // corners of the edges; mid-side node of edge e is corners + e
   std::span<const CellFace> faces;  // outward
 };
 
 const CellTraits& traits(CellType type);
 const FaceTraits& traits(FaceType type);
 
-/// The type with that name; InputError, beginning with `where`, for an unknown one.
+/// The type with that name; InputError, prefixed with `where`, for an unknown name.
 CellType cell_type_named(std::string_view name, const std::string& where);
 FaceType face_type_named(std::string_view name, const std::string& where);
 
-/// Corners of the six edges; middle node of edge e is 4 + e.
+/// Corners of the six edges; mid-side node of edge e is 4 + e.
 inline constexpr std::array<Edge, 6> kTetEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
 
-/// The four faces of a tet10, outward: corners, then middle nodes. A tet4 uses the first three
+/// The four faces of a tet10, outward: corners, then mid-side nodes. A tet4 uses the first three
 /// entries of each.
 inline constexpr std::array<std::array<int, 6>, 4> kTetFaces = {{
     {0, 2, 1, 6, 5, 4},
@@ -148,7 +148,7 @@ inline constexpr std::array<std::array<int, 6>, 4> kTetFaces = {{
     {1, 2, 3, 5, 8, 9},
 }};
 
-/// Corners of the three edges of a triangle; middle node of edge e is 3 + e.
+/// Corners of the three edges of a triangle; mid-side node of edge e is 3 + e.
 inline constexpr std::array<Edge, 3> kTriangleEdges = {{{0, 1}, {1, 2}, {2, 0}}};
 
 }  // namespace clatter::mesh

@@ -1,5 +1,5 @@
 #pragma once
-// All faces of all cells, equal ones side by side.
+// All faces of all cells, sorted so that equal faces are adjacent.
 #include <cstdint>
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace clatter::mesh {
 
-/// Where a face stands; its nodes are looked up when needed, since there are many faces.
+/// Reference to a face of a cell; nodes are looked up on demand, since there are many faces.
 struct FacePlace {
   FaceKey key;
   int32_t block, cell, face;  // row in the block, face of its type
 };
 
-/// Ordered by key.
+/// Sorted by key.
 std::vector<FacePlace> all_faces(const Mesh& mesh);
 
-BoundaryFace face_at(const Mesh& mesh, const FacePlace& place);
+BoundaryFace face_at(const Mesh& mesh, const FacePlace& face);
 
 /// Calls visit(first, last) for each run of faces with the same key.
 template <class Visit>

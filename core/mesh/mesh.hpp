@@ -16,7 +16,7 @@ struct CellBlock {
   CellType type = CellType::kTet10;
   int32_t region = 0;        // index into Mesh::regions
   IndexMatrix nodes;         // cells x nodes per cell, Gmsh order (cell.hpp), zero-based
-  std::vector<int32_t> ids;  // what the imported file calls them; empty: no numbers of their own
+  std::vector<int32_t> ids;  // cell numbers of the imported file; empty: none
 };
 
 /// Faces of one type.
@@ -25,7 +25,7 @@ struct FaceBlock {
   IndexMatrix nodes;  // faces x nodes per face, order of cell.hpp, outward
 };
 
-/// Boundary faces of the solid, each a face of exactly one cell or of two in different regions.
+/// Boundary faces of the solid, each belonging to one cell, or to two in different regions.
 struct Surface {
   std::vector<FaceBlock> faces;  // each type at most once
 
@@ -43,24 +43,24 @@ class SurfaceBuilder {
   std::array<std::vector<int32_t>, kFaceTypes> nodes_;
 };
 
-/// Node set of the middle nodes that some cell has only to be whole: the deck's cell was linear
-/// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
-/// fe.toml), so that such a cell fits linear cells beside it.
+/// Node set of hanging mid-side nodes: they complete quadratic cells whose edge was linear in the
+/// deck. Their displacement is the mean of the edge's ends ([[straight_edges]] of an fe.toml),
+/// which makes the cell compatible with adjacent linear cells.
 inline constexpr const char* kHangingMiddles = "hanging_middles";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {
   std::string name;
   RowMatrix nodes;                   // n x 3 [m]
-  std::vector<int32_t> node_ids;     // what the imported file calls them; empty: index + 1
-  std::vector<std::string> regions;  // names; a region is what gets one material
+  std::vector<int32_t> node_ids;     // node numbers of the imported file; empty: index + 1
+  std::vector<std::string> regions;  // names; each region has one material
   std::vector<CellBlock> cells;
   std::map<std::string, Surface> surfaces;
   std::map<std::string, std::vector<int32_t>> node_sets;  // ascending
   std::map<std::string, RowMatrix> fields;  // n x k values at the nodes, k = 1 or 3 (SI)
 
   int64_t cell_count() const;
-  /// InputError that lists the names present when there is none of that name.
+  /// InputError listing the existing names when there is none of that name.
   const Surface& surface(const std::string& surface_name) const;
   const std::vector<int32_t>& node_set(const std::string& set_name) const;
 };
@@ -68,11 +68,11 @@ struct Mesh {
 /// Nodes that the faces use, ascending.
 std::vector<int32_t> nodes_of(const Surface& surface);
 
-/// Checks columns and node numbers (0 ... n_nodes - 1); InputError, beginning with `where`.
+/// Checks columns and node numbers (0 ... n_nodes - 1); InputError, prefixed with `where`.
 void check_surface(const Surface& surface, int64_t n_nodes, const std::string& where);
 
 /// Checks sizes, index ranges, finite coordinates and that every node belongs to a cell.
-/// InputError, beginning with `where`, for the first thing that is wrong.
+/// InputError, prefixed with `where`, for the first defect.
 void check_structure(const Mesh& mesh, const std::string& where);
 
 }  // namespace clatter::mesh

@@ -2,8 +2,8 @@
 // The mesh in a file, schema "clatter/mesh/2":
 //   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region,
 //   surfaces/<name>/<face type> (f x nodes), node_sets/<name>, fields/<name> (n x k);
-//   partition/part (cells) on request; node_ids and cells/<i>/ids where an imported mesh has
-//   numbers of its own; attribute name.
+//   partition/part (cells) on request; node_ids and cells/<i>/ids where an imported mesh has its
+//   own numbers; attribute name.
 // Node numbers are zero-based, node orders are those of cell.hpp.
 #include <filesystem>
 
@@ -22,14 +22,14 @@ void write_cells(H5File& file, const std::vector<CellBlock>& cells);
 /// InputError for unknown cell types; node numbers and regions are not checked.
 std::vector<CellBlock> read_cells(const H5File& file);
 
-/// Group `surfaces` of meshes and FE models: a dataset a face type.
+/// Group `surfaces` of meshes and FE models: one dataset per face type.
 void write_surfaces(H5File& file, const std::map<std::string, Surface>& surfaces);
-/// InputError, beginning with `where`, for unknown face types and node numbers out of range.
+/// InputError, prefixed with `where`, for unknown face types and node numbers out of range.
 std::map<std::string, Surface> read_surfaces(const H5File& file, int64_t n_nodes,
                                              const std::string& where);
 
 /// Reads a mesh and checks schema, shapes, index ranges, finite values, and that every cell is
-/// valid (validity.hpp); InputError names the file and the first thing that is wrong.
+/// valid (validity.hpp); InputError names the file and the first defect.
 Mesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace clatter::mesh

@@ -31,26 +31,27 @@ const CellRule& tet_rule_14();
 /// N_a N_b det J has degree 2 + 2 + 3. Conical product of Gauss-Jacobi rules (Stroud 1971).
 const CellRule& tet_rule_64();
 
-/// n points a direction (Gauss-Legendre, 1 <= n <= 5): exact for degree 2 n - 1 in each coordinate.
+/// n points per direction (Gauss-Legendre, 1 <= n <= 5): exact for degree 2 n - 1 in each
+/// coordinate.
 const CellRule& hex_rule(int n);
 /// Triangle rule times n points along the axis. `triangle` 1, 3 or 6 points: exact for degree 1, 2
 /// or 4 (the last by Dunavant, Int. J. Numer. Meth. Engng 21, 1985); 25: degree 9.
 const CellRule& wedge_rule(int triangle, int n);
-/// n^3 points (1 <= n <= 5), conical product with Gauss-Jacobi points toward the apex: exact for
-/// xi^i eta^j zeta^k with i, j <= 2 n - 1 and i + j + k <= 2 n - 1, and for the rational functions
-/// of shape.hpp, which are polynomials in xi / (1 - zeta), eta / (1 - zeta), zeta.
+/// n^3 points (1 <= n <= 5), conical product with Gauss-Jacobi points in the direction of the apex:
+/// exact for xi^i eta^j zeta^k with i, j <= 2 n - 1 and i + j + k <= 2 n - 1, and for the rational
+/// functions of shape.hpp, which are polynomials in xi / (1 - zeta), eta / (1 - zeta), zeta.
 const CellRule& pyramid_rule(int n);
 
-/// The finest rule of the cell type: 64 points of a tetrahedron, five each way in the others.
+/// The finest rule of the cell type: 64 points for tetrahedra, five per direction for the others.
 const CellRule& fine_rule(CellType type);
 
-/// Sixteen points, exact for degree 7: everything on surfaces (N_a n has degree 4 on a curved
+/// Sixteen points, exact for degree 7: used for all triangles (N_a n has degree 4 on a curved
 /// triangle, N_a dA is not polynomial there). Conical product of Gauss-Jacobi rules.
 const FaceRule& triangle_rule_16();
-/// Gauss-Legendre, 4 x 4 points: exact for degree 7 in each coordinate, more than N_a n of a
-/// curved quadrilateral needs (5).
+/// Gauss-Legendre, 4 x 4 points: exact for degree 7 in each coordinate, more than needed for N_a n
+/// on a curved quadrilateral (5).
 const FaceRule& quad_rule_16();
-/// The one of the two that belongs to the face.
+/// The rule for the face type.
 const FaceRule& face_rule(FaceType type);
 
 }  // namespace clatter::mesh

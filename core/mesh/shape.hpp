@@ -2,13 +2,13 @@
 // Shape functions of all cells and faces on their reference cells; node orders of cell.hpp.
 //
 //   simplex   linear N_i = L_i; quadratic N_i = L_i (2 L_i - 1) at corners, N_ij = 4 L_i L_j at the
-//             middle of edge i-j, with barycentric L
+//             midpoint of edge i-j, with barycentric L
 //   hex, quad products of (1 + xi_i xi) / 2; quadratic: the serendipity family
 //             (Zienkiewicz and Taylor, vol. 1, ch. 8)
 //   wedge     triangle times line; quadratic: serendipity (same)
 //   pyramid   rational, N_i = ((1 + xi_i xi)(1 + eta_i eta) - zeta + xi_i eta_i xi eta zeta /
-//             (1 - zeta)) / 4, so that it fits hexahedra and tetrahedra beside it; quadratic:
-//             Bedrosian, Int. J. Numer. Meth. Engng 35 (1992). At the apex only values exist.
+//             (1 - zeta)) / 4, compatible with adjacent hexahedra and tetrahedra; quadratic:
+//             Bedrosian, Int. J. Numer. Meth. Engng 35 (1992). Gradients do not exist at the apex.
 #include <Eigen/Core>
 
 #include "core/mesh/cell.hpp"
@@ -28,7 +28,7 @@ struct FaceShape {
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMaxFaceNodes, 2> gradient;
 };
 
-/// Shape functions at the reference point `xi` (cell.hpp draws the reference cells).
+/// Shape functions at the reference point `xi` (reference cells: cell.hpp).
 CellShape cell_shape(CellType type, const Eigen::Vector3d& xi);
 
 /// Triangles: 0 (0,0), 1 (1,0), 2 (0,1). Quadrilaterals: corners (-1,-1), (1,-1), (1,1), (-1,1).

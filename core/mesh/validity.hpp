@@ -1,14 +1,14 @@
 #pragma once
-// Exact proof that cells are not folded.
+// Rigorous check that cells are not folded.
 //
-// det J is a polynomial (cube_bernstein.hpp has the cells that are not tetrahedra), and its Bezier
-// coefficients decide. The map x(lambda) of a tet10 is quadratic, so det J is a cubic polynomial
-// over the cell. In Bezier form, det J = sum_b c_b B_b(lambda), the 20 coefficients c_b bound it
-// from below and the four at the corners are values: all positive proves det J > 0 everywhere, one
-// corner <= 0 disproves it. Where neither holds, the cell is halved and the coefficients of the
-// parts are looked at. Points alone (Gauss or nodes) prove nothing: hard case G2. Source: Johnen,
-// Remacle, Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys. 233
-// (2013), section 2 and 3.
+// det J is a polynomial, and its Bezier coefficients bound it (cube_bernstein.hpp: cells other than
+// tetrahedra). The map x(lambda) of a tet10 is quadratic, so det J is a cubic polynomial. In Bezier
+// form, det J = sum_b c_b B_b(lambda), the 20 coefficients c_b bound it from below and the four at
+// the corners are values: if all are positive, det J > 0 everywhere; if one corner is <= 0, the
+// cell is invalid. Otherwise the cell is bisected and the coefficients of the parts are checked.
+// Values at points (Gauss points or nodes) prove nothing: hard case G2. Source: Johnen, Remacle,
+// Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys. 233 (2013),
+// section 2 and 3.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace clatter::mesh {
 
-/// Coordinates of a cell's nodes, one row a node, Gmsh order [m].
+/// Coordinates of a cell's nodes, one row per node, Gmsh order [m].
 using Tet10Nodes = Eigen::Matrix<double, 10, 3>;
 
 /// Coordinates of any cell's nodes.
@@ -45,10 +45,10 @@ double volume_of(CellType type, const CellNodes& x);
 
 /// The nodes of one cell.
 CellNodes cell_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell);
-/// The nodes of a tetrahedron; a tet4 gets its edge middles.
+/// The nodes of a tetrahedron; a tet4 gets its edge midpoints.
 Tet10Nodes tet_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell);
 
-/// Number of a cell in messages: what its file calls it, else its row.
+/// Cell number for messages: that of the imported file, else its row.
 int32_t cell_label(const CellBlock& block, Eigen::Index cell);
 
 struct InvalidCell {
@@ -67,7 +67,7 @@ struct ValidityReport {
 /// Checks every cell.
 ValidityReport check_validity(const Mesh& mesh);
 
-/// "cell 12 of block 0 at (0.01, 0.2, 0.3) m: min det J / mean = -0.2", the first `count` of them.
+/// "cell 12 of block 0 at (0.01, 0.2, 0.3) m: min det J / mean = -0.2", for the first `count`.
 std::string describe_invalid(const ValidityReport& report, size_t count);
 
 }  // namespace clatter::mesh

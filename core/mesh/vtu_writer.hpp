@@ -1,5 +1,5 @@
 #pragma once
-// The mesh for ParaView and other programs that read VTK's XML.
+// Mesh output for ParaView and other programs that read VTK XML.
 #include <string>
 
 #include "core/mesh/mesh.hpp"
@@ -8,11 +8,12 @@ namespace clatter::mesh {
 
 /// A binary .vtu (appended raw data), node orders of VTK:
 ///
-///   point data   `id` of each node, every node set as a flag under its name, every field
+///   point data   `id` of each node, every node set as a flag of its name, every field
 ///   cell data    `id`, `region` (index)
-///                a mesh without cells is drawn by the faces of its surface "skin"
+///                a mesh without cells is represented by the faces of its surface "skin"
 ///   field data   "region NAME" = its index; "surface NAME TYPE" = node rows of its faces, one row
-///                a face, in the order of cell.hpp, which is VTK's for faces; outward
+///   per
+///                face, in the order of cell.hpp, which equals VTK's; outward
 std::string vtu_text(const Mesh& mesh);
 
 }  // namespace clatter::mesh
