@@ -46,7 +46,7 @@ class SurfaceBuilder {
 /// Node set of the middle nodes that some cell has only to be whole: the deck's cell was linear
 /// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
 /// fe.toml), so that such a cell fits linear cells beside it.
-inline constexpr const char* kHangingMiddles = "hanging_middles";
+inline constexpr const char* kHangingMidSideNodes = "hanging_middles";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {
