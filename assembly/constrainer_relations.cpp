@@ -6,7 +6,7 @@
 #include "assembly/constrainer.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
-#include "core/mesh/middles.hpp"
+#include "core/mesh/mid_side_nodes.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -232,7 +232,7 @@ void Constrainer::gather_straight_edges() {
   for (const StraightEdgesSpec& spec : recipe_.straight_edges) {
     const int relation = graph_.add_relation(spec.where);
     const std::vector<int32_t>& nodes = mesh_.node_set(spec.node_set);
-    const auto ends = mesh::ends_of_middles(mesh_, nodes, spec.where);
+    const auto ends = mesh::ends_of_mid_side_nodes(mesh_, nodes, spec.where);
     for (size_t n = 0; n < nodes.size(); ++n)
       for (int d = 0; d < 3; ++d)
         depend(3 * nodes[n] + d, {{3 * ends[n][0] + d, 3 * ends[n][1] + d}, {0.5, 0.5}}, relation);

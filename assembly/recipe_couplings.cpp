@@ -159,17 +159,17 @@ void RecipeReader::springs(Recipe& recipe) const {
 }
 
 void RecipeReader::straight_edges(Recipe& recipe) const {
-  bool hanging = mesh_.node_sets.contains(mesh::kHangingMiddles);
+  bool hanging = mesh_.node_sets.contains(mesh::kHangingMidSideNodes);
   for (const Config& table : config_.tables("straight_edges")) {
     const std::string set = node_set(table);
     recipe.straight_edges.push_back({set, where(table, "straight edges " + set)});
-    if (set == mesh::kHangingMiddles) hanging = false;
+    if (set == mesh::kHangingMidSideNodes) hanging = false;
   }
   if (hanging)
     config_.fail("straight_edges",
                  fmt::format("found none, the mesh has the node set \"{0}\": expected "
                              "[[straight_edges]] with node_set = \"{0}\"",
-                             mesh::kHangingMiddles));
+                             mesh::kHangingMidSideNodes));
 }
 
 void RecipeReader::ties(Recipe& recipe) {

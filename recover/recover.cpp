@@ -12,9 +12,9 @@
 namespace clatter::recover {
 namespace {
 
-/// A piece that the user did not ask for may be left out, with a word; one asked for may not.
+/// A piece that the user did not request may be left out with a warning; a requested one may not.
 template <typename Make>
-std::optional<Piece> piece_or_word(bool asked, const Make& make) {
+std::optional<Piece> piece_or_warning(bool asked, const Make& make) {
   try {
     return make();
   } catch (const InputError& error) {
@@ -36,10 +36,10 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
     if (piece) pieces.push_back(*piece);
   };
   if (options.cycle && (clock.turns() || options.cycle_asked))
-    keep(piece_or_word(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
+    keep(piece_or_warning(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
     if (clock.turns() || options.windows_asked)
-      keep(piece_or_word(options.windows_asked,
+      keep(piece_or_warning(options.windows_asked,
                          [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
   return pieces;
@@ -56,7 +56,7 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
   if (clock.turns() || options.frames_asked)
-    piece = piece_or_word(options.frames_asked,
+    piece = piece_or_warning(options.frames_asked,
                           [&] { return window(clock, "frames", rule.span, Taper::kNone, origin); });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
   piece = whole_run(clock, origin);

@@ -31,7 +31,7 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
 
 /// A linear face and a quadratic one whose middle nodes all hang move alike.
 bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
-  const auto hanging = mesh.node_sets.find(kHangingMiddles);
+  const auto hanging = mesh.node_sets.find(kHangingMidSideNodes);
   if (hanging == mesh.node_sets.end()) return false;
   const auto middles = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
   return std::all_of(middles.begin(), middles.end(), [&](int32_t node) {

@@ -46,7 +46,7 @@ class SurfaceBuilder {
 /// Node set of hanging mid-side nodes: they complete quadratic cells whose edge was linear in the
 /// deck. Their displacement is the mean of the edge's ends ([[straight_edges]] of an fe.toml),
 /// which makes the cell compatible with adjacent linear cells.
-inline constexpr const char* kHangingMiddles = "hanging_middles";
+inline constexpr const char* kHangingMidSideNodes = "hanging_middles";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {

@@ -147,7 +147,7 @@ const CellRule& volume_rule(CellType type) {
 
 bool is_tet(CellType type) { return traits(type).corners == 4; }
 
-Tet10Nodes with_middles(CellType type, const CellNodes& given) {
+Tet10Nodes with_mid_side_nodes(CellType type, const CellNodes& given) {
   Tet10Nodes x;
   x.topRows(given.rows()) = given;
   if (type == CellType::kTet10) return x;
@@ -180,7 +180,7 @@ JacobianBounds jacobian_bounds(const Tet10Nodes& x) {
 double volume_of(const Tet10Nodes& x) { return mean_of(polar_form(x)) / 6.0; }
 
 JacobianBounds jacobian_bounds(CellType type, const CellNodes& x) {
-  if (is_tet(type)) return jacobian_bounds(with_middles(type, x));
+  if (is_tet(type)) return jacobian_bounds(with_mid_side_nodes(type, x));
   const CubePolynomial p = jacobian_polynomial(type, x);
   const double low = lower_bound(p, 0);
   const double reference = volume_rule(type).weights.sum();
@@ -188,7 +188,7 @@ JacobianBounds jacobian_bounds(CellType type, const CellNodes& x) {
 }
 
 double volume_of(CellType type, const CellNodes& x) {
-  if (is_tet(type)) return volume_of(with_middles(type, x));
+  if (is_tet(type)) return volume_of(with_mid_side_nodes(type, x));
   static const auto gradients = [] {
     std::array<std::vector<CellShape>, kCellTypes> out;
     for (int t = 2; t < kCellTypes; ++t) {
@@ -214,7 +214,7 @@ CellNodes cell_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell
 }
 
 Tet10Nodes tet_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
-  return with_middles(block.type, cell_nodes(mesh, block, cell));
+  return with_mid_side_nodes(block.type, cell_nodes(mesh, block, cell));
 }
 
 int32_t cell_label(const CellBlock& block, Eigen::Index cell) {

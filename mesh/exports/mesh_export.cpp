@@ -16,13 +16,13 @@ namespace clatter::mesh {
 namespace {
 
 /// These formats have the cells whole; only clatter knows what the set is for.
-void warn_of_hanging_middles(const Mesh& mesh, const std::filesystem::path& path) {
-  const auto set = mesh.node_sets.find(kHangingMiddles);
+void warn_of_hanging_mid_side_nodes(const Mesh& mesh, const std::filesystem::path& path) {
+  const auto set = mesh.node_sets.find(kHangingMidSideNodes);
   if (set == mesh.node_sets.end()) return;
   warn(
       fmt::format("{}: the {} middle nodes of the set \"{}\" move freely in other programs: tie "
                   "each to the mean of its edge's ends there",
-                  path.string(), set->second.size(), kHangingMiddles));
+                  path.string(), set->second.size(), kHangingMidSideNodes));
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void export_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".vtu") return write_whole_file(path, vtu_text(mesh));
   if (extension == ".msh" || extension == ".inp" || extension == ".med" || extension == ".unv")
-    warn_of_hanging_middles(mesh, path);
+    warn_of_hanging_mid_side_nodes(mesh, path);
   if (extension == ".msh") return write_whole_file(path, msh_text(mesh));
   if (extension == ".med") return write_med(mesh, path);
   if (extension == ".unv") return write_whole_file(path, unv_text(mesh));

@@ -47,7 +47,7 @@ mesh::Mesh cube_under_pyramid() {
   for (int e = 0; e < 8; ++e)
     if (pyramid.edges[static_cast<size_t>(e)][0] < 4 &&
         pyramid.edges[static_cast<size_t>(e)][1] < 4)
-      mesh.node_sets[mesh::kHangingMiddles].push_back(5 + e);
+      mesh.node_sets[mesh::kHangingMidSideNodes].push_back(5 + e);
   mesh.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(mesh));
   return mesh;
 }
@@ -59,7 +59,7 @@ TEST_P(StraightEdges, OfAllEdgesMakeTheLinearCell) {
   const mesh::Mesh corners = one_cell(linear);
   mesh::Mesh whole = one_cell(quadratic);
   for (auto n = static_cast<int32_t>(corners.nodes.rows()); n < whole.nodes.rows(); ++n)
-    whole.node_sets[mesh::kHangingMiddles].push_back(n);
+    whole.node_sets[mesh::kHangingMidSideNodes].push_back(n);
   whole.surfaces["skin"] = mesh::skin_of(mesh::boundary_faces(whole));
   const fe::FeModel model = build(whole, kStraight).model;
   const fe::NodalMatrices want = fe::assemble(corners,
@@ -101,7 +101,7 @@ TEST(StraightEdgesOfAMesh, JoinAQuadraticCellToALinearOne) {
 TEST(StraightEdgesOfAMesh, AreNotForgotten) {
   mesh::Mesh mesh = cube_under_pyramid();
   EXPECT_THROW(build(mesh, ""), InputError);
-  mesh.node_sets[mesh::kHangingMiddles] = {0};  // a corner
+  mesh.node_sets[mesh::kHangingMidSideNodes] = {0};  // a corner
   EXPECT_THROW(build(mesh, kStraight), InputError);
 }
 

@@ -84,7 +84,7 @@ void build_mesh(Model& model) {
     mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
   }
   for (const int32_t row : model.hanging_rows)
-    mesh.node_sets[kHangingMiddles].push_back(model.place_of_row[static_cast<size_t>(row)]);
+    mesh.node_sets[kHangingMidSideNodes].push_back(model.place_of_row[static_cast<size_t>(row)]);
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -97,7 +97,7 @@ class Writer {
     for (const CellBlock& block : mesh_.cells) cells(block);
     size_t number = 0;
     for (const auto& [name, nodes] : mesh_.node_sets) {
-      if (!nodes.empty() && name != kHangingMiddles) node_set(++number, name, nodes);
+      if (!nodes.empty() && name != kHangingMidSideNodes) node_set(++number, name, nodes);
     }
     for (const auto& [name, surface] : mesh_.surfaces) faces(name, surface);
     put(text_, "ENDDATA\n");
@@ -137,7 +137,7 @@ class Writer {
 
   /// Middle nodes that hang are left out of their cells: the reader adds them again.
   bool hangs(int32_t node) const {
-    const auto set = mesh_.node_sets.find(kHangingMiddles);
+    const auto set = mesh_.node_sets.find(kHangingMidSideNodes);
     return set != mesh_.node_sets.end() &&
            std::binary_search(set->second.begin(), set->second.end(), node);
   }

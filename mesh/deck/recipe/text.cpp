@@ -31,9 +31,9 @@ class Writer {
     std::string relations = std::exchange(text_, {});
     // Couplings say which points on nodes they need, so points are written after them.
     couplings();
-    if (deck_.mesh.node_sets.contains(kHangingMiddles))
+    if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
       put("\n[[straight_edges]]  # cells of the deck without these middle nodes\nnode_set = {}\n",
-          toml_text(kHangingMiddles));
+          toml_text(kHangingMidSideNodes));
     for (const Tie& tie : deck_.ties) add_tie(tie);
     for (const Equation& equation : deck_.equations)
       put("\n[[equation]]  # {}\n{}", equation.where, terms_text(equation.terms));

@@ -98,7 +98,7 @@ TEST(NastranCell, MiddleNodesThatACardLeavesOutAreAddedOnceAndHang) {
   EXPECT_EQ(block.type, CellType::kTet10);
   EXPECT_EQ(deck.mesh.nodes.rows(), 14);  // 1 to 5, 7 to 14 and the new one
   EXPECT_EQ(deck.mesh.node_ids.back(), 15);
-  EXPECT_THAT(deck.mesh.node_sets.at(mesh::kHangingMiddles), ElementsAre(13));
+  EXPECT_THAT(deck.mesh.node_sets.at(mesh::kHangingMidSideNodes), ElementsAre(13));
   EXPECT_EQ(block.nodes(0, 5), 13);
   EXPECT_EQ(block.nodes(1, 4), 13);
   EXPECT_EQ(deck.mesh.nodes.row(13), Eigen::RowVector3d(2.5, 6.5, 0.0));

@@ -120,7 +120,7 @@ TEST_F(NastranSharedDecks, FiveCubesOfAllKindsOfCells) {
     EXPECT_NEAR(mass(deck, region), 7.829, kVolumeTolerance) << region;
   }
   // The bases cover a face of their cube with 4 x 4 squares: 2 x 4 x 5 edges.
-  EXPECT_THAT(deck.mesh.node_sets.at(mesh::kHangingMiddles), SizeIs(40));
+  EXPECT_THAT(deck.mesh.node_sets.at(mesh::kHangingMidSideNodes), SizeIs(40));
   EXPECT_EQ(deck.mesh.nodes.rows(), 2363 + 40);
   EXPECT_EQ(deck.materials.at("mat_1").reference_temperature, 20.0);  // TEMP(INIT)
   // Pressure 1.65 10^5 on 46 triangles: one side of a cube.

@@ -186,7 +186,7 @@ TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
                         "GRID,5,,.5,0.,0.\nGRID,6,,.5,.5,0.\nGRID,7,,0.,.5,0.\nGRID,8,,0.,0.,.5\n"
                         "CTETRA,7,1,1,2,3,4,5,6,+\n+,7,8\n")
                         .mesh;
-  ASSERT_EQ(mesh.node_sets.at(mesh::kHangingMiddles).size(), 2U);
+  ASSERT_EQ(mesh.node_sets.at(mesh::kHangingMidSideNodes).size(), 2U);
   std::ostringstream out;
   mesh::deck::write_nastran(mesh, out);
   EXPECT_EQ(out.str().find("hanging"), std::string::npos);
