@@ -81,15 +81,15 @@ void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::pat
   using namespace clatter;
   std::vector<std::string> doubts;
   for (const fe::Material& material : model.cells.materials) {
-    doubts.push_back(doubt_of_density(material.density));
+    doubts.push_back(density_warning(material.density));
     if (!material.is_isotropic()) continue;
-    doubts.push_back(doubt_of_modulus(material.youngs, material.density));
-    doubts.push_back(doubt_of_poisson(material.poisson));
+    doubts.push_back(modulus_warning(material.youngs, material.density));
+    doubts.push_back(poisson_warning(material.poisson));
   }
   if (model.nodes.rows() > 1)
-    doubts.push_back(doubt_of_length(
+    doubts.push_back(length_warning(
         (model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff()).maxCoeff()));
-  warn_of_doubts(config.string(), doubts);
+  warn_implausible(config.string(), doubts);
 }
 
 /// From matrices of others, or assembled on the mesh; `inputs` gets the files that were read.

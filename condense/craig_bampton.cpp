@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/base/error.hpp"
-#include "core/fe/dof_place.hpp"
+#include "core/fe/dof_label.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -22,7 +22,8 @@ std::shared_ptr<const sparse::SupernodalFactor> factorise_interior(
     const std::string where =
         error.column < 0
             ? std::string{}
-            : ", at " + fe::place_of(model, partition.interior[static_cast<size_t>(error.column)]);
+            : ", at " +
+                  fe::describe_dof(model, partition.interior[static_cast<size_t>(error.column)]);
     throw sparse::NotPositiveDefinite(
         fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
                     "look for a part of the mesh that is not connected",

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/fe/dof_place.hpp"
+#include "core/fe/dof_label.hpp"
 
 namespace clatter::condense {
 DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names) {
@@ -105,7 +105,7 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
                   partition.boundary.size(), rank,
                   free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
                   fe::motion_name(loose, fe::characteristic_length(model)),
-                  fe::place_of(model, static_cast<int32_t>(most)),
+                  fe::describe_dof(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
 }
 

@@ -8,7 +8,7 @@
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
-#include "core/rom/certificate_doubt.hpp"
+#include "core/rom/certificate_warning.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -17,7 +17,7 @@ LoadedBody load_body(const BodySpec& spec) {
   LoadedBody body;
   body.spec = spec;
   body.model = rom::read_reduced_model(spec.rom, false);
-  const std::string doubt = rom::certificate_doubt(body.model);
+  const std::string doubt = rom::certificate_warning(body.model);
   if (!doubt.empty()) warn(fmt::format("{}: {}", spec.rom.string(), doubt));
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});

@@ -258,9 +258,9 @@ int run(const Arguments& a, const CommonOptions& common) {
   const Outcome result = make_mesh(a, clock);
   report(result);
   const RowMatrix& nodes = result.mesh.nodes;
-  warn_of_doubts(
+  warn_implausible(
       a.input.string(),
-      {doubt_of_length((nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff())});
+      {length_warning((nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff())});
   if (!a.recipe.empty() && result.recipe.empty())
     throw InputError(fmt::format("{}: found no deck, expected one for --recipe", a.input.string()));
   H5File file = H5File::create(a.output);

@@ -9,7 +9,7 @@ void warn_of_first_frequency(const modes::PartModes& part) {
   if (hz.size() <= part.modes.rigid || part.nodes.rows() < 2) return;
   const double length =
       (part.nodes.colwise().maxCoeff() - part.nodes.colwise().minCoeff()).maxCoeff();
-  warn_of_doubts(part.name, {doubt_of_first_frequency(hz[part.modes.rigid], length)});
+  warn_implausible(part.name, {first_frequency_warning(hz[part.modes.rigid], length)});
 }
 
 }  // namespace clatter::modal

@@ -1,11 +1,11 @@
 #pragma once
-// A first elastic frequency that no engine part has: units that do not belong together.
+// Warning about an implausible first elastic frequency, a sign of inconsistent units.
 #include "core/modes/analysis.hpp"
 
 namespace clatter::modal {
 
-/// One warning where the first elastic frequency cannot be that of a part of this size
-/// (core/base/plausible.hpp); nothing without elastic modes.
+/// Warns if the first elastic frequency is implausible for a part of this size
+/// (core/base/plausible.hpp); no effect without elastic modes.
 void warn_of_first_frequency(const modes::PartModes& part);
 
 }  // namespace clatter::modal

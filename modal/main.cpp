@@ -1,5 +1,5 @@
-// clatter-modal: modes of a part, with a proof that none is missing; how well a reduced model keeps
-// them; static solution of its load cases.
+// clatter-modal: modes of a part, with a proof that none is missing; comparison of a reduced model
+// with the full one; static solution of load cases.
 //
 // Sample runs:
 //   clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5
@@ -141,12 +141,12 @@ int solve_static(const Arguments& arguments, const CommonOptions& common) {
   return 0;
 }
 
-/// Results that are there already, for ParaView.
+/// Exports existing results to ParaView.
 int export_only(const Arguments& arguments, const CommonOptions& common) {
   if (arguments.inputs.size() > 2 || !arguments.output.empty() || arguments.exports.empty())
     throw InputError(
-        "command line: results (.modes.h5, .static.h5) expect --export, any number, "
-        "without -o; a second file, .fe.h5 or .mesh.h5, has the cells");
+        "command line: results (.modes.h5, .static.h5) require --export (repeatable), "
+        "without -o; a second file, .fe.h5 or .mesh.h5, provides the cells");
   const Path cells = arguments.inputs.size() == 2 ? arguments.inputs[1] : Path();
   modal::export_results(arguments.inputs.front(), cells, arguments.exports);
   write_depfile(common.depfile, arguments.exports.front(), arguments.inputs);
@@ -184,7 +184,7 @@ int run(int argc, char** argv) {
   Arguments arguments;
   CommandLine line("clatter-modal",
                    "Modes of an assembled or reduced part, with a proof that none is missing; "
-                   "--compare shows how well a reduced model keeps them; --static solves its load "
+                   "--compare compares a reduced with the full model; --static solves load "
                    "cases for displacements, stresses and reactions.",
                    "samples: clatter-modal block.fe.h5 --fmax-hz 2000 -o block.modes.h5\n"
                    "         clatter-modal --compare block.fe.h5 block.rom.h5\n"
@@ -201,11 +201,11 @@ int run(int argc, char** argv) {
   line.flag("--compare", arguments.compare, "compare a full and a reduced model");
   line.flag("--static", arguments.statics, "solve the load cases of an assembled part");
   line.output("--export", arguments.exports,
-              "also write shapes or static fields for ParaView, any number: all in one .vtu, or a "
-              "series .pvd; of results alone too, with the model or mesh as second file");
-  line.option("--case", arguments.cases, "load or case to solve, any number; default: all");
+              "also write shapes or static fields for ParaView (repeatable): all in one .vtu, or a "
+              "series .pvd; also from existing results, with the model or mesh as second file");
+  line.option("--case", arguments.cases, "load or case to solve (repeatable); default: all");
   line.option("--stress-at", arguments.stress_at,
-              "print stresses of --static here, any number: node number, x,y,z in metres, or a "
+              "print stresses of --static here (repeatable): node number, x,y,z in metres, or a "
               "sensor's name");
   line.blas();
   line.memory_limit();

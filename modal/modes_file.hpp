@@ -1,8 +1,8 @@
 #pragma once
-// The modes of a part as a file, schema "clatter/modes/2":
+// The modes file of a part, schema "clatter/modes/2":
 //   frequency_hz, eigenvalue [rad2/s2], residual, rounding (m); shapes (m x n x 3, single
 //   precision, unit modal mass [1/sqrt(kg)]), nodes (n x 3 [m]), surfaces/<name>/<face type>;
-//   attributes name, source, rigid_modes; certificate with the count that was proved.
+//   attributes name, source, rigid_modes; certificate with the proved count.
 #include <filesystem>
 #include <string>
 
@@ -12,10 +12,10 @@ namespace clatter::modal {
 
 inline constexpr const char* kModesSchema = "clatter/modes/2";
 
-/// Writes into an open file; provenance and timing are the caller's.
+/// Writes into an open file; provenance and timing are left to the caller.
 void write_modes(H5File& file, const modes::PartModes& part);
 
-/// What a reader of frequencies needs.
+/// Frequencies of a modes file.
 struct ModeTable {
   std::string name;
   int rigid = 0;
@@ -23,7 +23,7 @@ struct ModeTable {
   Eigen::VectorXd residual;
 };
 
-/// Reads and checks the table; InputError for another schema or values that make no sense.
+/// Reads and checks the table; InputError for another schema or invalid values.
 ModeTable read_mode_table(const std::filesystem::path& path);
 
 }  // namespace clatter::modal

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr int kMaxSteps = 10;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// b - A x with sums and products of 64 bits of mantissa.
+/// b - A x in extended precision (64-bit mantissa).
 VectorXd extended_residual(const SparseMatrix& lower, const VectorXd& x, const VectorXd& b) {
   std::vector<long double> sum(b.begin(), b.end());
   for (int j = 0; j < lower.outerSize(); ++j) {
@@ -39,7 +39,7 @@ double largest_ratio(const VectorXd& part, const VectorXd& whole) {
   double most = 0.0;
   for (Index i = 0; i < part.size(); ++i) {
     const double size = std::abs(part[i]);
-    // Written so that NaN comes through.
+    // Written so that NaN propagates.
     if (!(size <= most * whole[i])) most = size == 0.0 ? most : size / whole[i];
   }
   return most;
@@ -72,7 +72,7 @@ void refine(const sparse::SupernodalFactor& factor, const SparseMatrix& lower, c
   for (int step = 1; step <= kMaxSteps; ++step) {
     const VectorXd change = factor.solve(extended_residual(lower, x, b));
     const double size = change.lpNorm<Eigen::Infinity>();
-    if (!(size < 0.5 * last)) return;  // no step converges any more, and this one may do harm
+    if (!(size < 0.5 * last)) return;  // no further convergence, and this step may do harm
     x += change;
     steps = std::max(steps, step);
     last = size;

@@ -24,11 +24,11 @@ namespace {
 using Path = std::filesystem::path;
 using Fields = std::map<std::string, RowMatrix>;
 
-/// Results one by one: titles, and the fields of each ("displacement", "stress", ...).
+/// Access to results one by one: titles, and the fields of each ("displacement", "stress", ...).
 struct Results {
   std::vector<std::string> titles;
   std::function<Fields(size_t)> fields;
-  bool one_field = false;  // the title alone names it
+  bool one_field = false;  // named by the title only
 };
 
 Results modes_of(const H5File& file) {
@@ -44,7 +44,7 @@ Results modes_of(const H5File& file) {
   return results;
 }
 
-// Rows of the region's nodes on all nodes.
+// Expands rows of the region's nodes to all nodes.
 RowMatrix spread(const RowMatrix& values, const std::vector<int32_t>& nodes, int64_t n,
                  const std::string& where) {
   RowMatrix all = RowMatrix::Constant(n, values.cols(), std::numeric_limits<double>::quiet_NaN());
@@ -80,7 +80,7 @@ Results cases_of(const H5File& file) {
   return results;
 }
 
-/// What the fields are drawn on.
+/// The mesh for the fields.
 mesh::Mesh drawn_mesh(const H5File& results, const Path& cells) {
   const std::string where = results.path().string();
   mesh::Mesh drawn;

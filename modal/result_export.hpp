@@ -1,26 +1,26 @@
 #pragma once
-// Mode shapes and static results for ParaView.
+// Export of mode shapes and static results to ParaView.
 #include <filesystem>
 #include <vector>
 
 namespace clatter::modal {
 
-/// Is it a file of results (.modes.h5, .static.h5) by its schema? False for what is not readable.
+/// Whether the schema is that of results (.modes.h5, .static.h5). False if unreadable.
 bool is_results(const std::filesystem::path& path);
 
-/// InputError for an extension that export_results() does not know: before the work.
+/// InputError for an extension that export_results() does not support; call before the work.
 void check_result_exports(const std::vector<std::filesystem::path>& exports);
 
 /// Writes the results of a .modes.h5 or .static.h5 to each of `exports`:
-///  .vtu  all of them on one mesh: point data "mode 07 84.31 Hz" (n x 3, unit modal mass
+///  .vtu  all results on one mesh: point data "mode 07 84.31 Hz" (n x 3, unit modal mass
 ///        [1/sqrt(kg)]), or by case "CASE displacement" (n x 3) [m], "CASE stress" (n x 6: xx yy zz
-///        xy yz zx) and "CASE von Mises" [Pa]. Several regions have stresses of their own, "CASE
-///        stress REGION", not a number off the region.
-///  .pvd  a series: one .vtu a mode or case beside it, with point data "displacement" (and
-///  "stress",
-///        "von Mises"), time being the mode's or case's number; needs memory for one only
-/// Cells, regions and numbers come from `cells` (.fe.h5 or .mesh.h5); without it the surface "skin"
-/// is drawn. InputError for other extensions and for cells of other nodes; FileError for the disk.
+///        xy yz zx) and "CASE von Mises" [Pa]. Several regions have separate stresses, "CASE
+///        stress REGION", NaN outside the region.
+///  .pvd  a series: one .vtu per mode or case in the same folder, with point data "displacement"
+///        (and "stress", "von Mises"), time = number of the mode or case; holds one at a time
+/// Cells, regions and node numbers come from `cells` (.fe.h5 or .mesh.h5); without it the surface
+/// "skin" is used. InputError for other extensions and for cells of other nodes; FileError on disk
+/// errors.
 void export_results(const std::filesystem::path& results, const std::filesystem::path& cells,
                     const std::vector<std::filesystem::path>& exports);
 

@@ -9,7 +9,7 @@
 namespace clatter::modal {
 namespace {
 
-/// A vector of `width` numbers a place as rows.
+/// A vector as rows of `width` numbers.
 RowMatrix rows_of(const Eigen::VectorXd& values, Eigen::Index width) {
   return Eigen::Map<const RowMatrix>(values.data(), values.size() / width, width);
 }
@@ -38,14 +38,14 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
   }
   double backward = 0.0, forward = 0.0, balance = 0.0;
   for (const StaticCase& one : solution.cases) {
-    const std::string place = "cases/" + one.name + "/";
-    file.write(place + "displacement", rows_of(one.displacement, 3));
-    if (one.points.size() > 0) file.write(place + "points", rows_of(one.points, 6));
+    const std::string group = "cases/" + one.name + "/";
+    file.write(group + "displacement", rows_of(one.displacement, 3));
+    if (one.points.size() > 0) file.write(group + "points", rows_of(one.points, 6));
     if (one.reactions.size() > 0) {
-      file.write(place + "reactions", one.reactions);
-      file.write(place + "support_sums", one.support_sums);
+      file.write(group + "reactions", one.reactions);
+      file.write(group + "support_sums", one.support_sums);
     }
-    file.write(place + "applied", one.applied);
+    file.write(group + "applied", one.applied);
     write_stress(file, model, one);
     file.set("cases/" + one.name, "energy", one.energy);
     file.set("cases/" + one.name, "backward_error", one.backward_error);

@@ -1,4 +1,4 @@
-// Stresses of a static solution in words.
+// Stresses of a static solution as text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 namespace clatter::modal {
 namespace {
 
-/// The whole text as numbers between commas; none when anything else stands there.
+/// The text as comma-separated numbers; empty when it contains anything else.
 std::vector<double> numbers_in(const std::string& text) {
   std::vector<double> out;
   const char* at = text.data();
@@ -28,9 +28,9 @@ std::vector<double> numbers_in(const std::string& text) {
   return out;
 }
 
-int32_t nearest_node(const fe::FeModel& model, const Eigen::Vector3d& place) {
+int32_t nearest_node(const fe::FeModel& model, const Eigen::Vector3d& position) {
   Eigen::Index node = 0;
-  (model.nodes.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&node);
+  (model.nodes.rowwise() - position.transpose()).rowwise().squaredNorm().minCoeff(&node);
   return static_cast<int32_t>(node);
 }
 
@@ -40,8 +40,8 @@ std::optional<int32_t> node_labelled(const fe::FeModel& model, double label) {
   return std::nullopt;
 }
 
-std::set<int32_t> nodes_of(const fe::FeModel& model, const std::string& place) {
-  const std::vector<double> numbers = numbers_in(place);
+std::set<int32_t> nodes_of(const fe::FeModel& model, const std::string& location) {
+  const std::vector<double> numbers = numbers_in(location);
   if (numbers.size() == 3) return {nearest_node(model, Eigen::Vector3d(numbers.data()))};
   if (numbers.size() == 1)
     if (const auto node = node_labelled(model, numbers[0])) return {*node};
@@ -49,15 +49,15 @@ std::set<int32_t> nodes_of(const fe::FeModel& model, const std::string& place) {
   for (const auto& [name, set] : model.sets) {
     if (set.kind != "sensor") continue;
     sensors.push_back(name);
-    if (name != place) continue;
+    if (name != location) continue;
     std::set<int32_t> nodes;
     for (Eigen::Index k = 0; k < set.position.rows(); ++k)
       nodes.insert(nearest_node(model, set.position.row(k).transpose()));
     return nodes;
   }
   throw InputError(fmt::format(
-      "{}: --stress-at: found \"{}\", expected a node number, a place x,y,z in metres{}{}",
-      model.name, place, sensors.empty() ? "" : ", or one of: ", fmt::join(sensors, ", ")));
+      "{}: --stress-at: found \"{}\", expected a node number, a position x,y,z in metres{}{}",
+      model.name, location, sensors.empty() ? "" : ", or one of: ", fmt::join(sensors, ", ")));
 }
 
 std::string place_of(const fe::FeModel& model, int32_t node) {
@@ -87,14 +87,14 @@ std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& 
                      place_of(model, most.node));
 }
 
-std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& places) {
-  if (!places.empty() && model.cells.blocks.empty())
+std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& locations) {
+  if (!locations.empty() && model.cells.blocks.empty())
     throw InputError(fmt::format(
         "{}: --stress-at: found a model without cells, expected one of clatter-assembly",
         model.name));
   std::vector<int32_t> nodes;
-  for (const std::string& place : places)
-    for (const int32_t node : nodes_of(model, place)) nodes.push_back(node);
+  for (const std::string& location : locations)
+    for (const int32_t node : nodes_of(model, location)) nodes.push_back(node);
   return nodes;
 }
 

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/free_motions.hpp"
-#include "core/modes/factor_trouble.hpp"
+#include "core/modes/factor_failure.hpp"
 #include "modal/refined_solve.hpp"
 
 namespace clatter::modal {
@@ -19,13 +19,14 @@ namespace {
 constexpr double kBackward = 1e-12;  // of each row; refinement leaves 1e-16 or so
 constexpr double kBalance = 1e-8;    // of forces; rounding leaves 1e-12 or so
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-constexpr double kForward = 1.0;  // estimated relative error of the displacements: no digit is left
-constexpr double kDoubtful = 1e-3;     // the same, worth a warning
-constexpr double kHeldMotion = 1e-10;  // of what cancels in a row of K R; rounding leaves 1e-13
+constexpr double kForward = 1.0;  // estimated relative error of the displacements: no correct digit
+constexpr double kDoubtful = 1e-3;  // the same, worth a warning
+constexpr double kHeldMotion =
+    1e-10;  // relative to the magnitudes that cancel in a row of K R; rounding leaves 1e-13
 
 using Factors = std::map<std::string, double>;
 
-/// The loads of a wanted name: a case's, or the one load by itself.
+/// The loads of a requested name: those of a case, or a single load.
 Factors factors_of(const fe::FeModel& model, const std::string& name) {
   if (const auto found = model.cases.find(name); found != model.cases.end()) return found->second;
   if (model.loads.contains(name)) return {{name, 1.0}};
@@ -45,7 +46,7 @@ std::vector<std::string> all_names(const fe::FeModel& model) {
   return names;
 }
 
-/// Of all loads of a case [K] (n_nodes); empty when none has a temperature.
+/// Temperature rise of all loads of a case [K] (n_nodes); empty when none has one.
 Eigen::VectorXd temperature_rise(const fe::FeModel& model, const Factors& loads) {
   Eigen::VectorXd sum;
   for (const auto& [load, factor] : loads) {
@@ -86,15 +87,15 @@ void refuse_free_body(const fe::FeModel& model) {
     std::string name = fe::motion_name(free.unit.col(c), fe::characteristic_length(model));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  throw InputError(fmt::format(
-      "{}: found {} rigid motions that nothing holds (such as {}){}, expected a "
-      "[[support]] that does",
-      model.name, free.count(), fmt::join(names, ", "),
-      free.bodies > 1 ? fmt::format(" in {} bodies that nothing joins", free.bodies) : ""));
+  throw InputError(
+      fmt::format("{}: found {} unsupported rigid-body motions (such as {}){}, expected a "
+                  "[[support]] for each",
+                  model.name, free.count(), fmt::join(names, ", "),
+                  free.bodies > 1 ? fmt::format(" in {} unconnected bodies", free.bodies) : ""));
 }
 
-/// 1 for the rigid motions that are free of force without supports, 0 for those that an equation
-/// or a spring to the ground holds: their forces are no reactions. Row by row, as in
+/// 1 for rigid-body motions without force if supports are removed, 0 for those that an equation
+/// or a ground spring holds: their forces are not reactions. Row by row, as in
 /// free_motions(): a soft spring on a stiff part holds it.
 Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
   const fe::FeSupports& supports = model.supports;
@@ -104,7 +105,7 @@ Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
     const SparseMatrix on_q = supports.K_sq.transpose();
     force += on_q * supports.rigid;
     size += on_q.cwiseAbs() * supports.rigid.cwiseAbs();
-    // A spring between the ground and a held coordinate shows in the rows of s alone.
+    // A spring between the ground and a supported DoF appears only in the rows of s.
     Eigen::MatrixXd on_s = supports.K_sq * model.rigid;
     on_s += multiply_symmetric(supports.K_ss, supports.rigid);
     Eigen::MatrixXd size_s = supports.K_sq.cwiseAbs() * model.rigid.cwiseAbs();
@@ -122,7 +123,7 @@ Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
 
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : part; }
 
-/// What rounding of the nodal forces may leave of their sum, in the units of the balance: bending
+/// Rounding error of the sum of the nodal forces, in the units of the balance: bending
 /// of thin parts is a small difference of large forces.
 double rounding_of(const fe::FeModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& s) {
   Eigen::VectorXd sum =
@@ -141,7 +142,7 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
                    const Eigen::VectorXd& f_s, const Eigen::VectorXd& s,
                    const Eigen::VectorXd& balanced) {
   StaticCase out;
-  double size = f.lpNorm<1>();  // of forces that cancel
+  double size = f.lpNorm<1>();  // sum of force magnitudes
   const fe::FeSupports& supports = model.supports;
   const Eigen::VectorXd elastic = multiply_symmetric(model.K, q);
   out.displacement = model.T * q;
@@ -172,8 +173,8 @@ StaticCase recover(const fe::FeModel& model, const Eigen::VectorXd& q, const Eig
   return out;
 }
 
-/// Thin walls have a condition beyond 1e11 and are solved all the same: the guards of the factor
-/// leave it to the errors of the solution to judge.
+/// Thin walls have condition numbers above 1e11 and are still solved: the limits of the factor are
+/// off, and the errors of the solution are checked instead.
 sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
   sparse::FactorOptions options;
   options.min_rcond = 0.0;
@@ -188,7 +189,7 @@ sparse::SupernodalFactor factor_of(const fe::FeModel& model) {
 }
 
 void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
-  // Written so that NaN is refused too.
+  // Written so that NaN is also refused.
   if (!(found.backward_error <= kBackward))
     throw NumericsError(fmt::format("{}: {}: found backward error {:.3g}, expected at most {:.0e}",
                                     model.name, found.name, found.backward_error, kBackward));
@@ -197,11 +198,11 @@ void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
         fmt::format("{}: {}: found balance of forces {:.3g}, expected at most {:.0e}", model.name,
                     found.name, found.balance, kBalance));
   if (!(found.forward_error <= kForward))
-    throw NumericsError(fmt::format(
-        "{}: {}: found an error of the displacements of about {:.2g} by rounding of the "
-        "entries of K, expected at most {:g}: make the walls thicker, the jumps of "
-        "stiffness smaller, or the supports firmer",
-        model.name, found.name, found.forward_error, kForward));
+    throw NumericsError(
+        fmt::format("{}: {}: found an estimated displacement error of {:.2g} from rounding of the "
+                    "entries of K, expected at most {:g}: use thicker walls, smaller jumps of "
+                    "stiffness, or stiffer supports",
+                    model.name, found.name, found.forward_error, kForward));
   if (found.forward_error > kDoubtful)
     warn(fmt::format(
         "{}: {}: rounding of the entries of K may move displacements by up to {:.1g} of "
@@ -209,7 +210,7 @@ void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
         model.name, found.name, found.forward_error));
 }
 
-/// Nothing is unknown where supports hold every DoF: displacements are those prescribed, and the
+/// Supports hold every DoF: displacements are the prescribed ones, and the
 /// reactions are K_ss s - f_s.
 StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {

@@ -39,8 +39,9 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
     keep(piece_or_warning(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
     if (clock.turns() || options.windows_asked)
-      keep(piece_or_warning(options.windows_asked,
-                         [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
+      keep(piece_or_warning(options.windows_asked, [&] {
+        return window(clock, rule.name, rule.span, rule.taper, origin);
+      }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
   return pieces;
 }
@@ -56,8 +57,9 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
   if (clock.turns() || options.frames_asked)
-    piece = piece_or_warning(options.frames_asked,
-                          [&] { return window(clock, "frames", rule.span, Taper::kNone, origin); });
+    piece = piece_or_warning(options.frames_asked, [&] {
+      return window(clock, "frames", rule.span, Taper::kNone, origin);
+    });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
   piece = whole_run(clock, origin);
   constexpr double kFrames = 60.0;
@@ -101,7 +103,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   const SkinGeometry geometry = measure_skin(skin.nodes, skin.triangles);
   summary.n_nodes = skin.nodes.rows();
   summary.n_faces = skin.triangles.rows();
-  summary.limit = with_place(options.origin, [&] {
+  summary.limit = with_context(options.origin, [&] {
     return frequency_limit(options.spectrum, model.valid_to_hz, body.clock().step_s);
   });
   if (model.valid_to_hz <= 0.0)
@@ -109,11 +111,11 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
          ": valid_to_hz is not stated: spectra are not checked against the basis");
   if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
   summary.sensors =
-      with_place(options.origin, [&] { return find_sensors(options.sensors, model, geometry); });
+      with_context(options.origin, [&] { return find_sensors(options.sensors, model, geometry); });
   const std::string origin = body.path().string();
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
   const FrameChoice frames = choose_frames(body.clock(), options, origin);
-  summary.panels = with_place(options.origin, [&] {
+  summary.panels = with_context(options.origin, [&] {
     return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry);
   });
   clock.lap("skin and panels");
@@ -125,7 +127,7 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
   const Analysis& first = summary.analyses.front();
-  const std::vector<ChosenLine> lines = with_place(options.origin, [&] {
+  const std::vector<ChosenLine> lines = with_context(options.origin, [&] {
     return choose_lines(options.lines, options.spectrum, first, summary.limit);
   });
   for (const ChosenLine& line : lines)

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
-#include "core/rom/certificate_doubt.hpp"
+#include "core/rom/certificate_warning.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -111,7 +111,7 @@ rom::ReducedModel RunBody::read_model() const {
         "it again",
         rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
   rom::ReducedModel model = rom::read_reduced_model(rom_path_);
-  const std::string doubt = rom::certificate_doubt(model);
+  const std::string doubt = rom::certificate_warning(model);
   if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
   const int64_t columns = file_.shape(place("q"))[1];
   if (columns != model.size())

@@ -20,7 +20,7 @@ class Sha256 {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
   void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
-  /// 64 hexadecimal digits; nothing can be added afterwards.
+  /// 64 hexadecimal digits; no more data can be added.
   std::string finish() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int length = 0;
@@ -79,7 +79,7 @@ void write_timing(H5File& file, const StepClock& clock) {
   file.write("timing/seconds", seconds);
   file.write("timing/peak_gib", peak);
   file.set("timing", "total_seconds", clock.total_seconds());
-  // Steps of a child process have peaks of their own.
+  // Steps of a child process have their own peaks.
   peak.push_back(static_cast<double>(peak_memory_bytes()) / 1073741824.0);
   file.set("timing", "peak_gib", *std::max_element(peak.begin(), peak.end()));
 }

@@ -24,7 +24,7 @@ Function* find_symbol(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// Name of the best OpenBLAS 0.3.21 kernel for this CPU; empty when its own choice will be right.
+/// Name of the best OpenBLAS 0.3.21 kernel for this CPU; empty when OpenBLAS's own choice is right.
 std::string best_kernel() {
 #if defined(__x86_64__)
   __builtin_cpu_init();
@@ -42,7 +42,7 @@ bool same_name(const std::string& a, const std::string& b) {
 }
 
 /// Value of --blas; empty without it.
-std::string asked_kernel(char** argv) {
+std::string requested_kernel(char** argv) {
   constexpr std::string_view kOption = "--blas";
   for (char** word = argv; *word != nullptr; ++word) {
     const std::string_view text = *word;
@@ -62,7 +62,7 @@ int generation(const std::string& kernel) {
   return 1;
 }
 
-/// OpenBLAS must not change its threads while another of ours is inside it.
+/// OpenBLAS must not change its thread count while another thread of ours uses it.
 std::mutex& section_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -73,38 +73,38 @@ std::mutex& section_mutex() {
 void ensure_fast_blas(char** argv) {
   const auto corename = find_symbol<char*()>("openblas_get_corename");
   if (corename == nullptr) return;
-  const std::string asked = asked_kernel(argv), running = corename();
+  const std::string requested = requested_kernel(argv), running = corename();
   const char* set = std::getenv(kChoice);
-  if (asked.empty() && set != nullptr) return;
-  const bool automatic = asked.empty() || asked == "auto";
-  const std::string wanted = automatic ? best_kernel() : asked;
+  if (requested.empty() && set != nullptr) return;
+  const bool automatic = requested.empty() || requested == "auto";
+  const std::string wanted = automatic ? best_kernel() : requested;
   if (wanted.empty() || same_name(running, wanted)) return;
   if (automatic && generation(running) >= generation(wanted)) return;
   if (set != nullptr && same_name(set, wanted)) return;  // it was started with that already
   setenv(kChoice, wanted.c_str(), 1);
-  if (asked.empty())
+  if (requested.empty())
     warn(fmt::format("OpenBLAS chose its kernel {} on this CPU; starting again with {}={}", running,
                      kChoice, wanted));
   execv("/proc/self/exe", argv);
-  // Going on with the slow kernel is right but slow; the line above told so.
+  // If restarting fails, the run continues with the slow kernel, as announced above.
 }
 
-void report_blas(const std::string& asked) {
+void report_blas(const std::string& requested) {
   const auto corename = find_symbol<char*()>("openblas_get_corename");
   if (corename == nullptr) {
-    if (!asked.empty()) say("--blas has no effect: this BLAS is not OpenBLAS");
+    if (!requested.empty()) say("--blas has no effect: this BLAS is not OpenBLAS");
     return;
   }
   const std::string running = corename(), best = best_kernel();
-  if (!asked.empty() && asked != "auto" && !same_name(running, asked))
+  if (!requested.empty() && requested != "auto" && !same_name(running, requested))
     throw InputError(
-        fmt::format("--blas: found {}, in whose place OpenBLAS runs {} here, expected auto or a "
-                    "kernel of OpenBLAS for this CPU such as Haswell, SkylakeX or Zen",
-                    asked, running));
-  if (!asked.empty()) {
+        fmt::format("--blas: found {}, but OpenBLAS runs {} on this CPU, expected auto or an "
+                    "OpenBLAS kernel for this CPU such as Haswell, SkylakeX or Zen",
+                    requested, running));
+  if (!requested.empty()) {
     say(fmt::format("OpenBLAS runs its kernel {}", running));
   } else if (std::getenv(kChoice) != nullptr && generation(running) < generation(best)) {
-    say(fmt::format("{} holds OpenBLAS to its kernel {}, this CPU can run {}: --blas auto takes it",
+    say(fmt::format("{} forces OpenBLAS to kernel {}, but this CPU supports {}: use --blas auto",
                     kChoice, running, best));
   }
 }

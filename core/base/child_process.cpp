@@ -27,15 +27,15 @@
 namespace clatter {
 namespace {
 
-constexpr size_t kStepBytes = 1024;     // of the shared text of enter_step()
+constexpr size_t kStepBytes = 1024;     // size of the shared text of enter_step()
 constexpr size_t kChatterBytes = 4096;  // kept of what libraries print
-constexpr char kStepMark = '\x1d';      // in what libraries print: a step begins
-constexpr int kPollMs = 20;             // between two looks at time, memory and signals
+constexpr char kStepMark = '\x1d';      // in captured output: a step begins
+constexpr int kPollMs = 20;             // between checks of time, memory and signals
 constexpr double kGib = 1024.0 * 1024.0 * 1024.0;
 
 char* step_text = nullptr;  // in the child: shared with the parent
 
-// What a message from the child is.
+// Type of a message from the child.
 enum class Frame : char {
   kSay = 's',
   kWarn = 'w',
@@ -75,7 +75,7 @@ struct Pipe {
   }
 };
 
-// Memory that both processes see.
+// Shared memory of both processes.
 class SharedText {
  public:
   SharedText()
@@ -99,7 +99,7 @@ void send_bytes(int to, const char* bytes, size_t count) {
   while (count > 0) {
     const ssize_t sent = ::write(to, bytes, count);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) ::_exit(1);  // the parent has gone
+    if (sent <= 0) ::_exit(1);  // the parent has ended
     bytes += sent;
     count -= static_cast<size_t>(sent);
   }
@@ -120,9 +120,9 @@ double address_space_bytes() {
   return pages * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-// The parent watches what is resident; a single huge allocation is refused before it is touched.
+// The parent monitors resident memory; a single huge allocation is refused in the child.
 void limit_address_space([[maybe_unused]] double memory_gib) {
-#ifndef __SANITIZE_ADDRESS__  // whose shadow takes terabytes
+#ifndef __SANITIZE_ADDRESS__  // its shadow memory takes terabytes
   const double bytes = address_space_bytes() + (1.25 * memory_gib + 2.0) * kGib;
   rlimit limit{};
   if (bytes > 9e18 || ::getrlimit(RLIMIT_AS, &limit) != 0) return;
@@ -133,15 +133,15 @@ void limit_address_space([[maybe_unused]] double memory_gib) {
 
 void prepare_child(pid_t parent, int chatter, double memory_gib) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it went before the line above
-  // The terminal sends its signals to both; the parent decides.
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above
+  // The terminal signals both processes; only the parent reacts.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   const rlimit none{};
   ::setrlimit(RLIMIT_CORE, &none);
   limit_address_space(memory_gib);
   ::dup2(chatter, STDOUT_FILENO);
   ::dup2(chatter, STDERR_FILENO);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // or the last lines before a crash are lost
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // otherwise the last lines before a crash are lost
 }
 
 [[noreturn]] void be_child(int to, const std::function<std::string()>& body) {
@@ -161,14 +161,14 @@ void prepare_child(pid_t parent, int chatter, double memory_gib) {
   } catch (...) {
     send(to, Frame::kThrew, "");
   }
-  ::_exit(0);  // no destructors: they are the library's as well
+  ::_exit(0);  // no destructors: they include the library's
 }
 
 // --- the parent ---
 
 volatile std::sig_atomic_t caught_signal = 0;
 
-// Remembers SIGINT, SIGTERM and SIGHUP while it lives.
+// Records SIGINT, SIGTERM and SIGHUP during its lifetime.
 class SignalWatch {
  public:
   SignalWatch() {
@@ -207,7 +207,7 @@ double resident_gib(pid_t process) {
   throw NumericsError(message);
 }
 
-// A running child and what came from it.
+// A running child and its output.
 class Child {
  public:
   Child(pid_t process, const ChildLimits& limits) : process_(process), limits_(limits) {}
@@ -215,7 +215,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Until the child closes its end, or is stopped for a limit.
+  /// Reads until the child closes its end or exceeds a limit.
   void follow(int frames, int chatter) {
     std::array<pollfd, 2> watched = {pollfd{frames, POLLIN, 0}, pollfd{chatter, POLLIN, 0}};
     ::fcntl(chatter, F_SETFL, O_NONBLOCK);
@@ -230,7 +230,7 @@ class Child {
     drain_chatter(chatter);
   }
 
-  /// Kills it if need be, collects how it ended.
+  /// Kills it if necessary and collects its exit status.
   ChildEnd finish() {
     if (end_.kind == ChildEnd::Kind::kTimeLimit || stopped_for_memory_ || caught_signal != 0)
       ::kill(process_, SIGKILL);
@@ -329,15 +329,15 @@ class Child {
 std::string ChildEnd::describe(const ChildLimits& limits) const {
   switch (kind) {
     case Kind::kDone:
-      return "ended well";
+      return "succeeded";
     case Kind::kCrashed:
-      return fmt::format("crashed (signal {}, {}{})", signal, ::strsignal(signal),
-                         signal == SIGKILL ? ": the kernel does that when memory runs out" : "");
+      return fmt::format(
+          "crashed (signal {}, {}{})", signal, ::strsignal(signal),
+          signal == SIGKILL ? ": possibly killed by the kernel because memory ran out" : "");
     case Kind::kNoResult:
       return fmt::format("ended with exit code {} and no result", exit_code);
     case Kind::kThrew:
-      return words.empty() ? "threw what is no exception with a text"
-                           : fmt::format("threw \"{}\"", words);
+      return words.empty() ? "threw an exception without text" : fmt::format("threw \"{}\"", words);
     case Kind::kTimeLimit:
       return fmt::format("was stopped after {:g} s (--time-limit)", limits.seconds);
     case Kind::kMemoryLimit:
@@ -347,13 +347,13 @@ std::string ChildEnd::describe(const ChildLimits& limits) const {
   return "";
 }
 
-ChildEnd run_in_child(const ChildLimits& asked, const std::function<std::string()>& body) {
-  ChildLimits limits = asked;
+ChildEnd run_in_child(const ChildLimits& requested, const std::function<std::string()>& body) {
+  ChildLimits limits = requested;
   if (limits.memory_gib <= 0.0) limits.memory_gib = memory_limit_gib();
   const SharedText step;
   Pipe frames, chatter;
   SignalWatch watch;
-  std::fflush(nullptr);  // or the child, if it flushes, prints our buffers again
+  std::fflush(nullptr);  // otherwise the child may print our buffers again
   const pid_t parent = ::getpid(), process = ::fork();
   if (process < 0) throw FileError(fmt::format("no child process: {}", std::strerror(errno)));
   if (process == 0) {

@@ -29,7 +29,7 @@ struct CommandLine::Impl {
   std::vector<std::pair<CLI::Option*, std::function<std::vector<std::filesystem::path>()>>> inputs,
       outputs;
 
-  /// Tells core/base/planned_files.hpp what is read and written.
+  /// Registers inputs and outputs in core/base/planned_files.hpp.
   void plan_files() const {
     for (const auto& [option, paths] : inputs)
       if (option->count() > 0)
@@ -52,7 +52,7 @@ using Paths = std::vector<std::filesystem::path>;
 Paths paths_of(const std::filesystem::path& value) { return {value}; }
 Paths paths_of(const Paths& value) { return value; }
 
-/// Adds an option whose value, one path or several, is noted in `role`.
+/// Adds an option whose value, one path or several, is recorded in `role`.
 template <class Role, class Value>
 CLI::Option* add(CLI::App& app, Role& role, const std::string& flags, Value& value,
                  const std::string& help) {
@@ -139,12 +139,12 @@ void CommandLine::memory_limit(const std::string& effect) {
 void CommandLine::blas() {
   impl_->with_blas = true;
   impl_->app.add_option("--blas", impl_->blas,
-                        "kernel of OpenBLAS, whatever OPENBLAS_CORETYPE says: its name (Haswell, "
+                        "OpenBLAS kernel, overrides OPENBLAS_CORETYPE: a name (Haswell, "
                         "SkylakeX, Zen ...), or auto for the best one of this CPU");
 }
 
 bool CommandLine::parse(int argc, char** argv) {
-  // A wrong command line is told as it asks for.
+  // --json also applies to errors in the command line.
   set_json(std::find(argv, argv + argc, std::string_view("--json")) != argv + argc);
   try {
     impl_->app.parse(argc, argv);
@@ -188,7 +188,7 @@ void write_depfile(const std::filesystem::path& depfile, const std::filesystem::
   stream << target.string() << ":";
   for (const auto& input : inputs) stream << " " << input.string();
   stream << "\n";
-  // An input that was deleted must not stop make: each is also a target without a recipe.
+  // A deleted input must not stop make: each is also a target without a recipe.
   for (const auto& input : inputs) stream << input.string() << ":\n";
   file.commit();
 }

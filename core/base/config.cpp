@@ -1,4 +1,4 @@
-// The values of a configuration, each checked, noted and told with its place when it is wrong.
+// The values of a configuration, each checked and recorded; errors give its position.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -56,17 +56,17 @@ std::string joined(const std::vector<std::string>& values) {
 Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
     : document_(std::move(document)), node_(std::move(node)) {}
 
-std::string Config::where() const { return place_in_file(document_->origin, node_->table); }
+std::string Config::where() const { return position_in_file(document_->origin, node_->table); }
 
 void Config::fail(std::string_view key, const std::string& message) const {
   const toml::node* at = node_->table->get(key);
-  throw InputError(fmt::format("{}: {}{}: {}",
-                               place_in_file(document_->origin, at != nullptr ? at : node_->table),
-                               node_->prefix, key, message));
+  throw InputError(fmt::format(
+      "{}: {}{}: {}", position_in_file(document_->origin, at != nullptr ? at : node_->table),
+      node_->prefix, key, message));
 }
 
 bool Config::has(std::string_view key) const {
-  document_->asked[node_->table].insert(std::string(key));
+  document_->requested[node_->table].insert(std::string(key));
   return node_->table->get(key) != nullptr;
 }
 
@@ -169,10 +169,10 @@ bool Config::flag_or(std::string_view key, bool fallback) const {
 }
 
 std::string Config::text(std::string_view key) const {
-  if (!has(key)) fail(key, "found nothing, expected a text in quotes");
+  if (!has(key)) fail(key, "found nothing, expected a string in quotes");
   const toml::node* node = node_->table->get(key);
   if (!node->is_string()) {
-    fail(key, fmt::format("found {}, expected a text in quotes", shown(*node)));
+    fail(key, fmt::format("found {}, expected a string in quotes", shown(*node)));
   }
   document_->known.insert(node);
   const std::string value = *node->value<std::string>();
@@ -229,13 +229,14 @@ std::vector<double> Config::numbers(std::string_view key, size_t count) const {
 }
 
 std::vector<std::string> Config::texts(std::string_view key) const {
-  if (!has(key)) fail(key, "found nothing, expected a list of texts");
+  if (!has(key)) fail(key, "found nothing, expected a list of strings");
   const toml::node* node = node_->table->get(key);
-  if (!node->is_array()) fail(key, fmt::format("found {}, expected a list of texts", shown(*node)));
+  if (!node->is_array())
+    fail(key, fmt::format("found {}, expected a list of strings", shown(*node)));
   std::vector<std::string> values;
   for (const auto& element : *node->as_array()) {
     if (!element.is_string()) {
-      fail(key, fmt::format("found {} in the list, expected a text in quotes", shown(element)));
+      fail(key, fmt::format("found {} in the list, expected a string in quotes", shown(element)));
     }
     values.push_back(*element.value<std::string>());
   }
@@ -259,7 +260,7 @@ std::filesystem::path Config::path(std::string_view key) const {
     const bool from_base = file && *file != document_->origin;
     named = (from_base ? std::filesystem::path(*file).parent_path() : document_->folder) / named;
   }
-  will_read(named, fmt::format("{}: {}", place_in_file(document_->origin, node), key));
+  will_read(named, fmt::format("{}: {}", position_in_file(document_->origin, node), key));
   return named;
 }
 

@@ -1,4 +1,4 @@
-// Where a configuration comes from: a file, a file with its bases, a text.
+// Sources of a configuration: a file, a file with its bases, a string.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ toml::table parsed(std::string_view text, const std::string& origin) {
   }
 }
 
-/// Moves what `over` says into `base`. Nodes are moved, not copied: they keep file and line.
+/// Merges `over` into `base`. Nodes are moved, not copied, to keep file and line.
 void overlay(toml::table& base, toml::table& over) {
   for (auto&& [key, value] : over) {
     toml::node* below = base.get(key);
@@ -92,9 +92,9 @@ Config Config::parse(std::string_view text, const std::string& origin) {
 
 const std::vector<std::filesystem::path>& Config::files() const { return document_->files; }
 
-std::string place_in_file(const std::string& origin, const toml::node* node) {
+std::string position_in_file(const std::string& origin, const toml::node* node) {
   if (node == nullptr || node->source().begin.line == 0) return origin;
-  const auto& file = node->source().path;  // a base's values stand in the base's file
+  const auto& file = node->source().path;  // values of a base refer to the base's file
   return fmt::format("{}:{}", file ? *file : origin, node->source().begin.line);
 }
 

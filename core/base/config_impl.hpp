@@ -29,6 +29,6 @@ struct Config::Node {
 };
 
 /// "file:line" of a node; only the origin when the node has no source position.
-std::string place_in_file(const std::string& origin, const toml::node* node);
+std::string position_in_file(const std::string& origin, const toml::node* node);
 
 }  // namespace clatter

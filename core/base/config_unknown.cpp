@@ -1,4 +1,4 @@
-// Keys that nobody asked for, and the key that was probably meant.
+// Unknown keys, and the key that was probably meant.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,21 +37,21 @@ std::string nearest(const std::string& key, const std::set<std::string>& candida
   return best;
 }
 
-/// The first key, in order of the file, that nobody asked for.
+/// The first key, in file order, that was never read.
 struct Unknown {
   const toml::node* node = nullptr;
   const toml::table* table = nullptr;
   std::string key, prefix;
 };
 
-using Asked = std::map<const toml::table*, std::set<std::string>>;
+using Requested = std::map<const toml::table*, std::set<std::string>>;
 
-void find_unknown(const toml::table& table, const std::string& prefix, const Asked& asked,
+void find_unknown(const toml::table& table, const std::string& prefix, const Requested& requested,
                   const std::set<const toml::node*>& known, Unknown& first) {
-  const auto at = asked.find(&table);
+  const auto at = requested.find(&table);
   for (const auto& [key, value] : table) {
     const std::string name(key.str());
-    const bool is_known = at != asked.end() && at->second.count(name) != 0;
+    const bool is_known = at != requested.end() && at->second.count(name) != 0;
     if (!is_known) {
       if (first.node == nullptr || value.source().begin < first.node->source().begin) {
         first = {&value, &table, name, prefix};
@@ -59,12 +59,12 @@ void find_unknown(const toml::table& table, const std::string& prefix, const Ask
       continue;
     }
     if (value.is_table() && known.count(&value) != 0) {
-      find_unknown(*value.as_table(), prefix + name + ".", asked, known, first);
+      find_unknown(*value.as_table(), prefix + name + ".", requested, known, first);
     } else if (value.is_array_of_tables() && known.count(&value) != 0) {
       size_t index = 0;
       for (const auto& element : *value.as_array()) {
-        find_unknown(*element.as_table(), fmt::format("{}{}[{}].", prefix, name, index++), asked,
-                     known, first);
+        find_unknown(*element.as_table(), fmt::format("{}{}[{}].", prefix, name, index++),
+                     requested, known, first);
       }
     }
   }
@@ -74,11 +74,11 @@ void find_unknown(const toml::table& table, const std::string& prefix, const Ask
 
 void Config::finish() const {
   Unknown unknown;
-  find_unknown(document_->root, "", document_->asked, document_->known, unknown);
+  find_unknown(document_->root, "", document_->requested, document_->known, unknown);
   if (unknown.node == nullptr) return;
-  const std::string close = nearest(unknown.key, document_->asked[unknown.table]);
+  const std::string close = nearest(unknown.key, document_->requested[unknown.table]);
   throw InputError(fmt::format(
-      "{}: {}{}: unknown key{}", place_in_file(document_->origin, unknown.node), unknown.prefix,
+      "{}: {}{}: unknown key{}", position_in_file(document_->origin, unknown.node), unknown.prefix,
       unknown.key, close.empty() ? "" : fmt::format(", did you mean {}?", close)));
 }
 

@@ -14,8 +14,7 @@ int run_guarded(std::string_view program, const std::function<int()>& body) {
   } catch (const Error& error) {
     return report_error(program, error.what(), error.code());
   } catch (const std::bad_alloc&) {
-    return report_error(program,
-                        "out of memory: use a coarser mesh or fewer retained degrees of freedom",
+    return report_error(program, "out of memory: use a coarser mesh or fewer retained DoFs",
                         ExitCode::kNumerics);
   } catch (const std::exception& error) {
     return report_error(program, std::string("internal: ") + error.what(), ExitCode::kNumerics);

@@ -8,7 +8,7 @@
 namespace clatter {
 namespace {
 
-// Bytes that fit the head of an object, 65 535 at most with name and type.
+// Largest attribute in an object header (limit 65 535 bytes with name and type).
 constexpr size_t kLongestAttribute = 60000;
 
 std::string member(std::string_view object, std::string_view name) {
@@ -128,7 +128,7 @@ void H5File::write_float(std::string_view name, const std::vector<float>& values
   impl_->write(name, values.data(), shape);
 }
 
-// Of one length: texts of variable length lie in a heap without checksums.
+// Fixed length: strings of variable length are in a heap without checksums.
 void H5File::write(std::string_view name, const std::vector<std::string>& values) {
   size_t length = 1;
   for (const std::string& value : values) length = std::max(length, value.size());
@@ -152,7 +152,7 @@ std::vector<std::string> H5File::read_strings(std::string_view name) const {
   const Id stored(H5Dget_type(set), &H5Tclose);
   const auto shape = Impl::extents(set);
   if (shape.size() != 1 || H5Tget_class(stored) != H5T_STRING) {
-    impl_->refuse(name, "found another type, expected a list of texts");
+    impl_->refuse(name, "found another type, expected a list of strings");
   }
   const auto count = static_cast<size_t>(shape[0]);
   return H5Tis_variable_str(stored) > 0 ? impl_->read_long_texts(name, set, count)
@@ -176,7 +176,7 @@ RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count)
   const Id set = impl_->open_dataset(name);
   const auto extents = Impl::extents(set);
   if (extents.size() != 2 || first < 0 || count < 0 || first + count > extents[0]) {
-    impl_->refuse(name, fmt::format("rows {} to {} asked for, the dataset has {}", first,
+    impl_->refuse(name, fmt::format("rows {} to {} requested, the dataset has {}", first,
                                     first + count, extents.empty() ? 0 : extents[0]));
   }
   impl_->check_number_class(name, set, false);
@@ -209,7 +209,7 @@ void H5File::set(std::string_view object, std::string_view name,
   impl_->set_attribute(object, name, H5T_NATIVE_INT64, values.data(),
                        static_cast<int64_t>(values.size()));
 }
-// Of fixed length, for the same reason as in write().
+// Fixed length, for the same reason as in write().
 void H5File::set(std::string_view object, std::string_view name, const std::string& value) {
   if (value.size() > kLongestAttribute)
     return write(member(object, name), std::vector<std::string>{value});

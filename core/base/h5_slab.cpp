@@ -18,7 +18,8 @@ RowMatrix read_slab(const std::filesystem::path& path, const std::string& name, 
   const bool fits = H5Sget_simple_extent_ndims(space) == 3 &&
                     H5Sget_simple_extent_dims(space, extents, nullptr) == 3;
   if (!fits || index < 0 || static_cast<hsize_t>(index) >= extents[0])
-    refuse(fmt::format("expected three extents, the first over {}, found {}", index, extents[0]));
+    refuse(
+        fmt::format("expected three dimensions, the first above {}, found {}", index, extents[0]));
   RowMatrix values(static_cast<Eigen::Index>(extents[1]), static_cast<Eigen::Index>(extents[2]));
   if (values.size() == 0) return values;
   const hsize_t start[3] = {static_cast<hsize_t>(index), 0, 0};

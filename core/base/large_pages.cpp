@@ -47,13 +47,13 @@ std::shared_ptr<double[]> spilled_array(size_t count) {
         fmt::format("{}: {} {} bytes failed: {}", path, doing, bytes, std::strerror(errno)));
   };
   const int file = mkstemp(path.data());
-  if (file < 0) fail("making a file of");
+  if (file < 0) fail("creating a file of");
   unlink(path.c_str());
   const int status = posix_fallocate(file, 0, static_cast<off_t>(bytes));
   if (status != 0) {
     close(file);
     errno = status;
-    fail("keeping room for");
+    fail("reserving");
   }
   void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   close(file);
@@ -62,7 +62,7 @@ std::shared_ptr<double[]> spilled_array(size_t count) {
 }
 
 void keep_freed_memory() {
-  mallopt(M_MMAP_MAX, 0);  // or large arrays would come from mmap and go back when they are freed
+  mallopt(M_MMAP_MAX, 0);  // otherwise large arrays would be unmapped when freed
   mallopt(M_TRIM_THRESHOLD, -1);
 }
 

@@ -39,7 +39,7 @@ void warn(const std::string& line) {
 }
 
 void print_result(const std::string& line) {
-  if (json_flag || sink()) return say(line);  // stdout of a child process is nobody's
+  if (json_flag || sink()) return say(line);  // stdout of a child process is captured
   std::fputs((line + "\n").c_str(), stdout);
 }
 

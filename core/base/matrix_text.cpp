@@ -15,10 +15,10 @@
 namespace clatter {
 namespace {
 
-/// An entry folded into the lower triangle, with what is needed to say where it was.
+/// An entry mapped to the lower triangle, with its original position.
 struct Entry {
   int32_t row, column;
-  bool above;  // it stood above the diagonal
+  bool above;  // it was above the diagonal
   double value;
   int64_t line;
 };
@@ -111,7 +111,7 @@ std::vector<Entry> read_list(TextLines& lines, const Head& head) {
   return entries;
 }
 
-/// Entries of one place stand together, the lower one first.
+/// Entries of the same row and column become adjacent, the lower one first.
 void sort(std::vector<Entry>& entries) {
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.column, a.row, a.above, a.line) < std::tie(b.column, b.row, b.above, b.line);

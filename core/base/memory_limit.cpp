@@ -49,7 +49,7 @@ void require_memory(const std::string& what, double gib, const std::string& advi
 std::string memory_text(double gib) {
   if (gib <= 0.0) return "0 MiB";
   const char* unit = "GiB";
-  // The limit is what three digits would round up to the next unit.
+  // Values that three digits would round up take the next unit.
   for (const char* smaller : {"MiB", "KiB"}) {
     if (gib >= 0.9995) break;
     gib *= 1024.0;

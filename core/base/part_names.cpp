@@ -12,11 +12,11 @@
 namespace clatter {
 namespace {
 
-// A program writes a few files at a time; beyond the table a name is not noted, which costs a part
-// file after a signal and nothing else.
+// A program writes only a few files at a time; if the table is full, a part file may remain
+// after a signal.
 std::array<std::atomic<char*>, 32> names;
 
-// Calls only what a signal handler may.
+// Calls only async-signal-safe functions.
 void remove_and_end(int signal) {
   for (std::atomic<char*>& name : names)
     if (const char* path = name.load()) ::unlink(path);

@@ -16,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Output {
-  std::string asked_by;
+  std::string requested_by;
   fs::path path;
 
-  std::string name() const { return fmt::format("{} {}", asked_by, path.string()); }
-  /// The names that stand on disk in the course of writing.
+  std::string name() const { return fmt::format("{} {}", requested_by, path.string()); }
+  /// The paths that exist on disk during writing.
   std::vector<fs::path> written() const { return {path, path.string() + ".part"}; }
 };
 
@@ -29,11 +29,11 @@ struct Input {
   std::string named_by;
 };
 
-// One process is one program: options, configuration and readers add to the same plan.
+// Global per process: options, configuration and readers add to the same lists.
 std::vector<Output> outputs;
 std::vector<Input> inputs;
 
-/// The file behind the name where both exist (links of both kinds), else the resolved spelling.
+/// Compares existing files (also through hard and symbolic links), else the resolved paths.
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;
@@ -44,12 +44,12 @@ bool same_file(const fs::path& a, const fs::path& b) {
 void keep_apart(const Output& output, const Input& input) {
   for (const fs::path& written : output.written()) {
     if (!same_file(written, input.path)) continue;
-    const std::string on_the_way =
-        written == output.path ? "" : fmt::format(" (by way of {})", written.string());
+    const std::string via =
+        written == output.path ? "" : fmt::format(" (via {})", written.string());
     const std::string named = input.named_by.empty() ? "" : fmt::format(" ({})", input.named_by);
     throw InputError(
         fmt::format("command line: {}{} would overwrite the input {}{}: expected another name",
-                    output.name(), on_the_way, input.path.string(), named));
+                    output.name(), via, input.path.string(), named));
   }
 }
 
@@ -57,15 +57,16 @@ void keep_apart(const Output& one, const Output& other) {
   for (const fs::path& a : one.written())
     for (const fs::path& b : other.written())
       if (same_file(a, b))
-        throw InputError(fmt::format("command line: {} and {} are one file, expected two names",
-                                     other.name(), one.name()));
+        throw InputError(
+            fmt::format("command line: {} and {} are the same file, expected different paths",
+                        other.name(), one.name()));
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
   throw FileError(fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
-/// With the rights that opening has; errno says why not.
+/// Checks with effective permissions; errno gives the reason.
 bool permitted(const fs::path& path, int mode) {
   return ::faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0;
 }
@@ -75,28 +76,29 @@ void check_writable(const fs::path& path) {
   std::error_code trouble;
   const fs::file_status state = fs::status(path, trouble);
   if (!path.has_filename() || fs::is_directory(state))
-    fail(path, "it is a folder, expected the name of a file");
-  const fs::file_status place = fs::status(folder, trouble);
-  if (!fs::exists(place))
+    fail(path, "it is a folder, expected a file");
+  const fs::file_status folder_state = fs::status(folder, trouble);
+  if (!fs::exists(folder_state))
     fail(path, fmt::format("folder {}: {}", folder.string(), trouble.message()));
-  if (!fs::is_directory(place)) fail(path, fmt::format("{} is no folder", folder.string()));
+  if (!fs::is_directory(folder_state))
+    fail(path, fmt::format("{} is not a folder", folder.string()));
   if (!permitted(folder, W_OK | X_OK))
     fail(path, fmt::format("folder {}: {}", folder.string(), std::strerror(errno)));
   if (!fs::exists(state)) return;
   if (!fs::is_regular_file(state)) fail(path, "it is a device or pipe, expected a file");
-  if (!permitted(path, W_OK))
-    fail(path, fmt::format("the file that is there: {}", std::strerror(errno)));
+  if (!permitted(path, W_OK)) fail(path, fmt::format("existing file: {}", std::strerror(errno)));
 }
 
 }  // namespace
 
-void will_write(const std::string& asked_by, const fs::path& path) {
-  const Output output{asked_by, path};
+void will_write(const std::string& requested_by, const fs::path& path) {
+  const Output output{requested_by, path};
   if (path.empty())
-    throw InputError(fmt::format("command line: {}: found no name, expected a file", asked_by));
+    throw InputError(
+        fmt::format("command line: {}: found an empty path, expected a file", requested_by));
   for (const Input& input : inputs) keep_apart(output, input);
   for (const Output& other : outputs) keep_apart(output, other);
-  outputs.push_back(output);  // before what may be refused, so that the refusal knows the file
+  outputs.push_back(output);  // before the check, so that its error can name the file
   check_writable(path);
 }
 

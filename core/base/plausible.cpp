@@ -13,7 +13,7 @@
 namespace clatter {
 namespace {
 
-/// A unit that a number may be meant in, and what one of it is in SI.
+/// A unit that may have been meant, and its value in SI.
 struct Unit {
   const char* name;
   double si;
@@ -37,7 +37,7 @@ std::string guess(double value, Bounds usual, std::span<const Unit> units) {
 
 }  // namespace
 
-std::string doubt_of_density(double density) {
+std::string density_warning(double density) {
   constexpr Bounds kPossible = {10.0, 23000.0}, kUsual = {500.0, 23000.0};
   constexpr Unit kUnits[] = {{"t/mm3", 1e12}, {"kg/mm3", 1e9},   {"lbf s2/in4", 1.0687e7},
                              {"g/cm3", 1e3},  {"lb/in3", 27680}, {"g/m3", 1e-3}};
@@ -45,7 +45,7 @@ std::string doubt_of_density(double density) {
   return fmt::format("density {:.6g} kg/m3{}", density, guess(density, kUsual, kUnits));
 }
 
-std::string doubt_of_modulus(double modulus, double density) {
+std::string modulus_warning(double modulus, double density) {
   constexpr Bounds kPossible = {3e5, 1.3e12}, kUsual = {5e9, 1.3e12};
   constexpr Unit kUnits[] = {{"GPa", 1e9},         {"MPa", 1e6},          {"psi", 6894.757},
                              {"kPa", 1e3},         {"Pa, not MPa", 1e-6}, {"MPa, not GPa", 1e-3},
@@ -60,11 +60,11 @@ std::string doubt_of_modulus(double modulus, double density) {
       guess(modulus, kUsual, kUnits));
 }
 
-std::string doubt_of_poisson(double poisson) {
+std::string poisson_warning(double poisson) {
   return poisson < 0.0 ? fmt::format("Poisson's ratio {:.6g}", poisson) : "";
 }
 
-std::string doubt_of_length(double length) {
+std::string length_warning(double length) {
   constexpr Bounds kPossible = {1e-3, 30.0}, kUsual = {5e-3, 15.0};
   constexpr Unit kUnits[] = {
       {"mm", 1e-3}, {"um", 1e-6}, {"m, not mm", 1e3}, {"in, not mm", 25.4}, {"m, not um", 1e6}};
@@ -72,7 +72,7 @@ std::string doubt_of_length(double length) {
   return fmt::format("the part is {:.4g} m long{}", length, guess(length, kUsual, kUnits));
 }
 
-std::string doubt_of_first_frequency(double hz, double length) {
+std::string first_frequency_warning(double hz, double length) {
   constexpr Bounds kPossible = {0.02, 2e4};
   if (kPossible.hold(hz * length)) return "";
   return fmt::format(
@@ -82,12 +82,12 @@ std::string doubt_of_first_frequency(double hz, double length) {
       hz, length);
 }
 
-void warn_of_doubts(const std::string& where, const std::vector<std::string>& doubts) {
-  std::vector<std::string> told;
-  for (const std::string& doubt : doubts)
-    if (!doubt.empty() && std::find(told.begin(), told.end(), doubt) == told.end())
-      told.push_back(doubt);
-  if (!told.empty()) warn(fmt::format("{}: {}", where, fmt::join(told, "; ")));
+void warn_implausible(const std::string& where, const std::vector<std::string>& warnings) {
+  std::vector<std::string> distinct;
+  for (const std::string& warning : warnings)
+    if (!warning.empty() && std::find(distinct.begin(), distinct.end(), warning) == distinct.end())
+      distinct.push_back(warning);
+  if (!distinct.empty()) warn(fmt::format("{}: {}", where, fmt::join(distinct, "; ")));
 }
 
 }  // namespace clatter

@@ -12,9 +12,9 @@
 namespace clatter {
 namespace {
 
-constexpr double kFirstShown = 2.0;       // seconds of silence at the start
-constexpr double kTerminalPeriod = 0.25;  // seconds between two redraws of the bar
-constexpr double kLinePeriod = 10.0;      // seconds between two plain lines
+constexpr double kFirstShown = 2.0;       // seconds without output at the start
+constexpr double kTerminalPeriod = 0.25;  // seconds between redraws of the bar
+constexpr double kLinePeriod = 10.0;      // seconds between plain lines
 constexpr int kBarWidth = 24;
 
 }  // namespace

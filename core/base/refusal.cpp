@@ -13,7 +13,7 @@
 namespace clatter {
 namespace {
 
-/// Reads ":12" off the front; 0 when there is none.
+/// Parses a leading ":12"; 0 when there is none.
 int64_t take_number(std::string_view& text) {
   int64_t value = 0;
   if (!text.starts_with(':')) return 0;
@@ -25,8 +25,8 @@ int64_t take_number(std::string_view& text) {
 
 }  // namespace
 
-ErrorPlace place_of(const std::string& message) {
-  ErrorPlace found;
+ErrorPosition position_in(const std::string& message) {
+  ErrorPosition found;
   std::error_code ignored;
   size_t colon = message.find(':');
   for (; colon != std::string::npos; colon = message.find(':', colon + 1)) {
@@ -48,7 +48,7 @@ ErrorPlace place_of(const std::string& message) {
 int report_error(std::string_view program, const std::string& message, ExitCode code) {
   std::fputs(fmt::format("{}: error: {}\n", program, message).c_str(), stderr);
   if (!is_json()) return static_cast<int>(code);
-  const ErrorPlace at = place_of(message);
+  const ErrorPosition at = position_in(message);
   JsonMembers members = {{"program", json_text(std::string(program))},
                          {"message", json_text(message)}};
   if (!at.file.empty()) members.emplace_back("file", json_text(at.file));

@@ -9,7 +9,7 @@
 namespace clatter {
 
 long long peak_memory_bytes() {
-  // Not getrusage: its peak begins with what the parent held when it forked.
+  // Not getrusage: its peak includes the memory of the parent at the fork.
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     long long kib = 0;

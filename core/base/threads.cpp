@@ -35,7 +35,7 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
   };
   std::vector<std::thread> workers;
   for (int64_t piece = 1; piece < pieces; ++piece) workers.emplace_back(run, piece);
-  run(0);  // here: a thread less to start
+  run(0);  // on this thread: one thread less to start
   for (auto& worker : workers) worker.join();
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);

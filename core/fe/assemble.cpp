@@ -12,9 +12,9 @@
 namespace clatter::fe {
 namespace {
 
-constexpr Eigen::Index kChunk = 512;    // cells; 4 MB of tet10 matrices, about a core's cache
-constexpr int32_t kNodesTogether = 64;  // columns in a row that one thread adds to: their entries
-                                        // follow one another, and cells near by share the work
+constexpr Eigen::Index kChunk = 512;    // cells; 4 MB of tet10 matrices, about the cache of a core
+constexpr int32_t kNodesTogether = 64;  // consecutive columns per thread: their entries
+                                        // are contiguous, and adjacent cells share them
 
 void allocate(SparseMatrix& matrix, int64_t n, int64_t nonzeros) {
   matrix.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -62,7 +62,7 @@ void fill_indices(const NodePattern& pattern, MassForm form, NodalMatrices& out)
   m_outer[3 * pattern.nodes()] = static_cast<int32_t>(out.M.data().size());
 }
 
-/// Where the entries of node pairs stand in M and K.
+/// Offsets of the entries of node pairs in M and K.
 class Scatter {
  public:
   Scatter(const NodePattern& pattern, MassForm form, NodalMatrices& out)
@@ -101,7 +101,7 @@ class Scatter {
       for (int d = 0; d < 3; ++d) M_[at.m[d] + position] += cell.mass(a, b);
     for (int d = 0; d < 3; ++d) {
       // In the diagonal block direction e of column d stands at e - d; below it the block of row
-      // `position` follows 3 - d diagonal entries and whole blocks of three.
+      // `position` follows 3 - d diagonal entries and complete blocks of three.
       double* k = K_ + at.k[d] + (row == column ? -d : 3 * position - d);
       for (int e = row == column ? d : 0; e < 3; ++e) k[e] += cell.stiffness(3 * a + e, 3 * b + d);
     }

@@ -7,8 +7,8 @@
 namespace clatter::fe {
 namespace {
 
-constexpr double kParallel = 1e-6;  // sine of the least angle between x and z
-constexpr double kOnAxis = 1e-12;   // of the distance from the origin: no angle there
+constexpr double kParallel = 1e-6;  // sine of the smallest angle between x and z
+constexpr double kOnAxis = 1e-12;   // of the distance from the origin: angle undefined
 
 Eigen::Vector3d vector_or(const Config& table, std::string_view key, const Eigen::Vector3d& other) {
   if (!table.has(key)) return other;
@@ -24,9 +24,9 @@ Eigen::Vector3d direction_or(const Config& table, std::string_view key,
 
 }  // namespace
 
-Eigen::Matrix3d Axes::at(const Eigen::Vector3d& place) const {
+Eigen::Matrix3d Axes::at(const Eigen::Vector3d& position) const {
   if (kind == Kind::kRectangular) return frame;
-  const Eigen::Vector3d r = frame.transpose() * (place - origin);
+  const Eigen::Vector3d r = frame.transpose() * (position - origin);
   const double across = std::hypot(r.x(), r.y());
   const bool on_axis = !(across > kOnAxis * r.norm());
   const Eigen::Vector3d out =
@@ -56,7 +56,7 @@ Axes read_axes(const Config& table, double metre) {
   const Eigen::Vector3d x = direction_or(table, "x", fallback);
   const Eigen::Vector3d across = x - x.dot(z) * z;
   if (across.norm() < kParallel)
-    table.fail("x", "found the direction of z, expected one across it");
+    table.fail("x", "found a direction parallel to z, expected a different one");
   axes.frame << across.normalized(), z.cross(across.normalized()), z;
   return axes;
 }

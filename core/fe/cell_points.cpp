@@ -41,7 +41,7 @@ const CellRule& full_rule(CellType type, bool straight) {
   }
 }
 
-/// The reduced rule where the cell has one, else the full one.
+/// The reduced rule of cells that have one, else the full rule.
 const CellRule& reduced_rule(CellType type) {
   switch (type) {
     case CellType::kHex20:
@@ -88,7 +88,7 @@ const CellRule& stress_rule(CellType type) {
   }
 }
 
-/// The cell of the same corners without middle nodes.
+/// The linear cell with the same corners.
 CellType linear_cell(CellType type) {
   switch (mesh::traits(type).corners) {
     case 4:

@@ -16,9 +16,10 @@ namespace {
 using mesh::CellNodes;
 using mesh::CellType;
 
-constexpr double kStraightTolerance = 1e-10;  // of an edge; the error made below it is as small
+constexpr double kStraightTolerance =
+    1e-10;  // of an edge; the error of smaller deviations is as small
 
-/// K on all modes; the smallest det J, where it is not positive K is not finished.
+/// K on all modes; returns the smallest det J. Where that is not positive, K is incomplete.
 double integrate_stiffness(const CellModes& modes, const CellNodes& x, const Material& material,
                            const CellPoints& points, Eigen::MatrixXd& K) {
   const auto n_points = static_cast<Eigen::Index>(points.size());
@@ -48,15 +49,15 @@ Eigen::VectorXd integrate_thermal(const CellModes& modes, const CellNodes& x,
   ModeGradient g;
   for (const CellPoint& point : points) {
     const double det = modes.at(point, g);
-    const Eigen::Vector3d place = x.transpose() * point.shape.value;
-    const Voigt stress = material.elasticity_at(place) * material.expansion_at(place);
+    const Eigen::Vector3d position = x.transpose() * point.shape.value;
+    const Voigt stress = material.elasticity_at(position) * material.expansion_at(position);
     force.noalias() +=
         (point.weight * det * point.shape.value.dot(dT)) * (strain_matrix(g).transpose() * stress);
   }
   return force;
 }
 
-/// Takes the incompatible modes out: K_uu - K_ua K_aa^-1 K_au.
+/// Condenses the incompatible modes: K_uu - K_ua K_aa^-1 K_au.
 Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
   constexpr int kInner = 3 * kIncompatibleModes;
   const Eigen::Index n = extended.rows() - kInner;
@@ -65,7 +66,7 @@ Eigen::MatrixXd without_modes(const Eigen::MatrixXd& extended) {
   return extended.topLeftCorner(n, n) - au.transpose() * aa.llt().solve(au);
 }
 
-/// int N_a N_b over the reference tetrahedron, from the points of its mass.
+/// int N_a N_b over the reference tetrahedron, by its mass quadrature.
 const Eigen::MatrixXd& reference_mass(CellType type) {
   static const auto all = [] {
     std::array<Eigen::MatrixXd, 2> out;
@@ -84,7 +85,7 @@ const Eigen::MatrixXd& reference_mass(CellType type) {
 void compute_mass(CellType type, const CellNodes& x, const Material& material, bool straight,
                   ElementMatrices& out) {
   if (mesh::traits(type).corners == 4 && straight) {
-    // One Jacobian for the whole cell: from the corners alone.
+    // Constant Jacobian: from the corners only.
     Eigen::Matrix3d J;
     for (int k = 0; k < 3; ++k) J.col(k) = x.row(k + 1) - x.row(0);
     out.mass = material.density * J.determinant() * reference_mass(type);

@@ -47,14 +47,14 @@ Value value_of(const H5File& file, const std::string& group, const std::string& 
                                names[1].first, names[2].first));
 }
 
-/// A finite dataset of that shape.
-Eigen::MatrixXd read_matrix(const H5File& file, const std::string& place, Eigen::Index rows,
+/// A finite dataset of the given shape.
+Eigen::MatrixXd read_matrix(const H5File& file, const std::string& dataset, Eigen::Index rows,
                             Eigen::Index cols) {
   const Eigen::MatrixXd values =
-      cols == 1 ? Eigen::MatrixXd(file.read_vector(place)) : file.read_matrix(place);
+      cols == 1 ? Eigen::MatrixXd(file.read_vector(dataset)) : file.read_matrix(dataset);
   if (values.rows() != rows || values.cols() != cols || !values.allFinite())
     throw InputError(fmt::format("{}: {}: found {} x {} numbers, expected {} x {}, all finite",
-                                 file.path().string(), place, values.rows(), values.cols(), rows,
+                                 file.path().string(), dataset, values.rows(), values.cols(), rows,
                                  cols));
   return values;
 }
@@ -121,7 +121,7 @@ FeCells read_cells(const H5File& file, const RowMatrix& nodes) {
   mesh.regions = file.read_strings("regions");
   mesh.cells = mesh::read_cells(file);
   if (file.has("node_ids")) mesh.node_ids = file.read_ints("node_ids");
-  mesh.surfaces["skin"];  // the check asks for it; surfaces are checked by themselves
+  mesh.surfaces["skin"];  // required by the check; surfaces are checked separately
   mesh::check_structure(mesh, file.path().string());
   FeCells cells;
   for (size_t r = 0; r < mesh.regions.size(); ++r)

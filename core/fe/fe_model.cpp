@@ -14,20 +14,20 @@
 namespace clatter::fe {
 namespace {
 
-/// A symmetric positive semidefinite matrix has no negative diagonal entry, and where one is zero
-/// its column is: an unknown without stiffness, or without mass.
-void check_lower(const H5File& file, const std::string& place, const SparseMatrix& matrix) {
+/// A symmetric positive semidefinite matrix has no negative diagonal entry; where one is zero, the
+/// column is zero: a DoF without stiffness or without mass.
+void check_lower(const H5File& file, const std::string& dataset, const SparseMatrix& matrix) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     SparseMatrix::InnerIterator entry(matrix, j);
     if (!entry) continue;
     if (entry.row() != j)
-      refuse(file, fmt::format("{}, column {}", place, j), "no entry on the diagonal first",
-             "the lower triangle");
+      refuse(file, fmt::format("{}, column {}", dataset, j),
+             "a column that does not start on the diagonal", "the lower triangle");
     const double diagonal = entry.value();
     bool alone = true;
     while (++entry) alone = alone && entry.value() == 0.0;
     if (!(diagonal > 0.0 || (diagonal == 0.0 && alone)))
-      refuse(file, fmt::format("{}, column {}", place, j), fmt::format("diagonal {:g}", diagonal),
+      refuse(file, fmt::format("{}, column {}", dataset, j), fmt::format("diagonal {:g}", diagonal),
              "a positive number, or an empty column");
   }
 }
@@ -48,12 +48,12 @@ void check_matrices(const H5File& file, const FeModel& model) {
 
 void read_loads(const H5File& file, FeModel& model) {
   for (const std::string& load : file.list("loads")) {
-    const std::string place = "loads/" + load;
-    Eigen::VectorXd values = file.read_vector(place);
-    check_shape(file, place, values, model.K.rows(), 1);
-    check_finite(file, place, values);
+    const std::string dataset = "loads/" + load;
+    Eigen::VectorXd values = file.read_vector(dataset);
+    check_shape(file, dataset, values, model.K.rows(), 1);
+    check_finite(file, dataset, values);
     model.loads[load] = std::move(values);
-    model.load_units[load] = file.get_string(place, "unit");
+    model.load_units[load] = file.get_string(dataset, "unit");
   }
 }
 
@@ -70,10 +70,10 @@ const rom::DofSet& FeModel::set(const std::string& set_name) const {
 
 void require_unknowns(const FeModel& model, const std::string& what) {
   if (model.size() > 0) return;
-  throw InputError(fmt::format(
-      "{}: found all {} degrees of freedom held by supports ({}), expected some free ones for {}; "
-      "clatter-modal --static gives their reactions",
-      model.name, model.supports.size(), fmt::join(model.supports.names, ", "), what));
+  throw InputError(
+      fmt::format("{}: found all {} DoFs supported ({}), expected free DoFs for {}; "
+                  "clatter-modal --static gives their reactions",
+                  model.name, model.supports.size(), fmt::join(model.supports.names, ", "), what));
 }
 
 void write_fe_model(H5File& file, const FeModel& model) {
@@ -118,8 +118,7 @@ FeModel read_fe_model(const std::filesystem::path& path) {
   model.surfaces = mesh::read_surfaces(file, model.nodes.rows(), path.string());
   model.mass = rom::read_mass_properties(file);
   read_statics(file, model);
-  if (model.size() == 0 && model.supports.size() == 0)
-    refuse(file, "K", "no degrees of freedom", "at least one");
+  if (model.size() == 0 && model.supports.size() == 0) refuse(file, "K", "no DoF", "at least one");
   model.cells = read_cells(file, model.nodes);
   return model;
 }

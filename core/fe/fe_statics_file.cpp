@@ -8,10 +8,10 @@ namespace clatter::fe {
 namespace {
 
 template <typename Matrix>
-void check_dense(const H5File& file, const std::string& place, const Matrix& matrix,
+void check_dense(const H5File& file, const std::string& dataset, const Matrix& matrix,
                  Eigen::Index rows, Eigen::Index cols) {
-  check_shape(file, place, matrix, rows, cols);
-  check_finite(file, place, matrix);
+  check_shape(file, dataset, matrix, rows, cols);
+  check_finite(file, dataset, matrix);
 }
 
 void write_supports(H5File& file, const FeSupports& supports) {
@@ -79,14 +79,15 @@ void read_points(const H5File& file, FeModel& model) {
   check_shape(file, "points/T_s", points.T_s, 6 * n, model.supports.size());
 }
 
-/// What some loads have beside their forces.
+/// Optional data of loads in addition to forces.
 void read_of_loads(const H5File& file, const std::string& group, const FeModel& model,
                    Eigen::Index size, std::map<std::string, Eigen::VectorXd>& out) {
   for (const std::string& load : file.list(group)) {
-    const std::string place = group + "/" + load;
-    if (!model.loads.contains(load)) refuse(file, place, "no load of that name", "one");
-    out[load] = file.read_vector(place);
-    check_dense(file, place, out[load], size, 1);
+    const std::string dataset = group + "/" + load;
+    if (!model.loads.contains(load))
+      refuse(file, dataset, "no load of that name", "a load of the model");
+    out[load] = file.read_vector(dataset);
+    check_dense(file, dataset, out[load], size, 1);
   }
 }
 
@@ -126,10 +127,10 @@ void read_statics(const H5File& file, FeModel& model) {
   read_of_loads(file, "temperature_rise", model, model.nodes.rows(), model.temperature_rise);
   for (const std::string& name : file.list("cases"))
     for (const std::string& load : file.attributes("cases/" + name)) {
-      const std::string place = "cases/" + name;
+      const std::string group = "cases/" + name;
       if (!model.loads.contains(load))
-        refuse(file, place, fmt::format("load \"{}\"", load), "a load of the model");
-      model.cases[name][load] = file.get_double(place, load);
+        refuse(file, group, fmt::format("load \"{}\"", load), "a load of the model");
+      model.cases[name][load] = file.get_double(group, load);
     }
 }
 

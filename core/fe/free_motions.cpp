@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kNoForce = 1e-10;  // rounding of assembly and elimination leaves some 1e-13
 
-/// Unknowns joined to sets (Tarjan's union by halving of paths).
+/// Disjoint sets of DoFs (Tarjan's union-find with path halving).
 class Union {
  public:
   explicit Union(Index size) : above_(static_cast<size_t>(size)) {
@@ -45,7 +45,7 @@ void join_entries(const SparseMatrix& lower, Union& sets) {
 }
 
 /// Combinations (6 x p) of motions with the mass matrix R^T M R that are M-orthonormal. A row of
-/// points has no rotation about itself.
+/// points has no rotation about its own line.
 MatrixXd moving_combinations(const MatrixXd& mass) {
   const VectorXd scale =
       mass.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
@@ -56,10 +56,10 @@ MatrixXd moving_combinations(const MatrixXd& mass) {
          gram.eigenvalues().tail(moving).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Combinations (p x m) of motions that need no force; row i of `force` (rows x p) is over what
-/// would cancel there.
+/// Combinations (p x m) of motions that need no force; row i of `force` (rows x p) is relative to
+/// the magnitudes that cancel in it.
 MatrixXd forceless(const MatrixXd& force) {
-  // By QR and SVD, not by F^T F, whose rounding would hide what holds only a little.
+  // By QR and SVD, not by F^T F, whose rounding would hide weak supports.
   const Index p = force.cols();
   if (p == 0) return MatrixXd(0, 0);
   MatrixXd R = MatrixXd::Zero(p, p);
@@ -74,7 +74,7 @@ MatrixXd forceless(const MatrixXd& force) {
   return V(Eigen::all, free);
 }
 
-/// The unknowns of each body, ascending.
+/// The DoFs of each body, ascending.
 std::vector<std::vector<Index>> rows_of(const std::vector<int>& body, int bodies) {
   std::vector<std::vector<Index>> rows(static_cast<size_t>(bodies));
   for (size_t i = 0; i < body.size(); ++i)
@@ -102,7 +102,7 @@ FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M, const Mat
   const std::vector<int> body = bodies_of(K, M);
   out.bodies = body.empty() ? 0 : 1 + *std::max_element(body.begin(), body.end());
   const auto rows = rows_of(body, out.bodies);
-  // Each body's motions side by side in the same six columns: its rows alone are its own.
+  // All bodies share the same six columns; each has its own rows.
   const MatrixXd momentum = multiply_symmetric(M, rigid);
   MatrixXd motion = MatrixXd::Zero(K.cols(), 6);
   std::vector<MatrixXd> moving;
@@ -137,7 +137,7 @@ MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>
   const MatrixXd R = model.rigid(left, Eigen::all);
   const MatrixXd U = R * moving_combinations(R.transpose() * M * R);
   if (U.cols() == 0) return U;
-  // All coordinates are coupled: rows are measured by what stiffness of unit diagonal would give.
+  // All coordinates are coupled: rows are scaled to a stiffness with unit diagonal.
   const VectorXd scale =
       K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 1.0; });
   const double size = (scale.cwiseInverse().asDiagonal() * U).cwiseAbs().maxCoeff();

@@ -34,7 +34,7 @@ std::vector<double> one_or_more(const Config& table, const std::string& key) {
   return table.is_list(key) ? table.numbers(key) : std::vector<double>{table.number(key)};
 }
 
-/// Numbers under `key` in Pa or under `key`_gpa in GPa.
+/// Numbers of `key` in Pa or `key`_gpa in GPa.
 std::vector<double> pascals(const Config& table, const std::string& key) {
   const std::string giga = key + "_gpa";
   if (table.has(key) && table.has(giga))
@@ -83,7 +83,8 @@ Elasticity anisotropic(const Config& table) {
   for (int i = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j) C(i, j) = C(j, i) = upper[at++];
   if (C.llt().info() != Eigen::Success)
-    table.fail("C", "found a matrix that is not positive definite, expected one");
+    table.fail("C",
+               "found a matrix that is not positive definite, expected a positive definite one");
   return C;
 }
 
@@ -136,7 +137,7 @@ Elasticity Material::elasticity_at(const Eigen::Vector3d& x) const {
 
 Voigt Material::expansion_at(const Eigen::Vector3d& x) const {
   if (!axes || expansion.isZero(0.0)) return expansion;
-  // A strain turns like a stress when its shear parts are halved.
+  // A strain transforms like a stress when its shear components are halved.
   Voigt tensor = expansion;
   tensor.tail<3>() *= 0.5;
   Voigt turned = stress_rotation(axes->at(x)) * tensor;

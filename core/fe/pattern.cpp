@@ -11,7 +11,7 @@
 namespace clatter::fe {
 namespace {
 
-/// For each node the cells that hold it, as (block, row) in order of the mesh.
+/// For each node its cells, as (block, row) in mesh order.
 struct CellsOfNode {
   struct Entry {
     int32_t block;
@@ -85,7 +85,7 @@ NodePattern node_pattern(const mesh::Mesh& mesh) {
   const int64_t n = mesh.nodes.rows();
   NodePattern pattern;
   pattern.start.assign(static_cast<size_t>(n) + 1, 0);
-  // First pass counts, second pass fills: no copy of the whole pattern is needed to join pieces.
+  // First pass counts, second pass fills: no second copy of the pattern is needed to join pieces.
   for (const bool fill : {false, true}) {
     parallel_pieces(n, [&](int64_t begin, int64_t end) {
       std::vector<int32_t> rows;

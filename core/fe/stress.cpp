@@ -18,13 +18,13 @@ using mesh::CellBlock;
 using mesh::CellNodes;
 using mesh::CellType;
 
-/// Sums over the cells of one region, by node of the whole model.
+/// Sums over the cells of one region, by node of the model.
 struct Sums {
   StressRows stress;
   Eigen::VectorXi cells;
 };
 
-/// Stresses at the corners of all cells of a block, a row of 6 x corners a cell.
+/// Stresses at the corners of all cells of a block, one row of 6 x corners per cell.
 RowMatrix corner_stress(const RowMatrix& nodes, const CellBlock& block, const Material& material,
                         const Eigen::VectorXd& u, const Eigen::VectorXd& dT) {
   const Eigen::MatrixXd& smoothing = stress_smoothing(block.type);
@@ -95,15 +95,15 @@ StressRows point_stress(CellType type, const CellNodes& x, const Material& mater
   ModeGradient gradient;
   for (Eigen::Index q = 0; q < out.rows(); ++q) {
     const CellPoint& point = points[static_cast<size_t>(q)];
-    const Eigen::Vector3d place = x.transpose() * point.shape.value;
+    const Eigen::Vector3d position = x.transpose() * point.shape.value;
     if (const double det = modes.at(point, gradient); !(det > 0.0))
       throw InputError(fmt::format(
           "stress at ({:.6g}, {:.6g}, {:.6g}) m: found det J = {:.3g}, expected > 0 (inverted "
           "cell)",
-          place(0), place(1), place(2), det));
+          position(0), position(1), position(2), det));
     Voigt strain = strain_matrix(gradient) * all;
-    if (dT.size() > 0) strain -= point.shape.value.dot(dT) * material.expansion_at(place);
-    out.row(q) = (material.elasticity_at(place) * strain).transpose();
+    if (dT.size() > 0) strain -= point.shape.value.dot(dT) * material.expansion_at(position);
+    out.row(q) = (material.elasticity_at(position) * strain).transpose();
   }
   return out;
 }

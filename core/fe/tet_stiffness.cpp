@@ -7,7 +7,7 @@
 namespace clatter::fe {
 namespace {
 
-/// Spreads H = int g g^T, g = (dN_1/dx, dN_1/dy, ...), to the isotropic stiffness:
+/// Isotropic stiffness from H = int g g^T, g = (dN_1/dx, dN_1/dy, ...):
 ///   K(a i, b j) = lambda H(a i, b j) + mu H(a j, b i) + mu delta_ij sum_k H(a k, b k).
 template <int N>
 void spread(const Eigen::Matrix<double, 3 * N, 3 * N>& H, const Material& material,
@@ -36,7 +36,7 @@ double stiffness_of(const mesh::CellNodes& nodes, const Material& material,
     const double det = J.determinant();
     smallest = std::min(smallest, det);
     if (!(det > 0.0)) return smallest;
-    // Row-major so that the rows (dN_a/dx, dN_a/dy, dN_a/dz) follow one another in memory.
+    // Row-major so that the rows (dN_a/dx, dN_a/dy, dN_a/dz) are contiguous in memory.
     const Eigen::Matrix<double, N, 3, Eigen::RowMajor> g = slope * J.inverse();
     const Eigen::Map<const Eigen::Matrix<double, 3 * N, 1>> flat(g.data());
     H.noalias() += (point.weight * det) * flat * flat.transpose();

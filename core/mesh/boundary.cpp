@@ -16,9 +16,9 @@ namespace clatter::mesh {
 namespace {
 
 // "cell 12 (tet10)"
-std::string name_of(const Mesh& mesh, const FacePlace& place) {
-  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
-  return fmt::format("cell {} ({})", cell_label(block, place.cell), traits(block.type).name);
+std::string name_of(const Mesh& mesh, const FaceRef& face) {
+  const CellBlock& block = mesh.cells[static_cast<size_t>(face.block)];
+  return fmt::format("cell {} ({})", cell_label(block, face.cell), traits(block.type).name);
 }
 
 std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
@@ -29,7 +29,7 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
   return labels;
 }
 
-/// A linear face and a quadratic one whose middle nodes all hang move alike.
+/// True if all mid-side nodes are hanging: such a face deforms like the linear one.
 bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   const auto hanging = mesh.node_sets.find(kHangingMidSideNodes);
   if (hanging == mesh.node_sets.end()) return false;
@@ -39,9 +39,9 @@ bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   });
 }
 
-void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b) {
-  const auto sorted = [&](const FacePlace& place) {
-    std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, place).ids;
+void require_same_nodes(const Mesh& mesh, const FaceRef& a, const FaceRef& b) {
+  const auto sorted = [&](const FaceRef& face) {
+    std::array<int32_t, kMaxFaceNodes> ids = face_at(mesh, face).ids;
     std::sort(ids.begin(), ids.end());
     return ids;
   };
@@ -50,7 +50,8 @@ void require_same_nodes(const Mesh& mesh, const FacePlace& a, const FacePlace& b
   if (one.type != other.type && linear_along_edges(mesh, one) && linear_along_edges(mesh, other))
     return;
   throw InputError(fmt::format(
-      "mesh '{}': {} and {} share the face with corners {} but not its middle nodes, expected the "
+      "mesh '{}': {} and {} share the face with corners {} but not its mid-side nodes, expected "
+      "the "
       "same nodes on both sides",
       mesh.name, name_of(mesh, a), name_of(mesh, b), fmt::join(corner_labels(mesh, a.key), ", ")));
 }
@@ -97,9 +98,9 @@ void add_faces(const Mesh& mesh, const FaceBlock& block, SurfaceIntegrals& sum) 
   }
 }
 
-// Image at the middle of a cell's face of the straight way out of its reference cell. Where det J
-// is positive it leaves the cell however curved that is; the way from the middle of the real
-// corners need not.
+// Image, at the centre of a cell's face, of the outward direction of its reference cell. Where det
+// J is positive it points out of the cell however curved that is; the direction from the mean of
+// the corners need not.
 Eigen::Vector3d way_out(const Mesh& mesh, const BoundaryFace& face) {
   const CellBlock& cells = mesh.cells[static_cast<size_t>(face.block)];
   const auto reference = reference_nodes(cells.type);
@@ -127,7 +128,7 @@ FaceKey face_key(FaceType type, std::span<const int32_t> nodes) {
 }
 
 BoundaryFaces boundary_faces(const Mesh& mesh) {
-  const std::vector<FacePlace> faces = all_faces(mesh);
+  const std::vector<FaceRef> faces = all_faces(mesh);
   BoundaryFaces boundary;
   for_each_face(faces, [&](auto first, auto last) {
     if (last - first > 2)

@@ -27,7 +27,7 @@ constexpr std::array<Edge, 9> kWedgeEdges = {
 constexpr std::array<Edge, 8> kPyramidEdges = {
     {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
 
-// Edges in the order of the other programs' middle nodes, between their corners.
+// Edges in the order of the other programs' mid-side nodes, by their corners.
 constexpr std::array<Edge, 6> kTetElsewhere = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<Edge, 12> kHexAbaqus = {{{0, 1},
                                               {1, 2},
@@ -71,7 +71,7 @@ constexpr int middle_of(const std::array<Edge, E>& edges, const Edge& edge, int 
   return -1;
 }
 
-// `corners`: ours in the places of theirs.
+// `corners`: our corner at each of their corner positions.
 template <size_t Corners, size_t E>
 constexpr std::array<int, Corners + E> permutation(const std::array<Edge, E>& ours,
                                                    const std::array<Edge, E>& theirs,
@@ -102,7 +102,7 @@ constexpr auto kWedgeOverP = permutation(kWedgeEdges, kWedgeAbaqus, kWedgeOver);
 constexpr auto kPyramidP = permutation(kPyramidEdges, kPyramidElsewhere, kPyramid);
 constexpr auto kPyramidMedP = permutation(kPyramidEdges, kPyramidElsewhere, kPyramidOver);
 
-// A face from its corners (-1 in the fourth place: a triangle); middle nodes from the edges.
+// A face from its corners (fourth -1: a triangle); mid-side nodes from the edges.
 template <size_t E>
 constexpr CellFace face(const std::array<int, 4>& corners, const std::array<Edge, E>& edges,
                         int cell_corners, int order) {

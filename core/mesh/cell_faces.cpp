@@ -4,18 +4,18 @@
 
 namespace clatter::mesh {
 
-BoundaryFace face_at(const Mesh& mesh, const FacePlace& place) {
-  const CellBlock& block = mesh.cells[static_cast<size_t>(place.block)];
-  const CellFace& local = traits(block.type).faces[static_cast<size_t>(place.face)];
-  BoundaryFace face{local.type, {}, place.block, place.cell};
+BoundaryFace face_at(const Mesh& mesh, const FaceRef& ref) {
+  const CellBlock& block = mesh.cells[static_cast<size_t>(ref.block)];
+  const CellFace& local = traits(block.type).faces[static_cast<size_t>(ref.face)];
+  BoundaryFace face{local.type, {}, ref.block, ref.cell};
   face.ids.fill(-1);
   for (size_t i = 0; i < static_cast<size_t>(traits(local.type).nodes); ++i)
-    face.ids[i] = block.nodes(place.cell, local.nodes[i]);
+    face.ids[i] = block.nodes(ref.cell, local.nodes[i]);
   return face;
 }
 
-std::vector<FacePlace> all_faces(const Mesh& mesh) {
-  std::vector<FacePlace> faces;
+std::vector<FaceRef> all_faces(const Mesh& mesh) {
+  std::vector<FaceRef> faces;
   int64_t count = 0;
   for (const CellBlock& block : mesh.cells)
     count += block.nodes.rows() * static_cast<int64_t>(traits(block.type).faces.size());
@@ -24,14 +24,14 @@ std::vector<FacePlace> all_faces(const Mesh& mesh) {
     const auto n_faces = static_cast<int32_t>(traits(mesh.cells[b].type).faces.size());
     for (Eigen::Index c = 0; c < mesh.cells[b].nodes.rows(); ++c)
       for (int32_t f = 0; f < n_faces; ++f) {
-        FacePlace place{{}, static_cast<int32_t>(b), static_cast<int32_t>(c), f};
-        const BoundaryFace face = face_at(mesh, place);
-        place.key = face_key(face.type, face.nodes());
-        faces.push_back(place);
+        FaceRef ref{{}, static_cast<int32_t>(b), static_cast<int32_t>(c), f};
+        const BoundaryFace face = face_at(mesh, ref);
+        ref.key = face_key(face.type, face.nodes());
+        faces.push_back(ref);
       }
   }
   std::sort(faces.begin(), faces.end(),
-            [](const FacePlace& a, const FacePlace& b) { return a.key < b.key; });
+            [](const FaceRef& a, const FaceRef& b) { return a.key < b.key; });
   return faces;
 }
 

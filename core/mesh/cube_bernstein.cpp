@@ -10,7 +10,7 @@
 namespace clatter::mesh {
 namespace {
 
-// Degrees of det J along the cube's axes; a test finds the interpolation exact.
+// Degrees of det J along the cube's axes; a test checks that the interpolation is exact.
 std::array<int, 3> degree_of(CellType type) {
   switch (type) {
     case CellType::kHex8:
@@ -28,7 +28,7 @@ std::array<int, 3> degree_of(CellType type) {
   }
 }
 
-// Chebyshev points of (0, 1): inside, where the pyramid's functions have gradients.
+// Chebyshev points of (0, 1): interior points, where the pyramid's functions have gradients.
 Eigen::VectorXd line_points(int degree) {
   Eigen::VectorXd at(degree + 1);
   for (int i = 0; i <= degree; ++i)

@@ -23,17 +23,17 @@ void check_range(const IndexMatrix& ids, int64_t n_nodes, const std::string& whe
 void check_cells(const Mesh& mesh, const std::string& where, std::vector<bool>& used) {
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
-    const std::string place = fmt::format("{}: cells/{}", where, b);
+    const std::string block_name = fmt::format("{}: cells/{}", where, b);
     if (block.region < 0 || block.region >= static_cast<int32_t>(mesh.regions.size())) {
-      throw InputError(fmt::format("{}: found region {}, expected 0 to {}", place, block.region,
-                                   static_cast<int>(mesh.regions.size()) - 1));
+      throw InputError(fmt::format("{}: found region {}, expected 0 to {}", block_name,
+                                   block.region, static_cast<int>(mesh.regions.size()) - 1));
     }
     if (block.nodes.cols() != traits(block.type).nodes) {
-      throw InputError(fmt::format("{}: found {} nodes a cell, expected {} for {}", place,
+      throw InputError(fmt::format("{}: found {} nodes per cell, expected {} for {}", block_name,
                                    block.nodes.cols(), traits(block.type).nodes,
                                    traits(block.type).name));
     }
-    check_range(block.nodes, mesh.nodes.rows(), place);
+    check_range(block.nodes, mesh.nodes.rows(), block_name);
     for (Eigen::Index i = 0; i < block.nodes.size(); ++i) {
       used[static_cast<size_t>(block.nodes.data()[i])] = true;
     }
@@ -46,7 +46,7 @@ void check_surface(const Surface& surface, int64_t n_nodes, const std::string& w
   for (const FaceBlock& block : surface.faces) {
     const FaceTraits& face = traits(block.type);
     if (block.nodes.cols() != face.nodes)
-      throw InputError(fmt::format("{}: found {} nodes a face, expected {} for {}", where,
+      throw InputError(fmt::format("{}: found {} nodes per face, expected {} for {}", where,
                                    block.nodes.cols(), face.nodes, face.name));
     check_range(block.nodes, n_nodes, where);
   }
@@ -54,7 +54,7 @@ void check_surface(const Surface& surface, int64_t n_nodes, const std::string& w
 
 namespace {
 
-/// Names are places in a file.
+/// Names become dataset paths.
 template <class Map>
 void check_names(const Map& named, const std::string& what, const std::string& where) {
   for (const auto& [name, value] : named)
@@ -84,10 +84,10 @@ void check_sets(const Mesh& mesh, const std::string& where) {
 }
 
 void check_ids(const Mesh& mesh, const std::string& where) {
-  const auto check = [&](size_t found, Eigen::Index expected, const std::string& place) {
+  const auto check = [&](size_t found, Eigen::Index expected, const std::string& dataset) {
     if (found != 0 && found != static_cast<size_t>(expected))
       throw InputError(
-          fmt::format("{}: {}: found {} numbers, expected {}", where, place, found, expected));
+          fmt::format("{}: {}: found {} numbers, expected {}", where, dataset, found, expected));
   };
   check(mesh.node_ids.size(), mesh.nodes.rows(), "node_ids");
   for (size_t b = 0; b < mesh.cells.size(); ++b)
@@ -147,8 +147,8 @@ std::vector<int32_t> nodes_of(const Surface& surface) {
 
 void check_structure(const Mesh& mesh, const std::string& where) {
   if (mesh.nodes.rows() == 0 || mesh.cell_count() == 0) {
-    throw InputError(fmt::format("{}: found {} nodes and {} cells, expected some of both", where,
-                                 mesh.nodes.rows(), mesh.cell_count()));
+    throw InputError(fmt::format("{}: found {} nodes and {} cells, expected at least one of each",
+                                 where, mesh.nodes.rows(), mesh.cell_count()));
   }
   if (mesh.nodes.cols() != 3) {
     throw InputError(

@@ -12,7 +12,7 @@ constexpr double kWedgeCorner[6][3] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1},
                                        {0, 0, 1},  {1, 0, 1},  {0, 1, 1}};
 constexpr double kPyramidCorner[5][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
 
-/// A function with its gradient, so that products need no second formula.
+/// A function with its gradient, so that products get their gradient automatically.
 template <int Dim>
 struct Value {
   double v = 0.0;
@@ -88,8 +88,8 @@ Shape simplex_shape(const Eigen::Matrix<double, Dim, 1>& xi, int order,
   return shape;
 }
 
-// Serendipity functions of a cube of Dim dimensions: `corner[i]` are -1 or 1, edges run along one
-// axis each.
+// Serendipity functions of a cube of Dim dimensions: `corner[i]` are -1 or 1, edges are parallel to
+// one axis each.
 template <int Dim, class Shape, class Corners>
 Shape cube_shape(const Eigen::Matrix<double, Dim, 1>& xi, int order, int corners,
                  const Corners& corner, std::span<const Edge> edges) {

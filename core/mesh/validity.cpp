@@ -12,8 +12,8 @@
 namespace clatter::mesh {
 namespace {
 
-// Deep enough to decide cells whose minimum is above a thousandth of the mean; what is still open
-// then is not proved and counts as invalid.
+// Deep enough to decide cells whose minimum is above a thousandth of the mean; cells still
+// undecided then are unproved and count as invalid.
 constexpr int kMaxHalvings = 18;
 
 // The symmetric trilinear (polar) form of the cubic: entry (j, l, m) is the Bezier coefficient of
@@ -72,7 +72,7 @@ double smallest_corner(const PolarForm& form) {
   return std::min(std::min(form[0][0][0], form[1][1][1]), std::min(form[2][2][2], form[3][3][3]));
 }
 
-// Replaces corner `b` by the middle of edge a-b: v_b' = (v_a + v_b) / 2 in each argument.
+// Replaces corner `b` by the midpoint of edge a-b: v_b' = (v_a + v_b) / 2 in each argument.
 PolarForm half(const PolarForm& form, int a, int b) {
   PolarForm out = form;
   for (int l = 0; l < 4; ++l) {
@@ -87,7 +87,7 @@ PolarForm half(const PolarForm& form, int a, int b) {
   return out;
 }
 
-// The edge along which the form varies most is halved: that separates high from low values first.
+// The edge along which the form varies most is bisected: that separates high from low values first.
 std::array<int, 2> steepest_edge(const PolarForm& form) {
   std::array<int, 2> best = {0, 1};
   double steepest = -1.0;
@@ -116,7 +116,7 @@ double lower_bound(const PolarForm& form, int halvings) {
   return std::min(first, lower_bound(half(form, b, a), halvings + 1));
 }
 
-// The same over the cube of the other cells.
+// The same over the cube, for the other cells.
 double lower_bound(const CubePolynomial& p, int halvings) {
   const double low = p.coefficients.minCoeff();
   if (low > 0.0) return low;
@@ -127,7 +127,7 @@ double lower_bound(const CubePolynomial& p, int halvings) {
   return std::min(first, lower_bound(p.half(axis, true), halvings + 1));
 }
 
-// A rule that integrates det J exactly.
+// A quadrature rule that integrates det J exactly.
 const CellRule& volume_rule(CellType type) {
   switch (type) {
     case CellType::kHex8:
@@ -173,7 +173,7 @@ double mean_of(const PolarForm& form) {
 JacobianBounds jacobian_bounds(const Tet10Nodes& x) {
   const PolarForm form = polar_form(x);
   const double low = lower_bound(form, 0);
-  // Disproved in a part of the cell: the bound of the whole is the smallest coefficient.
+  // Not positive in a part of the cell: the bound is the smallest coefficient of the cell.
   return {low > 0.0 ? low : smallest(form), mean_of(form)};
 }
 

@@ -10,7 +10,7 @@
 namespace clatter::mesh {
 namespace {
 
-// Appended raw arrays: one after the other, each behind its length in bytes.
+// Appended raw arrays: consecutive, each preceded by its length in bytes.
 class RawArrays {
  public:
   template <class T>

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fe/free_motions.hpp"
-#include "core/modes/factor_trouble.hpp"
+#include "core/modes/factor_failure.hpp"
 
 namespace clatter::modes {
 namespace {
@@ -38,8 +38,8 @@ std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string
     for (const int32_t dof : model.set(name).dofs) {
       if (dof >= model.size())
         throw InputError(
-            fmt::format("{}: fixed: found \"{}\", whose coordinates became interface "
-                        "modes, expected a set that kept its own",
+            fmt::format("{}: fixed: found \"{}\", whose coordinates were replaced by interface "
+                        "modes, expected a set with its own coordinates",
                         model.name, name));
       held[static_cast<size_t>(dof)] = 1;
     }
@@ -48,12 +48,12 @@ std::vector<int32_t> dofs_left(const Model& model, const std::vector<std::string
   for (int32_t dof = 0; dof < model.size(); ++dof) {
     if (held[static_cast<size_t>(dof)] == 0) left.push_back(dof);
   }
-  if (left.empty()) throw InputError(model.name + ": fixed: found every degree of freedom");
+  if (left.empty()) throw InputError(model.name + ": fixed: found every DoF, expected free DoFs");
   return left;
 }
 
-/// Vectors on all DoFs, zero where they are held; moved from the last on, so that memory never
-/// holds both whole.
+/// Expands vectors to all DoFs, zero where clamped; starts with the last, so that memory never
+/// holds both completely.
 void spread(const std::vector<int32_t>& left, Eigen::Index size, Eigen::MatrixXd& vectors) {
   constexpr Eigen::Index kColumns = 32;
   Eigen::MatrixXd all(size, vectors.cols());
@@ -67,12 +67,12 @@ void spread(const std::vector<int32_t>& left, Eigen::Index size, Eigen::MatrixXd
   vectors.swap(all);
 }
 
-/// Modes of the rows `left` of a model, its rigid motions known beforehand; a factor that fails
+/// Modes of the rows `left` of a model with its known rigid-body motions; a failed factorisation
 /// names the node.
 sparse::ModeSet solve_named(const fe::FeModel& model, const std::vector<int32_t>& left,
                             const SparseMatrix& K, const SparseMatrix& M,
                             sparse::EigenOptions options) {
-  // Matrices that came without places have no rigid motions to know.
+  // Matrices imported without positions have no known rigid-body motions.
   if ((model.rigid.colwise().squaredNorm().array() > 0.0).all())
     options.rigid = fe::free_motions(K, M, model.rigid(left, Eigen::all)).q;
   try {
@@ -99,17 +99,17 @@ ModesOptions read_modes_options(const Config& config) {
 }
 
 SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept) {
-  std::vector<int32_t> place(static_cast<size_t>(lower.cols()), -1);
+  std::vector<int32_t> new_index(static_cast<size_t>(lower.cols()), -1);
   for (size_t k = 0; k < kept.size(); ++k) {
-    place[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
+    new_index[static_cast<size_t>(kept[k])] = static_cast<int32_t>(k);
   }
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<size_t>(lower.nonZeros()));
   for (int j = 0; j < lower.outerSize(); ++j) {
-    const int column = place[static_cast<size_t>(j)];
+    const int column = new_index[static_cast<size_t>(j)];
     if (column < 0) continue;
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      const int row = place[static_cast<size_t>(it.row())];
+      const int row = new_index[static_cast<size_t>(it.row())];
       if (row >= 0) entries.emplace_back(row, column, it.value());
     }
   }
@@ -165,7 +165,7 @@ PartModes analyse(const rom::ReducedModel& model, const ModesOptions& options) {
 
 namespace {
 
-/// "0 (rigid)" where it is, else digits that show what it is, however low.
+/// Fixed digits, or significant digits for low frequencies.
 std::string hz_text(double hz) {
   return hz >= 0.1 || hz == 0.0 ? fmt::format("{:>12.4f}", hz) : fmt::format("{:>12.4g}", hz);
 }
@@ -180,11 +180,11 @@ void describe_doubt(const sparse::ModeSet& modes, std::vector<std::string>& line
                     modes.rounding[worst], worst + 1));
   if (modes.rigid > modes.known_rigid)
     lines.push_back(
-        fmt::format("{} modes are 0 Hz to rounding beside the {} rigid motions: mechanisms",
+        fmt::format("{} modes are 0 Hz to rounding besides the {} rigid-body motions: mechanisms",
                     modes.rigid - modes.known_rigid, modes.known_rigid));
   if (modes.massless > 0)
-    lines.push_back(fmt::format(
-        "{} unknowns have no mass: as many eigenvalues are infinite and left out", modes.massless));
+    lines.push_back(fmt::format("{} DoFs have no mass: as many infinite eigenvalues are omitted",
+                                modes.massless));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The modes of one part, assembled or reduced, with their shapes at the nodes.
+// Modes of an assembled or reduced part, with mode shapes at the nodes.
 #include <functional>
 #include <map>
 #include <string>
@@ -12,46 +12,46 @@
 
 namespace clatter::modes {
 
-/// The `.modes.toml`, or the command line; defaults stand here.
+/// Options of the `.modes.toml` or the command line, with their defaults.
 struct ModesOptions : sparse::EigenChoice {
   int count = 0;                   // lowest modes, or
   double fmax_hz = 0.0;            // all modes below; neither: the 20 lowest
-  std::vector<std::string> fixed;  // sets that are clamped; none: as assembled
+  std::vector<std::string> fixed;  // clamped sets; empty: as assembled
   bool prove_count = true;
 };
 
-/// Reads the options; InputError for unknown keys and senseless values.
+/// Reads the options; InputError for unknown keys and invalid values.
 ModesOptions read_modes_options(const Config& config);
 
-/// Modes with what makes shapes of them: those of many modes are twice the vectors' memory, so that
-/// they are made some at a time.
+/// Modes and the map to mode shapes. Shapes of many modes need twice the memory of the vectors, so
+/// they are computed in batches.
 struct PartModes {
   std::string name;
   std::string source;  // "fe" or "rom"
   sparse::ModeSet modes;
   RowMatrix nodes;  // n x 3 [m]: all nodes of an FE model, the skin of a reduced one
-  std::map<std::string, mesh::Surface> surfaces;  // on `nodes`
-  /// u = T q of some vectors q.
+  std::map<std::string, mesh::Surface> surfaces;  // of `nodes`
+  /// u = T q for the columns of q.
   std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>& q)> displacements;
 
-  /// Of modes [first, first + count), 3 n x count: row 3 a + d is node a, direction d; unit modal
-  /// mass.
+  /// Shapes of modes [first, first + count), 3 n x count: row 3 a + d is node a, direction d; unit
+  /// modal mass.
   Eigen::MatrixXd shapes(Eigen::Index first, Eigen::Index count) const {
     return displacements(modes.vectors.middleCols(first, count));
   }
 };
 
-/// Modes of an assembled part, which must outlive them; clamped DoFs are taken out of M and K.
+/// Modes of an assembled part, which must outlive them; clamped DoFs are removed from M and K.
 /// InputError for an unknown set.
 PartModes analyse(const fe::FeModel& model, const ModesOptions& options);
 
-/// Modes of a reduced part, which must outlive them, by dense algebra; shapes on its skin.
+/// Modes of a reduced part, which must outlive them, by a dense solver; shapes on its skin.
 PartModes analyse(const rom::ReducedModel& model, const ModesOptions& options);
 
 /// Rows and columns `kept` (ascending) of a symmetric matrix given by its lower triangle.
 SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<int32_t>& kept);
 
-/// "mode  frequency [Hz]  residual" line by line, with the proof below.
+/// "mode  frequency [Hz]  residual" as lines, followed by the completeness proof.
 std::vector<std::string> describe(const PartModes& part);
 
 }  // namespace clatter::modes

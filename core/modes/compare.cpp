@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr double kNear = 5e-3;  // modes this near (relative) are compared as one subspace
 
-/// Rows of both models that mean the same displacement.
+/// Rows of both models for the same displacements.
 struct CommonRows {
   MatrixXd full;     // rows x n modes
   MatrixXd reduced;  // rows x m modes
@@ -29,7 +29,7 @@ struct CommonRows {
 
 using Place = std::tuple<double, double, double>;
 
-/// Skin nodes are copies of the full model's nodes, so equal coordinates are equal to the last bit.
+/// Skin nodes are copies of the full model's nodes, so coordinates are compared exactly.
 std::vector<std::pair<Index, Index>> shared_nodes(const RowMatrix& full, const RowMatrix& skin) {
   std::map<Place, Index> at;
   for (Index a = 0; a < full.rows(); ++a) at.emplace(Place(full(a, 0), full(a, 1), full(a, 2)), a);
@@ -89,7 +89,7 @@ double subspace_mac(const VectorXd& shape, const MatrixXd& basis) {
   return (Q.transpose() * shape).squaredNorm() / shape.squaredNorm();
 }
 
-/// Reduced modes near `hz`, always with `partner` itself.
+/// Reduced modes near `hz`, always including `partner`.
 std::vector<int> near_modes(const VectorXd& hz_of, double hz, int rigid, int partner) {
   std::vector<int> near;
   for (int j = rigid; j < hz_of.size(); ++j) {
@@ -98,8 +98,8 @@ std::vector<int> near_modes(const VectorXd& hz_of, double hz, int rigid, int par
   return near;
 }
 
-/// The free reduced mode of the likest shape within 5 % of the frequency; by order when none is
-/// alike.
+/// The unpaired reduced mode with the most similar shape within 5 % of the frequency; by order when
+/// none is similar.
 int find_partner(const CommonRows& rows, const VectorXd& hz_of, double hz, int j,
                  std::vector<char>& taken) {
   int best = -1;
@@ -128,12 +128,14 @@ ModesOptions request(const CompareOptions& options, const rom::ReducedModel& red
   return modes;
 }
 
-[[noreturn]] void refuse_nothing(const fe::FeModel& full, const ModesOptions& asked, int rigid) {
+[[noreturn]] void refuse_nothing(const fe::FeModel& full, const ModesOptions& requested,
+                                 int rigid) {
   ModesOptions first;
   first.count = rigid + 1;
   const PartModes found = analyse(full, first);
-  const std::string range = asked.count > 0 ? fmt::format("among the {} lowest", asked.count)
-                                            : fmt::format("below {:.6g} Hz", asked.fmax_hz);
+  const std::string range = requested.count > 0
+                                ? fmt::format("among the {} lowest", requested.count)
+                                : fmt::format("below {:.6g} Hz", requested.fmax_hz);
   throw NothingCompared(fmt::format(
       "{}: nothing was compared: found no elastic mode {} (the first is at {:.6g} Hz{}), expected "
       "a larger --fmax-hz or --count",
@@ -141,10 +143,10 @@ ModesOptions request(const CompareOptions& options, const rom::ReducedModel& red
       rigid > 0 ? fmt::format(", after {} rigid ones", rigid) : ""));
 }
 
-/// The modes that lie as `keep(full_hz)` says.
+/// The modes for which `keep(full_hz)` is true.
 template <class Keep>
-Comparison part_of(const Comparison& whole, const Keep& keep) {
-  Comparison part = whole;
+Comparison part_of(const Comparison& comparison, const Keep& keep) {
+  Comparison part = comparison;
   std::erase_if(part.modes, [&](const ComparedMode& mode) { return !keep(mode.full_hz); });
   return part;
 }
@@ -180,11 +182,12 @@ Comparison Comparison::without_stated_error() const {
 
 Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
                    const CompareOptions& options) {
-  const ModesOptions asked = request(options, reduced);
-  const PartModes a = analyse(full, asked);
-  if (a.modes.size() <= a.modes.rigid) refuse_nothing(full, asked, a.modes.rigid);
+  const ModesOptions requested = request(options, reduced);
+  const PartModes a = analyse(full, requested);
+  if (a.modes.size() <= a.modes.rigid) refuse_nothing(full, requested, a.modes.rigid);
   ModesOptions all;
-  all.count = std::min(reduced.size(), 2 * a.modes.size() + 10);  // with neighbours to project on
+  all.count =
+      std::min(reduced.size(), 2 * a.modes.size() + 10);  // with neighbours for the projection
   const PartModes b = analyse(reduced, all);
   Comparison out;
   out.rigid_full = a.modes.rigid;

@@ -1,5 +1,5 @@
 #pragma once
-// How well a reduced model keeps the modes of the full one.
+// Comparison of the modes of a reduced model with those of the full model.
 #include <string>
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace clatter::modes {
 
-/// Both zero: all modes below what the reduced model claims, accurate_to_hz of its certificate; of
-/// one that states none below its valid_to_hz, and of one without either the 20 lowest.
+/// Both zero: all modes below accurate_to_hz of the reduced model's certificate; if
+/// absent, below its valid_to_hz; without either, the 20 lowest.
 struct CompareOptions {
   double fmax_hz = 0.0;  // compare all modes below
   int count = 0;         // or the lowest ones, rigid included
@@ -28,36 +28,35 @@ struct Comparison {
   std::vector<ComparedMode> modes;
   int rigid_full = 0;
   int rigid_reduced = 0;
-  int rows = 0;  // displacements on which shapes were compared
-  double accurate_to_hz =
-      0.0;  // up to where the reduced model's certificate states an error; 0: no
+  int rows = 0;                 // displacements used to compare shapes
+  double accurate_to_hz = 0.0;  // the reduced model's certificate states an error up to here; 0: no
 
   double largest_error() const;
   double smallest_mac() const;
-  /// The modes up to accurate_to_hz, and those above, where errors are only shown.
+  /// The modes up to accurate_to_hz, and those above, for which no error is certified.
   Comparison with_stated_error() const;
   Comparison without_stated_error() const;
 };
 
-/// No elastic mode lies in the range that was asked for: an error, as "largest error 0" proves
+/// No elastic mode lies in the requested range: an error, since "largest error 0" would prove
 /// nothing.
 struct NothingCompared : NumericsError {
   using NumericsError::NumericsError;
 };
 
-/// Pairs each elastic mode with the likest one within 5 % of its frequency (by order when none has
-/// a MAC over 0.5). Shapes are compared at the boundary coordinates and the
-/// skin nodes that both models have (found by their coordinates) by
+/// Pairs each elastic mode with the most similar one within 5 % of its frequency (by order when
+/// none has a MAC over 0.5). Shapes are compared at the boundary coordinates and the skin nodes
+/// that both models have (found by their coordinates) by
 ///   MAC = |P phi|^2 / |phi|^2,
 /// P the projector on the reduced modes within 0.5 % of the frequency: for a single mode this is
 /// Allemang's criterion (Allemang and Brown, 1982), for near-multiple modes, which mix freely, it
-/// compares subspaces (hard case B8). InputError when the two models share no place, NumericsError
-/// when their modes differ in number, NothingCompared with the first elastic frequency.
+/// compares subspaces (hard case B8). InputError when the models share no position, NumericsError
+/// when their modes differ in number, NothingCompared naming the first elastic frequency.
 Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
                    const CompareOptions& options);
 
-/// The comparison as an aligned table; the last line sums up the modes up to accurate_to_hz, a line
-/// before it those above. The modes as one JSON array of objects.
+/// The comparison as an aligned table; the last line summarises the modes up to accurate_to_hz, a
+/// line before it those above. json_of(): the modes as a JSON array of objects.
 std::vector<std::string> table_of(const Comparison& comparison);
 std::string json_of(const Comparison& comparison);
 

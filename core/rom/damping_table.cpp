@@ -32,12 +32,12 @@ Eigen::VectorXd DampingTable::rates(const Eigen::VectorXd& omega_squared) const 
 
 std::string DampingTable::fault() const {
   if (ratio.size() != hz.size())
-    return fmt::format("found {} ratios for {} frequencies, expected as many", ratio.size(),
+    return fmt::format("found {} ratios for {} frequencies, expected equal numbers", ratio.size(),
                        hz.size());
   for (Eigen::Index k = 0; k < hz.size(); ++k) {
     if (!(std::isfinite(hz[k]) && hz[k] > (k == 0 ? 0.0 : hz[k - 1])))
-      return fmt::format("found {:g} Hz in row {}, expected frequencies above zero that ascend",
-                         hz[k], k + 1);
+      return fmt::format("found {:g} Hz in row {}, expected positive, ascending frequencies", hz[k],
+                         k + 1);
     if (!(ratio[k] >= 0.0 && ratio[k] < 1.0))
       return fmt::format(
           "found ratio {:g} in row {}, expected 0 or more and less than 1 (critical)", ratio[k],

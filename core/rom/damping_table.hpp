@@ -1,5 +1,5 @@
 #pragma once
-// Modal damping by a table over frequency.
+// Modal damping as a table over frequency.
 #include <Eigen/Core>
 #include <string>
 
@@ -7,12 +7,12 @@
 
 namespace clatter::rom {
 
-/// Damping ratio of a mode over its undamped frequency: linear between the rows, constant outside.
-/// With eigenmodes Phi of (K_rr, M_rr), Phi^T M_rr Phi = I, it is the damping matrix
+/// Damping ratio against undamped frequency: linear between the rows, constant outside.
+/// With eigenmodes Phi of (K_rr, M_rr), Phi^T M_rr Phi = I, it represents the damping matrix
 ///   D = M_rr Phi diag(2 zeta(f_k) omega_k) Phi^T M_rr,   omega_k = 2 pi f_k,
-/// which is never formed. Rigid motions are not damped.
+/// which is never formed. Rigid-body modes are not damped.
 struct DampingTable {
-  Eigen::VectorXd hz;     // rows [Hz], positive, ascending; none: no such damping
+  Eigen::VectorXd hz;     // rows [Hz], positive, ascending; empty: no modal damping
   Eigen::VectorXd ratio;  // rows, of critical damping, 0 <= zeta < 1
 
   bool empty() const { return hz.size() == 0; }
@@ -20,13 +20,13 @@ struct DampingTable {
   double at(double frequency_hz) const;
   /// 2 zeta omega [1/s] of modes with these omega^2 [1/s2]; 0 where omega^2 is not positive.
   Eigen::VectorXd rates(const Eigen::VectorXd& omega_squared) const;
-  /// What is wrong with the rows, "found ..., expected ..."; empty when nothing is.
+  /// Error in the rows, "found ..., expected ..."; empty when valid.
   std::string fault() const;
 };
 
 /// Group `modal_damping`: hz, ratio. Nothing is written when empty.
 void write_damping_table(H5File& file, const DampingTable& table);
-/// Empty when the file has none; InputError for rows that make no sense.
+/// Empty when the file has none; InputError for invalid rows.
 DampingTable read_damping_table(const H5File& file);
 
 }  // namespace clatter::rom

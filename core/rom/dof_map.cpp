@@ -24,7 +24,7 @@ int component_of(const Eigen::Vector3d& direction, bool rotation) {
   return 0;
 }
 
-/// Gives out numbers of nodes.
+/// Assigns node numbers.
 class NodeNumbers {
  public:
   int own() { return ++count_; }
@@ -156,10 +156,10 @@ std::vector<MappedDof> read_dof_map(const std::filesystem::path& path) {
     const MappedDof dof = read_line(lines, columns);
     const Eigen::Vector3d& first = positions.emplace(dof.node, dof.position).first->second;
     if (first != dof.position)
-      lines.refuse(fmt::format("node {} at another position", dof.node), "one position a node");
+      lines.refuse(fmt::format("node {} at another position", dof.node), "one position per node");
     map.push_back(dof);
   }
-  if (map.empty()) lines.refuse("no degree of freedom", "one a line");
+  if (map.empty()) lines.refuse("no degree of freedom", "one per line");
   return map;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Which degree of freedom stands in which row of matrices in text files: written beside exported
-// matrices, read with matrices that others made.
+// The DoF of each row of matrices in text files: written next to exported
+// matrices, read with matrices of other programs.
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>
@@ -15,24 +15,24 @@ struct MappedDof {
   enum class Kind { kDisplacement, kRotation, kModal };
   Kind kind = Kind::kModal;
   int node = 0;       // from 1; DoFs of one node have one position
-  int component = 0;  // 1 2 3 displacement along, 4 5 6 rotation about the basic x y z; 0: neither
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   // [m]; zero of a modal DoF
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit vector; zero of a modal DoF
-  std::string set;                                      // empty of a modal DoF
+  int component = 0;  // 1 2 3 displacement along, 4 5 6 rotation about the global x y z; 0: neither
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   // [m]; zero for a modal DoF
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit vector; zero for a modal DoF
+  std::string set;                                      // empty for a modal DoF
   std::string label;
 };
 
-/// Entry j is coordinate j. A DoF of two sets has the place of the first by name. Boundary DoFs of
-/// one set at one position share a node when their components differ; every DoF of component 0, and
-/// every modal one, has a node of its own.
+/// Entry j is coordinate j. A DoF in two sets gets the position of the first by name. Boundary DoFs
+/// of one set at one position share a node when their components differ; every DoF of component 0,
+/// and every modal one, has its own node.
 std::vector<MappedDof> map_of(const ReducedModel& model);
 
-/// Text, one DoF a line, columns separated by tabs, SI, numbers that read back to the last bit:
+/// Text, one DoF per line, tab-separated, SI, numbers exact on reading:
 ///   i  node  component  kind  x  y  z  dx  dy  dz  set  label
 /// with kind displacement, rotation or modal. Lines that begin with # are comments.
 void write_dof_map(const std::filesystem::path& path, const std::vector<MappedDof>& map);
 
-/// Reads it back; InputError "file:line: ..." for columns, numbers and directions that are not as
+/// Reads the map; InputError "file:line: ..." for columns, numbers and directions that are not as
 /// above, and for DoFs of one node at different positions.
 std::vector<MappedDof> read_dof_map(const std::filesystem::path& path);
 

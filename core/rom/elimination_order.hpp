@@ -1,5 +1,5 @@
 #pragma once
-// The order in which a matrix was factorised, kept in an artefact: it is found once and used again.
+// The fill-reducing permutation of a factorisation, stored in an artefact for reuse.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -11,22 +11,22 @@
 namespace clatter::rom {
 
 struct EliminationOrder {
-  std::vector<int32_t> permutation;  // unknown that is eliminated at each place; empty: not known
-  std::string pattern;               // sha256_of_pattern of the matrix it was found for
-  std::string method;                // "metis", "amd", "natural", or "given" for one used again
+  std::vector<int32_t> permutation;  // DoF eliminated at each step; empty: not known
+  std::string pattern;               // sha256_of_pattern of the matrix that it was computed for
+  std::string method;                // "metis", "amd", "natural", or "given" for a reused one
   int64_t entries = 0;               // of the factor
 
   bool fits(const SparseMatrix& lower) const;
 };
 
-/// Hash of the places of a matrix's entries, not of their values.
+/// Hash of a matrix's sparsity pattern, without values.
 std::string sha256_of_pattern(const SparseMatrix& lower);
 
-/// Writes group `ordering`; nothing for an empty one.
+/// Writes group `ordering`; nothing when empty.
 void write_elimination_order(H5File& file, const EliminationOrder& order);
 
-/// Reads it from an artefact. Empty when there is no such file, when it holds none, or when what it
-/// holds is no permutation: an order only saves time, and nothing is lost without it.
+/// Reads it from an artefact. Empty when there is no such file, when it contains none, or when
+/// that is not a permutation: it is only needed to save time.
 EliminationOrder read_elimination_order(const std::filesystem::path& path);
 
 }  // namespace clatter::rom

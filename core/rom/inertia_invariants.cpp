@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 constexpr const char* kGroup = "inertia_invariants";
 
-/// The blocks that a file holds: names and places in `product`. The rest are transposes.
+/// The blocks stored in a file: names and indices in `product`. The others are transposes.
 struct Block {
   const char* name;
   size_t k, l;

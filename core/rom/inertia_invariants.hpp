@@ -1,5 +1,5 @@
 #pragma once
-// The inertia of a reduced body whose frame accelerates and turns: eq. (9) of the paper.
+// Inertia of a reduced body whose frame accelerates and rotates: eq. (9) of the paper.
 #include <Eigen/Core>
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace clatter::rom {
 
-/// How the body's frame moves, all in the axes of that frame.
+/// Motion of the body's frame, in the axes of that frame.
 struct FrameMotion {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // of its origin, absolute [m/s2]
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();         // Omega [rad/s]
@@ -42,7 +42,7 @@ struct InertiaInvariants {
   /// p* = load - softening q - gyroscopic q'.
   Eigen::VectorXd force(const FrameMotion& motion, const Eigen::VectorXd& q,
                         const Eigen::VectorXd& v) const;
-  /// The same body in coordinates z, q = W z; W is r x p.
+  /// The same invariants in coordinates z, q = W z; W is r x p.
   InertiaInvariants in(const Eigen::MatrixXd& W) const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kSchema = "clatter/rom/1";
 const std::string kUnits = "SI: m kg s N rad";
 
-/// Refuses a matrix whose shape or values are not what the reader expects.
+/// Reads a matrix; refuses an unexpected shape or values that are not finite.
 void check(const H5File& file, const std::string& name, const Eigen::MatrixXd& matrix,
            Eigen::Index rows, Eigen::Index columns) {
   if (matrix.rows() != rows || matrix.cols() != columns) {
@@ -34,7 +34,7 @@ Eigen::MatrixXd read_checked(const H5File& file, const std::string& name, Eigen:
 Eigen::MatrixXd read_symmetric(const H5File& file, const std::string& name, Eigen::Index size) {
   Eigen::MatrixXd matrix = read_checked(file, name, size, size);
   const double skew = (matrix - matrix.transpose()).cwiseAbs().maxCoeff();
-  // Written symmetric to the last bit; a file from elsewhere may carry roundoff.
+  // We write exactly symmetric matrices; files of other programs may have rounding errors.
   if (skew > 1e-9 * matrix.cwiseAbs().maxCoeff()) {
     throw InputError(fmt::format("{}: {}: not symmetric, largest difference {:.3g}",
                                  file.path().string(), name, skew));
@@ -120,8 +120,8 @@ Skin read_skin(const H5File& file, Eigen::Index size) {
   }
   if (skin.triangles.size() > 0 &&
       (skin.triangles.minCoeff() < 0 || skin.triangles.maxCoeff() >= skin.nodes.rows())) {
-    refuse(fmt::format("a triangle names node {}, there are {}", skin.triangles.maxCoeff(),
-                       skin.nodes.rows()));
+    refuse(fmt::format("a triangle refers to node {}, but there are {} nodes",
+                       skin.triangles.maxCoeff(), skin.nodes.rows()));
   }
   if (!skin.T.allFinite() || !skin.nodes.allFinite()) refuse("found a value that is not finite");
   return skin;
@@ -137,9 +137,9 @@ const ContactGrid& ReducedModel::grid(const std::string& grid_name) const {
   return find_named(grids, name, "contact grid", grid_name);
 }
 
-Eigen::RowVectorXd ReducedModel::row_of(int place) const {
-  if (place >= size()) return combined.row(place - size());
-  return Eigen::RowVectorXd::Unit(size(), place);
+Eigen::RowVectorXd ReducedModel::row_of(int dof) const {
+  if (dof >= size()) return combined.row(dof - size());
+  return Eigen::RowVectorXd::Unit(size(), dof);
 }
 
 void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
@@ -233,7 +233,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   if (file.has("combined"))
     model.combined = read_checked(file, "combined", file.shape("combined").at(0), size);
   if (file.has("recovered_sets")) model.recovered_sets = file.read_strings("recovered_sets");
-  read_dof_sets(file, model.places(), model.sets, model.grids);
+  read_dof_sets(file, model.dof_count(), model.sets, model.grids);
   model.inertia = read_inertia_invariants(file, model.M_rr);
   model.mass = read_mass_properties(file);
   if (with_skin && file.has("skin")) model.skin = read_skin(file, size);

@@ -1,12 +1,12 @@
 #pragma once
-// The hand-off between the two wings: a condensed elastic body, eq. (13) and (14).
+// A condensed elastic body, eq. (13) and (14): output of condense, input of dynamics and recover.
 //
 //   M_rr q'' + D_rr q' + K_rr q = f_r,   D_rr = alpha K_rr + beta M_rr + D_table,
 //   u_skin = T_skin q,   D_table by damping_table.hpp
 //
 // q = [boundary coordinates q_b; modal coordinates q_k]. A boundary coordinate is a displacement
-// [m] or rotation [rad] at a named place: a sensor, a mount, a bearing centre, or the mean radial
-// displacement of one patch of a contact grid. The force that works on it is a force [N], a moment
+// [m] or rotation [rad] of a named point: a sensor, a mount, a bearing centre, or the mean radial
+// displacement of one patch of a contact grid. Its conjugate force is a force [N], a moment
 // [N m], or the resultant of the pressure on the patch.
 #include <Eigen/Core>
 #include <filesystem>
@@ -22,11 +22,11 @@
 
 namespace clatter::rom {
 
-/// A named group of degrees of freedom, each at a place and in a direction.
+/// A named group of DoFs, each with a position and a direction.
 struct DofSet {
   std::string kind;           // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
-  std::vector<int32_t> dofs;  // indices into the model's coordinates (FE: n, reduced: places())
-  std::vector<std::string> labels;   // one a DoF: "sensor_block.y", "liner_4[3,7]"
+  std::vector<int32_t> dofs;  // indices into the model's coordinates (FE: n, reduced: dof_count())
+  std::vector<std::string> labels;   // one per DoF: "sensor_block.y", "liner_4[3,7]"
   Eigen::MatrixXd position;          // dofs x 3 [m]
   Eigen::MatrixXd direction;         // dofs x 3, unit vectors
   std::vector<int32_t> is_rotation;  // 1: rotation about `direction`, 0: displacement along it
@@ -41,8 +41,8 @@ struct ContactGrid {
   Eigen::Vector3d zero_angle =
       Eigen::Vector3d::UnitX();  // direction of angle 0, right-handed about axis
   double radius = 0.0;           // [m]
-  Eigen::VectorXd angle;  // patch centres [rad], ascending; may cover a part of the circle only
-  Eigen::VectorXd axial;  // patch centres along the axis from axis_point [m], ascending
+  Eigen::VectorXd angle;        // patch centres [rad], ascending; may cover only part of the circle
+  Eigen::VectorXd axial;        // patch centres along the axis from axis_point [m], ascending
   Eigen::VectorXd angle_edges;  // pairs (begin, end) per angular strip, 2 x angle.size() [rad]
   Eigen::VectorXd axial_edges;  // axial.size() + 1 [m]
 };
@@ -54,12 +54,12 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass [kg m2]
 };
 
-/// The skin of a body with the rows that recover it.
+/// The skin of a body and the rows of its recovery matrix.
 struct Skin {
   RowMatrix nodes;        // n_s x 3 [m]
   IndexMatrix triangles;  // n_f x 6, quadratic triangles, outward orientation, Gmsh order
   RowMatrix T;            // 3 n_s x r, row 3 a + d: node a, direction d
-  std::vector<std::string> surfaces;  // of the FE model, joined to this skin
+  std::vector<std::string> surfaces;  // of the FE model, merged into this skin
 };
 
 struct ReducedModel {
@@ -69,19 +69,20 @@ struct ReducedModel {
   Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles filled [SI]
   double alpha = 0.0;          // stiffness-proportional damping [s]
   double beta = 0.0;           // mass-proportional damping [1/s]
-  DampingTable modal_damping;  // adds to both
-  Eigen::MatrixXd rigid;  // r x 6: q of unit rigid motions x, y, z, rx, ry, rz about the origin
+  DampingTable modal_damping;  // added to both
+  Eigen::MatrixXd
+      rigid;  // r x 6: q of unit rigid-body motions x, y, z, rx, ry, rz about the origin
   std::map<std::string, DofSet> sets;        // boundary sets
-  std::map<std::string, ContactGrid> grids;  // contact grids, keyed like their set
+  std::map<std::string, ContactGrid> grids;  // contact grids, key: name of their set
   std::map<std::string, Eigen::VectorXd>
       loads;                           // r; reduced load vectors of unit load cases ("gas": per Pa)
   MassProperties mass;                 // of the full model
   Eigen::VectorXd fixed_interface_hz;  // frequencies of the kept modes
-  double valid_to_hz = 0.0;            // highest frequency the basis is meant for
+  double valid_to_hz = 0.0;            // highest frequency that the basis is intended for
   Skin skin;                           // empty (0 rows) when not recovered
-  InertiaInvariants inertia;           // of a body that rotates; empty unless asked for
-  /// c x r, places whose displacement is a combination of coordinates: those that became so when
-  /// the interface was reduced, then those of recovered_sets. An entry r + j of DofSet::dofs is the
+  InertiaInvariants inertia;           // of a rotating body; empty unless requested
+  /// c x r, DoFs whose displacement is a combination of coordinates: those that became so when
+  /// the interface was reduced, then those of recovered_sets. An index r + j in DofSet::dofs is the
   /// displacement combined.row(j) q.
   Eigen::MatrixXd combined;
   std::vector<std::string> recovered_sets;  // sets that were never coordinates
@@ -89,23 +90,23 @@ struct ReducedModel {
   std::map<std::string, double> certificate;
 
   int size() const { return static_cast<int>(M_rr.rows()); }
-  /// Coordinates and, after them, the places of `combined`: what DofSet::dofs index.
-  int places() const { return size() + static_cast<int>(combined.rows()); }
-  /// The displacement at a place as a row of coordinates, r; `place` below places().
-  Eigen::RowVectorXd row_of(int place) const;
-  const DofSet& set(const std::string& set_name) const;  // InputError listing the names present
+  /// Number of coordinates plus rows of `combined`: the range of DofSet::dofs.
+  int dof_count() const { return size() + static_cast<int>(combined.rows()); }
+  /// The displacement of DoF `dof` < dof_count() as a row of r coefficients of q.
+  Eigen::RowVectorXd row_of(int dof) const;
+  const DofSet& set(const std::string& set_name) const;  // InputError listing the existing names
   const ContactGrid& grid(
-      const std::string& grid_name) const;  // InputError listing the names present
+      const std::string& grid_name) const;  // InputError listing the existing names
 };
 
-/// Writes `model` under schema "clatter/rom/1" into an open file (provenance and timing are the
-/// caller's).
+/// Writes `model` under schema "clatter/rom/1" into an open file (provenance and timing are left to
+/// the caller's).
 void write_reduced_model(H5File& file, const ReducedModel& model);
 /// Reads and checks shapes, ranges, symmetry, finite values (InputError). `with_skin` false leaves
 /// the skin empty.
 ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin = true);
 
-/// DoF sets and grids are stored alike by the FE model and the reduced model.
+/// DoF sets and grids are stored in the same way by FE models and reduced models.
 void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,
                     const std::map<std::string, ContactGrid>& grids);
 void read_dof_sets(const H5File& file, int n_dofs, std::map<std::string, DofSet>& sets,

@@ -26,7 +26,7 @@ void with_workspace(Solver&& solver) {
   solver(work.data(), &room, integers.data(), &best_integers);
 }
 
-/// What both drivers share; LAPACK may not end on values that are not finite.
+/// Common part of both drivers; LAPACK may not terminate on non-finite values.
 template <class Driver>
 DenseEigen solve(const Eigen::MatrixXd& A, EigenParts parts, Driver&& driver) {
   DenseEigen out;

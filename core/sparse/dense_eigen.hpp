@@ -1,5 +1,5 @@
 #pragma once
-// Eigenvalues of dense symmetric matrices through LAPACK, on all threads of BLAS.
+// Eigenvalues of dense symmetric matrices by LAPACK, with all BLAS threads.
 #include <Eigen/Core>
 
 namespace clatter::sparse {
@@ -7,7 +7,7 @@ namespace clatter::sparse {
 /// A X = X diag(values) or A X = B X diag(values), values ascending; X is orthonormal (in B).
 struct DenseEigen {
   Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;  // empty when only values were asked for
+  Eigen::MatrixXd vectors;  // empty when only values were requested
   bool ok = false;          // false: not finite, or B is not positive definite
 };
 

@@ -12,7 +12,7 @@ using DenseOut = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 /// A^T B; A is n x p, B is n x q.
 Eigen::MatrixXd transposed_product(const DenseView& A, const DenseView& B);
 
-/// The same with B row by row.
+/// The same for row-major B.
 Eigen::MatrixXd transposed_rows_product(const DenseView& A, const RowMatrix& B);
 
 /// C += factor A B; A is n x p, B is p x q, C is n x q and overlaps neither.

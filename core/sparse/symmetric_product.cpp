@@ -8,7 +8,7 @@
 namespace clatter::sparse {
 namespace {
 
-constexpr int kColumns = 8;  // that share one read of the matrix, in registers
+constexpr int kColumns = 8;  // columns in registers per read of the matrix
 
 /// Rows [begin, end) of `width` <= kColumns columns; column i of A serves as row i. Rows of x and y
 /// lie `stride` apart.
@@ -60,11 +60,11 @@ CLATTER_EACH_CPU void multiply_eight_within(const SparseMatrix& A, const double*
 }  // namespace
 
 SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order) {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(lower.cols());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse(lower.cols());
   for (size_t j = 0; j < order.size(); ++j)
-    place.indices()[static_cast<Eigen::Index>(order[j])] = static_cast<int>(j);
+    inverse.indices()[static_cast<Eigen::Index>(order[j])] = static_cast<int>(j);
   SparseMatrix out(lower.rows(), lower.cols());
-  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
+  out.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(inverse);
   return out;
 }
 
@@ -75,7 +75,7 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& lower)
 }
 
 void SymmetricProduct::multiply(const double* x, double* y, int count) const {
-  constexpr int64_t kRows = 4096;  // neighbours of a piece stay in the cache for all columns
+  constexpr int64_t kRows = 4096;  // neighbouring rows of x stay in the cache for all columns
   parallel_pieces(full_.cols(), [&](int64_t begin, int64_t end) {
     for (int64_t first = begin; first < end; first += kRows) {
       const int64_t last = std::min(first + kRows, end);

@@ -1,5 +1,5 @@
 #pragma once
-// Products with a sparse symmetric matrix, many columns at once, on all threads.
+// Parallel products of a sparse symmetric matrix with many columns.
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace clatter::sparse {
 
-/// P A P^T of a symmetric matrix by its lower triangle: row j of it is row order[j] of A.
+/// P A P^T of a symmetric matrix given by its lower triangle: row j is row order[j] of A.
 SparseMatrix reordered(const SparseMatrix& lower, const std::vector<int64_t>& order);
 
-/// Holds both triangles, so that each row of the result is one sum: same bits on any thread count.
+/// Holds both triangles, so that each row of the result is one sum: same bits for any thread count.
 class SymmetricProduct {
  public:
   /// @param lower n x n, lower triangle.
   explicit SymmetricProduct(const SparseMatrix& lower);
   /// A x; x is n x m.
   Eigen::MatrixXd operator*(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
-  /// y = A x for `count` vectors that stand row by row, n x count: the fast way.
+  /// y = A x for `count` row-major vectors, n x count: the faster form.
   void multiply(const double* x, double* y, int count) const;
-  /// The same with the principal block of rows [first, last) alone; x and y begin at row `first`,
-  /// `count` is a multiple of 8. @param wide on all threads, else on this one.
+  /// The same with only the principal block of rows [first, last); x and y begin at row `first`,
+  /// `count` is a multiple of 8. @param wide all threads, else only this one.
   void multiply_block(int64_t first, int64_t last, const double* x, double* y, int count,
                       bool wide) const;
   Eigen::Index size() const { return full_.cols(); }

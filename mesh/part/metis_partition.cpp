@@ -122,7 +122,7 @@ CellNeighbours cell_neighbours(const Mesh& mesh) {
   }
   std::vector<std::pair<int32_t, int32_t>> pairs;
   for_each_face(all_faces(mesh), [&](auto first, auto last) {
-    const auto number = [&](const FacePlace& place) {
+    const auto number = [&](const FaceRef& place) {
       return first_of_block[static_cast<size_t>(place.block)] + place.cell;
     };
     for (auto other = first + 1; other != last; ++other) {

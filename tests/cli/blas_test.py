@@ -6,7 +6,7 @@ import unittest
 
 import stages
 
-HELD = "OPENBLAS_CORETYPE holds OpenBLAS to its kernel Prescott"
+HELD = "OPENBLAS_CORETYPE forces OpenBLAS to kernel Prescott"
 RUNS = "OpenBLAS runs its kernel "
 
 

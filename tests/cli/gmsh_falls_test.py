@@ -70,7 +70,7 @@ class HardN17GmshFalls(unittest.TestCase):
     def test_what_cannot_be_caught_exits_and_foreign_throws_are_told(self):
         self.assert_falls("terminate", ["signal 6", "terminate called after throwing an instance of 'std::string'"])
         self.assert_falls("exit", ["ended with exit code 0 and no result"])
-        self.assert_falls("throw", ["threw what is no exception"])
+        self.assert_falls("throw", ["threw an exception without text"])
 
     def test_hang_and_hunger_end_at_their_limits_without_a_second_attempt(self):
         said = self.assert_falls("hang", ["was stopped after 2 s (--time-limit)", "raise the limit"], "--time-limit",

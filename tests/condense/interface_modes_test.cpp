@@ -232,7 +232,7 @@ TEST(InterfaceModes, RoundTripInTheFileAndKeepPlacesInRange) {
   EXPECT_EQ(back.combined, small.combined);
   EXPECT_EQ(back.set("liner").dofs, small.set("liner").dofs);
   EXPECT_EQ(back.grid("liner").radius, 0.05);
-  EXPECT_EQ(back.places(), small.size() + 16);
+  EXPECT_EQ(back.dof_count(), small.size() + 16);
 }
 
 TEST(BadInput, OtherProgramsAndFixedSetsDoNotGetAReducedInterface) {

@@ -80,7 +80,7 @@ TEST_P(StaticReductionTest, RowsOfOneCornerOfALargeTreeAreTheRowsOfTheShapes) {
   for (int32_t k = 0; k < 9; ++k) kept.push_back(static_cast<int32_t>(c.K_ii.rows()) - 9 + k);
   const sparse::SupernodeTree& tree = c.factor->tree();
   std::set<int32_t> on_paths;  // supernodes that these rows need
-  const std::vector<int32_t> owners = tree.owners(), places = tree.places();
+  const std::vector<int32_t> owners = tree.owners(), places = tree.inverse_order();
   for (const int32_t row : kept)
     for (int32_t s = owners[static_cast<size_t>(places[static_cast<size_t>(row)])]; s >= 0;
          s = tree.parent[static_cast<size_t>(s)])

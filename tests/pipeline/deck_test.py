@@ -220,7 +220,7 @@ class WhollyHeld(unittest.TestCase):
             done = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-            self.assertIn("all 24 degrees of freedom held by supports (support_1", done.stderr)
+            self.assertIn("all 24 DoFs supported (support_1", done.stderr)
             self.assertIn("--static", done.stderr)
 
 

@@ -25,30 +25,34 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kNarrow = kLanes;    // vectors that one thread takes through a subtree
-constexpr int kWide = 2 * kLanes;  // that all threads take
-constexpr Index kColumns = 32;     // of the answer that are made at a time
+constexpr int kNarrow = kLanes;    // vectors per subtree product on one thread
+constexpr int kWide = 2 * kLanes;  // the same on all threads
+constexpr Index kColumns = 32;     // result vectors computed at a time
 
 /// The projection of A on modes of substructures.
 class Multilevel {
  public:
   Multilevel(const SubtreeProduct& A, const SupernodeTree& tree, const AmlsOptions& options);
-  /// Modes of all substructures with nu >= cut.
+  /// Computes the modes of all substructures with nu >= cut.
   void find_local_modes(double cut);
   Index modes() const { return start_.back(); }
-  /// Vectors that went through a subtree of the factor.
+  /// Number of products with a subtree of the factor.
   int64_t solves() const { return solves_; }
   /// V^T A V, both triangles.
   MatrixXd projected() const;
-  /// Columns of S L^{-T} V q scaled by nu^{-1/2}: M-orthonormal motions by place.
+  /// Columns of S L^{-T} V q scaled by nu^{-1/2}: M-orthonormal displacements in elimination order.
   MatrixXd motions(const MatrixXd& q, const VectorXd& nu) const;
 
  private:
   const Substructure& part(Index k) const { return parts_[static_cast<size_t>(k)]; }
-  int32_t own_rows(Index k) const { return A_.place(part(k).to) - A_.place(part(k).from); }
-  int32_t subtree_rows(Index k) const { return A_.place(part(k).to) - A_.place(part(k).lowest); }
+  int32_t own_rows(Index k) const {
+    return A_.first_index(part(k).to) - A_.first_index(part(k).from);
+  }
+  int32_t subtree_rows(Index k) const {
+    return A_.first_index(part(k).to) - A_.first_index(part(k).lowest);
+  }
   void solve_part(Index k, double cut, bool wide);
-  /// Substructures [begin, end) are whole subtrees that one thread takes; the others follow.
+  /// Substructures [begin, end) are complete subtrees for one thread; the others follow.
   std::vector<std::pair<Index, Index>> narrow_subtrees() const;
 
   const SubtreeProduct& A_;
@@ -73,7 +77,7 @@ void Multilevel::solve_part(Index k, double cut, bool wide) {
   const Index rows = subtree_rows(k), own = own_rows(k);
   const std::unique_ptr<double[]> x = large_array(static_cast<size_t>(rows * b));
   const std::unique_ptr<double[]> z = large_array(static_cast<size_t>(rows * b));
-  const int32_t origin = A_.place(part(k).lowest);
+  const int32_t origin = A_.first_index(part(k).lowest);
   LocalOperator local{own, 0, {}};
   for (Index d = part(k).first_inside; d < k; ++d)
     local.inside += local_[static_cast<size_t>(d)].values.size();
@@ -87,7 +91,7 @@ void Multilevel::solve_part(Index k, double cut, bool wide) {
     Index at = 0;
     for (Index d = part(k).first_inside; d < k; ++d) {
       const MatrixXd& V = local_[static_cast<size_t>(d)].vectors;
-      const double* image = z.get() + Index{A_.place(part(d).from) - origin} * b;
+      const double* image = z.get() + Index{A_.first_index(part(d).from) - origin} * b;
       C.middleRows(at, V.cols()).noalias() =
           V.transpose() * Eigen::Map<const RowMatrix>(image, V.rows(), b);
       at += V.cols();
@@ -154,10 +158,10 @@ MatrixXd Multilevel::motions(const MatrixXd& q, const VectorXd& nu) const {
     x.setZero();
     for (size_t k = 0; k < parts_.size(); ++k) {
       const MatrixXd& V = local_[k].vectors;
-      x.block(A_.place(parts_[k].from), 0, V.rows(), count).noalias() =
+      x.block(A_.first_index(parts_[k].from), 0, V.rows(), count).noalias() =
           V * q.block(start_[k], first, V.cols(), count);
     }
-    A_.to_motion(x.data(), kColumns);
+    A_.to_displacement(x.data(), kColumns);
     out.middleCols(first, count) =
         x.leftCols(count) * nu.segment(first, count).cwiseSqrt().cwiseInverse().asDiagonal();
   }
@@ -194,8 +198,8 @@ EigenResult largest_pairs(const MatrixXd& T, int count, uint64_t seed) {
   return solve_block_lanczos(problem, lanczos);
 }
 
-/// What a step lowered the frequencies by, relative. A rigid mode is measured by a tenth of the
-/// first elastic frequency, since its own says nothing.
+/// Relative decrease of the frequencies in a step. A rigid-body mode is scaled by a tenth of the
+/// first elastic frequency, since its own is meaningless.
 VectorXd lowered(const VectorXd& before, const VectorXd& after, double sigma) {
   constexpr double kElastic = 1e-5, kOfRigid = 1e-2;
   double floor = 0.0;
@@ -205,29 +209,29 @@ VectorXd lowered(const VectorXd& before, const VectorXd& after, double sigma) {
   return 0.5 * (before - after).cwiseQuotient(scale).cwiseMax(0.0);
 }
 
-/// Room for the vectors of the answer, for the blocks that a step works on, and first for the
-/// projection on `modes` modes of substructures with what finds its pairs.
-void require_room(Index size, int asked, Index modes) {
+/// Requires memory for the result vectors, for the blocks of a step, and first for the
+/// projection on `modes` modes of substructures with its eigen-solver.
+void require_room(Index size, int requested, Index modes) {
   const auto n = static_cast<double>(size), p = static_cast<double>(modes);
-  const double vectors = n * static_cast<double>(asked + 2 * kColumns);
-  const double projection = p * (p + std::min(4.0 * p, 4.0 * asked));
-  require_memory(fmt::format("AMLS with {} vectors of {} unknowns", asked, size),
+  const double vectors = n * static_cast<double>(requested + 2 * kColumns);
+  const double projection = p * (p + std::min(4.0 * p, 4.0 * requested));
+  require_memory(fmt::format("AMLS with {} vectors of {} unknowns", requested, size),
                  gib_of_doubles(std::max(vectors, projection)),
-                 "ask for fewer modes or raise the limit (--memory-limit)");
+                 "request fewer modes or raise the limit (--memory-limit)");
 }
 
-/// The lowest `asked` pairs of the projection on modes of substructures with nu >= cut; empty when
-/// these are too few.
+/// The lowest `requested` pairs of the projection on modes of substructures with nu >= cut; empty
+/// when there are too few of these.
 EigenResult project(const ShiftInvert& problem, const SubtreeProduct& A, const SupernodeTree& tree,
-                    const AmlsOptions& options, int asked, double cut) {
+                    const AmlsOptions& options, int requested, double cut) {
   Multilevel levels(A, tree, options);
   levels.find_local_modes(cut);
   EigenResult out;
   out.status = EigenStatus::kNotConverged;
   out.message = fmt::format("{} modes of substructures are too few", levels.modes());
-  if (levels.modes() < asked) return out;
-  require_room(problem.size, asked, levels.modes());
-  out = largest_pairs(levels.projected(), asked, options.seed);
+  if (levels.modes() < requested) return out;
+  require_room(problem.size, requested, levels.modes());
+  out = largest_pairs(levels.projected(), requested, options.seed);
   if (!out.ok()) return out;
   out.vectors = levels.motions(out.vectors, out.values.cwiseInverse());
   out.values.array() += problem.sigma;
@@ -235,7 +239,8 @@ EigenResult project(const ShiftInvert& problem, const SubtreeProduct& A, const S
   return out;
 }
 
-/// The lowest pairs are near the known motions: these give way, the others lose their part in them.
+/// The lowest pairs are near the known motions and are dropped; the others are made M-orthogonal to
+/// them.
 void remove_known(const KnownMotions& known, EigenResult& out) {
   const Index count = known.count(), n = out.vectors.rows();
   if (count == 0) return;
@@ -251,7 +256,8 @@ void remove_known(const KnownMotions& known, EigenResult& out) {
   out.vectors.conservativeResize(n, left);
 }
 
-/// Refines the pairs of a projection until a step lowers no wanted frequency by more than asked.
+/// Refines the pairs of a projection until a step lowers no wanted frequency by more than
+/// `accuracy`.
 void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const AmlsOptions& options,
             EigenResult& out) {
   for (int step = 0; step < options.max_refinements; ++step) {
@@ -270,13 +276,14 @@ void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const Amls
 
 EigenResult solve_amls(ShiftedPencil& pencil, const AmlsOptions& options) {
   constexpr int kTries = 4;
-  constexpr double kWider = 2.25;  // of eigenvalues, from try to try
+  constexpr double kWider = 2.25;  // factor on eigenvalues between attempts
   const ShiftInvert& problem = pencil.problem();
   const auto size = static_cast<Index>(problem.size);
   const auto known = static_cast<int>(pencil.rigid().count());
-  const int spare = std::max(8, options.count / 20);  // the highest Ritz vectors are the poorest
-  const int asked = static_cast<int>(std::min<Index>(options.count + spare + known, size));
-  require_room(size, asked, 0);
+  const int spare =
+      std::max(8, options.count / 20);  // the highest Ritz vectors are the least accurate
+  const int requested = static_cast<int>(std::min<Index>(options.count + spare + known, size));
+  require_room(size, requested, 0);
   const SupernodalFactor& factor = pencil.factor();
   const SubtreeProduct A(factor, pencil.mass());
   const double nu = ModeDensity(A, size, options.seed).nu_above(options.count + known);
@@ -284,7 +291,7 @@ EigenResult solve_amls(ShiftedPencil& pencil, const AmlsOptions& options) {
   EigenResult out;
   for (int attempt = 0; attempt < kTries && !out.ok(); ++attempt, highest *= kWider) {
     out.vectors.resize(0, 0);
-    out = project(problem, A, factor.tree(), options, asked, 1.0 / (highest - problem.sigma));
+    out = project(problem, A, factor.tree(), options, requested, 1.0 / (highest - problem.sigma));
     if (!out.ok()) continue;
     remove_known(pencil.rigid(), out);
     refine(problem, pencil.mass(), options, out);

@@ -14,7 +14,8 @@
 namespace clatter::sparse {
 namespace {
 
-static_assert(sizeof(a_int) == 4, "Debian's ARPACK counts in 32 bits; a wider build corrupts it");
+static_assert(sizeof(a_int) == 4,
+              "Debian's ARPACK has 32-bit integers; a wider build would corrupt memory");
 
 constexpr char kMassInProduct = 'G';
 constexpr const char* kLargestMagnitude = "LM";  // never "SM": see hard case A5
@@ -66,7 +67,7 @@ struct Workspace {
     if (options.start.size() == n) {
       std::copy(options.start.begin(), options.start.end(), resid.begin());
     } else {
-      // A random start has a part in every mode; a symmetric one misses half of them (A2).
+      // A random start has a component in every mode; a symmetric one misses half of them (A2).
       std::mt19937_64 engine(options.seed);
       std::uniform_real_distribution<double> uniform(-1.0, 1.0);
       std::generate(resid.begin(), resid.end(), [&] { return uniform(engine); });
@@ -81,7 +82,7 @@ struct Workspace {
   a_int info = 1;  // resid holds the start vector
 };
 
-/// The reverse communication loop. Returns false when the operator gave something not finite.
+/// The reverse communication loop. Returns false when the operator returns non-finite values.
 bool iterate(const ShiftInvert& problem, const ArpackOptions& options, Workspace& work,
              int64_t& solves) {
   a_int ido = 0;
@@ -97,7 +98,7 @@ bool iterate(const ShiftInvert& problem, const ArpackOptions& options, Workspace
       problem.mass(at(0), image.data(), 1);
       problem.solve(image.data(), at(1), 1);
     } else if (ido == 1) {
-      problem.solve(at(2), at(1), 1);  // M x stands there already
+      problem.solve(at(2), at(1), 1);  // already contains M x
     } else if (ido == 2) {
       problem.mass(at(0), at(1), 1);
     } else {
@@ -108,7 +109,7 @@ bool iterate(const ShiftInvert& problem, const ArpackOptions& options, Workspace
   }
 }
 
-/// Extraction; only after a run that ended well (hard case A3).
+/// Extraction; only after a successful run (hard case A3).
 EigenResult extract(const ShiftInvert& problem, const ArpackOptions& options, Workspace& work) {
   const a_int converged = work.iparam[4];
   std::vector<a_int> select(static_cast<size_t>(work.ncv), 0);
@@ -137,7 +138,7 @@ EigenResult extract(const ShiftInvert& problem, const ArpackOptions& options, Wo
 /// Sizes that ARPACK's 32-bit counters hold (hard case A9); computed in 64 bits.
 std::string size_problem(int64_t n, int64_t count, int64_t basis) {
   constexpr int64_t kMax = std::numeric_limits<int32_t>::max();
-  if (count < 1) return fmt::format("{} modes asked for, expected at least 1", count);
+  if (count < 1) return fmt::format("{} modes requested, expected at least 1", count);
   if (basis > n || count >= basis) {
     return fmt::format(
         "{} modes with {} Lanczos vectors of {} unknowns: expected modes < vectors "

@@ -28,25 +28,25 @@ Index default_block(Index wanted, Index size) {
 }
 
 Index block_of(const BlockLanczosOptions& options, Index size) {
-  const Index asked = options.block > 0 ? options.block : default_block(options.count, size);
-  return (asked + kLanes - 1) / kLanes * kLanes;
+  const Index requested = options.block > 0 ? options.block : default_block(options.count, size);
+  return (requested + kLanes - 1) / kLanes * kLanes;
 }
 
-BasisRoom room_left(const BlockLanczosOptions& options, Index block, Index size) {
+BasisSize room_left(const BlockLanczosOptions& options, Index block, Index size) {
   const auto ample = static_cast<double>(size) * static_cast<double>(5 * options.count + 8 * block);
   const double left = memory_left_gib(gib_of_doubles(ample));
   const double least =
       gib_of_doubles(static_cast<double>(size) * static_cast<double>(3 * block + options.count));
   require_memory(fmt::format("the vectors of {} modes", options.count), least,
-                 "ask for fewer modes");
-  const BasisRoom room = basis_room(options, block, size, left);
+                 "request fewer modes");
+  const BasisSize room = basis_size(options, block, size, left);
   if (room.storage == Storage::kDisk)
     warn(fmt::format("{} Lanczos vectors of {} unknowns do not fit into {}: they are kept on disk",
                      room.columns, size, memory_text(left)));
   return room;
 }
 
-/// What one run carries from block to block.
+/// State of a run.
 class Run {
  public:
   Run(const ShiftInvert& problem, const BlockLanczosOptions& options);
@@ -58,7 +58,7 @@ class Run {
   void fill_random(Index column);
   void start();
   /// Makes the new block Y_, which is M-orthogonal to the first `begin` columns of V_,
-  /// M-orthonormal and fills MY_; gives R with old = new R. Directions that vanish are replaced by
+  /// M-orthonormal and fills MY_; returns R with old = new R. Vanishing directions are replaced by
   /// random ones.
   MatrixXd orthonormalise(Index begin);
   /// Y_ -= V V^T M Y_ for the columns [first, last); adds the coefficients to the last rows of H.
@@ -76,10 +76,10 @@ class Run {
   const ShiftInvert& problem_;
   const BlockLanczosOptions& options_;
   Index n_, b_, wanted_;
-  BasisRoom room_;
+  BasisSize room_;
   Index limit_;
   Index size_ = 0;    // columns whose image under Op is in T_
-  Index local_ = 0;   // columns before this one have no part in Op of the newest block
+  Index local_ = 0;   // columns before this one have no component in Op of the newest block
   TallBlock Y_, MY_;  // newest block, n x b, and M times it
   KrylovBasis V_;     // n x (limit + b): basis, then the newest block
   MatrixXd T_;        // projection of Op
@@ -87,7 +87,7 @@ class Run {
   VectorXd nu_;       // Ritz values, descending
   MatrixXd S_;        // their coordinates in V(:, :size)
   int64_t solves_ = 0;
-  bool indefinite_ = false;  // a vector of negative mass was met
+  bool indefinite_ = false;  // a vector of negative mass was found
   std::mt19937_64 engine_;
 };
 
@@ -130,8 +130,8 @@ void Run::remove(Index first, Index last, MatrixXd& H) {
 }
 
 MatrixXd Run::orthonormalise(Index begin) {
-  // Below this ratio of squared lengths, what two passes left of earlier vectors is no longer
-  // small.
+  // Below this ratio of squared lengths, components of earlier vectors left by two passes are no
+  // longer small.
   constexpr double kDependent = 1e-8;
   constexpr double kVanished = 1e-20;
   constexpr double kIndefinite = 1e-8;  // rounding leaves less
@@ -173,10 +173,10 @@ bool Run::expand() {
   solves_ += b_;
   if (!Y_.finite()) return false;
   refresh_image();
-  // Op is symmetric, so that the new block is coupled to the last two only (and to what a restart
-  // kept); what rounding brings of the others the second pass takes away. It has no place in T:
-  // with thin walls the factor's rounding is not small, and taken for a coupling it would hold
-  // every residual up at its own size.
+  // Op is symmetric, so the new block is coupled only to the last two (and to the vectors that a
+  // restart kept); the second pass removes rounding components of the others. They must not enter
+  // T: with thin walls the factor's rounding is not small, and as a coupling it would keep every
+  // residual at its own level.
   MatrixXd H = MatrixXd::Zero(next, b_);
   remove(local_, next, H);
   remove(0, next, H);
@@ -193,7 +193,8 @@ bool Run::expand() {
 bool Run::project() {
   MatrixXd T = T_.topLeftCorner(size_, size_);
   T = (0.5 * (T + T.transpose())).eval();
-  // A second thread gains nothing at these sizes, and spins on a core of ours after each call.
+  // A second thread gains nothing at these sizes, and busy-waits on one of our cores after each
+  // call.
   const BlasThreads one(1);
   const DenseEigen eig = symmetric_eigen(T);
   if (!eig.ok) return false;
@@ -214,7 +215,7 @@ Index Run::converged() const {
 }
 
 void Run::restart() {
-  // The wanted vectors, and some more whose progress would be lost.
+  // Keeps the wanted vectors and some more, whose convergence would otherwise be lost.
   const Index keep = std::min(wanted_ + b_, size_ - b_);
   V_.transform(S_.leftCols(keep));
   V_.put(keep, Y_);
@@ -240,13 +241,13 @@ VectorXd Run::values() const {
 
 VectorXd Run::first_values() {
   start();
-  for (int k = 0; k < kLookBlocks; ++k)
+  for (int k = 0; k < kProbeBlocks; ++k)
     if (!expand()) return {};
   return project() ? values() : VectorXd();
 }
 
 EigenResult Run::solve() {
-  // Rayleigh-Ritz costs size^3: with many modes it is not worth doing after every block.
+  // Rayleigh-Ritz costs size^3: with many modes it is too costly after every block.
   const Index pause = std::max<Index>(1, wanted_ / (8 * b_)) * b_;
   start();
   Progress progress("eigenpairs", static_cast<double>(wanted_));
@@ -264,7 +265,7 @@ EigenResult Run::solve() {
         out.message = "a vector has negative mass: M is not positive semidefinite";
         return out;
       }
-      const bool look = options_.go_on && solves_ == kLookBlocks * b_;
+      const bool look = options_.go_on && solves_ == kProbeBlocks * b_;
       if (!look && size_ < check_at && size_ + b_ <= limit_) continue;
       if (!project()) {
         out.status = EigenStatus::kFailed;
@@ -273,7 +274,7 @@ EigenResult Run::solve() {
       }
       if (look && !options_.go_on(values())) {
         out.status = EigenStatus::kStopped;
-        out.message = "another shift is to be taken";
+        out.message = "another shift is needed";
         out.solves = solves_;
         return out;
       }
@@ -293,26 +294,27 @@ EigenResult Run::solve() {
 
 }  // namespace
 
-BasisRoom basis_room(const BlockLanczosOptions& options, Index block, Index size, double left_gib) {
+BasisSize basis_size(const BlockLanczosOptions& options, Index block, Index size, double left_gib) {
   const Index wanted = options.count;
-  const auto whole = [&](Index columns) {
+  const auto round_up = [&](Index columns) {
     return std::max<Index>((std::max(columns, wanted + 2 * block) + block - 1) / block, 3) * block;
   };
   const Storage chosen = options.storage.value_or(Storage::kMemory);
-  if (options.basis > 0) return {whole(options.basis), chosen};
-  const auto fits = [&](Index columns) {  // with the blocks beside it, and the vectors asked for
+  if (options.basis > 0) return {round_up(options.basis), chosen};
+  const auto fits = [&](Index columns) {  // with the other blocks and the requested vectors
     return gib_of_doubles(static_cast<double>(size) *
                           static_cast<double>(columns + 3 * block + wanted)) <= left_gib;
   };
-  // A restart costs the degree that convergence lives by: with few modes there is room for none.
-  constexpr double kSmallGib = 0.25;  // where vectors cost nothing, close spectra have their degree
-  const Index roomy = whole(2 * wanted + 48 * block);
+  // A restart lowers the polynomial degree, which determines convergence: avoided with few modes.
+  constexpr double kSmallGib =
+      0.25;  // small bases: vectors are cheap, and close spectra need the degree
+  const Index roomy = round_up(2 * wanted + 48 * block);
   const bool small =
       gib_of_doubles(static_cast<double>(size) * static_cast<double>(roomy)) < kSmallGib;
   const Index ample =
-      std::max(whole(std::min(6 * wanted, 2 * wanted + 200) + 4 * block), small ? roomy : 0);
-  const Index enough = whole(2 * wanted + 4 * block);
-  const Index least = whole(wanted + wanted / 4 + 4 * block);
+      std::max(round_up(std::min(6 * wanted, 2 * wanted + 200) + 4 * block), small ? roomy : 0);
+  const Index enough = round_up(2 * wanted + 4 * block);
+  const Index least = round_up(wanted + wanted / 4 + 4 * block);
   if (options.storage) return {enough, chosen};
   for (const Index columns : {ample, enough, least})
     if (fits(columns)) return {columns, Storage::kMemory};
@@ -323,7 +325,7 @@ VectorXd first_ritz_values(const ShiftInvert& problem, uint64_t seed) {
   BlockLanczosOptions options;
   options.count = 1;
   options.block = kLanes;
-  options.basis = kLookBlocks * kLanes;
+  options.basis = kProbeBlocks * kLanes;
   options.seed = seed;
   return Run(problem, options).first_values();
 }
@@ -333,11 +335,11 @@ EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOp
   refused.status = EigenStatus::kBadInput;
   const int64_t block = block_of(options, problem.size);
   if (options.count < 1) {
-    refused.message = fmt::format("{} modes asked for, expected at least 1", options.count);
+    refused.message = fmt::format("{} modes requested, expected at least 1", options.count);
     return refused;
   }
   if (2 * int64_t{options.count} + 6 * block > problem.size) {
-    refused.message = fmt::format("{} modes of {} unknowns leave no room for the subspace",
+    refused.message = fmt::format("{} modes of {} unknowns are too many for the subspace",
                                   options.count, problem.size);
     return refused;
   }

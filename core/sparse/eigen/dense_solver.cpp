@@ -14,13 +14,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSpread = 1e8;    // of lambda - sigma, that one shift resolves
-constexpr double kClose = 0.1;     // of the lowest value: a shift below it
-constexpr double kTooFar = 100.0;  // shift over the lowest value
+constexpr double kSpread = 1e8;    // range of lambda - sigma that one shift resolves
+constexpr double kClose = 0.1;     // of the lowest value: distance of a shift below it
+constexpr double kTooFar = 100.0;  // largest ratio of shift to lowest value
 constexpr double kZero = 1e-10;    // of the shift
 constexpr int kShifts = 12;
 
-/// All pairs with nu > 0 but the rigid ones.
+/// All pairs with nu > 0 except the rigid-body modes.
 EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& rigid,
                           double sigma) {
   EigenResult result;
@@ -48,7 +48,8 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
     result.message = "the dense eigen-solver did not converge";
     return result;
   }
-  // Ascending nu; the largest are the lowest modes. Massless directions have nu = 0: no mode.
+  // Ascending nu; the largest are the lowest modes. Massless directions have nu = 0 and are no
+  // modes.
   const VectorXd& nu = solver.values;
   const double zero = 1e-14 * nu.cwiseAbs().maxCoeff();
   const Index n = nu.size(), found = (nu.array() > zero).count();
@@ -62,7 +63,7 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
   return result;
 }
 
-/// Beyond what rounding of a singular matrix may look like.
+/// Above the rounding level of a singular matrix.
 bool clearly_definite(const MatrixXd& K) {
   if (!(K.diagonal().array() > 0.0).all()) return false;
   const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
@@ -76,7 +77,7 @@ void keep_first(Index count, EigenResult& result) {
   result.vectors.conservativeResize(Eigen::NoChange, count);
 }
 
-/// The pairs of `all` that its shift resolves take the places after those of `out`.
+/// Appends the pairs of `all` that its shift resolves to `out`.
 void append_resolved(const EigenResult& all, double sigma, EigenResult& out) {
   const Index have = out.values.size();
   const double reach = kSpread * (all.values[have] - sigma);
@@ -105,10 +106,10 @@ EigenResult solve_dense(const MatrixXd& K, const MatrixXd& M, const MatrixXd& ri
     keep_first(count, all);
     return all;
   }
-  // The lowest value first: its shift may lie far above it.
+  // The lowest value first: the shift may be much larger.
   for (int k = 0; k < kShifts && all.values.size() > 0 && shift < 0.0; ++k) {
     const double lowest = all.values[0];
-    // Below that it may be a zero that nobody knew of.
+    // Below that it may be an unknown zero.
     if (!(lowest > -kZero * shift) || -shift < kTooFar * lowest) break;
     EigenResult closer = solve_shifted(K, M, rigid, -kClose * lowest);
     if (!closer.ok()) break;

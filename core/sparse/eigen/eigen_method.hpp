@@ -1,24 +1,25 @@
 #pragma once
-// The eigen-solvers by name, and what a request says of them.
+// The eigen-solvers by name, and the options that select one.
 #include <string>
 
 #include "core/base/config.hpp"
 
 namespace clatter::sparse {
 
-/// kAmls: many modes at engineering accuracy, frequencies from above.
+/// kAmls: many modes at engineering accuracy, frequencies are upper bounds.
 enum class EigenMethod { kBlockLanczos, kArpack, kAmls };
 
 /// "block-lanczos", "arpack", "amls".
 std::string name_of(EigenMethod method);
 
-/// Which solver, and how good; defaults stand here.
+/// Solver and accuracy, with their defaults.
 struct EigenChoice {
   EigenMethod method = EigenMethod::kBlockLanczos;
   double accuracy = 5e-3;  // of kAmls: largest estimated relative error of a frequency
 };
 
-/// The keys `eigen_solver` and `accuracy`; InputError for another solver and beyond [1e-6, 0.1].
+/// The keys `eigen_solver` and `accuracy`; InputError for an unknown solver or an accuracy outside
+/// [1e-6, 0.1].
 EigenChoice read_eigen_choice(const Config& config);
 
 }  // namespace clatter::sparse

@@ -23,11 +23,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameValue = 1e-7;  // relative distance at which two values count as one
+constexpr double kSameValue = 1e-7;  // relative distance below which two values count as equal
 constexpr int kMaxRefinements = 2;
-constexpr int kExtra = 3;  // modes beyond the wanted, to find a gap behind them
+constexpr int kExtra = 3;  // extra modes, to find a gap after the wanted ones
 
-/// The problem with all that one request needs.
+/// State of one solve_modes() call.
 class Search {
  public:
   Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
@@ -37,28 +37,28 @@ class Search {
  private:
   bool small() const { return source_.dense(); }
   Index known() const { return source_.rigid().cols(); }
-  /// Frequencies with an estimated error in place of a residual at rounding.
+  /// Frequencies have an estimated error instead of a residual at rounding level.
   bool approximate() const { return modes_.errors.size() > 0; }
-  /// The lowest `count` modes beside the known ones. Throws NumericsError.
+  /// The lowest `count` modes besides the known ones. Throws NumericsError.
   EigenResult solve(int count, int retry);
-  /// Known modes and those that were found below a limit.
+  /// Number of known and computed modes below a limit.
   Index below(const VectorXd& values, double limit) const;
-  /// Values below a limit that stands in a gap, with the inertia count there.
+  /// Number of values below a limit in a gap, with the inertia count there.
   void prove(double limit);
   void find_by_count();
   void find_by_limit();
   void find_by_limit_unproved(double limit);
-  /// Solves for `count` modes until as many lie below `limit` as the proof says.
+  /// Solves for `count` modes until as many lie below `limit` as the proof requires.
   void match_proof(int count);
   void take(EigenResult&& found);
-  /// Values that the true ones are not below, as far as the errors are known.
+  /// Lower bounds of the exact values, as far as the errors are known.
   VectorXd lower_values() const;
-  /// As many values below the limit as inertia counts there.
+  /// The values below the limit are as many as the inertia count.
   bool agrees() const;
-  /// So many may be, by the errors of the values: no contradiction, and no proof.
+  /// The count is consistent with the errors of the values: no contradiction, but no proof.
   bool may_agree() const;
   void keep_first(Index count);
-  /// A residual is above the limit, and rounding alone does not explain it.
+  /// A residual is above the limit and not explained by rounding.
   bool worth_refining() const;
   void finish();
 
@@ -66,7 +66,7 @@ class Search {
   const SparseMatrix& M_;
   const EigenOptions& options_;
   const Index n_;
-  ModeSource source_;  // inside, rows of large problems are in the factor's order
+  ModeSource source_;  // internally, rows of large problems are in elimination order
   ModeSet modes_;
 };
 
@@ -109,7 +109,8 @@ void Search::take(EigenResult&& found) {
 }
 
 VectorXd Search::lower_values() const {
-  constexpr double kEstimates = 4.0;  // a value errs by two errors of its frequency; twice that
+  constexpr double kEstimates =
+      4.0;  // error of a value: twice that of its frequency; safety factor 2
   if (modes_.errors.size() == 0) return modes_.values;
   return modes_.values.array() - kEstimates * modes_.errors.array() * modes_.values.array().abs();
 }
@@ -134,7 +135,7 @@ void Search::prove(double limit) {
   const InertiaCount count = count_below(K_, M_, limit, source_.order());
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
-    throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; ask for another limit",
+    throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; choose another limit",
                                     hz_of_value(limit)));
   }
   modes_.proof.below = count.negative;
@@ -156,9 +157,9 @@ void Search::match_proof(int count) {
   }
 }
 
-/// The widest relative gap after the first `count` elastic values: {values before it, limit inside
+/// The widest relative gap after the first `count` elastic values: {values before it, limit within
 /// it}.
-/// @param lower what the true values are not below.
+/// @param lower lower bounds of the exact values.
 std::pair<Index, double> widest_gap(const VectorXd& values, const VectorXd& lower, Index count,
                                     double scale) {
   Index best = count;
@@ -179,10 +180,10 @@ void Search::find_by_count() {
   const auto all = static_cast<int>(n_ - known() - modes_.massless);
   const auto wanted = static_cast<int>(std::max<Index>(0, options_.count - known()));
   for (int extra = kExtra;; extra *= 4) {
-    const int asked = std::min(wanted + extra, all);
-    take(solve(asked, modes_.retries));
+    const int requested = std::min(wanted + extra, all);
+    take(solve(requested, modes_.retries));
     const VectorXd& values = modes_.values;
-    if (values.size() <= wanted) {  // the whole spectrum: nothing can be missing
+    if (values.size() <= wanted) {  // the complete spectrum: nothing can be missing
       modes_.proof = {true, values.size() > 0 ? values.tail(1)[0] : 0.0, values.size() + known(),
                       0.0};
       break;
@@ -190,9 +191,9 @@ void Search::find_by_count() {
     const auto [before, limit] =
         widest_gap(values, lower_values(), wanted, 1e-6 * std::abs(source_.sigma()));
     const bool found_gap = before < values.size();
-    if (!found_gap && asked < all && !approximate()) continue;  // a cluster: look further
+    if (!found_gap && requested < all && !approximate()) continue;  // a cluster: continue
     modes_.next_value = lower_values()[wanted];
-    if (!found_gap && approximate()) break;  // the errors leave no gap: nothing can be proved
+    if (!found_gap && approximate()) break;  // the errors leave no gap: no proof possible
     prove(limit);
     if (options_.prove_count && !agrees()) {
       ++modes_.retries;
@@ -211,13 +212,14 @@ void Search::find_by_count() {
 }
 
 void Search::find_by_limit_unproved(double limit) {
-  constexpr int kMore = 20;  // than estimated: what a first guess may lack of few modes
+  constexpr int kMore = 20;  // modes more than estimated: error of the estimate for few modes
   const Index all = n_ - known() - modes_.massless;
   int count = kMore + (small() ? 0 : source_.estimated_below(limit));
   for (;; count += count / 2) {
-    const int asked = static_cast<int>(std::min<Index>(count, all));
-    take(solve(asked, 0));
-    if (asked == all || modes_.values.size() < asked || modes_.values.tail(1)[0] >= limit) return;
+    const int requested = static_cast<int>(std::min<Index>(count, all));
+    take(solve(requested, 0));
+    if (requested == all || modes_.values.size() < requested || modes_.values.tail(1)[0] >= limit)
+      return;
   }
 }
 
@@ -244,7 +246,7 @@ void Search::find_by_limit() {
     const auto elastic = static_cast<int>(modes_.proof.below - known());
     if (elastic != 0) match_proof(std::max(elastic, 0) + kExtra);
   }
-  // The count knows the number; the errors may have lifted some over the limit.
+  // The count gives the number; errors may have raised some above the limit.
   const bool counted = options_.prove_count && may_agree();
   const Index kept = counted ? modes_.proof.below - known() : values_below(modes_.values, limit);
   if (!counted && approximate() && kept < modes_.values.size())
@@ -282,23 +284,23 @@ void Search::finish() {
     const SymmetricProduct& inertia = own ? *own : source_.mass();
     const auto measure = [&] { modes_.residuals = residuals_of(stiffness, inertia, modes_); };
     measure();
-    // With massless unknowns, what rounding leaves of infinite modes goes with one step.
+    // With massless DoFs, one step removes rounding components of infinite modes.
     const int least = modes_.massless > 0 ? 1 : 0;
     for (int k = 0;
          k < kMaxRefinements && !small() && !approximate() && (k < least || worth_refining());
          ++k) {
-      // What the factor weakens most, motion of high frequency left in the vectors, is what their
-      // residuals show most.
+      // The factor reduces high-frequency components most, and these dominate the
+      // residuals.
       refine_modes(source_.problem(), source_.mass(), modes_.vectors, modes_.values);
       modes_.solves += modes_.size();
       measure();
     }
   }
-  present(order, modes_);
+  restore_order(order, modes_);
   if (!approximate()) refuse_residuals(K_, M_, modes_, options_.max_residual);
   modes_.solves += source_.solves();
   modes_.factors = source_.factors();
-  take_rigid(K_, source_.rigid(), options_.rigid.has_value(), modes_);
+  insert_rigid(K_, source_.rigid(), options_.rigid.has_value(), modes_);
 }
 
 ModeSet Search::run() {
@@ -323,7 +325,7 @@ ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOpt
                     const SupernodalFactor* factor) {
   check_request(K, M, options);
   const auto masses = K.rows() - bounds_of(K, M).massless;
-  if (masses == 0) throw InputError("modes: found no mass, expected some");
+  if (masses == 0) throw InputError("modes: found no mass, expected a mass matrix with mass");
   if (masses < K.rows() && masses <= options.dense_limit && K.rows() > options.dense_limit &&
       factor == nullptr)
     return solve_few_masses(K, M, options);

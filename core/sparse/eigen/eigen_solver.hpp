@@ -15,19 +15,20 @@ namespace clatter::sparse {
 
 struct EigenOptions : EigenChoice {
   int count = 0;         // the lowest `count` modes, or
-  double fmax_hz = 0.0;  // all modes below this frequency; exactly one of both is given
+  double fmax_hz = 0.0;  // all modes below this frequency; exactly one of the two is given
   bool prove_count = true;
-  double amls_cutoff = 2.5;     // of kAmls: modes of parts are kept to this times the frequency
-  std::optional<double> sigma;  // shift [rad2/s2]; found from the matrices when absent
-  /// Rigid motions that are free, n x m with K rigid = 0: they are modes of 0 Hz and known
-  /// beforehand. No columns: nothing is free. Absent: not known.
+  double amls_cutoff =
+      2.5;  // of kAmls: multiple of the frequency up to which substructure modes are kept
+  std::optional<double> sigma;  // shift [rad2/s2]; chosen from the matrices when absent
+  /// Free rigid-body motions, n x m with K rigid = 0: modes of 0 Hz that are known in
+  /// advance. No columns: nothing is free. Absent: not known.
   std::optional<Eigen::MatrixXd> rigid;
   int max_retries = 2;  // new start vectors after a count mismatch
   uint64_t seed = 1;
-  int dense_limit = 300;       // up to this size dense algebra is used
+  int dense_limit = 300;       // up to this size a dense solver is used
   double max_residual = 1e-5;  // largest accepted residual of a mode
   FactorOptions factor;
-  Eigen::VectorXd start;  // first start vector in place of a random one (tests)
+  Eigen::VectorXd start;  // first start vector instead of a random one (tests)
 };
 
 /// What was proved about the number of modes.
@@ -41,34 +42,34 @@ struct CountProof {
 struct ModeSet {
   Eigen::VectorXd values;     // lambda [rad2/s2], ascending
   Eigen::MatrixXd vectors;    // n x m, M-orthonormal, largest entry of each positive
-  Eigen::VectorXd residuals;  // |K x - lambda M x| / (|lambda - sigma| |M x|); of rigid motions
+  Eigen::VectorXd residuals;  // |K x - lambda M x| / (|lambda - sigma| |M x|); of rigid-body modes
                               // |K x| / | |K| |x| |
-  Eigen::VectorXd rounding;   // eps |x|^T |K| |x| / 2 lambda, from above: what rounding of K's
-                              // entries may move a frequency by, relative; 0 for rigid modes
-  Eigen::VectorXd errors;     // of kAmls: estimated, of frequencies, relative; else empty
-  int rigid = 0;              // of 0 Hz: rigid motions, and mechanisms whose lambda is rounding
-  int known_rigid = 0;        // of these, rigid motions known beforehand
-  int64_t massless = 0;       // unknowns without mass: as many eigenvalues are infinite
+  Eigen::VectorXd rounding;   // eps |x|^T |K| |x| / 2 lambda, upper bound: relative change of
+                              // a frequency by rounding of K's entries; 0 for rigid-body modes
+  Eigen::VectorXd errors;     // of kAmls: estimated relative errors of frequencies; else empty
+  int rigid = 0;         // modes of 0 Hz: rigid-body modes, and mechanisms whose lambda is rounding
+  int known_rigid = 0;   // of these, rigid-body modes known in advance
+  int64_t massless = 0;  // DoFs without mass; each gives an infinite eigenvalue
   double sigma = 0.0;
-  double next_value = 0.0;  // a value that no unlisted mode stays below, as far as is known
+  double next_value = 0.0;  // lower bound of all modes not listed, as far as known
   std::string method;       // "block-lanczos", "arpack", "amls", "dense"
   CountProof proof;
   FactorReport factor;
-  int64_t solves = 0;  // vectors that went through a factor
-  int factors = 0;     // of K - sigma M, made to find the shift and after it
+  int64_t solves = 0;  // right-hand sides solved with a factor
+  int factors = 0;     // of K - sigma M, computed while choosing the shift and after
   int retries = 0;
-  double seconds = 0.0;  // of the eigen-solver alone
+  double seconds = 0.0;  // of the eigen-solver only
 
   int size() const { return static_cast<int>(values.size()); }
-  /// sqrt(lambda) / 2 pi [Hz]; 0 for rigid modes.
+  /// sqrt(lambda) / 2 pi [Hz]; 0 for rigid-body modes.
   Eigen::VectorXd frequencies_hz() const;
 };
 
 /// Modes of K x = lambda M x.
 /// @param K, M n x n, symmetric, lower triangle; K positive semidefinite, M positive definite, or
-/// semidefinite with rows that are zero: these give infinite eigenvalues, which are left out.
-/// @param factor of K - options.sigma M when the caller has it already (then sigma must be given).
-/// Throws InputError for a senseless request; NumericsError when the solver does not converge, a
+/// semidefinite with zero rows: these give infinite eigenvalues, which are omitted.
+/// @param factor of K - options.sigma M if the caller already has it (then sigma must be given).
+/// Throws InputError for an invalid request; NumericsError when the solver does not converge, a
 /// residual is too large, or the count does not match after all retries.
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
                     const SupernodalFactor* factor = nullptr);

@@ -15,7 +15,7 @@ KnownMotions::KnownMotions(MatrixXd U, MatrixXd MU) : U_(std::move(U)), MU_(std:
 
 void KnownMotions::remove(double* x, int count) const {
   if (U_.cols() == 0) return;
-  constexpr Index kRows = 4096;  // of a piece, so that sums do not depend on the threads
+  constexpr Index kRows = 4096;  // rows per piece, so that sums do not depend on the threads
   const Index n = U_.rows(), pieces = (n + kRows - 1) / kRows;
   Eigen::Map<RowMatrix> X(x, n, count);
   std::vector<MatrixXd> part(static_cast<size_t>(pieces));
@@ -41,7 +41,7 @@ MatrixXd orthonormal_in_mass(const SparseMatrix& M, const MatrixXd& R) {
   for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) {
     const Eigen::LLT<MatrixXd> gram(U.transpose() * multiply_symmetric(M, U));
     if (gram.info() != Eigen::Success)
-      throw NumericsError("modes: the rigid motions depend on each other in M");
+      throw NumericsError("modes: the rigid-body motions are linearly dependent in M");
     U = gram.matrixU().solve<Eigen::OnTheRight>(U).eval();
   }
   return U;

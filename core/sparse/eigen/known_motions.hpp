@@ -1,5 +1,5 @@
 #pragma once
-// Eigenvectors that are known beforehand, taken out of what a solver sees.
+// Projects eigenvectors that are known in advance out of an operator.
 #include <Eigen/Core>
 
 #include "core/base/sparse.hpp"
@@ -7,16 +7,16 @@
 
 namespace clatter::sparse {
 
-/// Motions U with K U = 0, U^T M U = 1: rigid motions. With P = 1 - U U^T M the operator
-/// P (K - sigma M)^{-1} M has the same other eigenpairs, and 0 in place of -1 / sigma for those of
-/// U, however small the shift is.
+/// Rigid-body motions U with K U = 0, U^T M U = 1. With P = 1 - U U^T M the operator
+/// P (K - sigma M)^{-1} M has the same other eigenpairs, and 0 instead of -1 / sigma for those of
+/// U, however small the shift.
 class KnownMotions {
  public:
   /// @param U n x m, M-orthonormal, rows in the order of the problem; @param MU M U.
   KnownMotions(Eigen::MatrixXd U, Eigen::MatrixXd MU);
   Eigen::Index count() const { return U_.cols(); }
   const Eigen::MatrixXd& vectors() const { return U_; }
-  /// x <- P x for `count` vectors that stand row by row, n x count; the same bits on any number of
+  /// x <- P x for `count` row-major vectors, n x count; bitwise reproducible for any number of
   /// threads.
   void remove(double* x, int count) const;
 

@@ -30,14 +30,14 @@ void for_each_tile(Index begin, Index end, Body&& body) {
   for (Index row = begin; row < end; row += kTile) body(row, std::min(kTile, end - row));
 }
 
-/// Rows shared out to the threads, one BLAS thread each.
+/// Distributes rows to the threads, one BLAS thread each.
 template <class Body>
 void on_all_threads(Index size, Body&& body) {
   const BlasThreads one(1);
   parallel_pieces(size, [&](int64_t begin, int64_t end) { for_each_tile(begin, end, body); });
 }
 
-/// Sum over all rows of the products `add(row, rows, sum)`, one partial sum a thread.
+/// Sum over all rows of the products `add(row, rows, sum)`, one partial sum per thread.
 template <class Add>
 MatrixXd summed(Index size, Index rows, Index columns, Add&& add) {
   const BlasThreads one(1);
@@ -91,7 +91,7 @@ KrylovBasis::KrylovBasis(Index size, Index room, Storage storage)
                                       : large_array(static_cast<size_t>(size * room))) {}
 
 /// body(row, rows, column, columns) for the tiles of columns [first, last) in rows [begin, end);
-/// while one is used the next is on its way to the cache.
+/// while one is used, the next is prefetched.
 template <class Body>
 void KrylovBasis::over_tiles(Index begin, Index end, Index first, Index last, Body&& body) const {
   constexpr Index kTileRows = 48, kTileColumns = 96, kLine = 8;

@@ -1,11 +1,11 @@
 #pragma once
-// A tall basis stored row by row, and the products that a block Krylov method makes with it.
+// A tall row-major basis, and the products that block Krylov methods need.
 #include <Eigen/Core>
 #include <memory>
 
 namespace clatter::sparse {
 
-/// `count` vectors row by row, size x count, aligned to whole rows.
+/// `count` row-major vectors, size x count, each row aligned.
 struct TallBlock {
   std::unique_ptr<double[]> data;
   Eigen::Index size = 0;
@@ -17,30 +17,30 @@ struct TallBlock {
   bool finite() const;
 };
 
-/// A^T B, count x count; tiles of rows on all threads, summed in order.
+/// A^T B, count x count; tiles of rows on all threads, summed in fixed order.
 Eigen::MatrixXd gram(const TallBlock& A, const TallBlock& B);
 
 /// A <- A R in place; R is count x count.
 void transform(TallBlock& A, const Eigen::MatrixXd& R);
 
-/// Where a basis stands.
+/// Storage of a basis.
 enum class Storage { kMemory, kDisk };
 
-/// n x room, row by row, in large pages or spilled to disk; the first columns are in use.
+/// n x room, row-major, in large pages or spilled to disk; the first columns are in use.
 class KrylovBasis {
  public:
   KrylovBasis(Eigen::Index size, Eigen::Index room, Storage storage = Storage::kMemory);
-  /// Columns [first, last)^T B, (last - first) x count; count is a multiple of kLanes here and
-  /// below.
+  /// Columns [first, last)^T B, (last - first) x count; count must be a multiple of kLanes, here
+  /// and below.
   Eigen::MatrixXd coefficients(Eigen::Index first, Eigen::Index last, const TallBlock& B) const;
   /// B -= columns [first, first + H.rows()) H.
   void subtract(Eigen::Index first, const Eigen::MatrixXd& H, TallBlock& B) const;
-  /// Columns [first, first + B.count) = B, and back.
+  /// Columns [first, first + B.count) = B, and the reverse.
   void put(Eigen::Index first, const TallBlock& B);
   void get(Eigen::Index first, TallBlock& B) const;
   /// Columns [0, S.cols()) = columns [0, S.rows()) S, in place.
   void transform(const Eigen::MatrixXd& S);
-  /// The first `count` columns as a matrix; the basis is given back row by row and lost.
+  /// The first `count` columns as a matrix; the memory of the basis is released row by row.
   Eigen::MatrixXd take_columns(Eigen::Index count);
 
  private:

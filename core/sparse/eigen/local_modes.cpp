@@ -13,9 +13,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kLoose = 0.01;      // accepted residual of a wanted mode, in nu
-constexpr double kDependent = 1e-9;  // a block that shrank by this has left its space
-constexpr Index kDenseBlocks = 6;    // up to so many blocks, dense algebra is cheaper
+constexpr double kLoose = 0.01;      // accepted residual of a wanted mode, relative to nu
+constexpr double kDependent = 1e-9;  // a block reduced by this factor is linearly dependent
+constexpr Index kDenseBlocks = 6;    // up to this many blocks, dense algebra is cheaper
 
 /// Largest first.
 DenseEigen descending(const MatrixXd& T) {
@@ -48,7 +48,7 @@ LocalModes all_by_dense(const LocalOperator& A, const LocalOptions& options) {
   return kept(MatrixXd::Identity(A.size, A.size), descending(T), C, options.cut);
 }
 
-/// What Lanczos carries from block to block.
+/// State of the Lanczos iteration.
 struct Krylov {
   MatrixXd Q, C, T, R;  // n x size, inside x size, size x size; R: rest = next block R
   Index size = 0;
@@ -65,7 +65,7 @@ struct Krylov {
   }
 };
 
-/// The wanted Ritz vectors and the first that is not: are they good enough?
+/// Whether the wanted Ritz vectors and the first unwanted one have converged.
 bool settled(const DenseEigen& ritz, const MatrixXd& R, double cut) {
   for (Index k = 0; k < ritz.values.size(); ++k) {
     const double residual = (R * ritz.vectors.col(k).tail(R.cols())).norm();

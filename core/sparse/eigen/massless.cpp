@@ -25,13 +25,13 @@ Split split_by_mass(const SparseMatrix& M) {
 /// Blocks of a symmetric matrix: rows `rows` and columns `columns`, both ascending.
 SparseMatrix block_of(const SparseMatrix& full, const std::vector<int32_t>& rows,
                       const std::vector<int32_t>& columns) {
-  std::vector<int32_t> place(static_cast<size_t>(full.rows()), -1);
+  std::vector<int32_t> new_index(static_cast<size_t>(full.rows()), -1);
   for (size_t k = 0; k < rows.size(); ++k)
-    place[static_cast<size_t>(rows[k])] = static_cast<int32_t>(k);
+    new_index[static_cast<size_t>(rows[k])] = static_cast<int32_t>(k);
   std::vector<Eigen::Triplet<double>> entries;
   for (size_t k = 0; k < columns.size(); ++k)
     for (SparseMatrix::InnerIterator it(full, columns[k]); it; ++it)
-      if (const int32_t row = place[static_cast<size_t>(it.row())]; row >= 0)
+      if (const int32_t row = new_index[static_cast<size_t>(it.row())]; row >= 0)
         entries.emplace_back(row, static_cast<int32_t>(k), it.value());
   SparseMatrix out(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
   out.setFromTriplets(entries.begin(), entries.end());

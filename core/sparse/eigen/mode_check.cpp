@@ -15,10 +15,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kColumns = 32;        // of vectors that are handled at a time
+constexpr Index kColumns = 32;        // vectors processed at a time
 constexpr double kBackward = 1e-12;   // relative change of entries that explains a residual
-constexpr double kZeroKnown = 0.1;    // of the bound of rounding; what is met is far below it
-constexpr double kZeroUnknown = 2.0;  // the same where zeros have to be told from their values
+constexpr double kZeroKnown = 0.1;    // of the rounding bound; actual values are far below it
+constexpr double kZeroUnknown = 2.0;  // the same where zeros are recognised only by their values
 constexpr double kResolved = 1e-10;   // of the shift; smaller values are zero to rounding
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
@@ -66,7 +66,7 @@ void refuse_residuals(const SparseMatrix& K, const SparseMatrix& M, const ModeSe
   }
 }
 
-void present(const std::vector<int64_t>& order, ModeSet& modes) {
+void restore_order(const std::vector<int64_t>& order, ModeSet& modes) {
   parallel_pieces(modes.size(), [&](int64_t begin, int64_t end) {
     VectorXd inside;
     for (int64_t j = begin; j < end; ++j) {
@@ -80,14 +80,14 @@ void present(const std::vector<int64_t>& order, ModeSet& modes) {
   });
 }
 
-void take_rigid(const SparseMatrix& K, const Eigen::MatrixXd& rigid, bool known_beforehand,
-                ModeSet& modes) {
+void insert_rigid(const SparseMatrix& K, const Eigen::MatrixXd& rigid, bool known_beforehand,
+                  ModeSet& modes) {
   const Index n = K.rows(), found = modes.size(), known = rigid.cols();
   modes.rounding = VectorXd::Zero(known + found);
   modes.known_rigid = modes.rigid = static_cast<int>(known);
   // |x|^T |K| |x| <= sum_i x_i^2 sum_j |K_ij|
   const VectorXd row_sums = magnitude_product(K, VectorXd::Ones(n));
-  // Where zeros were not known, they came as 1 / nu + sigma.
+  // Unknown zeros were computed as 1 / nu + sigma.
   const double zero = known_beforehand ? kZeroKnown : kZeroUnknown;
   const double unresolved = known_beforehand ? 0.0 : kResolved * std::abs(modes.sigma);
   for (Index j = 0; j < found; ++j) {
@@ -99,17 +99,17 @@ void take_rigid(const SparseMatrix& K, const Eigen::MatrixXd& rigid, bool known_
       modes.rounding[known + j] = 0.5 * uncertain / value;
   }
   if (known == 0) return;
-  const auto behind = [&](VectorXd& values, const VectorXd& first) {
+  const auto prepend = [&](VectorXd& values, const VectorXd& first) {
     VectorXd all(known + values.size());
     all << first, values;
     values.swap(all);
   };
-  behind(modes.values, VectorXd::Zero(known));
-  if (modes.errors.size() > 0) behind(modes.errors, VectorXd::Zero(known));
+  prepend(modes.values, VectorXd::Zero(known));
+  if (modes.errors.size() > 0) prepend(modes.errors, VectorXd::Zero(known));
   const VectorXd force = multiply_symmetric(K, rigid).colwise().norm();
-  behind(modes.residuals,
-         force.cwiseQuotient(magnitude_product(K, rigid).colwise().norm().transpose()));
-  // In its place: the vectors may fill half the memory.
+  prepend(modes.residuals,
+          force.cwiseQuotient(magnitude_product(K, rigid).colwise().norm().transpose()));
+  // In place: the vectors may fill half the memory.
   modes.vectors.conservativeResize(n, known + found);
   double* data = modes.vectors.data();
   std::copy_backward(data, data + n * found, data + n * (known + found));

@@ -33,7 +33,7 @@ Recurrence lanczos(const SubtreeProduct& A, int64_t size, uint64_t seed) {
   Columns last = Columns::Zero();
   for (int step = 0; step < kSteps; ++step) {
     x = q;
-    A.apply(A.whole(), x.data(), z.data(), kVectors, true);
+    A.apply(A.full_tree(), x.data(), z.data(), kVectors, true);
     z.array() -= before.array().rowwise() * last;
     const Columns alpha = z.cwiseProduct(q).colwise().sum().array();
     z.array() -= q.array().rowwise() * alpha;

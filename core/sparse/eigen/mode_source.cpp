@@ -48,8 +48,8 @@ EigenResult ModeSource::solve(int count, int retry) {
   EigenResult found = attempt(count, retry);
   solves_ += found.solves;
   seconds_ += clock.seconds();
-  // The vectors of AMLS need no more solves; their memory is wanted for the count.
-  if (found.errors.size() > 0) pencil_.give_back();
+  // The vectors of AMLS need no more solves; their memory is needed for the count.
+  if (found.errors.size() > 0) pencil_.release_factor();
   return found;
 }
 
@@ -91,7 +91,7 @@ EigenResult ModeSource::by_amls(int count, int retry) {
   options.cutoff = options_.amls_cutoff * std::pow(1.5, retry);
   options.seed = seed(retry);
   EigenResult found = solve_amls(pencil_, options);
-  // Where nothing can be left out it hands over to ARPACK.
+  // Where all modes are requested, ARPACK is used.
   method_ = name_of(found.errors.size() > 0 ? EigenMethod::kAmls : EigenMethod::kArpack);
   return found;
 }

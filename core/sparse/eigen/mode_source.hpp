@@ -1,6 +1,6 @@
 #pragma once
-// The lowest modes of one problem by the solver that is asked for: dense, block Lanczos, ARPACK or
-// AMLS. Whether any is missing is the caller's question.
+// The lowest modes of one problem by the requested solver: dense, block Lanczos, ARPACK or
+// AMLS. Completeness is checked by the caller.
 #include <string>
 #include <vector>
 
@@ -15,14 +15,14 @@ class ModeSource {
   ModeSource(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
              const SupernodalFactor* factor);
 
-  /// Dense algebra is used: rows keep their order, else they are in the order of the factor.
+  /// Whether a dense solver is used: rows keep their order, else they are in elimination order.
   bool dense() const { return n_ <= options_.dense_limit; }
-  /// The lowest `count` modes beside the rigid ones; each retry starts from other vectors.
+  /// The lowest `count` modes besides the rigid-body modes; each retry uses other start vectors.
   EigenResult solve(int count, int retry);
-  /// About how many modes lie below a value [rad2/s2]; of sparse problems.
+  /// Estimated number of modes below a value [rad2/s2]; for sparse problems.
   int estimated_below(double limit);
 
-  /// n x m, M-orthonormal, rows as given: motions known beforehand to have no stiffness.
+  /// n x m, M-orthonormal, original row order: known motions without stiffness.
   const Eigen::MatrixXd& rigid() const { return rigid_; }
   double sigma() const { return dense() ? dense_sigma_ : pencil_.sigma(); }
   const std::string& method() const { return method_; }
@@ -30,7 +30,7 @@ class ModeSource {
   const ShiftInvert& problem() const { return pencil_.problem(); }
   const SymmetricProduct& mass() const { return pencil_.mass(); }
   const FactorReport& report() const { return pencil_.report(); }
-  /// So far: vectors that went through a factor, factors made, seconds in the solvers.
+  /// Totals so far: solves with a factor, factorisations, seconds in the solvers.
   int64_t solves() const { return solves_ + pencil_.solves(); }
   int factors() const { return pencil_.factors(); }
   double seconds() const { return seconds_; }
@@ -38,12 +38,12 @@ class ModeSource {
  private:
   EigenResult attempt(int count, int retry);
   EigenResult by_dense(int count);
-  /// With a shift that moves where the first blocks show that it is far.
+  /// Moves the shift when the first blocks show that it is too far.
   EigenResult by_block_lanczos(int count, int retry);
   EigenResult by_amls(int count, int retry);
   EigenResult by_arpack(int count, int retry);
   uint64_t seed(int retry) const { return options_.seed + 7919 * static_cast<uint64_t>(retry); }
-  /// The caller's start vector in the factor's order; empty where there is none.
+  /// The caller's start vector in elimination order; empty when there is none.
   Eigen::VectorXd start(int retry) const;
 
   const SparseMatrix& K_;

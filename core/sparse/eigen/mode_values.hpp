@@ -1,5 +1,5 @@
 #pragma once
-// Eigenvalues and frequencies, and where to look for the lowest.
+// Conversion of eigenvalues and frequencies, and a default shift.
 #include "core/base/sparse.hpp"
 
 namespace clatter::sparse {
@@ -8,9 +8,9 @@ namespace clatter::sparse {
 double value_of_hz(double hz);
 double hz_of_value(double value);
 
-/// A negative shift of the size of a tenth of the first elastic eigenvalue of a compact body, from
+/// A negative shift of about a tenth of the first elastic eigenvalue of a compact body, from
 /// the median of K_jj / M_jj (the square of the highest frequency of an element) and the number of
-/// unknowns. Only speed depends on how good the guess is.
+/// unknowns. The quality of the guess affects only the speed.
 double default_shift(const SparseMatrix& K, const SparseMatrix& M);
 
 }  // namespace clatter::sparse

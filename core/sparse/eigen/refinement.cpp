@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index kColumns = 32;  // of vectors that are handled at a time
-constexpr Index kRows = 2048;   // the same
+constexpr Index kColumns = 32;  // vectors processed at a time
+constexpr Index kRows = 2048;   // rows processed at a time
 
 }  // namespace
 
@@ -24,9 +24,9 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
                   VectorXd& values) {
   const Index m = X.cols(), n = X.rows();
   MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
-  // Beside X, which may fill half the memory, two blocks are held, row by row.
+  // Besides X, which may fill half the memory, only two row-major blocks are held.
   RowMatrix image(n, kColumns), block(n, kColumns);
-  const auto project = [&](Index first, MatrixXd& onto) {  // rows of X up to the block itself
+  const auto project = [&](Index first, MatrixXd& onto) {  // columns of X up to this block
     const Index count = std::min(kColumns, m - first), end = first + count;
     onto.block(0, first, end, count) =
         transposed_rows_product(X.leftCols(end), image).leftCols(count);
@@ -49,7 +49,7 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
     project(first, mass);
   }
   const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
-  if (!ritz.ok) throw NumericsError("modes: the refined vectors depend on each other");
+  if (!ritz.ok) throw NumericsError("modes: the refined vectors are linearly dependent");
   const VectorXd nu = ritz.values.reverse();
   values = problem.sigma + nu.array().inverse();
   const MatrixXd to_modes =

@@ -1,5 +1,5 @@
 #pragma once
-// What every eigen-solver needs to know of K x = lambda M x, and what it gives back.
+// Input and result of an eigen-solver for K x = lambda M x.
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
@@ -10,7 +10,7 @@ namespace clatter::sparse {
 /// The spectral transformation nu = 1 / (lambda - sigma) (Ericsson and Ruhe, 1980): the wanted
 /// lowest lambda become the largest nu of (K - sigma M)^{-1} M.
 struct ShiftInvert {
-  /// y = A x for `count` vectors that stand row by row, size x count; y is not x.
+  /// y = A x for `count` row-major vectors, size x count; y must not alias x.
   using Apply = std::function<void(const double* x, double* y, int count)>;
   int64_t size = 0;
   double sigma = 0.0;  // [rad2/s2], below every eigenvalue, so that K - sigma M is definite
@@ -26,8 +26,8 @@ struct [[nodiscard]] EigenResult {
   std::string message;
   Eigen::VectorXd values;   // lambda [rad2/s2], ascending
   Eigen::MatrixXd vectors;  // n x m, M-orthonormal
-  Eigen::VectorXd errors;   // estimated, of frequencies, relative; empty: to rounding
-  int64_t solves = 0;       // vectors that went through the factor
+  Eigen::VectorXd errors;   // estimated relative errors of frequencies; empty: rounding level
+  int64_t solves = 0;       // right-hand sides solved with the factor
 
   bool ok() const { return status == EigenStatus::kConverged; }
 };

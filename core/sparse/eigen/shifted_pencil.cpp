@@ -16,13 +16,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kRounding = 2e-15;    // |sigma| over the highest eigenvalue: K holds no less
-constexpr double kCloser = 1e-4;       // next shift over the lowest Ritz value, which is too high
-constexpr double kBelow = 1e-2;        // the same where the shift was too small
-constexpr double kFar = 1e5;           // lowest eigenvalue over a shift that is too small
+constexpr double kRounding = 2e-15;  // |sigma| over the highest eigenvalue: rounding level of K
+constexpr double kCloser = 1e-4;  // next shift over the lowest Ritz value, which is an upper bound
+constexpr double kBelow = 1e-2;   // the same when the shift was too small
+constexpr double kFar = 1e5;      // ratio of lowest eigenvalue to a shift that is too small
 constexpr double kZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
 constexpr double kZeroUnknown = 1e-2;  // the same where zeros may not have converged
-constexpr double kLarger = 30.0;       // next shift where there is no factor
+constexpr double kLarger = 30.0;       // factor on the shift when factorisation fails
 constexpr int kMoves = 8;
 
 }  // namespace
@@ -49,18 +49,20 @@ PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M) {
 ShiftedPencil::ShiftedPencil(const SparseMatrix& K, const SparseMatrix& M,
                              const FactorOptions& options, const MatrixXd& rigid)
     : K_(K), M_(M), options_(options), given_rigid_(rigid) {
-  whole_.size = problem_.size = K.cols();
-  whole_.solve = [this](const double* x, double* y, int count) {
-    parallel_pieces(whole_.size * count,
+  full_problem_.size = problem_.size = K.cols();
+  full_problem_.solve = [this](const double* x, double* y, int count) {
+    parallel_pieces(full_problem_.size * count,
                     [&](int64_t begin, int64_t end) { std::copy(x + begin, x + end, y + begin); });
     factor().solve_in_order(y, count);
   };
-  whole_.mass = [this](const double* x, double* y, int count) { mass_->multiply(x, y, count); };
+  full_problem_.mass = [this](const double* x, double* y, int count) {
+    mass_->multiply(x, y, count);
+  };
   problem_.solve = [this](const double* x, double* y, int count) {
-    whole_.solve(x, y, count);
+    full_problem_.solve(x, y, count);
     rigid_->remove(y, count);
   };
-  problem_.mass = whole_.mass;
+  problem_.mass = full_problem_.mass;
 }
 
 void ShiftedPencil::set_order(const std::vector<int64_t>& order) {
@@ -75,14 +77,14 @@ void ShiftedPencil::set_order(const std::vector<int64_t>& order) {
 
 void ShiftedPencil::use(const SupernodalFactor& given, double sigma) {
   given_ = &given;
-  whole_.sigma = problem_.sigma = sigma;
+  full_problem_.sigma = problem_.sigma = sigma;
   report_ = given.report();
   set_order(given.permutation());
 }
 
 void ShiftedPencil::shift_to(double sigma) {
   own_.reset();
-  whole_.sigma = problem_.sigma = sigma;
+  full_problem_.sigma = problem_.sigma = sigma;
   const SupernodalFactor& made = factor();
   if (factors_ == 1) report_ = made.report();
   set_order(made.permutation());
@@ -93,7 +95,7 @@ const SupernodalFactor& ShiftedPencil::factor() {
   if (!own_) {
     const SparseMatrix shifted = K_ - problem_.sigma * M_;
     FactorOptions options = options_;
-    if (!order_.empty()) options.permutation = order_;  // the pattern is the same
+    if (!order_.empty()) options.permutation = order_;  // same sparsity pattern
     own_ = std::make_unique<SupernodalFactor>(shifted, options);
     ++factors_;
   }
@@ -110,8 +112,8 @@ bool ShiftedPencil::try_shift(double sigma) {
 }
 
 void ShiftedPencil::start_shift(bool known) {
-  // No guard but that elimination succeeds: what rounding leaves is judged by the modes' residuals
-  // and by the count.
+  // The only check is that elimination succeeds: rounding errors are detected by the modes'
+  // residuals and by the count.
   rigid_complete_ = known;
   if (known && given_rigid_.cols() == 0 && try_shift(0.0)) return;
   least_ = bounds_of(K_, M_).smallest_shift();
@@ -126,7 +128,7 @@ void ShiftedPencil::shift_from(double size) {
   while (!try_shift(-size)) {
     if (moves_left_-- <= 0) {
       options_ = strict;
-      shift_to(-size);  // throws what the caller is to read
+      shift_to(-size);  // throws the final error
     }
     size *= kLarger;
   }
@@ -135,7 +137,7 @@ void ShiftedPencil::shift_from(double size) {
 bool ShiftedPencil::follow(const Eigen::VectorXd& ritz, const Wanted& wanted) {
   if (moves_left_ <= 0) return false;
   const double size = -sigma();
-  double lowest = 0.0;  // above what may be zero
+  double lowest = 0.0;  // above possible zeros
   for (const double value : ritz)
     if (value > (rigid_complete_ ? kZeroKnown : kZeroUnknown) * size) {
       lowest = value;

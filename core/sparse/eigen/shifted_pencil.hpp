@@ -1,5 +1,5 @@
 #pragma once
-// K - sigma M, factorised: the operator that all sparse eigen-solvers work with, and the choice of
+// K - sigma M, factorised: the operator of all sparse eigen-solvers, and the choice of
 // its shift.
 #include <memory>
 #include <vector>
@@ -11,20 +11,20 @@
 
 namespace clatter::sparse {
 
-/// What K and M allow, whatever the shift is.
+/// Properties of K and M that limit the shift.
 struct PencilBounds {
-  double top = 0.0;               // largest K_jj / M_jj [rad2/s2]: the highest eigenvalue, about
-  int64_t massless = 0;           // unknowns without any mass: as many infinite eigenvalues
-  double smallest_shift() const;  // |sigma| below which rounding of K drowns sigma M
+  double top = 0.0;               // largest K_jj / M_jj [rad2/s2]: about the highest eigenvalue
+  int64_t massless = 0;           // DoFs without mass; each gives an infinite eigenvalue
+  double smallest_shift() const;  // |sigma| below which sigma M is lost in the rounding of K
 };
 
 PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
 
-/// The modes that are asked for: all below a limit, or the lowest so many.
+/// The requested modes: all below a limit, or the `count` lowest.
 struct Wanted {
   int count = 0;
   double limit = 0.0;  // [rad2/s2]
-  /// About the highest of them: values of a solid grow with the power 2/3 of their number (Weyl).
+  /// Estimate of the highest one: values of a solid grow with the power 2/3 of their number (Weyl).
   double highest(double lowest) const;
 };
 
@@ -37,37 +37,38 @@ class ShiftedPencil {
   ShiftedPencil(const ShiftedPencil&) = delete;
   ShiftedPencil& operator=(const ShiftedPencil&) = delete;
 
-  /// The factor of K - sigma M that the caller has.
+  /// Uses a factor of K - sigma M from the caller.
   void use(const SupernodalFactor& given, double sigma);
-  /// Factorises K - sigma M, in the order of the first time. Throws NotPositiveDefinite.
+  /// Factorises K - sigma M, with the permutation of the first factorisation. Throws
+  /// NotPositiveDefinite.
   void shift_to(double sigma);
-  /// The first shift, from the matrices alone: 0 where nothing is free to move, else default_shift.
-  /// @param known the rigid motions are all there are; else Ritz values far below the shift may be
-  /// zeros that have not converged, and are passed over.
+  /// The first shift, from the matrices only: 0 where nothing is free to move, else default_shift.
+  /// @param known all rigid-body motions are known; else Ritz values far below the shift may be
+  /// unconverged zeros, and are ignored.
   void start_shift(bool known);
-  /// Moves the shift where Ritz values show that it is far above the lowest elastic eigenvalue, to
-  /// a little below that one. A shift that is too far costs Lanczos about the square root of its
-  /// distance; each new factor brings it a factor of 1e4 or more closer.
-  /// @param ritz eigenvalues from above, ascending [rad2/s2].
-  /// @param wanted how far the search goes: a new factor pays only where that lies below the shift.
-  /// @returns true where the shift has moved; false: it is settled.
+  /// If Ritz values show that the shift is much larger than the lowest elastic eigenvalue, moves it
+  /// to slightly below that. The Lanczos effort grows with about the square root of the distance;
+  /// each new factor brings the shift closer by a factor of 1e4 or more.
+  /// @param ritz upper bounds of eigenvalues, ascending [rad2/s2].
+  /// @param wanted range of the search: a new factor pays off only where it lies below the shift.
+  /// @returns true if the shift has moved; false: it is final.
   bool follow(const Eigen::VectorXd& ritz, const Wanted& wanted);
-  /// Looks at the Ritz values of a few blocks until the shift need not move.
+  /// Repeats follow() with the Ritz values of a few blocks until the shift is final.
   void find_shift(const Wanted& wanted, uint64_t seed);
 
-  /// Without the rigid motions, in the order of the factor.
+  /// Without the rigid-body motions, in elimination order.
   const ShiftInvert& problem() const { return problem_; }
-  /// The whole operator, rigid motions included.
-  const ShiftInvert& whole() const { return whole_; }
+  /// The complete operator, including rigid-body motions.
+  const ShiftInvert& full_problem() const { return full_problem_; }
   const SymmetricProduct& mass() const { return *mass_; }
   const KnownMotions& rigid() const { return *rigid_; }
   const std::vector<int64_t>& order() const { return order_; }
   double sigma() const { return problem_.sigma; }
-  /// The factor; made anew when it was given back.
+  /// The factor; recomputed after release_factor().
   const SupernodalFactor& factor();
-  void give_back() { own_.reset(); }
+  void release_factor() { own_.reset(); }
   const FactorReport& report() const { return report_; }
-  /// Vectors that went through a factor to find the shift, and factors made.
+  /// Solves with a factor to find the shift, and number of factorisations.
   int64_t solves() const { return solves_; }
   int factors() const { return factors_; }
 
@@ -86,13 +87,13 @@ class ShiftedPencil {
   std::vector<int64_t> order_;
   std::unique_ptr<SymmetricProduct> mass_;
   std::unique_ptr<KnownMotions> rigid_;
-  ShiftInvert problem_, whole_;
+  ShiftInvert problem_, full_problem_;
   FactorReport report_;
   int64_t solves_ = 0;
   int factors_ = 0;
-  int moves_left_ = 0;          // of the shift; none where it is settled
+  int moves_left_ = 0;          // of the shift; 0 when it is final
   double least_ = 0.0;          // smallest shift
-  bool rigid_complete_ = true;  // the rigid motions are all there are
+  bool rigid_complete_ = true;  // all rigid-body motions are known
 };
 
 }  // namespace clatter::sparse

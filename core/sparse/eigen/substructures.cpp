@@ -5,7 +5,7 @@
 namespace clatter::sparse {
 namespace {
 
-/// Of every supernode: the first of its subtree, unknowns in it, and the number of its children.
+/// For every supernode: the first of its subtree, unknowns in the subtree, number of children.
 struct Subtrees {
   std::vector<int32_t> lowest, unknowns, children;
 
@@ -27,7 +27,7 @@ std::vector<Substructure> partition(const SupernodeTree& tree, const PartitionLi
   const Subtrees trees(tree);
   const auto is_leaf = [&](size_t s) { return trees.unknowns[s] <= limits.leaf; };
   std::vector<Substructure> out;
-  bool separator_last = false;  // the newest substructure is a separator
+  bool separator_last = false;  // the last substructure is a separator
   for (int32_t s = 0; s < tree.supernodes(); ++s) {
     const auto at = static_cast<size_t>(s);
     const int32_t parent = tree.parent[at];

@@ -41,7 +41,7 @@ void SubtreeProduct::scale(int64_t first, int64_t rows, double* x, int count) co
 void SubtreeProduct::apply(const Substructure& part, double* x, double* z, int count,
                            bool wide) const {
   const FactorView L = view(part);
-  const int64_t first = L.first_place(), end = L.end_place(), rows = end - first;
+  const int64_t first = L.first_index(), end = L.end_index(), rows = end - first;
   split_lanes(count, wide, [&](int64_t lane, int lanes) {
     backward_sweep(L, {x + lane, lanes, count});
   });
@@ -53,7 +53,7 @@ void SubtreeProduct::apply(const Substructure& part, double* x, double* z, int c
   });
 }
 
-void SubtreeProduct::to_motion(double* x, int count) const {
+void SubtreeProduct::to_displacement(double* x, int count) const {
   split_lanes(count, true, [&](int64_t lane, int lanes) {
     backward_sweep(factor_.view(), {x + lane, lanes, count});
   });

@@ -5,7 +5,7 @@
 namespace clatter::sparse {
 namespace {
 
-constexpr size_t kWorthKeeping = size_t{1} << 14;  // malloc does well with smaller ones
+constexpr size_t kWorthKeeping = size_t{1} << 14;  // malloc handles smaller ones well
 
 }  // namespace
 
@@ -17,7 +17,7 @@ Buffer BufferPool::take(size_t count) {
     free_.erase(found);
     return buffer;
   }
-  // The next ones are often a little larger; what is not touched costs nothing.
+  // Next requests are often slightly larger; untouched pages cost nothing.
   const size_t room = count + count / 4;
   return {large_array(room), room};
 }

@@ -1,17 +1,17 @@
 #pragma once
-// Arrays that are used again: the kernel clears every fresh page, which costs more than the sums.
+// Reuse of arrays: the kernel clears every new page, which costs more than the arithmetic.
 #include <map>
 #include <memory>
 
 namespace clatter::sparse {
 
-/// Doubles that are not set to zero.
+/// Uninitialised doubles.
 struct Buffer {
   std::unique_ptr<double[]> data;
   size_t room = 0;
 };
 
-/// Keeps returned arrays for requests of like size. For one thread.
+/// Keeps returned arrays for requests of similar size. Not thread-safe.
 class BufferPool {
  public:
   /// At least `count` doubles. Throws std::bad_alloc.
@@ -19,7 +19,7 @@ class BufferPool {
   void give(Buffer&& buffer);
 
  private:
-  std::multimap<size_t, Buffer> free_;  // by room
+  std::multimap<size_t, Buffer> free_;  // by size
 };
 
 }  // namespace clatter::sparse

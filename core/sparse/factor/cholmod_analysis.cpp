@@ -8,7 +8,7 @@
 namespace clatter::sparse {
 namespace {
 
-/// CHOLMOD's settings and workspace; its messages stay silent because we report them ourselves.
+/// CHOLMOD's settings and workspace; messages are off because we report errors ourselves.
 class Common {
  public:
   Common() {
@@ -18,7 +18,7 @@ class Common {
     data_.supernodal = CHOLMOD_SUPERNODAL;
     data_.nmethods = 1;
     data_.method[0].ordering = CHOLMOD_GIVEN;
-    // Larger blocks than CHOLMOD's own choice: our fronts and sweeps live by BLAS-3.
+    // Larger blocks than CHOLMOD's own choice: our fronts and sweeps rely on BLAS-3.
     data_.nrelax[0] = 8;
     data_.nrelax[1] = 32;
     data_.nrelax[2] = 96;
@@ -33,7 +33,7 @@ class Common {
   cholmod_common data_;
 };
 
-/// The pattern as CHOLMOD wants it: long indices, lower triangle.
+/// The pattern in CHOLMOD's format: long indices, lower triangle.
 struct LongPattern {
   std::vector<SuiteSparse_long> starts, rows;
   cholmod_sparse view{};
@@ -67,7 +67,7 @@ struct LongPattern {
   throw NumericsError(fmt::format("CHOLMOD failed with status {} while ordering", status));
 }
 
-/// Fills what the eliminated unknowns alone decide.
+/// Fills the parts that depend only on the eliminated unknowns.
 void take_supernodes(const cholmod_factor& factor, SupernodeTree& tree) {
   const auto* order = static_cast<const SuiteSparse_long*>(factor.Perm);
   const auto* super = static_cast<const SuiteSparse_long*>(factor.super);

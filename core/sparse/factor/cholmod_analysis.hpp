@@ -1,5 +1,5 @@
 #pragma once
-// The supernodes of a sparse factor by CHOLMOD's symbolic analysis.
+// Supernodes of a sparse factor by CHOLMOD's symbolic analysis.
 #include <vector>
 
 #include "core/sparse/factor/supernode_tree.hpp"
@@ -7,9 +7,9 @@
 namespace clatter::sparse {
 
 /// Fills order, first, row_start and rows of `tree` for L of P A P^T (Chen, Davis, Hager and
-/// Rajamanickam 2008); supernodes are merged where few zeros are stored for larger blocks, and
-/// stand in postorder. Throws NumericsError when memory runs out.
-/// @param lower n x n, lower triangle; order: unknown at each place, n.
+/// Rajamanickam 2008); supernodes are merged where this adds few zeros, and are
+/// in postorder. Throws NumericsError when memory runs out.
+/// @param lower n x n, lower triangle; order: permutation, n.
 void find_supernodes(const SparseMatrix& lower, const std::vector<int64_t>& order,
                      SupernodeTree& tree);
 

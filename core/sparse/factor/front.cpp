@@ -17,7 +17,7 @@ namespace clatter::sparse {
 namespace {
 
 constexpr double kZeroPivot = 1e-15;
-constexpr int kStripe = 192;  // columns of an update that one product makes
+constexpr int kStripe = 192;  // columns of the update per matrix product
 
 int cholesky(int n, double* a, int stride) {
   int info = 0;
@@ -34,7 +34,7 @@ void update_definite(const Front& front) {
               front.height(), 1.0, front.update, front.below);
 }
 
-/// The pivot block, kept in case Cholesky fails on it.
+/// The pivot block, saved in case Cholesky fails.
 std::vector<double> pivot_block(const Front& front) {
   const auto p = static_cast<size_t>(front.columns), h = static_cast<size_t>(front.height());
   std::vector<double> block(p * p);
@@ -69,8 +69,8 @@ BlockDiagonal bunch_kaufman(const Front& front) {
   return d;
 }
 
-/// sqrt(max (L21 L21^T)_ii): what Cholesky of the pivots makes of rows of unit size. At most about
-/// one where the whole matrix is definite; large where the pivot block barely is.
+/// sqrt(max (L21 L21^T)_ii): growth by Cholesky of the pivots for rows of unit size. At most about
+/// one where the full matrix is definite; large where the pivot block is nearly singular.
 double growth_definite(const Front& front) {
   std::vector<double> squares(static_cast<size_t>(front.below), 0.0);
   for (int j = 0; j < front.columns; ++j) {
@@ -98,7 +98,7 @@ void count_signs(const Front& front, const BlockDiagonal& d, PivotSigns& signs) 
   }
 }
 
-/// update -= A21 A11^{-1} A12, stripe by stripe of its lower triangle; returns max |A11^{-1} A12|.
+/// update -= A21 A11^{-1} A12, by stripes of its lower triangle; returns max |A11^{-1} A12|.
 double update_indefinite(const Front& front, const BlockDiagonal& d) {
   const int p = front.columns, q = front.below, h = front.height();
   if (q == 0) return 0.0;

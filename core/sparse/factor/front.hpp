@@ -5,7 +5,7 @@
 
 namespace clatter::sparse {
 
-/// The lower trapezoid of a front: `columns` pivots on top of `below` rows, and the square update
+/// The lower trapezoid of a front: `columns` pivots above `below` rows, and the square update
 /// matrix of these rows. Column-major; `panel` has columns + below rows.
 struct Front {
   int columns = 0;
@@ -16,15 +16,15 @@ struct Front {
 };
 
 /// Cholesky of the pivots, L21 = A21 L11^{-T}, update -= L21 L21^T. Returns 0, or 1 + the pivot
-/// where the matrix proved not to be positive definite.
+/// where the matrix is found not to be positive definite.
 int eliminate_definite(const Front& front);
 
 /// Signs of the pivots of a symmetric front.
 struct PivotSigns {
   int64_t negative = 0;
-  int64_t zero = 0;  // pivots below 1e-15 of a matrix with unit diagonal
-  /// Rounding of the update grows with its square: max |A11^{-1} A12| where A11 was indefinite,
-  /// sqrt(max (L21 L21^T)_ii) where it was definite.
+  int64_t zero = 0;  // pivots below 1e-15 for a matrix with unit diagonal
+  /// The rounding error of the update grows with its square: max |A11^{-1} A12| where A11 was
+  /// indefinite, sqrt(max (L21 L21^T)_ii) where it was definite.
   double growth = 0.0;
 };
 

@@ -8,9 +8,9 @@
 namespace clatter::sparse {
 namespace {
 
-static_assert(IDXTYPEWIDTH == 32, "METIS of Debian counts in 32 bits");
+static_assert(IDXTYPEWIDTH == 32, "Debian's METIS has 32-bit indices");
 
-/// METIS may end the process where memory runs out; asking for what it takes shows that first.
+/// METIS may abort when memory runs out; allocating its workspace first detects that.
 bool memory_for_metis(const CompressedGraph& graph) {
   const size_t bytes = 8 * sizeof(idx_t) * (graph.neighbours.size() + 8 * graph.weight.size());
   return std::unique_ptr<char[]>(new (std::nothrow) char[bytes]) != nullptr;
@@ -27,9 +27,9 @@ std::vector<int32_t> nested_dissection(const CompressedGraph& graph) {
   options[METIS_OPTION_NUMBERING] = 0;
   options[METIS_OPTION_SEED] = 1;
   idx_t size = graph.size();
-  std::vector<idx_t> at(static_cast<size_t>(size)), place(static_cast<size_t>(size));
+  std::vector<idx_t> at(static_cast<size_t>(size)), inverse(static_cast<size_t>(size));
   const int status = METIS_NodeND(&size, starts.data(), neighbours.data(), weight.data(), options,
-                                  at.data(), place.data());
+                                  at.data(), inverse.data());
   if (status != METIS_OK) at.clear();
   return at;
 }

@@ -7,8 +7,8 @@
 
 namespace clatter::sparse {
 
-/// Vertices of a graph in a fill-reducing order (Karypis and Kumar 1998), always from the same
-/// seed; empty when METIS fails or has no memory. The graph's entries must fit 32 bits
+/// Fill-reducing permutation of a graph (Karypis and Kumar 1998), always with the same
+/// seed; empty when METIS fails or is out of memory. The graph's entries must fit 32 bits
 /// (safe_ordering).
 std::vector<int32_t> nested_dissection(const CompressedGraph& graph);
 

@@ -16,9 +16,9 @@
 namespace clatter::sparse {
 namespace {
 
-/// What one thread needs.
+/// Workspace of one thread.
 struct Workspace {
-  std::vector<int32_t> local;      // row of the front by place
+  std::vector<int32_t> local;      // row of the front by row of L
   std::vector<int32_t> child_row;  // row of the front by row of a child's update
   Buffer panel;
   BufferPool pool;
@@ -69,9 +69,9 @@ class Elimination {
 void Elimination::assemble_matrix(int32_t s, const Workspace& work, const Front& front) const {
   const auto height = static_cast<size_t>(front.height());
   for (int j = 0; j < front.columns; ++j) {
-    const auto place = static_cast<size_t>(tree_.first[static_cast<size_t>(s)] + j);
+    const auto index = static_cast<size_t>(tree_.first[static_cast<size_t>(s)] + j);
     double* column = front.panel + static_cast<size_t>(j) * height;
-    for (int64_t k = matrix_.starts[place]; k < matrix_.starts[place + 1]; ++k) {
+    for (int64_t k = matrix_.starts[index]; k < matrix_.starts[index + 1]; ++k) {
       const auto row = static_cast<size_t>(matrix_.rows[static_cast<size_t>(k)]);
       column[work.local[row]] += matrix_.values[static_cast<size_t>(k)];
     }
@@ -98,7 +98,7 @@ void Elimination::assemble_child(int32_t child, Workspace& work, const Front& fr
       for (int64_t i = j; i < q; ++i) to[row[i]] += from[i];
     }
   };
-  constexpr int32_t kWide = 1000;  // below, starting threads costs more than it saves
+  constexpr int32_t kWide = 1000;  // below this, starting threads costs more than it saves
   if (!wide || q < kWide) return columns(0, q);
   const int pieces = thread_count();
   const auto cut = [&](int64_t piece) {  // equal areas of the triangle
@@ -107,7 +107,7 @@ void Elimination::assemble_child(int32_t child, Workspace& work, const Front& fr
   parallel_pieces(pieces, [&](int64_t begin, int64_t end) { columns(cut(begin), cut(end)); });
 }
 
-/// Zeros in panel and update, which may be the first touch of their pages: of a large front by all
+/// Zeros panel and update, possibly the first access to their pages: large fronts on all
 /// threads.
 void clear(const Front& front, bool wide) {
   constexpr int64_t kWide = 1 << 20;
@@ -203,8 +203,8 @@ void Elimination::add_to(Eigen::MatrixXd& schur) const {
 PermutedMatrix permuted(const SupernodeTree& tree, const SparseMatrix& lower,
                         const std::vector<double>& scale, const SparseMatrix& coupling) {
   const auto n = static_cast<size_t>(tree.size);
-  const std::vector<int32_t> place = tree.places();
-  const auto at = [&](Eigen::Index i) { return place[static_cast<size_t>(i)]; };
+  const std::vector<int32_t> inverse = tree.inverse_order();
+  const auto at = [&](Eigen::Index i) { return inverse[static_cast<size_t>(i)]; };
   PermutedMatrix out;
   out.starts.assign(n + 1, 0);
   for (int j = 0; j < lower.cols(); ++j)

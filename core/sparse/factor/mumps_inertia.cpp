@@ -76,10 +76,10 @@ Triplets shifted_triplets(const SparseMatrix& K, const SparseMatrix& M, double m
 
 void analyse(Mumps& mumps, const std::vector<int64_t>& permutation) {
   std::vector<MUMPS_INT> position(permutation.size());
-  for (size_t place = 0; place < permutation.size(); ++place) {
-    position[static_cast<size_t>(permutation[place])] = static_cast<MUMPS_INT>(place + 1);
+  for (size_t index = 0; index < permutation.size(); ++index) {
+    position[static_cast<size_t>(permutation[index])] = static_cast<MUMPS_INT>(index + 1);
   }
-  mumps.icntl(6) = 0;                            // keep the diagonal where it is
+  mumps.icntl(6) = 0;                            // keep the diagonal unpermuted
   mumps.icntl(7) = permutation.empty() ? 5 : 1;  // METIS, or the given order
   mumps.icntl(12) = 1;                           // plain ordering of the pattern
   mumps.icntl(13) = 1;                           // inertia of the root as well
@@ -94,8 +94,8 @@ void analyse(Mumps& mumps, const std::vector<int64_t>& permutation) {
   }
 }
 
-/// Factorises; delayed pivots may need more workspace than predicted, so it is raised and tried
-/// again.
+/// Factorises; delayed pivots may need more workspace than predicted, so it is raised and
+/// retried.
 void factorise(Mumps& mumps) {
   constexpr MUMPS_INT kRelaxation[] = {30, 100, 300};  // [%]
   for (const MUMPS_INT percent : kRelaxation) {

@@ -1,5 +1,5 @@
 #pragma once
-// The order in which unknowns are eliminated: it decides fill, memory and time.
+// Fill-reducing permutations, which determine fill, memory and time.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace clatter::sparse {
 
-/// Fill-reducing orders; kNatural keeps the order of the matrix (tests and given permutations).
+/// Permutation methods; kNatural keeps the order of the matrix (tests and given permutations).
 enum class Ordering { kMetis, kAmd, kNatural };
 
-/// METIS counts in 32 bits (hard case C5): kMetis is replaced by kAmd when a graph with `edges`
+/// METIS uses 32-bit indices (hard case C5): kMetis is replaced by kAmd when a graph with `edges`
 /// entries and `size` vertices does not fit.
 Ordering safe_ordering(Ordering wanted, int64_t size, int64_t edges);
 
-/// Unknowns that have the same neighbours and each other (the displacements of one node): METIS
-/// orders one vertex for all of them, with their number as its weight (Ashcraft, Compressed graphs
+/// Merges unknowns that have the same neighbours and are adjacent (the displacements of a node):
+/// METIS orders one vertex for all of them, weighted by their number (Ashcraft, Compressed graphs
 /// and the minimum degree algorithm, 1995).
 struct CompressedGraph {
   std::vector<int32_t> vertex;  // of each unknown
@@ -26,18 +26,18 @@ struct CompressedGraph {
   int32_t size() const { return static_cast<int32_t>(weight.size()); }
 };
 
-/// Finds them.
+/// Builds the compressed graph.
 /// @param lower n x n, lower triangle.
 CompressedGraph compress_graph(const SparseMatrix& lower);
 
 struct FillOrder {
-  std::vector<int32_t> order;  // unknown that stands at each place
+  std::vector<int32_t> order;  // permutation: unknown at each index
   Ordering method = Ordering::kNatural;
 };
 
 /// Nested dissection by METIS (Karypis and Kumar 1998) on the compressed graph, always from the
-/// same seed; AMD (Amestoy, Davis and Duff 2004) where METIS cannot count or has no memory (hard
-/// cases C5, C6).
+/// same seed; AMD (Amestoy, Davis and Duff 2004) where METIS's indices overflow or memory runs out
+/// (hard cases C5, C6).
 FillOrder fill_reducing_order(const SparseMatrix& lower, Ordering wanted);
 
 /// "metis", "amd", "natural".

@@ -23,10 +23,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kBlock = 128;  // right-hand sides that one sweep of all threads takes
+constexpr Index kBlock = 128;  // right-hand sides per sweep of all threads
 
 FactorReport report_of(const SupernodeTree& tree, const SparseMatrix& lower) {
-  constexpr double kCopies = 5.0;  // doubles an entry of A: scaled, permuted, shifted copies
+  constexpr double kCopies = 5.0;  // doubles per entry of A: scaled, permuted, shifted copies
   FactorReport report;
   report.size = tree.size;
   report.entries = tree.entries();
@@ -100,8 +100,8 @@ void SupernodalFactor::Impl::factorise(const SparseMatrix& lower, const SparseMa
     const FrontKernel kernel = [&](int32_t s, const Front& front) {
       const int failed = eliminate_definite(front);
       if (failed == 0) return;
-      const auto place = static_cast<size_t>(tree.first[static_cast<size_t>(s)] + failed - 1);
-      const int64_t column = tree.order[place];
+      const auto index = static_cast<size_t>(tree.first[static_cast<size_t>(s)] + failed - 1);
+      const int64_t column = tree.order[index];
       throw NotPositiveDefinite(
           fmt::format("matrix is not positive definite: factorisation stopped at column {}",
                       column),
@@ -133,18 +133,18 @@ void SupernodalFactor::Impl::check_pivots(const FactorOptions& options) {
       -1);
 }
 
-/// A singular matrix that slipped through turns the part of b in its null space, about 1/sqrt(n) of
-/// it, into a huge x: the residual is then not small, or x as large as rounding allows.
+/// An undetected singular matrix maps the component of b in its null space, about 1/sqrt(n) of
+/// it, to a huge x: the residual is then not small, or x as large as rounding allows.
 void SupernodalFactor::Impl::probe(const SparseMatrix& lower, const FactorOptions& options) {
   constexpr double kSmallResidual = 1e-10;
   const auto n = lower.rows();
   const Eigen::Map<const Eigen::VectorXd> s(scale.data(), n);
-  const Eigen::VectorXd b = random_vector(n);  // in the scaled matrix every row weighs the same
+  const Eigen::VectorXd b = random_vector(n);  // all rows of the scaled matrix have equal weight
   const Eigen::VectorXd rhs = b.cwiseQuotient(s);
   const Eigen::MatrixXd x = solve(rhs);
   const Eigen::VectorXd r = rhs - lower.selfadjointView<Eigen::Lower>() * x.col(0);
   report.probe_residual = r.cwiseProduct(s).norm() / b.norm();
-  // The largest diagonal entry of the scaled matrix lies in [1/2, 2]; that is |A| well enough.
+  // The largest diagonal entry of the scaled matrix lies in [1/2, 2]; a sufficient estimate of |A|.
   report.probe_condition = x.col(0).cwiseQuotient(s).norm() / b.norm();
   const double rounding = 100.0 * std::numeric_limits<double>::epsilon() * report.probe_condition;
   if (report.probe_condition <= options.max_condition &&
@@ -158,8 +158,8 @@ void SupernodalFactor::Impl::probe(const SparseMatrix& lower, const FactorOption
       -1);
 }
 
-/// Columns of b by blocks in the order of elimination, row by row; `use` gets each block (with room
-/// for the boundary behind it), its width and its first column.
+/// Row-major blocks of columns of b in elimination order; `use` gets each block (with space
+/// for the boundary after it), its width and its first column.
 template <class Use>
 void SupernodalFactor::Impl::by_blocks(const Eigen::Ref<const Eigen::MatrixXd>& b,
                                        Use&& use) const {
@@ -238,15 +238,15 @@ Eigen::MatrixXd SupernodalFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>&
 }
 
 void SupernodalFactor::solve_in_order(double* x, int count) const {
-  const auto sweep = [&](double* places, Index width) {
-    impl_->sweeps.solve(view(), impl_->scale, places, static_cast<int>(width));
+  const auto sweep = [&](double* rows, Index width) {
+    impl_->sweeps.solve(view(), impl_->scale, rows, static_cast<int>(width));
   };
   if (count == whole_lanes(count)) return sweep(x, count);
-  const Index n = size(), whole = whole_lanes(count);
-  RowMatrix padded = RowMatrix::Zero(n, whole);
+  const Index n = size(), padded_count = whole_lanes(count);
+  RowMatrix padded = RowMatrix::Zero(n, padded_count);
   Eigen::Map<RowMatrix> given(x, n, count);
   padded.leftCols(count) = given;
-  sweep(padded.data(), whole);
+  sweep(padded.data(), padded_count);
   given = padded.leftCols(count);
 }
 

@@ -21,15 +21,15 @@ void find_parents(SupernodeTree& tree) {
   }
 }
 
-/// Appends to each front the boundary unknowns that its subtree touches.
+/// Appends to each front the boundary unknowns coupled to its subtree.
 void add_boundary_rows(const SparseMatrix& coupling, SupernodeTree& tree) {
   tree.boundary = static_cast<int32_t>(coupling.cols());
-  const std::vector<int32_t> place = tree.places(), owner = tree.owners();
+  const std::vector<int32_t> index = tree.inverse_order(), owner = tree.owners();
   std::vector<std::vector<int32_t>> touched(tree.parent.size());
   for (int32_t b = 0; b < tree.boundary; ++b) {
     for (SparseMatrix::InnerIterator it(coupling, b); it; ++it) {
       auto& list = touched[static_cast<size_t>(
-          owner[static_cast<size_t>(place[static_cast<size_t>(it.row())])])];
+          owner[static_cast<size_t>(index[static_cast<size_t>(it.row())])])];
       if (list.empty() || list.back() != b) list.push_back(b);
     }
   }
@@ -54,9 +54,9 @@ void add_boundary_rows(const SparseMatrix& coupling, SupernodeTree& tree) {
 
 }  // namespace
 
-int32_t SupernodeTree::rows_before(int32_t s, int32_t place) const {
+int32_t SupernodeTree::rows_before(int32_t s, int32_t index) const {
   const int32_t* begin = rows_of(s) + columns(s);
-  return static_cast<int32_t>(std::lower_bound(begin, begin + below(s), place) - begin);
+  return static_cast<int32_t>(std::lower_bound(begin, begin + below(s), index) - begin);
 }
 
 double SupernodeTree::flops(int32_t s) const {
@@ -104,7 +104,7 @@ std::vector<int32_t> SupernodeTree::owners() const {
   return out;
 }
 
-std::vector<int32_t> SupernodeTree::places() const {
+std::vector<int32_t> SupernodeTree::inverse_order() const {
   std::vector<int32_t> out(order.size());
   for (size_t j = 0; j < order.size(); ++j) out[at(order[j])] = static_cast<int32_t>(j);
   return out;

@@ -8,11 +8,12 @@
 namespace clatter::sparse {
 namespace {
 
-/// kLanes doubles; the compiler splits them where registers are narrower. Vectors never cross a
-/// call, since each CPU's clone of the functions below has registers of its own.
+/// kLanes doubles; the compiler splits them where registers are narrower. Never passed to a
+/// function, since the CPU-specific clones below use different registers.
 using Vector = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
 
-// Sums that fit the registers; two products a cycle with a latency of four want eight at least.
+// Accumulators that fit into registers; two products per cycle with latency four need at least
+// eight.
 #ifdef __AVX512F__
 constexpr int kRows = 12;
 #else
@@ -52,8 +53,8 @@ CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, c
   for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
 }
 
-/// body(constant of value `count`) for count <= Most, nothing for 0: the rows that are left over in
-/// one go. One row by itself would wait for its own last product all the time.
+/// body(constant of value `count`) for count <= Most, nothing for 0: the remaining rows in
+/// one go. A single row would always wait for its previous product.
 template <int Most, class Body>
 CLATTER_INLINE void with_count(int count, Body&& body) {
   if constexpr (Most > 0) {

@@ -1,11 +1,11 @@
 #pragma once
-// The inner loops of triangular solves with many right-hand sides, in registers: BLAS packs a panel
-// for every product, which costs as much as the product when only some tens of columns use it.
+// Inner loops of triangular solves with many right-hand sides, in registers: BLAS packs a panel
+// for every product, which costs as much as the product for only some tens of columns.
 #include <cstdint>
 
 namespace clatter::sparse {
 
-/// Right-hand sides that stand side by side in registers.
+/// Right-hand sides processed together in registers.
 inline constexpr int kLanes = 8;
 
 /// Rows of kLanes values at distance `stride`.

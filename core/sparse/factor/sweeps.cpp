@@ -10,8 +10,8 @@
 namespace clatter::sparse {
 namespace {
 
-constexpr int kColumns = 48;  // of a panel, in one go: their part of x stays in the L1 cache
-constexpr int kTile = 96;     // rows: a tile of the panel stays there for all right-hand sides
+constexpr int kColumns = 48;  // of a panel at a time: their part of x stays in the L1 cache
+constexpr int kTile = 96;     // rows: a tile of the panel stays in L1 for all right-hand sides
 
 /// One supernode's part of L and of x.
 struct Block {
@@ -23,11 +23,11 @@ struct Block {
 
   Block(const FactorView& L, int32_t s, const SweepColumns& all)
       : columns(L.tree->columns(s)),
-        below(L.tree->rows_before(s, L.reach_place())),
+        below(L.tree->rows_before(s, L.reach_index())),
         height(L.tree->height(s)),
         panel(L.panels + L.tree->panel_start[static_cast<size_t>(s)]),
         rows(L.tree->rows_of(s) + columns),
-        x(all.at + int64_t{L.tree->first[static_cast<size_t>(s)] - L.first_place()} * all.stride) {}
+        x(all.at + int64_t{L.tree->first[static_cast<size_t>(s)] - L.first_index()} * all.stride) {}
 };
 
 template <class Body>
@@ -73,7 +73,7 @@ void backward_block(const Block& b, const SweepColumns& x, double* work) {
   }
 }
 
-/// One right-hand side: memory sets the pace, and BLAS-2 keeps it.
+/// One right-hand side: memory-bound, BLAS-2 is sufficient.
 void forward_vector(const Block& b, double* work) {
   const int height = static_cast<int>(b.height);
   cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, b.columns, b.panel, height,
@@ -95,16 +95,16 @@ void backward_vector(const Block& b, const double* work) {
 }  // namespace
 
 void forward_step(const FactorView& L, int32_t s, const SweepColumns& x, std::vector<double>& work,
-                  const BehindView& behind) {
+                  const RowsAfterView& after) {
   const Block b(L, s, x);
   work.assign(static_cast<size_t>(b.below) * static_cast<size_t>(x.count), 0.0);
   x.count == 1 ? forward_vector(b, work.data()) : forward_block(b, x, work.data());
-  const int32_t origin = L.first_place();
-  const int own = behind.sums == nullptr ? b.below : L.tree->rows_before(s, L.end_place());
+  const int32_t origin = L.first_index();
+  const int own = after.sums == nullptr ? b.below : L.tree->rows_before(s, L.end_index());
   const double* from = work.data();
   for (int k = 0; k < b.below; ++k, from += x.count) {
     double* to = k < own ? x.at + (b.rows[k] - origin) * x.stride
-                         : behind.sums + int64_t{behind.index[b.rows[k]]} * x.count;
+                         : after.sums + int64_t{after.index[b.rows[k]]} * x.count;
     for (int c = 0; c < x.count; ++c) to[c] += from[c];
   }
 }
@@ -112,7 +112,7 @@ void forward_step(const FactorView& L, int32_t s, const SweepColumns& x, std::ve
 void backward_step(const FactorView& L, int32_t s, const SweepColumns& x,
                    std::vector<double>& work) {
   const Block b(L, s, x);
-  const int32_t origin = L.first_place();
+  const int32_t origin = L.first_index();
   work.resize(std::max(work.size(), static_cast<size_t>(b.below) * static_cast<size_t>(x.count)));
   double* to = work.data();
   for (int k = 0; k < b.below; ++k, to += x.count)

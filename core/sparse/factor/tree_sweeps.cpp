@@ -15,34 +15,34 @@ struct TreeSweeps::Task {
   const std::vector<double>& scale;
   double* x;
   int64_t count;
-  double* sums;  // of each thread for the rows of the top, one thread behind the other
+  double* sums;  // of each thread for the rows of the top, thread after thread
 
-  void scale_place(int64_t place) const {
-    const double s = scale[static_cast<size_t>(L.tree->order[static_cast<size_t>(place)])];
-    for (int64_t c = 0; c < count; ++c) x[place * count + c] *= s;
+  void scale_row(int64_t row) const {
+    const double s = scale[static_cast<size_t>(L.tree->order[static_cast<size_t>(row)])];
+    for (int64_t c = 0; c < count; ++c) x[row * count + c] *= s;
   }
   FactorView subtree(int32_t lowest, int32_t root) const {
     FactorView view = L;
     view.from = lowest;
     view.to = root + 1;
-    view.reach = L.reach_place();
+    view.reach = L.reach_index();
     return view;
   }
   SweepColumns columns(const FactorView& view) const {
-    return {x + view.first_place() * count, static_cast<int>(count), count};
+    return {x + view.first_index() * count, static_cast<int>(count), count};
   }
 };
 
 namespace {
 
-/// Roots of subtrees of each thread, and the entries of L that a solve waits for.
+/// Roots of subtrees of each thread, and the entries of L on the critical path.
 struct Shares {
   TreeSchedule plan;
   std::vector<std::vector<int32_t>> roots;
   double cost = 0.0;
 };
 
-/// @param largest subtree, in parts of a thread's work.
+/// @param largest subtree, as a fraction of a thread's work.
 Shares share_out(const SupernodeTree& tree, int threads, double largest) {
   std::vector<double> entries(static_cast<size_t>(tree.supernodes()));
   for (int32_t s = 0; s < tree.supernodes(); ++s)
@@ -59,7 +59,7 @@ Shares share_out(const SupernodeTree& tree, int threads, double largest) {
   }
   double top = 0.0;
   for (const int32_t s : out.plan.top) top += entries[static_cast<size_t>(s)];
-  // Few columns leave the top to one thread, many share it.
+  // With few columns one thread does the top, with many all share it.
   out.cost = *std::max_element(load.begin(), load.end()) + top * 0.5 * (1.0 + 1.0 / threads);
   return out;
 }
@@ -67,7 +67,7 @@ Shares share_out(const SupernodeTree& tree, int threads, double largest) {
 }  // namespace
 
 TreeSweeps::TreeSweeps(const SupernodeTree& tree, int threads) {
-  // Large subtrees leave little to the top, small ones load the threads evenly.
+  // Large subtrees leave little work in the top, small ones balance the threads.
   Shares best = share_out(tree, std::max(1, threads), 0.15);
   for (const double largest : {0.3, 0.6, 1.0}) {
     Shares other = share_out(tree, std::max(1, threads), largest);
@@ -79,15 +79,15 @@ TreeSweeps::TreeSweeps(const SupernodeTree& tree, int threads) {
   top_ = std::move(plan.top);
   for (const int32_t s : top_)
     for (int32_t j = 0; j < tree.columns(s); ++j)
-      top_places_.push_back(tree.first[static_cast<size_t>(s)] + j);
-  for (int32_t b = 0; b < tree.boundary; ++b) top_places_.push_back(tree.size + b);
+      top_indices_.push_back(tree.first[static_cast<size_t>(s)] + j);
+  for (int32_t b = 0; b < tree.boundary; ++b) top_indices_.push_back(tree.size + b);
   index_.assign(static_cast<size_t>(tree.size + tree.boundary), -1);
-  for (size_t k = 0; k < top_places_.size(); ++k)
-    index_[static_cast<size_t>(top_places_[k])] = static_cast<int32_t>(k);
+  for (size_t k = 0; k < top_indices_.size(); ++k)
+    index_[static_cast<size_t>(top_indices_[k])] = static_cast<int32_t>(k);
 }
 
 void TreeSweeps::forward_subtrees(const Task& task) const {
-  const auto sums_of_thread = static_cast<int64_t>(top_places_.size()) * task.count;
+  const auto sums_of_thread = static_cast<int64_t>(top_indices_.size()) * task.count;
   parallel_pieces(static_cast<int64_t>(shares_.size()), [&](int64_t begin, int64_t end) {
     std::vector<double> work;
     for (int64_t t = begin; t < end; ++t) {
@@ -95,7 +95,7 @@ void TreeSweeps::forward_subtrees(const Task& task) const {
       std::fill_n(sums, sums_of_thread, 0.0);
       for (const int32_t root : shares_[static_cast<size_t>(t)]) {
         const FactorView view = task.subtree(lowest_[static_cast<size_t>(root)], root);
-        for (int64_t j = view.first_place(); j < view.end_place(); ++j) task.scale_place(j);
+        for (int64_t j = view.first_index(); j < view.end_index(); ++j) task.scale_row(j);
         for (int32_t s = view.from; s <= root; ++s)
           forward_step(view, s, task.columns(view), work, {sums, index_.data()});
       }
@@ -104,16 +104,16 @@ void TreeSweeps::forward_subtrees(const Task& task) const {
 }
 
 void TreeSweeps::join_top(const Task& task) const {
-  const auto places = static_cast<int64_t>(top_places_.size());
-  const int32_t size = task.L.tree->size, reach = task.L.reach_place();
-  parallel_pieces(places, [&](int64_t begin, int64_t end) {
+  const auto rows = static_cast<int64_t>(top_indices_.size());
+  const int32_t size = task.L.tree->size, reach = task.L.reach_index();
+  parallel_pieces(rows, [&](int64_t begin, int64_t end) {
     for (int64_t k = begin; k < end; ++k) {
-      const int32_t place = top_places_[static_cast<size_t>(k)];
-      if (place >= reach) continue;
-      if (place < size) task.scale_place(place);
+      const int32_t row = top_indices_[static_cast<size_t>(k)];
+      if (row >= reach) continue;
+      if (row < size) task.scale_row(row);
       for (size_t t = 0; t < shares_.size(); ++t) {
-        const double* sum = task.sums + (static_cast<int64_t>(t) * places + k) * task.count;
-        for (int64_t c = 0; c < task.count; ++c) task.x[place * task.count + c] += sum[c];
+        const double* sum = task.sums + (static_cast<int64_t>(t) * rows + k) * task.count;
+        for (int64_t c = 0; c < task.count; ++c) task.x[row * task.count + c] += sum[c];
       }
     }
   });
@@ -143,18 +143,18 @@ void TreeSweeps::backward_subtrees(const Task& task) const {
     }
   });
   parallel_pieces(task.L.tree->size, [&](int64_t begin, int64_t end) {
-    for (int64_t j = begin; j < end; ++j) task.scale_place(j);
+    for (int64_t j = begin; j < end; ++j) task.scale_row(j);
   });
 }
 
-std::unique_ptr<double[]> TreeSweeps::room_for_sums(int count) const {
-  return large_array(shares_.size() * top_places_.size() * static_cast<size_t>(count));
+std::unique_ptr<double[]> TreeSweeps::allocate_sums(int count) const {
+  return large_array(shares_.size() * top_indices_.size() * static_cast<size_t>(count));
 }
 
 void TreeSweeps::solve(const FactorView& L, const std::vector<double>& scale, double* x,
                        int count) const {
   const BlasThreads one(1);
-  const auto sums = room_for_sums(count);
+  const auto sums = allocate_sums(count);
   const Task task{L, scale, x, count, sums.get()};
   forward_subtrees(task);
   join_top(task);
@@ -165,10 +165,10 @@ void TreeSweeps::solve(const FactorView& L, const std::vector<double>& scale, do
 void TreeSweeps::forward_to_boundary(const FactorView& L, const std::vector<double>& scale,
                                      double* x, int count) const {
   const BlasThreads one(1);
-  const auto sums = room_for_sums(count);
-  FactorView whole = L;
-  whole.reach = L.tree->size + L.tree->boundary;
-  const Task task{whole, scale, x, count, sums.get()};
+  const auto sums = allocate_sums(count);
+  FactorView with_boundary = L;
+  with_boundary.reach = L.tree->size + L.tree->boundary;
+  const Task task{with_boundary, scale, x, count, sums.get()};
   forward_subtrees(task);
   join_top(task);
   sweep_top(task, false);

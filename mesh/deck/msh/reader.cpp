@@ -172,7 +172,7 @@ class Reader {
 
   void add_surfaces() {
     std::map<std::string, SurfaceBuilder> builders;
-    std::vector<FacePlace> faces;
+    std::vector<FaceRef> faces;
     for (const MshElements& elements : contents_.elements) {
       if (elements.dim != 2 || elements.tags.empty() || groups_.skips(elements)) continue;
       for (size_t e = 0; e < elements.tags.size(); ++e) {
@@ -196,7 +196,7 @@ class Reader {
 
   // The cell's face that the element is.
   BoundaryFace face_of(const MshElements& elements, size_t e, const std::string& group,
-                       const std::vector<FacePlace>& faces) const {
+                       const std::vector<FaceRef>& faces) const {
     const FaceType type = *face_type_of(elements.gmsh_type);
     std::array<int32_t, kMaxFaceNodes> ids{};
     const auto n = static_cast<size_t>(traits(type).nodes);
@@ -206,8 +206,8 @@ class Reader {
         fmt::format("element {} ({}) of surface '{}'", elements.tags[e], elements.kind, group);
     const FaceKey key = face_key(type, std::span(ids).first(n));
     const auto [first, last] =
-        std::equal_range(faces.begin(), faces.end(), FacePlace{key, 0, 0, 0},
-                         [](const FacePlace& a, const FacePlace& b) { return a.key < b.key; });
+        std::equal_range(faces.begin(), faces.end(), FaceRef{key, 0, 0, 0},
+                         [](const FaceRef& a, const FaceRef& b) { return a.key < b.key; });
     if (first == last)
       fail(
           fmt::format("{} is no face of a cell; --ignore \"{}\" skips the group, --ignore \"{}\" "

@@ -16,44 +16,44 @@ TEST(Plausible, MaterialsOfEnginesAreNotDoubted) {
       {"rubber", 1e6, 1100},     {"PA66-GF30", 9e9, 1360},   {"damping foam", 4e5, 30},
       {"ceramic", 380e9, 3900},  {"diamond", 1.2e12, 3500}};
   for (const auto& material : known) {
-    EXPECT_EQ(doubt_of_density(material.rho), "") << material.name;
-    EXPECT_EQ(doubt_of_modulus(material.E, material.rho), "") << material.name;
+    EXPECT_EQ(density_warning(material.rho), "") << material.name;
+    EXPECT_EQ(modulus_warning(material.E, material.rho), "") << material.name;
   }
-  EXPECT_EQ(doubt_of_poisson(0.4999), "");
-  for (const double length : {0.003, 0.02, 1.2, 25.0}) EXPECT_EQ(doubt_of_length(length), "");
+  EXPECT_EQ(poisson_warning(0.4999), "");
+  for (const double length : {0.003, 0.02, 1.2, 25.0}) EXPECT_EQ(length_warning(length), "");
 }
 
 TEST(Plausible, DensitiesOfOtherUnitsAreGuessed) {
-  EXPECT_EQ(doubt_of_density(7.85e-9),
+  EXPECT_EQ(density_warning(7.85e-9),
             "density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?");
-  EXPECT_EQ(doubt_of_density(7.85e-6),
+  EXPECT_EQ(density_warning(7.85e-6),
             "density 7.85e-06 kg/m3: did you mean 7850 (7.85e-06 kg/mm3)?");
-  EXPECT_EQ(doubt_of_density(7.85), "density 7.85 kg/m3: did you mean 7850 (7.85 g/cm3)?");
-  EXPECT_NE(doubt_of_density(0.284).find("lb/in3"), std::string::npos);
-  EXPECT_NE(doubt_of_density(7.35e-4).find("lbf s2/in4"), std::string::npos);
-  EXPECT_EQ(doubt_of_density(1e5), "density 100000 kg/m3");  // no unit makes it right
+  EXPECT_EQ(density_warning(7.85), "density 7.85 kg/m3: did you mean 7850 (7.85 g/cm3)?");
+  EXPECT_NE(density_warning(0.284).find("lb/in3"), std::string::npos);
+  EXPECT_NE(density_warning(7.35e-4).find("lbf s2/in4"), std::string::npos);
+  EXPECT_EQ(density_warning(1e5), "density 100000 kg/m3");  // no unit makes it right
 }
 
 TEST(Plausible, ModuliOfOtherUnitsAreGuessed) {
-  EXPECT_EQ(doubt_of_modulus(210000, 7850),
+  EXPECT_EQ(modulus_warning(210000, 7850),
             "Young's modulus 210000 Pa: did you mean 2.1e+11 (210000 MPa)?");
-  EXPECT_EQ(doubt_of_modulus(210, 7850), "Young's modulus 210 Pa: did you mean 2.1e+11 (210 GPa)?");
-  EXPECT_NE(doubt_of_modulus(2.1e14, 7850).find("2.1e+11 (MPa, not GPa)"), std::string::npos);
+  EXPECT_EQ(modulus_warning(210, 7850), "Young's modulus 210 Pa: did you mean 2.1e+11 (210 GPa)?");
+  EXPECT_NE(modulus_warning(2.1e14, 7850).find("2.1e+11 (MPa, not GPa)"), std::string::npos);
   // 3e7 psi is a modulus that rubber could have, steel not.
-  EXPECT_EQ(doubt_of_modulus(3e7, 1100), "");
+  EXPECT_EQ(modulus_warning(3e7, 1100), "");
   EXPECT_EQ(
-      doubt_of_modulus(3e7, 7850),
+      modulus_warning(3e7, 7850),
       "Young's modulus 3e+07 Pa with density 7850 kg/m3: did you mean 2.06843e+11 (3e+07 psi)?");
 }
 
 TEST(Plausible, LengthsAndFrequencies) {
-  EXPECT_EQ(doubt_of_length(60.0), "the part is 60 m long: did you mean 0.06 (60 mm)?");
-  EXPECT_EQ(doubt_of_length(60e-6), "the part is 6e-05 m long: did you mean 0.06 (m, not mm)?");
-  EXPECT_EQ(doubt_of_first_frequency(800.0, 0.6), "");
-  EXPECT_EQ(doubt_of_first_frequency(0.08, 3.0), "");  // a strip of 1 mm
+  EXPECT_EQ(length_warning(60.0), "the part is 60 m long: did you mean 0.06 (60 mm)?");
+  EXPECT_EQ(length_warning(60e-6), "the part is 6e-05 m long: did you mean 0.06 (m, not mm)?");
+  EXPECT_EQ(first_frequency_warning(800.0, 0.6), "");
+  EXPECT_EQ(first_frequency_warning(0.08, 3.0), "");  // a strip of 1 mm
   // Steel with E in MPa and rho in kg/m3, lengths in mm read as metres.
-  EXPECT_NE(doubt_of_first_frequency(1e-5, 300.0), "");
-  EXPECT_NE(doubt_of_first_frequency(5e7, 0.01).find("one system of units"), std::string::npos);
+  EXPECT_NE(first_frequency_warning(1e-5, 300.0), "");
+  EXPECT_NE(first_frequency_warning(5e7, 0.01).find("one system of units"), std::string::npos);
 }
 
 }  // namespace

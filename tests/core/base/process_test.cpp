@@ -137,8 +137,8 @@ TEST(ErrorPlaces, AreReadOffTheMessage) {
   std::filesystem::create_directories(folder);
   const std::string file = (folder / "a.toml").string();
   std::ofstream(file) << "x = 1\n";
-  const auto expect = [](const std::string& message, const ErrorPlace& expected) {
-    const ErrorPlace found = place_of(message);
+  const auto expect = [](const std::string& message, const ErrorPosition& expected) {
+    const ErrorPosition found = position_in(message);
     EXPECT_EQ(found.file, expected.file) << message;
     EXPECT_EQ(found.line, expected.line) << message;
     EXPECT_EQ(found.place, expected.place) << message;

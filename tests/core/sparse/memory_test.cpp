@@ -70,13 +70,13 @@ TEST(MemoryLimit, TheBasisShrinksThenGoesToDisk) {
   BlockLanczosOptions options;
   options.count = 100;
   const auto columns = [&](double held) {  // that fit beside 3 blocks and the modes
-    return basis_room(options, 16, 1000000, gib_of_doubles(1e6 * (held + 48 + 100)));
+    return basis_size(options, 16, 1000000, gib_of_doubles(1e6 * (held + 48 + 100)));
   };
-  const BasisRoom ample = columns(500), enough = columns(300), least = columns(200);
+  const BasisSize ample = columns(500), enough = columns(300), least = columns(200);
   EXPECT_EQ(ample.columns, 464);   // 4 modes and 4 blocks
   EXPECT_EQ(enough.columns, 272);  // 2 modes and 4 blocks, in whole blocks
   EXPECT_EQ(least.columns, 192);   // 1.25 modes and 4 blocks, in whole blocks
-  for (const BasisRoom& room : {ample, enough, least}) EXPECT_EQ(room.storage, Storage::kMemory);
+  for (const BasisSize& room : {ample, enough, least}) EXPECT_EQ(room.storage, Storage::kMemory);
   EXPECT_EQ(columns(150).storage, Storage::kDisk);
   EXPECT_EQ(columns(150).columns, enough.columns);
 }

@@ -1,4 +1,4 @@
-#include "core/fe/dof_place.hpp"
+#include "core/fe/dof_label.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace clatter::fe {
 
-std::string place_of(const FeModel& model, int32_t dof) {
+std::string describe_dof(const FeModel& model, int32_t dof) {
   Eigen::Index row = -1;
   double largest = 0.0;
   for (SparseMatrix::InnerIterator it(model.T, dof); it; ++it) {

@@ -1,5 +1,5 @@
 #pragma once
-// Why a matrix of a model could not be factorised, for people.
+// Explains to the user why a matrix of a model could not be factorised.
 #include <string>
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace clatter::modes {
 
-/// The same error with the model's name, what `matrix` it was ("K - sigma M"), where it stopped
-/// (node, place, direction; the body when there are several) and the likely cause: an unknown
-/// without stiffness or mass, a body that nothing holds, or a mechanism.
-/// @param left the DoF of the model behind each row of the matrix.
+/// The same error with the model's name, the `matrix` ("K - sigma M"), where factorisation stopped
+/// (node, position, direction; the body if there are several) and the likely cause: a DoF
+/// without stiffness or mass, an unsupported body, or a mechanism.
+/// @param left DoF of the model for each row of the matrix.
 sparse::NotPositiveDefinite explained(const fe::FeModel& model, const std::string& matrix,
                                       const std::vector<int32_t>& left,
                                       const sparse::NotPositiveDefinite& error);

@@ -1,10 +1,10 @@
-#include "core/modes/factor_trouble.hpp"
+#include "core/modes/factor_failure.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/fe/dof_place.hpp"
+#include "core/fe/dof_label.hpp"
 #include "core/fe/free_motions.hpp"
 
 namespace clatter::modes {
@@ -18,7 +18,7 @@ std::string body_of(const std::vector<int>& body, int32_t dof) {
                      std::count(body.begin(), body.end(), own));
 }
 
-/// Motions of the body that holds `dof`, or of any body, that nothing holds.
+/// Unsupported motions of the body of `dof`, or of any body.
 std::string loose_motions(const fe::FeModel& model, const std::vector<int>& body, int32_t dof) {
   const fe::FreeMotions free = fe::free_motions(model);
   std::vector<std::string> names;
@@ -40,22 +40,23 @@ sparse::NotPositiveDefinite explained(const fe::FeModel& model, const std::strin
   const int32_t dof = error.column < 0 ? -1 : left[static_cast<size_t>(error.column)];
   const std::vector<int> body = fe::bodies_of(model.K, model.M);
   std::string text = fmt::format("{}: {}: {}", model.name, matrix, error.what());
-  if (dof >= 0) text += ", at " + fe::place_of(model, dof) + body_of(body, dof);
+  if (dof >= 0) text += ", at " + fe::describe_dof(model, dof) + body_of(body, dof);
   const bool stiff = dof < 0 || model.K.coeff(dof, dof) > 0.0;
   const bool heavy = dof < 0 || model.M.coeff(dof, dof) > 0.0;
   const std::string loose = loose_motions(model, body, dof);
   if (!stiff)
     text += fmt::format(
-        ": it has no stiffness{}: a node that no cell or spring uses, or that a "
-        "damper alone holds",
+        ": it has no stiffness{}: a node without cells or springs, or with only a "
+        "damper",
         heavy ? "" : " and no mass");
   else if (!loose.empty())
-    text += ": nothing holds its " + loose + ": add a [[support]], or a [[tie]] to what holds it";
+    text += ": unsupported " + loose + ": add a [[support]], or a [[tie]] to a supported part";
   else
     text +=
-        ": supports hold all rigid motions, so this is a mechanism: couplings or equations that "
-        "work as a hinge, a part that is joined at too few nodes, or matrices that are not of one "
-        "body";
+        ": all rigid-body motions are supported, so this is a mechanism: couplings or equations "
+        "that "
+        "act as a hinge, a part connected at too few nodes, or matrices of different "
+        "models";
   return {text, error.column};
 }
 

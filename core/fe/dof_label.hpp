@@ -8,6 +8,6 @@ namespace clatter::fe {
 
 /// "node 12 (0.1, 0.2, 0.3) direction y" for coordinate `dof` of q, from the largest entry of its
 /// column of T; "DoF 12" when it moves no node.
-std::string place_of(const FeModel& model, int32_t dof);
+std::string describe_dof(const FeModel& model, int32_t dof);
 
 }  // namespace clatter::fe
