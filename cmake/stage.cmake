@@ -24,12 +24,12 @@ function(clatter_use_precompiled target from)
     target_precompile_headers(${target} REUSE_FROM ${from})
   endif()
 endfunction()
-set(clatter_foreign_headers
+set(clatter_third_party_headers
   <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
   <fstream> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <string>
   <string_view> <utility> <vector>)
 if(CLATTER_PRECOMPILE)
-  clatter_precompiled(clatter_headers ${clatter_foreign_headers})
+  clatter_precompiled(clatter_headers ${clatter_third_party_headers})
 endif()
 
 # clatter_library(<name> SOURCES a.cpp ... LINKS clatter::core ...)

@@ -20,9 +20,8 @@ constexpr double kBackward = 1e-12;  // of each row; refinement leaves 1e-16 or 
 constexpr double kBalance = 1e-8;    // of forces; rounding leaves 1e-12 or so
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 constexpr double kForward = 1.0;  // estimated relative error of the displacements: no correct digit
-constexpr double kDoubtful = 1e-3;  // the same, worth a warning
-constexpr double kHeldMotion =
-    1e-10;  // relative to the magnitudes that cancel in a row of K R; rounding leaves 1e-13
+constexpr double kDoubtful = 1e-3;     // the same, worth a warning
+constexpr double kHeldMotion = 1e-10;  // of the magnitudes in a row of K R; rounding is 1e-13
 
 using Factors = std::map<std::string, double>;
 

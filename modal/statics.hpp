@@ -24,8 +24,7 @@ struct StaticCase {
   Eigen::VectorXd applied;       // 6: force and moment about the origin of all loads
   double energy = 0.0;           // strain energy [J]
   double backward_error = 0.0;   // relative change of the entries of K and f that makes q exact
-  double forward_error =
-      0.0;  // estimated error of q from rounding of entries, relative to its largest entry
+  double forward_error = 0.0;    // estimated error of q by rounding, over its largest entry
   double balance = 0.0;  // |applied + reactions| over the sum of force magnitudes; moments over
                          // half the part's diagonal
   double balance_rounding = 0.0;         // part explained by rounding, where it is above 1e-8

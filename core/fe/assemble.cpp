@@ -100,7 +100,7 @@ class Scatter {
     if (form_ == MassForm::kConsistent || row == column)
       for (int d = 0; d < 3; ++d) M_[at.m[d] + position] += cell.mass(a, b);
     for (int d = 0; d < 3; ++d) {
-      // In the diagonal block direction e of column d stands at e - d; below it the block of row
+      // In the diagonal block direction e of column d is at e - d; below it the block of row
       // `position` follows 3 - d diagonal entries and complete blocks of three.
       double* k = K_ + at.k[d] + (row == column ? -d : 3 * position - d);
       for (int e = row == column ? d : 0; e < 3; ++e) k[e] += cell.stiffness(3 * a + e, 3 * b + d);

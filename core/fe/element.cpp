@@ -16,8 +16,7 @@ namespace {
 using mesh::CellNodes;
 using mesh::CellType;
 
-constexpr double kStraightTolerance =
-    1e-10;  // of an edge; the error of smaller deviations is as small
+constexpr double kStraightTolerance = 1e-10;  // of an edge; the error is as small
 
 /// K on all modes; returns the smallest det J. Where that is not positive, K is incomplete.
 double integrate_stiffness(const CellModes& modes, const CellNodes& x, const Material& material,

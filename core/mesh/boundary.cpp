@@ -33,8 +33,8 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
 bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   const auto hanging = mesh.node_sets.find(kHangingMidSideNodes);
   if (hanging == mesh.node_sets.end()) return false;
-  const auto middles = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
-  return std::all_of(middles.begin(), middles.end(), [&](int32_t node) {
+  const auto mid_side = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
+  return std::all_of(mid_side.begin(), mid_side.end(), [&](int32_t node) {
     return std::binary_search(hanging->second.begin(), hanging->second.end(), node);
   });
 }
@@ -101,20 +101,21 @@ void add_faces(const Mesh& mesh, const FaceBlock& block, SurfaceIntegrals& sum) 
 // Image, at the centre of a cell's face, of the outward direction of its reference cell. Where det
 // J is positive it points out of the cell however curved that is; the direction from the mean of
 // the corners need not.
-Eigen::Vector3d way_out(const Mesh& mesh, const BoundaryFace& face) {
+Eigen::Vector3d outward_direction(const Mesh& mesh, const BoundaryFace& face) {
   const CellBlock& cells = mesh.cells[static_cast<size_t>(face.block)];
   const auto reference = reference_nodes(cells.type);
   const auto cell = cells.nodes.row(face.cell);
   const int corners = traits(face.type).corners;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d face_centre = Eigen::Vector3d::Zero();
   for (const int32_t id : face.nodes().first(static_cast<size_t>(corners)))
-    middle += reference.row(std::find(cell.begin(), cell.end(), id) - cell.begin()).transpose();
-  middle /= corners;
+    face_centre +=
+        reference.row(std::find(cell.begin(), cell.end(), id) - cell.begin()).transpose();
+  face_centre /= corners;
   const Eigen::Vector3d centre =
       reference.topRows(traits(cells.type).corners).colwise().mean().transpose();
   const Eigen::Matrix3d jacobian =
-      cell_nodes(mesh, cells, face.cell).transpose() * cell_shape(cells.type, middle).gradient;
-  return jacobian * (middle - centre);
+      cell_nodes(mesh, cells, face.cell).transpose() * cell_shape(cells.type, face_centre).gradient;
+  return jacobian * (face_centre - centre);
 }
 
 }  // namespace
@@ -172,10 +173,10 @@ int64_t count_inward(const Mesh& mesh, const Surface& skin) {
   const BoundaryFaces boundary = boundary_faces(mesh);
   int64_t inward = 0;
   for (const FaceBlock& block : skin.faces) {
-    const Eigen::Vector2d middle = traits(block.type).corners == 3
+    const Eigen::Vector2d centre = traits(block.type).corners == 3
                                        ? Eigen::Vector2d::Constant(1.0 / 3.0)
                                        : Eigen::Vector2d::Zero();
-    const FaceShape shape = face_shape(block.type, middle);
+    const FaceShape shape = face_shape(block.type, centre);
     for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
       const auto ids = row_of(block.nodes, f);
       const auto found = boundary.find(face_key(block.type, ids));
@@ -184,7 +185,7 @@ int64_t count_inward(const Mesh& mesh, const Surface& skin) {
         continue;
       }
       const PointOnFace point = evaluate(face_nodes(mesh, ids), shape);
-      if (!(point.normal.dot(way_out(mesh, found->second)) > 0.0)) ++inward;
+      if (!(point.normal.dot(outward_direction(mesh, found->second)) > 0.0)) ++inward;
     }
   }
   return inward;

@@ -20,11 +20,11 @@ struct Body {
   const char* name;
   int rigid;
   SparseMatrix K, M;
-  MatrixXd motions;  // that are free
+  MatrixXd motions;  // free rigid-body motions
 };
 
 /// A bar of square section, about 5 000 unknowns, free and held at one end: its bending modes come
-/// in close pairs, which the mesh of tetrahedra splits a little.
+/// in close pairs, slightly separated by the tetrahedral mesh.
 const std::vector<Body>& bodies() {
   static const std::vector<Body> both = [] {
     const auto bar = test::solid_bar({0.25, 0.05, 0.05}, {10, 4, 4}, 0.3,
@@ -54,7 +54,8 @@ sparse::ModeSet solve(const Body& body, sparse::EigenMethod method, double accur
   return modes;
 }
 
-/// Modes [first, last) that no gap of 1 % parts, and the narrower gap around them, relative.
+/// Modes [first, last) without a gap of 1 % between them, and the narrower relative gap around
+/// them.
 struct Cluster {
   Index first, last;
   double gap;
@@ -72,7 +73,7 @@ std::vector<Cluster> clusters_of(const VectorXd& values, int rigid) {
     first = j;
     before = gap;
   }
-  return out;  // what follows the last gap may not be whole
+  return out;  // the cluster after the last gap may be incomplete
 }
 
 /// Sine of the largest principal angle, in M, between the motions of a cluster.
@@ -122,10 +123,11 @@ TEST(Agreement, AmlsFindsThemFromAboveWithinItsAccuracy) {
         return VectorXd(modes.frequencies_hz().tail(kModes - body.rigid));
       };
       const VectorXd error = (elastic(amls) - elastic(exact)).cwiseQuotient(elastic(exact));
-      EXPECT_GT(error.minCoeff(), -1e-9) << body.name;  // rounding alone goes below
+      EXPECT_GT(error.minCoeff(), -1e-9) << body.name;  // only rounding goes below
       EXPECT_LT(error.maxCoeff(), accuracy) << body.name;
       for (const Cluster& cluster : clusters_of(exact.values, body.rigid)) {
-        // What a Ritz vector holds of higher modes lifts its value by sin^2 times their distance.
+        // Components of higher modes in a Ritz vector raise its value by sin^2 times their
+        // distance.
         const double lifted =
             2.0 * error.segment(cluster.first - body.rigid, cluster.last - cluster.first)
                       .cwiseMax(1e-10)

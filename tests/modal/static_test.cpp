@@ -21,7 +21,7 @@ using assembly::testing::block_mesh;
 using assembly::testing::brick;
 using fe::FeModel;
 
-/// A bar of 0.1 x 0.2 x 0.4 m that stands on z0.
+/// A bar of 0.1 x 0.2 x 0.4 m supported on z0.
 FeModel bar(const std::string& toml) {
   mesh::Mesh mesh = block_mesh({2, 2, 4}, brick({0.1, 0.2, 0.4}));
   mesh.node_sets["corner"] = {0};
@@ -68,7 +68,7 @@ loads = { pull = 2.0 }
   EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-9 * tension(2));
   EXPECT_NEAR(largest_stress(model, pull).von_mises, 2000.0 / A, 1e-9 * tension(2));
   EXPECT_NEAR(pull.energy, 0.5 * 2000.0 * strain * 0.4, 1e-9 * pull.energy);
-  // The floor pulls down with all of it, at the middle of the face: M_x = y F, M_y = -x F.
+  // The floor reaction is the full force, at the centre of the face: M_x = y F, M_y = -x F.
   EXPECT_NEAR(pull.support_sums(0, 2), -2000.0, 1e-7);
   EXPECT_NEAR(pull.support_sums(0, 3), -200.0, 1e-7);
   EXPECT_NEAR(pull.support_sums(0, 4), 100.0, 1e-7);
@@ -100,7 +100,7 @@ value = 1.0e-4
 }
 
 TEST(Statics, AHeldReferencePointTakesForceAndMoment) {
-  // The bar hangs on a hub beside it: weight m g, moment m g times the arm.
+  // The bar is fixed to a hub at a distance: weight m g, moment m g times the arm.
   const FeModel model = bar(R"(
 [[point]]
 name = "hub"
@@ -130,9 +130,9 @@ value = 0.01
   EXPECT_NEAR(weight.reactions(2), m, 1e-9 * m);         // 1 m/s2
   EXPECT_NEAR(weight.reactions(4), 0.45 * m, 1e-9 * m);  // (hub - centre) x F about the hub
   EXPECT_NEAR(weight.reactions(3), 0.0, 1e-9 * m);
-  // A turned hub turns the free bar with it: no force, no energy.
+  // Rotating the hub rotates the free bar: no force, no energy.
   const StaticCase& turn = solution.cases[1];
-  EXPECT_LT(turn.energy, 1e-6);  // against 1e6 J of a bar that is bent by as much
+  EXPECT_LT(turn.energy, 1e-6);  // compared with 1e6 J if the bar were bent by as much
   for (Eigen::Index a = 0; a < model.nodes.rows(); ++a) {
     EXPECT_NEAR(turn.displacement(3 * a), -0.01 * (model.nodes(a, 1) - 0.1), 1e-10);
     EXPECT_NEAR(turn.displacement(3 * a + 1), 0.01 * (model.nodes(a, 0) - 0.5), 1e-10);
@@ -166,7 +166,7 @@ direction = [0.0, 0.0, -1.0]
   const StaticCase weight = solve_static(model, {}).cases[0];
   EXPECT_LT(weight.balance, 1e-10);
   EXPECT_NEAR(weight.support_sums.col(2).sum(), 62.4, 1e-8);
-  // The slope pushes along its normal only.
+  // The slope reacts only along its normal.
   EXPECT_NEAR(0.8 * weight.support_sums(0, 1), 0.6 * weight.support_sums(0, 2), 1e-8);
 }
 
@@ -232,7 +232,7 @@ reference = 293.15
     for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
       for (int d = 0; d < 3; ++d)
         EXPECT_NEAR(found.displacement(3 * a + d), 1.2e-3 * mesh.nodes(a, d), 1e-14);
-    // Against the 4.8e6 N and 2.4e8 Pa that held ends feel.
+    // Compared with 4.8e6 N and 2.4e8 Pa for fixed ends.
     EXPECT_LT(found.reactions.cwiseAbs().maxCoeff(), 1e-4);
     EXPECT_LT(found.stress[0].stress.cwiseAbs().maxCoeff(), 1e-2);
   }
@@ -247,7 +247,7 @@ reference = 293.15
   EXPECT_NEAR(pressed.stress[0].von_mises.maxCoeff(), 2.4e8, 1e-9 * 2.4e8);
 }
 
-TEST(Statics, StressIsSaidAtANodeNumberAPlaceAndASensor) {
+TEST(Statics, StressIsPrintedAtANodeNumberAPositionAndASensor) {
   FeModel model = bar(std::string(kSlide) + R"(
 [[sensor]]
 name = "gauge"
@@ -262,9 +262,9 @@ total = 2000.0
 )");
   for (int32_t a = 0; a < model.nodes.rows(); ++a) model.cells.node_ids.push_back(1000 + a);
   const StaticSolution solution = solve_static(model, {});
-  const auto said = [&](const std::string& place) {
+  const auto said = [&](const std::string& location) {
     std::string lines;
-    for (const int32_t node : nodes_at(model, {place}))
+    for (const int32_t node : nodes_at(model, {location}))
       for (const std::string& line : describe_stress(model, solution.cases[0], node)) lines += line;
     return lines;
   };
@@ -280,7 +280,7 @@ total = 2000.0
   EXPECT_THROW(nodes_at(model, {"gauge"}), InputError);
 }
 
-/// Files of one test in a folder of its own.
+/// Files of one test in a separate folder.
 class StaticFiles : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -343,7 +343,7 @@ TEST_F(StaticFiles, TheModelReadFromItsFileGivesTheSameSolution) {
   EXPECT_EQ(back.supports.names, model_.supports.names);
 }
 
-TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAPlaceThatIsNone) {
+TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAnInvalidPosition) {
   EXPECT_EQ(run("bar.fe.h5 --static --stress-at nowhere -o bar.static.h5"), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bar.static.h5"));
   ASSERT_EQ(run("bar.fe.h5 --static --case both --stress-at 1 -o bar.static.h5"), 0);

@@ -126,10 +126,10 @@ TEST(HardN15, JumpsOfStiffnessDoNotGrowTheSolvesAnyFurther) {
     const sparse::ModeSet soft = modes_of(model_of(1e-6), method, 12);
     const sparse::ModeSet softer = modes_of(model_of(1e-10), method, 12);
     EXPECT_TRUE(soft.proof.proved && softer.proof.proved) << sparse::name_of(method);
-    // AMLS counts vectors in substructures too, whose number its estimate of the density moves.
+    // AMLS also counts vectors in substructures, whose number depends on its density estimate.
     EXPECT_LE(softer.solves, (method == sparse::EigenMethod::kAmls ? 4 : 3) * soft.solves / 2)
         << sparse::name_of(method);
-    EXPECT_EQ(softer.rigid, 6);  // and twelve are not: the plates on the rubber are elastic
+    EXPECT_EQ(softer.rigid, 6);  // not twelve: the plates on the rubber are elastic
     for (int j = 6; j < 12; ++j) {
       const double ratio = softer.frequencies_hz()[j] / soft.frequencies_hz()[j];
       // AMLS within its accuracy; else what the plates' own stiffness adds, about 1e-5, and
@@ -157,8 +157,8 @@ TEST(HardN15, AStripIsSolvedToWhatRoundingAllowsAndSaysHowMuchThatIs) {
     for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
       found = std::max(found, tip.displacement[3 * a + 2]);
     EXPECT_LT(tip.backward_error, 1e-15);
-    // Shear deflects by (t / l)^2, a clamp of all directions and the mesh by some 1e-3; the rest is
-    // what the condition says.
+    // Shear contributes (t / l)^2, the full clamp and the mesh about 1e-3; the rest is
+    // due to the condition number.
     EXPECT_NEAR(found, exact, (2e-3 + tip.forward_error) * exact) << length;
     EXPECT_LT(tip.forward_error, 1.0) << length;
     EXPECT_GT(tip.forward_error, 1e-16 * std::pow(length / thickness, 2)) << length;
@@ -213,12 +213,12 @@ TEST(HardN16, ASoftMountHoldsABody) {
   auto box = test::spring_box(5, 4, 4);
   for (int d = 0; d < 3; ++d) box.K.coeffRef(d, d) *= 1.0 + 1e-8;  // springs to the ground
   const fe::FreeMotions free = fe::free_motions(box.K, box.M, box.rigid);
-  EXPECT_EQ(free.count(), 3);  // rotations about the held point
+  EXPECT_EQ(free.count(), 3);  // rotations about the supported point
   EXPECT_FALSE(free.all_free());
 }
 
 TEST(MasslessUnknowns, GiveInfiniteEigenvaluesThatAreCountedAndLeftOut) {
-  // A chain in which each second mass is taken away: springs k / 2 between those that stay.
+  // A chain with every second mass removed: springs k / 2 between the others.
   constexpr int n = 801;
   const auto chain = test::free_chain(n);
   SparseMatrix M = chain.M;
@@ -243,7 +243,7 @@ TEST(MasslessUnknowns, GiveInfiniteEigenvaluesThatAreCountedAndLeftOut) {
   }
 }
 
-TEST(FactorTrouble, NamesTheNodeTheDirectionAndTheCause) {
+TEST(FactorFailure, NamesTheNodeTheDirectionAndTheCause) {
   FeModel model = sheet(0.1, 0.3, kClamp, 2);
   model.K.coeffRef(7, 7) = 0.0;
   for (int j = 0; j < model.K.outerSize(); ++j)

@@ -306,8 +306,7 @@ BasisSize basis_size(const BlockLanczosOptions& options, Index block, Index size
                           static_cast<double>(columns + 3 * block + wanted)) <= left_gib;
   };
   // A restart lowers the polynomial degree, which determines convergence: avoided with few modes.
-  constexpr double kSmallGib =
-      0.25;  // small bases: vectors are cheap, and close spectra need the degree
+  constexpr double kSmallGib = 0.25;  // below: cheap vectors, and close spectra need the degree
   const Index roomy = round_up(2 * wanted + 48 * block);
   const bool small =
       gib_of_doubles(static_cast<double>(size) * static_cast<double>(roomy)) < kSmallGib;

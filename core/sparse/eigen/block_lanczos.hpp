@@ -13,11 +13,10 @@ namespace clatter::sparse {
 inline constexpr double kSpread = 1e-4;
 
 struct BlockLanczosOptions {
-  int count = 0;  // pairs wanted
-  int block = 0;  // vectors per block, a multiple of kLanes; 0: chosen from `count`
-  int basis = 0;  // largest subspace; 0: chosen from `count`
-  double tolerance =
-      1e-10;  // |Op x - nu x|_M / nu of each pair; the error of nu is then its square
+  int count = 0;             // pairs wanted
+  int block = 0;             // vectors per block, a multiple of kLanes; 0: chosen from `count`
+  int basis = 0;             // largest subspace; 0: chosen from `count`
+  double tolerance = 1e-10;  // |Op x - nu x|_M / nu; the error of nu is its square
   std::optional<Storage> storage;  // of the basis; absent: as memory allows
   int max_restarts = 50;
   uint64_t seed = 1;      // of the random start block

@@ -109,8 +109,7 @@ void Search::take(EigenResult&& found) {
 }
 
 VectorXd Search::lower_values() const {
-  constexpr double kEstimates =
-      4.0;  // error of a value: twice that of its frequency; safety factor 2
+  constexpr double kEstimates = 4.0;  // value errors are twice frequency errors; safety factor 2
   if (modes_.errors.size() == 0) return modes_.values;
   return modes_.values.array() - kEstimates * modes_.errors.array() * modes_.values.array().abs();
 }

@@ -91,8 +91,8 @@ double ModeDensity::nu_above(double count) const {
     high = std::max(high, points.front().nu);
   }
   while (high > 1.001 * low) {
-    const double middle = std::sqrt(low * high);
-    (count_above(middle) >= count ? low : high) = middle;
+    const double mean = std::sqrt(low * high);
+    (count_above(mean) >= count ? low : high) = mean;
   }
   return low;
 }

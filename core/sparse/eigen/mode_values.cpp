@@ -22,10 +22,10 @@ double default_shift(const SparseMatrix& K, const SparseMatrix& M) {
     if (m > 0.0) ratio.push_back(K.coeff(j, j) / m);
   }
   if (ratio.empty()) throw InputError("modes: M has no mass on its diagonal");
-  auto middle = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
-  std::nth_element(ratio.begin(), middle, ratio.end());
+  auto median = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
+  std::nth_element(ratio.begin(), median, ratio.end());
   // A body of n DoFs is about n^(1/3) elements long.
-  return -0.1 * *middle * std::pow(static_cast<double>(K.cols()), -2.0 / 3.0);
+  return -0.1 * *median * std::pow(static_cast<double>(K.cols()), -2.0 / 3.0);
 }
 
 }  // namespace clatter::sparse

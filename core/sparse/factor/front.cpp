@@ -50,22 +50,23 @@ void put_back(const std::vector<double>& block, const Front& front) {
 }
 
 struct BlockDiagonal {
-  std::vector<double> beside;  // subdiagonal of D
+  std::vector<double> subdiagonal;  // of D
   std::vector<int> pivots;
 };
 
 BlockDiagonal bunch_kaufman(const Front& front) {
   BlockDiagonal d;
-  d.beside.resize(static_cast<size_t>(front.columns));
+  d.subdiagonal.resize(static_cast<size_t>(front.columns));
   d.pivots.resize(static_cast<size_t>(front.columns));
   const int n = front.columns, stride = front.height(), query = -1;
   double best = 0.0;
   int info = 0;
-  dsytrf_rk_("L", &n, front.panel, &stride, d.beside.data(), d.pivots.data(), &best, &query, &info);
+  dsytrf_rk_("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(), &best, &query,
+             &info);
   const int room = std::max(1, static_cast<int>(best));
   std::vector<double> work(static_cast<size_t>(room));
-  dsytrf_rk_("L", &n, front.panel, &stride, d.beside.data(), d.pivots.data(), work.data(), &room,
-             &info);
+  dsytrf_rk_("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(), work.data(),
+             &room, &info);
   return d;
 }
 
@@ -87,13 +88,13 @@ void count_signs(const Front& front, const BlockDiagonal& d, PivotSigns& signs) 
     return front.panel[static_cast<size_t>(j) * static_cast<size_t>(front.height() + 1)];
   };
   for (int j = 0; j < front.columns; ++j) {
-    const double a = diagonal(j), beside = d.beside[static_cast<size_t>(j)];
-    if (beside == 0.0) {
+    const double a = diagonal(j), subdiagonal = d.subdiagonal[static_cast<size_t>(j)];
+    if (subdiagonal == 0.0) {
       signs.negative += a < -kZeroPivot;
       signs.zero += std::abs(a) <= kZeroPivot;
       continue;
     }
-    const double b = diagonal(++j), determinant = a * b - beside * beside;
+    const double b = diagonal(++j), determinant = a * b - subdiagonal * subdiagonal;
     signs.negative += determinant < 0.0 ? 1 : 2 * (a + b < 0.0);
   }
 }
@@ -112,7 +113,7 @@ double update_indefinite(const Front& front, const BlockDiagonal& d) {
             front.panel[static_cast<size_t>(j) * static_cast<size_t>(h) +
                         static_cast<size_t>(p + begin + c)];
     int info = 0;
-    dsytrs_3_("L", &p, &width, front.panel, &h, d.beside.data(), d.pivots.data(), x.data(), &p,
+    dsytrs_3_("L", &p, &width, front.panel, &h, d.subdiagonal.data(), d.pivots.data(), x.data(), &p,
               &info);
     for (size_t k = 0; k < static_cast<size_t>(p) * static_cast<size_t>(width); ++k)
       largest = std::max(largest, std::abs(x[k]));

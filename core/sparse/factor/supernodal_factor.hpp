@@ -24,14 +24,13 @@ struct FactorOptions {
 /// Cost and accuracy of a factorisation.
 struct FactorReport {
   int64_t size = 0;
-  int64_t entries = 0;          // of L, including zeros stored in blocks
-  double flops = 0.0;           // of the numeric factorisation
-  double predicted_gib = 0.0;   // L, update matrices, copies of A during factorisation
-  std::string ordering;         // "metis", "amd", "natural", "given"
-  double rcond = 0.0;           // (min L_jj / max L_jj)^2 of the scaled matrix
-  double probe_residual = 0.0;  // |A x - b| / |b| for a random b
-  double probe_condition =
-      0.0;  // |A| |x| / |b| of that solve: a lower bound of the condition number
+  int64_t entries = 0;           // of L, including zeros stored in blocks
+  double flops = 0.0;            // of the numeric factorisation
+  double predicted_gib = 0.0;    // L, update matrices, copies of A during factorisation
+  std::string ordering;          // "metis", "amd", "natural", "given"
+  double rcond = 0.0;            // (min L_jj / max L_jj)^2 of the scaled matrix
+  double probe_residual = 0.0;   // |A x - b| / |b| for a random b
+  double probe_condition = 0.0;  // |A| |x| / |b| of that solve: lower bound of condition
   double analyse_seconds = 0.0;
   double factor_seconds = 0.0;
 };

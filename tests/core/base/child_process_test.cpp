@@ -1,5 +1,5 @@
-// A child process that aborts, hangs, eats memory, exits or throws what is no exception (hard case
-// N17): each is told, nothing is left behind, and what it hands back is whole.
+// A child process that aborts, hangs, exhausts memory, exits or throws a non-exception (hard case
+// N17): each is reported, nothing is left over, and results are returned completely.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -40,10 +40,10 @@ std::string fall() {
 }
 
 void throw_text() { throw std::string("lost"); }
-// As a library's that must not throw.
+// Like a library function that must not throw.
 void callback() noexcept { throw_text(); }
 
-TEST(HardN17_ChildProcess, HandsBackWhatItMadeBitByBit) {
+TEST(HardN17_ChildProcess, ReturnsItsResultBitwise) {
   std::string large(10'000'000, '\0');
   for (size_t i = 0; i < large.size(); ++i) large[i] = static_cast<char>(i * i % 251);
   const ChildEnd end = child([&] { return large; });
@@ -52,7 +52,7 @@ TEST(HardN17_ChildProcess, HandsBackWhatItMadeBitByBit) {
   EXPECT_TRUE(child([] { return std::string(); }).done());
 }
 
-TEST(HardN17_ChildProcess, AbortAndSegmentationFaultAreToldWithTheStep) {
+TEST(HardN17_ChildProcess, AbortAndSegmentationFaultAreReportedWithTheStep) {
   const ChildEnd aborted = child(fall);
   EXPECT_EQ(aborted.kind, Kind::kCrashed);
   EXPECT_EQ(aborted.describe({}), "crashed (signal 6, Aborted)");
@@ -73,12 +73,12 @@ TEST(HardN17_ChildProcess, ExitInAnyWayWithoutAResultIsNoSuccess) {
   }
 }
 
-TEST(HardN17_ChildProcess, WhateverIsThrownIsCaughtAndOurErrorsKeepTheirKind) {
+TEST(HardN17_ChildProcess, EveryExceptionIsCaughtAndOurErrorsKeepTheirType) {
   const ChildEnd number = child([]() -> std::string { throw 42; });
   EXPECT_EQ(number.kind, Kind::kThrew);
   EXPECT_EQ(child([]() -> std::string { throw std::string("lost"); }).words, "lost");
   EXPECT_EQ(child([]() -> std::string { throw std::out_of_range("far"); }).words, "far");
-  // Where nobody can catch it, the run-time library ends the process.
+  // Where nothing can catch it, the C++ runtime ends the process.
   const ChildEnd terminated = child([]() -> std::string {
     callback();
     return "never";
@@ -106,10 +106,10 @@ TEST(HardN17_ChildProcess, AHangEndsAtTheTimeLimit) {
       limits);
   EXPECT_EQ(end.kind, Kind::kTimeLimit);
   EXPECT_EQ(end.describe(limits), "was stopped after 0.2 s (--time-limit)");
-  EXPECT_LT(clock.seconds(), 10.0);  // a loaded machine; alone it takes 0.23 s
+  EXPECT_LT(clock.seconds(), 10.0);  // allows for a loaded machine; 0.23 s on an idle one
 }
 
-TEST(HardN17_ChildProcess, AChildThatEatsMemoryIsStoppedAtTheLimit) {
+TEST(HardN17_ChildProcess, AChildThatExhaustsMemoryIsStoppedAtTheLimit) {
   ChildLimits limits;
   limits.memory_gib = 0.25;
   const ChildEnd slowly = child(
@@ -120,7 +120,7 @@ TEST(HardN17_ChildProcess, AChildThatEatsMemoryIsStoppedAtTheLimit) {
       limits);
   EXPECT_EQ(slowly.kind, Kind::kMemoryLimit);
   EXPECT_EQ(slowly.describe(limits), "ran out of memory (0.25 GiB, --memory-limit)");
-#ifndef __SANITIZE_ADDRESS__  // which aborts at such a request
+#ifndef __SANITIZE_ADDRESS__  // aborts on such an allocation
   const ChildEnd at_once =
       child([]() -> std::string { return {std::vector<char>(std::size_t{1} << 44, 'x').back()}; },
             limits);
@@ -149,7 +149,7 @@ TEST(HardN17_ChildProcess, LibrariesThatPrintDoNotReachOurStdoutAndItsLinesDo) {
   EXPECT_EQ(end.step, "second");
 }
 
-TEST(HardN17_ChildProcess, MuchTalkNeitherBlocksNorGrows) {
+TEST(HardN17_ChildProcess, MuchOutputNeitherBlocksNorGrows) {
   const ChildEnd end = child([]() -> std::string {
     for (int i = 0; i < 200'000; ++i) std::printf("line %d of a library that talks a lot\n", i);
     return "done";
@@ -158,7 +158,7 @@ TEST(HardN17_ChildProcess, MuchTalkNeitherBlocksNorGrows) {
   EXPECT_LE(end.chatter.size(), 4096u);
 }
 
-// A process that waits for a child which hangs; the child writes its number into `file`.
+// A process that waits for a hanging child; the child writes its process id to `file`.
 pid_t start_waiter(const std::filesystem::path& file, const std::filesystem::path& scratch) {
   const pid_t waiter = ::fork();
   if (waiter != 0) return waiter;
@@ -192,7 +192,7 @@ TEST(HardN17_ChildProcess, ASignalToTheParentTakesTheChildAndTheScratchWithIt) {
     int status = 0;
     ::waitpid(waiter, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
-    // An orphan that is dead and waits for init to collect it counts as gone.
+    // A zombie that init has not yet collected counts as ended.
     EXPECT_TRUE(comes_true([&] {
       std::ifstream stat("/proc/" + std::to_string(hanging) + "/stat");
       std::string number, name, state;
@@ -203,7 +203,7 @@ TEST(HardN17_ChildProcess, ASignalToTheParentTakesTheChildAndTheScratchWithIt) {
   }
 }
 
-TEST(HardN17_ChildProcess, NoCoreFileIsAskedForAndTheParentsStateStays) {
+TEST(HardN17_ChildProcess, NoCoreFileIsWrittenAndTheParentsStateStays) {
   rlimit before{}, after{};
   ::getrlimit(RLIMIT_CORE, &before);
   const ChildEnd end = child([] {

@@ -64,7 +64,7 @@ TEST(Config, BrokenTomlNamesLineAndColumn) {
   EXPECT_EQ(text.rfind("s.toml:1:", 0), 0U) << text;
 }
 
-TEST(Config, DefaultsStandInTheResolvedConfiguration) {
+TEST(Config, DefaultsAreInTheResolvedConfiguration) {
   const Config config = Config::parse("a = 1\n", "s");
   config.number("a");
   config.number_or("b", 4.5);
@@ -80,7 +80,7 @@ TEST(Config, AChoiceListsWhatIsAllowed) {
             "s:1: mode: found \"oily\", expected one of: film, none");
 }
 
-TEST(Config, WhatAFileDoesNotSayComesFromItsBase) {
+TEST(Config, MissingKeysAreTakenFromTheBase) {
   const std::filesystem::path folder = ::testing::TempDir() + "clatter_config_base";
   std::filesystem::create_directories(folder / "below");
   std::ofstream(folder / "below/base.toml") << "table = \"gas.csv\"\n[oil]\nmu = 0.01\nkeep = 1\n";

@@ -64,7 +64,7 @@ TEST_F(Files, MatricesComeBackAsTheyWere) {
   EXPECT_EQ(in.get_string("group", "unit"), "m");
 }
 
-TEST_F(Files, NothingStandsUnderTheFinalNameBeforeCommit) {
+TEST_F(Files, NoFileHasTheFinalNameBeforeCommit) {
   const fs::path path = folder_ / "a.h5";
   std::ofstream(path) << "older artefact";
   {

@@ -1,4 +1,4 @@
-// Bits that flip in a finished file: no reader takes a wrong number or text, and nothing crashes.
+// Flipped bits in a finished file: no reader accepts a wrong number or string, and nothing crashes.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDamaged = "checksum does not match: the file was damaged";
 
-/// All that the file of this test holds.
+/// The complete content of the test file.
 struct Content {
   std::vector<double> doubles;
   RowMatrix rows, middle_rows;
@@ -88,18 +88,18 @@ class Integrity : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// Flips one bit of the file at each of these places, one file after the other.
-  template <class Places>
-  void flip(const Places& places) {
-    const Content whole = read_all(path_);
+  /// For each of these positions, flips one bit of the file and reads it.
+  template <class Positions>
+  void flip(const Positions& positions) {
+    const Content expected = read_all(path_);
     const std::string good = bytes();
     int refused = 0;
-    for (const size_t at : places) {
+    for (const size_t at : positions) {
       std::string bad = good;
       bad[at] = static_cast<char>(bad[at] ^ (1 << (at * 5 % 8)));
       std::ofstream(path_, std::ios::binary) << bad;
       try {
-        EXPECT_TRUE(read_all(path_) == whole) << "byte " << at;
+        EXPECT_TRUE(read_all(path_) == expected) << "byte " << at;
       } catch (const InputError& error) {
         ++refused;
         EXPECT_NE(std::string(error.what()).find(path_.string()), std::string::npos);
@@ -115,19 +115,19 @@ class Integrity : public ::testing::Test {
 
 TEST_F(Integrity, NoByteOfAFileCanChangeANumberOrAText) {
   write(100);
-  std::vector<size_t> places(bytes().size());
-  std::iota(places.begin(), places.end(), size_t{0});
-  ASSERT_GT(places.size(), 9000u);
-  flip(places);
+  std::vector<size_t> positions(bytes().size());
+  std::iota(positions.begin(), positions.end(), size_t{0});
+  ASSERT_GT(positions.size(), 9000u);
+  flip(positions);
 }
 
 TEST_F(Integrity, NorInDataOfSeveralChunks) {
   write(40000);  // 320 kB: three chunks
   const size_t size = bytes().size();
   std::mt19937 draw(3);
-  std::vector<size_t> places;
-  for (int i = 0; i < 300; ++i) places.push_back(draw() % size);
-  flip(places);
+  std::vector<size_t> positions;
+  for (int i = 0; i < 300; ++i) positions.push_back(draw() % size);
+  flip(positions);
 }
 
 TEST_F(Integrity, TheLineNamesFileAndDataset) {

@@ -1,4 +1,4 @@
-// Matrices and DoF maps in text files: round trips to the last bit, refusals with file and line.
+// Matrices and DoF maps in text files: exact round trips, errors with file and line.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -35,7 +35,7 @@ TEST_F(MatrixTextTest, MatrixMarketReadsBackToTheLastBit) {
   A = (A * A.transpose() * 1e11 / 3.0).eval();
   A.diagonal().array() += 1e-7;
   A(7, 3) = A(3, 7) = 0.0;
-  A(9, 2) = A(2, 9) = 5e-324;  // the smallest number that there is
+  A(9, 2) = A(2, 9) = 5e-324;  // the smallest positive double
   const auto path = file("");
   write_matrix_market(path, A, {"a comment"});
   const SparseMatrix read = read_matrix_text(path);
@@ -73,7 +73,7 @@ TEST_F(MatrixTextTest, WhatIsWrongIsNamedWithItsLine) {
   expect_parts(refusal("1 1 4\n2 2 nan\n"), {":2", "finite"});
   expect_parts(refusal("1 1 4\n0 2 1\n"), {":2", "index 0"});
   expect_parts(refusal("1 1 4\n2 2\n"), {":2", "2 numbers"});
-  // A size that no memory holds is refused before any is taken.
+  // A size that exceeds any memory is refused before allocation.
   expect_parts(refusal(kHead + std::string("symmetric\n2000000000 2000000000 1\n1 1 1\n")),
                {"found 1 entries", "2000000000 rows"});
   expect_parts(refusal_of([] { read_matrix_text("absent.mtx"); }), {"absent.mtx", "no such file"});
@@ -97,7 +97,7 @@ rom::ReducedModel small_model() {
   return model;
 }
 
-TEST(DofMapTest, NodesAreSharedByComponentsOfOnePlace) {
+TEST(DofMapTest, NodesAreSharedByComponentsAtOnePosition) {
   const std::vector<rom::MappedDof> map = rom::map_of(small_model());
   ASSERT_EQ(map.size(), 6u);
   const std::vector<std::pair<int, int>> expected{{1, 1}, {1, 2}, {1, 6}, {2, 0}, {3, 1}, {4, 0}};

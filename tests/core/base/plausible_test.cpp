@@ -1,4 +1,4 @@
-// Values of another unit are told with a guess; values that can be are left alone.
+// Values in a wrong unit are reported with a guess; plausible values give no warning.
 #include <gtest/gtest.h>
 
 #include "core/base/plausible.hpp"
@@ -6,7 +6,7 @@
 namespace clatter {
 namespace {
 
-TEST(Plausible, MaterialsOfEnginesAreNotDoubted) {
+TEST(Plausible, EngineMaterialsGiveNoWarning) {
   struct {
     const char* name;
     double E, rho;
@@ -23,7 +23,7 @@ TEST(Plausible, MaterialsOfEnginesAreNotDoubted) {
   for (const double length : {0.003, 0.02, 1.2, 25.0}) EXPECT_EQ(length_warning(length), "");
 }
 
-TEST(Plausible, DensitiesOfOtherUnitsAreGuessed) {
+TEST(Plausible, DensitiesInOtherUnitsAreGuessed) {
   EXPECT_EQ(density_warning(7.85e-9),
             "density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?");
   EXPECT_EQ(density_warning(7.85e-6),
@@ -31,15 +31,15 @@ TEST(Plausible, DensitiesOfOtherUnitsAreGuessed) {
   EXPECT_EQ(density_warning(7.85), "density 7.85 kg/m3: did you mean 7850 (7.85 g/cm3)?");
   EXPECT_NE(density_warning(0.284).find("lb/in3"), std::string::npos);
   EXPECT_NE(density_warning(7.35e-4).find("lbf s2/in4"), std::string::npos);
-  EXPECT_EQ(density_warning(1e5), "density 100000 kg/m3");  // no unit makes it right
+  EXPECT_EQ(density_warning(1e5), "density 100000 kg/m3");  // no unit makes it plausible
 }
 
-TEST(Plausible, ModuliOfOtherUnitsAreGuessed) {
+TEST(Plausible, ModuliInOtherUnitsAreGuessed) {
   EXPECT_EQ(modulus_warning(210000, 7850),
             "Young's modulus 210000 Pa: did you mean 2.1e+11 (210000 MPa)?");
   EXPECT_EQ(modulus_warning(210, 7850), "Young's modulus 210 Pa: did you mean 2.1e+11 (210 GPa)?");
   EXPECT_NE(modulus_warning(2.1e14, 7850).find("2.1e+11 (MPa, not GPa)"), std::string::npos);
-  // 3e7 psi is a modulus that rubber could have, steel not.
+  // 3e7 Pa is plausible for rubber, but not for steel: probably psi.
   EXPECT_EQ(modulus_warning(3e7, 1100), "");
   EXPECT_EQ(
       modulus_warning(3e7, 7850),

@@ -44,7 +44,7 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
   set_thread_count(0);
 }
 
-/// What is left of an HDF5 file and a text file when `signal` ends the process that writes them.
+/// The files left when `signal` ends a process that writes an HDF5 file and text files.
 void end_while_writing(int signal) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("clatter_signal_" + std::to_string(::getpid()));
@@ -132,8 +132,8 @@ TEST(CommandLine, TheDepfileNamesEachInputTwice) {
   std::filesystem::remove(path);
 }
 
-TEST(ErrorPlaces, AreReadOffTheMessage) {
-  const auto folder = std::filesystem::temp_directory_path() / "clatter_error_places: 7";
+TEST(ErrorPositions, AreParsedFromTheMessage) {
+  const auto folder = std::filesystem::temp_directory_path() / "clatter_error_positions: 7";
   std::filesystem::create_directories(folder);
   const std::string file = (folder / "a.toml").string();
   std::ofstream(file) << "x = 1\n";
@@ -149,7 +149,7 @@ TEST(ErrorPlaces, AreReadOffTheMessage) {
   expect(file + ": cannot be read", {file, 0, ""});
   expect("not converged: 7 of 20 modes", {"", 0, ""});
   std::filesystem::remove_all(folder);
-  expect(file + ":3: mesh.size: found 0", {"", 0, ""});  // neither there nor said to be used
+  expect(file + ":3: mesh.size: found 0", {"", 0, ""});  // neither existing nor registered
   will_read(file);
   expect(file + ":3: mesh.size: found 0", {file, 3, "mesh.size"});
 }

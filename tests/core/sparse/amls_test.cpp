@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using test::by_count;
 using test::spring_box;
 
-/// AMLS on a factor of its own, as solve_modes calls it.
+/// AMLS with its own factor, as called by solve_modes.
 EigenResult direct(const test::Pencil& box, const AmlsOptions& options) {
   const MatrixXd nothing_known(box.K.rows(), 0);
   ShiftedPencil pencil(box.K, box.M, {}, nothing_known);
@@ -39,7 +39,7 @@ AmlsOptions small_leaves(int count, double cutoff, int refinements) {
   options.count = count;
   options.cutoff = cutoff;
   options.leaf = 60;
-  options.accuracy = 1e30;  // the projection as it is, after one step
+  options.accuracy = 1e30;  // accepts the projection after one step
   options.max_refinements = refinements;
   return options;
 }
@@ -83,7 +83,7 @@ TEST(Amls, IsExactWhenNoLocalModeIsLeftOut) {
   ASSERT_TRUE(found.ok()) << found.message;
   const VectorXd exact = dense_values(box, 30);
   for (int j = 6; j < 30; ++j) EXPECT_NEAR(found.values[j], exact[j], 1e-10 * exact[j]) << j;
-  // The step behind the projection had nothing to lower: the projection itself was exact.
+  // The step after the projection lowered nothing: the projection itself was exact.
   EXPECT_LT(found.errors.maxCoeff(), 1e-10);
 }
 
@@ -95,13 +95,13 @@ TEST(Amls, FrequenciesComeFromAboveAndFallAsTheCutOffRises) {
     const EigenResult found = direct(box, small_leaves(40, cutoff, 1));
     ASSERT_TRUE(found.ok()) << found.message;
     const VectorXd error = (found.values - exact).tail(34).cwiseQuotient(exact.tail(34));
-    EXPECT_GT(error.minCoeff(), -1e-10);  // rounding alone may go below
+    EXPECT_GT(error.minCoeff(), -1e-10);  // only rounding may go below
     EXPECT_LT(error.maxCoeff(), last);
     last = error.maxCoeff();
   }
 }
 
-TEST(Amls, TheErrorOfABoxIsBelowTheAccuracyAskedFor) {
+TEST(Amls, TheErrorOfABoxIsBelowTheRequestedAccuracy) {
   const auto box = spring_box(12, 10, 9);
   const ModeSet exact = solve_modes(box.K, box.M, by_count(40, EigenMethod::kArpack));
   for (const double accuracy : {5e-3, 2e-4}) {
@@ -161,13 +161,14 @@ TEST(Amls, ALimitWithinTheErrorOfAFrequencyIsCountedButNotProved) {
   count.count = 40;
   count.prove_count = false;
   const ModeSet rough = solve_modes(box.K, box.M, count);
-  Index worst = 0;  // the mode that errs most, clear of the next
+  Index worst = 0;  // the mode with the largest error, separated from the next
   for (Index j = 6; j < 40; ++j) {
     const auto error = [&](Index k) { return rough.values[k] / exact.values[k] - 1.0; };
     if (rough.values[j] < exact.values[j + 1] && error(j) > error(worst)) worst = j;
   }
   ASSERT_GT(rough.values[worst], (1.0 + 1e-7) * exact.values[worst]);
-  // Between the true value and what AMLS makes of it: inertia counts the mode, AMLS lifts it over.
+  // Between the exact value and that of AMLS: inertia counts the mode, AMLS finds it above the
+  // limit.
   loose.fmax_hz =
       hz_of_value(exact.values[worst] + 0.02 * (rough.values[worst] - exact.values[worst]));
   const ModeSet modes = solve_modes(box.K, box.M, loose);
@@ -179,12 +180,13 @@ TEST(Amls, ALimitWithinTheErrorOfAFrequencyIsCountedButNotProved) {
   part.modes = modes;
   EXPECT_NE(modes::describe(part).back().find("not proved: inertia counts"), std::string::npos)
       << modes::describe(part).back();
-  // Without the count that mode is left out, and what is known to be whole ends below the limit.
+  // Without the count that mode is omitted, and the range known to be complete ends below the
+  // limit.
   loose.prove_count = false;
   const ModeSet uncounted = solve_modes(box.K, box.M, loose);
   EXPECT_EQ(uncounted.size(), worst);
   EXPECT_LT(uncounted.next_value, exact.values[worst]);
-  // In the middle of a wide gap the same errors leave no doubt.
+  // In the middle of a wide gap the same errors do not matter.
   Index wide = 10;
   for (Index j = 10; j < 40; ++j)
     if (exact.values[j + 1] / exact.values[j] > exact.values[wide + 1] / exact.values[wide])
@@ -207,13 +209,13 @@ TEST(Amls, ByFrequencyWithoutProofItSolvesOnceForAboutTheRightCount) {
     const ModeSet modes = solve_modes(box.K, box.M, options);
     EXPECT_EQ(modes.size(), 100);
     EXPECT_FALSE(modes.proof.proved);
-    EigenOptions known = by_count(150, method);  // half as many again is what a poor guess costs
+    EigenOptions known = by_count(150, method);  // 50 % more modes is the cost of a poor estimate
     known.prove_count = false;
     EXPECT_LT(modes.solves, solve_modes(box.K, box.M, known).solves + ModeDensity::kSolves);
   }
 }
 
-TEST(Amls, AnEstimateTooLowIsMendedWithTheFactorMadeAnew) {
+TEST(Amls, AnEstimateTooLowIsCorrectedWithTheFactorRecomputed) {
   // Many values just below the limit: the density, smooth there, counts about half of them.
   const auto box = spring_box(8, 7, 6);
   const VectorXd values = solve_modes(box.K, box.M, by_count(40)).values;
@@ -265,15 +267,16 @@ TEST(Amls, TheDensityCountsModesToAHalf) {
   const VectorXd values = solve_modes(box.K, box.M, by_count(300)).values;
   for (const int count : {30, 100, 290}) {
     const double nu = 1.0 / (0.5 * (values[count - 1] + values[count]) - sigma);
-    // 16 random vectors see `count` modes with a deviation of sqrt(2 / (16 count)): 6.5 % of 30.
+    // 16 random vectors estimate `count` modes with a deviation of sqrt(2 / (16 count)): 6.5 %
+    // of 30.
     EXPECT_GT(density.count_above(nu), 0.8 * count);
-    EXPECT_LT(density.count_above(nu), 1.5 * count);  // ten nodes leave few to interpolate by
+    EXPECT_LT(density.count_above(nu), 1.5 * count);  // few of the ten nodes are near
     const double back = density.count_above(density.nu_above(count));
-    EXPECT_NEAR(back, count, 0.01 * count);  // nu is found to a thousandth
+    EXPECT_NEAR(back, count, 0.01 * count);  // nu is accurate to 0.1 %
   }
 }
 
-TEST(Amls, ATightAccuracyProvesTheCountUnlessToldNotTo) {
+TEST(Amls, ATightAccuracyProvesTheCountUnlessDisabled) {
   const auto box = spring_box(9, 8, 7);
   EigenOptions options = by_count(20, EigenMethod::kAmls);
   options.accuracy = 1e-6;

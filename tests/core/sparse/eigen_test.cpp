@@ -26,7 +26,7 @@ TEST(Eigen, ResidualsAboveTheirLimitAreRefined) {
   options.sigma = 300.0 * default_shift(box.K, box.M);  // far away: all nu lie close together
   const ModeSet plain = solve_modes(box.K, box.M, options);
   const double largest = plain.residuals.maxCoeff();
-  ASSERT_GT(largest, 1e-12);  // rounding leaves room for better
+  ASSERT_GT(largest, 1e-12);  // improvement is possible before rounding
   options.max_residual = 0.1 * largest;
   const ModeSet refined = solve_modes(box.K, box.M, options);
   EXPECT_LE(refined.residuals.maxCoeff(), options.max_residual);
@@ -36,7 +36,7 @@ TEST(Eigen, ResidualsAboveTheirLimitAreRefined) {
   const MatrixXd mass = dense_symmetric(box.M);
   const MatrixXd gram = refined.vectors.transpose() * mass * refined.vectors;
   EXPECT_LT((gram - MatrixXd::Identity(9, 9)).cwiseAbs().maxCoeff(), 1e-10);
-  options.max_residual = 1e-30;  // what is left is rounding: the modes are those of K within 1e-12
+  options.max_residual = 1e-30;  // only rounding remains: the modes are those of K within 1e-12
   EXPECT_NO_THROW((void)solve_modes(box.K, box.M, options));
   ModeSet spoiled = refined;
   spoiled.vectors.col(8) += 1e-6 * Eigen::VectorXd::Unit(box.K.rows(), 17);
@@ -109,7 +109,7 @@ TEST(Eigen, AFrequencyBelowTheFirstModeGivesNone) {
   EXPECT_TRUE(modes.proof.proved);
 }
 
-TEST(Eigen, SenselessRequestsAreRefused) {
+TEST(Eigen, InvalidRequestsAreRefused) {
   const Pencil chain = free_chain(10);
   EigenOptions options;
   EXPECT_THROW(solve_modes(chain.K, chain.M, options), InputError);

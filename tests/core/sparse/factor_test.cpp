@@ -36,7 +36,7 @@ TEST(Factor, ReportsTheFillAndAnExactProbe) {
   EXPECT_LT(factor.report().probe_residual, 1e-12);
 }
 
-TEST(Factor, AGivenPermutationIsReusedWithTheSameFill) {  // hard case C7, as far as it fits
+TEST(Factor, AGivenPermutationIsReusedWithTheSameFill) {  // hard case C7, partly
   const SparseMatrix A = held_box(5);
   const SupernodalFactor first(A);
   FactorOptions options;
@@ -47,7 +47,7 @@ TEST(Factor, AGivenPermutationIsReusedWithTheSameFill) {  // hard case C7, as fa
 }
 
 TEST(Factor, UnitsDoNotChangeTheVerdict) {
-  // Rotations in rad beside displacements in m differ by many powers of ten.
+  // Rotations in rad and displacements in m differ by many powers of ten.
   SparseMatrix A = held_box(4);
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(A.rows());
   for (int i = 0; i < unit.size(); i += 3) unit[i] = 1e-9;

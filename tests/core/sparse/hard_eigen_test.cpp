@@ -1,4 +1,4 @@
-// The cases that break ARPACK and its users.
+// Cases in which ARPACK fails or misleads.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -83,7 +83,7 @@ TEST(HardA1, EachSolveWithAShiftedFreeBodyHasASmallResidual) {
   }
 }
 
-/// Start vector that is equal on both bars: half of the spectrum is invisible to one vector.
+/// Start vector equal on both bars: it has no component in half of the spectrum.
 VectorXd symmetric_start(int n) {
   VectorXd start(2 * n);
   for (int i = 0; i < n; ++i) start[i] = start[i + n] = std::sin(1.0 + 0.37 * i);
@@ -95,7 +95,7 @@ TEST(HardA2, TwoEqualBarsWithASymmetricStartAreRefused) {
   EigenOptions options = by_count(6, EigenMethod::kArpack);
   options.start = symmetric_start(200);
   options.sigma = -1e5;
-  options.factor.ordering = Ordering::kNatural;  // treats both bars alike, rounding included
+  options.factor.ordering = Ordering::kNatural;  // treats both bars identically, including rounding
   options.max_retries = 0;
   EXPECT_THROW((void)solve_modes(bars.K, bars.M, options), NumericsError);
   options.count = 0;
@@ -119,7 +119,7 @@ TEST(HardA2, TwoEqualBarsAreCuredByANewStartAndRightAtDefaults) {
   }
 }
 
-/// A start that is its own mirror image: antisymmetric modes have no part in it.
+/// A start that is its own mirror image: it has no antisymmetric component.
 VectorXd mirrored_start(const test::FourCylinders& block) {
   VectorXd start(block.K.rows());
   for (int i = 0; i < start.size(); ++i) start[i] = std::sin(1.0 + 0.37 * i);
@@ -140,7 +140,7 @@ TEST(HardA2, ASolverThatKeepsASymmetryMissesHalfOfTheModesAndTheCountShowsIt) {
   options.count = 12;
   options.start = mirrored_start(block);
   const EigenResult half = solve_arpack(shifted.problem, options);
-  ASSERT_TRUE(half.ok());  // every code is green, and every pair is a true one:
+  ASSERT_TRUE(half.ok());  // no error code, and every pair is correct:
   for (int j = 3; j < 12; ++j) {
     const VectorXd u = half.vectors.col(j);
     const VectorXd r = block.K.selfadjointView<Eigen::Lower>() * u - half.values[j] * block.M * u;
@@ -268,7 +268,7 @@ TEST(HardA8, EightThreadsGiveTheSerialResult) {
 }
 
 TEST(HardA9, SizesBeyond32BitsAreRefusedBeforeTheCall) {
-  ShiftInvert problem;  // without operators: a call would end in an exception of its own
+  ShiftInvert problem;  // without operators: a call would throw another exception
   ArpackOptions options;
   problem.size = 5'000'000;
   options.count = 1000;  // n * ncv = 1e10
@@ -278,7 +278,7 @@ TEST(HardA9, SizesBeyond32BitsAreRefusedBeforeTheCall) {
   options.basis = 46'337;
   EXPECT_EQ(solve_arpack(problem, options).status, EigenStatus::kBadInput);
   problem.size = 800'000'000;
-  options.count = 1;  // 3 n of the work array alone
+  options.count = 1;  // 3 n of the work array
   options.basis = 2;
   EXPECT_EQ(solve_arpack(problem, options).status, EigenStatus::kBadInput);
 }

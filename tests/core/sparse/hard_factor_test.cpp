@@ -1,4 +1,4 @@
-// Factorisations that must be refused, and that other solvers accept.
+// Factorisations that must be refused but that other solvers accept.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -16,7 +16,7 @@ using test::spring_box;
 
 TEST(HardC1, AnIndefiniteMatrixIsRefusedWithItsColumn) {
   for (const Ordering ordering : {Ordering::kMetis, Ordering::kAmd, Ordering::kNatural}) {
-    // diag(1, -1, 2) hidden from the check of the diagonal by an orthogonal turn of rows 1 and 2.
+    // diag(1, -1, 2) hidden from the diagonal check by a rotation of rows 1 and 2.
     const SparseMatrix A =
         test::from_triplets(3, {{0, 0, 1.0}, {1, 1, 0.5}, {2, 2, 0.5}, {1, 2, 1.5}, {2, 1, 1.5}});
     FactorOptions options;
@@ -83,7 +83,7 @@ TEST(HardC5, MetisIsNotGivenMoreEntriesThanItCanCount) {
 
 TEST(HardC9, TheVerdictOnABorderlineMatrixDoesNotDependOnThreads) {
   const auto box = spring_box(6, 6, 6);
-  // Held so weakly that the ratio of pivots is near 1e-10, a thousand times the limit.
+  // Supported so weakly that the ratio of pivots is near 1e-10, a thousand times the limit.
   const SparseMatrix A = box.K + 2.5e-2 * box.M;
   for (const int threads : {1, 2, 4}) {
     set_blas_threads(threads);

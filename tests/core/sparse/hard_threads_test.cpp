@@ -1,4 +1,4 @@
-// Order once and reuse (hard case C7); threads that help or at least do no harm (C8).
+// Reuse of permutations (hard case C7); threads that help or at least do no harm (C8).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -33,10 +33,10 @@ TEST(HardC7, AStoredPermutationIsUsedAgainWithTheSameFill) {
   EXPECT_EQ(second.permutation(), first.permutation());
   const MatrixXd b = MatrixXd::Random(A.rows(), 3);
   EXPECT_LT((second.solve(b) - first.solve(b)).norm(), 1e-12 * first.solve(b).norm());
-  FactorOptions natural;  // another order has another fill: the stored one is really in use
+  FactorOptions natural;  // another permutation has other fill: shows that the stored one is used
   natural.ordering = Ordering::kNatural;
   EXPECT_NE(SupernodalFactor::predict(A, natural).entries, first.report().entries);
-  // The count of another shifted matrix of the same pattern takes it too.
+  // The inertia count of another shifted matrix with the same pattern uses it too.
   const double mu = 0.5 * value_of_hz(2500.0);
   EXPECT_EQ(count_below(box.K, box.M, mu, stored.permutation).negative,
             count_below(box.K, box.M, mu).negative);
@@ -48,7 +48,7 @@ TEST(HardC7, TwoRunsOrderAlike) {
   EXPECT_EQ(SupernodalFactor(A).permutation(), SupernodalFactor(A).permutation());
 }
 
-/// Threads of this process: how many there were at most, and how many ran in the mean.
+/// Threads of this process: maximum number, and mean number running.
 class ThreadWatch {
  public:
   ThreadWatch() : watcher_([this] { watch(); }) {}
@@ -73,7 +73,7 @@ class ThreadWatch {
         ++threads;
         if (name_end != std::string::npos && line[name_end + 2] == 'R') running_ += 1.0;
       }
-      running_ -= 1.0;  // the watcher itself
+      running_ -= 1.0;  // the sampling thread itself
       most_ = std::max(most_, threads - 1);
       ++samples_;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -85,7 +85,7 @@ class ThreadWatch {
   std::thread watcher_;
 };
 
-// How fast each count is stands in bench/condense.py: a test on a shared machine cannot tell.
+// bench/condense.py measures the speed of each count: a test on a shared machine cannot.
 TEST(HardC8, ThreadsOfBlasAndOursDoNotMultiplyAndTheSolutionStays) {
   const auto box = spring_box(20, 20, 20);
   const SparseMatrix A = box.K + 1e5 * box.M;
@@ -101,11 +101,12 @@ TEST(HardC8, ThreadsOfBlasAndOursDoNotMultiplyAndTheSolutionStays) {
     if (threads == 1) alone = x;
     EXPECT_LT((x - alone).norm(), 1e-11 * alone.norm()) << threads;
     ASSERT_GT(watch.samples(), 20);
-    // BLAS, OpenMP inside CHOLMOD and our own loops each may keep a team; teams of teams may not.
+    // BLAS, OpenMP inside CHOLMOD and our own loops each may keep a thread team, but not nested
+    // teams.
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     EXPECT_LE(watch.most(), 1 + 2 * 4 + std::max(cores, 4)) << threads;
-    // Squared (our threads, each with a team of BLAS) they would be 4 of 2 and 16 of 4; an OpenMP
-    // team that spins for a moment after its loop adds less than one in the mean.
+    // Nested (our threads, each with a BLAS team) there would be 4 for 2 and 16 for 4; an OpenMP
+    // team that busy-waits briefly after its loop adds less than one on average.
     EXPECT_LE(watch.mean_running(), threads + 1.5) << threads;
   }
   set_thread_count(0);

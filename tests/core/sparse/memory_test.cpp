@@ -34,7 +34,7 @@ TEST(MemoryLimit, IsTheMachinesUnlessOneIsSet) {
 TEST(MemoryLimit, AFactorThatDoesNotFitIsRefusedBeforeItIsMade) {
   const auto box = test::spring_box(9, 9, 9);
   const SparseMatrix A = box.K + 1e6 * box.M;
-  const Limited limit(memory_in_use_gib() + 1e-3);  // L alone takes 7 MB
+  const Limited limit(memory_in_use_gib() + 1e-3);  // L needs 7 MB
   EXPECT_THROW(SupernodalFactor{A}, NumericsError);
 }
 
@@ -44,7 +44,7 @@ TEST(MemoryLimit, AmlsWhoseVectorsDoNotFitIsRefusedBeforeItTakesThem) {
   options.sigma = default_shift(box.K, box.M);
   options.prove_count = false;
   const SupernodalFactor factor(SparseMatrix(box.K - *options.sigma * box.M));
-  (void)memory_left_gib();  // what earlier tests freed goes back
+  (void)memory_left_gib();  // returns memory freed by earlier tests
   const double before = memory_in_use_gib();
   const double vectors = gib_of_doubles(25920.0 * 2000.0);
   const Limited limit(before + 0.5 * vectors);
@@ -69,13 +69,13 @@ TEST(MemoryLimit, AmlsThatFitsRuns) {
 TEST(MemoryLimit, TheBasisShrinksThenGoesToDisk) {
   BlockLanczosOptions options;
   options.count = 100;
-  const auto columns = [&](double held) {  // that fit beside 3 blocks and the modes
+  const auto columns = [&](double held) {  // that fit in addition to 3 blocks and the modes
     return basis_size(options, 16, 1000000, gib_of_doubles(1e6 * (held + 48 + 100)));
   };
   const BasisSize ample = columns(500), enough = columns(300), least = columns(200);
   EXPECT_EQ(ample.columns, 464);   // 4 modes and 4 blocks
-  EXPECT_EQ(enough.columns, 272);  // 2 modes and 4 blocks, in whole blocks
-  EXPECT_EQ(least.columns, 192);   // 1.25 modes and 4 blocks, in whole blocks
+  EXPECT_EQ(enough.columns, 272);  // 2 modes and 4 blocks, rounded to blocks
+  EXPECT_EQ(least.columns, 192);   // 1.25 modes and 4 blocks, rounded to blocks
   for (const BasisSize& room : {ample, enough, least}) EXPECT_EQ(room.storage, Storage::kMemory);
   EXPECT_EQ(columns(150).storage, Storage::kDisk);
   EXPECT_EQ(columns(150).columns, enough.columns);
@@ -106,7 +106,8 @@ TEST(MemoryLimit, ModesAreTheSameWithTheBasisOnDisk) {
 }
 
 TEST(KrylovBasisTest, ProductsAreThoseOfDenseMatricesInMemoryAndOnDisk) {
-  const Eigen::Index n = 3001, b = 16, room = 13 * b;  // more than one tile each way, and a rest
+  const Eigen::Index n = 3001, b = 16,
+                     room = 13 * b;  // more than one tile in each direction, and a remainder
   TallBlock block(n, b);
   const MatrixXd S = MatrixXd::Random(room, 5);
   MatrixXd V(n, room), H[2];

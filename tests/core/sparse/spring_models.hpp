@@ -1,5 +1,5 @@
 #pragma once
-// Small models whose spectra are known or cheap: chains and elastic boxes of springs.
+// Small models with known or cheaply computed spectra: chains and elastic boxes of springs.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -41,7 +41,7 @@ inline double free_chain_value(int n, int j, double k = 1e7, double m = 0.1) {
   return 4.0 * k / m * std::pow(std::sin(j * std::numbers::pi / (2.0 * n)), 2);
 }
 
-/// Two copies of a model side by side, not connected: every eigenvalue stands twice (hard case A2).
+/// Two copies of a model that are not connected: every eigenvalue is double (hard case A2).
 inline Pencil twice(const Pencil& one) {
   const int n = static_cast<int>(one.K.rows());
   const auto doubled = [n](const SparseMatrix& matrix) {
@@ -58,8 +58,8 @@ inline Pencil twice(const Pencil& one) {
   return {doubled(one.K), doubled(one.M)};
 }
 
-/// A free elastic box of nx x ny x nz point masses at distance `pitch`, joined to all neighbours in
-/// the cube around them by axial springs; DoF 3 a + d. Exactly six rigid motions.
+/// A free elastic box of nx x ny x nz point masses at distance `pitch`, connected to all neighbours
+/// in the cube around them by axial springs; DoF 3 a + d. Exactly six rigid-body motions.
 struct SpringBox : Pencil {
   Eigen::MatrixXd nodes;  // a x 3
   Eigen::MatrixXd rigid;  // n x 6, unit motions about the origin

@@ -1,4 +1,4 @@
-// The parts of the sparse factor one by one: order, tree, sweeps, boundary, counts.
+// Unit tests of the sparse factor: permutation, tree, sweeps, boundary, counts.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -36,7 +36,7 @@ MatrixXd full(const SparseMatrix& lower) {
 }
 
 TEST(Ordering, TheThreeDisplacementsOfANodeAreOneVertex) {
-  // Only diagonal neighbours have entries in all nine places of a block.
+  // Only adjacent nodes have all nine entries of a block.
   const int nodes = 5;
   std::vector<Eigen::Triplet<double>> entries;
   for (int a = 0; a < 3 * nodes; ++a)
@@ -64,10 +64,10 @@ TEST(Ordering, EveryMethodGivesAPermutation) {
 TEST(SupernodeTree, HoldsTheFillThatEigenCounts) {
   const SparseMatrix A = held_box(6, 6, 6);
   const SupernodeTree tree = analyse_tree(A, {});
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> place(A.cols());
-  for (int j = 0; j < A.cols(); ++j) place.indices()[tree.order[static_cast<size_t>(j)]] = j;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse(A.cols());
+  for (int j = 0; j < A.cols(); ++j) inverse.indices()[tree.order[static_cast<size_t>(j)]] = j;
   SparseMatrix turned(A.rows(), A.cols());
-  turned.selfadjointView<Eigen::Lower>() = A.selfadjointView<Eigen::Lower>().twistedBy(place);
+  turned.selfadjointView<Eigen::Lower>() = A.selfadjointView<Eigen::Lower>().twistedBy(inverse);
   const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> eigen(turned);
   const SparseMatrix L = eigen.matrixL();
   int64_t trapezoids = 0;
@@ -77,7 +77,7 @@ TEST(SupernodeTree, HoldsTheFillThatEigenCounts) {
   }
   EXPECT_GE(trapezoids, L.nonZeros());
   EXPECT_LT(static_cast<double>(trapezoids), 1.6 * static_cast<double>(L.nonZeros()));  // merging
-  // Every entry of L stands in the front of its column.
+  // Every entry of L is in the front of its column.
   for (int32_t s = 0; s < tree.supernodes(); ++s)
     for (int j = tree.first[static_cast<size_t>(s)]; j < tree.first[static_cast<size_t>(s) + 1];
          ++j)
@@ -136,7 +136,7 @@ TEST(SupernodalFactorTest, AnyNumberOfRightHandSidesHasTheSameAnswer) {
 }
 
 TEST(SupernodalFactorTest, RepeatedRunsHaveTheSameBits) {
-  const SparseMatrix A = held_box(12, 9, 9);  // large enough for subtrees on both threads
+  const SparseMatrix A = held_box(12, 9, 9);  // large enough for subtrees on two threads
   const MatrixXd b = MatrixXd::Random(A.rows(), 16);
   set_thread_count(2);
   const MatrixXd once = SupernodalFactor(A).solve(b);
@@ -145,7 +145,7 @@ TEST(SupernodalFactorTest, RepeatedRunsHaveTheSameBits) {
   EXPECT_EQ((once - again).cwiseAbs().maxCoeff(), 0.0);
 }
 
-/// body(threads) with so many threads each time.
+/// Calls body(threads) with the thread count set.
 template <class Body>
 void for_thread_counts(std::initializer_list<int> counts, Body&& body) {
   for (const int threads : counts) {
@@ -196,7 +196,7 @@ TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
   const MatrixXd expected =
       MatrixXd(coupling).transpose() * dense.topLeftCorner(n, n).llt().solve(MatrixXd(coupling));
   EXPECT_LT((factor.boundary_part() - expected).norm(), 1e-12 * expected.norm());
-  const MatrixXd b = MatrixXd::Random(n, 3);  // the boundary rows stay out of the solves
+  const MatrixXd b = MatrixXd::Random(n, 3);  // the boundary rows are not part of the solves
   EXPECT_LT((dense.topLeftCorner(n, n) * factor.solve(b) - b).norm(), 1e-11 * b.norm());
 }
 
@@ -216,7 +216,7 @@ TEST(Inertia, OwnPivotsAndThoseOfMumpsCountTheSame) {
     ++compared;
   }
   EXPECT_GT(compared, 20);
-  EXPECT_GT(by_own, 15);  // so that the comparison is one
+  EXPECT_GT(by_own, 15);  // so that the comparison is meaningful
 }
 
 /// A front with two pivots above one row.
@@ -236,7 +236,7 @@ TEST(FrontTest, ADefiniteBlockIsEliminatedByBothKernelsAlike) {
   EXPECT_EQ(signs.negative + signs.zero, 0);
 }
 
-TEST(FrontTest, AnIndefiniteBlockIsPivotedAndItsGrowthTold) {
+TEST(FrontTest, AnIndefiniteBlockIsPivotedAndItsGrowthReported) {
   // [0 1; 1 0] has one negative eigenvalue; 5 - (2, 3) [0 1; 1 0] (2, 3)^T = -7.
   SmallFront swap{{0.0, 1.0, 2.0, 0.0, 0.0, 3.0}, {5.0}};
   SmallFront refused = swap;
@@ -245,10 +245,10 @@ TEST(FrontTest, AnIndefiniteBlockIsPivotedAndItsGrowthTold) {
   EXPECT_EQ(signs.negative, 1);
   EXPECT_NEAR(swap.update[0], -7.0, 1e-13);
   EXPECT_NEAR(signs.growth, 3.0, 1e-13);
-  // A block that nearly resonates: what follows is not to be trusted.
+  // A nearly singular block: the following pivots are unreliable.
   SmallFront near{{-1.0, 0.0, 0.0, 0.0, 1e-9, 1.0}, {1.0}};
   EXPECT_NEAR(eliminate_symmetric(near.front()).growth, 1e9, 1e-3);
-  SmallFront barely{{1.0, 0.0, 0.0, 0.0, 1e-8, 1.0}, {1.0}};  // Cholesky takes it without a word
+  SmallFront barely{{1.0, 0.0, 0.0, 0.0, 1e-8, 1.0}, {1.0}};  // Cholesky accepts it silently
   EXPECT_NEAR(eliminate_symmetric(barely.front()).growth, 1e4, 1e-8);
   SmallFront zero{{-1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, {1.0}};
   EXPECT_EQ(eliminate_symmetric(zero.front()).zero, 1);
