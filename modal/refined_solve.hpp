@@ -14,8 +14,8 @@ struct RefinedSolution {
   int steps = 0;             // of refinement
 };
 
-/// Iterative refinement with the residual in extended precision until it stagnates
-/// (Wilkinson 1963; Demmel, Hida, Kahan, Li, Mukherjee and Riedy 2006), and an estimate of
+/// Iterative refinement with the residual in extended precision until it stagnates (Wilkinson 1963;
+/// Demmel, Hida, Kahan, Li, Mukherjee and Riedy 2006), and an estimate of
 ///   max |A^{-1}| (|r| + eps (|A| |x| + |b|)) / max |x|,
 /// the effect of the remaining residual and of rounding the entries of A and b to doubles, by
 /// Hager's estimator of the 1-norm (Higham 1988; LAPACK's dporfs).

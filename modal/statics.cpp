@@ -93,9 +93,9 @@ void refuse_free_body(const fe::FeModel& model) {
                   free.bodies > 1 ? fmt::format(" in {} unconnected bodies", free.bodies) : ""));
 }
 
-/// 1 for rigid-body motions without force if supports are removed, 0 for those that an equation
-/// or a ground spring holds: their forces are not reactions. Row by row, as in
-/// free_motions(): a soft spring on a stiff part holds it.
+/// 1 for rigid-body motions without force if supports are removed, 0 for those that an equation or
+/// a ground spring holds: their forces are not reactions. Row by row, as in free_motions(): a soft
+/// spring on a stiff part holds it.
 Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
   const fe::FeSupports& supports = model.supports;
   Eigen::MatrixXd force = multiply_symmetric(model.K, model.rigid);
@@ -122,8 +122,8 @@ Eigen::VectorXd balanced_motions(const fe::FeModel& model) {
 
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : part; }
 
-/// Rounding error of the sum of the nodal forces, in the units of the balance: bending
-/// of thin parts is a small difference of large forces.
+/// Rounding error of the sum of the nodal forces, in the units of the balance: bending of thin
+/// parts is a small difference of large forces.
 double rounding_of(const fe::FeModel& model, const Eigen::VectorXd& q, const Eigen::VectorXd& s) {
   Eigen::VectorXd sum =
       model.rigid.cwiseAbs().transpose() * Eigen::VectorXd(magnitude_product(model.K, q));
@@ -209,8 +209,8 @@ void refuse_inexact(const fe::FeModel& model, const StaticCase& found) {
         model.name, found.name, found.forward_error));
 }
 
-/// Supports hold every DoF: displacements are the prescribed ones, and the
-/// reactions are K_ss s - f_s.
+/// Supports hold every DoF: displacements are the prescribed ones, and the reactions are K_ss s -
+/// f_s.
 StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::string>& names,
                           const RightSides& sides) {
   const Eigen::VectorXd balanced = balanced_motions(model);

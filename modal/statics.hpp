@@ -39,10 +39,9 @@ struct StaticSolution {
 /// Solves K q + K_sq^T s = f for the loads and cases named in `wanted`, or for all, with
 ///   u = T q + T_s s,   reactions = K_sq q + K_ss s - f_s,
 /// and stresses from u (core/fe/stress.hpp). One factorisation serves all. InputError for an
-/// unknown name, a model without loads, and a part with free rigid-body motions (they
-/// are named); NumericsError when the stiffness is singular otherwise, when the backward error
-/// exceeds 1e-12, the balance exceeds 1e-8 and the rounding level, or the estimated error of q
-/// exceeds 1.
+/// unknown name, a model without loads, and a part with free rigid-body motions (they are named);
+/// NumericsError when the stiffness is singular otherwise, when the backward error exceeds 1e-12,
+/// the balance exceeds 1e-8 and the rounding level, or the estimated error of q exceeds 1.
 StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::string>& wanted);
 
 /// Stresses at the nodes of one region and case.
@@ -60,8 +59,8 @@ NodeStress largest_stress(const fe::FeModel& model, const StaticCase& solved);
 std::string describe_largest_stress(const fe::FeModel& model, const StaticCase& solved);
 
 /// Nodes at locations: a node by its number ("17"), the node nearest to a position in metres
-/// ("2,0,0.6"), or a sensor by its name. InputError for any other text and for a
-/// model without cells.
+/// ("2,0,0.6"), or a sensor by its name. InputError for any other text and for a model without
+/// cells.
 std::vector<int32_t> nodes_at(const fe::FeModel& model, const std::vector<std::string>& locations);
 
 /// The stresses at a node: one line per region.

@@ -56,8 +56,8 @@ inline std::vector<hsize_t> chunk_of(std::vector<hsize_t> extents, size_t bytes_
   return extents;
 }
 
-/// Dataset layout in chunks with a Fletcher32 checksum each, which the library
-/// verifies on reading. An empty dataset has no chunks.
+/// Dataset layout in chunks with a Fletcher32 checksum each, which the library verifies on reading.
+/// An empty dataset has no chunks.
 inline Id checked_layout(const std::vector<hsize_t>& extents, size_t bytes_each) {
   Id layout = checked_creation(H5P_DATASET_CREATE);
   if (std::find(extents.begin(), extents.end(), hsize_t{0}) != extents.end()) return layout;

@@ -1,6 +1,6 @@
 #pragma once
-// Implementation of h5_file: RAII identifiers and typed access. Included by
-// core/base/h5_*.cpp only, so that HDF5 types stay hidden.
+// Implementation of h5_file: RAII identifiers and typed access. Included by core/base/h5_*.cpp
+// only, so that HDF5 types stay hidden.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-// Large arrays in large pages, and reuse of freed memory: first access to 10 GB in pages of
-// 4 KiB costs seconds, on a virtual machine tens of seconds.
+// Large arrays in large pages, and reuse of freed memory: first access to 10 GB in pages of 4 KiB
+// costs seconds, on a virtual machine tens of seconds.
 #include <cstddef>
 #include <memory>
 
@@ -15,8 +15,8 @@ void give_back_pages(void* begin, size_t bytes);
 /// `count` uninitialised doubles in large pages. Throws std::bad_alloc.
 std::unique_ptr<double[]> large_array(size_t count);
 
-/// The same backed by an unlinked file under $TMPDIR (default /var/tmp), paged in and out as
-/// memory allows. Throws FileError when the disk is too full.
+/// The same backed by an unlinked file under $TMPDIR (default /var/tmp), paged in and out as memory
+/// allows. Throws FileError when the disk is too full.
 std::shared_ptr<double[]> spilled_array(size_t count);
 
 /// Keeps freed memory in the process for later arrays instead of returning it to the kernel. Call

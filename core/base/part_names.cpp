@@ -12,8 +12,8 @@
 namespace clatter {
 namespace {
 
-// A program writes only a few files at a time; if the table is full, a part file may remain
-// after a signal.
+// A program writes only a few files at a time; if the table is full, a part file may remain after a
+// signal.
 std::array<std::atomic<char*>, 32> names;
 
 // Calls only async-signal-safe functions.

@@ -14,11 +14,11 @@ namespace clatter {
 /// a regular file, or when an existing file may not be overwritten.
 void will_write(const std::string& requested_by, const std::filesystem::path& path);
 
-/// Registers `path` as an input, named by `named_by` ("a.toml:3: source"; empty: the
-/// command line). InputError when it is also an output.
+/// Registers `path` as an input, named by `named_by` ("a.toml:3: source"; empty: the command line).
+/// InputError when it is also an output.
 void will_read(const std::filesystem::path& path, const std::string& named_by = {});
 
-/// Whether exactly this path, or the final name of this .part file, was registered.
+/// Whether exactly this path was registered, or is the .part file of an output.
 bool is_planned(const std::filesystem::path& path);
 
 }  // namespace clatter

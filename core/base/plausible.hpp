@@ -7,8 +7,8 @@
 namespace clatter {
 
 /// Each returns a warning about an implausible value, with a guess where one unit makes it
-/// plausible
-/// ("density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?"), or "" for a plausible value.
+/// plausible ("density 7.85e-09 kg/m3: did you mean 7850 (7.85e-09 t/mm3)?"), or "" for a plausible
+/// value.
 ///
 /// Density [kg/m3]: 10 (foams) to 23 000 (osmium: 22 590).
 std::string density_warning(double density);

@@ -19,8 +19,8 @@ struct ErrorPosition {
 ErrorPosition position_in(const std::string& message);
 
 /// Prints "`program`: error: `message`" on stderr; with --json (core/base/log.hpp) also, on stdout,
-/// {"error": {"program", "message", "file", "line", "place", "exit_code"}} without members that
-/// the message does not give. Returns the exit code.
+/// {"error": {"program", "message", "file", "line", "place", "exit_code"}} without members that the
+/// message does not give. Returns the exit code.
 int report_error(std::string_view program, const std::string& message, ExitCode code);
 
 }  // namespace clatter

@@ -9,8 +9,8 @@ namespace clatter {
 void set_thread_count(int count);
 int thread_count();
 
-/// Calls body(begin, end) on contiguous pieces of [0, n), one per thread. The pieces depend
-/// only on n and the thread count, so results do too. An exception in any piece is rethrown.
+/// Calls body(begin, end) on contiguous pieces of [0, n), one per thread. The pieces depend only on
+/// n and the thread count, so results do too. An exception in any piece is rethrown.
 void parallel_pieces(int64_t n, const std::function<void(int64_t begin, int64_t end)>& body);
 
 }  // namespace clatter

@@ -8,8 +8,8 @@
 
 namespace clatter {
 
-/// Writes to `path.part`; commit() syncs it to disk and renames it. Without commit() the part
-/// is removed and an older file stays unchanged.
+/// Writes to `path.part`; commit() syncs it to disk and renames it. Without commit() the part is
+/// removed and an older file stays unchanged.
 class WholeFile {
  public:
   /// FileError when the part cannot be opened.

@@ -23,9 +23,9 @@ Integration integration_of(mesh::CellType type, const IntegrationChoice& choice)
 /// Points for K_e; `straight`: mid-side nodes at the midpoints of their edges.
 const CellPoints& stiffness_points(mesh::CellType type, Integration integration, bool straight);
 
-/// Points where cell stresses are evaluated: those where the derivatives of the shape functions
-/// are most accurate, one order better than elsewhere (Barlow, Int. J. Numer. Meth. Engng 10,
-/// 1976): the centre of a tet4, 4 of a tet10, 2 x 2 x 2 of hexahedra, 3 x 2 of wedges, 2 x 2 x 2 of
+/// Points where cell stresses are evaluated: those where the derivatives of the shape functions are
+/// most accurate, one order better than elsewhere (Barlow, Int. J. Numer. Meth. Engng 10, 1976):
+/// the centre of a tet4, 4 of a tet10, 2 x 2 x 2 of hexahedra, 3 x 2 of wedges, 2 x 2 x 2 of
 /// pyramids.
 const CellPoints& stress_points(mesh::CellType type);
 

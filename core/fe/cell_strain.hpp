@@ -1,6 +1,6 @@
 #pragma once
-// Strains of a cell's displacement modes: its shape functions and, in a hex8 with them, the
-// three incompatible modes 1 - xi_k^2 (element.hpp).
+// Strains of a cell's displacement modes: its shape functions and, in a hex8 with them, the three
+// incompatible modes 1 - xi_k^2 (element.hpp).
 #include <Eigen/Core>
 
 #include "core/fe/cell_points.hpp"

@@ -19,10 +19,10 @@
 // test also passes on distorted and curved cells; this needs 14 points on a curved tet10, where 4
 // are common. Reduced wedges and hexahedra are C3D6, C3D15 and C3D20R of Abaqus and CalculiX.
 //
-// hex8 with incompatible modes: three internal displacement modes 1 - xi_k^2 allow bending
-// without shear locking; they are condensed out of K_e (Wilson, Taylor, Doherty, Ghaboussi 1973),
-// with gradients at the centre, scaled by det J_0 / det J, so that their mean strain is zero
-// and the patch test passes (Taylor, Beresford, Wilson, Int. J. Numer. Meth. Engng 10, 1976).
+// hex8 with incompatible modes: three internal displacement modes 1 - xi_k^2 allow bending without
+// shear locking; they are condensed out of K_e (Wilson, Taylor, Doherty, Ghaboussi 1973), with
+// gradients at the centre, scaled by det J_0 / det J, so that their mean strain is zero and the
+// patch test passes (Taylor, Beresford, Wilson, Int. J. Numer. Meth. Engng 10, 1976).
 #include <Eigen/Core>
 
 #include "core/fe/material.hpp"
@@ -51,8 +51,8 @@ void compute_element(mesh::CellType type, const mesh::CellNodes& x, const Materi
 Eigen::VectorXd thermal_force(mesh::CellType type, const mesh::CellNodes& x,
                               const Material& material, const Eigen::VectorXd& dT);
 
-/// Displacements `u` (3n) [m] of a cell, followed by those of its incompatible modes (3 x 3),
-/// if any: K_aa a = f_a(dT) - K_au u. `dT` (n) [K], or empty.
+/// Displacements `u` (3n) [m] of a cell, followed by those of its incompatible modes (3 x 3), if
+/// any: K_aa a = f_a(dT) - K_au u. `dT` (n) [K], or empty.
 Eigen::VectorXd with_inner_modes(mesh::CellType type, const mesh::CellNodes& x,
                                  const Material& material, const Eigen::VectorXd& u,
                                  const Eigen::VectorXd& dT);

@@ -42,9 +42,9 @@ struct FePoints {
 
 /// The linear elastic model of one part after elimination of couplings and supports:
 ///   M q'' + (alpha K + beta M) q' + K q = f,   u = T q.
-/// q holds nodal displacements [m] and generalised coordinates that replace pivot
-/// displacements: displacement [m] or rotation [rad] of a reference node, mean displacement of a
-/// patch or bore [m]. The force on a generalised coordinate is a force [N] or moment [N m].
+/// q holds nodal displacements [m] and generalised coordinates that replace pivot displacements:
+/// displacement [m] or rotation [rad] of a reference node, mean displacement of a patch or bore
+/// [m]. The force on a generalised coordinate is a force [N] or moment [N m].
 struct FeModel {
   std::string name;
   SparseMatrix M;   // n x n, lower triangle [kg, or kg m2 on rotations]
@@ -75,8 +75,8 @@ struct FeModel {
       const std::string& set_name) const;  // InputError listing the existing names
 };
 
-/// InputError naming the supports when they hold every DoF; `what` is the operation that needs
-/// free DoFs ("modes").
+/// InputError naming the supports when they hold every DoF; `what` is the operation that needs free
+/// DoFs ("modes").
 void require_unknowns(const FeModel& model, const std::string& what);
 
 /// Writes `model` into an open file; provenance, timing and certificate are the caller's.

@@ -14,8 +14,8 @@ void write_statics(H5File& file, const FeModel& model);
 /// and that cases name existing loads (InputError).
 void read_statics(const H5File& file, FeModel& model);
 
-/// Description of the supported DoFs, without matrices: `supports/names`, `support`,
-/// `labels`, `position`, `direction`, `is_rotation`.
+/// Description of the supported DoFs, without matrices: `supports/names`, `support`, `labels`,
+/// `position`, `direction`, `is_rotation`.
 void write_supported(H5File& file, const FeSupports& supports);
 
 }  // namespace clatter::fe

@@ -8,8 +8,8 @@
 
 namespace clatter::fe {
 
-/// Unconstrained rigid-body motions of each body: parts of a model that neither K nor M
-/// connects move independently, and a free model of two parts has twelve.
+/// Unconstrained rigid-body motions of each body: parts of a model that neither K nor M connects
+/// move independently, and a free model of two parts has twelve.
 struct FreeMotions {
   Eigen::MatrixXd q;      // n x m: motions in coordinates q, M-orthonormal
   Eigen::MatrixXd unit;   // 6 x m: as combinations of the unit motions x, y, z, rx, ry, rz
@@ -35,8 +35,7 @@ FreeMotions free_motions(const fe::FeModel& model);
 /// rows of K_rr are scaled by its diagonal, since their zeros are accurate only to rounding.
 Eigen::MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>& left);
 
-/// Zero-based body of each DoF: DoFs that neither K nor M connects
-/// belong to different bodies.
+/// Zero-based body of each DoF: DoFs that neither K nor M connects belong to different bodies.
 std::vector<int> bodies_of(const SparseMatrix& K, const SparseMatrix& M);
 
 /// Half the diagonal of the part's bounding box [m], which makes rotations comparable to

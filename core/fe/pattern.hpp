@@ -7,8 +7,8 @@
 
 namespace clatter::fe {
 
-/// Lower triangle of the node adjacency, by columns: rows[start[j]] = j itself, then the
-/// nodes above j that share a cell with it, ascending.
+/// Lower triangle of the node adjacency, by columns: rows[start[j]] = j itself, then the nodes
+/// above j that share a cell with it, ascending.
 struct NodePattern {
   std::vector<int64_t> start;  // n_nodes + 1
   std::vector<int32_t> rows;

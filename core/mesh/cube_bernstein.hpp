@@ -2,10 +2,10 @@
 // det J of hexahedra, wedges and pyramids in Bernstein form on a cube.
 //
 // Each reference cell is the image of the cube [0, 1]^3: a hexahedron directly, a wedge with its
-// triangle collapsed from a square, a pyramid shrunk toward its apex (a, b) -> (xi, eta) =
-// (a, b) (1 - zeta). Pulled back, det J is a polynomial in each coordinate (the rational functions
-// of the pyramid become polynomials), so its Bernstein coefficients bound it from both sides;
-// those at the corners are function values. See validity.hpp for the use of the bound.
+// triangle collapsed from a square, a pyramid shrunk toward its apex (a, b) -> (xi, eta) = (a, b)
+// (1 - zeta). Pulled back, det J is a polynomial in each coordinate (the rational functions of the
+// pyramid become polynomials), so its Bernstein coefficients bound it from both sides; those at the
+// corners are function values. See validity.hpp for the use of the bound.
 // Source: Johnen, Remacle, Geuzaine, J. Comput. Phys. 233 (2013); Johnen and Geuzaine,
 // "Geometrical validity of curvilinear pyramidal finite elements", J. Comput. Phys. 299 (2015).
 #include <Eigen/Core>

@@ -9,8 +9,8 @@
 
 namespace clatter::modes {
 
-/// Both zero: all modes below accurate_to_hz of the reduced model's certificate; if
-/// absent, below its valid_to_hz; without either, the 20 lowest.
+/// Both zero: all modes below accurate_to_hz of the reduced model's certificate; if absent, below
+/// its valid_to_hz; without either, the 20 lowest.
 struct CompareOptions {
   double fmax_hz = 0.0;  // compare all modes below
   int count = 0;         // or the lowest ones, rigid included

@@ -9,8 +9,8 @@
 namespace clatter::modes {
 
 /// The same error with the model's name, the `matrix` ("K - sigma M"), where factorisation stopped
-/// (node, position, direction; the body if there are several) and the likely cause: a DoF
-/// without stiffness or mass, an unsupported body, or a mechanism.
+/// (node, position, direction; the body if there are several) and the likely cause: a DoF without
+/// stiffness or mass, an unsupported body, or a mechanism.
 /// @param left DoF of the model for each row of the matrix.
 sparse::NotPositiveDefinite explained(const fe::FeModel& model, const std::string& matrix,
                                       const std::vector<int32_t>& left,

@@ -6,8 +6,8 @@
 
 namespace clatter::rom {
 
-/// Text of a warning about a reduced model: "" when it is
-/// certified, else the reason: no certificate, or condensed with --no-certificate.
+/// Text of a warning about a reduced model: "" when it is certified, else the reason: no
+/// certificate, or condensed with --no-certificate.
 std::string certificate_warning(const ReducedModel& model);
 
 }  // namespace clatter::rom

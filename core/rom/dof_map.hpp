@@ -1,6 +1,6 @@
 #pragma once
-// The DoF of each row of matrices in text files: written next to exported
-// matrices, read with matrices of other programs.
+// The DoF of each row of matrices in text files: written next to exported matrices, read with
+// matrices of other programs.
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>

@@ -25,8 +25,8 @@ std::string sha256_of_pattern(const SparseMatrix& lower);
 /// Writes group `ordering`; nothing when empty.
 void write_elimination_order(H5File& file, const EliminationOrder& order);
 
-/// Reads it from an artefact. Empty when there is no such file, when it contains none, or when
-/// that is not a permutation: it is only needed to save time.
+/// Reads it from an artefact. Empty when there is no such file, when it contains none, or when that
+/// is not a permutation: it is only needed to save time.
 EliminationOrder read_elimination_order(const std::filesystem::path& path);
 
 }  // namespace clatter::rom

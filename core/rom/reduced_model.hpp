@@ -6,8 +6,8 @@
 //
 // q = [boundary coordinates q_b; modal coordinates q_k]. A boundary coordinate is a displacement
 // [m] or rotation [rad] of a named point: a sensor, a mount, a bearing centre, or the mean radial
-// displacement of one patch of a contact grid. Its conjugate force is a force [N], a moment
-// [N m], or the resultant of the pressure on the patch.
+// displacement of one patch of a contact grid. Its conjugate force is a force [N], a moment [N m],
+// or the resultant of the pressure on the patch.
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
@@ -81,8 +81,8 @@ struct ReducedModel {
   double valid_to_hz = 0.0;            // highest frequency that the basis is intended for
   Skin skin;                           // empty (0 rows) when not recovered
   InertiaInvariants inertia;           // of a rotating body; empty unless requested
-  /// c x r, DoFs whose displacement is a combination of coordinates: those that became so when
-  /// the interface was reduced, then those of recovered_sets. An index r + j in DofSet::dofs is the
+  /// c x r, DoFs whose displacement is a combination of coordinates: those that became so when the
+  /// interface was reduced, then those of recovered_sets. An index r + j in DofSet::dofs is the
   /// displacement combined.row(j) q.
   Eigen::MatrixXd combined;
   std::vector<std::string> recovered_sets;  // sets that were never coordinates

@@ -157,8 +157,8 @@ TEST(HardN15, AStripIsSolvedToWhatRoundingAllowsAndSaysHowMuchThatIs) {
     for (Eigen::Index a = 0; a < model.nodes.rows(); ++a)
       found = std::max(found, tip.displacement[3 * a + 2]);
     EXPECT_LT(tip.backward_error, 1e-15);
-    // Shear contributes (t / l)^2, the full clamp and the mesh about 1e-3; the rest is
-    // due to the condition number.
+    // Shear contributes (t / l)^2, the full clamp and the mesh about 1e-3; the rest is due to the
+    // condition number.
     EXPECT_NEAR(found, exact, (2e-3 + tip.forward_error) * exact) << length;
     EXPECT_LT(tip.forward_error, 1.0) << length;
     EXPECT_GT(tip.forward_error, 1e-16 * std::pow(length / thickness, 2)) << length;

@@ -209,8 +209,8 @@ VectorXd lowered(const VectorXd& before, const VectorXd& after, double sigma) {
   return 0.5 * (before - after).cwiseQuotient(scale).cwiseMax(0.0);
 }
 
-/// Requires memory for the result vectors, for the blocks of a step, and first for the
-/// projection on `modes` modes of substructures with its eigen-solver.
+/// Requires memory for the result vectors, for the blocks of a step, and first for the projection
+/// on `modes` modes of substructures with its eigen-solver.
 void require_room(Index size, int requested, Index modes) {
   const auto n = static_cast<double>(size), p = static_cast<double>(modes);
   const double vectors = n * static_cast<double>(requested + 2 * kColumns);

@@ -15,8 +15,8 @@ struct AmlsOptions {
   uint64_t seed = 1;
 };
 
-/// The lowest modes from modes of substructures (Bennighof and Lehoucq 2004), with the levels
-/// of the elimination tree: in y = L^T S^{-1} x, K - sigma M is the unit matrix and M is A of
+/// The lowest modes from modes of substructures (Bennighof and Lehoucq 2004), with the levels of
+/// the elimination tree: in y = L^T S^{-1} x, K - sigma M is the unit matrix and M is A of
 /// SubtreeProduct, whose diagonal blocks belong to the substructures, with the interiors that they
 /// separate moving along statically. A is projected on the dominant eigenvectors of these blocks,
 /// so values are upper bounds. Then subspace iteration with the factor (Rayleigh-Ritz, still from

@@ -1,6 +1,6 @@
 #pragma once
-// Block Lanczos with thick restart: reads the factor once for a block of vectors, which
-// makes it several times faster than ARPACK for many modes.
+// Block Lanczos with thick restart: reads the factor once for a block of vectors, which makes it
+// several times faster than ARPACK for many modes.
 #include <functional>
 #include <optional>
 
@@ -35,8 +35,8 @@ struct BasisSize {
   Storage storage = Storage::kMemory;
 };
 
-/// The basis that `left_gib` of memory allow for `size` unknowns: no restart with few modes,
-/// then restarts, then a short basis, then disk storage.
+/// The basis that `left_gib` of memory allow for `size` unknowns: no restart with few modes, then
+/// restarts, then a short basis, then disk storage.
 BasisSize basis_size(const BlockLanczosOptions& options, Eigen::Index block, Eigen::Index size,
                      double left_gib);
 
@@ -48,8 +48,8 @@ Eigen::VectorXd first_ritz_values(const ShiftInvert& problem, uint64_t seed);
 /// M on span{X, Op X, Op^2 X, ...} with two passes of orthogonalisation in the M inner product
 /// (Grimes, Lewis and Simon, 1994), restarted from the wanted Ritz vectors and the residual block
 /// (Wu and Simon, Thick-restart Lanczos, 2000). A block of size b finds up to b copies of a
-/// multiple eigenvalue. A pair is converged at `tolerance` of its nu, or of the rounding level
-/// set by the largest one, kSpread nu_1.
+/// multiple eigenvalue. A pair is converged at `tolerance` of its nu, or of the rounding level set
+/// by the largest one, kSpread nu_1.
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options);
 
 }  // namespace clatter::sparse

@@ -15,11 +15,11 @@ namespace clatter::sparse {
 EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double sigma,
                         int count = 0);
 
-/// The same with known rigid-body motions (r x m, M-orthonormal, K rigid = 0; may
-/// have no columns) projected out, and with shifts chosen from the
-/// spectrum: 0 where nothing is rigid and K is definite, else negative and close to the
-/// lowest value; values more than 1e8 times farther from the shift than the lowest get
-/// their own shift, so that all are accurate. @param sigma a single shift to use instead.
+/// The same with known rigid-body motions (r x m, M-orthonormal, K rigid = 0; may have no columns)
+/// projected out, and with shifts chosen from the spectrum: 0 where nothing is rigid and K is
+/// definite, else negative and close to the lowest value; values more than 1e8 times farther from
+/// the shift than the lowest get their own shift, so that all are accurate. @param sigma a single
+/// shift to use instead.
 EigenResult solve_dense(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
                         const Eigen::MatrixXd& rigid, std::optional<double> sigma, int count = 0);
 

@@ -288,8 +288,7 @@ void Search::finish() {
     for (int k = 0;
          k < kMaxRefinements && !small() && !approximate() && (k < least || worth_refining());
          ++k) {
-      // The factor reduces high-frequency components most, and these dominate the
-      // residuals.
+      // The factor reduces high-frequency components most, and these dominate the residuals.
       refine_modes(source_.problem(), source_.mass(), modes_.vectors, modes_.values);
       modes_.solves += modes_.size();
       measure();

@@ -17,10 +17,10 @@ struct EigenOptions : EigenChoice {
   int count = 0;         // the lowest `count` modes, or
   double fmax_hz = 0.0;  // all modes below this frequency; exactly one of the two is given
   bool prove_count = true;
-  double amls_cutoff = 2.5;     // of kAmls: largest substructure mode over the frequency
+  double amls_cutoff = 2.5;     // of kAmls: cut-off of substructure modes / frequency
   std::optional<double> sigma;  // shift [rad2/s2]; chosen from the matrices when absent
-  /// Free rigid-body motions, n x m with K rigid = 0: modes of 0 Hz that are known in
-  /// advance. No columns: nothing is free. Absent: not known.
+  /// Free rigid-body motions, n x m with K rigid = 0: modes of 0 Hz that are known in advance. No
+  /// columns: nothing is free. Absent: not known.
   std::optional<Eigen::MatrixXd> rigid;
   int max_retries = 2;  // new start vectors after a count mismatch
   uint64_t seed = 1;

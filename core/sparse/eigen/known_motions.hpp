@@ -7,9 +7,9 @@
 
 namespace clatter::sparse {
 
-/// Rigid-body motions U with K U = 0, U^T M U = 1. With P = 1 - U U^T M the operator
-/// P (K - sigma M)^{-1} M has the same other eigenpairs, and 0 instead of -1 / sigma for those of
-/// U, however small the shift.
+/// Rigid-body motions U with K U = 0, U^T M U = 1. With P = 1 - U U^T M the operator P (K - sigma
+/// M)^{-1} M has the same other eigenpairs, and 0 instead of -1 / sigma for those of U, however
+/// small the shift.
 class KnownMotions {
  public:
   /// @param U n x m, M-orthonormal, rows in the order of the problem; @param MU M U.

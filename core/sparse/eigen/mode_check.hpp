@@ -20,8 +20,8 @@ double beyond_rounding(const SparseMatrix& K, const SparseMatrix& M, double valu
 void refuse_residuals(const SparseMatrix& K, const SparseMatrix& M, const ModeSet& modes,
                       double most);
 
-/// Restores the original row order, row order[i] from row i (empty: unchanged),
-/// and makes the largest entry of each vector positive.
+/// Restores the original row order, row order[i] from row i (empty: unchanged), and makes the
+/// largest entry of each vector positive.
 void restore_order(const std::vector<int64_t>& order, ModeSet& modes);
 
 /// Inserts the known rigid-body modes (n x m, M-orthonormal) before the others, bounds the effect

@@ -1,6 +1,6 @@
 #pragma once
-// The lowest modes of one problem by the requested solver: dense, block Lanczos, ARPACK or
-// AMLS. Completeness is checked by the caller.
+// The lowest modes of one problem by the requested solver: dense, block Lanczos, ARPACK or AMLS.
+// Completeness is checked by the caller.
 #include <string>
 #include <vector>
 

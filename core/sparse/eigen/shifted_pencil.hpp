@@ -1,6 +1,5 @@
 #pragma once
-// K - sigma M, factorised: the operator of all sparse eigen-solvers, and the choice of
-// its shift.
+// K - sigma M, factorised: the operator of all sparse eigen-solvers, and the choice of its shift.
 #include <memory>
 #include <vector>
 

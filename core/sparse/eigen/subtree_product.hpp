@@ -9,8 +9,7 @@
 namespace clatter::sparse {
 
 /// A = L^{-1} S P M P^T S L^{-T} with P S (K - sigma M) S P^T = L L^T: A y = y / (lambda - sigma).
-/// The principal block of complete subtrees is the same operator with all other unknowns
-/// fixed.
+/// The principal block of complete subtrees is the same operator with all other unknowns fixed.
 class SubtreeProduct {
  public:
   /// @param mass P M P^T. Both must outlive this.

@@ -7,8 +7,8 @@
 namespace clatter::sparse {
 
 /// Fills order, first, row_start and rows of `tree` for L of P A P^T (Chen, Davis, Hager and
-/// Rajamanickam 2008); supernodes are merged where this adds few zeros, and are
-/// in postorder. Throws NumericsError when memory runs out.
+/// Rajamanickam 2008); supernodes are merged where this adds few zeros, and are in postorder.
+/// Throws NumericsError when memory runs out.
 /// @param lower n x n, lower triangle; order: permutation, n.
 void find_supernodes(const SparseMatrix& lower, const std::vector<int64_t>& order,
                      SupernodeTree& tree);

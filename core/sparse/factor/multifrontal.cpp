@@ -107,8 +107,7 @@ void Elimination::assemble_child(int32_t child, Workspace& work, const Front& fr
   parallel_pieces(pieces, [&](int64_t begin, int64_t end) { columns(cut(begin), cut(end)); });
 }
 
-/// Zeros panel and update, possibly the first access to their pages: large fronts on all
-/// threads.
+/// Zeros panel and update, possibly the first access to their pages: large fronts on all threads.
 void clear(const Front& front, bool wide) {
   constexpr int64_t kWide = 1 << 20;
   const int64_t height = front.height(), columns = front.columns;

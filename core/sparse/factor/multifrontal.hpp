@@ -28,11 +28,10 @@ using FrontKernel = std::function<void(int32_t s, const Front& front)>;
 /// Assembles the fronts from A and the update matrices of the children (Duff and Reid 1983) and
 /// passes each to `kernel`, children before parents; update matrices are freed once assembled.
 /// Disjoint subtrees run in parallel with one BLAS thread each, the top of the tree with BLAS on
-/// all threads. Every front is summed in tree order, so results do not depend on the
-/// schedule.
+/// all threads. Every front is summed in tree order, so results do not depend on the schedule.
 /// @param panels entries() doubles that receive all panels, or nullptr: panels are temporary.
-/// @param schur n_b x n_b, both triangles: receives the sum of the updates of the boundary
-/// (nullptr without boundary).
+/// @param schur n_b x n_b, both triangles: receives the sum of the updates of the boundary (nullptr
+/// without boundary).
 /// An exception of `kernel` ends the elimination and is rethrown.
 void eliminate(const SupernodeTree& tree, const PermutedMatrix& matrix, const FrontKernel& kernel,
                double* panels, Eigen::MatrixXd* schur);

@@ -94,8 +94,7 @@ void analyse(Mumps& mumps, const std::vector<int64_t>& permutation) {
   }
 }
 
-/// Factorises; delayed pivots may need more workspace than predicted, so it is raised and
-/// retried.
+/// Factorises; delayed pivots may need more workspace than predicted, so it is raised and retried.
 void factorise(Mumps& mumps) {
   constexpr MUMPS_INT kRelaxation[] = {30, 100, 300};  // [%]
   for (const MUMPS_INT percent : kRelaxation) {

@@ -133,8 +133,8 @@ void SupernodalFactor::Impl::check_pivots(const FactorOptions& options) {
       -1);
 }
 
-/// An undetected singular matrix maps the component of b in its null space, about 1/sqrt(n) of
-/// it, to a huge x: the residual is then not small, or x as large as rounding allows.
+/// An undetected singular matrix maps the component of b in its null space, about 1/sqrt(n) of it,
+/// to a huge x: the residual is then not small, or x as large as rounding allows.
 void SupernodalFactor::Impl::probe(const SparseMatrix& lower, const FactorOptions& options) {
   constexpr double kSmallResidual = 1e-10;
   const auto n = lower.rows();
@@ -158,8 +158,8 @@ void SupernodalFactor::Impl::probe(const SparseMatrix& lower, const FactorOption
       -1);
 }
 
-/// Row-major blocks of columns of b in elimination order; `use` gets each block (with space
-/// for the boundary after it), its width and its first column.
+/// Row-major blocks of columns of b in elimination order; `use` gets each block (with space for the
+/// boundary after it), its width and its first column.
 template <class Use>
 void SupernodalFactor::Impl::by_blocks(const Eigen::Ref<const Eigen::MatrixXd>& b,
                                        Use&& use) const {

@@ -66,8 +66,8 @@ class SupernodalFactor {
 
   /// x = A^{-1} b, b is n x m; blocks of right-hand sides are distributed to the threads.
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// The same in place for row-major vectors in elimination order (permutation()): value c
-  /// of row j is x[j * count + c]. Nothing is copied.
+  /// The same in place for row-major vectors in elimination order (permutation()): value c of row j
+  /// is x[j * count + c]. Nothing is copied.
   void solve_in_order(double* x, int count) const;
 
   int64_t size() const;

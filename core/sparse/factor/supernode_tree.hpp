@@ -1,6 +1,5 @@
 #pragma once
-// Symbolic structure of a sparse factor: supernodes, their rows, and the elimination
-// tree.
+// Symbolic structure of a sparse factor: supernodes, their rows, and the elimination tree.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -53,8 +53,8 @@ CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, c
   for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
 }
 
-/// body(constant of value `count`) for count <= Most, nothing for 0: the remaining rows in
-/// one go. A single row would always wait for its previous product.
+/// body(constant of value `count`) for count <= Most, nothing for 0: the remaining rows in one go.
+/// A single row would always wait for its previous product.
 template <int Most, class Body>
 CLATTER_INLINE void with_count(int count, Body&& body) {
   if constexpr (Most > 0) {

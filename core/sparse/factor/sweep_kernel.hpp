@@ -1,6 +1,6 @@
 #pragma once
-// Inner loops of triangular solves with many right-hand sides, in registers: BLAS packs a panel
-// for every product, which costs as much as the product for only some tens of columns.
+// Inner loops of triangular solves with many right-hand sides, in registers: BLAS packs a panel for
+// every product, which costs as much as the product for only some tens of columns.
 #include <cstdint>
 
 namespace clatter::sparse {

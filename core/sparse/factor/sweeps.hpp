@@ -24,17 +24,16 @@ struct FactorView {
   int32_t reach_index() const { return reach < 0 ? end_index() : reach; }
 };
 
-/// Some right-hand sides from the view's first index on: `count` contiguous values per row,
-/// rows at distance `stride`. `count` is 1 or a multiple of kLanes.
+/// Some right-hand sides from the view's first index on: `count` contiguous values per row, rows at
+/// distance `stride`. `count` is 1 or a multiple of kLanes.
 struct SweepColumns {
   double* at = nullptr;
   int count = 0;
   int64_t stride = 0;
 };
 
-/// Target of the updates of rows after the view's last index: `count` values
-/// of row j at sums[index[j] * count]. Without sums they go to x, which must then include these
-/// rows.
+/// Target of the updates of rows after the view's last index: `count` values of row j at
+/// sums[index[j] * count]. Without sums they go to x, which must then include these rows.
 struct RowsAfterView {
   double* sums = nullptr;
   const int32_t* index = nullptr;

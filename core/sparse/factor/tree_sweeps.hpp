@@ -10,8 +10,8 @@
 namespace clatter::sparse {
 
 /// Below the top each thread has its own subtrees, so that all threads together read L once;
-/// updates of the top's rows are summed per thread and added in thread order: the same bits
-/// on every run with one thread count.
+/// updates of the top's rows are summed per thread and added in thread order: the same bits on
+/// every run with one thread count.
 class TreeSweeps {
  public:
   TreeSweeps() = default;
@@ -20,8 +20,7 @@ class TreeSweeps {
   /// x <- S L^{-T} L^{-1} S x for `count` values per row, 1 or a multiple of kLanes.
   /// @param scale S in the order of A.
   void solve(const FactorView& L, const std::vector<double>& scale, double* x, int count) const;
-  /// x <- L^{-1} S x for the unknowns; x also has the boundary rows, which receive -L_b L^{-1}
-  /// S x.
+  /// x <- L^{-1} S x for the unknowns; x also has the boundary rows, which receive -L_b L^{-1} S x.
   void forward_to_boundary(const FactorView& L, const std::vector<double>& scale, double* x,
                            int count) const;
 

@@ -267,8 +267,8 @@ TEST(Amls, TheDensityCountsModesToAHalf) {
   const VectorXd values = solve_modes(box.K, box.M, by_count(300)).values;
   for (const int count : {30, 100, 290}) {
     const double nu = 1.0 / (0.5 * (values[count - 1] + values[count]) - sigma);
-    // 16 random vectors estimate `count` modes with a deviation of sqrt(2 / (16 count)): 6.5 %
-    // of 30.
+    // 16 random vectors estimate `count` modes with a deviation of sqrt(2 / (16 count)): 6.5 % of
+    // 30.
     EXPECT_GT(density.count_above(nu), 0.8 * count);
     EXPECT_LT(density.count_above(nu), 1.5 * count);  // few of the ten nodes are near
     const double back = density.count_above(density.nu_above(count));
