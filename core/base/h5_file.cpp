@@ -233,7 +233,7 @@ std::string H5File::get_string(std::string_view object, std::string_view name) c
     return impl_->text_attribute(object, name);
   const std::vector<std::string> values = read_strings(member(object, name));
   if (values.size() != 1)
-    impl_->refuse(member(object, name), fmt::format("found {} texts, expected 1", values.size()));
+    impl_->refuse(member(object, name), fmt::format("found {} strings, expected 1", values.size()));
   return values.front();
 }
 

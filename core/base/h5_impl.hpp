@@ -74,7 +74,7 @@ struct H5File::Impl {
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
     throw InputError(fmt::format("{}: {}", at(name), what));
   }
-  [[noreturn]] void trouble(std::string_view name) const {
+  [[noreturn]] void fail_write(std::string_view name) const {
     throw FileError(fmt::format("{}: cannot be written (disk full or no permission?)", at(name)));
   }
 
@@ -136,7 +136,7 @@ struct H5File::Impl {
                  &H5Dclose);
     const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
     if (!set.ok() || (!empty && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
-      trouble(name);
+      fail_write(name);
     }
   }
 
@@ -215,7 +215,7 @@ struct H5File::Impl {
     ensure_group(parent_of(object));
     const Id creation = checked_creation(H5P_GROUP_CREATE);
     const Id group(H5Gcreate2(file, object.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), &H5Gclose);
-    if (!group.ok()) trouble(object);
+    if (!group.ok()) fail_write(object);
   }
 
   static std::string parent_of(const std::string& path) {
@@ -234,7 +234,7 @@ struct H5File::Impl {
                    &H5Sclose);
     const Id attribute(H5Acreate2(owner, key.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
                        &H5Aclose);
-    if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) trouble(object);
+    if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) fail_write(object);
   }
 
   Id open_attribute(std::string_view object, std::string_view name) const {
@@ -252,7 +252,7 @@ struct H5File::Impl {
     const Id stored(H5Aget_type(attribute), &H5Tclose);
     const Id space(H5Aget_space(attribute), &H5Sclose);
     if (H5Tget_class(stored) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
-      refuse(object, fmt::format("attribute {} is not a text", name));
+      refuse(object, fmt::format("attribute {} is not a string", name));
     const auto cannot = [&] { refuse(object, fmt::format("attribute {}: {}", name, damage())); };
     if (H5Tis_variable_str(stored) > 0) {  // written by h5py or earlier versions of clatter
       const Id type = string_type();

@@ -77,8 +77,7 @@ std::string first_frequency_warning(double hz, double length) {
   if (kPossible.hold(hz * length)) return "";
   return fmt::format(
       "first elastic frequency {:.4g} Hz of a part of {:.4g} m: are E, rho and lengths in one "
-      "system "
-      "of units (Pa, kg/m3, m)?",
+      "system of units (Pa, kg/m3, m)?",
       hz, length);
 }
 

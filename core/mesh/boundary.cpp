@@ -50,9 +50,8 @@ void require_same_nodes(const Mesh& mesh, const FaceRef& a, const FaceRef& b) {
   if (one.type != other.type && linear_along_edges(mesh, one) && linear_along_edges(mesh, other))
     return;
   throw InputError(fmt::format(
-      "mesh '{}': {} and {} share the face with corners {} but not its mid-side nodes, expected "
-      "the "
-      "same nodes on both sides",
+      "mesh '{}': {} and {} share the face with corners {} but not its mid-side nodes, "
+      "expected the same nodes on both sides",
       mesh.name, name_of(mesh, a), name_of(mesh, b), fmt::join(corner_labels(mesh, a.key), ", ")));
 }
 

@@ -46,17 +46,15 @@ sparse::NotPositiveDefinite explained(const fe::FeModel& model, const std::strin
   const std::string loose = loose_motions(model, body, dof);
   if (!stiff)
     text += fmt::format(
-        ": it has no stiffness{}: a node without cells or springs, or with only a "
-        "damper",
+        ": it has no stiffness{}: a node without cells or springs, or with only a damper",
         heavy ? "" : " and no mass");
   else if (!loose.empty())
     text += ": unsupported " + loose + ": add a [[support]], or a [[tie]] to a supported part";
   else
     text +=
-        ": all rigid-body motions are supported, so this is a mechanism: couplings or equations "
-        "that "
-        "act as a hinge, a part connected at too few nodes, or matrices of different "
-        "models";
+        ": all rigid-body motions are supported, so this is a mechanism: couplings or "
+        "equations that act as a hinge, a part connected at too few nodes, or matrices of "
+        "different models";
   return {text, error.column};
 }
 

@@ -7,8 +7,8 @@ std::string certificate_warning(const ReducedModel& model) {
   if (found.empty()) return "no certificate: its modes and mass properties are unverified";
   const auto certified = found.find("certified");
   if (certified == found.end() || certified->second != 0.0) return {};
-  return "not certified: condensed with --no-certificate, missing modes would be "
-         "undetected";
+  return "not certified: condensed with --no-certificate, "
+         "missing modes would be undetected";
 }
 
 }  // namespace clatter::rom

@@ -323,7 +323,7 @@ ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOpt
                     const SupernodalFactor* factor) {
   check_request(K, M, options);
   const auto masses = K.rows() - bounds_of(K, M).massless;
-  if (masses == 0) throw InputError("modes: found no mass, expected a mass matrix with mass");
+  if (masses == 0) throw InputError("modes: found M = 0, expected some mass");
   if (masses < K.rows() && masses <= options.dense_limit && K.rows() > options.dense_limit &&
       factor == nullptr)
     return solve_few_masses(K, M, options);
