@@ -43,9 +43,9 @@ class SurfaceBuilder {
   std::array<std::vector<int32_t>, kFaceTypes> nodes_;
 };
 
-/// Node set of hanging mid-side nodes: they complete quadratic cells whose edge was linear in the
-/// deck. Their displacement is the mean of the edge's ends ([[straight_edges]] of an fe.toml),
-/// which makes the cell compatible with adjacent linear cells.
+/// Node set of the mid-side nodes that were added to complete cells: the deck's cell was linear
+/// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
+/// fe.toml), so that such a cell matches adjacent linear cells.
 inline constexpr const char* kHangingMidSideNodes = "hanging_middles";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
