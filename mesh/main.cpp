@@ -112,7 +112,7 @@ void report(const Outcome& result) {
   print_result(
       fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
                   "m, scaled Jacobian {:.3f} in cell {}",
-                  angle.worst, angle.label, angle.place.x(), angle.place.y(), angle.place.z(),
+                  angle.worst, angle.label, angle.position.x(), angle.position.y(), angle.position.z(),
                   c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
   if (c.contains("invalid_cells_before_repair"))
     print_result(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
@@ -131,7 +131,7 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
   const LengthUnit unit = read_length_unit(config);
   const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
   note_poor_cells(poor, made.part.certificate);
-  judge_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
+  check_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
                    settings.accept_poor_cells || a.accept_poor_cells);
   Outcome out{std::move(made.part.mesh),
               std::move(made.part.quality),
@@ -165,7 +165,7 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem&
   const PoorCells poor = find_poor_cells(out.mesh, out.quality);
   out.certificate = certify_mesh(out.mesh, out.quality);
   note_poor_cells(poor, out.certificate);
-  judge_poor_cells(poor, out.mesh, kQualityAims,
+  check_poor_cells(poor, out.mesh, kQualityAims,
                    {units.name.substr(0, units.name.find('-')), units.length},
                    true);  // the mesh is the user's: never refused by quality
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",

@@ -63,7 +63,7 @@ TopoDS_Shape shape_of_session(GmshSession& session) {
   return shape;
 }
 
-TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& asked) {
+TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& narrow_faces) {
   BRepAlgoAPI_Defeaturing removal;
   removal.SetShape(shape);
   removal.SetRunParallel(false);
@@ -72,16 +72,16 @@ TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& 
   for (int f = 1; f <= faces.Extent(); ++f) {
     if (width_of(faces(f)) >= below) continue;
     removal.AddFaceToRemove(faces(f));
-    ++asked;
+    ++narrow_faces;
   }
   TopoDS_Shape result = shape;
-  if (asked > 0) {
+  if (narrow_faces > 0) {
     removal.Build();
     if (removal.HasErrors() || removal.Shape().IsNull())
       throw NumericsError(
           fmt::format("[cad] defeature_below: OpenCASCADE cannot take {} faces out: choose another "
                       "width or none",
-                      asked));
+                      narrow_faces));
     result = removal.Shape();
   }
   ShapeUpgrade_UnifySameDomain unite(result, true, true, false);
@@ -104,7 +104,7 @@ Defeatured defeature(GmshSession& session, const Solids& solids, double below) {
     try {
       const TopoDS_Shape shape = shape_of_session(session);
       d.faces_before = faces_of(shape).Extent();
-      const TopoDS_Shape result = without_narrow_faces(shape, below, d.asked);
+      const TopoDS_Shape result = without_narrow_faces(shape, below, d.narrow_faces);
       if (!BRepCheck_Analyzer(result).IsValid())
         throw NumericsError(
             "[cad] defeature_below: OpenCASCADE leaves no sound solid: choose another width or "

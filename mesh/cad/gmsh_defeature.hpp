@@ -15,10 +15,10 @@ namespace clatter::mesh {
 struct Defeatured {
   Solids solids;
   int faces_before = 0, faces_after = 0;
-  int asked = 0;  // faces narrower than the limit
+  int narrow_faces = 0;  // faces narrower than the limit
   struct Kept {
     double width;
-    Eigen::Vector3d place;
+    Eigen::Vector3d position;
   };
   std::vector<Kept> kept;  // narrow faces that could not be taken out
   double volume_before = 0.0, volume_after = 0.0;

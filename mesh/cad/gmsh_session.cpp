@@ -253,16 +253,16 @@ void GmshSession::replace_cells(const RawMesh& raw) {
     while (tags.size() < static_cast<size_t>(raw.nodes.rows())) tags.push_back(++next);
     for (const auto& [solid, cells] : raw.cells) {
       std::vector<size_t> inner, corners;
-      std::vector<double> places;
+      std::vector<double> coordinates;
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
         const int32_t row = cells.data()[i];
         const size_t tag = tags[static_cast<size_t>(row)];
         corners.push_back(tag);
         if (!known.insert(tag).second) continue;
         inner.push_back(tag);
-        for (int d = 0; d < 3; ++d) places.push_back(raw.nodes(row, d));
+        for (int d = 0; d < 3; ++d) coordinates.push_back(raw.nodes(row, d));
       }
-      gmsh::model::mesh::addNodes(3, solid, inner, places);
+      gmsh::model::mesh::addNodes(3, solid, inner, coordinates);
       gmsh::model::mesh::addElementsByType(solid, kTet4, {}, corners);
     }
   });

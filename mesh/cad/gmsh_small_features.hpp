@@ -11,7 +11,7 @@ namespace clatter::mesh {
 /// An edge by its length, a face by its width (2 area / circumference) or by its radius.
 struct SmallFeature {
   double size;
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
 };
 
 /// Each list ascending by size, in the part's unit.

@@ -104,10 +104,10 @@ std::vector<SkinCrossing> find_crossings(const RowMatrix& nodes,
       const Triangle& other = all[i];
       if (share_a_node(t, other)) continue;
       for (size_t e = 0; e < 3; ++e) {
-        const auto place = pierce(at(other.nodes[e]), at(other.nodes[(e + 1) % 3]), corners);
-        if (!place) continue;
+        const auto position = pierce(at(other.nodes[e]), at(other.nodes[(e + 1) % 3]), corners);
+        if (!position) continue;
         const std::pair pair(std::min(t.face, other.face), std::max(t.face, other.face));
-        ++found.try_emplace(pair, SkinCrossing{pair.first, pair.second, 0, *place})
+        ++found.try_emplace(pair, SkinCrossing{pair.first, pair.second, 0, *position})
               .first->second.count;
       }
     }
@@ -123,7 +123,7 @@ std::string describe_crossings(const std::vector<SkinCrossing>& crossings) {
   for (size_t i = 0; i < std::min(kMost, crossings.size()); ++i) {
     const SkinCrossing& c = crossings[i];
     texts.push_back(fmt::format("face {} and face {} at ({:.5g}, {:.5g}, {:.5g}) ({} places)",
-                                c.face, c.other, c.place.x(), c.place.y(), c.place.z(), c.count));
+                                c.face, c.other, c.position.x(), c.position.y(), c.position.z(), c.count));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -14,7 +14,7 @@ namespace clatter::mesh {
 struct SkinCrossing {
   int face, other;
   int count;              // edges of the one through triangles of the other
-  Eigen::Vector3d place;  // of the first
+  Eigen::Vector3d position;  // of the first
 };
 
 /// `triangles`: by face tag, rows of three nodes. Triangles that share a node are not compared.

@@ -43,13 +43,13 @@ Match match(const Mesh& mesh, const CyclicSector& sector, const Eigen::Matrix3d&
   Match out;
   for (const int32_t node : sector.one) {
     const Eigen::Vector3d x = turned(sector, Q, mesh.nodes.row(node).transpose());
-    const double place = along.dot(x);
+    const double height = along.dot(x);
     const auto middle =
-        std::lower_bound(sorted.begin(), sorted.end(), std::pair(place, int32_t{-1}));
+        std::lower_bound(sorted.begin(), sorted.end(), std::pair(height, int32_t{-1}));
     double least = std::numeric_limits<double>::infinity();
     int32_t nearest = -1;
     const auto look = [&](const std::pair<double, int32_t>& entry) {
-      if (std::abs(entry.first - place) >= least) return false;
+      if (std::abs(entry.first - height) >= least) return false;
       const double distance = (mesh.nodes.row(entry.second).transpose() - x).norm();
       if (distance < least) least = distance, nearest = entry.second;
       return true;
@@ -151,7 +151,7 @@ int64_t size_of(const Deck& deck) {
   for (const auto& [name, nodes] : mesh.node_sets) size += static_cast<int64_t>(nodes.size());
   for (const auto& [name, field] : mesh.fields) size += field.size();
   const auto add = [&](const std::vector<Support>& supports) {
-    for (const Support& support : supports) size += static_cast<int64_t>(support.places.size());
+    for (const Support& support : supports) size += static_cast<int64_t>(support.node_indices.size());
   };
   add(deck.supports);
   add(deck.retained);
@@ -171,7 +171,7 @@ class Unfolding {
     refuse_others();
     surfaces();
     for (auto& [name, nodes] : mesh_.node_sets) nodes = all_of(nodes);
-    for (auto& [name, places] : deck_.sets) places = all_of(places);
+    for (auto& [name, node_indices] : deck_.sets) node_indices = all_of(node_indices);
     supports(&deck_.supports);
     supports(&deck_.retained);
     for (Step& step : deck_.steps) {
@@ -249,13 +249,13 @@ class Unfolding {
     for (Support& support : *supports) {
       const bool whole = (support.dofs & kTranslations) == kTranslations && support.value == 0.0;
       if (whole || (!support.system.empty() && repeats(deck_.systems.at(support.system)))) {
-        support.places = all_of(support.places);
+        support.node_indices = all_of(support.node_indices);
         continue;
       }
       for (int32_t k = 1; k < sector_.count; ++k) {
         Support copy = support;
         copy.system = system_of(support.system, k);
-        for (Place& place : copy.places) place = ring_.at(k, place);
+        for (NodeIndex& node_index : copy.node_indices) node_index = ring_.at(k, node_index);
         turned.push_back(std::move(copy));
       }
     }
@@ -268,7 +268,7 @@ class Unfolding {
       for (size_t i = 0; i < own; ++i) {
         Step::NodalForce force = step->forces[i];
         force.system = system_of(force.system, k);
-        force.place = ring_.at(k, force.place);
+        force.node_index = ring_.at(k, force.node_index);
         step->forces.push_back(std::move(force));
       }
   }

@@ -23,7 +23,7 @@ struct Point {
 
 /// Nodes and points in one numbering: 0 ... n_nodes - 1 are nodes of the mesh, n_nodes + p is
 /// Deck::points[p].
-using Place = int32_t;
+using NodeIndex = int32_t;
 
 /// Directions x y z rx ry rz as bits 0 to 5.
 using DofMask = uint8_t;
@@ -68,9 +68,9 @@ struct Region {
 /// RBE2, kinematic coupling, rigid body: `dofs` of the dependents follow the reference.
 struct Rigid {
   std::string name, where;
-  Place reference = 0;
+  NodeIndex reference = 0;
   DofMask dofs = kAllDofs;  // rotations count on points only
-  std::vector<Place> dependents;
+  std::vector<NodeIndex> dependents;
 };
 
 /// RBE3, distributing coupling: the reference follows the weighted mean of the others.
@@ -78,10 +78,10 @@ struct Distributing {
   struct Term {
     double weight = 1.0;
     DofMask dofs = kTranslations;
-    std::vector<Place> places;
+    std::vector<NodeIndex> node_indices;
   };
   std::string name, where;
-  Place reference = 0;
+  NodeIndex reference = 0;
   DofMask dofs = kAllDofs;  // of the reference
   std::vector<Term> terms;  // by weight; or
   std::string surface;      // weights are the areas of this surface
@@ -96,7 +96,7 @@ struct Tie {
 /// sum coefficient * u = 0, or *EQUATION / MPC.
 struct Equation {
   struct Term {
-    Place place = 0;
+    NodeIndex node_index = 0;
     int direction = 0;  // 0 to 5
     double coefficient = 0.0;
   };
@@ -113,7 +113,7 @@ struct Spring {
 
 struct Mass {
   std::string where;
-  Place place = 0;
+  NodeIndex node_index = 0;
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the mass's own centre, basic axes
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // centre minus place, basic axes
@@ -122,7 +122,7 @@ struct Mass {
 /// Displacements held at zero, or in a step at a value.
 struct Support {
   std::string name, where;
-  std::vector<Place> places;
+  std::vector<NodeIndex> node_indices;
   DofMask dofs = kTranslations;
   std::string system;  // directions; empty: basic
   double value = 0.0;  // displacement, or rotation [rad]
@@ -131,7 +131,7 @@ struct Support {
 /// One step or subcase.
 struct Step {
   struct NodalForce {
-    Place place = 0;
+    NodeIndex node_index = 0;
     int direction = 0;  // 0 to 5
     double value = 0.0;
     std::string system;  // of the direction; empty: basic
@@ -163,7 +163,7 @@ struct Deck {
   Mesh mesh;
   std::vector<std::string> files;  // the deck and all that it includes
   std::vector<Point> points;
-  std::map<std::string, std::vector<Place>> sets;  // node sets that hold points too
+  std::map<std::string, std::vector<NodeIndex>> sets;  // node sets that hold points too
   std::map<std::string, System> systems;
   std::map<std::string, Material> materials;
   std::vector<Region> regions;

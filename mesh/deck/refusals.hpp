@@ -68,7 +68,7 @@ class Refusals {
 
  private:
   struct Found {
-    std::string place, message;
+    std::string position, message;
     std::vector<std::string> again;  // other places of the same message
   };
   std::vector<Found> found_;

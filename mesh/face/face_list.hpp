@@ -22,7 +22,7 @@ struct FaceList {
 
 /// Where to look for a face: the point of its axis beside its centre of area; a cone's apex, a
 /// sphere's or torus' centre; else the centre of area.
-Eigen::Vector3d place_of(const FaceFacts& face);
+Eigen::Vector3d position_of(const FaceFacts& face);
 
 /// The filters that select the face alone among its like: keys of a table [surface.NAME], one a
 /// line: its cylinder or plane, and the box around its edges, widened by `margin`.

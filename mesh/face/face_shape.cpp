@@ -216,11 +216,11 @@ FaceShape find_shape(const std::string& cad_kind, const Points& points, const Po
   return {kind};
 }
 
-void orient(FaceShape& shape, const Vector3d& place, const Vector3d& outward) {
+void orient(FaceShape& shape, const Vector3d& position, const Vector3d& outward) {
   if (shape.kind == ShapeKind::kPlane && shape.direction.dot(outward) < 0.0)
     shape.direction *= -1.0;
   if (!is_round(shape.kind)) return;
-  Vector3d from = place - shape.point;
+  Vector3d from = position - shape.point;
   const double along = from.dot(shape.direction);
   if (shape.kind != ShapeKind::kSphere) from -= along * shape.direction;
   if (shape.kind == ShapeKind::kTorus)  // from the tube's middle

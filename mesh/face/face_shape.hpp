@@ -43,7 +43,7 @@ bool is_round(ShapeKind kind);
 
 /// Makes a plane's normal point out of the solid and finds whether a round face is concave, from
 /// the outward normal at one of its points.
-void orient(FaceShape& shape, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
+void orient(FaceShape& shape, const Eigen::Vector3d& position, const Eigen::Vector3d& outward);
 
 /// How far x is from the surface; infinite where the kind has no formula.
 double distance_to(const FaceShape& shape, const Eigen::Vector3d& x);

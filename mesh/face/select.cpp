@@ -202,7 +202,7 @@ Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& 
                                  describe_faces(faces)));
   for (const Candidate& c : found) {
     if (!is_near(c)) continue;
-    auto& lines = any_exact ? selection.remarks : selection.doubts;
+    auto& lines = any_exact ? selection.remarks : selection.warnings;
     lines.push_back(fmt::format(
         "{}: surface '{}': {}, is {}: tolerance = {:.2g} in [surface.{}] {}", where, surface.name,
         describe_candidate(c, scale.unit), any_exact ? "left out" : "taken as none is closer",

@@ -78,7 +78,7 @@ struct SelectionScale {
 /// Selected faces, and what the user should hear of it.
 struct Selection {
   std::vector<int> tags;             // ascending
-  std::vector<std::string> doubts;   // faces that were taken though they are not exactly there
+  std::vector<std::string> warnings;   // faces that were taken though they are not exactly there
   std::vector<std::string> remarks;  // faces nearly there that were left out
 };
 

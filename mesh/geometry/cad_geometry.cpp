@@ -35,15 +35,15 @@ Solids without_small_features(GmshSession& session, const Solids& solids, double
       "mesh: {} faces are narrower than {:g} {}; without them and with faces of one "
       "surface united {} of {} faces are left; volume {:+.3g} %, box {:.6g} x {:.6g} x "
       "{:.6g} {} (before {:.6g} x {:.6g} x {:.6g})",
-      d.asked, below, unit, d.faces_after, d.faces_before,
+      d.narrow_faces, below, unit, d.faces_after, d.faces_before,
       100.0 * (d.volume_after / d.volume_before - 1.0), d.box_after.x(), d.box_after.y(),
       d.box_after.z(), unit, d.box_before.x(), d.box_before.y(), d.box_before.z()));
   if (!d.kept.empty()) {
-    const auto& [width, place] = d.kept.front();
+    const auto& [width, position] = d.kept.front();
     warn(
         fmt::format("mesh: {} narrow faces stay, as their neighbours do not meet without them: "
                     "{:.3g} {} wide at ({:.5g}, {:.5g}, {:.5g}){}",
-                    d.kept.size(), width, unit, place.x(), place.y(), place.z(),
+                    d.kept.size(), width, unit, position.x(), position.y(), position.z(),
                     d.kept.size() > 1 ? ", ..." : ""));
   }
   return d.solids;

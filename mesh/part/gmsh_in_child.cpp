@@ -42,7 +42,7 @@ std::string last_words(const ChildEnd& end) {
 
 }  // namespace
 
-std::string place_of(const ChildEnd& end) {
+std::string last_step(const ChildEnd& end) {
   const std::vector<std::string> lines = lines_of(end.chatter);
   const auto at = std::find_if(lines.rbegin(), lines.rend(),
                                [](const std::string& line) { return line.starts_with(kInfo); });
@@ -54,7 +54,7 @@ std::string place_of(const ChildEnd& end) {
 
 std::string describe_end(const ChildEnd& end, const ChildLimits& limits) {
   const std::string words = last_words(end);
-  return fmt::format("gmsh {} at: {}{}", end.describe(limits), place_of(end),
+  return fmt::format("gmsh {} at: {}{}", end.describe(limits), last_step(end),
                      words.empty() ? "" : fmt::format(" (it said: {})", words));
 }
 

@@ -11,7 +11,7 @@ namespace clatter::mesh {
 
 /// What Gmsh was at: its own last line about its work ("Meshing surface 7 (Cylinder,
 /// Frontal-Delaunay)"), else the step of gmsh_call().
-std::string place_of(const ChildEnd& end);
+std::string last_step(const ChildEnd& end);
 
 /// "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (...)", with what was said
 /// on stderr last.

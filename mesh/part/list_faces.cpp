@@ -52,7 +52,7 @@ void name_faces(const PartGeometry& part, const std::string& where, FaceList& li
   for (const NamedSurface& surface : part.surfaces) {
     try {
       const Selection selection = select_faces(list.faces, surface, scale, where);
-      for (const std::string& doubt : selection.doubts) warn(doubt);
+      for (const std::string& warning : selection.warnings) warn(warning);
       for (const std::string& remark : selection.remarks) say(remark);
       for (const int tag : selection.tags) list.surfaces[tag].push_back(surface.name);
     } catch (const InputError& nothing) {

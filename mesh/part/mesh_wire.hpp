@@ -33,14 +33,14 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<WorstCell> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [value, block, cell, label, place] = s;
-  archive(value, block, cell, label, place);
+  auto& [value, block, cell, label, position] = s;
+  archive(value, block, cell, label, position);
 }
 
 template <class Archive, SelfOf<Measure> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [worst, block, cell, label, place, low, high, histogram, by_type, worst_cells] = s;
-  archive(worst, block, cell, label, place, low, high, histogram, by_type, worst_cells);
+  auto& [worst, block, cell, label, position, low, high, histogram, by_type, worst_cells] = s;
+  archive(worst, block, cell, label, position, low, high, histogram, by_type, worst_cells);
 }
 
 template <class Archive, SelfOf<QualityReport> Self>

@@ -29,7 +29,7 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
   FaceTags tags;
   for (const NamedSurface& surface : part.surfaces) {
     const Selection selection = select_faces(faces, surface, scale, where);
-    for (const std::string& doubt : selection.doubts) warn(doubt);
+    for (const std::string& warning : selection.warnings) warn(warning);
     for (const std::string& remark : selection.remarks) say(remark);
     tags[surface.name] = selection.tags;
   }

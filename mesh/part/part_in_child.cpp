@@ -132,8 +132,8 @@ Attempt simpler_than(MeshSettings settings) {
 
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
-  MeshSettings asked = read_mesh_settings(*job.config);
-  if (job.element_size > 0.0) asked.element_size = job.element_size;
+  MeshSettings requested = read_mesh_settings(*job.config);
+  if (job.element_size > 0.0) requested.element_size = job.element_size;
   std::optional<ScratchFolder> scratch;
   ChildLimits mine = limits;
   if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();
@@ -146,25 +146,25 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
     return made;
   };
 
-  const ChildEnd first = attempt(asked);
+  const ChildEnd first = attempt(requested);
   if (first.done()) return made_of(first, 0.0);
   const std::string fall =
-      fmt::format("{}: {}, with {}", job.where, describe_end(first, limits), sizes_of(asked));
+      fmt::format("{}: {}, with {}", job.where, describe_end(first, limits), sizes_of(requested));
   if (!fell_while_meshing(first))
     throw NumericsError(fmt::format("{}; {}", fall, advice_of(first)));
 
-  const Attempt simpler = simpler_than(asked);
+  const Attempt simpler = simpler_than(requested);
   warn(fmt::format("{}; trying once more {}", fall, simpler.difference));
   if (limits.seconds > 0.0) mine.seconds = std::max(1.0, limits.seconds - clock.seconds());
   const ChildEnd second = attempt(simpler.settings);
   if (second.done()) {
     warn(fmt::format("{}: meshed {}: Gmsh does not survive what was asked for", job.where,
                      simpler.difference));
-    return made_of(second, asked.elements_per_turn > 0 ? 1.0 : 2.0);
+    return made_of(second, requested.elements_per_turn > 0 ? 1.0 : 2.0);
   }
   throw NumericsError(fmt::format("{}; then, {}: {}; try another element_size_mm{}, or {}", fall,
                                   simpler.difference, describe_end(second, limits),
-                                  asked.local.empty() ? "" : " or local sizes", advice_of(second)));
+                                  requested.local.empty() ? "" : " or local sizes", advice_of(second)));
 }
 
 }  // namespace clatter::mesh

@@ -69,7 +69,7 @@ void check_solid_volumes(const PartGeometry& part, const Mesh& mesh, double metr
     if (std::abs(solid.joined - solid.volume) <= kMoved * solid.volume) continue;
     const double read = cubed * solid.volume, joined = cubed * solid.joined;
     const MeshVolume found = volume_of(solid, part, mesh);
-    const std::string told = fmt::format(
+    const std::string text = fmt::format(
         "{}: OpenCASCADE gives it {:.9g} mm3 as read and {:.9g} mm3 after joining it with its "
         "neighbours, its mesh has {:.9g} mm3",
         name_of(solid, metres_per_unit), kMm3 * read, kMm3 * joined, kMm3 * found.curved);
@@ -79,8 +79,8 @@ void check_solid_volumes(const PartGeometry& part, const Mesh& mesh, double metr
           "{}: {}, where chords explain {:.3g} mm3: a piece was lost or doubled, or OpenCASCADE's "
           "integral is wrong; look at the mesh with a larger cad.volume_tolerance (now {:g}, of "
           "the volume), or mend the solid in its CAD program, or leave it out",
-          where, told, kMm3 * found.chords, part.volume_tolerance));
-    say(fmt::format("mesh: {}: as read, within its chords", told));
+          where, text, kMm3 * found.chords, part.volume_tolerance));
+    say(fmt::format("mesh: {}: as read, within its chords", text));
   }
 }
 

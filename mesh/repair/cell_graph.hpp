@@ -52,7 +52,7 @@ class CellGraph {
   void store(Mesh& mesh) const;
 
  private:
-  Eigen::Matrix<double, 4, 3> place_of(const TetCorners& corners) const;
+  Eigen::Matrix<double, 4, 3> positions_of(const TetCorners& corners) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<TetCorners> cells_;

@@ -25,12 +25,12 @@
 namespace clatter::mesh {
 
 /// A cell by block and row.
-using CellPlace = std::pair<int32_t, int32_t>;
+using CellIndex = std::pair<int32_t, int32_t>;
 
 /// Estimated relative change of frequencies by these cells against good ones in their place. More
 /// than `kMostPoorCells` of them: every n-th is looked at and stands for n. 0 where all cells of
 /// the list are linear ones: they have no quadratic field, whatever their shape.
-double frequency_effect(const Mesh& mesh, const std::vector<CellPlace>& poor);
+double frequency_effect(const Mesh& mesh, const std::vector<CellIndex>& poor);
 inline constexpr size_t kMostPoorCells = 2000;
 
 }  // namespace clatter::mesh

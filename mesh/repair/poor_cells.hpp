@@ -35,7 +35,7 @@ PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
                           const QualityLimits& aims = kQualityAims);
 
 /// A length unit for places: "mm" and 1e-3.
-struct PlaceUnit {
+struct PositionUnit {
   std::string name = "mm";
   double metres = 1e-3;
 };
@@ -44,7 +44,7 @@ struct PlaceUnit {
 /// 3.4, 5) mm, ...), 9 with a scaled Jacobian below 0.2 (...); 0.02 % of the volume, estimated
 /// effect on frequencies 0.003 %".
 std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                                const PlaceUnit& unit);
+                                const PositionUnit& unit);
 
 /// For the certificate: poor_cells, poor_cells_below_floor, poor_cells_volume_share,
 /// poor_cells_frequency_effect.
@@ -52,7 +52,7 @@ void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certi
 
 /// Warns of poor cells. NumericsError when some are below kQualityFloor and `accept` is false; says
 /// where, and the ways out.
-void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                      const PlaceUnit& unit, bool accept);
+void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
+                      const PositionUnit& unit, bool accept);
 
 }  // namespace clatter::mesh

@@ -17,7 +17,7 @@ struct WorstCell {
   double value = 0.0;
   int32_t block = 0, cell = 0;  // block and row
   int32_t label = 0;            // its cell_label()
-  Eigen::Vector3d place;        // its centre [m]
+  Eigen::Vector3d position;        // its centre [m]
 };
 inline constexpr size_t kWorstCells = 10;
 
@@ -26,7 +26,7 @@ struct Measure {
   double worst = 0.0;
   int32_t block = 0, cell = 0;                                // the worst cell: block and row
   int32_t label = 0;                                          // its cell_label()
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();            // its centre [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            // its centre [m]
   double low = 0.0, high = 1.0;                               // range of the histogram
   std::vector<int64_t> histogram = std::vector<int64_t>(20);  // equal bins from low to high
   std::map<CellType, std::vector<int64_t>> by_type;           // the same of each cell type

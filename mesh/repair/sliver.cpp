@@ -70,8 +70,8 @@ struct GraphNode {
 };
 
 // Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
-double place_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
-  return search_place(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
+double move_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
+  return search_position(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
                       SmallestAngle(graph, cells));
 }
 
@@ -87,7 +87,7 @@ using Edge = std::array<int32_t, 2>;
 struct Split {
   std::vector<size_t> removed;
   std::vector<TetCorners> added;
-  Vector3d place;
+  Vector3d position;
   double angle = -2.0;
 };
 
@@ -112,14 +112,14 @@ Split try_split(CellGraph& graph, size_t cell, const std::vector<Edge>& edges) {
   }
   std::sort(split.removed.begin(), split.removed.end());
   split.removed.erase(std::unique(split.removed.begin(), split.removed.end()), split.removed.end());
-  split.angle = place_node(graph, node, split.added);
-  split.place = graph.point(node);
+  split.angle = move_node(graph, node, split.added);
+  split.position = graph.point(node);
   graph.remove_last_node();
   return split;
 }
 
 void apply(CellGraph& graph, const Split& split, int block) {
-  graph.add_node(split.place);
+  graph.add_node(split.position);
   for (size_t c : split.removed) graph.remove_cell(c);
   for (const TetCorners& corners : split.added) graph.add_cell(corners, block);
 }
@@ -167,7 +167,7 @@ bool sweep(CellGraph& graph, const std::vector<size_t>& bad, double target_deg) 
     const TetCorners corners = graph.cell(c);
     const double before = graph.angle(corners);
     for (int32_t node : corners) {
-      if (!graph.fixed(node)) place_node(graph, node, corners_around(graph, node));
+      if (!graph.fixed(node)) move_node(graph, node, corners_around(graph, node));
     }
     changed = changed || graph.angle(corners) > before;
     if (graph.angle(corners) < target_deg) changed = split_cell(graph, c) || changed;

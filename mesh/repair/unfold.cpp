@@ -61,7 +61,7 @@ class CurvedCells {
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;
-      search_place(Node{mesh_.nodes, node}, kFirstStep * size,
+      search_position(Node{mesh_.nodes, node}, kFirstStep * size,
                    [&](double best) { return worst_around(node, best); });
     }
     return ratio(id) > before;

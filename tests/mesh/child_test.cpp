@@ -61,9 +61,9 @@ TEST(HardN17_GmshInAChild, ItsLastNewsSayWhereItFell) {
   ChildEnd end;
   end.kind = ChildEnd::Kind::kCrashed;
   end.signal = 11;
-  EXPECT_EQ(place_of(end), "its start");
+  EXPECT_EQ(last_step(end), "its start");
   end.step = "gmsh: meshing";
-  EXPECT_EQ(place_of(end), "gmsh: meshing");
+  EXPECT_EQ(last_step(end), "gmsh: meshing");
   end.chatter =
       "Info    : Meshing 2D...\nInfo    : [ 20%] Meshing surface 7 (Cylinder, Frontal-Delaunay)\n"
       "free(): invalid pointer\n";

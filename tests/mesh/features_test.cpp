@@ -134,10 +134,10 @@ TEST(Features, AFaceThatCannotGoStaysAndIsTold) {
   const Solids part = session.fuse({session.box({0, 0, 0}, {60, 40, 10})},
                                    {session.box({60, 0, 0}, {80, 40, 9.95})});
   const Defeatured d = defeature(session, part, 0.2);
-  EXPECT_EQ(d.asked, 1);
+  EXPECT_EQ(d.narrow_faces, 1);
   ASSERT_EQ(d.kept.size(), 1u);
   EXPECT_NEAR(d.kept[0].width, 0.05, 1e-3);
-  EXPECT_NEAR(d.kept[0].place.x(), 60.0, 1e-6);
+  EXPECT_NEAR(d.kept[0].position.x(), 60.0, 1e-6);
   EXPECT_NEAR(d.volume_after / d.volume_before, 1.0, 1e-9);
 }
 

@@ -293,11 +293,11 @@ TEST(Mesher, ElementsPerTurnOnOneSurfaceRefineThatBoreOnly) {
   const Meshed plain = mesh_toml(kTube);
   const Meshed finer =
       mesh_toml(kTube + std::string("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n"));
-  const double asked = 2.0 * pi * 0.010 / 24.0;
-  EXPECT_GT(longest_edge(plain.part.mesh, "inner"), 2.0 * asked);
+  const double requested = 2.0 * pi * 0.010 / 24.0;
+  EXPECT_GT(longest_edge(plain.part.mesh, "inner"), 2.0 * requested);
   // Gmsh's edges are up to about 1.5 times as long as asked for.
-  EXPECT_LT(longest_edge(finer.part.mesh, "inner"), 1.6 * asked);
-  EXPECT_GT(longest_edge(finer.part.mesh, "outer"), 4.0 * asked);
+  EXPECT_LT(longest_edge(finer.part.mesh, "inner"), 1.6 * requested);
+  EXPECT_GT(longest_edge(finer.part.mesh, "outer"), 4.0 * requested);
 }
 
 // Cells whose centre lies within 6 mm of the bore: their mean edge follows size + growth *

@@ -200,9 +200,9 @@ TEST(MshGroups, HardG4_CellsInNoGroupAreRefusedAndTheGroupsListed) {
       two_tets("1\n3 7 \"iron\"\n", "11 4 2 7 1 1 2 3 4\n12 4 2 0 2 2 3 4 5\n", 2);
   expect_refused(text,
                  "element 12 (Tetrahedron 4) is in no group of solids, expected one of: iron");
-  const deck::Deck let_go = read_text(text, {"no group"});
-  EXPECT_EQ(let_go.mesh.cell_count(), 1);
-  EXPECT_EQ(let_go.ignored.at("NO GROUP"), 1);
+  const deck::Deck ignored = read_text(text, {"no group"});
+  EXPECT_EQ(ignored.mesh.cell_count(), 1);
+  EXPECT_EQ(ignored.ignored.at("NO GROUP"), 1);
 }
 
 TEST(MshGroups, HardG4_WithoutGroupsOfSolidsAllCellsAreOneRegion) {

@@ -110,15 +110,15 @@ TEST(PoorCells, TheWorstAreNamedInThePartsUnitAndBelowTheFloorRefused) {
   const PoorCells poor = poor_cells_of(spoiled);
   ASSERT_GT(poor.below_floor, 0);
   const std::string text = describe_poor_cells(poor, spoiled, kQualityAims, {"cm", 1e-2});
-  const Eigen::Vector3d place = poor.worst_squeezed.at(0).place / 1e-2;
+  const Eigen::Vector3d position = poor.worst_squeezed.at(0).position / 1e-2;
   EXPECT_NE(
-      text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", place.x(), place.y(), place.z())),
+      text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", position.x(), position.y(), position.z())),
       std::string::npos)
       << text;
   EXPECT_NE(text.find("estimated effect on frequencies"), std::string::npos) << text;
-  EXPECT_NO_THROW(judge_poor_cells(poor, spoiled, kQualityAims, {}, true));
+  EXPECT_NO_THROW(check_poor_cells(poor, spoiled, kQualityAims, {}, true));
   try {
-    judge_poor_cells(poor, spoiled, kQualityAims, {}, false);
+    check_poor_cells(poor, spoiled, kQualityAims, {}, false);
     FAIL() << "not refused";
   } catch (const NumericsError& error) {
     const std::string said = error.what();

@@ -119,7 +119,7 @@ TEST(SkinCrossing, NamesTheFacesAndThePlace) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].face, 1);
   EXPECT_EQ(found[0].other, 2);
-  EXPECT_EQ(found[0].place, Eigen::Vector3d(1, 1, 0));
+  EXPECT_EQ(found[0].position, Eigen::Vector3d(1, 1, 0));
   triangles.erase(2);
   EXPECT_TRUE(find_crossings(nodes, triangles).empty());
 }

@@ -13,8 +13,8 @@ std::vector<int32_t> side(Reading* reading, size_t use, const Fields& fields, si
   std::vector<int32_t> nodes;
   if (const auto* rows = node_surface(*reading, use, name)) {
     for (const int32_t row : *rows) {
-      if (reading->places->mesh_node(row) != Places::kNone)
-        nodes.push_back(reading->places->mesh_node(row));
+      if (reading->node_map->mesh_node(row) != NodeMap::kNone)
+        nodes.push_back(reading->node_map->mesh_node(row));
     }
   } else {
     nodes =

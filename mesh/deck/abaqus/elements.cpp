@@ -212,7 +212,7 @@ Lines::Kind skip_elements(Lines* lines, const std::string& type, Scope* scope, I
     std::string_view field;
     FieldWalk(lines->data()).next(&field);
     if (!goes_on) {
-      scope->let_go.push_back(id_of(field, *lines, "the number of an element"));
+      scope->ignored_elements.push_back(id_of(field, *lines, "the number of an element"));
       ++count;
     }
     goes_on = lines->data().ends_with(',');

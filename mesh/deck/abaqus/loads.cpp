@@ -44,17 +44,17 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
     const int32_t dof = fields.integer(1, "degree of freedom", 1, 6);
     const double value = factor * fields.number(2, "force");
     for (const int32_t row : reading_->sets->nodes_at(fields, 0, use)) {
-      const auto [place, dofs] = held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
+      const auto [node_index, dofs] = held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
       const int32_t id = reading_->model->node_ids()[static_cast<size_t>(row)];
-      if (place == Places::kNone) {
+      if (node_index == NodeMap::kNone) {
         fields.fail(fmt::format("found a force on node {}, which belongs to no element", id));
       }
       if (dofs == 0) {
         fields.fail(fmt::format("found a moment on node {}, which has no rotations", id));
       }
       const int direction = __builtin_ctz(dofs);
-      put(&forces_, std::pair(place, direction),
-          Value{value, step, &reading_->places->system(row)});
+      put(&forces_, std::pair(node_index, direction),
+          Value{value, step, &reading_->node_map->system(row)});
     }
   }
 }
@@ -251,8 +251,8 @@ void Loads::list_temperature(Step* out, StepNumber step) {
   if (temperature_ == initial) return;
   RowMatrix field(reading_->deck->mesh.nodes.rows(), 1);
   for (int32_t row = 0; row < reading_->model->nodes(); ++row) {
-    const int32_t node = reading_->places->mesh_node(row);
-    if (node == Places::kNone) continue;
+    const int32_t node = reading_->node_map->mesh_node(row);
+    if (node == NodeMap::kNone) continue;
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
   }

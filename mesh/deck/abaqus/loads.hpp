@@ -58,7 +58,7 @@ class Loads {
   std::vector<double> initial_field() const;
 
   Reading* reading_;
-  std::map<std::pair<Place, int>, Value> forces_;
+  std::map<std::pair<NodeIndex, int>, Value> forces_;
   std::map<CellFaceId, Value> faces_;
   std::map<std::string, Value> surfaces_;
   std::map<Vector, Gravity> gravity_;

@@ -131,9 +131,9 @@ class Sections {
       }
     }
     if (rest_only) sets.clear();
-    for (const auto& [place, set] : sets) {
-      const int32_t region = new_region(place.first, set->name, place.second);
-      for (const SetChunk& chunk : set->chunks) fill(place.first, chunk, region);
+    for (const auto& [key, set] : sets) {
+      const int32_t region = new_region(key.first, set->name, key.second);
+      for (const SetChunk& chunk : set->chunks) fill(key.first, chunk, region);
     }
     if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
     const int32_t rest = new_region(reading_.model->main_use(), "solid", 0);
@@ -181,7 +181,7 @@ class Sections {
 
 // Numbers the nodes that cells use, in the order of the deck, and copies them.
 std::vector<int32_t> take_nodes(const Model& model, Mesh* mesh) {
-  std::vector<int32_t> node(static_cast<size_t>(model.nodes()), Places::kNone);
+  std::vector<int32_t> node(static_cast<size_t>(model.nodes()), NodeMap::kNone);
   for (const FlatTable& table : model.tables()) {
     for (const int32_t row : table.nodes) node[static_cast<size_t>(row)] = 0;
   }
@@ -192,7 +192,7 @@ std::vector<int32_t> take_nodes(const Model& model, Mesh* mesh) {
   mesh->nodes.resize(count, 3);
   mesh->node_ids.resize(static_cast<size_t>(count));
   for (size_t row = 0; row < node.size(); ++row) {
-    if (node[row] == Places::kNone) continue;
+    if (node[row] == NodeMap::kNone) continue;
     mesh->nodes.row(node[row]) = model.at(static_cast<int32_t>(row));
     mesh->node_ids[static_cast<size_t>(node[row])] = model.node_ids()[row];
   }

@@ -72,7 +72,7 @@ void Model::index_scope(const Scope& scope) {
     ids.push_back(point.id);
     spots.push_back(point.spot);
   }
-  ids.insert(ids.end(), scope.let_go.begin(), scope.let_go.end());
+  ids.insert(ids.end(), scope.ignored_elements.begin(), scope.ignored_elements.end());
   element_index_.emplace_back(ids);
   const auto known = static_cast<int32_t>(spots.size());
   for (const auto& [first, second] : element_index_.back().duplicates()) {
@@ -208,7 +208,7 @@ int32_t Model::element_at(const Use& use, int32_t local) const {
   if (local < 0) return -1;
   if (local < use.cells) return use.first_cell + local;
   const int32_t point = local - use.cells;
-  if (point >= static_cast<int32_t>(use.scope->points.size())) return kLetGo;
+  if (point >= static_cast<int32_t>(use.scope->points.size())) return kIgnored;
   return cells_ + use.first_point + point;
 }
 
@@ -223,7 +223,7 @@ std::vector<int32_t> Model::find_elements(size_t use, const IdRange& range) cons
   element_index_[static_cast<size_t>(at.index)].for_each(
       range.first, range.last, range.step, [&](int32_t local) {
         const int32_t element = element_at(at, local);
-        if (element != kLetGo) found.push_back(element);
+        if (element != kIgnored) found.push_back(element);
       });
   return found;
 }

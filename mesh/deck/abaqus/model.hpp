@@ -80,7 +80,7 @@ class Model {
   int32_t find_element(size_t use, int32_t id) const;
   /// Without those that the user ignores.
   std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;
-  static constexpr int32_t kLetGo = -2;
+  static constexpr int32_t kIgnored = -2;
 
  private:
   void add_use(Scope* scope, const InstanceLine* line, int32_t index);

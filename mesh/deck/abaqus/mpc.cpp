@@ -24,7 +24,7 @@ std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& line
   }
   const Fields& fields = lines.front();
   for (const int32_t row : rows) {
-    if (!reading->places->system(row).empty()) {
+    if (!reading->node_map->system(row).empty()) {
       fields.fail(fmt::format("*MPC {}: node {} has *TRANSFORM, which is not supported here",
                               fields.text(0),
                               reading->model->node_ids()[static_cast<size_t>(row)]));
@@ -147,10 +147,10 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
   }
   const int32_t pilot = rows.back();
   rows.pop_back();
-  Places& places = *reading->places;
+  NodeMap& node_map = *reading->node_map;
   const Eigen::Vector3d axis = reading->model->at(pilot);
   const int32_t id = reading->model->node_ids()[static_cast<size_t>(pilot)];
-  if (places.mesh_node(pilot) != Places::kNone || !(axis.norm() > 0.0)) {
+  if (node_map.mesh_node(pilot) != NodeMap::kNone || !(axis.norm() > 0.0)) {
     fields.fail(
         fmt::format("*MPC MEANROT: found node {}, expected one of its own whose coordinates "
                     "are the direction of the axis",
@@ -185,7 +185,7 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
                                   [](const Term& one, const Term& other) {
                                     return std::abs(one.coefficient) < std::abs(other.coefficient);
                                   }));
-  places.set_rotation_node(pilot, places.of(pilot));
+  node_map.set_rotation_node(pilot, node_map.of(pilot));
   equation.terms.push_back({pilot, 0, -1.0});
   equations->push_back(std::move(equation));
 }
@@ -210,21 +210,21 @@ void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
   if (lines.size() > 1) lines[1].fail(fmt::format("expected one line of *MPC {}", type));
   const int32_t a = reading->sets->node_at(fields, 1, use);
   const int32_t b = reading->sets->node_at(fields, 2, use);
-  Places& places = *reading->places;
+  NodeMap& node_map = *reading->node_map;
   if (type == "BEAM") {
     Rigid rigid;
     rigid.name = fmt::format("beam_{}", reading->deck->rigid.size() + 1);
     rigid.where = reading->source.where(fields.spot());
-    const bool in_mesh = places.mesh_node(b) != Places::kNone;
-    rigid.reference = in_mesh ? places.point_upon(b) : places.of(b);
-    places.of(a);
+    const bool in_mesh = node_map.mesh_node(b) != NodeMap::kNone;
+    rigid.reference = in_mesh ? node_map.point_upon(b) : node_map.of(b);
+    node_map.of(a);
     std::vector<int32_t> rows = {a};
     if (in_mesh) rows.push_back(b);
     reading->dependents.emplace_back(reading->deck->rigid.size(), std::move(rows));
     reading->deck->rigid.push_back(std::move(rigid));
     return;
   }
-  const bool rotations = places.is_point(places.of(a)) && places.is_point(places.of(b));
+  const bool rotations = node_map.is_point(node_map.of(a)) && node_map.is_point(node_map.of(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations->push_back({fields.spot(), {{a, k, 1.0}, {b, k, -1.0}}});
   }

@@ -134,7 +134,7 @@ class Parser {
     if ((role == Role::kProcedure || frozen) && step_ >= 0 && steps_before_ > 0) {
       return begin_left_out(keyword);
     }
-    check_place(keyword, role);
+    check_context(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
     if (role == Role::kCoupling) parent_ = Role::kCoupling;
     switch (role) {
@@ -194,7 +194,7 @@ class Parser {
   }
 
   // What stands behind *MATERIAL describes it, until a keyword of another kind comes.
-  void check_place(const Keyword& keyword, Role role) {
+  void check_context(const Keyword& keyword, Role role) {
     const bool material = role == Role::kMaterialPart || role == Role::kMaterialIdle;
     const bool coupling = role == Role::kCouplingPart;
     if (material && parent_ != Role::kMaterial) misplaced(keyword, "behind *MATERIAL");
@@ -210,8 +210,8 @@ class Parser {
     if (role == Role::kStepBegin && scope_ != &deck_.model) misplaced(keyword, "outside of parts");
   }
 
-  [[noreturn]] void misplaced(const Keyword& keyword, std::string_view place) const {
-    source_.fail(keyword.spot, fmt::format("found {}, expected it {}", keyword.name, place));
+  [[noreturn]] void misplaced(const Keyword& keyword, std::string_view expected) const {
+    source_.fail(keyword.spot, fmt::format("found {}, expected it {}", keyword.name, expected));
   }
 
   Lines::Kind skip_data() {
@@ -310,7 +310,7 @@ class Parser {
     instance.spot = keyword.spot;
     Lines::Kind kind = lines_.next();
     for (int line = 0; kind == Lines::Kind::kData; kind = lines_.next(), ++line) {
-      place(Fields(lines_.data(), source_, lines_.spot()), line, &instance);
+      set_position(Fields(lines_.data(), source_, lines_.spot()), line, &instance);
     }
     if (kind == Lines::Kind::kEnd || lines_.keyword().key != "ENDINSTANCE") {
       source_.fail(keyword.spot,
@@ -321,7 +321,7 @@ class Parser {
     return no_data(lines_.keyword());
   }
 
-  static void place(const Fields& fields, int line, InstanceLine* instance) {
+  static void set_position(const Fields& fields, int line, InstanceLine* instance) {
     if (line == 0) {
       fields.at_most(3, "translation of an instance");
       for (int k = 0; k < 3; ++k) instance->shift[k] = fields.number_or(k, 0.0, "translation");

@@ -19,13 +19,13 @@ void read_node_sets(Reading* reading) {
     if (reading->deck->mesh.node_sets.contains(name) || reading->deck->sets.contains(name)) {
       reading->source.fail(spot, fmt::format("found a second node set {}", name));
     }
-    std::vector<Place> nodes, all;
+    std::vector<NodeIndex> nodes, all;
     for (const int32_t row : rows) {
-      const int32_t node = reading->places->mesh_node(row);
-      const Place place = reading->places->find(row);
-      if (node != Places::kNone) nodes.push_back(node);
-      if (node != Places::kNone || place != Places::kNone) {
-        all.push_back(node != Places::kNone ? node : place);
+      const int32_t node = reading->node_map->mesh_node(row);
+      const NodeIndex node_index = reading->node_map->find(row);
+      if (node != NodeMap::kNone) nodes.push_back(node);
+      if (node != NodeMap::kNone || node_index != NodeMap::kNone) {
+        all.push_back(node != NodeMap::kNone ? node : node_index);
       }
     }
     std::sort(nodes.begin(), nodes.end());
@@ -70,7 +70,7 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
                   .model = &model,
                   .sets = &sets,
                   .deck = &deck,
-                  .places = nullptr,
+                  .node_map = nullptr,
                   .initial = {},
                   .surface_names = {},
                   .node_surfaces = {},
@@ -83,8 +83,8 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   read_orientations(&reading);
   std::vector<int32_t> mesh_node;
   refusals.require([&] { mesh_node = build_mesh(&reading); });
-  Places places(&model, &deck, std::move(mesh_node));
-  reading.places = &places;
+  NodeMap node_map(&model, &deck, std::move(mesh_node));
+  reading.node_map = &node_map;
   read_surfaces(&reading);
   read_transforms(&reading);
   read_initial_conditions(&reading);

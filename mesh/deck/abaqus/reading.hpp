@@ -14,28 +14,28 @@
 namespace clatter::mesh::deck::abaqus {
 
 /// Where the rows of the model stand in the deck.
-class Places {
+class NodeMap {
  public:
   /// No place, no other node.
-  static constexpr Place kNone = -1;
+  static constexpr NodeIndex kNone = -1;
 
   /// `mesh_node` gives the node of the mesh of each row, or kNone.
-  Places(const Model* model, Deck* deck, std::vector<int32_t> mesh_node);
+  NodeMap(const Model* model, Deck* deck, std::vector<int32_t> mesh_node);
 
   /// The place that has the DoFs of a node; a node without cells becomes a point when asked for.
-  Place of(int32_t row);
+  NodeIndex of(int32_t row);
   /// The same, kNone for a node without cells that nothing else asked for: it has no stiffness.
-  Place find(int32_t row) const;
+  NodeIndex find(int32_t row) const;
   /// The node of the mesh, whatever carries its rotations; kNone for points.
   int32_t mesh_node(int32_t row) const { return mesh_node_[static_cast<size_t>(row)]; }
-  bool is_point(Place place) const;
+  bool is_point(NodeIndex node_index) const;
   /// A point that moves with a node of the mesh and has rotations as well.
-  Place point_upon(int32_t row);
+  NodeIndex point_upon(int32_t row);
 
   /// CalculiX: the translations of node `row` are the rotations of `reference`.
-  void set_rotation_node(int32_t row, Place reference) { rotation_of_[row] = reference; }
+  void set_rotation_node(int32_t row, NodeIndex reference) { rotation_of_[row] = reference; }
   /// kNone where `row` is no such node.
-  Place rotation_of(int32_t row) const;
+  NodeIndex rotation_of(int32_t row) const;
 
   /// *TRANSFORM: the directions of those nodes are those of a system of Deck::systems.
   void set_system(const std::vector<int32_t>& rows, const std::string& name);
@@ -43,13 +43,13 @@ class Places {
   const std::string& system(int32_t row) const;
 
  private:
-  Place add_point(int32_t row);
+  NodeIndex add_point(int32_t row);
 
   const Model* model_;
   Deck* deck_;
   std::vector<int32_t> mesh_node_;
-  std::map<int32_t, Place> point_of_;     // by row; also points upon nodes of the mesh
-  std::map<int32_t, Place> rotation_of_;  // by row
+  std::map<int32_t, NodeIndex> point_of_;     // by row; also points upon nodes of the mesh
+  std::map<int32_t, NodeIndex> rotation_of_;  // by row
   std::vector<std::string> system_names_ = {""};
   std::vector<int32_t> system_of_;  // by row, empty where there is no *TRANSFORM
 };
@@ -61,7 +61,7 @@ struct Reading {
   const Model* model;
   Sets* sets;
   Deck* deck;
-  Places* places = nullptr;                          // once the mesh stands
+  NodeMap* node_map = nullptr;                          // once the mesh stands
   std::vector<double> initial;                       // temperature by row; empty: 0 everywhere
   std::map<std::string, std::string> surface_names;  // "use:FOLDED" -> name in the mesh
   std::map<std::string, std::vector<int32_t>> node_surfaces;        // the same -> rows

@@ -70,7 +70,7 @@ struct Scope {
   NodeTable nodes;
   std::vector<CellTable> cells;
   std::vector<PointElement> points;
-  std::vector<int32_t> let_go;  // numbers of elements that the user ignores
+  std::vector<int32_t> ignored_elements;  // numbers of elements that the user ignores
   IdSets node_sets, element_sets;
   std::vector<Card> cards;
 };

@@ -77,16 +77,16 @@ Property property_of(const Card& card, const std::string& type, const Source& so
 // DoF `direction` of a node, which CalculiX may keep as a translation of a rotation node.
 Equation::Term end_of(Reading* reading, const PointElement& element, int32_t row, int direction,
                       double coefficient) {
-  Places& places = *reading->places;
-  const Place rotated = places.rotation_of(row);
-  const Place place = rotated == Places::kNone ? places.of(row) : rotated;
-  if (rotated != Places::kNone) direction += 3;
+  NodeMap& node_map = *reading->node_map;
+  const NodeIndex rotated = node_map.rotation_of(row);
+  const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.of(row) : rotated;
+  if (rotated != NodeMap::kNone) direction += 3;
   const int32_t id = reading->model->node_ids()[static_cast<size_t>(row)];
-  if (direction > 5 || (direction > 2 && !places.is_point(place))) {
+  if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
     reading->source.fail(element.spot,
                          fmt::format("element {}: node {} has no rotations", element.id, id));
   }
-  return {place, direction, coefficient};
+  return {node_index, direction, coefficient};
 }
 
 void add_spring(Reading* reading, const PointElement& element, const Card& card) {
@@ -111,7 +111,7 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
   } else {
     const int32_t ends[] = {element.node, element.second};
     for (size_t i = 0; i < property.directions.size(); ++i) {
-      if (!reading->places->system(ends[i]).empty()) {
+      if (!reading->node_map->system(ends[i]).empty()) {
         reading->source.fail(element.spot,
                              fmt::format("element {}: a {} on a node with *TRANSFORM is not "
                                          "supported, expected a SPRINGA",

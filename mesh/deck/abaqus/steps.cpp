@@ -130,17 +130,17 @@ class Steps {
       const Fields fields = card.line(i, reading_.source);
       fields.at_most(3, "nodes, first and last degree of freedom");
       const DofMask mask = dof_range(fields, 1);
-      std::map<std::pair<std::string, DofMask>, std::vector<Place>> groups;
+      std::map<std::pair<std::string, DofMask>, std::vector<NodeIndex>> groups;
       for (const int32_t row : reading_.sets->nodes_at(fields, 0, use)) {
-        const auto [place, dofs] = held_dofs(reading_, row, mask);
-        if (place != Places::kNone && dofs != 0) {
-          groups[{reading_.places->system(row), dofs}].push_back(place);
+        const auto [node_index, dofs] = held_dofs(reading_, row, mask);
+        if (node_index != NodeMap::kNone && dofs != 0) {
+          groups[{reading_.node_map->system(row), dofs}].push_back(node_index);
         }
       }
-      for (auto& [key, places] : groups) {
+      for (auto& [key, node_indices] : groups) {
         Support retained;
         retained.where = reading_.source.where(fields.spot());
-        retained.places = std::move(places);
+        retained.node_indices = std::move(node_indices);
         retained.dofs = key.second;
         retained.system = key.first;
         reading_.deck->retained.push_back(std::move(retained));
@@ -167,7 +167,7 @@ class Steps {
     constexpr int64_t kMostEntries = int64_t{1} << 25;  // two gigabytes
     entries_ += static_cast<int64_t>(step_.forces.size());
     for (const Support& support : step_.supports) {
-      entries_ += static_cast<int64_t>(support.places.size());
+      entries_ += static_cast<int64_t>(support.node_indices.size());
     }
     if (!step_.temperature.empty()) entries_ += reading_.model->nodes() / 8;
     if (entries_ > kMostEntries) {
@@ -212,7 +212,7 @@ void read_initial_conditions(Reading* reading) {
   // Nodes without elements have no say in whether there is one temperature.
   std::vector<double> known;
   for (size_t row = 0; row < reading->initial.size(); ++row) {
-    if (reading->places->mesh_node(static_cast<int32_t>(row)) != Places::kNone) {
+    if (reading->node_map->mesh_node(static_cast<int32_t>(row)) != NodeMap::kNone) {
       known.push_back(reading->initial[row]);
     }
   }

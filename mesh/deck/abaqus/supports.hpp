@@ -17,7 +17,7 @@ double amplitude_factor(const Reading& reading, const Card& card);
 
 /// The DoFs of a node in `mask` (1 to 6 of the deck): its place, and the mask there. No place
 /// (kNone) for a node without stiffness; a mask of 0 for rotations of a node that has none.
-std::pair<Place, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
+std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
 
 class Supports {
  public:
@@ -41,7 +41,7 @@ class Supports {
   void hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot);
 
   Reading* reading_;
-  std::map<std::pair<Place, int>, Held> held_;
+  std::map<std::pair<NodeIndex, int>, Held> held_;
   std::vector<std::string> cards_;  // where they stand
 };
 

@@ -137,7 +137,7 @@ void read_transforms(Reading* reading) {
     } while (reading->deck->systems.contains(system.name));
     reading->deck->systems[system.name] = system;
     const std::string& set = keyword.required("NSET", reading->source);
-    reading->places->set_system(reading->sets->nodes(use, set, card.spot()), system.name);
+    reading->node_map->set_system(reading->sets->nodes(use, set, card.spot()), system.name);
   });
 }
 

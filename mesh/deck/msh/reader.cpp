@@ -46,7 +46,7 @@ class Reader {
   deck::Deck run() {
     number_nodes();
     add_cells();
-    place_nodes();
+    sort_nodes();
     add_surfaces();
     add_node_sets();
     deck_.ignored = groups_.ignored();
@@ -138,7 +138,7 @@ class Reader {
 
   // Rows in ascending order of the numbers; nodes that only groups of curves and points use follow
   // as points.
-  void place_nodes() {
+  void sort_nodes() {
     for (const MshElements& elements : contents_.elements) {
       if (elements.dim > 1 || groups_.skips(elements)) continue;
       for (size_t e = 0; e < elements.tags.size(); ++e) {
@@ -251,8 +251,8 @@ class Reader {
           for (size_t i = 0; i < n; ++i)
             sets[name].insert(row_[node_at(elements.nodes[e * n + i], elements.tags[e])]);
     }
-    for (const auto& [name, places] : sets) {
-      const std::vector<int32_t> list(places.begin(), places.end());
+    for (const auto& [name, node_indices] : sets) {
+      const std::vector<int32_t> list(node_indices.begin(), node_indices.end());
       if (list.back() < deck_.mesh.nodes.rows())
         deck_.mesh.node_sets[name] = list;
       else

@@ -43,9 +43,9 @@ void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface) {
   const CellTraits& cell = traits(block->type);
   const auto corner_of = [&](int32_t grid) {
     if (grid == 0) return -1;
-    const Place place = model.find(grid, raw.origin);
+    const NodeIndex node_index = model.find(grid, raw.origin);
     for (int i = 0; i < cell.corners; ++i) {
-      if (block->nodes(row, i) == place) return i;
+      if (block->nodes(row, i) == node_index) return i;
     }
     refuse(fmt::format("node {} is no corner of cell {}", grid, raw.cell));
     return -1;

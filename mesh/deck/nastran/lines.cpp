@@ -133,11 +133,11 @@ class Reader {
 
   // A continuation that two cards ask for.
   void refuse_ambiguous() {
-    std::map<std::string_view, Origin> asked;
+    std::map<std::string_view, Origin> requested;
     for (const Card& card : waiting_) {
       const auto orphan = orphans_.find(card.next());
       if (orphan == orphans_.end()) continue;
-      const auto [first, fresh] = asked.emplace(card.next(), card.origin());
+      const auto [first, fresh] = requested.emplace(card.next(), card.origin());
       if (fresh) continue;
       source_.fail(orphan->second.origin(),
                    fmt::format("continuation {} belongs to one card, found two that ask for it: {} "

@@ -13,7 +13,7 @@ namespace clatter::mesh::deck::nastran {
 namespace {
 
 /// Rows of the two ends, the lower one first, and the middle node that was made for them.
-using Middles = std::map<std::pair<int32_t, int32_t>, int32_t>;
+using MidSideNodes = std::map<std::pair<int32_t, int32_t>, int32_t>;
 
 class Completer {
  public:
@@ -34,7 +34,7 @@ class Completer {
 
  private:
   int32_t between(int32_t a, int32_t b) {
-    const auto [at, fresh] = middles_.emplace(std::minmax(a, b), 0);
+    const auto [at, fresh] = mid_side_nodes_.emplace(std::minmax(a, b), 0);
     if (fresh) at->second = add(static_cast<size_t>(a), static_cast<size_t>(b));
     return at->second;
   }
@@ -50,13 +50,13 @@ class Completer {
     grids.ids.push_back(++next_);
     grids.at.push_back(at);
     grids.origins.push_back(grids.origins[a]);
-    model_.place_of_row.push_back(0);
+    model_.index_of_row.push_back(0);
     model_.hanging_rows.push_back(row);
     return row;
   }
 
   Model& model_;
-  Middles middles_;
+  MidSideNodes mid_side_nodes_;
   int32_t next_ = 0;  // last number given
 };
 

@@ -14,20 +14,20 @@ class Model {
   Model(const Source& source, Bulk bulk, Refusals& refusals);
 
   /// Place of a grid; one without cells becomes a Point. InputError when there is no such GRID.
-  Place require(int32_t grid, Origin origin);
+  NodeIndex require(int32_t grid, Origin origin);
   /// Place of a grid; -1 when nothing gave it one. InputError when there is no such GRID.
-  Place find(int32_t grid, Origin origin) const;
+  NodeIndex find(int32_t grid, Origin origin) const;
   /// Places of a list, -1 never; grids without one are passed over, those that a THRU spans and
   /// that do not exist too. `make_points`: like require().
-  std::vector<Place> places(const IdList& list, Origin origin, bool make_points);
+  std::vector<NodeIndex> node_indices(const IdList& list, Origin origin, bool make_points);
   /// Calls body(row of the grid) for each grid of the list.
   template <class Body>
   void for_each_grid(const IdList& list, Origin origin, const Body& body);
-  bool is_node(Place place) const { return place < node_count; }
+  bool is_node(NodeIndex node_index) const { return node_index < node_count; }
   /// Of a mesh node or a point.
-  Eigen::Vector3d position(Place place) const;
+  Eigen::Vector3d position(NodeIndex node_index) const;
   /// Number of its displacement system, 0: basic.
-  int32_t displacement_system(Place place) const;
+  int32_t displacement_system(NodeIndex node_index) const;
   /// Name of a system for the Deck, which has it from then on; empty for the basic one.
   std::string system_name(int32_t system, Origin origin);
   std::string where(Origin origin) const { return source.where(origin); }
@@ -40,16 +40,16 @@ class Model {
   IdIndex grids;  // row of a GRID
   Systems systems;
   Deck deck;
-  std::vector<Place> place_of_row;
+  std::vector<NodeIndex> index_of_row;
   std::vector<int32_t> hanging_rows;  // grids that complete_cells() added
-  Place node_count = 0;
+  NodeIndex node_count = 0;
   IdIndex cells;  // numbered through all blocks of the mesh
 
  private:
   size_t row_of(int32_t grid, Origin origin) const;
-  Place place_of(size_t row, Origin origin, bool make_points);
+  NodeIndex node_index_of(size_t row, Origin origin, bool make_points);
 
-  std::vector<int32_t> row_of_place_;
+  std::vector<int32_t> row_of_index_;
   int64_t effort_ = 0;
   friend void build_mesh(Model& model);
 };

@@ -293,8 +293,8 @@ TEST(AbaqusParts, ReferencePointsOfTheAssemblyGetNumbersOfTheirOwn) {
   ASSERT_EQ(deck.points.size(), 1u);
   EXPECT_EQ(deck.points[0].id, 11);
   EXPECT_EQ(deck.points[0].at, Eigen::Vector3d(5, 5, 5));
-  EXPECT_EQ(deck.sets.at("RP"), std::vector<Place>{8});
-  EXPECT_EQ(deck.rigid.at(0).dependents, (std::vector<Place>{0, 1, 2, 3}));
+  EXPECT_EQ(deck.sets.at("RP"), std::vector<NodeIndex>{8});
+  EXPECT_EQ(deck.rigid.at(0).dependents, (std::vector<NodeIndex>{0, 1, 2, 3}));
 }
 
 TEST(AbaqusParts, PartsOutOfPlaceAreRefused) {

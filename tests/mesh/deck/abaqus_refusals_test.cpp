@@ -35,13 +35,13 @@ TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
   // Behind a *END STEP the deck is whole, with a step less.
   const Deck whole = read(kLong);
   EXPECT_TRUE(whole.notes.empty());
-  int cuts = 0, whole_steps = 0;
+  int cuts = 0, complete_steps = 0;
   for (size_t end = kLong.find('\n'); end + 1 < kLong.size(); end = kLong.find('\n', end + 1)) {
     const std::string cut = kLong.substr(0, end + 1);
     ++cuts;
     if (cut.ends_with("*END STEP\n")) {
       EXPECT_TRUE(read(cut).notes.empty());
-      ++whole_steps;
+      ++complete_steps;
       continue;
     }
     const int line = lines_in(cut) - 1;
@@ -54,7 +54,7 @@ TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
     }
   }
   EXPECT_EQ(cuts, 48);
-  EXPECT_EQ(whole_steps, 1);
+  EXPECT_EQ(complete_steps, 1);
 }
 
 TEST(AbaqusEnd, WhatIsOpenAtTheEndIsRefusedByItsLine) {

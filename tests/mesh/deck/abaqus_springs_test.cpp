@@ -23,8 +23,8 @@ TEST(AbaqusSpring, BetweenTwoNodesPullsAlongTheirLine) {
   ASSERT_EQ(spring.terms.size(), 6u);
   const Eigen::Vector3d along = Eigen::Vector3d(-.5, -.5, 1).normalized();
   for (const Equation::Term& term : spring.terms) {
-    const bool far = term.place == point(deck, 9);
-    EXPECT_TRUE(far || term.place == node(deck, 7));
+    const bool far = term.node_index == point(deck, 9);
+    EXPECT_TRUE(far || term.node_index == node(deck, 7));
     EXPECT_NEAR(term.coefficient, (far ? 1 : -1) * along[term.direction], 1e-15);
   }
 }
@@ -96,12 +96,12 @@ TEST(AbaqusMpc, MeanRotationOfRigidTurnsIsTheirAngleAndOfShiftsNone) {
                            double angle) {
     double sum = 0.0;
     for (const Equation::Term& term : deck.equations[0].terms) {
-      if (term.place == point(deck, 30)) {
+      if (term.node_index == point(deck, 30)) {
         EXPECT_EQ(term.direction, 3);  // a rotation: DoF 1 of the node behind the others
         sum += term.coefficient * angle;
         continue;
       }
-      const Eigen::Vector3d x = deck.mesh.nodes.row(term.place).transpose();
+      const Eigen::Vector3d x = deck.mesh.nodes.row(term.node_index).transpose();
       sum += term.coefficient * (shift + turn.cross(x))[term.direction];
     }
     return sum;

@@ -27,8 +27,8 @@ TEST(AbaqusBoundary, RangesNamesAndValues) {
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n5, XSYMM\n6, 2\n7, 1, 1, 0.5\n8, ENCASTRE\n");
   std::map<int32_t, DofMask> held;
   for (const Support& support : deck.supports) {
-    for (const Place place : support.places) held[ids_of(deck, {place})[0]] |= support.dofs;
-    EXPECT_EQ(support.value, support.places[0] == node(deck, 7) ? 0.5 : 0.0);
+    for (const NodeIndex node_index : support.node_indices) held[ids_of(deck, {node_index})[0]] |= support.dofs;
+    EXPECT_EQ(support.value, support.node_indices[0] == node(deck, 7) ? 0.5 : 0.0);
     EXPECT_EQ(support.where, "deck.inp:24");
   }
   // Nodes of solids have no rotations to hold.
@@ -64,7 +64,7 @@ TEST(AbaqusBoundary, TransformedNodesAreHeldAndPushedInTheirAxes) {
            step("*CLOAD\n7, 1, 3.\n"));
   ASSERT_EQ(deck.supports.size(), 2u);
   EXPECT_EQ(deck.supports[0].system, "");
-  EXPECT_EQ(ids_of(deck, deck.supports[1].places), (std::vector<int32_t>{5, 6, 7, 8}));
+  EXPECT_EQ(ids_of(deck, deck.supports[1].node_indices), (std::vector<int32_t>{5, 6, 7, 8}));
   EXPECT_EQ(deck.supports[1].system, "transform_1");
   EXPECT_EQ(deck.systems.at("transform_1").kind, System::Kind::kCylindrical);
   EXPECT_EQ(deck.steps.at(0).forces.at(0).system, "transform_1");
@@ -90,12 +90,12 @@ TEST(AbaqusSteps, SupportsGoOnUntilTheyAreNew) {
   ASSERT_EQ(mod.steps[1].supports.size(), 2u);
   EXPECT_EQ(mod.steps[1].supports[0].value, 0.1);
   EXPECT_EQ(mod.steps[1].supports[1].value, 0.2);
-  const Deck anew =
+  const Deck replaced =
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n" + step("") + step("*BOUNDARY, OP=NEW\n5, 1\n"));
-  EXPECT_TRUE(anew.supports.empty());  // not of the whole model any more
-  EXPECT_EQ(anew.steps[0].supports.at(0).places.size(), 4u);
-  ASSERT_EQ(anew.steps[1].supports.size(), 1u);
-  EXPECT_EQ(ids_of(anew, anew.steps[1].supports[0].places), std::vector<int32_t>{5});
+  EXPECT_TRUE(replaced.supports.empty());  // not of the whole model any more
+  EXPECT_EQ(replaced.steps[0].supports.at(0).node_indices.size(), 4u);
+  ASSERT_EQ(replaced.steps[1].supports.size(), 1u);
+  EXPECT_EQ(ids_of(replaced, replaced.steps[1].supports[0].node_indices), std::vector<int32_t>{5});
 }
 
 TEST(AbaqusSteps, PressuresPushOnFacesGravityOnAll) {
@@ -194,7 +194,7 @@ TEST(AbaqusSteps, RetainedDofsAreKept) {
            "*STEP\n*SUBSTRUCTURE GENERATE\n*RETAINED NODAL DOFS, SORTED=NO\nTOP, 1, 3\n"
            "*SUBSTRUCTURE MATRIX OUTPUT, STIFFNESS=YES\n*END STEP\n");
   ASSERT_EQ(deck.retained.size(), 1u);
-  EXPECT_EQ(ids_of(deck, deck.retained[0].places), (std::vector<int32_t>{5, 6, 7, 8}));
+  EXPECT_EQ(ids_of(deck, deck.retained[0].node_indices), (std::vector<int32_t>{5, 6, 7, 8}));
   EXPECT_EQ(deck.retained[0].dofs, kTranslations);
 }
 

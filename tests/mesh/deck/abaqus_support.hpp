@@ -49,10 +49,10 @@ inline int32_t node(const Deck& deck, int32_t id) {
 }
 
 /// Place of the point `id`.
-inline Place point(const Deck& deck, int32_t id) {
+inline NodeIndex point(const Deck& deck, int32_t id) {
   for (size_t p = 0; p < deck.points.size(); ++p) {
     if (deck.points[p].id == id)
-      return static_cast<Place>(deck.mesh.nodes.rows()) + static_cast<Place>(p);
+      return static_cast<NodeIndex>(deck.mesh.nodes.rows()) + static_cast<NodeIndex>(p);
   }
   ADD_FAILURE() << "no point " << id;
   return -1;

@@ -19,11 +19,11 @@ using testing::SizeIs;
 
 constexpr double kRounding = 1e-14;  // of a few operations on numbers of size 10
 
-Vector3d total(const Step& step, mesh::deck::Place place, int base = 0) {
+Vector3d total(const Step& step, mesh::deck::NodeIndex node_index, int base = 0) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& force : step.forces) {
     const int k = force.direction - base;
-    if (force.place == place && k >= 0 && k < 3) sum[k] += force.value;
+    if (force.node_index == node_index && k >= 0 && k < 3) sum[k] += force.value;
   }
   return sum;
 }

@@ -63,7 +63,7 @@ TEST_F(NastranSharedDecks, SolidBendingIsABlockOfLinearTetrahedra) {
   EXPECT_THAT(deck.materials.at("mat_1").constants, ElementsAre(3e7, 0.3));
   // SPCADD 2 of SPC1 1 (all of 13 grids) and 3 (rotations of all): what solids have of it.
   ASSERT_THAT(deck.supports, SizeIs(1));
-  EXPECT_THAT(deck.supports[0].places, SizeIs(13));
+  EXPECT_THAT(deck.supports[0].node_indices, SizeIs(13));
   ASSERT_THAT(deck.steps, SizeIs(1));
   double force = 0.0;
   for (const auto& load : deck.steps[0].forces) force += load.value;
