@@ -244,10 +244,10 @@ void GmshSession::replace_cells(const RawMesh& raw) {
     gmsh::vectorpair solids;
     gmsh::model::getEntities(solids, 3);
     gmsh::model::mesh::clear(solids);
-    std::vector<size_t> present;
+    std::vector<size_t> existing;
     std::vector<double> xyz, parameters;
-    gmsh::model::mesh::getNodes(present, xyz, parameters, -1, -1, false, false);
-    std::set<size_t> known(present.begin(), present.end());
+    gmsh::model::mesh::getNodes(existing, xyz, parameters, -1, -1, false, false);
+    std::set<size_t> known(existing.begin(), existing.end());
     std::vector<size_t> tags = raw.node_tags;
     size_t next = std::max(tags.back(), known.empty() ? 0 : *known.rbegin());
     while (tags.size() < static_cast<size_t>(raw.nodes.rows())) tags.push_back(++next);

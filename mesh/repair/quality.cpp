@@ -224,14 +224,14 @@ QualityReport measure_quality(const Mesh& mesh) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const CellNodes x = cell_nodes(mesh, block, c);
       const auto corners = x.topRows(traits(block.type).corners);
-      const CellRecord record_of{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
+      const CellRecord cell{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
                         cell_label(block, c), corners.colwise().mean().transpose()};
       const auto [low, high] = extreme_angles(block.type, x);
-      record(report.min_dihedral_deg, low, 1.0, position);
-      record(report.max_dihedral_deg, high, -1.0, position);
+      record(report.min_dihedral_deg, low, 1.0, cell);
+      record(report.max_dihedral_deg, high, -1.0, cell);
       if (corners.rows() == 4)
-        record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, position);
-      record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, position);
+        record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, cell);
+      record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, cell);
     }
   }
   return report;
