@@ -109,11 +109,11 @@ void report(const Outcome& result) {
     print_result(fmt::format("mesh: volume against CAD {:+.2e}", c.at("volume_against_cad")));
   print_result(fmt::format("mesh: volume against the surface integral {:.1e}",
                            c.at("volume_against_surface_integral")));
-  print_result(
-      fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
-                  "m, scaled Jacobian {:.3f} in cell {}",
-                  angle.worst, angle.label, angle.position.x(), angle.position.y(), angle.position.z(),
-                  c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
+  print_result(fmt::format(
+      "mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
+      "m, scaled Jacobian {:.3f} in cell {}",
+      angle.worst, angle.label, angle.position.x(), angle.position.y(), angle.position.z(),
+      c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
   if (c.contains("invalid_cells_before_repair"))
     print_result(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
                              c.at("invalid_cells_before_repair")));

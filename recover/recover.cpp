@@ -39,8 +39,9 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
     keep(piece_or_warning(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
     if (clock.turns() || options.windows_asked)
-      keep(piece_or_warning(options.windows_asked,
-                         [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
+      keep(piece_or_warning(options.windows_asked, [&] {
+        return window(clock, rule.name, rule.span, rule.taper, origin);
+      }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
   return pieces;
 }
@@ -56,8 +57,9 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
   if (clock.turns() || options.frames_asked)
-    piece = piece_or_warning(options.frames_asked,
-                          [&] { return window(clock, "frames", rule.span, Taper::kNone, origin); });
+    piece = piece_or_warning(options.frames_asked, [&] {
+      return window(clock, "frames", rule.span, Taper::kNone, origin);
+    });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
   piece = whole_run(clock, origin);
   constexpr double kFrames = 60.0;

@@ -7,8 +7,8 @@
 namespace clatter::mesh {
 
 std::vector<std::array<int32_t, 2>> ends_of_mid_side_nodes(const Mesh& mesh,
-                                                    std::span<const int32_t> nodes,
-                                                    const std::string& where) {
+                                                           std::span<const int32_t> nodes,
+                                                           const std::string& where) {
   constexpr int32_t kNotWanted = -1, kOpen = -2;
   std::vector<std::array<int32_t, 2>> ends(static_cast<size_t>(mesh.nodes.rows()),
                                            {kNotWanted, kNotWanted});

@@ -35,8 +35,8 @@ std::string describe(const std::vector<SmallFeature>& features, const char* kind
   std::vector<std::string> texts;
   for (size_t i = 0; i < std::min(kNamed, features.size()); ++i)
     texts.push_back(fmt::format("{:.3g} at ({:.5g}, {:.5g}, {:.5g})", features[i].size,
-                                 tidy(features[i].position.x()), tidy(features[i].position.y()),
-                                 tidy(features[i].position.z())));
+                                tidy(features[i].position.x()), tidy(features[i].position.y()),
+                                tidy(features[i].position.z())));
   return fmt::format("{} {} from {:.3g}{} ({}{})", features.size(), kind, features.front().size,
                      how, fmt::join(texts, ", "), features.size() > kNamed ? ", ..." : "");
 }

@@ -123,7 +123,8 @@ std::string describe_crossings(const std::vector<SkinCrossing>& crossings) {
   for (size_t i = 0; i < std::min(kMost, crossings.size()); ++i) {
     const SkinCrossing& c = crossings[i];
     texts.push_back(fmt::format("face {} and face {} at ({:.5g}, {:.5g}, {:.5g}) ({} places)",
-                                c.face, c.other, c.position.x(), c.position.y(), c.position.z(), c.count));
+                                c.face, c.other, c.position.x(), c.position.y(), c.position.z(),
+                                c.count));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }

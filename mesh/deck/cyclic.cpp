@@ -151,7 +151,8 @@ int64_t size_of(const Deck& deck) {
   for (const auto& [name, nodes] : mesh.node_sets) size += static_cast<int64_t>(nodes.size());
   for (const auto& [name, field] : mesh.fields) size += field.size();
   const auto add = [&](const std::vector<Support>& supports) {
-    for (const Support& support : supports) size += static_cast<int64_t>(support.node_indices.size());
+    for (const Support& support : supports)
+      size += static_cast<int64_t>(support.node_indices.size());
   };
   add(deck.supports);
   add(deck.retained);

@@ -1,5 +1,5 @@
 #pragma once
-// A finished mesh as bytes (core/base/wire.hpp), from the child process in which gmsh works.
+// Serialisation of a finished mesh (core/base/wire.hpp), sent by the child process that runs gmsh.
 #include "core/base/stopwatch.hpp"
 #include "core/base/wire.hpp"
 #include "mesh/cad/gmsh_session.hpp"

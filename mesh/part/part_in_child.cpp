@@ -164,7 +164,8 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   }
   throw NumericsError(fmt::format("{}; then, {}: {}; try another element_size_mm{}, or {}", fall,
                                   simpler.difference, describe_end(second, limits),
-                                  requested.local.empty() ? "" : " or local sizes", advice_of(second)));
+                                  requested.local.empty() ? "" : " or local sizes",
+                                  advice_of(second)));
 }
 
 }  // namespace clatter::mesh

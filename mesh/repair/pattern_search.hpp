@@ -1,5 +1,5 @@
 #pragma once
-// The place of one node that makes its neighbourhood best, by trying.
+// Pattern search for the best position of one node.
 #include <Eigen/Core>
 #include <limits>
 #include <vector>
@@ -23,8 +23,8 @@ inline const std::vector<Eigen::Vector3d>& search_directions() {
 }
 
 /// Moves a point while the score rises: tries all directions at each step length, keeps the best
-/// place, halves the step. `place` is any reference-like view of the point that score(best) looks
-/// at; a score that is not above `best` need not be exact, so it may stop as soon as it knows that.
+/// position, halves the step. `point` is any reference-like view of the point that score(best)
+/// reads; a score that is not above `best` need not be exact, so its computation may stop early.
 /// Returns the best score.
 template <class Point, class Score>
 double search_position(Point point, double first_step, Score score) {

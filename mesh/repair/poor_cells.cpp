@@ -31,8 +31,8 @@ std::vector<WorstCell> worst_below(const Measure& measure, double limit) {
   return worst;
 }
 
-std::string name_positions(const std::vector<WorstCell>& cells, int64_t count, const char* value_unit,
-                        const PositionUnit& unit) {
+std::string name_positions(const std::vector<WorstCell>& cells, int64_t count,
+                           const char* value_unit, const PositionUnit& unit) {
   std::vector<std::string> names;
   for (const WorstCell& cell : cells) {
     const Eigen::Vector3d x = cell.position / unit.metres;

@@ -225,12 +225,11 @@ QualityReport measure_quality(const Mesh& mesh) {
       const CellNodes x = cell_nodes(mesh, block, c);
       const auto corners = x.topRows(traits(block.type).corners);
       const CellRecord cell{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
-                        cell_label(block, c), corners.colwise().mean().transpose()};
+                            cell_label(block, c), corners.colwise().mean().transpose()};
       const auto [low, high] = extreme_angles(block.type, x);
       record(report.min_dihedral_deg, low, 1.0, cell);
       record(report.max_dihedral_deg, high, -1.0, cell);
-      if (corners.rows() == 4)
-        record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, cell);
+      if (corners.rows() == 4) record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, cell);
       record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, cell);
     }
   }

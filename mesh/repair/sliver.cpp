@@ -72,7 +72,7 @@ struct GraphNode {
 // Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
 double move_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
   return search_position(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
-                      SmallestAngle(graph, cells));
+                         SmallestAngle(graph, cells));
 }
 
 std::vector<TetCorners> corners_around(const CellGraph& graph, int32_t node) {

@@ -62,7 +62,7 @@ class CurvedCells {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;
       search_position(Node{mesh_.nodes, node}, kFirstStep * size,
-                   [&](double best) { return worst_around(node, best); });
+                      [&](double best) { return worst_around(node, best); });
     }
     return ratio(id) > before;
   }

@@ -111,9 +111,9 @@ TEST(PoorCells, TheWorstAreNamedInThePartsUnitAndBelowTheFloorRefused) {
   ASSERT_GT(poor.below_floor, 0);
   const std::string text = describe_poor_cells(poor, spoiled, kQualityAims, {"cm", 1e-2});
   const Eigen::Vector3d position = poor.worst_squeezed.at(0).position / 1e-2;
-  EXPECT_NE(
-      text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", position.x(), position.y(), position.z())),
-      std::string::npos)
+  EXPECT_NE(text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", position.x(), position.y(),
+                                  position.z())),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("estimated effect on frequencies"), std::string::npos) << text;
   EXPECT_NO_THROW(check_poor_cells(poor, spoiled, kQualityAims, {}, true));

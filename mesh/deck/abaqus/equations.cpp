@@ -125,8 +125,8 @@ BasicTerms basic_terms(Reading* reading, const RawEquation& equation) {
 
 // Equations whose dependent node has axes of its own mix its directions: they are solved for as
 // many basic directions as there are equations, so that each has a dependent of its own.
-void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations, NodeIndex node_index,
-                    std::vector<BasicTerms> rows) {
+void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
+                    NodeIndex node_index, std::vector<BasicTerms> rows) {
   std::array<bool, 3> taken{};
   std::vector<int> pivots;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -160,10 +160,12 @@ void add_equations(Reading* reading, const std::vector<RawEquation>& equations) 
     const BasicTerms terms = basic_terms(reading, equation);
     const Term& first = equation.terms.front();
     const NodeIndex rotated = reading->node_map->rotation_of(first.row);
-    const NodeIndex node_index = rotated == NodeMap::kNone ? reading->node_map->of(first.row) : rotated;
+    const NodeIndex node_index =
+        rotated == NodeMap::kNone ? reading->node_map->of(first.row) : rotated;
     const int direction = rotated == NodeMap::kNone ? first.direction : first.direction + 3;
     const bool turned_node = !reading->node_map->system(first.row).empty();
-    if (first.coefficient == 0.0 || (!turned_node && terms.coefficient(node_index, direction) == 0.0)) {
+    if (first.coefficient == 0.0 ||
+        (!turned_node && terms.coefficient(node_index, direction) == 0.0)) {
       reading->source.fail(equation.spot, "the first coefficient is 0, expected another value");
     }
     if (!turned_node) {
@@ -182,7 +184,8 @@ void add_equations(Reading* reading, const std::vector<RawEquation>& equations) 
     reading->refusals->attempt([&] { add(equation); });
   }
   for (const auto& [node_index, group] : turned) {
-    reading->refusals->attempt([&] { solve_for_node(reading, group.first, node_index, group.second); });
+    reading->refusals->attempt(
+        [&] { solve_for_node(reading, group.first, node_index, group.second); });
   }
 }
 

@@ -44,7 +44,8 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
     const int32_t dof = fields.integer(1, "degree of freedom", 1, 6);
     const double value = factor * fields.number(2, "force");
     for (const int32_t row : reading_->sets->nodes_at(fields, 0, use)) {
-      const auto [node_index, dofs] = held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
+      const auto [node_index, dofs] =
+          held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
       const int32_t id = reading_->model->node_ids()[static_cast<size_t>(row)];
       if (node_index == NodeMap::kNone) {
         fields.fail(fmt::format("found a force on node {}, which belongs to no element", id));

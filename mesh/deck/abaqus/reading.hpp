@@ -61,7 +61,7 @@ struct Reading {
   const Model* model;
   Sets* sets;
   Deck* deck;
-  NodeMap* node_map = nullptr;                          // once the mesh stands
+  NodeMap* node_map = nullptr;                       // once the mesh stands
   std::vector<double> initial;                       // temperature by row; empty: 0 everywhere
   std::map<std::string, std::string> surface_names;  // "use:FOLDED" -> name in the mesh
   std::map<std::string, std::vector<int32_t>> node_surfaces;        // the same -> rows

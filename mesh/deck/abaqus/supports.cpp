@@ -55,7 +55,8 @@ std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, Dof
     return {rotated, static_cast<DofMask>((mask & kTranslations) << 3)};
   }
   const NodeIndex node_index = reading.node_map->find(row);
-  if (node_index == NodeMap::kNone || reading.node_map->is_point(node_index)) return {node_index, mask};
+  if (node_index == NodeMap::kNone || reading.node_map->is_point(node_index))
+    return {node_index, mask};
   return {node_index, static_cast<DofMask>(mask & kTranslations)};
 }
 

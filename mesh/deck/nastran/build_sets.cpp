@@ -15,7 +15,8 @@ void sort_unique(std::vector<NodeIndex>& node_indices) {
 }
 
 // Nodes go to the mesh; a set that holds points, too, stands whole in Deck::sets.
-void add_set(Model& model, const std::string& name, std::vector<NodeIndex> node_indices, Origin origin) {
+void add_set(Model& model, const std::string& name, std::vector<NodeIndex> node_indices,
+             Origin origin) {
   if (model.deck.sets.contains(name) || model.deck.mesh.node_sets.contains(name)) {
     model.source.fail(origin, fmt::format("found a second set {}", shown(name)));
   }

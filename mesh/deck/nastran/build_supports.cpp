@@ -113,7 +113,7 @@ void build_supports(Model& model) {
   Holder permanent(model, "ps");
   for (size_t row = 0; row < model.bulk.grids.held.size(); ++row) {
     permanent.add_node(model.index_of_row[row], model.bulk.grids.held[row], 0.0,
-                        model.bulk.grids.origins[row]);
+                       model.bulk.grids.origins[row]);
   }
   append(model.deck.supports, permanent.supports());
 

@@ -79,7 +79,9 @@ NodeIndex Model::require(int32_t grid, Origin origin) {
   return node_index_of(row_of(grid, origin), origin, true);
 }
 
-NodeIndex Model::find(int32_t grid, Origin origin) const { return index_of_row[row_of(grid, origin)]; }
+NodeIndex Model::find(int32_t grid, Origin origin) const {
+  return index_of_row[row_of(grid, origin)];
+}
 
 std::vector<NodeIndex> Model::node_indices(const IdList& list, Origin origin, bool make_points) {
   std::vector<NodeIndex> out;
@@ -98,7 +100,8 @@ Eigen::Vector3d Model::position(NodeIndex node_index) const {
 }
 
 int32_t Model::displacement_system(NodeIndex node_index) const {
-  return column_at(bulk.grids.cd, static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]));
+  return column_at(bulk.grids.cd,
+                   static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]));
 }
 
 std::string Model::system_name(int32_t system, Origin origin) {

@@ -104,8 +104,9 @@ class StepWriter {
         field.row(force.node_index) += value.transpose();
         continue;
       }
-      const std::string point = names_.is_point(force.node_index) ? names_.point(force.node_index)
-                                                             : names_.point_on_node(force.node_index);
+      const std::string point = names_.is_point(force.node_index)
+                                    ? names_.point(force.node_index)
+                                    : names_.point_on_node(force.node_index);
       auto [at, fresh] = on_points.try_emplace(point);
       if (fresh) at->second = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
       (moment ? at->second.second : at->second.first) += value;

@@ -38,7 +38,8 @@ std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string&
   return name;
 }
 
-NamedNodes RecipeNames::node_indices(const std::vector<NodeIndex>& node_indices, const std::string& wish) {
+NamedNodes RecipeNames::node_indices(const std::vector<NodeIndex>& node_indices,
+                                     const std::string& wish) {
   NamedNodes named;
   std::vector<int32_t> nodes;
   for (const NodeIndex node_index : node_indices) {

@@ -143,7 +143,8 @@ class Writer {
   }
 
   std::string reference(NodeIndex node_index) {
-    return names_.is_point(node_index) ? names_.point(node_index) : names_.point_on_node(node_index);
+    return names_.is_point(node_index) ? names_.point(node_index)
+                                       : names_.point_on_node(node_index);
   }
 
   void put_nodes(const std::vector<NodeIndex>& node_indices, const std::string& wish) {

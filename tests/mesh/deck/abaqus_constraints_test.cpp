@@ -171,7 +171,7 @@ TEST(AbaqusEquation, TransformedNodesKeepTheMeaningOfTheirEquations) {
     for (const auto& term : equation.terms) {
       const Eigen::Vector3d& u = term.node_index == node(deck, 5)   ? u5
                                  : term.node_index == node(deck, 1) ? u1
-                                                               : u6;
+                                                                    : u6;
       sum += term.coefficient * u[term.direction];
       const bool first = &term == &equation.terms[0];
       EXPECT_TRUE(first || term.node_index != node(deck, 5));  // each solved for its own direction

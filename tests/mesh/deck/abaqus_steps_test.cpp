@@ -27,7 +27,8 @@ TEST(AbaqusBoundary, RangesNamesAndValues) {
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n5, XSYMM\n6, 2\n7, 1, 1, 0.5\n8, ENCASTRE\n");
   std::map<int32_t, DofMask> held;
   for (const Support& support : deck.supports) {
-    for (const NodeIndex node_index : support.node_indices) held[ids_of(deck, {node_index})[0]] |= support.dofs;
+    for (const NodeIndex node_index : support.node_indices)
+      held[ids_of(deck, {node_index})[0]] |= support.dofs;
     EXPECT_EQ(support.value, support.node_indices[0] == node(deck, 7) ? 0.5 : 0.0);
     EXPECT_EQ(support.where, "deck.inp:24");
   }

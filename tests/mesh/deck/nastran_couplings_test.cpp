@@ -98,7 +98,8 @@ TEST(NastranCouplings, Rbe2InSomeDirectionsOfACylinderGivesEquations) {
   for (const Equation& equation : deck.equations) {
     double sum = 0.0;
     for (const auto& term : equation.terms) {
-      if (term.node_index == equation.terms[0].node_index) sum += term.coefficient * slide[term.direction];
+      if (term.node_index == equation.terms[0].node_index)
+        sum += term.coefficient * slide[term.direction];
     }
     EXPECT_NEAR(sum, 0, kRounding);
   }

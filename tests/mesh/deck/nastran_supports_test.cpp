@@ -26,7 +26,8 @@ TEST(NastranSupports, Spc1ListsAndRanges) {
   // Numbers that a THRU spans need not exist; listed ones must.
   EXPECT_THAT(read_deck(kTet + "SPC1,5,2,2,THRU,2000000000\n").supports[0].node_indices,
               ElementsAre(1, 2, 3));
-  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,1,THRU,4,BY,3\n").supports[0].node_indices, ElementsAre(0, 3));
+  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,1,THRU,4,BY,3\n").supports[0].node_indices,
+              ElementsAre(0, 3));
   EXPECT_THAT(refusal(kTet + "SPC1,5,2,1,30\n"), HasSubstr("t.bdf:8: found no GRID 30"));
   EXPECT_THAT(refusal(kTet + "SPC1,5,2,4,THRU,1\n"), HasSubstr("found 4 THRU 1"));
   EXPECT_THAT(refusal(kTet + "SPC1,5,2,THRU,4\n"),

@@ -38,7 +38,7 @@ Parsed parse(Deck deck) {
 
 TEST(RecipeText, SaysMaterialSupportForceAndStep) {
   const Parsed parsed = parse(read(kModel + "*BOUNDARY\nBOT, 1, 3\n"
-                                       "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
+                                            "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
   ASSERT_THAT(parsed.recipe.materials, SizeIs(1));
   EXPECT_EQ(parsed.recipe.materials[0].youngs, 2.1e5);
   EXPECT_EQ(parsed.recipe.materials[0].poisson, 0.3);
@@ -85,7 +85,7 @@ TEST(RecipeText, SaysWhatIsMissingInsteadOfInventingIt) {
 TEST(RecipeText, NamesTheLaterStepWhoseSupportsDiffer) {
   const Parsed parsed =
       parse(read(kModel + "*STEP\n*STATIC\n*BOUNDARY\nBOT, 1, 3\n*CLOAD\nTOP, 3, 1.\n*END STEP\n"
-                         "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
+                          "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
   EXPECT_THAT(parsed.recipe.cases, SizeIs(1));
   EXPECT_THAT(parsed.text, HasSubstr("it needs a model of its own"));
 }
@@ -93,7 +93,7 @@ TEST(RecipeText, NamesTheLaterStepWhoseSupportsDiffer) {
 TEST(RecipeText, KeepsARigidBodyOnItsPointAndItsMass) {
   const Parsed parsed =
       parse(read(kModel + "*RIGID BODY, NSET=TOP, REF NODE=9\n"
-                         "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
+                          "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
   ASSERT_THAT(parsed.recipe.points, SizeIs(1));
   EXPECT_EQ(parsed.recipe.points[0].point.place, Eigen::Vector3d(0.5, 0.5, 2.0));
   ASSERT_THAT(parsed.recipe.couplings, SizeIs(1));
