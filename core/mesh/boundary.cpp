@@ -29,7 +29,7 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
   return labels;
 }
 
-/// A linear face and a quadratic one whose middle nodes all hang move alike.
+/// A linear face and a quadratic one with only hanging mid-side nodes move alike.
 bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   const auto hanging = mesh.node_sets.find(kHangingMidSideNodes);
   if (hanging == mesh.node_sets.end()) return false;

@@ -63,8 +63,8 @@
 // a_vtk = (0 1 2 3 4 5 6 7 8 11 13 9 16 18 19 17 10 12 14 15) and
 // a_nastran = (0 1 2 3 4 5 6 7 8 11 13 9 10 12 14 15 16 18 19 17).
 //
-// Faces: corners 0, 1, ..., then the middles of 0-1, 1-2, ...; all programs agree on them. The
-// normal (x1 - x0) x (x2 - x0) points out of the solid.
+// Faces: corners 0, 1, ..., then the mid-side nodes of 0-1, 1-2, ...; all programs agree on them.
+// The normal (x1 - x0) x (x2 - x0) points out of the solid.
 #include <array>
 #include <cstdint>
 #include <span>

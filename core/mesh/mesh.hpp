@@ -43,9 +43,9 @@ class SurfaceBuilder {
   std::array<std::vector<int32_t>, kFaceTypes> nodes_;
 };
 
-/// Node set of the middle nodes that some cell has only to be whole: the deck's cell was linear
+/// Node set of the mid-side nodes that were added to complete cells: the deck's cell was linear
 /// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
-/// fe.toml), so that such a cell fits linear cells beside it.
+/// fe.toml), so that such a cell matches adjacent linear cells.
 inline constexpr const char* kHangingMidSideNodes = "hanging_middles";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.

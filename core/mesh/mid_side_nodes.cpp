@@ -27,7 +27,7 @@ std::vector<std::array<int32_t, 2>> ends_of_mid_side_nodes(const Mesh& mesh,
     found.push_back(ends[static_cast<size_t>(node)]);
     if (found.back()[0] != kOpen) continue;
     throw InputError(
-        fmt::format("{}: node {} is in no middle of an edge, expected middle nodes", where,
+        fmt::format("{}: node {} is not a mid-side node, expected mid-side nodes", where,
                     mesh.node_ids.empty() ? node : mesh.node_ids[static_cast<size_t>(node)]));
   }
   return found;

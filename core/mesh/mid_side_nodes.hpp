@@ -1,5 +1,5 @@
 #pragma once
-// Middle nodes of quadratic cells and the edges that they stand on.
+// Mid-side nodes of quadratic cells and their edges.
 #include <span>
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clatter::mesh {
 
-/// The two corner nodes of the edge that each of `nodes` is the middle of. InputError "where: ..."
-/// for the first that is no middle node.
+/// The two corner nodes of the edge of each of `nodes`. InputError "where: ..." for the first that
+/// is not a mid-side node.
 std::vector<std::array<int32_t, 2>> ends_of_mid_side_nodes(const Mesh& mesh,
                                                            std::span<const int32_t> nodes,
                                                            const std::string& where);

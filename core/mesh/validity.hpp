@@ -45,7 +45,7 @@ double volume_of(CellType type, const CellNodes& x);
 
 /// The nodes of one cell.
 CellNodes cell_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell);
-/// The nodes of a tetrahedron; a tet4 gets its edge middles.
+/// The nodes of a tetrahedron; a tet4 gets mid-side nodes.
 Tet10Nodes tet_nodes(const Mesh& mesh, const CellBlock& block, Eigen::Index cell);
 
 /// Number of a cell in messages: what its file calls it, else its row.
