@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What is zero but for rounding is printed as 0; sixteen digits tell nobody anything.
+// Rounding errors of zero are printed as 0; six digits suffice.
 std::string short_number(double value, double size) {
   if (std::abs(value) < 1e-9 * size) value = 0.0;
   return fmt::format("{:.6g}", value);
@@ -25,7 +25,7 @@ std::string triple(const Vector3d& x, double size) {
                      short_number(x[2], size));
 }
 
-// The same as TOML and JSON take it.
+// The same in TOML and JSON syntax.
 std::string list_of(const Vector3d& x, double size) {
   std::vector<std::string> parts;
   for (const double value : x)
@@ -41,7 +41,7 @@ BoxFilter box_of(const FaceFacts& face) {
     box.min = box.min.cwiseMin(x);
     box.max = box.max.cwiseMax(x);
   }
-  if (face.edge_points.empty()) box.min = box.max = face.centre;  // a whole sphere has no edges
+  if (face.edge_points.empty()) box.min = box.max = face.centre;  // a full sphere has no edges
   return box;
 }
 
@@ -103,7 +103,7 @@ Vector3d outward_normal(const std::vector<Corners>& skin, size_t own) {
                                                {0.12, 0.67, -0.73}}};
   const Vector3d middle = (skin[own][0] + skin[own][1] + skin[own][2]) / 3.0;
   const Vector3d normal = normal_of(skin[own]).normalized();
-  int votes = 0;  // for the normal as it is
+  int votes = 0;  // for the present sign of the normal
   for (const Vector3d& along : directions) {
     int met = 0;
     for (size_t t = 0; t < skin.size(); ++t) met += t != own && meets(middle, along, skin[t]);

@@ -17,7 +17,7 @@ namespace {
 constexpr int kFields = 6;
 using Fields = Eigen::Matrix<double, Eigen::Dynamic, kFields>;
 
-// The rules that assembly takes for curved cells: what they miss, the model misses too.
+// The quadrature rules of assembly for curved cells, with the same errors.
 const CellRule& rule_of(CellType type) {
   switch (type) {
     case CellType::kTet10:
@@ -53,10 +53,10 @@ Eigen::Matrix<double, 3, kFields> gradients_at(const Eigen::Vector3d& x) {
 
 /// The nodes of poor cells and the cells around them.
 struct Region {
-  std::vector<int32_t> number;   // by node: its unknown, -1 for the others
-  std::vector<CellIndex> cells;  // that have at least one such node
+  std::vector<int32_t> number;   // by node: index of its unknown, -1 for the others
+  std::vector<CellIndex> cells;  // with at least one such node
   Eigen::Index unknowns = 0;
-  Eigen::Vector3d origin;  // near: keeps digits
+  Eigen::Vector3d origin;  // nearby: avoids cancellation
 };
 
 Region region_of(const Mesh& mesh, const std::vector<CellIndex>& poor) {
@@ -135,7 +135,7 @@ class BestFit {
         const int32_t column = region_.number[static_cast<size_t>(nodes[j])];
         if (column >= 0 && column <= row) entries_.emplace_back(row, column, stiffness(i, j));
       }
-      // Where every node is free q_h is known but for a constant; this holds it.
+      // If every node is free q_h is known up to a constant; this fixes it.
       entries_.emplace_back(row, row, 1e-12 * stiffness(i, i));
     }
   }

@@ -114,7 +114,7 @@ void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimi
   throw NumericsError(fmt::format(
       "mesh: {} cells are below {:g} deg or a scaled Jacobian of {:g}, too poor to be trusted; {}: "
       "choose another element_size_mm or finer [[mesh.local]] there, suppress small features by "
-      "[cad] defeature_below, or take the mesh as it is by --accept-poor-cells ([mesh] "
+      "[cad] defeature_below, or accept the mesh with --accept-poor-cells ([mesh] "
       "accept_poor_cells = true)",
       poor.below_floor, kQualityFloor.dihedral_deg, kQualityFloor.scaled_jacobian, what));
 }

@@ -165,7 +165,7 @@ Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& c
 }
 
 double largest_cosine(const Eigen::Matrix<double, 4, 3>& corners) {
-  constexpr double kFlat = 1e-6;  // |n| >= kFlat L^2: the cosines are right to 4e-10
+  constexpr double kFlat = 1e-6;  // |n| >= kFlat L^2: the cosines are accurate to 4e-10
   const Eigen::Vector3d a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0),
                         c = corners.row(3) - corners.row(0);
   const Eigen::Vector3d ab = b - a, ac = c - a;

@@ -155,7 +155,7 @@ def runs(count, seed, time_limit, seconds=float('inf'), quick=False):
 def outcome(run):
     """A word for the table."""
     if run.code == 0:
-        return 'simpler' if 'Gmsh does not survive' in run.said else 'meshed'
+        return 'simpler' if 'Gmsh crashes with' in run.said else 'meshed'
     for word, text in (('crashed', 'crashed'), ('time', '--time-limit'), ('memory', '--memory-limit'),
                        ('too many', 'max_cells')):
         if text in run.said:

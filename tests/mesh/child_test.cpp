@@ -69,7 +69,7 @@ TEST(HardN17_GmshInAChild, ItsLastNewsSayWhereItFell) {
       "free(): invalid pointer\n";
   EXPECT_EQ(describe_end(end, {}),
             "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (Cylinder, "
-            "Frontal-Delaunay) (it said: free(): invalid pointer)");
+            "Frontal-Delaunay) (last output: free(): invalid pointer)");
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(Select, AFaceFiveMicrometresOffIsTakenAndTold) {
   ASSERT_EQ(selection.warnings.size(), 1u);
   EXPECT_EQ(selection.warnings[0],
             "part.toml: surface 'bore': face 4, cylinder of radius 2 mm, axis 0.005 mm away, is "
-            "taken as none is closer: tolerance = 0.0055 in [surface.bore] says that it is meant");
+            "taken as none is closer: tolerance = 0.0055 in [surface.bore] confirms it");
 }
 
 TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {

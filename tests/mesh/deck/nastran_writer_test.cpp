@@ -200,7 +200,7 @@ TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
   const auto deck = std::filesystem::path(testing::TempDir()) / "clatter_hanging.inp";
   testing::internal::CaptureStderr();
   mesh::export_mesh(mesh, deck);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the 2 middle nodes of the set"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the 2 mid-side nodes of the set"));
   std::filesystem::remove(deck);
 }
 
