@@ -77,7 +77,7 @@ TEST(Select, NothingSelectedNamesTheNearestFacesAndHowFarOffEachIs) {
             begin + "axis turned by 90 deg" + faces);
   EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n"
                     "box = { min = [0, -2, 0], max = [7, 2, 2] }"),
-            begin + "reaches 1 mm out of the box" + faces);
+            begin + "extends 1 mm out of the box" + faces);
 }
 
 // The bore's centre was read off a drawing, 5 um beside where it is.

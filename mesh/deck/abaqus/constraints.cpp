@@ -9,18 +9,18 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Bits of all "first, last" lines of a card; `all` without any.
+// Mask of all "first, last" lines of a card; `all` if there are none.
 DofMask mask_of(const Card& card, const Source& source, DofMask all) {
   DofMask mask = 0;
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, source);
-    fields.at_most(2, "first and last degree of freedom");
+    fields.at_most(2, "first and last DoF");
     mask = static_cast<DofMask>(mask | dof_range(fields, 0));
   }
   return card.size() == 0 ? all : mask;
 }
 
-// The place of a reference node: with rotations of its own, even upon a node of the mesh.
+// Node index of a reference node: with its own rotations, even on a mesh node.
 NodeIndex rigid_reference(Reading* reading, int32_t row) {
   NodeMap& node_map = *reading->node_map;
   return node_map.mesh_node(row) == NodeMap::kNone ? node_map.of(row) : node_map.point_upon(row);
@@ -55,7 +55,7 @@ void read_rigid_body(Reading* reading, size_t use, const Card& card) {
     if (reading->node_map->mesh_node(rotation) != NodeMap::kNone || rotation == row) {
       reading->source.fail(card.spot(),
                            "*RIGID BODY: found a ROT NODE that is the reference node "
-                           "or belongs to an element, expected one of its own");
+                           "or belongs to an element, expected a separate node");
     }
     reading->node_map->set_rotation_node(rotation, rigid.reference);
     std::erase(rows, rotation);
@@ -64,7 +64,7 @@ void read_rigid_body(Reading* reading, size_t use, const Card& card) {
   reading->deck->rigid.push_back(std::move(rigid));
 }
 
-// *COUPLING and the line of *KINEMATIC or *DISTRIBUTING behind it.
+// *COUPLING and the line of *KINEMATIC or *DISTRIBUTING after it.
 struct Coupling {
   size_t use = 0;
   const Card* card = nullptr;
@@ -126,7 +126,7 @@ void read_kinematic(Reading* reading, const Coupling& coupling, const Card& card
   }
   const bool own = std::find(rows.begin(), rows.end(), coupling.row) != rows.end();
   if (!own && reading->node_map->mesh_node(coupling.row) != NodeMap::kNone) {
-    Rigid carrier = rigid;  // the reference is a node of the mesh: its point moves it
+    Rigid carrier = rigid;  // the reference is a mesh node: its point moves it
     carrier.name += "_reference";
     carrier.dofs = kAllDofs;
     reading->dependents.emplace_back(reading->deck->rigid.size(),
@@ -137,7 +137,7 @@ void read_kinematic(Reading* reading, const Coupling& coupling, const Card& card
   reading->deck->rigid.push_back(std::move(rigid));
 }
 
-// Weights are the areas of a surface of faces; nodes of a node surface count alike.
+// Weights are the areas of a surface of faces; nodes of a node surface have equal weights.
 void read_weighted(Reading* reading, const Coupling& coupling, const Card& card) {
   const Keyword& keyword = card.keyword();
   keyword.allow({"WEIGHTINGMETHOD", "COUPLING"}, reading->source, reading->ignore);
@@ -169,7 +169,7 @@ void read_weighted(Reading* reading, const Coupling& coupling, const Card& card)
 
 void expect_coupling_done(const Reading& reading, const Card* open) {
   if (open == nullptr) return;
-  reading.source.fail(open->spot(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING behind it");
+  reading.source.fail(open->spot(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING after it");
 }
 
 void read_tie(Reading* reading, size_t use, const Card& card) {
@@ -197,7 +197,7 @@ void read_tie(Reading* reading, size_t use, const Card& card) {
 }  // namespace
 
 DofMask dof_range(const Fields& fields, size_t i) {
-  constexpr std::string_view kWhat = "degree of freedom: 1 to 3 displacements, 4 to 6 rotations";
+  constexpr std::string_view kWhat = "DoF: 1 to 3 displacements, 4 to 6 rotations";
   const int32_t first = fields.integer(i, kWhat, 1, 6);
   const int32_t last = fields.empty(i + 1) ? first : fields.integer(i + 1, kWhat, first, 6);
   DofMask mask = 0;
@@ -222,7 +222,7 @@ void read_rigid(Reading* reading) {
         }
         if (refused) throw FollowUp();
         if (coupling.card == nullptr) {
-          reading->source.fail(card.spot(), "expected one line behind *COUPLING");
+          reading->source.fail(card.spot(), "expected one line after *COUPLING");
         }
         const Coupling done = std::exchange(coupling, Coupling());
         if (card.keyword().key == "KINEMATIC") {
@@ -241,7 +241,7 @@ void read_ties(Reading* reading) {
 }
 
 void finish_rigid(Reading* reading) {
-  std::set<NodeIndex> carried;  // nodes of the mesh that their own point moves already
+  std::set<NodeIndex> carried;  // mesh nodes that their own point already moves
   for (const auto& [index, rows] : reading->dependents) {
     Rigid& rigid = reading->deck->rigid[index];
     for (const int32_t row : rows) {

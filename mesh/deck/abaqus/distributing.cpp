@@ -19,7 +19,7 @@ const PointElement& coupling_element(Reading* reading, size_t use, const Card& c
   return reading->model->points()[static_cast<size_t>(elements.front() - n_cells)];
 }
 
-// CalculiX: the reference's displacement is the weighted mean, whatever the lever.
+// CalculiX: the reference's displacement is the weighted mean, regardless of the lever arm.
 void add_mean_equations(Reading* reading, const Distributing& distributing) {
   double sum = 0.0;
   for (const auto& term : distributing.terms) {
@@ -38,7 +38,7 @@ void add_mean_equations(Reading* reading, const Distributing& distributing) {
   }
 }
 
-// Distance of the reference from the weighted centre, by the reach of the nodes about it.
+// Distance of the reference from the weighted centre, relative to the radius of the nodes about it.
 double lever(const Deck& deck, const Distributing& distributing, const Eigen::Vector3d& reference) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double sum = 0.0, reach = 0.0;
@@ -57,7 +57,7 @@ double lever(const Deck& deck, const Distributing& distributing, const Eigen::Ve
   return (reference - centre).norm() / reach;
 }
 
-// Element DCOUP3D: its node is the reference; "nodes, weight" a line.
+// Element DCOUP3D: its node is the reference; lines "nodes, weight".
 void read_distributing_coupling(Reading* reading, size_t use, const Card& card) {
   card.keyword().allow({"ELSET"}, reading->source, reading->ignore);
   const PointElement& element = coupling_element(reading, use, card);
@@ -81,7 +81,7 @@ void read_distributing_coupling(Reading* reading, size_t use, const Card& card) 
     distributing.terms.push_back(std::move(term));
   }
   if (!(sum > 0.0)) reading->source.fail(card.spot(), "expected nodes of solids");
-  // One thousandth of the reach: coordinates with a few digits.
+  // One thousandth of the radius: coordinates may have few digits.
   if (lever(*reading->deck, distributing, reading->model->at(element.node)) <= 1e-3) {
     reading->deck->distributing.push_back(std::move(distributing));
   } else if (reading->ignore->skips("MOMENT")) {

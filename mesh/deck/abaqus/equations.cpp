@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Three fields a term, over as many lines as the count at the head says.
+// Three fields per term, over several lines; the number of terms comes first.
 class EquationLines {
  public:
   EquationLines(Reading* reading, size_t use, const Card& card)
@@ -40,13 +40,13 @@ class EquationLines {
       const Fields fields = card_.line(line_++, reading_.source);
       if (fields.size() % 3 != 0 || fields.size() / 3 > static_cast<size_t>(missing)) {
         fields.fail(
-            fmt::format("found {} fields, expected node, degree of freedom, coefficient "
+            fmt::format("found {} fields, expected node, DoF, coefficient "
                         "of at most {} terms",
                         fields.size(), missing));
       }
       for (size_t i = 0; i < fields.size(); i += 3, --missing) {
         equation->terms.push_back({reading_.sets->node_at(fields, i, use_),
-                                   fields.integer(i + 1, "degree of freedom", 1, 6) - 1,
+                                   fields.integer(i + 1, "DoF", 1, 6) - 1,
                                    fields.number(i + 2, "coefficient")});
       }
     }
@@ -58,7 +58,7 @@ class EquationLines {
   size_t line_ = 0;
 };
 
-// Sums of coefficients by place and direction, in the basic axes.
+// Sums of coefficients by node index and direction, in the basic axes.
 class BasicTerms {
  public:
   void add(NodeIndex node_index, int direction, double coefficient) {
@@ -79,7 +79,7 @@ class BasicTerms {
     for (const auto& [dof, coefficient] : terms_) most = std::max(most, std::abs(coefficient));
     return most;
   }
-  // That term first, terms without weight gone.
+  // That term first, without zero terms.
   Equation equation(NodeIndex node_index, int direction, const std::string& where) const {
     Equation out;
     out.where = where;
@@ -123,8 +123,8 @@ BasicTerms basic_terms(Reading* reading, const RawEquation& equation) {
   return out;
 }
 
-// Equations whose dependent node has axes of its own mix its directions: they are solved for as
-// many basic directions as there are equations, so that each has a dependent of its own.
+// Equations whose dependent node has transformed axes couple its directions: they are solved for as
+// many basic directions as there are equations, so that each has its own dependent.
 void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
                     NodeIndex node_index, std::vector<BasicTerms> rows) {
   std::array<bool, 3> taken{};

@@ -32,7 +32,7 @@ Fields only_line(const Reading& reading, const Card& card) {
   return card.line(0, reading.source);
 }
 
-// Moments of inertia only: for products the sign is not the same in all programs.
+// Moments of inertia only: the sign of products differs between programs.
 Eigen::Matrix3d inertia_of(const Fields& fields) {
   for (size_t k = 3; k < 6; ++k) {
     if (fields.number_or(k, 0.0, "product of inertia") != 0.0) {

@@ -9,7 +9,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of the nodes that a *MPC names behind its type; zeros count for nothing.
+// Rows of the nodes of a *MPC, after its type; zeros are skipped.
 std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& lines) {
   std::vector<int32_t> rows;
   std::vector<bool> known(static_cast<size_t>(reading->model->nodes()), false);
@@ -49,9 +49,9 @@ RawEquation follow(Spot spot, int32_t row, const Eigen::Vector3d& weights,
 }
 
 constexpr double kInLine =
-    1e-6;  // sine of an angle, or distance over length: coordinates are short
+    1e-6;  // sine of an angle, or distance over length: coordinates have few digits
 
-// PLANE: the nodes stay in the plane that the first three span. To first order in u, with
+// PLANE: the nodes stay in the plane of the first three. To first order in u, with
 // x_p = (1 - s - t) x_a + s x_b + t x_c and the normal n: n . (u_p - (1 - s - t) u_a - s u_b - t
 // u_c) = 0.
 void add_plane(Reading* reading, size_t use, const MpcLines& lines,
@@ -62,7 +62,7 @@ void add_plane(Reading* reading, size_t use, const MpcLines& lines,
     fields.fail(fmt::format("*MPC PLANE: found {} nodes, expected 4 or more", rows.size()));
   }
   const auto at = [&](size_t i) { return reading->model->at(rows[i]); };
-  // Of a set, three that span the plane well: the first, the farthest, the farthest from both.
+  // For a set, three well-spread nodes: the first, the farthest, the farthest from both.
   size_t b = 1, c = 0;
   for (size_t i = 2; i < rows.size(); ++i) {
     if ((at(i) - at(0)).norm() > (at(b) - at(0)).norm()) b = i;
@@ -89,8 +89,8 @@ void add_plane(Reading* reading, size_t use, const MpcLines& lines,
   }
 }
 
-// STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, what is
-// square to the line is u_p = (1 - s) u_a + s u_b: two equations.
+// STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, the
+// components normal to the line are u_p = (1 - s) u_a + s u_b: two equations.
 void add_straight(Reading* reading, size_t use, const MpcLines& lines,
                   std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
@@ -104,7 +104,7 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
     if ((at(i) - at(0)).norm() > (at(b) - at(0)).norm()) b = i;
   }
   const Eigen::Vector3d e = at(b) - at(0);
-  if (!(e.norm() > 0.0)) fields.fail("*MPC STRAIGHT: its nodes are in one place");
+  if (!(e.norm() > 0.0)) fields.fail("*MPC STRAIGHT: its end nodes coincide");
   Eigen::Index along = 0;
   e.cwiseAbs().maxCoeff(&along);
   for (size_t i = 1; i < rows.size(); ++i) {
@@ -121,7 +121,7 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
       square[along] = -e[k] / e[along];
       RawEquation equation =
           follow(fields.spot(), rows[i], square, {{rows[0], 1.0 - s}, {rows[b], s}});
-      // Direction k is the dependent: the other equation has the other one.
+      // Direction k is the dependent; the other equation has the other one.
       const auto own =
           std::find_if(equation.terms.begin(), equation.terms.end(),
                        [&](const Term& t) { return t.row == rows[i] && t.direction == k; });
@@ -131,9 +131,9 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
   }
 }
 
-// MEANROT: the mean turn of nodes about an axis is DoF 1 of the node behind them, whose coordinates
+// MEANROT: the mean rotation of nodes about an axis is DoF 1 of the last node, whose coordinates
 // are the direction of the axis (Dhondt, CalculiX manual, "Mean rotation MPC"). To first order,
-// with the arms p_i from the nodes' centre, square to the axis a, and m nodes,
+// with the arms p_i from the nodes' centre, normal to the axis a, and m nodes,
 //   theta = 1/m sum a . (p_i x (u_i - u_mean)) / |p_i|^2.
 void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
                        std::vector<RawEquation>* equations) {

@@ -20,7 +20,7 @@ struct Decimal {
   int exponent = 0;
 };
 
-// `precision` digits behind the first one; -1 for as many as it takes to tell the double.
+// `precision` digits after the first one; -1 for the shortest that identifies the double.
 Decimal decimal_of(double value, int precision) {
   std::array<char, 64> text;
   const auto end = precision < 0 ? std::to_chars(text.data(), text.data() + text.size(), value,
@@ -45,7 +45,7 @@ std::string shortest(const Decimal& decimal) {
   const std::string& digits = decimal.digits;
   const int n = static_cast<int>(digits.size());
   const int e = decimal.exponent;
-  const int shift = e - n + 1;  // of the digits as a whole number
+  const int shift = e - n + 1;  // of the digits as an integer
   const char* sign = decimal.negative ? "-" : "";
   const std::string whole =
       shift == 0 ? fmt::format("{}{}.", sign, digits) : fmt::format("{}{}e{}", sign, digits, shift);

@@ -11,8 +11,8 @@
 namespace clatter::mesh::deck {
 namespace abaqus {
 
-// Sets of the deck and surfaces of nodes. A set that holds points stands in Deck::sets with all its
-// places; its nodes of the mesh, if any, in Mesh::node_sets as well.
+// Sets of the deck and surfaces of nodes. A set that contains points is in Deck::sets with all its
+// node indices; its mesh nodes, if any, are in Mesh::node_sets as well.
 void read_node_sets(Reading* reading) {
   const Model& model = *reading->model;
   const auto add = [&](const std::string& name, const std::vector<int32_t>& rows, Spot spot) {
@@ -32,7 +32,8 @@ void read_node_sets(Reading* reading) {
     if (all.size() > nodes.size()) reading->deck->sets[name] = all;
     if (!nodes.empty() || rows.empty()) reading->deck->mesh.node_sets[name] = std::move(nodes);
   };
-  // Sets hold others: what is wrong with one is wrong with those around it, so the first is enough.
+  // Sets may contain others: an error in one affects those around it, so only the first is
+  // reported.
   reading->refusals->attempt([&] {
     for (size_t use = 0; use < model.uses().size(); ++use) {
       for (const auto& [key, set] : model.uses()[use].scope->node_sets) {

@@ -41,7 +41,7 @@ void Source::begin_segment() {
   segments_.push_back({lines_, open_.back().name, open_.back().line});
 }
 
-// Moves the rest of the text to the front and reads on behind it; false when nothing came.
+// Moves the rest of the text to the front and reads more; false at the end.
 bool Source::refill(OpenFile& file) {
   if (file.at_end) return false;
   const size_t rest = file.text.size();
@@ -97,7 +97,7 @@ std::string Source::where(Spot spot) const {
 void Source::include(const std::string& name, Spot spot) {
   if (in_memory_) fail(spot, "*INCLUDE is not read in a deck without a file");
   if (open_.size() >= kDeepestInclude) {
-    fail(spot, fmt::format("found more than {} files within each other", kDeepestInclude));
+    fail(spot, fmt::format("found more than {} nested files", kDeepestInclude));
   }
   std::error_code trouble;
   fs::path path(name);

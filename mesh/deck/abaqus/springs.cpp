@@ -10,9 +10,9 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-constexpr double kStraight = 1e-9;  // of the largest force: digits of a table
+constexpr double kStraight = 1e-9;  // of the largest force: precision of a table
 
-// A line "force, elongation" each; one straight line through the origin is a linear spring.
+// Lines "force, elongation"; a straight line through the origin is a linear spring.
 double slope_of(const Card& card, size_t first, const Source& source) {
   double force = 0.0, elongation = 0.0;
   std::vector<std::pair<double, double>> points;
@@ -31,7 +31,7 @@ double slope_of(const Card& card, size_t first, const Source& source) {
   });
   if (!straight || elongation == 0.0) {
     source.fail(card.spot(),
-                "*SPRING, NONLINEAR: its forces do not lie on one line through 0, expected a "
+                "*SPRING, NONLINEAR: its forces are not on one line through 0, expected a "
                 "linear spring: clatter's parts are linear");
   }
   return slope;
@@ -50,9 +50,9 @@ Property property_of(const Card& card, const std::string& type, const Source& so
     if (card.size() == 0) source.fail(card.spot(), "*SPRING: found no data lines");
     const Fields fields = card.line(0, source);
     const size_t ends = type == "SPRING1" ? 1 : 2;
-    fields.at_most(ends, "degree of freedom of each end");
+    fields.at_most(ends, "DoF of each end");
     for (size_t i = 0; i < ends; ++i) {
-      property.directions.push_back(fields.integer(i, "degree of freedom", 1, 6) - 1);
+      property.directions.push_back(fields.integer(i, "DoF", 1, 6) - 1);
     }
     first = 1;
   } else if (card.size() > 0 && card.line(0, source).empty(0)) {
@@ -74,7 +74,7 @@ Property property_of(const Card& card, const std::string& type, const Source& so
   return property;
 }
 
-// DoF `direction` of a node, which CalculiX may keep as a translation of a rotation node.
+// DoF `direction` of a node, which CalculiX may store as a translation of a rotation node.
 Equation::Term end_of(Reading* reading, const PointElement& element, int32_t row, int direction,
                       double coefficient) {
   NodeMap& node_map = *reading->node_map;
@@ -98,9 +98,10 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
     const Eigen::Vector3d line =
         reading->model->at(element.second) - reading->model->at(element.node);
     if (!(line.norm() > 0.0)) {
-      reading->source.fail(element.spot, fmt::format("element {}: both ends are in one place, "
-                                                     "expected a SPRINGA with a length",
-                                                     element.id));
+      reading->source.fail(element.spot,
+                           fmt::format("element {}: both ends have the same position, "
+                                       "expected a SPRINGA with a length",
+                                       element.id));
     }
     for (int k = 0; k < 3; ++k) {
       const double along = line[k] / line.norm();
@@ -148,7 +149,7 @@ void read_springs(Reading* reading) {
     if (spring || said) return;
     said = true;
     reading->deck->notes.push_back(fmt::format(
-        "{}: *DASHPOT is left out: dampers take no part in statics and in undamped frequencies",
+        "{}: *DASHPOT is left out: dampers have no effect in statics and on undamped frequencies",
         reading->source.where(card.spot())));
   });
   if (reading->refusals->size() > refused) return;

@@ -43,7 +43,7 @@ double amplitude_factor(const Reading& reading, const Card& card) {
   if (values.empty()) {
     reading.source.fail(card.spot(),
                         fmt::format("amplitude {} changes with time, which is not supported; "
-                                    "ignore = [\"AMPLITUDE\"] takes the values as they stand",
+                                    "ignore = [\"AMPLITUDE\"] uses the values without it",
                                     *name));
   }
   return values.front();
@@ -89,7 +89,7 @@ void Supports::read_line(size_t use, const Fields& fields, double factor, StepNu
   if (mask != 0) {
     fields.at_most(2, "nodes and the name of a support");
   } else {
-    fields.at_most(4, "nodes, first and last degree of freedom, value");
+    fields.at_most(4, "nodes, first and last DoF, value");
     mask = dof_range(fields, 1);
     value = factor * fields.number_or(3, 0.0, "value");
   }
@@ -106,17 +106,17 @@ void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Sp
     const auto [at, is_new] = held_.emplace(std::pair(node_index, k), held);
     if (is_new) continue;
     if (at->second.step == step && at->second.value != value) {
-      reading_->source.fail(spot, fmt::format("node {} is held at {} and at {} in direction {}",
+      reading_->source.fail(spot, fmt::format("node {} is fixed at {} and at {} in direction {}",
                                               reading_->model->node_ids()[static_cast<size_t>(row)],
                                               at->second.value, value, k + 1));
     }
-    // The same again: it stays where it was said first.
+    // A repeated value keeps its first line.
     if (at->second.value != value || at->second.step != step) at->second = held;
   }
 }
 
 std::vector<Support> Supports::list(const Supports* other) const {
-  // By card, value and axes; in each the mask by place.
+  // By card, value and axes; in each the mask by node index.
   std::map<std::tuple<int32_t, double, std::string>, std::map<NodeIndex, DofMask>> groups;
   for (const auto& [dof, held] : held_) {
     if (other != nullptr) {

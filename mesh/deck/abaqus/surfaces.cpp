@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of a face of a cell, in our order: the first `count` of them.
+// Rows of a face of a cell, in our order: `count` entries.
 struct FaceRows {
   std::array<int32_t, kMaxFaceNodes> rows;
   size_t count, corners;
@@ -33,7 +33,7 @@ FaceRows face_rows(const Model& model, CellFaceId id) {
   return out;
 }
 
-// A face that may be free, by its corners, ascending: the same for both cells that share it.
+// A candidate for a free face, by its sorted corners: the same for both cells that share it.
 struct Candidate {
   std::array<int32_t, 4> corners;
   CellFaceId id;
@@ -51,7 +51,7 @@ int32_t face_count(const Model& model, int32_t cell) {
   return static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
 }
 
-// Faces of all other cells whose nodes are all touched.
+// Faces of all other cells whose nodes are all selected.
 void add_neighbours(const Model& model, const std::vector<bool>& chosen,
                     const std::vector<bool>& selected, std::vector<Candidate>* faces) {
   const auto is_selected = [&](int32_t row) { return selected[static_cast<size_t>(row)]; };
@@ -70,8 +70,7 @@ void add_neighbours(const Model& model, const std::vector<bool>& chosen,
   }
 }
 
-// Of the faces of those cells, those for which `wanted` is true of all rows and that no other cell
-// of the model has.
+// The faces of those cells for which `wanted` is true of all rows and that no other cell has.
 template <class Wanted>
 std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t>& cells,
                                    const Wanted& wanted) {
@@ -99,7 +98,7 @@ std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t
   return faces;
 }
 
-// Key of Reading::surface_names; "instance.name" points into the instance.
+// Key of Reading::surface_names; "instance.name" refers to a surface of the instance.
 std::string key_of(const Reading& reading, size_t use, const std::string& name) {
   std::string rest = name;
   for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
@@ -133,7 +132,7 @@ class SurfaceReader {
     }
     std::vector<CellFaceId> faces;
     for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, reading_.source), &faces);
-    // Without faces because the user lets its elements go: not in the mesh.
+    // Without faces because the user ignores its elements: not in the mesh.
     const bool none = faces.empty() && card.size() > 0;
     reading_.surface_names[key] =
         none ? "" : add_surface(&reading_, model_.public_name(use, name), faces);
@@ -254,7 +253,7 @@ std::string surface_of_nodes(Reading* reading, const std::vector<int32_t>& rows,
   for (const int32_t row : rows) {
     if (!wanted[static_cast<size_t>(row)]) continue;
     reading->source.fail(spot, fmt::format("surface {} of nodes: node {} belongs to no outer face "
-                                           "whose nodes all belong to it, expected whole faces",
+                                           "whose nodes all belong to it, expected complete faces",
                                            name, model.node_ids()[static_cast<size_t>(row)]));
   }
   return add_surface(reading, name, faces);

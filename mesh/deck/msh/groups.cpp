@@ -36,7 +36,7 @@ std::vector<int> MshGroups::numbers_of(const MshElements& elements, size_t e) co
   if (scan_.version != 2) return elements.groups;
   const auto found = scan_.group_of.find(elements.tags[e]);
   if (found == scan_.group_of.end())
-    fail(fmt::format("Gmsh gives element {}, which is not in the file", elements.tags[e]));
+    fail(fmt::format("Gmsh returns element {}, which is not in the file", elements.tags[e]));
   if (found->second == 0) return {};
   return {found->second};
 }

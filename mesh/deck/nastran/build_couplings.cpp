@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr DofMask kRotations = kAllDofs & ~kTranslations;
 
-// All three directions or none: the same in every frame.
+// All three directions or none: independent of the frame.
 bool frame_free(DofMask dofs, bool has_rotations) {
   const auto whole = [dofs](DofMask three) {
     return (dofs & three) == three || (dofs & three) == 0;
@@ -30,7 +30,7 @@ void add_term(Equation& equation, NodeIndex node_index, int direction, double co
   if (coefficient != 0.0) equation.terms.push_back({node_index, direction, coefficient});
 }
 
-// Rows t so that each has a column of its own (its pivot: 1 there, 0 in the other rows), by
+// Transforms rows t so that each has its own pivot column (1 there, 0 in the other rows), by
 // elimination with the largest pivots. Returns the pivots.
 std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
   std::vector<int> pivots;

@@ -1,4 +1,4 @@
-// Cells and nodes: numbers of the deck become rows; grids without cells stay out.
+// Cells and nodes: deck numbers become rows; grids without cells are skipped.
 #include <fmt/format.h>
 
 #include <set>

@@ -1,4 +1,4 @@
-// SET1, and the surfaces that comments define.
+// SET1, and surfaces from comments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ void sort_unique(std::vector<NodeIndex>& node_indices) {
   node_indices.erase(std::unique(node_indices.begin(), node_indices.end()), node_indices.end());
 }
 
-// Nodes go to the mesh; a set that holds points, too, stands whole in Deck::sets.
+// Nodes go to the mesh; a set that also contains points is complete in Deck::sets.
 void add_set(Model& model, const std::string& name, std::vector<NodeIndex> node_indices,
              Origin origin) {
   if (model.deck.sets.contains(name) || model.deck.mesh.node_sets.contains(name)) {

@@ -1,4 +1,4 @@
-// Subcases: loads, temperatures, supports of their own.
+// Subcases: their loads, temperatures, supports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ class StepBuilder {
     model_.deck.steps.push_back(std::move(step));
   }
 
-  // TEMPERATURE(INITIAL) stands for the reference temperature of every material.
+  // TEMPERATURE(INITIAL) is the reference temperature of every material.
   void initial_temperature() {
     const int32_t set = bulk_.control.initial_temperature;
     if (set == 0) return;
@@ -156,7 +156,7 @@ class StepBuilder {
     }
   }
 
-  // A turns a second about an axis through a grid or the basic origin.
+  // A revolutions per second about an axis through a grid or the basic origin.
   void add_rotation(Step& step, const RawRotation& raw, double factor) {
     const System& system = model_.systems.get(raw.system, raw.origin);
     if (system.kind != System::Kind::kRectangular) {

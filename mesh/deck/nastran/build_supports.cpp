@@ -1,6 +1,6 @@
 // SPC, SPC1, SPCADD, permanent constraints of GRID, ASET and BSET: directions are those of each
-// grid's displacement system. Nodes of solids have no rotations; grids without a place have nothing
-// to hold.
+// grid's displacement system. Nodes of solids have no rotations; grids without a node index have no
+// DoFs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class Holder {
   }
 
  private:
-  // What entries [begin, end) say of one place.
+  // The supports of one node, entries [begin, end).
   void merge(size_t begin, size_t end) {
     std::map<double, DofMask> by_value;
     for (size_t i = begin; i < end; ++i) {
@@ -117,7 +117,7 @@ void build_supports(Model& model) {
   }
   append(model.deck.supports, permanent.supports());
 
-  // Sets that all subcases choose belong to the model, others to their steps (build_steps).
+  // Sets selected by all subcases belong to the model, others to their steps (build_steps).
   const Control& control = model.bulk.control;
   int32_t set = 0;
   Origin origin = 0;

@@ -7,10 +7,10 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// What the lists of a deck may cost: about a second of visits, or half a gigabyte of entries.
+// Limit of the effort for lists: about a second of visits, or half a gigabyte of entries.
 constexpr int64_t kMostEffort = 500'000'000, kMostEffortPerGrid = 2000;
 
-// Blank fields of GRID take GRDSET's values.
+// Blank fields of GRID get GRDSET's values.
 void fill_defaults(Bulk& bulk) {
   Grids& grids = bulk.grids;
   const auto fill = [&](auto& column, auto blank, auto zero, auto value) {
@@ -115,7 +115,7 @@ void Model::spend(int64_t effort, Origin origin) {
   effort_ += effort;
   const auto grid_count = static_cast<int64_t>(bulk.grids.size());
   if (effort_ > std::max(kMostEffort, kMostEffortPerGrid * grid_count)) {
-    source.fail(origin, "the lists of this deck name the same grids too many times over");
+    source.fail(origin, "the lists of this deck repeat the same grids too often");
   }
 }
 

@@ -16,7 +16,7 @@ std::string set_name(const Support& support) {
   return support.name.empty() ? "support" : support.name;
 }
 
-/// The same places and directions, whatever the value.
+/// The same nodes and directions, whatever the value.
 bool same_hold(const Support& a, const Support& b) {
   return a.node_indices == b.node_indices && a.dofs == b.dofs && a.system == b.system;
 }
@@ -26,7 +26,7 @@ bool same_supports(const Step& a, const Step& b) {
                     same_hold);
 }
 
-/// The text of one [[support]] or of a displacement load: place, directions, system.
+/// The text of one [[support]] or of a displacement load: target, directions, system.
 std::string hold(const std::string& head, const std::string& target, DofMask dofs,
                  const Support& support) {
   return fmt::format(
@@ -152,7 +152,7 @@ class StepWriter {
     }
   }
 
-  /// Of the materials that expand; one model has one.
+  /// Reference temperature of the materials with expansion; it must be the same for all.
   double reference_temperature() const {
     double reference = 0.0;
     const Material* first = nullptr;
@@ -201,7 +201,7 @@ std::string write_steps(Deck& deck, RecipeNames& names) {
       for (const Support& support : step.supports) out += support_text(support, names);
     }
     if (!same_supports(*first, step)) {
-      out += fmt::format("\n# {} ({}) has other supports than {}: it needs a model of its own\n",
+      out += fmt::format("\n# {} ({}) has other supports than {}: it needs a separate model\n",
                          step.name, step.where, first->name);
       continue;
     }

@@ -29,10 +29,10 @@ class Writer {
     systems();
     materials();
     std::string relations = std::exchange(text_, {});
-    // Couplings say which points on nodes they need, so points are written after them.
+    // Couplings register points on nodes, so points are written after them.
     couplings();
     if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
-      put("\n[[straight_edges]]  # cells of the deck without these middle nodes\nnode_set = {}\n",
+      put("\n[[straight_edges]]  # cells of the deck without these mid-side nodes\nnode_set = {}\n",
           toml_text(kHangingMidSideNodes));
     for (const Tie& tie : deck_.ties) add_tie(tie);
     for (const Equation& equation : deck_.equations)
@@ -107,10 +107,9 @@ class Writer {
         out += fmt::format("C = {}\n", toml_list(c));
         break;
     }
-    out +=
-        material.density > 0.0
-            ? fmt::format("rho = {}\n", material.density)
-            : "rho = 1.0  # the deck has none: mass and frequencies mean nothing with this one\n";
+    out += material.density > 0.0 ? fmt::format("rho = {}\n", material.density)
+                                  : "rho = 1.0  # the deck has none: mass and frequencies are "
+                                    "meaningless with this one\n";
     if (material.expansion.size() == 1)
       out += fmt::format("expansion = {}\n", material.expansion[0]);
     if (material.expansion.size() == 3)
@@ -125,7 +124,7 @@ class Writer {
     const bool linear_hex = type == CellType::kHex8;
     if (formulation == Formulation::kDefault) return "";
     if (linear_hex && formulation == Formulation::kReduced)
-      return "hex8 = \"incompatible\"  # the deck asks for one point and hourglass control\n";
+      return "hex8 = \"incompatible\"  # the deck has one point and hourglass control\n";
     if (linear_hex || type == CellType::kHex20 || type == CellType::kWedge6 ||
         type == CellType::kWedge15)
       return fmt::format("{} = \"{}\"\n", traits(type).name,
@@ -216,7 +215,7 @@ class Writer {
     }
   }
 
-  /// Retained nodes stay coordinates of the model; points are sets already.
+  /// Retained nodes remain coordinates of the model; points already are sets.
   void retained() {
     std::vector<NodeIndex> nodes;
     for (const Support& set : deck_.retained)

@@ -78,7 +78,7 @@ TEST(AbaqusCoupling, WhatItLacksIsNamed) {
   EXPECT_NE(refusal(kModel + coupling).find("expected *KINEMATIC or *DISTRIBUTING"),
             std::string::npos);
   EXPECT_EQ(refusal(kModel + "*KINEMATIC\n"),
-            "deck.inp:24: found *KINEMATIC, expected it behind *COUPLING");
+            "deck.inp:24: found *KINEMATIC, expected it after *COUPLING");
 }
 
 const std::string kDcoup = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n33, ";

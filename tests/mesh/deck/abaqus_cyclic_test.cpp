@@ -42,7 +42,7 @@ TEST(AbaqusCyclic, SectorsAreCopiedAndJoinedNodeByNode) {
   EXPECT_EQ(deck.mesh.cells[0].ids, (std::vector<int32_t>{1, 11, 21, 31}));
   ASSERT_EQ(deck.supports.size(), 1u);
   EXPECT_EQ(deck.supports[0].node_indices.size(), 4u);
-  EXPECT_THAT(deck.notes.back(), HasSubstr("the sector is turned round into the ring of 4"));
+  EXPECT_THAT(deck.notes.back(), HasSubstr("the sector is expanded to the ring of 4"));
 }
 
 TEST(AbaqusCyclic, DirectionsOfSupportsAndForcesTurnWithTheirCopy) {

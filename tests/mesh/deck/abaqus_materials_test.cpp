@@ -95,8 +95,7 @@ TEST(AbaqusMaterials, WhatIsNotUnderstoodIsRefused) {
   EXPECT_NE(bad_material("*DENSITY\n1\n").find("has no *ELASTIC"), std::string::npos);
   EXPECT_NE(bad_material("*ELASTIC\n1,.3\n*PLASTIC\n1,0\n").find("keyword *PLASTIC"),
             std::string::npos);
-  EXPECT_EQ(refusal("*ELASTIC\n1,.3\n"),
-            "deck.inp:1: found *ELASTIC, expected it behind *MATERIAL");
+  EXPECT_EQ(refusal("*ELASTIC\n1,.3\n"), "deck.inp:1: found *ELASTIC, expected it after *MATERIAL");
   EXPECT_NE(refusal(kModel + "*MATERIAL, NAME=steel\n").find("a second material steel"),
             std::string::npos);
 }

@@ -182,10 +182,11 @@ TEST(AbaqusMesh, SetsThatCannotBeAreRefused) {
 }
 
 TEST(AbaqusMesh, NumbersThatStandForTwoThingsAreRefused) {
-  EXPECT_NE(refusal(kModel + "*NODE\n3, 7, 7, 7\n")
-                .find("deck.inp:25: node 3 is defined again in another place; the first time: "
-                      "deck.inp:4"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(kModel + "*NODE\n3, 7, 7, 7\n")
+          .find("deck.inp:25: node 3 is defined again with other coordinates; first definition: "
+                "deck.inp:4"),
+      std::string::npos);
   EXPECT_EQ(read(kModel + "*NODE, NSET=AGAIN\n3, 1, 1, 0\n").mesh.node_set("AGAIN").size(), 1u);
   EXPECT_EQ(refusal(kModel + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n"),
             "deck.inp:25: element 1 is defined twice");

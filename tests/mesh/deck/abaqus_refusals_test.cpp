@@ -62,14 +62,14 @@ TEST(AbaqusEnd, WhatIsOpenAtTheEndIsRefusedByItsLine) {
               HasSubstr("deck.inp:24: found *STEP without *END STEP, the deck ends before it"));
   EXPECT_THAT(refusal(kModel + "*BOUNDARY\n"),
               HasSubstr("deck.inp:24: the deck ends with *BOUNDARY, expected its data lines"));
-  EXPECT_THAT(refusal(kModel + "*SURFACE,\n"), HasSubstr("deck.inp:24: the deck ends behind the "
+  EXPECT_THAT(refusal(kModel + "*SURFACE,\n"), HasSubstr("deck.inp:24: the deck ends after the "
                                                          "comma of *SURFACE"));
   EXPECT_THAT(refusal("*PART, NAME=A\n" + kCube +
                       "*END PART\n*ASSEMBLY, NAME=B\n"
                       "*INSTANCE, NAME=C, PART=A\n*END INSTANCE\n"),
               HasSubstr("found *ASSEMBLY without *END ASSEMBLY"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=S8\n5, 1, 2, 3, 4, 5,\n", {"S8"}),
-              HasSubstr("deck.inp:25: the deck ends behind a comma"));
+              HasSubstr("deck.inp:25: the deck ends after a comma"));
 }
 
 TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {

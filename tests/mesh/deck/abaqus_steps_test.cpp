@@ -50,7 +50,7 @@ TEST(AbaqusBoundary, NamesOfSupportsHoldWhatAbaqusSays) {
 
 TEST(AbaqusBoundary, ContradictionsAndStrangeDofsAreRefused) {
   EXPECT_NE(refusal(kModel + "*BOUNDARY\n1, 1, 1, 0.\n1, 1, 1, 2.\n")
-                .find("deck.inp:26: node 1 is held at 0 and at 2 in direction 1"),
+                .find("deck.inp:26: node 1 is fixed at 0 and at 2 in direction 1"),
             std::string::npos);
   EXPECT_NE(refusal(kModel + "*BOUNDARY\n1, 11, 11, 20.\n").find("found '11' in field 2"),
             std::string::npos);

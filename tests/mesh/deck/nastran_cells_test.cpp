@@ -112,7 +112,7 @@ TEST(NastranCell, WrongNodesAreRefused) {
   EXPECT_THAT(refusal(kTet + "CTETRA,1,1,1,2,3,4\n"),
               StartsWith("t.bdf:8: cell 1: found another one with this number at t.bdf:7"));
   EXPECT_THAT(refusal(grids(1, 12) + "CTETRA,7,1,1,2,3,4,5,6,+\n+,7,8,9,10,11\n"),
-              HasSubstr("found '11' behind the last field"));
+              HasSubstr("found '11' after the last field"));
 }
 
 TEST(NastranCell, NumbersAndOrderAreThoseOfTheDeck) {

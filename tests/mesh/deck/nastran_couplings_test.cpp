@@ -53,7 +53,7 @@ TEST(NastranCouplings, Rbe2TiesItsDependentsToAPoint) {
   ASSERT_THAT(deck.rigid, SizeIs(1));
   EXPECT_EQ(deck.rigid[0].name, "rbe2_7");
   EXPECT_EQ(deck.rigid[0].where, "t.bdf:12");
-  EXPECT_EQ(deck.rigid[0].reference, 4);  // the first point, behind four nodes
+  EXPECT_EQ(deck.rigid[0].reference, 4);  // the first point, after four nodes
   EXPECT_EQ(deck.rigid[0].dofs, kTranslations);
   EXPECT_THAT(deck.rigid[0].dependents, ElementsAre(0, 1, 2));
 }

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// A folder of its own for each test, gone behind it.
+// A folder of its own for each test, gone after it.
 class NastranInclude : public testing::Test {
  protected:
   void SetUp() override {

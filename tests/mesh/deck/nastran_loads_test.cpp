@@ -116,9 +116,9 @@ TEST(NastranPressure, QuadranglesAreNamedByADiagonal) {
               ElementsAre(5, 6, 7, 8));
   EXPECT_THAT(face_of(read_deck(hex + "PLOAD4,3,1,5.,,,,6,1\n"), "pload4_3"),
               ElementsAre(1, 2, 5, 6));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,2\n"), HasSubstr("say no face of cell 1"));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,7\n"), HasSubstr("say no face of cell 1"));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1\n"), HasSubstr("say no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,2\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,7\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1\n"), HasSubstr("define no face of cell 1"));
 
   const std::string wedge = deck + "CPENTA,1,1,1,2,3,5,6,7\n";
   EXPECT_THAT(face_of(read_deck(wedge + "PLOAD4,3,1,5.,,,,5\n"), "pload4_3"), ElementsAre(5, 6, 7));
@@ -130,7 +130,7 @@ TEST(NastranPressure, QuadranglesAreNamedByADiagonal) {
               ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(face_of(read_deck(pyramid + "PLOAD4,3,1,5.,,,,2,1\n"), "pload4_3"),
               ElementsAre(1, 2, 5));
-  EXPECT_THAT(refusal(pyramid + "PLOAD4,3,1,5.,,,,1,5\n"), HasSubstr("say no face of cell 1"));
+  EXPECT_THAT(refusal(pyramid + "PLOAD4,3,1,5.,,,,1,5\n"), HasSubstr("define no face of cell 1"));
 }
 
 TEST(NastranPressure, ValuesThatDifferGetSurfacesOfTheirOwn) {
@@ -150,7 +150,7 @@ TEST(NastranPressure, WhatIsNotPressureOnASolidIsRefused) {
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,1,3,+\n+,0,1.,0.,0.\n"),
               HasSubstr("along a vector"));
   EXPECT_THAT(refusal(kTet + "GRID,9\nPLOAD4,3,1,5.,,,,1,9\n"),
-              HasSubstr("node 9 is no corner of cell 1"));
+              HasSubstr("node 9 is not a corner of cell 1"));
 }
 
 TEST(NastranTemperature, FieldsCoverAllNodes) {

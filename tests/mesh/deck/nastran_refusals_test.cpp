@@ -17,7 +17,7 @@ TEST(NastranEnd, ADeckWithoutEnddataSaysWhereItEnds) {
   const Deck cut = read_deck(kTet);
   ASSERT_EQ(cut.notes.size(), 1u);
   EXPECT_THAT(cut.notes[0],
-              HasSubstr("t.bdf:7: the deck ends here, behind card CTETRA, without ENDDATA"));
+              HasSubstr("t.bdf:7: the deck ends here, after card CTETRA, without ENDDATA"));
   EXPECT_TRUE(read_deck(kTet + "ENDDATA\n").notes.empty());
 }
 

@@ -53,7 +53,7 @@ TEST(NastranReal, SixteenColumnsLoseNoMoreThanTheyMust) {
       worst_of_coordinates = std::max(worst_of_coordinates, loss);
     }
   }
-  // Half a unit of the eleventh digit behind the first: -1.2345678901-40.
+  // Half a unit of the eleventh digit after the first: -1.2345678901-40.
   EXPECT_LE(worst, 0.5e-10);
   // Half a unit of the twelfth: -.00123456789012.
   EXPECT_LE(worst_of_coordinates, 0.5e-11);

@@ -87,7 +87,7 @@ TEST(RecipeText, NamesTheLaterStepWhoseSupportsDiffer) {
       parse(read(kModel + "*STEP\n*STATIC\n*BOUNDARY\nBOT, 1, 3\n*CLOAD\nTOP, 3, 1.\n*END STEP\n"
                           "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
   EXPECT_THAT(parsed.recipe.cases, SizeIs(1));
-  EXPECT_THAT(parsed.text, HasSubstr("it needs a model of its own"));
+  EXPECT_THAT(parsed.text, HasSubstr("it needs a separate model"));
 }
 
 TEST(RecipeText, KeepsARigidBodyOnItsPointAndItsMass) {
