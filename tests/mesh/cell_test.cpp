@@ -169,7 +169,7 @@ TEST(Quality, WorstCellIsNamedWithItsPlace) {
   const QualityReport q = measure_quality(one_cell());
   EXPECT_NEAR(q.min_dihedral_deg.worst, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
   EXPECT_NEAR(q.max_dihedral_deg.worst, 90.0, 1e-12);
-  EXPECT_NEAR(q.min_dihedral_deg.place.x(), 0.25, 1e-15);
+  EXPECT_NEAR(q.min_dihedral_deg.position.x(), 0.25, 1e-15);
 }
 
 }  // namespace

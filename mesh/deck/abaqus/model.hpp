@@ -75,7 +75,7 @@ class Model {
   /// Elements of one node or two; `node` is a row, and `second`, or -1. Their numbers follow those
   /// of the cells.
   const std::vector<PointElement>& points() const { return points_; }
-  /// Element `id` of a use: a cell, cells() + a point, kLetGo for one that the user ignores, or -1.
+  /// Element `id` of a use: a cell, cells() + a point, kIgnored for an ignored one, or -1.
   int32_t find_element(size_t use, int32_t id) const;
   /// Without those that the user ignores.
   std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;

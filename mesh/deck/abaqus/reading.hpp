@@ -97,7 +97,7 @@ void read_orientations(Reading* reading);
 /// *SOLID SECTION -> regions, and with them the mesh: nodes, cells, numbers. Returns the mesh node
 /// of each row.
 std::vector<int32_t> build_mesh(Reading* reading);
-/// *TRANSFORM -> Deck::systems and Places.
+/// *TRANSFORM -> Deck::systems and NodeMap.
 void read_transforms(Reading* reading);
 /// *INITIAL CONDITIONS, TYPE=TEMPERATURE -> Reading::initial and the materials' reference
 /// temperature.
