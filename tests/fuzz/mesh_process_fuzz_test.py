@@ -1,4 +1,4 @@
-"""clatter-mesh as a process never falls over: a short seeded run, and a long one for `make validate`."""
+"""clatter-mesh as a process ends properly on every part: a short seeded run, and a long one for `make validate`."""
 import os
 import sys
 import unittest

@@ -1,4 +1,4 @@
-// Gmsh in a child process: the same bits as without, errors of the same kind, crashes told.
+// Gmsh in a child process: identical results, errors of the same kind, crashes reported.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -47,7 +47,7 @@ TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
       << there.cad.substr(0, 100);
 }
 
-TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndWords) {
+TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndMessage) {
   EXPECT_THROW(make("name = 'x'\nkind = 'cad'\n[cad]\nsource = 'none.step'\n"), InputError);
   try {
     make(kTube + "elements_per_trun = 3\n");
@@ -57,7 +57,7 @@ TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndWords) {
   }
 }
 
-TEST(HardN17_GmshInAChild, ItsLastNewsSayWhereItFell) {
+TEST(HardN17_GmshInAChild, TheLastMessageNamesTheStepThatCrashed) {
   ChildEnd end;
   end.kind = ChildEnd::Kind::kCrashed;
   end.signal = 11;

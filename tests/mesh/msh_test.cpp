@@ -108,7 +108,7 @@ TEST(Quality, EachCellTypeHasAHistogramAndTheWorstCellsComeFirst) {
 
 class MshOfAll : public ::testing::TestWithParam<int> {};
 
-// Gmsh numbers anew when it writes groups only: its nodes in our order, by place.
+// Gmsh renumbers when it writes only groups: its nodes in our order, by position.
 void take_numbers(Mesh& found, const Mesh& expected) {
   std::vector<int32_t> row(static_cast<size_t>(found.nodes.rows()), -1);
   for (Eigen::Index n = 0; n < found.nodes.rows(); ++n)

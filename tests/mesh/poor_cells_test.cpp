@@ -1,4 +1,4 @@
-// Poor cells: what they cost against what is said, and when a mesh is refused.
+// Poor cells: true against estimated effect, and when a mesh is refused.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ Eigen::VectorXd clamped_hz(const Mesh& mesh) {
   return fe::lowest_hz(model.K, model.M, 8);
 }
 
-/// Middle nodes of every n-th edge go along it to `share` of its length; no two of these edges
+/// Moves mid-side nodes of every n-th edge along it to `share` of its length; no two of these edges
 /// have a corner in common. 0.25 folds the cells at that corner.
 Mesh squeezed(Mesh mesh, int every, double share) {
   std::set<int32_t> used;
@@ -67,7 +67,7 @@ TEST(PoorCells, HardG8_EstimatedEffectIsThatOnFrequenciesWithinAFactorOfFive) {
   }
 }
 
-// One node of a straight-edged mesh sinks to a thousandth of its height above the opposite face:
+// One node of a straight-edged mesh moves to a thousandth of its height above the opposite face:
 // angles of 0.1 deg. Quadratic cells with straight edges have every quadratic field, however flat.
 TEST(PoorCells, HardG8_FlatStraightCellsHardlyMoveFrequenciesAndTheEstimateSaysSo) {
   const Mesh good = fe::block_mesh({6, 3, 3}, fe::brick({0.06, 0.03, 0.03}));

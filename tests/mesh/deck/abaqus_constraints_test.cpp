@@ -83,7 +83,7 @@ TEST(AbaqusCoupling, WhatItLacksIsNamed) {
 
 const std::string kDcoup = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n33, ";
 
-TEST(AbaqusCoupling, ADcoup3dAtTheCentreIsDistributingOffItTheUserDecides) {
+TEST(AbaqusCoupling, ADcoup3dAtTheCentreIsDistributingElsewhereTheUserDecides) {
   const std::string card = "*DISTRIBUTING COUPLING, ELSET=D\nTOP, 2.\n";
   const Deck deck = read(kModel + "*NODE\n11, .5, .5, 1\n" + kDcoup + "11\n" + card);
   EXPECT_EQ(deck.distributing.at(0).terms.at(0).weight, 2.0);
@@ -110,7 +110,7 @@ TEST(AbaqusTie, SurfacesOfFacesAndOfNodesAreTied) {
   EXPECT_EQ(ids_of(deck, nodes_of(slave)), (std::vector<int32_t>{1, 2, 3, 4}));
 }
 
-TEST(AbaqusTie, NodesThatMakeNoWholeFaceAreRefused) {
+TEST(AbaqusTie, NodesThatMakeNoCompleteFaceAreRefused) {
   EXPECT_NE(
       refusal(kModel + "*SURFACE, NAME=UP\nEALL, S2\n*SURFACE, NAME=DOWN, TYPE=NODE\n1, 2, 3\n"
                        "*TIE, NAME=T\nDOWN, UP\n")
@@ -153,7 +153,7 @@ TEST(AbaqusEquation, HalfEquationsAreRefused) {
             std::string::npos);
 }
 
-// Whatever the form, displacements that fulfil the deck's equations must fulfil ours.
+// Displacements that satisfy the deck's equations must satisfy ours.
 TEST(AbaqusEquation, TransformedNodesKeepTheMeaningOfTheirEquations) {
   const Deck deck = read(kModel +
                          "*TRANSFORM, NSET=TOP, TYPE=R\n3,4,0,-4,3,0\n"

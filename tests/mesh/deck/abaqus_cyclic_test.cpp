@@ -1,4 +1,4 @@
-// *CYCLIC SYMMETRY MODEL: the sector becomes the ring.
+// *CYCLIC SYMMETRY MODEL: the sector is expanded to the ring.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ TEST(AbaqusCyclic, SectorsAreCopiedAndJoinedNodeByNode) {
     const double radius = deck.mesh.nodes.row(a).head<2>().norm();
     EXPECT_NEAR(std::abs(radius - 1.5), 0.5, 1e-15);
   }
-  // The sector keeps its numbers, a copy counts from a power of ten on.
+  // The sector keeps its numbers, a copy adds a power of ten.
   EXPECT_EQ(deck.mesh.node_ids[0], 1);
   EXPECT_EQ(deck.mesh.cells[0].ids, (std::vector<int32_t>{1, 11, 21, 31}));
   ASSERT_EQ(deck.supports.size(), 1u);
@@ -60,7 +60,7 @@ TEST(AbaqusCyclic, DirectionsOfSupportsAndForcesTurnWithTheirCopy) {
     EXPECT_NEAR(deck.mesh.nodes.row(force.node_index).norm(), 2.0, 1e-15);
 }
 
-TEST(AbaqusCyclic, WhatDoesNotRepeatIsRefusedByLine) {
+TEST(AbaqusCyclic, WhatCannotBeRepeatedIsRefusedByLine) {
   EXPECT_THAT(refusal(kQuarter + kTie + "*CYCLIC SYMMETRY MODEL, N=5\n0,0,0,0,0,1\n"),
               HasSubstr("deck.inp:28: found 4 and 4 nodes on the sides; turned by 72 degrees"));
   EXPECT_THAT(refusal(kQuarter + kTie),

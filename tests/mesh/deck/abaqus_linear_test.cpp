@@ -76,7 +76,7 @@ TEST(AbaqusMpc, PlaneKeepsRigidMotionsAndMotionsWithinThePlaneOnly) {
   EXPECT_THAT(refusal(kModel + "*MPC\nPLANE, 1, 2, 3\n"), HasSubstr("found 3 nodes, expected 4"));
 }
 
-TEST(AbaqusMpc, StraightIsTwoEquationsANodeAndContinuesBehindAZero) {
+TEST(AbaqusMpc, StraightIsTwoEquationsPerNodeAndContinuesAfterAZero) {
   const std::string edge =
       kCubeNodes +
       "*ELEMENT, TYPE=C3D10, ELSET=EALL\n1, 1, 2, 4, 5, 21, 22, 23, 24, 25, 26\n"
@@ -114,7 +114,7 @@ TEST(AbaqusTemperature, ConstantsAtOneTemperatureAreConstant) {
   EXPECT_EQ(deck.materials.at("S").constants, (std::vector<double>{2.1e5, .3}));
 }
 
-TEST(AbaqusTemperature, ConstantsAtSeveralAreTakenAtTheInitialOneAloud) {
+TEST(AbaqusTemperature, ConstantsAtSeveralAreTakenAtTheInitialOneWithANote) {
   const std::string table = steel("2.E5, .3, 0.\n1.E5, .2, 100.\n");
   const Deck deck =
       read(table + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 25.\n" + kStep + "*END STEP\n");

@@ -1,4 +1,4 @@
-// Decks that end early, and refusals that come together.
+// Truncated decks, and several refusals at once.
 #include <gmock/gmock.h>
 
 #include "abaqus_support.hpp"
@@ -31,8 +31,8 @@ const std::string kLong =
     "*STEP\n*STATIC\n*CLOAD\n7, 3, 1.\n*END STEP\n"
     "*STEP\n*FREQUENCY\n5\n*END STEP\n";
 
-TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
-  // Behind a *END STEP the deck is whole, with a step less.
+TEST(AbaqusEnd, NoTruncationAtALineEndPassesSilently) {
+  // After a *END STEP the deck is complete, with one step fewer.
   const Deck whole = read(kLong);
   EXPECT_TRUE(whole.notes.empty());
   int cuts = 0, complete_steps = 0;
@@ -57,7 +57,7 @@ TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
   EXPECT_EQ(complete_steps, 1);
 }
 
-TEST(AbaqusEnd, WhatIsOpenAtTheEndIsRefusedByItsLine) {
+TEST(AbaqusEnd, AnOpenBlockAtTheEndIsRefusedByItsLine) {
   EXPECT_THAT(refusal(kModel + "*STEP\n*STATIC\n*CLOAD\n7, 3, 1.\n"),
               HasSubstr("deck.inp:24: found *STEP without *END STEP, the deck ends before it"));
   EXPECT_THAT(refusal(kModel + "*BOUNDARY\n"),
@@ -87,9 +87,9 @@ TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {
   }
 }
 
-TEST(AbaqusRefusals, WhatFollowsFromARefusalIsNotSaidAgain) {
-  // The material and the surface are lost; what names them is not refused a second time, nor what
-  // names the elements of a type that is not read.
+TEST(AbaqusRefusals, ConsequencesOfARefusalAreNotReported) {
+  // The material and the surface are dropped; references to them, and to elements of an unsupported
+  // type, are not refused again.
   const std::string said =
       refusal(kCube +
               "*ELEMENT, TYPE=B32, ELSET=BEAMS\n50, 1, 2, 3\n"
@@ -103,7 +103,7 @@ TEST(AbaqusRefusals, WhatFollowsFromARefusalIsNotSaidAgain) {
   EXPECT_THAT(said, HasSubstr("deck.inp:23: found face S9"));
 }
 
-TEST(AbaqusRefusals, TheSameAtOtherPlacesIsCountedAndTenAreEnough) {
+TEST(AbaqusRefusals, RepetitionsAreCountedAndTenRefusalsAreTheLimit) {
   std::string twice = kModel, many = kModel;
   for (int i = 0; i < 3; ++i) twice += "*CONTACT PAIR\nA, B\n";
   EXPECT_EQ(refusal(twice),
@@ -126,7 +126,7 @@ TEST(AbaqusRefusals, TablesWithGapsAreNotFollowedByWhatNamesTheirLines) {
   EXPECT_THAT(said, HasSubstr("deck.inp:7: keyword *ODD"));
 }
 
-TEST(AbaqusSteps, AfterLinearStepsOthersAreLeftOutAloud) {
+TEST(AbaqusSteps, AfterLinearStepsOthersAreSkippedWithANote) {
   const Deck deck =
       read(kModel +
            "*BOUNDARY\nBOT, 1, 3\n*STEP\n*FREQUENCY\n5\n*END STEP\n"

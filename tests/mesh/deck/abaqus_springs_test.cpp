@@ -1,4 +1,4 @@
-// *SPRING and *DASHPOT, *MPC MEANROT, steps on the stiffness of loads.
+// *SPRING and *DASHPOT, *MPC MEANROT, steps with the stiffness of loads.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -75,7 +75,7 @@ TEST(AbaqusSpring, StiffnessChangesItsUnitsWithTheDeck) {
   EXPECT_NEAR(deck.springs[0].stiffness, 12e3, 1e-9);  // N/mm
 }
 
-TEST(AbaqusDashpot, IsLeftOutAloudOnce) {
+TEST(AbaqusDashpot, IsSkippedWithOneNote) {
   const Deck deck = read(kModel +
                          "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n7, 7, 9\n8, 8, 9\n"
                          "*DASHPOT, ELSET=D\n\n1.E-5\n");
@@ -119,7 +119,7 @@ TEST(AbaqusMpc, MeanRotationNeedsAnAxisAndNodesOffIt) {
               HasSubstr("node 1 lies on the axis through the nodes' centre"));
 }
 
-TEST(AbaqusSteps, OnTheStiffnessOfLoadsAreLeftOutWithAllBehindThem) {
+TEST(AbaqusSteps, WithTheStiffnessOfLoadsAreSkippedWithAllAfterThem) {
   const std::string push = "*STEP\n*STATIC\n*CLOAD\n5, 1, 1.\n*END STEP\n";
   const Deck deck = read(kModel + push + "*STEP, PERTURBATION\n*FREQUENCY\n7\n*END STEP\n" + push);
   EXPECT_EQ(deck.steps.size(), 1u);
@@ -133,7 +133,7 @@ TEST(AbaqusSteps, OnTheStiffnessOfLoadsAreLeftOutWithAllBehindThem) {
   EXPECT_THAT(large.notes[0], HasSubstr("its displacements are large (NLGEOM)"));
 }
 
-TEST(AbaqusSteps, AnEmptyOneAtTheEndIsLeftOutAloud) {
+TEST(AbaqusSteps, AnEmptyOneAtTheEndIsSkippedWithANote) {
   const std::string push = "*STEP\n*STATIC\n*CLOAD\n5, 1, 1.\n*END STEP\n";
   const Deck deck = read(kModel + push + "*STEP\n");
   EXPECT_EQ(deck.steps.size(), 1u);

@@ -32,12 +32,12 @@ TEST(AbaqusBoundary, RangesNamesAndValues) {
     EXPECT_EQ(support.value, support.node_indices[0] == node(deck, 7) ? 0.5 : 0.0);
     EXPECT_EQ(support.where, "deck.inp:24");
   }
-  // Nodes of solids have no rotations to hold.
+  // Nodes of solids have no rotations to fix.
   EXPECT_EQ(held, (std::map<int32_t, DofMask>{
                       {1, 7}, {2, 7}, {3, 7}, {4, 7}, {5, 1}, {6, 2}, {7, 1}, {8, 7}}));
 }
 
-TEST(AbaqusBoundary, NamesOfSupportsHoldWhatAbaqusSays) {
+TEST(AbaqusBoundary, NamesOfSupportsFixTheDofsOfAbaqus) {
   const std::map<std::string, DofMask> wanted = {
       {"XSYMM", 0b110001},  {"YSYMM", 0b101010},  {"ZSYMM", 0b011100},  {"XASYMM", 0b001110},
       {"YASYMM", 0b010101}, {"ZASYMM", 0b100011}, {"PINNED", 0b000111}, {"ENCASTRE", 0b111111}};
@@ -84,7 +84,7 @@ TEST(AbaqusSteps, LoadsOfOneStepAddUpAndThoseOfTheNextReplaceThem) {
   EXPECT_EQ(force(deck.steps[2], 2), 0.0);
 }
 
-TEST(AbaqusSteps, SupportsGoOnUntilTheyAreNew) {
+TEST(AbaqusSteps, SupportsPersistUntilTheyAreReplaced) {
   const Deck mod = read(kModel + "*BOUNDARY\nBOT, 1, 3\n" + step("*BOUNDARY\n5, 3, 3, .1\n") +
                         step("*BOUNDARY\n1, 1, 1, .2\n"));
   EXPECT_EQ(mod.supports.size(), 1u);
@@ -93,7 +93,7 @@ TEST(AbaqusSteps, SupportsGoOnUntilTheyAreNew) {
   EXPECT_EQ(mod.steps[1].supports[1].value, 0.2);
   const Deck replaced =
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n" + step("") + step("*BOUNDARY, OP=NEW\n5, 1\n"));
-  EXPECT_TRUE(replaced.supports.empty());  // not of the whole model any more
+  EXPECT_TRUE(replaced.supports.empty());  // no longer of the entire model
   EXPECT_EQ(replaced.steps[0].supports.at(0).node_indices.size(), 4u);
   ASSERT_EQ(replaced.steps[1].supports.size(), 1u);
   EXPECT_EQ(ids_of(replaced, replaced.steps[1].supports[0].node_indices), std::vector<int32_t>{5});
@@ -111,7 +111,7 @@ TEST(AbaqusSteps, PressuresPushOnFacesGravityOnAll) {
   EXPECT_EQ(s.acceleration, Eigen::Vector3d(0, 0, -9810));
 }
 
-TEST(AbaqusSteps, LoadsThatAreNotUnderstoodAreRefused) {
+TEST(AbaqusSteps, UnsupportedLoadsAreRefused) {
   const auto bad = [](const std::string& cards) { return refusal(kModel + step(cards)); };
   EXPECT_NE(bad("*DLOAD\nEALL, CORIO, 1., 0,0,0, 0,0,1\n").find("load CORIO"), std::string::npos);
   EXPECT_NE(bad("*DLOAD\nEALL, P7, 1.\n").find("load P7"), std::string::npos);
@@ -170,7 +170,7 @@ TEST(AbaqusSteps, TemperaturesCountFromTheInitialOnes) {
   EXPECT_TRUE(read(kModel + uniform + step("")).steps[0].temperature.empty());
 }
 
-TEST(AbaqusSteps, FrequenciesBehindALoadedStepAreReadWithoutItsStressesOnWish) {
+TEST(AbaqusSteps, FrequenciesAfterALoadedStepAreReadWithoutItsStressesOnRequest) {
   const std::string frequency =
       "*STEP, PERTURBATION\n*FREQUENCY, SOLVER=ARPACK\n7, 0., 100.\n*END STEP\n";
   EXPECT_EQ(read(kModel + frequency).steps.at(0).modes, 7);

@@ -23,13 +23,13 @@ using testing::SizeIs;
 // Rounding of sines and of a few products of numbers of size 1.
 constexpr double kRounding = 1e-14;
 
-// Grid 9 beside the tetrahedron; cylindrical system 5 about basic z; grid 8 moves in it.
+// Grid 9 next to the tetrahedron; cylindrical system 5 about basic z; grid 8 moves in it.
 const std::string kPoints =
     "GRID,9,,3.,4.,5.\n"
     "CORD2C,5,0,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n"
     "GRID,8,,3.,4.,0.,5\n";
 
-// What an equation gives for a rigid motion x -> u + theta x x of all its places.
+// The value of an equation for a rigid motion x -> u + theta x x of all its nodes.
 double residual(const Deck& deck, const Equation& equation, const Vector3d& u,
                 const Vector3d& theta) {
   double sum = 0.0;

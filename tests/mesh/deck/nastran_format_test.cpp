@@ -46,7 +46,7 @@ TEST(NastranNumbers, WhatIsNoFiniteNumberIsRefused) {
   EXPECT_EQ(parse_integer("-1"), -1);
 }
 
-// The same cell and nodes in every format: nothing may change but the form.
+// The same cell and nodes in every format.
 struct Form {
   const char* name;
   const char* text;
@@ -63,7 +63,7 @@ TEST_P(NastranForms, GiveTheSameTenNodeTetrahedron) {
   ASSERT_EQ(deck.mesh.cells.size(), 1u);
   EXPECT_EQ(deck.mesh.cells[0].type, CellType::kTet10);
   EXPECT_EQ(deck.mesh.cells[0].ids, std::vector<int32_t>{77});
-  // Ours has the middle of 2-3 before that of 1-3 (cell.hpp).
+  // Ours has the mid-side node of 2-3 before that of 1-3 (cell.hpp).
   const std::vector<int32_t> expected = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
   const auto& found = deck.mesh.cells[0].nodes;
   EXPECT_EQ(std::vector<int32_t>(found.data(), found.data() + found.size()), expected);

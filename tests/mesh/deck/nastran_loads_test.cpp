@@ -96,7 +96,7 @@ TEST(NastranPressure, OnATetrahedronG4IsTheCornerThatIsNotOnTheFace) {
   ASSERT_THAT(deck.steps[0].pressures, SizeIs(1));
   EXPECT_EQ(deck.steps[0].pressures[0].surface, "pload4_3");
   EXPECT_EQ(deck.steps[0].pressures[0].value, 5.0);
-  // Outward: the face 1 2 4 lies in y = 0 and looks along -y.
+  // Outward: the face 1 2 4 lies in y = 0 and points along -y.
   const auto& nodes = deck.mesh.surface("pload4_3").faces[0].nodes;
   const Vector3d a = deck.mesh.nodes.row(nodes(0, 0)), b = deck.mesh.nodes.row(nodes(0, 1)),
                  c = deck.mesh.nodes.row(nodes(0, 2));
@@ -164,7 +164,7 @@ TEST(NastranTemperature, FieldsCoverAllNodes) {
   EXPECT_THAT(refusal("CEND\nTEMP=5\nBEGIN BULK\n" + kTet), HasSubstr("found no TEMP or TEMPD"));
 }
 
-TEST(NastranTemperature, InitialTemperatureStandsForTheMaterialsReference) {
+TEST(NastranTemperature, InitialTemperatureIsTheMaterialsReference) {
   const Deck deck = read_deck("CEND\nTEMP(INIT) = 4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\n");
   EXPECT_EQ(deck.materials.at("mat_1").reference_temperature, 20.0);
   EXPECT_THAT(refusal("CEND\nTEMP(INIT)=4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\nTEMP,4,2,50.\n"),

@@ -36,7 +36,7 @@ Parsed parse(Deck deck) {
   return {text, assembly::read_recipe(Config::parse(text, "deck.fe.toml"), deck.mesh)};
 }
 
-TEST(RecipeText, SaysMaterialSupportForceAndStep) {
+TEST(RecipeText, WritesMaterialSupportForceAndStep) {
   const Parsed parsed = parse(read(kModel + "*BOUNDARY\nBOT, 1, 3\n"
                                             "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
   ASSERT_THAT(parsed.recipe.materials, SizeIs(1));
@@ -73,7 +73,7 @@ TEST(RecipeText, QuotesNamesThatTomlWouldMisread) {
   EXPECT_EQ(parse(std::move(deck)).recipe.materials[0].youngs, 2.1e5);
 }
 
-TEST(RecipeText, SaysWhatIsMissingInsteadOfInventingIt) {
+TEST(RecipeText, NotesWhatIsMissingInsteadOfInventingIt) {
   const std::string no_density = kCube +
                                  "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E5, 0.3\n"
                                  "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n";
