@@ -248,8 +248,9 @@ class Unfolding {
   void supports(std::vector<Support>* supports) {
     std::vector<Support> turned;
     for (Support& support : *supports) {
-      const bool whole = (support.dofs & kTranslations) == kTranslations && support.value == 0.0;
-      if (whole || (!support.system.empty() && repeats(deck_.systems.at(support.system)))) {
+      const bool all_fixed =
+          (support.dofs & kTranslations) == kTranslations && support.value == 0.0;
+      if (all_fixed || (!support.system.empty() && repeats(deck_.systems.at(support.system)))) {
         support.node_indices = all_of(support.node_indices);
         continue;
       }

@@ -24,7 +24,7 @@ struct FollowUp : InputError {
   FollowUp() : InputError("follows from what was refused before") {}
 };
 
-/// Collects "deck.inp:12: message" while a reader goes on with the next card. The same message at
+/// Collects "deck.inp:12: message" while a reader continues with the next card. The same message at
 /// other lines is counted, not repeated.
 class Refusals {
  public:

@@ -102,14 +102,14 @@ std::vector<int32_t> metis_parts(const CellNeighbours& graph, int parts) {
     ::_exit(good ? 0 : 1);
   }
   ::close(pipe[1]);
-  const bool whole = child > 0 && read_all(pipe[0], part.data(), bytes);
+  const bool complete = child > 0 && read_all(pipe[0], part.data(), bytes);
   ::close(pipe[0]);
   int status = 0;
   if (child > 0) ::waitpid(child, &status, 0);
   if (child < 0 || WIFSIGNALED(status))
     throw NumericsError(
         fmt::format("partition: METIS ended with signal {}", child < 0 ? 0 : WTERMSIG(status)));
-  if (!whole || status != 0) throw NumericsError("partition: METIS reported an error");
+  if (!complete || status != 0) throw NumericsError("partition: METIS reported an error");
   return part;
 }
 

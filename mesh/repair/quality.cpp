@@ -59,7 +59,7 @@ struct EdgeEnd {
 };
 
 // The corner that follows `here` in the face on the side away from `other`.
-int beside(const CellFace& face, int here, int other) {
+int next_corner(const CellFace& face, int here, int other) {
   const int n = traits(face.type).corners;
   for (int i = 0; i < n; ++i) {
     if (face.nodes[static_cast<size_t>(i)] != here) continue;
@@ -85,8 +85,8 @@ std::vector<EdgeEnd> edge_ends(CellType type) {
     std::vector<const CellFace*> pair;
     for (const CellFace& face : traits(type).faces)
       if (holds(face, a, b)) pair.push_back(&face);
-    ends.push_back({a, b, beside(*pair[0], a, b), beside(*pair[1], a, b)});
-    ends.push_back({b, a, beside(*pair[0], b, a), beside(*pair[1], b, a)});
+    ends.push_back({a, b, next_corner(*pair[0], a, b), next_corner(*pair[1], a, b)});
+    ends.push_back({b, a, next_corner(*pair[0], b, a), next_corner(*pair[1], b, a)});
   }
   return ends;
 }

@@ -41,14 +41,14 @@ class Run:
     dihedral: float = 0.0
     faults: list = dataclasses.field(default_factory=list)
 
-    def place(self):
+    def label(self):
         return f'odd_parts {self.kind} {self.part_seed}, {self.settings!r}'
 
 
 def draw_settings(draw, quick):
     """Text of [mesh] and its tables: sizes from too large to fine, with and without curvature.
 
-    Quick ones are coarse and ask for no quality.
+    Quick ones are coarse and have no quality targets.
     """
     lines = ['[mesh]', f'element_size_mm = {10 ** draw.uniform(0.9 if quick else 0.0, 1.5):.3g}']
     if quick:
@@ -57,7 +57,7 @@ def draw_settings(draw, quick):
         lines.append(f'elements_per_turn = {draw.randint(4, 30)}')
     if draw.random() < 0.3:
         lines.append(f'min_size_mm = {10 ** draw.uniform(-2.0, 0.0):.3g}')
-    if draw.random() < 0.6:  # else the default's four, each a mesh of its own
+    if draw.random() < 0.6:  # else the default of four, each remeshing
         lines.append(f'refine_passes = {draw.randint(0, 2)}')
     if draw.random() < 0.4:
         lines += ['[[mesh.local]]', 'surface = "half"', f'factor = {draw.uniform(0.3, 1.0):.3g}']

@@ -81,7 +81,7 @@ class Lines {
   bool open_keyword_ = false, bare_keyword_ = false, marked_end_ = false;
 };
 
-/// A keyword with its data lines, kept until the whole deck is read.
+/// A keyword with its data lines, kept until the entire deck is read.
 class Card {
  public:
   explicit Card(Keyword keyword) : keyword_(std::move(keyword)) {}

@@ -96,12 +96,12 @@ class Sections {
     }
     std::map<int32_t, int32_t> part;  // of a region that does not rotate entirely
     for (size_t cell = 0; cell < region_.size(); ++cell) {
-      const int32_t whole = region_[cell];
-      if (!turns[cell] || whole == kNoRegion || !stays[static_cast<size_t>(whole)]) continue;
-      const auto [at, is_new] = part.emplace(whole, 0);
+      const int32_t parent = region_[cell];
+      if (!turns[cell] || parent == kNoRegion || !stays[static_cast<size_t>(parent)]) continue;
+      const auto [at, is_new] = part.emplace(parent, 0);
       if (is_new) {
-        const Region region = reading_.deck->regions[static_cast<size_t>(whole)];
-        const std::string name = reading_.deck->mesh.regions[static_cast<size_t>(whole)];
+        const Region region = reading_.deck->regions[static_cast<size_t>(parent)];
+        const std::string name = reading_.deck->mesh.regions[static_cast<size_t>(parent)];
         at->second = new_region(reading_.model->main_use(),
                                 fmt::format("{}_{}", name, fields.text(0)), fields.spot());
         reading_.deck->regions.back() = region;

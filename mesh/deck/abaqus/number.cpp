@@ -47,7 +47,7 @@ std::string shortest(const Decimal& decimal) {
   const int e = decimal.exponent;
   const int shift = e - n + 1;  // of the digits as an integer
   const char* sign = decimal.negative ? "-" : "";
-  const std::string whole =
+  const std::string as_integer =
       shift == 0 ? fmt::format("{}{}.", sign, digits) : fmt::format("{}{}e{}", sign, digits, shift);
   constexpr int kMost = static_cast<int>(kWidth);
   std::string fixed;
@@ -59,7 +59,7 @@ std::string shortest(const Decimal& decimal) {
   } else if (e > 0 && e < kMost) {
     fixed = fmt::format("{}{}{:0<{}}.", sign, digits, "", shift);
   }
-  return !fixed.empty() && fixed.size() <= std::max(whole.size(), kWidth) ? fixed : whole;
+  return !fixed.empty() && fixed.size() <= std::max(as_integer.size(), kWidth) ? fixed : as_integer;
 }
 
 }  // namespace

@@ -60,9 +60,9 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   RawDeck raw = parse(source, &ignore, &refusals);
   Deck deck;
   deck.notes = std::move(raw.notes);
-  std::unique_ptr<const Model> whole;
-  refusals.require([&] { whole = std::make_unique<const Model>(std::move(raw), *source); });
-  const Model& model = *whole;
+  std::unique_ptr<const Model> model_owner;
+  refusals.require([&] { model_owner = std::make_unique<const Model>(std::move(raw), *source); });
+  const Model& model = *model_owner;
   Sets sets(&model);
   deck.mesh.name = name;
   Reading reading{.source = *source,

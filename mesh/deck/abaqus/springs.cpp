@@ -135,7 +135,7 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
 void read_springs(Reading* reading) {
   std::set<Spot> described;
   const size_t refused = reading->refusals->size();
-  bool said = false;
+  bool noted = false;
   for_each_card(*reading, {"SPRING", "DASHPOT"}, [&](size_t use, const Card& card) {
     const bool spring = card.keyword().key == "SPRING";
     card.keyword().allow({"ELSET", "NONLINEAR"}, reading->source, reading->ignore);
@@ -146,8 +146,8 @@ void read_springs(Reading* reading) {
       }
       if (spring) reading->refusals->attempt([&] { add_spring(reading, element, card); });
     }
-    if (spring || said) return;
-    said = true;
+    if (spring || noted) return;
+    noted = true;
     reading->deck->notes.push_back(fmt::format(
         "{}: *DASHPOT is left out: dampers have no effect in statics and on undamped frequencies",
         reading->source.where(card.spot())));

@@ -31,14 +31,15 @@ class Steps {
  private:
   // Supports outside of steps; if a step replaces them (OP=NEW) they become those of steps.
   void read_model() {
-    bool inside = false, anew = false;
+    bool inside = false, replaced = false;
     for_each_card(reading_, {"STEP", "ENDSTEP", "BOUNDARY"}, [&](size_t use, const Card& card) {
       const std::string& key = card.keyword().key;
       if (key != "BOUNDARY") inside = key == "STEP";
-      if (key == "BOUNDARY" && inside && card.keyword().choice("OP", "MOD") == "NEW") anew = true;
+      if (key == "BOUNDARY" && inside && card.keyword().choice("OP", "MOD") == "NEW")
+        replaced = true;
       if (key == "BOUNDARY" && !inside) held_.read(use, card, 0);
     });
-    if (anew) return;
+    if (replaced) return;
     model_ = held_;
     reading_.deck->supports = model_.list(nullptr);
   }

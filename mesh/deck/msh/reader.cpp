@@ -236,8 +236,9 @@ class Reader {
   }
 
   void check_skin(const Surface& surface) const {
-    const Surface whole = skin_of(boundary_faces(deck_.mesh));
-    if (surface.face_count() == whole.face_count() && nodes_of(surface) == nodes_of(whole)) return;
+    const Surface entire = skin_of(boundary_faces(deck_.mesh));
+    if (surface.face_count() == entire.face_count() && nodes_of(surface) == nodes_of(entire))
+      return;
     fail("found a group 'skin' that is not the entire boundary, expected another name");
   }
 

@@ -8,7 +8,7 @@
 //
 // Groups without a name are called "volume_7", "surface_7", "curve_7", "point_7". A file without
 // groups of solids has the one region "solid". Numbers of nodes and cells are kept. The group
-// "skin" of our own export is the whole boundary and must be that.
+// "skin" of our own export must be the entire boundary.
 #include <filesystem>
 
 #include "core/base/child_process.hpp"

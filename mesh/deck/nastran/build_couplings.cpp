@@ -20,10 +20,10 @@ constexpr DofMask kRotations = kAllDofs & ~kTranslations;
 
 // All three directions or none: independent of the frame.
 bool frame_free(DofMask dofs, bool has_rotations) {
-  const auto whole = [dofs](DofMask three) {
+  const auto all_or_none = [dofs](DofMask three) {
     return (dofs & three) == three || (dofs & three) == 0;
   };
-  return whole(kTranslations) && (!has_rotations || whole(kRotations));
+  return all_or_none(kTranslations) && (!has_rotations || all_or_none(kRotations));
 }
 
 void add_term(Equation& equation, NodeIndex node_index, int direction, double coefficient) {

@@ -127,8 +127,9 @@ Bulk read_bulk(Source& source, Control control, Ignored& ignored, Refusals& refu
   if (!end.complete || !sink.complete()) refusals.raise();
   if (!end.end_data && !end.last.empty()) {
     const std::string missing =
-        end.wanted.empty() ? ""
-                           : fmt::format(" whose continuation {} is missing", shown(end.wanted));
+        end.missing_continuation.empty()
+            ? ""
+            : fmt::format(" whose continuation {} is missing", shown(end.missing_continuation));
     bulk.notes.push_back(
         fmt::format("{}: the deck ends here, after card {}{}, without ENDDATA: "
                     "the file may be truncated",

@@ -33,7 +33,7 @@ class Reader {
     if (!current_.empty()) end_.last = current_.name();
     const bool full = most_ > 0 && current_.size() >= most_;
     if (!current_.empty() && !orphan_ && !full && !orphans_.contains(current_.next())) {
-      end_.wanted = current_.next();
+      end_.missing_continuation = current_.next();
     }
     go_on([&] { finish(); });
     go_on([&] { join_waiting(); });

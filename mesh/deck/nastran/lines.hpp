@@ -28,10 +28,10 @@ class CardSink {
 
 /// The result of reading cards.
 struct CardsEnd {
-  bool complete = true;   // no card was refused
-  bool end_data = false;  // there was an ENDDATA
-  std::string last;       // name of the last card
-  std::string wanted;     // its missing continuation
+  bool complete = true;              // no card was refused
+  bool end_data = false;             // there was an ENDDATA
+  std::string last;                  // name of the last card
+  std::string missing_continuation;  // of that card
 };
 
 /// Reads up to ENDDATA or the end. Cards are passed in the order of the deck, those with a
