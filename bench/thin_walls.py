@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SOLVERS = ["block-lanczos", "arpack", "amls"]
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
 MID_SIDE_NODES = [(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
-           (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
+                  (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
 
 
 def deck(size, cells, nu=0.3, layers=None, soft=1.0, tip=None):
