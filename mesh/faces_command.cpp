@@ -18,7 +18,7 @@ namespace {
 void say_unit(const std::filesystem::path& source, const std::string& unit) {
   const std::string own = cad_unit(source);
   say(fmt::format("{}: {}; lengths here are in {}", source.string(),
-                  own.empty() ? "names no unit" : fmt::format("written in {}", own), unit));
+                  own.empty() ? "gives no unit" : fmt::format("written in {}", own), unit));
 }
 
 Config config_of(const std::filesystem::path& input) {
@@ -36,7 +36,8 @@ Config config_of(const std::filesystem::path& input) {
 }  // namespace
 
 Config config_of_cad(const std::filesystem::path& source, double element_size_mm) {
-  const std::filesystem::path here = "part.mesh.toml";  // paths in a text count from where we are
+  const std::filesystem::path here =
+      "part.mesh.toml";  // paths in a text are relative to the working folder
   return Config::parse(cad_description(source, here, element_size_mm), source.string());
 }
 

@@ -10,11 +10,11 @@ namespace clatter::mesh {
 
 /// Lists the faces of a CAD file or a part.mesh.toml on stdout, by --json as one JSON line, and
 /// writes them with triangles to `output` (.faces.h5) unless that is empty. InputError for decks
-/// and meshes, which have no faces but cells.
+/// and meshes, which have no CAD faces.
 void show_faces(const std::filesystem::path& input, const std::filesystem::path& output,
                 const ChildLimits& limits, const CommonOptions& common);
 
-/// The configuration that a CAD file alone stands for (cad_description).
+/// The default configuration for a CAD file without a description (cad_description).
 Config config_of_cad(const std::filesystem::path& source, double element_size_mm);
 
 /// Element size for that file in millimetres (default_element_size).

@@ -47,11 +47,10 @@ constexpr const char* kEpilog =
   factor = 0.5                    # of the element size
   elements_per_turn = 24          # and / or: on the surface's smallest radius (fillets, bores)
   growth = 0.3                    # of the size per distance from the surface
-  [surface.clamp]                 # surfaces by where they lie; filters combine
+  [surface.clamp]                 # surfaces by position; filters combine
   plane = { normal = [1, 0, 0], height = 0.0 }
 
-A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read as it is; what it says
-beside its mesh (materials, couplings, supports, loads) goes to the fe.toml of the next stage:
+A deck of Nastran (.bdf, .nas, .dat) or Abaqus and CalculiX (.inp) is read directly; --recipe writes its materials, couplings, supports and loads to the fe.toml of the next stage:
   clatter-mesh part.inp --units mm-t-s -o part.mesh.h5 --recipe part.fe.toml
   clatter-mesh part.bdf --units m-kg-s --ignore CQUAD4 -o part.mesh.h5
   clatter-mesh part.msh --units mm-t-s -o part.mesh.h5     (Gmsh, MSH 2 or 4: groups are regions,
@@ -59,13 +58,13 @@ beside its mesh (materials, couplings, supports, loads) goes to the fe.toml of t
 Units: m-kg-s, mm-t-s (N, MPa), mm-kg-ms (kN, GPa), mm-kg-s, cm-g-s, in-lbfs2/in-s. In a
 description: kind = "deck" with [deck] source, units, ignore.
 
-Any CAD file: kind = "cad" with [cad] source = "part.step", defeature_below = 0.5 to take out faces
+Any CAD file: kind = "cad" with [cad] source = "part.step", defeature_below = 0.5 to remove faces
 narrower than that (fillets, chamfers, tiny holes); surfaces by
 cylinder = { radius, point, axis }, plane = { normal, height }, box = { min, max },
 outside = { min, max }.
 
 Examples:
-  clatter-mesh --faces part.step                 (what faces it has; -o part.faces.h5 to draw them)
+  clatter-mesh --faces part.step                 (lists its faces; -o part.faces.h5 to draw them)
   clatter-mesh part.step -o part.mesh.h5         (writes part.mesh.toml too: change it, run it)
   clatter-mesh block.mesh.toml -o block.mesh.h5 --write-step block.step
   clatter-mesh piston.mesh.toml -o piston.mesh.h5 --export piston.vtu --export piston.inp
@@ -79,20 +78,20 @@ struct Arguments {
   std::string units;
   std::vector<std::string> ignore;
   int parts = 0;
-  ChildLimits limits;  // of the processes in which Gmsh works
+  ChildLimits limits;  // of the child processes that run Gmsh
   bool faces = false;
-  double element_size_mm = 0.0;  // 0: as the description says
+  double element_size_mm = 0.0;  // 0: as in the description
   bool accept_poor_cells = false;
 };
 
-/// A mesh with what is written beside it.
+/// A mesh and the other files to write.
 struct Outcome {
   Mesh mesh;
   QualityReport quality;
   std::map<std::string, double> certificate;
   Provenance provenance;
   std::string recipe;       // fe.toml of a deck
-  std::string cad;          // of the geometry, where it is wanted
+  std::string cad;          // of the geometry, if requested
   std::string description;  // mesh.toml of a CAD file without one
 };
 
@@ -109,11 +108,11 @@ void report(const Outcome& result) {
     print_result(fmt::format("mesh: volume against CAD {:+.2e}", c.at("volume_against_cad")));
   print_result(fmt::format("mesh: volume against the surface integral {:.1e}",
                            c.at("volume_against_surface_integral")));
-  print_result(
-      fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
-                  "m, scaled Jacobian {:.3f} in cell {}",
-                  angle.worst, angle.label, angle.place.x(), angle.place.y(), angle.place.z(),
-                  c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
+  print_result(fmt::format(
+      "mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
+      "m, scaled Jacobian {:.3f} in cell {}",
+      angle.worst, angle.label, angle.position.x(), angle.position.y(), angle.position.z(),
+      c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
   if (c.contains("invalid_cells_before_repair"))
     print_result(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
                              c.at("invalid_cells_before_repair")));
@@ -131,7 +130,7 @@ Outcome mesh_geometry(const Arguments& a, const Config& config, const std::strin
   const LengthUnit unit = read_length_unit(config);
   const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
   note_poor_cells(poor, made.part.certificate);
-  judge_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
+  check_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
                    settings.accept_poor_cells || a.accept_poor_cells);
   Outcome out{std::move(made.part.mesh),
               std::move(made.part.quality),
@@ -165,9 +164,9 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem&
   const PoorCells poor = find_poor_cells(out.mesh, out.quality);
   out.certificate = certify_mesh(out.mesh, out.quality);
   note_poor_cells(poor, out.certificate);
-  judge_poor_cells(poor, out.mesh, kQualityAims,
+  check_poor_cells(poor, out.mesh, kQualityAims,
                    {units.name.substr(0, units.name.find('-')), units.length},
-                   true);  // the mesh is the user's: never refused by quality
+                   true);  // a mesh of the user is never refused for quality
   const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
                                          source.string(), units.name, fmt::join(ignore, ", "));
   out.provenance = {kMeshSchema, config, {}};
@@ -176,16 +175,14 @@ Outcome read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem&
   return out;
 }
 
-/// A CAD file alone: as if the description were there that is written beside the mesh.
+/// A CAD file alone: meshed like the description that is written next to the mesh.
 Outcome mesh_bare_cad(const Arguments& a, StepClock& clock) {
   const std::filesystem::path description = description_beside(a.output);
   const double size =
       a.element_size_mm > 0.0 ? a.element_size_mm : default_element_size_mm(a.input, a.limits);
   if (a.element_size_mm == 0.0)
-    say(
-        fmt::format("mesh: element size {} mm, by the part's volume (--element-size-mm says "
-                    "another)",
-                    size));
+    say(fmt::format(
+        "mesh: element size {} mm, from the part's volume (--element-size-mm overrides it)", size));
   const Config config = config_of_cad(a.input, size);
   Outcome out = mesh_geometry(a, config, config.text("name"), clock);
   out.provenance.inputs = {a.input};
@@ -197,10 +194,8 @@ Outcome make_mesh(const Arguments& a, StepClock& clock) {
   if (is_cad(a.input)) return mesh_bare_cad(a, clock);
   if (deck::is_deck(a.input) || is_msh(a.input)) {
     if (a.units.empty())
-      throw InputError(
-          fmt::format("{}: found no --units, expected one (decks do not say: clatter "
-                      "does not guess)",
-                      a.input.string()));
+      throw InputError(fmt::format("{}: found no --units, expected one (decks have no units)",
+                                   a.input.string()));
     return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"), a.ignore,
                              a.input.stem().string(), a.limits, clock);
   }
@@ -226,13 +221,13 @@ void write_partition(H5File& file, const Partition& partition) {
   file.set("partition", "cut_faces", partition.cut);
 }
 
-/// A finished mesh for other programs, without meshing again.
+/// Exports a finished mesh without meshing again.
 int export_file(const Arguments& a, const CommonOptions& common) {
   if (a.exports.empty() || !a.output.empty())
-    throw InputError(fmt::format("{}: found a mesh, expected --export, any number, and no -o",
-                                 a.input.string()));
+    throw InputError(
+        fmt::format("{}: found a mesh, expected one or more --export and no -o", a.input.string()));
   Mesh mesh = read_mesh(a.input);
-  for (auto& [name, surface] : mesh.surfaces)  // as a run has them; the file has them by name
+  for (auto& [name, surface] : mesh.surfaces)  // as after meshing; the file has them by name
     std::sort(surface.faces.begin(), surface.faces.end(),
               [](const FaceBlock& one, const FaceBlock& other) { return one.type < other.type; });
   std::vector<std::string> files;
@@ -305,23 +300,24 @@ int main(int argc, char** argv) {
         ".nas, .dat, .msh), or with --export a finished mesh (.mesh.h5)");
     line.output("-o,--output", a.output, "mesh file to write (.mesh.h5); with --faces .faces.h5");
     line.flag("--faces", a.faces,
-              "list the faces of CAD or a description: number, kind, radius, axis, place, area; "
+              "list the faces of CAD or a description: number, kind, radius, axis, position, area; "
               "with -o for `clatter plot faces`");
     line.option("--element-size-mm", a.element_size_mm,
-                "element size; default: the description's, of CAD alone by its volume");
-    line.option("--units", a.units, "of a deck: mm-t-s, m-kg-s, ... (see below)");
+                "element size; default: from the description, for CAD alone from its volume");
+    line.option("--units", a.units, "units of a deck: mm-t-s, m-kg-s, ... (see below)");
     line.option("--ignore", a.ignore,
                 "card, keyword, element kind or group of a deck to skip; may be repeated");
-    line.output("--recipe", a.recipe, "also write what a deck says beside its mesh (.fe.toml)");
+    line.output("--recipe", a.recipe,
+                "also write materials, couplings, supports and loads of a deck (.fe.toml)");
     line.option("--parts", a.parts, "also divide the cells into this many connected parts (METIS)");
     line.flag("--accept-poor-cells", a.accept_poor_cells,
-              "warn, do not refuse, where cells are too poor to be trusted");
+              "warn instead of refusing when cells are too poor to be trusted");
     line.output("--write-step", a.step, "also write the geometry (.step or .brep)");
     line.output("--export", a.exports,
                 "also write the mesh (.vtu, .msh, .med, .unv, .inp, .bdf); may be repeated");
     line.option("--time-limit", a.limits.seconds,
                 "seconds of wall time that gmsh may take; 0: no limit");
-    line.memory_limit("gmsh is stopped there, with a line that says so");
+    line.memory_limit("gmsh is stopped there with a message");
     if (!line.parse(argc, argv)) return line.exit_code();
     if (!(a.limits.seconds >= 0.0))
       throw InputError(

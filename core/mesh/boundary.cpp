@@ -33,8 +33,8 @@ std::vector<int32_t> corner_labels(const Mesh& mesh, const FaceKey& key) {
 bool linear_along_edges(const Mesh& mesh, const BoundaryFace& face) {
   const auto hanging = mesh.node_sets.find(kHangingMidSideNodes);
   if (hanging == mesh.node_sets.end()) return false;
-  const auto mid_side = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
-  return std::all_of(mid_side.begin(), mid_side.end(), [&](int32_t node) {
+  const auto mid_side_nodes = face.nodes().subspan(static_cast<size_t>(traits(face.type).corners));
+  return std::all_of(mid_side_nodes.begin(), mid_side_nodes.end(), [&](int32_t node) {
     return std::binary_search(hanging->second.begin(), hanging->second.end(), node);
   });
 }

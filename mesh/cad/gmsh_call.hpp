@@ -1,5 +1,5 @@
 #pragma once
-// Private to the files that talk to Gmsh: turns its thrown strings into our errors.
+// Private to the files that call Gmsh: converts its exceptions to our errors.
 #include <fmt/format.h>
 #include <gmsh.h>
 
@@ -13,8 +13,8 @@ static_assert(GMSH_API_VERSION_MAJOR == 4 && GMSH_API_VERSION_MINOR >= 8,
 
 namespace clatter::mesh {
 
-/// Runs `call`; what Gmsh throws becomes a `Failure` "what: reason". `what` is also the step that
-/// is named should Gmsh end this process.
+/// Runs `call`; an exception of Gmsh becomes a `Failure` "what: reason". `what` is also the step
+/// reported if Gmsh ends this process.
 template <class Failure = NumericsError, class Call>
 auto gmsh_call(const std::string& what, const Call& call) {
   enter_step(what);

@@ -41,12 +41,12 @@ double width_of(const TopoDS_Shape& face) {
   return edges.Mass() > 0.0 ? 2.0 * surface_of(face).Mass() / edges.Mass() : 0.0;
 }
 
-// Gmsh hands its shapes out by file only. Its name is gone as soon as it is open.
+// Gmsh exports its shapes only by file. The temporary file is unlinked once it is open.
 TopoDS_Shape shape_of_session(GmshSession& session) {
   std::string name =
       (std::filesystem::temp_directory_path() / "clatter-defeature-XXXXXX.brep").string();
   const int file = ::mkstemps(name.data(), 5);
-  if (file < 0) throw FileError(fmt::format("{}: cannot be made", name));
+  if (file < 0) throw FileError(fmt::format("{}: cannot be created", name));
   ::close(file);
   TopoDS_Shape shape;
   try {
@@ -59,11 +59,11 @@ TopoDS_Shape shape_of_session(GmshSession& session) {
     throw;
   }
   std::filesystem::remove(name);
-  if (shape.IsNull()) throw NumericsError("[cad] defeature_below: the shape cannot be read again");
+  if (shape.IsNull()) throw NumericsError("[cad] defeature_below: the shape cannot be read back");
   return shape;
 }
 
-TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& asked) {
+TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& narrow_faces) {
   BRepAlgoAPI_Defeaturing removal;
   removal.SetShape(shape);
   removal.SetRunParallel(false);
@@ -72,16 +72,16 @@ TopoDS_Shape without_narrow_faces(const TopoDS_Shape& shape, double below, int& 
   for (int f = 1; f <= faces.Extent(); ++f) {
     if (width_of(faces(f)) >= below) continue;
     removal.AddFaceToRemove(faces(f));
-    ++asked;
+    ++narrow_faces;
   }
   TopoDS_Shape result = shape;
-  if (asked > 0) {
+  if (narrow_faces > 0) {
     removal.Build();
     if (removal.HasErrors() || removal.Shape().IsNull())
       throw NumericsError(
-          fmt::format("[cad] defeature_below: OpenCASCADE cannot take {} faces out: choose another "
+          fmt::format("[cad] defeature_below: OpenCASCADE cannot remove {} faces: choose another "
                       "width or none",
-                      asked));
+                      narrow_faces));
     result = removal.Shape();
   }
   ShapeUpgrade_UnifySameDomain unite(result, true, true, false);
@@ -104,10 +104,10 @@ Defeatured defeature(GmshSession& session, const Solids& solids, double below) {
     try {
       const TopoDS_Shape shape = shape_of_session(session);
       d.faces_before = faces_of(shape).Extent();
-      const TopoDS_Shape result = without_narrow_faces(shape, below, d.asked);
+      const TopoDS_Shape result = without_narrow_faces(shape, below, d.narrow_faces);
       if (!BRepCheck_Analyzer(result).IsValid())
         throw NumericsError(
-            "[cad] defeature_below: OpenCASCADE leaves no sound solid: choose another width or "
+            "[cad] defeature_below: OpenCASCADE leaves no valid solid: choose another width or "
             "none");
       const Faces faces = faces_of(result);
       d.faces_after = faces.Extent();

@@ -1,9 +1,10 @@
 #pragma once
-// Small faces taken out of a CAD part: fillets, chamfers, shallow grooves, tiny holes and bosses.
+// Removal of small faces from a CAD part: fillets, chamfers, shallow grooves, tiny holes and
+// bosses.
 //
-// OpenCASCADE removes a face and lets its neighbours grow together (BRepAlgoAPI_Defeaturing), then
-// faces and edges that lie on one surface or curve are united (ShapeUpgrade_UnifySameDomain).
-// Where the neighbours do not meet, as beside a step between parallel faces, the face stays.
+// OpenCASCADE removes a face and extends its neighbours until they meet (BRepAlgoAPI_Defeaturing),
+// then merges faces and edges that lie on one surface or curve (ShapeUpgrade_UnifySameDomain).
+// Where the neighbours do not meet, as at a step between parallel faces, the face is kept.
 #include <Eigen/Core>
 #include <vector>
 
@@ -11,24 +12,24 @@
 
 namespace clatter::mesh {
 
-/// What was taken out and what that changed, in the part's unit.
+/// What was removed and what that changed, in the part's unit.
 struct Defeatured {
   Solids solids;
   int faces_before = 0, faces_after = 0;
-  int asked = 0;  // faces narrower than the limit
+  int narrow_faces = 0;  // faces narrower than the limit
   struct Kept {
     double width;
-    Eigen::Vector3d place;
+    Eigen::Vector3d position;
   };
-  std::vector<Kept> kept;  // narrow faces that could not be taken out
+  std::vector<Kept> kept;  // narrow faces that could not be removed
   double volume_before = 0.0, volume_after = 0.0;
   Eigen::Vector3d box_before = Eigen::Vector3d::Zero(), box_after = Eigen::Vector3d::Zero();
 };
 
-/// Takes out all faces narrower than `below` (part's unit; width is 2 area / circumference, that of
-/// a long strip) of the session's solids, which get new
-/// numbers. NumericsError when OpenCASCADE fails or leaves no sound solid, or when the volume moves
-/// by more than kMostRemoved of itself: then `below` is no small feature's size.
+/// Removes all faces narrower than `below` (part's unit; width is 2 area / perimeter, that of a
+/// long strip) from the session's solids, which get new numbers. NumericsError when OpenCASCADE
+/// fails or leaves no valid solid, or when the volume changes by more than the fraction
+/// kMostRemoved: then `below` is too large for a small feature.
 Defeatured defeature(GmshSession& session, const Solids& solids, double below);
 inline constexpr double kMostRemoved = 0.01;
 

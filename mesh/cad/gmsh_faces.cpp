@@ -1,4 +1,4 @@
-// What Gmsh and OpenCASCADE know of the faces of solids: samples, shapes, curvature.
+// Properties of the faces of solids from Gmsh and OpenCASCADE: samples, shapes, curvature.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ std::vector<double> surface_parameters(int face) {
   return uv;
 }
 
-// Normals are missing at poles and apexes: those samples are left out.
+// Normals are undefined at poles and apexes: those samples are skipped.
 FaceShape shape_of(int face, const FaceFacts& facts, const std::vector<double>& uv) {
   std::vector<double> n;
   gmsh::model::getNormal(face, uv, n);

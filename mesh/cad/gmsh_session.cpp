@@ -8,8 +8,7 @@
 #include "mesh/cad/skin_crossing.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// OpenCASCADE's STEP reader keeps some memory for the life of the process; that is not ours to
-// free.
+// OpenCASCADE's STEP reader keeps some memory until the process ends; it cannot be freed here.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libTK\nleak:libgmsh\n"; }
 #endif
 
@@ -21,7 +20,7 @@ std::atomic<bool> session_lives = false;
 
 void set_options() {
   const std::vector<std::pair<const char*, double>> options = {
-      {"General.Terminal", is_child()},  // there it says where it is, should it crash
+      {"General.Terminal", is_child()},  // its progress is reported if it crashes
       {"General.NumThreads", 1},
       {"Mesh.MaxNumThreads1D", 1},
       {"Mesh.MaxNumThreads2D", 1},
@@ -30,13 +29,13 @@ void set_options() {
       {"Mesh.Optimize", 1},
       {"Mesh.ElementOrder", 1},
       {"Mesh.SecondOrderLinear", 0},
-      {"Mesh.HighOrderOptimize", 0},  // repaired on purpose, after a look at what is broken
+      {"Mesh.HighOrderOptimize", 0},  // called explicitly, only if needed
       {"Mesh.RandomSeed", 1},
   };
   for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
 }
 
-// Curves of the faces that have a size of their own get it too: faces are meshed from their edges.
+// A local size of a face also applies to its curves: faces are meshed from their edges.
 std::map<int, double> curve_sizes(const std::map<int, double>& face_sizes) {
   std::map<int, double> sizes;
   for (const auto& [face, size] : face_sizes) {
@@ -60,7 +59,7 @@ double spot_size(const std::vector<FineSpot>& spots, double size, const Eigen::V
   return size;
 }
 
-// Gmsh's fields: the distance from points all over the face, and a size that grows with it.
+// Gmsh's fields: the distance from sample points of the face, and a size that grows with it.
 void set_gradations(const SizeSettings& settings) {
   constexpr double kSampling = 40;  // points along each direction of a face
   namespace field = gmsh::model::mesh::field;
@@ -153,7 +152,7 @@ RowMatrix coordinates_of(const NodeNumbers& numbers) {
 
 GmshSession::GmshSession(const std::string& model_name) {
   if (session_lives.exchange(true)) {
-    throw std::logic_error("a Gmsh session is already open; Gmsh holds one global state");
+    throw std::logic_error("a Gmsh session is already open; Gmsh has one global state");
   }
   try {
     gmsh_call("gmsh", [&] {
@@ -171,7 +170,7 @@ GmshSession::~GmshSession() {
   try {
     gmsh::model::mesh::removeSizeCallback();
     gmsh::finalize();
-  } catch (...) {  // nothing left to save
+  } catch (...) {  // nothing to clean up
   }
   session_lives = false;
 }
@@ -231,12 +230,11 @@ RawMesh GmshSession::extract_skin() const {
   return mesh;
 }
 
-// Faces cut each other where chords leave no wall between them.
+// Faces intersect where chords leave no wall between them.
 std::string GmshSession::reason_of_failure() const {
   const RawMesh skin = gmsh_call("gmsh: reading the faces", [&] { return extract_skin(); });
   const std::string crossings = describe_crossings(find_crossings(skin.nodes, skin.face_cells));
-  return crossings.empty() ? ""
-                           : fmt::format("; to blame, as their triangles cross: {}", crossings);
+  return crossings.empty() ? "" : fmt::format("; intersecting faces: {}", crossings);
 }
 
 void GmshSession::replace_cells(const RawMesh& raw) {
@@ -244,25 +242,25 @@ void GmshSession::replace_cells(const RawMesh& raw) {
     gmsh::vectorpair solids;
     gmsh::model::getEntities(solids, 3);
     gmsh::model::mesh::clear(solids);
-    std::vector<size_t> present;
+    std::vector<size_t> existing;
     std::vector<double> xyz, parameters;
-    gmsh::model::mesh::getNodes(present, xyz, parameters, -1, -1, false, false);
-    std::set<size_t> known(present.begin(), present.end());
+    gmsh::model::mesh::getNodes(existing, xyz, parameters, -1, -1, false, false);
+    std::set<size_t> known(existing.begin(), existing.end());
     std::vector<size_t> tags = raw.node_tags;
     size_t next = std::max(tags.back(), known.empty() ? 0 : *known.rbegin());
     while (tags.size() < static_cast<size_t>(raw.nodes.rows())) tags.push_back(++next);
     for (const auto& [solid, cells] : raw.cells) {
       std::vector<size_t> inner, corners;
-      std::vector<double> places;
+      std::vector<double> coordinates;
       for (Eigen::Index i = 0; i < cells.size(); ++i) {
         const int32_t row = cells.data()[i];
         const size_t tag = tags[static_cast<size_t>(row)];
         corners.push_back(tag);
         if (!known.insert(tag).second) continue;
         inner.push_back(tag);
-        for (int d = 0; d < 3; ++d) places.push_back(raw.nodes(row, d));
+        for (int d = 0; d < 3; ++d) coordinates.push_back(raw.nodes(row, d));
       }
-      gmsh::model::mesh::addNodes(3, solid, inner, places);
+      gmsh::model::mesh::addNodes(3, solid, inner, coordinates);
       gmsh::model::mesh::addElementsByType(solid, kTet4, {}, corners);
     }
   });

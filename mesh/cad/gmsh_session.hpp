@@ -1,10 +1,10 @@
 #pragma once
-// Gmsh with its OpenCASCADE kernel behind one door: solids, booleans, faces, the mesh.
+// The interface to Gmsh with its OpenCASCADE kernel: solids, booleans, faces, the mesh.
 //
-// Gmsh is one global state, so at most one session lives at a time. It runs with one thread and
-// the Delaunay algorithm because only that gives the same bits on every run (hard case G7). Its
-// errors are plain std::string (G1); here they become InputError or NumericsError. Lengths are in
-// the part's unit throughout.
+// Gmsh has global state, so at most one session exists at a time. It runs with one thread and the
+// Delaunay algorithm because only that gives identical results on every run (hard case G7). Its
+// errors are plain std::string (G1); here they become InputError or NumericsError. All lengths are
+// in the part's unit.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -21,30 +21,30 @@ namespace clatter::mesh {
 using Solid = int;
 using Solids = std::vector<Solid>;
 
-/// A ball in which cells shall be finer; outside, the size grows back with the distance.
+/// A ball with finer cells; outside it the size grows with the distance.
 struct FineSpot {
   Eigen::Vector3d centre;
   double radius, size;
 };
 
-/// Around a face the size grows from its own with the distance.
+/// A size on a face, which grows with the distance from it.
 struct Gradation {
   int face;
   double size, growth;  // on the face; per length
 };
 
-/// How fine a mesh is wanted.
+/// The requested cell sizes.
 struct SizeSettings {
   double size = 1.0;                 // target edge length
-  double min_size = 0.0;             // curvature asks for nothing below
-  int per_turn = 0;                  // elements on a full circle; 0: curvature is not looked at
+  double min_size = 0.0;             // lower limit of sizes from curvature
+  int per_turn = 0;                  // elements on a full circle; 0: ignores curvature
   std::map<int, double> face_sizes;  // by face tag
   std::vector<Gradation> gradations;
   std::vector<FineSpot> spots;
-  bool adaptive_faces = false;  // faces by Gmsh's MeshAdapt, the sturdiest, in place of the frontal
+  bool adaptive_faces = false;  // faces by MeshAdapt, the most robust, instead of frontal
 };
 
-/// A mesh as Gmsh leaves it; tables hold rows of `nodes`.
+/// A mesh as Gmsh generates it; tables hold rows of `nodes`.
 struct RawMesh {
   RowMatrix nodes;                     // n x 3
   std::vector<size_t> node_tags;       // Gmsh's numbers of the rows, ascending
@@ -69,7 +69,7 @@ struct MshContents {
   std::vector<std::string> warnings;
 };
 
-/// The lower-case extension of a file to which geometry can be written, ".step", ".stp" or ".brep";
+/// The lower-case extension of a geometry file that can be written, ".step", ".stp" or ".brep";
 /// InputError for others.
 std::string cad_extension(const std::filesystem::path& path);
 
@@ -84,21 +84,21 @@ class GmshSession {
   Solid box(const Eigen::Vector3d& min, const Eigen::Vector3d& max);
   /// From the centre of the base along `axis`, whose length is the cylinder's.
   Solid cylinder(const Eigen::Vector3d& base, const Eigen::Vector3d& axis, double radius);
-  /// A plane polygon pushed along `extrusion`.
+  /// A plane polygon extruded along `extrusion`.
   Solid prism(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& extrusion);
 
-  /// Booleans consume their arguments. Each checks that the volume of the result is possible and
-  /// that at least one solid is left (NumericsError names the operation); hard case G5.
+  /// Booleans consume their arguments. Each checks that the volume of the result is plausible and
+  /// that at least one solid remains (NumericsError names the operation); hard case G5.
   Solids fuse(const Solids& objects, const Solids& tools);
   Solids cut(const Solids& objects, const Solids& tools);
   Solids intersect(const Solids& objects, const Solids& tools);
   /// Makes touching and overlapping solids share their faces; pieces per argument, volumes of the
   /// pieces checked to 1e-6 against the argument.
   std::vector<Solids> fragment(const Solids& solids);
-  /// The same without the check: OpenCASCADE's integral moves by itself where a face gets a spline
-  /// for an edge. solid_volumes.hpp checks by the mesh.
+  /// The same without the check: OpenCASCADE's integral changes where an edge of a face becomes a
+  /// spline. solid_volumes.hpp checks with the mesh.
   std::vector<Solids> join(const Solids& solids);
-  /// Name of a solid in the file it came from, "" where it has none. Joining loses them.
+  /// Name of a solid in the file it came from, "" where it has none. Joining discards them.
   std::string name_of(Solid solid);
 
   Solids copy(const Solids& solids);
@@ -109,18 +109,18 @@ class GmshSession {
   Solids all_solids() const;
 
   /// Solids of a STEP, BREP or IGES file, lengths converted to `unit` ("mm", "m", "cm", "in") where
-  /// the format knows its own (STEP, IGES). InputError when it holds no solid.
+  /// the format has units (STEP, IGES). InputError when it holds no solid.
   Solids import_cad(const std::filesystem::path& path, const std::string& unit);
-  /// Removes all solids and takes those of `shape`, an OpenCASCADE TopoDS_Shape, in their place.
+  /// Replaces all solids by those of `shape`, an OpenCASCADE TopoDS_Shape.
   Solids replace_solids(const void* shape);
-  /// Writes all solids as STEP (.step, .stp) or BREP (.brep), whichever the name says; InputError
-  /// for other names.
+  /// Writes all solids as STEP (.step, .stp) or BREP (.brep), by the extension of the name;
+  /// InputError for another one.
   void write_cad(const std::filesystem::path& path, const std::string& unit);
 
   // --- faces (gmsh_faces.cpp) ---
   /// Faces that bound exactly one solid, by ascending tag; kEdgeSamples points of each edge.
   std::vector<FaceFacts> boundary_faces();
-  /// Faces of each solid in turn: those between two solids come twice.
+  /// Faces of each solid in turn: those between two solids appear twice.
   std::vector<FaceFacts> faces_of_solids();
   /// Smallest radius of curvature at each of the samples of the face, infinite where it is plane.
   std::vector<double> radii(int face);
@@ -130,30 +130,30 @@ class GmshSession {
   BoxFilter extent();
 
   // --- mesh (gmsh_session.cpp) ---
-  /// Linear tetrahedra in all solids, anew at each call. NumericsError, with the faces that cut
-  /// each other, when Gmsh fails; it then stays locked ("I'm busy", 4.8.4), so the session can mesh
-  /// no more.
+  /// Meshes all solids with linear tetrahedra, from scratch at each call. NumericsError, with the
+  /// faces that intersect, when Gmsh fails; it then stays locked ("I'm busy", 4.8.4), and the
+  /// session cannot mesh again.
   void generate(const SizeSettings& settings);
   /// Quadratic (or linear) triangles on all faces, no cells: nodes and face_cells of a mesh for
-  /// integrals over the geometry. Forgets the mesh before.
+  /// integrals over the geometry. Discards the previous mesh.
   RawMesh generate_skin(const SizeSettings& settings, int order = 2);
   /// Replaces the cells and inner nodes of a linear mesh by those of `raw`; rows of `nodes` beyond
-  /// `node_tags` are new nodes. The boundary stays.
+  /// `node_tags` are new nodes. The boundary is unchanged.
   void replace_cells(const RawMesh& raw);
-  /// Makes the cells quadratic; middle nodes of boundary edges go onto the geometry.
+  /// Makes the cells quadratic; mid-side nodes of boundary edges are moved onto the geometry.
   void make_quadratic();
   /// Moves nodes, those of the boundary along the geometry, until curved cells unfold (Gmsh's
   /// HighOrder: minimises a barrier on det J around bad cells). False when it gives up; the mesh
-  /// may be better all the same.
+  /// may be better nevertheless.
   bool optimise_curved_cells();
-  /// Moves middle nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
+  /// Moves mid-side nodes until curved cells unfold (Gmsh's HighOrderElastic; hard case G2).
   void repair_curved_cells();
   RawMesh extract() const;
   static std::string library_version();  // of the header: "4.8"
   std::string running_version() const;   // of the library: "4.8.4"
 
   // --- Gmsh's own files (gmsh_file.cpp) ---
-  /// Reads an MSH file; InputError for all that Gmsh reports. A damaged file may end the process:
+  /// Reads an MSH file; InputError for all errors of Gmsh. A corrupt file may end the process:
   /// gmsh_in_child.hpp.
   MshContents import_msh(const std::filesystem::path& path);
 

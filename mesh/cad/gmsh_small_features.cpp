@@ -19,7 +19,7 @@ SmallFeature edge_of(int curve) {
   std::vector<double> low, high, x;
   gmsh::model::getParametrizationBounds(1, curve, low, high);
   gmsh::model::getValue(1, curve, {0.5 * (low[0] + high[0])}, x);
-  edge.place = {x[0], x[1], x[2]};
+  edge.position = {x[0], x[1], x[2]};
   return edge;
 }
 
@@ -32,13 +32,13 @@ void sort_by_size(std::vector<SmallFeature>& features) {
 double tidy(double value) { return std::abs(value) < 1e-9 ? 0.0 : value; }
 
 std::string describe(const std::vector<SmallFeature>& features, const char* kind, const char* how) {
-  std::vector<std::string> places;
+  std::vector<std::string> texts;
   for (size_t i = 0; i < std::min(kNamed, features.size()); ++i)
-    places.push_back(fmt::format("{:.3g} at ({:.5g}, {:.5g}, {:.5g})", features[i].size,
-                                 tidy(features[i].place.x()), tidy(features[i].place.y()),
-                                 tidy(features[i].place.z())));
+    texts.push_back(fmt::format("{:.3g} at ({:.5g}, {:.5g}, {:.5g})", features[i].size,
+                                tidy(features[i].position.x()), tidy(features[i].position.y()),
+                                tidy(features[i].position.z())));
   return fmt::format("{} {} from {:.3g}{} ({}{})", features.size(), kind, features.front().size,
-                     how, fmt::join(places, ", "), features.size() > kNamed ? ", ..." : "");
+                     how, fmt::join(texts, ", "), features.size() > kNamed ? ", ..." : "");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Features of the geometry that force cells smaller than asked for.
+// Geometric features that force smaller cells than requested.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace clatter::mesh {
 
-/// An edge by its length, a face by its width (2 area / circumference) or by its radius.
+/// An edge with its length, or a face with its width (2 area / perimeter) or its radius.
 struct SmallFeature {
   double size;
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
 };
 
 /// Each list ascending by size, in the part's unit.
@@ -25,7 +25,7 @@ SmallFeatures find_small_features(GmshSession& session, const std::vector<FaceFa
                                   double below);
 
 /// "3 edges from 0.05 (0.05 at (1, 2, 3), ...), 12 faces from 0.3 wide (...), 2 radii from 0.1
-/// (...)" in the part's unit; empty where there is none.
+/// (...)" in the part's unit; empty when there are none.
 std::string describe_small_features(const SmallFeatures& features);
 
 }  // namespace clatter::mesh

@@ -42,7 +42,7 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-// OpenCASCADE tells of its transfers on stdout, which belongs to --json.
+// OpenCASCADE reports its transfers on stdout, which is reserved for --json.
 class QuietStdout {
  public:
   QuietStdout() : kept_(std::cout.rdbuf(nullptr)) {}
@@ -65,8 +65,8 @@ std::string occ_unit(const std::string& unit) {
   return "MM";
 }
 
-// gmsh 4.8 sets the unit before it makes OpenCASCADE's IGES reader, which knows no units until one
-// was made: the first file of a process is read twice.
+// gmsh 4.8 sets the unit before it creates OpenCASCADE's IGES reader, which has no units until
+// then: the first file of a process is read twice.
 void wake_iges_units(const std::filesystem::path& path) {
   std::string current;
   gmsh::model::getCurrent(current);
@@ -185,7 +185,7 @@ std::string GmshSession::name_of(Solid solid) {
     std::string name;
     gmsh::model::getEntityName(3, solid, name);
     name.erase(0, name.rfind('/') + 1);                   // of "Shapes/Engine/Nut M8"
-    return name.starts_with("Open CASCADE") ? "" : name;  // its own, where the writer gave none
+    return name.starts_with("Open CASCADE") ? "" : name;  // a default name
   });
 }
 
@@ -247,7 +247,7 @@ Solids GmshSession::import_cad(const std::filesystem::path& path, const std::str
     const QuietStdout quiet;
     if (iges) wake_iges_units(path);
     gmsh::option::setString("Geometry.OCCTargetUnit", occ_unit(unit));  // before import (G6)
-    // IGES mostly holds loose faces: those are sewn to solids.
+    // IGES mostly holds separate faces: they are sewn to solids.
     gmsh::option::setNumber("Geometry.OCCSewFaces", iges);
     gmsh::option::setNumber("Geometry.OCCMakeSolids", iges);
     occ::importShapes(path.string(), out);

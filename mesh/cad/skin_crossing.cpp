@@ -20,7 +20,7 @@ struct Triangle {
   int face;
 };
 
-// Where the segment from a to b passes through the inside of the triangle.
+// The intersection of the segment from a to b with the interior of the triangle.
 std::optional<Vector3d> pierce(const Vector3d& a, const Vector3d& b,
                                const std::array<Vector3d, 3>& t) {
   const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -34,7 +34,7 @@ std::optional<Vector3d> pierce(const Vector3d& a, const Vector3d& b,
   return at;
 }
 
-// Triangles by the cubes of a grid that their boxes touch.
+// Triangles by the grid cubes that their boxes overlap.
 class Grid {
  public:
   Grid(const RowMatrix& nodes, const std::vector<Triangle>& triangles) : nodes_(nodes) {
@@ -104,10 +104,10 @@ std::vector<SkinCrossing> find_crossings(const RowMatrix& nodes,
       const Triangle& other = all[i];
       if (share_a_node(t, other)) continue;
       for (size_t e = 0; e < 3; ++e) {
-        const auto place = pierce(at(other.nodes[e]), at(other.nodes[(e + 1) % 3]), corners);
-        if (!place) continue;
+        const auto position = pierce(at(other.nodes[e]), at(other.nodes[(e + 1) % 3]), corners);
+        if (!position) continue;
         const std::pair pair(std::min(t.face, other.face), std::max(t.face, other.face));
-        ++found.try_emplace(pair, SkinCrossing{pair.first, pair.second, 0, *place})
+        ++found.try_emplace(pair, SkinCrossing{pair.first, pair.second, 0, *position})
               .first->second.count;
       }
     }
@@ -122,8 +122,9 @@ std::string describe_crossings(const std::vector<SkinCrossing>& crossings) {
   std::vector<std::string> texts;
   for (size_t i = 0; i < std::min(kMost, crossings.size()); ++i) {
     const SkinCrossing& c = crossings[i];
-    texts.push_back(fmt::format("face {} and face {} at ({:.5g}, {:.5g}, {:.5g}) ({} places)",
-                                c.face, c.other, c.place.x(), c.place.y(), c.place.z(), c.count));
+    texts.push_back(
+        fmt::format("face {} and face {} at ({:.5g}, {:.5g}, {:.5g}) ({} intersections)", c.face,
+                    c.other, c.position.x(), c.position.y(), c.position.z(), c.count));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Where triangles of the faces cut each other: chords of two round faces that leave no wall between
-// them. No solid can be meshed within; the faces are named so that the user knows where to refine.
+// Intersecting surface triangles: chords of two curved faces that leave no wall between them. No
+// solid can be meshed inside; the faces are named so that the user knows where to refine.
 #include <Eigen/Core>
 #include <map>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace clatter::mesh {
 
-/// Two faces (tags, the smaller first) that cut each other.
+/// Two intersecting faces (tags, the smaller first).
 struct SkinCrossing {
   int face, other;
-  int count;              // edges of the one through triangles of the other
-  Eigen::Vector3d place;  // of the first
+  int count;                 // edges of one that pierce triangles of the other
+  Eigen::Vector3d position;  // of the first
 };
 
 /// `triangles`: by face tag, rows of three nodes. Triangles that share a node are not compared.
@@ -22,7 +22,7 @@ struct SkinCrossing {
 std::vector<SkinCrossing> find_crossings(const RowMatrix& nodes,
                                          const std::map<int, IndexMatrix>& triangles);
 
-/// "faces 1 and 4 at (1, 2, 3) (12 places), ..." of the first eight; empty for none.
+/// "faces 1 and 4 at (1, 2, 3) (12 intersections), ..." for the first eight; empty for none.
 std::string describe_crossings(const std::vector<SkinCrossing>& crossings);
 
 }  // namespace clatter::mesh

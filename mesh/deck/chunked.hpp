@@ -1,5 +1,5 @@
 #pragma once
-// A list that grows without moving what it has.
+// A list that grows without moving its entries.
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace clatter::mesh::deck {
 
-/// Grows in pieces of 65 536 entries: no more memory than these, also while it grows. Short lists
-/// are plain vectors.
+/// Grows in chunks of 65 536 entries, without extra memory while it grows. Short lists are plain
+/// vectors.
 template <class T>
 class Chunked {
  public:
@@ -30,7 +30,7 @@ class Chunked {
   }
   const T& operator[](size_t i) const { return const_cast<Chunked&>(*this)[i]; }
 
-  /// Calls body(entry) for all in order and gives each piece back when it is done; empty then.
+  /// Calls body(entry) for all in order and frees each chunk when it is done; then empty.
   template <class Body>
   void drain(const Body& body) {
     for (const T& value : first_) body(value);

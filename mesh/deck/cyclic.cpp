@@ -26,14 +26,14 @@ Eigen::Vector3d turned(const CyclicSector& sector, const Eigen::Matrix3d& Q,
   return sector.point + Q * (x - sector.point);
 }
 
-// The node of `other` nearest to each of `one` when that is turned, and how far the worst is.
+// The node of `other` nearest to each rotated node of `one`, and the largest distance.
 struct Match {
   std::vector<int32_t> partner;  // of each node of `one`
   double apart = 0.0;
   int32_t worst = -1;  // node of `one`
 };
 
-// Nodes are sorted along a direction in which hardly two have the same place.
+// Nodes are sorted along a direction in which hardly two coincide.
 Match match(const Mesh& mesh, const CyclicSector& sector, const Eigen::Matrix3d& Q) {
   const Eigen::Vector3d along = Eigen::Vector3d(1.0, 0.618, 0.414).normalized();
   std::vector<std::pair<double, int32_t>> sorted;
@@ -43,13 +43,13 @@ Match match(const Mesh& mesh, const CyclicSector& sector, const Eigen::Matrix3d&
   Match out;
   for (const int32_t node : sector.one) {
     const Eigen::Vector3d x = turned(sector, Q, mesh.nodes.row(node).transpose());
-    const double place = along.dot(x);
+    const double height = along.dot(x);
     const auto middle =
-        std::lower_bound(sorted.begin(), sorted.end(), std::pair(place, int32_t{-1}));
+        std::lower_bound(sorted.begin(), sorted.end(), std::pair(height, int32_t{-1}));
     double least = std::numeric_limits<double>::infinity();
     int32_t nearest = -1;
     const auto look = [&](const std::pair<double, int32_t>& entry) {
-      if (std::abs(entry.first - place) >= least) return false;
+      if (std::abs(entry.first - height) >= least) return false;
       const double distance = (mesh.nodes.row(entry.second).transpose() - x).norm();
       if (distance < least) least = distance, nearest = entry.second;
       return true;
@@ -101,7 +101,7 @@ class Ring {
   }
 
  private:
-  // before_: the node of the sector before in the same place; after_: that of the sector behind.
+  // before_: the coincident node of the previous sector; after_: that of the next sector.
   void join(const Mesh& mesh) {
     Eigen::Matrix<double, 2, 3> box;
     box.row(0) = box.row(1) = mesh.nodes.row(sector_.one.front());
@@ -115,8 +115,8 @@ class Ring {
     if (back.apart < found.apart) found = back, sign_ = -1.0;
     if (found.apart > limit || sector_.one.size() != sector_.other.size())
       throw InputError(fmt::format(
-          "{}: found {} and {} nodes on the sides; turned by {:g} degrees node {} has its nearest "
-          "node at a distance of {:.3g}, expected sides that are meshed alike",
+          "{}: found {} and {} nodes on the sides; rotated by {:g} degrees node {} has its nearest "
+          "node at a distance of {:.3g}, expected matching meshes on both sides",
           sector_.where, sector_.one.size(), sector_.other.size(), 360.0 / sector_.count,
           label(mesh.node_ids, found.worst), found.apart));
     before_.assign(static_cast<size_t>(n_), -1);
@@ -130,7 +130,7 @@ class Ring {
       const bool once = after_[static_cast<size_t>(partner)] == node;
       const bool axial = node == partner || after_[static_cast<size_t>(node)] < 0;
       if (!once || !axial)
-        throw InputError(fmt::format("{}: node {} stands for two nodes of the other side",
+        throw InputError(fmt::format("{}: node {} matches two nodes of the other side",
                                      sector_.where, label(mesh.node_ids, partner)));
     }
   }
@@ -143,7 +143,7 @@ class Ring {
   int32_t size_ = 0;
 };
 
-// All that is copied, of one sector.
+// The content of one sector, for copying.
 int64_t size_of(const Deck& deck) {
   const Mesh& mesh = deck.mesh;
   auto size = static_cast<int64_t>(mesh.nodes.rows()) + mesh.cell_count();
@@ -151,7 +151,8 @@ int64_t size_of(const Deck& deck) {
   for (const auto& [name, nodes] : mesh.node_sets) size += static_cast<int64_t>(nodes.size());
   for (const auto& [name, field] : mesh.fields) size += field.size();
   const auto add = [&](const std::vector<Support>& supports) {
-    for (const Support& support : supports) size += static_cast<int64_t>(support.places.size());
+    for (const Support& support : supports)
+      size += static_cast<int64_t>(support.node_indices.size());
   };
   add(deck.supports);
   add(deck.retained);
@@ -171,7 +172,7 @@ class Unfolding {
     refuse_others();
     surfaces();
     for (auto& [name, nodes] : mesh_.node_sets) nodes = all_of(nodes);
-    for (auto& [name, places] : deck_.sets) places = all_of(places);
+    for (auto& [name, node_indices] : deck_.sets) node_indices = all_of(node_indices);
     supports(&deck_.supports);
     supports(&deck_.retained);
     for (Step& step : deck_.steps) {
@@ -188,7 +189,7 @@ class Unfolding {
   [[noreturn]] void fail(const std::string& where, const std::string& what) const {
     throw InputError(
         fmt::format("{}: found {} in a sector of *CYCLIC SYMMETRY MODEL ({}), which is "
-                    "not supported, expected cells, supports and loads alone",
+                    "not supported, expected only cells, supports and loads",
                     where, what, sector_.where));
   }
 
@@ -201,7 +202,7 @@ class Unfolding {
     if (!deck_.masses.empty()) fail(deck_.masses[0].where, "a mass");
     for (const Region& region : deck_.regions)
       if (!region.system.empty() && !repeats(deck_.systems.at(region.system)))
-        fail(region.where, "axes of a material that do not turn with it");
+        fail(region.where, "material axes that do not rotate with it");
   }
 
   bool is_axis(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const {
@@ -209,7 +210,7 @@ class Unfolding {
     return direction.cross(sector_.axis).norm() <= kAlong * direction.norm() &&
            arm.cross(sector_.axis).norm() <= kAlong * (1.0 + arm.norm());
   }
-  /// Directions that are the same in every sector as seen from it.
+  /// True for directions that rotate with the sector.
   bool repeats(const System& system) const {
     return system.kind == System::Kind::kCylindrical && is_axis(system.origin, system.axes.col(2));
   }
@@ -230,7 +231,7 @@ class Unfolding {
     return all;
   }
 
-  /// The name of a system turned with sector k; empty for basic directions of the first sector.
+  /// The name of a system rotated with sector k; empty for basic directions of the first sector.
   std::string system_of(const std::string& name, int32_t k) {
     if (k == 0 || (!name.empty() && repeats(deck_.systems.at(name)))) return name;
     System system;
@@ -247,15 +248,16 @@ class Unfolding {
   void supports(std::vector<Support>* supports) {
     std::vector<Support> turned;
     for (Support& support : *supports) {
-      const bool whole = (support.dofs & kTranslations) == kTranslations && support.value == 0.0;
-      if (whole || (!support.system.empty() && repeats(deck_.systems.at(support.system)))) {
-        support.places = all_of(support.places);
+      const bool all_fixed =
+          (support.dofs & kTranslations) == kTranslations && support.value == 0.0;
+      if (all_fixed || (!support.system.empty() && repeats(deck_.systems.at(support.system)))) {
+        support.node_indices = all_of(support.node_indices);
         continue;
       }
       for (int32_t k = 1; k < sector_.count; ++k) {
         Support copy = support;
         copy.system = system_of(support.system, k);
-        for (Place& place : copy.places) place = ring_.at(k, place);
+        for (NodeIndex& node_index : copy.node_indices) node_index = ring_.at(k, node_index);
         turned.push_back(std::move(copy));
       }
     }
@@ -268,12 +270,12 @@ class Unfolding {
       for (size_t i = 0; i < own; ++i) {
         Step::NodalForce force = step->forces[i];
         force.system = system_of(force.system, k);
-        force.place = ring_.at(k, force.place);
+        force.node_index = ring_.at(k, force.node_index);
         step->forces.push_back(std::move(force));
       }
   }
 
-  /// Faces of the sides are no surface any more.
+  /// Removes faces of the sides from surfaces.
   void surfaces() {
     for (auto at = mesh_.surfaces.begin(); at != mesh_.surfaces.end();) {
       const std::vector<int32_t> own = nodes_of(at->second);
@@ -298,13 +300,13 @@ class Unfolding {
   void fields() {
     for (auto& [name, field] : mesh_.fields) {
       RowMatrix all(ring_.size(), field.cols());
-      for (int32_t k = sector_.count - 1; k >= 0; --k)  // the sector's own values count
+      for (int32_t k = sector_.count - 1; k >= 0; --k)  // the sector's own values have priority
         for (int32_t i = 0; i < field.rows(); ++i) all.row(ring_.at(k, i)) = field.row(i);
       field = std::move(all);
     }
   }
 
-  /// Numbers of the copies: 0 where there would be no room, so that nothing is called by them.
+  /// Numbers of the copies: 0 if they do not fit into 32 bits.
   int64_t offset_of(int32_t highest) const {
     int64_t power = 10;
     while (power <= highest) power *= 10;
@@ -326,7 +328,7 @@ class Unfolding {
     }
   }
 
-  /// Nodes that two sectors share lie in the mean of both places.
+  /// Nodes that two sectors share are at the mean of both positions.
   void nodes() {
     const RowMatrix own = mesh_.nodes;
     const std::vector<int32_t> ids = mesh_.node_ids;
@@ -359,9 +361,8 @@ class Unfolding {
 
 void unfold(Deck* deck, const CyclicSector& sector) {
   if (!deck->points.empty())
-    throw InputError(
-        fmt::format("{}: found node {}, which belongs to no cell, expected cells alone",
-                    sector.where, deck->points.front().id));
+    throw InputError(fmt::format("{}: found node {}, which belongs to no cell, expected cells only",
+                                 sector.where, deck->points.front().id));
   const int64_t size = size_of(*deck);
   if (size > kMost / sector.count)
     throw InputError(

@@ -1,5 +1,5 @@
 #pragma once
-// A sector that repeats about an axis, turned round into the whole ring.
+// Expansion of a cyclic sector to the full ring.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -16,15 +16,14 @@ struct CyclicSector {
   std::vector<int32_t> one, other;                  // nodes of the mesh on the two sides
 };
 
-/// Copies the sector's cells, sets, surfaces, temperatures, supports and loads round the axis and
+/// Copies the sector's cells, sets, surfaces, temperatures, supports and loads around the axis and
 /// joins the sides node by node. The ring has the modes of all nodal diameters, as real vectors.
-/// Nodes and cells of the sector keep their places and numbers; those of copy k get a power of ten
-/// above them, k times. Directions of supports and forces turn with their copy.
+/// Nodes and cells of the sector keep their positions and numbers; those of copy k add k times a
+/// power of ten. Directions of supports and forces rotate with their copy.
 ///
-/// InputError beginning with `where` for sides whose nodes do not lie on each other when turned (to
-/// 1e-4 of the sides' extent), and for what does not repeat about the axis: reference points with
-/// what is on them, equations, ties, springs, masses, loads and axes of materials in other
-/// directions.
+/// InputError beginning with `where` for sides whose nodes do not coincide after rotation (to 1e-4
+/// of the sides' extent), and for what cannot be repeated about the axis: reference points with
+/// their couplings, equations, ties, springs, masses, loads and material axes in other directions.
 void unfold(Deck* deck, const CyclicSector& sector);
 
 }  // namespace clatter::mesh::deck

@@ -1,9 +1,9 @@
 #pragma once
-// What a Nastran or Abaqus/CalculiX deck says beside its mesh, in one form for both.
+// The content of a Nastran or Abaqus/CalculiX deck besides its mesh, in one form for both.
 //
-// Readers keep the deck's own units; convert_units() (units.hpp) brings everything to SI at once.
-// recipe.hpp writes it down as the fe.toml of the next stage, so that the user sees all that was
-// understood. What is not understood is an error with file and line, never dropped.
+// Readers keep the deck's own units; convert_units() (units.hpp) converts everything to SI at once.
+// recipe/text.hpp writes it as the fe.toml of the next stage, so that the user sees all that was
+// read. Unsupported input is an error with file and line, never dropped.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -21,9 +21,9 @@ struct Point {
   Eigen::Vector3d at;  // basic frame
 };
 
-/// Nodes and points in one numbering: 0 ... n_nodes - 1 are nodes of the mesh, n_nodes + p is
+/// Mesh nodes and points in one numbering: 0 ... n_nodes - 1 are mesh nodes, n_nodes + p is
 /// Deck::points[p].
-using Place = int32_t;
+using NodeIndex = int32_t;
 
 /// Directions x y z rx ry rz as bits 0 to 5.
 using DofMask = uint8_t;
@@ -54,10 +54,10 @@ struct Material {
   double reference_temperature = 0.0;
 };
 
-/// How a cell type of a region is integrated, where the deck says so.
+/// Integration of each cell type of a region, if the deck specifies it.
 enum class Formulation { kDefault, kFull, kReduced, kIncompatible };
 
-/// Beside each of Mesh::regions.
+/// Properties of each of Mesh::regions.
 struct Region {
   std::string material;  // name of a Material
   std::string system;    // axes of the material; empty: basic
@@ -68,9 +68,9 @@ struct Region {
 /// RBE2, kinematic coupling, rigid body: `dofs` of the dependents follow the reference.
 struct Rigid {
   std::string name, where;
-  Place reference = 0;
+  NodeIndex reference = 0;
   DofMask dofs = kAllDofs;  // rotations count on points only
-  std::vector<Place> dependents;
+  std::vector<NodeIndex> dependents;
 };
 
 /// RBE3, distributing coupling: the reference follows the weighted mean of the others.
@@ -78,10 +78,10 @@ struct Distributing {
   struct Term {
     double weight = 1.0;
     DofMask dofs = kTranslations;
-    std::vector<Place> places;
+    std::vector<NodeIndex> node_indices;
   };
   std::string name, where;
-  Place reference = 0;
+  NodeIndex reference = 0;
   DofMask dofs = kAllDofs;  // of the reference
   std::vector<Term> terms;  // by weight; or
   std::string surface;      // weights are the areas of this surface
@@ -90,39 +90,39 @@ struct Distributing {
 struct Tie {
   std::string name, where;
   std::string slave, master;  // surfaces of the mesh
-  double distance = -1.0;     // largest gap that is still tied; < 0: default of the assembler
+  double distance = -1.0;     // largest tied gap; < 0: default of the assembler
 };
 
 /// sum coefficient * u = 0, or *EQUATION / MPC.
 struct Equation {
   struct Term {
-    Place place = 0;
+    NodeIndex node_index = 0;
     int direction = 0;  // 0 to 5
     double coefficient = 0.0;
   };
   std::string where;
-  std::vector<Term> terms;  // the first one is the dependent
+  std::vector<Term> terms;  // the first one is dependent
 };
 
 /// Scalar spring: its elongation is sum coefficient * u.
 struct Spring {
   std::string where;
-  double stiffness = 0.0;  // force a length; of rotations moment an angle
+  double stiffness = 0.0;  // force per length; of rotations moment per angle
   std::vector<Equation::Term> terms;
 };
 
 struct Mass {
   std::string where;
-  Place place = 0;
+  NodeIndex node_index = 0;
   double mass = 0.0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the mass's own centre, basic axes
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // centre minus place, basic axes
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass, basic axes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // centre of mass minus node, basic axes
 };
 
-/// Displacements held at zero, or in a step at a value.
+/// Displacements fixed at zero, or in a step at a value.
 struct Support {
   std::string name, where;
-  std::vector<Place> places;
+  std::vector<NodeIndex> node_indices;
   DofMask dofs = kTranslations;
   std::string system;  // directions; empty: basic
   double value = 0.0;  // displacement, or rotation [rad]
@@ -131,20 +131,20 @@ struct Support {
 /// One step or subcase.
 struct Step {
   struct NodalForce {
-    Place place = 0;
+    NodeIndex node_index = 0;
     int direction = 0;  // 0 to 5
     double value = 0.0;
     std::string system;  // of the direction; empty: basic
   };
   struct Pressure {
-    std::string surface;  // of the mesh; positive pushes on it
+    std::string surface;  // of the mesh; positive: compression
     double value = 0.0;
   };
   struct Rotation {
     double omega_squared = 0.0;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  // of the axis
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit vector
-    std::vector<std::string> regions;                 // that turn; none: all
+    std::vector<std::string> regions;                 // that rotate; empty: all
   };
   enum class Kind { kStatic, kFrequency, kNone };
   std::string name, where;
@@ -158,12 +158,13 @@ struct Step {
   std::string temperature;  // field of the mesh, n x 1, temperature; empty: no thermal load
 };
 
-/// Everything. Mesh::regions and `regions` go in step; nodes without cells stand in `points` only.
+/// The entire deck. `regions` is parallel to Mesh::regions; nodes without cells are only in
+/// `points`.
 struct Deck {
   Mesh mesh;
-  std::vector<std::string> files;  // the deck and all that it includes
+  std::vector<std::string> files;  // the deck and all included files
   std::vector<Point> points;
-  std::map<std::string, std::vector<Place>> sets;  // node sets that hold points too
+  std::map<std::string, std::vector<NodeIndex>> sets;  // node sets that contain points too
   std::map<std::string, System> systems;
   std::map<std::string, Material> materials;
   std::vector<Region> regions;
@@ -173,11 +174,11 @@ struct Deck {
   std::vector<Equation> equations;
   std::vector<Spring> springs;
   std::vector<Mass> masses;
-  std::vector<Support> supports;  // of the whole model
+  std::vector<Support> supports;  // of the entire model
   std::vector<Support> retained;  // ASET, BSET: boundary DoFs of a condensation (value unused)
   std::vector<Step> steps;
-  std::map<std::string, int64_t> ignored;  // what the user let go, with how often it came
-  std::vector<std::string> notes;  // "file:line: ...": what the user should know and look at
+  std::map<std::string, int64_t> ignored;  // ignored input, with counts
+  std::vector<std::string> notes;          // "file:line: ...": remarks for the user
 };
 
 /// How to read a deck.

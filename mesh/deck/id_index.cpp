@@ -9,11 +9,11 @@ IdIndex::IdIndex(const std::vector<int32_t>& ids) {
   if (highest <= 4 * ids.size() + 65536) {
     table_.assign(highest + 1, -1);
     for (int32_t row = 0; row < rows; ++row) {
-      int32_t& place = table_[static_cast<size_t>(ids[static_cast<size_t>(row)])];
-      if (place < 0) {
-        place = row;
+      int32_t& entry = table_[static_cast<size_t>(ids[static_cast<size_t>(row)])];
+      if (entry < 0) {
+        entry = row;
       } else {
-        duplicates_.emplace_back(place, row);
+        duplicates_.emplace_back(entry, row);
       }
     }
     return;

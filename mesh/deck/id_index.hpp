@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a deck to rows of a table.
+// Maps numbers of a deck to rows of a table.
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -7,22 +7,22 @@
 
 namespace clatter::mesh::deck {
 
-/// A table by number where the numbers are dense, a sorted list elsewhere: never more than 16 bytes
-/// a number and a quarter of a megabyte.
+/// A direct table if the numbers are dense, else a sorted list: at most 16 bytes per number and a
+/// quarter of a megabyte.
 class IdIndex {
  public:
   IdIndex() = default;
-  /// Numbers from 1; row i is that of ids[i]. Of numbers that come twice the first row counts.
+  /// Numbers from 1; row i is that of ids[i]. Of duplicate numbers the first row counts.
   explicit IdIndex(const std::vector<int32_t>& ids);
 
   /// Row of a number, -1 when there is none.
   int32_t find(int32_t id) const;
-  /// Calls body(row) for the numbers first, first + step, ... up to last that there are, ascending.
+  /// Calls body(row) for the existing numbers among first, first + step, ... up to last, ascending.
   template <class Body>
   void for_each(int32_t first, int32_t last, int32_t step, const Body& body) const;
-  /// How many places for_each looks at.
+  /// How many entries for_each visits.
   int64_t effort(int32_t first, int32_t last) const;
-  /// Rows (first, further) of numbers that come twice.
+  /// Rows (first, further) of duplicate numbers.
   const std::vector<std::pair<int32_t, int32_t>>& duplicates() const { return duplicates_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// From a deck in a file to a mesh that the next stage can take, in SI.
+// Imports a deck file as a mesh in SI for the next stage.
 #include <filesystem>
 
 #include "core/mesh/validity.hpp"
@@ -8,18 +8,18 @@
 
 namespace clatter::mesh::deck {
 
-/// True for the extensions that read_deck() knows: .inp (Abaqus, CalculiX), .bdf, .nas, .dat
+/// True for the extensions that read_deck() supports: .inp (Abaqus, CalculiX), .bdf, .nas, .dat
 /// (Nastran); any case.
 bool is_deck(const std::filesystem::path& path);
 
-/// Reads the deck in the units given, converts it, makes the surface "skin" and proves that every
-/// cell is valid (validity.hpp). InputError with file and place for what is wrong in the deck and
-/// for inverted cells, by number.
+/// Reads the deck in the given units, converts it, makes the surface "skin" and proves that every
+/// cell is valid (validity.hpp). InputError with file and line for errors in the deck, and with
+/// numbers for inverted cells.
 Deck read_deck(const std::filesystem::path& path, const UnitSystem& units,
                const ReadOptions& options);
 
-/// What read_deck() does to any reader's deck: to SI, surface "skin", proof. `where` begins
-/// messages.
+/// Finishes the deck of any reader as read_deck() does: SI, surface "skin", proof. Messages begin
+/// with `where`.
 void finish_deck(Deck& deck, const UnitSystem& units, const std::string& where);
 
 }  // namespace clatter::mesh::deck

@@ -13,8 +13,8 @@ void Refusals::add(const std::string& text) {
                                  [&](const Found& f) { return f.message == one.message; });
   if (same == found_.end()) {
     found_.push_back(std::move(one));
-  } else if (same->place != one.place) {
-    same->again.push_back(one.place);
+  } else if (same->position != one.position) {
+    same->again.push_back(one.position);
   }
   if (found_.size() >= kMost) raise();
 }
@@ -25,7 +25,7 @@ void Refusals::raise() const {
   if (found_.size() >= kMost) text = fmt::format("the first {} refusals:", kMost);
   for (const Found& found : found_) {
     if (found_.size() > 1) text += "\n  ";
-    text += found.place + found.message;
+    text += found.position + found.message;
     if (!found.again.empty()) {
       text += fmt::format(" (and {} more, next at {})", found.again.size(), found.again.front());
     }

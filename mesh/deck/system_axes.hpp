@@ -6,7 +6,7 @@
 
 namespace clatter::mesh::deck {
 
-/// The directions at the place `x`, as columns: x y z, or radial, tangential, axial, or radial,
+/// The directions at position `x`, as columns: x y z, or radial, tangential, axial, or radial,
 /// along the meridian away from the axis, along the parallel. On the axis of a curved system, where
 /// they are not defined, those at its zero angle.
 Eigen::Matrix3d axes_at(const System& system, const Eigen::Vector3d& x);

@@ -14,7 +14,7 @@ void convert_materials(Deck& deck, const UnitSystem& units) {
   }
 }
 
-/// A rotation in an equation goes with a length, so that sum c u stays a sum of lengths.
+/// A rotation in an equation is scaled by a length, so that sum c u remains a sum of lengths.
 void convert_equations(Deck& deck, const UnitSystem& units) {
   for (Equation& equation : deck.equations)
     for (Equation::Term& term : equation.terms)

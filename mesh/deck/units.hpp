@@ -1,11 +1,11 @@
 #pragma once
-// A deck in SI.
+// Conversion of a deck to SI.
 #include "core/base/units.hpp"
 #include "mesh/deck/deck.hpp"
 
 namespace clatter::mesh::deck {
 
-/// Brings everything in the deck to SI; temperatures stay as they are.
+/// Converts everything in the deck to SI; temperatures are unchanged.
 void convert_units(Deck& deck, const UnitSystem& units);
 
 }  // namespace clatter::mesh::deck

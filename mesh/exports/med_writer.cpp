@@ -169,7 +169,7 @@ class Writer {
                     int32_t number) {
     for (const std::string& group : groups)
       if (group.size() > kLongestGroup)
-        throw InputError(fmt::format("mesh '{}': the name '{}' has {} bytes, MED has {} for it",
+        throw InputError(fmt::format("mesh '{}': the name '{}' has {} bytes, MED allows {}",
                                      mesh_.name, group, group.size(), kLongestGroup));
     const std::string at = fmt::format("{}/FAM_{}", folder, number);
     file_.group(at + "/GRO");

@@ -15,12 +15,12 @@
 namespace clatter::mesh {
 namespace {
 
-/// These formats have the cells whole; only clatter knows what the set is for.
+/// These formats have complete cells; only clatter uses the set.
 void warn_of_hanging_mid_side_nodes(const Mesh& mesh, const std::filesystem::path& path) {
   const auto set = mesh.node_sets.find(kHangingMidSideNodes);
   if (set == mesh.node_sets.end()) return;
   warn(
-      fmt::format("{}: the {} middle nodes of the set \"{}\" move freely in other programs: tie "
+      fmt::format("{}: the {} mid-side nodes of the set \"{}\" move freely in other programs: tie "
                   "each to the mean of its edge's ends there",
                   path.string(), set->second.size(), kHangingMidSideNodes));
 }

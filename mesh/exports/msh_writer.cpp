@@ -39,7 +39,7 @@ class Writer {
     put("{} {} \"{}\"\n", dim, ++groups_, name);
   }
 
-  // Groups are numbered through: node sets, surfaces, regions.
+  // Groups are numbered consecutively: node sets, surfaces, regions.
   void names() {
     put("$PhysicalNames\n{}\n",
         mesh_.node_sets.size() + mesh_.surfaces.size() + mesh_.regions.size());

@@ -63,7 +63,7 @@ UnvKind kind_of(FaceType type) {
   }
 }
 
-// Fortran's D in place of e.
+// Fortran's D instead of e.
 std::string real(double value) {
   std::string text = fmt::format("{:25.16E}", value);
   std::replace(text.begin(), text.end(), 'E', 'D');
@@ -140,7 +140,7 @@ class Writer {
     if (name.empty() || name.size() > kLongest || name.find('\n') != std::string::npos)
       throw InputError(
           fmt::format("mesh '{}': the name '{}' is not one line of 1 to {} characters, "
-                      "which universal files have for it",
+                      "the limit of universal files",
                       mesh_.name, name, kLongest));
     put("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n{}\n", ++groups_, 0, 0, 0, 0, 0, 0,
         members.size(), name);

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What is zero but for rounding is printed as 0; sixteen digits tell nobody anything.
+// Rounding errors of zero are printed as 0; six digits suffice.
 std::string short_number(double value, double size) {
   if (std::abs(value) < 1e-9 * size) value = 0.0;
   return fmt::format("{:.6g}", value);
@@ -25,7 +25,7 @@ std::string triple(const Vector3d& x, double size) {
                      short_number(x[2], size));
 }
 
-// The same as TOML and JSON take it.
+// The same in TOML and JSON syntax.
 std::string list_of(const Vector3d& x, double size) {
   std::vector<std::string> parts;
   for (const double value : x)
@@ -41,7 +41,7 @@ BoxFilter box_of(const FaceFacts& face) {
     box.min = box.min.cwiseMin(x);
     box.max = box.max.cwiseMax(x);
   }
-  if (face.edge_points.empty()) box.min = box.max = face.centre;  // a whole sphere has no edges
+  if (face.edge_points.empty()) box.min = box.max = face.centre;  // a full sphere has no edges
   return box;
 }
 
@@ -103,7 +103,7 @@ Vector3d outward_normal(const std::vector<Corners>& skin, size_t own) {
                                                {0.12, 0.67, -0.73}}};
   const Vector3d middle = (skin[own][0] + skin[own][1] + skin[own][2]) / 3.0;
   const Vector3d normal = normal_of(skin[own]).normalized();
-  int votes = 0;  // for the normal as it is
+  int votes = 0;  // for the present sign of the normal
   for (const Vector3d& along : directions) {
     int met = 0;
     for (size_t t = 0; t < skin.size(); ++t) met += t != own && meets(middle, along, skin[t]);
@@ -136,7 +136,7 @@ std::string json_of(const FaceList& list, const FaceFacts& face, double margin) 
       face.tag, name_of(shape.kind), shape.is_spline,
       list.oriented && is_round(shape.kind) ? fmt::format("{}", shape.is_concave) : "null",
       digits(shape.radius), digits(shape.minor_radius), digits(shape.half_angle_deg),
-      list_of(shape.direction, 1.0), list_of(place_of(face), size), list_of(face.centre, size),
+      list_of(shape.direction, 1.0), list_of(position_of(face), size), list_of(face.centre, size),
       digits(face.area), list_of(box.min, size), list_of(box.max, size),
       json_list(surface_names(list, face.tag)),
       json_text(fmt::format("{}", fmt::join(filter_lines(face, margin), "\n"))));
@@ -144,7 +144,7 @@ std::string json_of(const FaceList& list, const FaceFacts& face, double margin) 
 
 }  // namespace
 
-Vector3d place_of(const FaceFacts& face) {
+Vector3d position_of(const FaceFacts& face) {
   const FaceShape& shape = face.shape;
   switch (shape.kind) {
     case ShapeKind::kCylinder:
@@ -164,7 +164,7 @@ std::vector<std::string> filter_lines(const FaceFacts& face, double margin) {
   std::vector<std::string> lines;
   if (shape.kind == ShapeKind::kCylinder)
     lines.push_back(fmt::format("cylinder = {{ radius = {:.9g}, point = {}, axis = {} }}",
-                                shape.radius, list_of(place_of(face), size),
+                                shape.radius, list_of(position_of(face), size),
                                 list_of(shape.direction, 1.0)));
   if (shape.kind == ShapeKind::kPlane)
     lines.push_back(fmt::format("plane = {{ normal = {}, height = {:.9g} }}",
@@ -185,7 +185,7 @@ std::vector<std::string> table_of(const FaceList& list) {
     const bool directed = face.shape.direction.norm() > 0.0;
     rows.push_back({fmt::format("{}", face.tag), kind_text(face.shape), radius_text(face.shape),
                     directed ? triple(face.shape.direction, 1.0) : "-",
-                    triple(place_of(face), size_of(face)), fmt::format("{:.6g}", face.area),
+                    triple(position_of(face), size_of(face)), fmt::format("{:.6g}", face.area),
                     fmt::format("{}", fmt::join(surface_names(list, face.tag), " "))});
   }
   std::array<size_t, 7> width{};
@@ -231,7 +231,7 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
   std::vector<int32_t> numbers;
   std::vector<std::string> kinds, names;
   std::vector<double> radii, areas;
-  RowMatrix direction(count, 3), place(count, 3);
+  RowMatrix direction(count, 3), position(count, 3);
   for (Eigen::Index f = 0; f < count; ++f) {
     const FaceFacts& face = list.faces[static_cast<size_t>(f)];
     numbers.push_back(face.tag);
@@ -240,14 +240,14 @@ void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
     radii.push_back(metres_per_unit * face.shape.radius);
     areas.push_back(metres_per_unit * metres_per_unit * face.area);
     direction.row(f) = face.shape.direction.transpose();
-    place.row(f) = metres_per_unit * place_of(face).transpose();
+    position.row(f) = metres_per_unit * position_of(face).transpose();
   }
   file.set("/", "name", list.name);
   file.write("number", numbers);
   file.write("kind", kinds);
   file.write("radius", radii);
   file.write("direction", direction);
-  file.write("place", place);
+  file.write("place", position);
   file.write("area", areas);
   file.write("surfaces", names);
   file.write("nodes", RowMatrix(metres_per_unit * drawn.nodes));

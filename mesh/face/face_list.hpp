@@ -1,5 +1,5 @@
 #pragma once
-// The faces of a part for someone who wants to name them: a table, JSON, and a file to draw.
+// The list of faces of a part, for naming surfaces: a table, JSON, and a file to draw.
 #include <map>
 #include <string>
 #include <vector>
@@ -15,24 +15,24 @@ inline constexpr const char* kFacesSchema = "clatter/faces/1";
 struct FaceList {
   std::string name, unit = "mm";                     // of the part; of all lengths here
   double volume = 0.0;                               // of the part's solids
-  bool oriented = false;                             // orient_faces() has been here
+  bool oriented = false;                             // set by orient_faces()
   std::vector<FaceFacts> faces;                      // by ascending number
   std::map<int, std::vector<std::string>> surfaces;  // names by face number
 };
 
-/// Where to look for a face: the point of its axis beside its centre of area; a cone's apex, a
+/// Position of a face: the point of its axis nearest to its centre of area; a cone's apex, a
 /// sphere's or torus' centre; else the centre of area.
-Eigen::Vector3d place_of(const FaceFacts& face);
+Eigen::Vector3d position_of(const FaceFacts& face);
 
-/// The filters that select the face alone among its like: keys of a table [surface.NAME], one a
-/// line: its cylinder or plane, and the box around its edges, widened by `margin`.
+/// The filters that select only this face: keys of a table [surface.NAME], one per line: its
+/// cylinder or plane, and the box around its edges, widened by `margin`.
 std::vector<std::string> filter_lines(const FaceFacts& face, double margin);
 
-/// Aligned columns: number, kind, radius, axis or (when oriented, outward) normal, place, area,
-/// surfaces; the first line says what they are and in which unit.
+/// Aligned columns: number, kind, radius, axis or (when oriented, outward) normal, position, area,
+/// surfaces; the header line gives names and units.
 std::vector<std::string> table_of(const FaceList& list);
 
-/// A JSON list, an object a face: number, kind, spline, concave, radius, minor_radius,
+/// A JSON list, one object per face: number, kind, spline, concave, radius, minor_radius,
 /// half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
 std::string json_of(const FaceList& list);
 
@@ -43,13 +43,13 @@ struct FaceTriangles {
   std::vector<int> faces;  // m
 };
 
-/// Finds which side of each face is outside, and says it to the faces' shapes (orient()). CAD
-/// kernels keep no reliable side of faces that came out of booleans; here a ray from the middle of
-/// the face's largest triangle tells: it starts inside when it meets the other triangles an odd
-/// number of times. Of five rays the majority counts, as a ray may graze an edge.
+/// Finds the outer side of each face and sets it in the faces' shapes (orient()). CAD kernels keep
+/// no reliable orientation of faces that result from booleans; here a ray from the middle of the
+/// face's largest triangle decides: it starts inside when it meets the other triangles an odd
+/// number of times. The majority of five rays counts, as a ray may graze an edge.
 void orient_faces(FaceList& list, const FaceTriangles& drawn);
 
-/// Writes schema "clatter/faces/1" but for provenance: the table, and the triangles in metres.
+/// Writes schema "clatter/faces/1" without provenance: the table, and the triangles in metres.
 void write_faces(H5File& file, const FaceList& list, const FaceTriangles& drawn,
                  double metres_per_unit);
 

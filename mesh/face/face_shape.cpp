@@ -16,11 +16,12 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Points = std::vector<Vector3d>;
 
-constexpr double kSplineTolerance = 1e-5;  // of the extent: what is an exact shape, not like one
+constexpr double kSplineTolerance = 1e-5;  // of the extent: accepts exact shapes only
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Points about their mean and by their extent, so that the problems have numbers near 1.
+/// Points relative to their mean and scaled by their extent, so that the problems have numbers near
+/// 1.
 struct Sample {
   Points x, n;
   Vector3d origin = Vector3d::Zero();
@@ -155,8 +156,8 @@ FaceShape fit(ShapeKind kind, const Sample& s) {
   }
 }
 
-// The axis point beside the face, directions with their largest component positive: one way to
-// say the same axis.
+// The axis point nearest to the face, directions with their largest component positive: a unique
+// form of each axis.
 FaceShape in_part(FaceShape shape, const Sample& s) {
   shape.radius *= s.extent;
   shape.minor_radius *= s.extent;
@@ -216,11 +217,11 @@ FaceShape find_shape(const std::string& cad_kind, const Points& points, const Po
   return {kind};
 }
 
-void orient(FaceShape& shape, const Vector3d& place, const Vector3d& outward) {
+void orient(FaceShape& shape, const Vector3d& position, const Vector3d& outward) {
   if (shape.kind == ShapeKind::kPlane && shape.direction.dot(outward) < 0.0)
     shape.direction *= -1.0;
   if (!is_round(shape.kind)) return;
-  Vector3d from = place - shape.point;
+  Vector3d from = position - shape.point;
   const double along = from.dot(shape.direction);
   if (shape.kind != ShapeKind::kSphere) from -= along * shape.direction;
   if (shape.kind == ShapeKind::kTorus)  // from the tube's middle

@@ -1,6 +1,6 @@
 #pragma once
-// What a face is: plane, cylinder, cone, sphere, torus or spline, with radius, axis and place,
-// found from points and normals of the surface that carries it.
+// The shape of a face: plane, cylinder, cone, sphere, torus or spline, with radius, axis and
+// position, found from points and normals of its underlying surface.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@ enum class ShapeKind { kPlane, kCylinder, kCone, kSphere, kTorus, kRevolved, kSp
 /// One word: "plane", "cylinder", "cone", "sphere", "torus", "revolved", "spline", "other".
 std::string name_of(ShapeKind kind);
 
-/// A surface; what its kind does not have is zero. Lengths in the part's unit.
+/// A surface; members that its kind does not have are zero. Lengths in the part's unit.
 struct FaceShape {
   ShapeKind kind = ShapeKind::kOther;
   bool is_spline = false;       // stored as a spline, though it is of that kind
-  bool is_concave = false;      // a bore, an inner fillet; as orient() has found it
+  bool is_concave = false;      // a bore, an inner fillet; set by orient()
   double radius = 0.0;          // cylinder, sphere; torus: of the circle that the tube follows
   double minor_radius = 0.0;    // of the torus' tube
   double half_angle_deg = 0.0;  // of a cone, between axis and surface
@@ -26,8 +26,8 @@ struct FaceShape {
 };
 
 /// The shape of a face that the CAD kernel calls `cad_kind` ("Plane", "Cylinder", "BSpline surface"
-/// ...) from points on it and unit normals there, either way, at least four that are not on a line.
-/// Splines are taken for the simplest shape on which all points lie to 1e-5 of their extent. The
+/// ...) from at least four points on it, not collinear, and unit normals there, of either sign.
+/// A spline gets the simplest shape that all points fit to 1e-5 of their extent. The
 /// least squares problems are linear: with normals n_i,
 ///   plane       n = mean n_i
 ///   sphere      x_i = c + r n_i
@@ -41,11 +41,11 @@ FaceShape find_shape(const std::string& cad_kind, const std::vector<Eigen::Vecto
 /// Cylinder, cone, sphere or torus?
 bool is_round(ShapeKind kind);
 
-/// Makes a plane's normal point out of the solid and finds whether a round face is concave, from
-/// the outward normal at one of its points.
-void orient(FaceShape& shape, const Eigen::Vector3d& place, const Eigen::Vector3d& outward);
+/// Points a plane's normal out of the solid and finds whether a curved face is concave, from the
+/// outward normal at one of its points.
+void orient(FaceShape& shape, const Eigen::Vector3d& position, const Eigen::Vector3d& outward);
 
-/// How far x is from the surface; infinite where the kind has no formula.
+/// Distance of x from the surface; infinite where the kind has no formula.
 double distance_to(const FaceShape& shape, const Eigen::Vector3d& x);
 
 /// "cylinder of radius 46.5 mm", "plane", "torus of radii 20 and 3 mm".

@@ -16,12 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How far x reaches out of the box; negative inside: how deep it lies.
+// Distance of x outside the box; negative inside: its depth.
 double outside_by(const BoxFilter& box, const Vector3d& x) {
   return std::max((box.min - x).maxCoeff(), (x - box.max).maxCoeff());
 }
 
-// Of the edges: the carrying surface may reach beyond the face, only the edges bound it.
+// Of the edges: the underlying surface may extend beyond the face, only the edges bound it.
 double outside_by(const BoxFilter& box, const FaceFacts& face) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const Vector3d& x : face.edge_points) largest = std::max(largest, outside_by(box, x));
@@ -36,12 +36,12 @@ double largest(const FaceFacts& face, const Distance& distance) {
   return result;
 }
 
-/// A face and the filter that it is nearest to.
+/// A face and its nearest filter.
 struct Candidate {
   const FaceFacts* face;
   const SurfaceFilter* filter;
   double distance;
-  bool like;  // of the kind that the filter asks for
+  bool like;  // of the kind of the filter
 };
 
 bool is_like(const FaceFacts& face, const SurfaceFilter& filter) {
@@ -49,7 +49,7 @@ bool is_like(const FaceFacts& face, const SurfaceFilter& filter) {
          (!filter.plane || face.shape.kind == ShapeKind::kPlane);
 }
 
-// Nearest first; what is too far to be selected, those of the right kind first.
+// Nearest first; among those too far to be selected, the right kind first.
 std::vector<Candidate> candidates(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
                                   double exact) {
   std::vector<Candidate> found;
@@ -70,7 +70,7 @@ double degrees_between(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180.0 / std::numbers::pi;
 }
 
-// "radius 0.5 mm more, axis 0.005 mm away, turned by 2 deg", without what is right.
+// "radius 0.5 mm more, axis 0.005 mm away, turned by 2 deg", without matching values.
 std::string cylinder_offsets(const FaceFacts& face, const CylinderFilter& wanted,
                              const std::string& unit) {
   constexpr double kShown = 1e-9, kShownDegrees = 1e-4;
@@ -113,7 +113,7 @@ std::string describe_candidate(const Candidate& candidate, const std::string& un
   if (!offsets.empty()) parts.push_back(offsets);
   const double out = filter.box ? outside_by(*filter.box, face) : 0.0;
   if (out >= candidate.distance && out > 0.0)
-    parts.push_back(fmt::format("reaches {:.3g} {} out of the box", out, unit));
+    parts.push_back(fmt::format("extends {:.3g} {} out of the box", out, unit));
   else if (offsets.empty())
     parts.push_back(fmt::format("up to {:.3g} {} off", candidate.distance, unit));
   return fmt::format("{}", fmt::join(parts, ", "));
@@ -202,11 +202,11 @@ Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& 
                                  describe_faces(faces)));
   for (const Candidate& c : found) {
     if (!is_near(c)) continue;
-    auto& lines = any_exact ? selection.remarks : selection.doubts;
+    auto& lines = any_exact ? selection.remarks : selection.warnings;
     lines.push_back(fmt::format(
         "{}: surface '{}': {}, is {}: tolerance = {:.2g} in [surface.{}] {}", where, surface.name,
         describe_candidate(c, scale.unit), any_exact ? "left out" : "taken as none is closer",
-        1.1 * c.distance, surface.name, any_exact ? "takes it too" : "says that it is meant"));
+        1.1 * c.distance, surface.name, any_exact ? "includes it" : "confirms it"));
   }
   std::sort(selection.tags.begin(), selection.tags.end());
   return selection;
@@ -217,7 +217,7 @@ std::vector<NamedSurface> read_named_surfaces(const Config& config) {
   const auto tables = config.find_table("surface");
   if (!tables) return surfaces;
   for (const std::string& name : tables->keys()) {
-    if (name == "skin") tables->fail(name, "the name 'skin' is taken: it is the whole boundary");
+    if (name == "skin") tables->fail(name, "the name 'skin' is reserved for the entire boundary");
     const Config table = tables->table(name);
     const double tolerance =
         table.has("tolerance") ? table.number("tolerance", Range::positive()) : 0.0;

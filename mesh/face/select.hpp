@@ -1,6 +1,6 @@
 #pragma once
-// Faces of a part found by where they lie, never by number: booleans and imports renumber freely
-// (hard case G5).
+// Selection of faces by position, never by number: booleans and imports renumber them (hard case
+// G5).
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace clatter::mesh {
 
-/// Points on each curve of FaceFacts::edge_points: they hit the four quadrants of a full circle.
+/// Points per curve of FaceFacts::edge_points: they include the four quadrants of a full circle.
 inline constexpr int kEdgeSamples = 33;
 
-/// What is known of one face of the geometry, in the part's length unit.
+/// Properties of one face of the geometry, in the part's length unit.
 struct FaceFacts {
   int tag = 0;
   std::string kind;  // "Plane", "Cylinder", "Torus", ...
   double area = 0.0;
   double radius = 0.0;                          // of a cylinder, else 0
-  FaceShape shape;                              // what kind, radius, axis are, as measured
+  FaceShape shape;                              // kind, radius and axis as measured
   Eigen::Vector3d centre;                       // centre of the area
   std::vector<Eigen::Vector3d> edge_points;     // samples of the boundary curves
-  std::vector<Eigen::Vector3d> surface_points;  // samples of the surface that carries the face
+  std::vector<Eigen::Vector3d> surface_points;  // samples of the face's underlying surface
 };
 
 struct CylinderFilter {
@@ -38,35 +38,35 @@ struct BoxFilter {
   Eigen::Vector3d min, max;
 };
 
-/// All parts that are given must hold.
+/// All filters that are given must match.
 struct SurfaceFilter {
   std::optional<CylinderFilter> cylinder;  // the face lies on this cylinder
   std::optional<PlaneFilter> plane;        // the face lies in this plane
-  std::optional<BoxFilter> box;            // the whole face lies inside
-  std::vector<BoxFilter> outside;          // the face lies wholly inside none of these
+  std::optional<BoxFilter> box;            // the entire face lies inside
+  std::vector<BoxFilter> outside;          // the face lies entirely inside none of these
 };
 
 /// A surface of the mesh: the faces that any of the filters selects.
 struct NamedSurface {
   std::string name;
   std::vector<SurfaceFilter> filters;
-  double tolerance = 0.0;  // how far a face may be from where the filter has it; 0: as below
+  double tolerance = 0.0;  // largest distance of a face from the filter; 0: as below
 };
 
-/// Where selection of faces ends without a `tolerance`, both in parts of the part's size. A face
-/// within the first is what the filter means: CAD kernels keep about 1e-7. Only where no face is
-/// that close, those within the second are taken and it is told: numbers read off a drawing.
+/// Limits of selection without a `tolerance`, as fractions of the part's size. A face within the
+/// first one matches: CAD kernels keep about 1e-7. Only when no face is that close, those within
+/// the second are taken with a warning: dimensions may be read off a drawing.
 inline constexpr double kExactSelection = 1e-6;
 inline constexpr double kNearSelection = 1e-4;
 
-/// How far the face is from what the filter asks for: the largest of
+/// Distance of the face from the filter: the largest of
 ///   cylinder   | distance of x from the axis - radius |, over the points x of edges and surface
 ///   plane      | normal . x - height |
-///   box        how far an edge reaches out of it
-/// and infinite when the face lies wholly in a box of `outside`, to within `exact`. [part's unit]
+///   box        how far an edge extends outside
+/// and infinite when the face lies entirely in a box of `outside`, to within `exact`. [part's unit]
 double distance_from(const FaceFacts& face, const SurfaceFilter& filter, double exact);
 
-/// Is the face that close?
+/// Whether the face lies within `tolerance` of the filter.
 bool matches(const FaceFacts& face, const SurfaceFilter& filter, double tolerance);
 
 /// The part in which faces are selected.
@@ -75,15 +75,15 @@ struct SelectionScale {
   std::string unit = "mm";  // its unit, for messages
 };
 
-/// Selected faces, and what the user should hear of it.
+/// Selected faces, and what to report to the user.
 struct Selection {
-  std::vector<int> tags;             // ascending
-  std::vector<std::string> doubts;   // faces that were taken though they are not exactly there
-  std::vector<std::string> remarks;  // faces nearly there that were left out
+  std::vector<int> tags;              // ascending
+  std::vector<std::string> warnings;  // selected faces that match only approximately
+  std::vector<std::string> remarks;   // near matches that were left out
 };
 
-/// The faces that a surface means. InputError, beginning with `where`, when there are none: it
-/// names the three nearest, how far off each is, and what faces there are.
+/// The faces that a surface selects. InputError, beginning with `where`, when there are none: it
+/// names the three nearest with their distances, and counts the faces of the part.
 Selection select_faces(const std::vector<FaceFacts>& faces, const NamedSurface& surface,
                        const SelectionScale& scale, const std::string& where);
 

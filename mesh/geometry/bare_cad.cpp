@@ -31,7 +31,7 @@ std::string cad_description(const std::filesystem::path& source,
       "name = {}\nkind = \"cad\"\nlength_unit = \"mm\"         # of this description; {}\n\n[cad]\n"
       "source = {}\n",
       json_text(source.stem().string()),
-      unit.empty() ? "the file names no unit" : fmt::format("the file is in {}", unit),
+      unit.empty() ? "the file gives no unit" : fmt::format("the file is in {}", unit),
       json_text(relative.string()));
   if (element_size_mm > 0.0)
     text += fmt::format(
@@ -46,13 +46,13 @@ void keep_description(const std::filesystem::path& description, const std::strin
   std::ifstream file(description, std::ios::binary);
   if (!file) {
     write_whole_file(description, text);
-    say(fmt::format("{}: written: what was meshed, to be changed and meshed again",
+    say(fmt::format("{}: written: the description that was meshed, for changes",
                     description.string()));
     return;
   }
   const std::string present{std::istreambuf_iterator<char>(file), {}};
   if (present == text) return;
-  say(fmt::format("{}: exists and is left as it is: what was meshed is the CAD file with defaults",
+  say(fmt::format("{}: exists and is left as it is: the CAD file was meshed with defaults",
                   description.string()));
 }
 

@@ -29,7 +29,7 @@ void check_block(const Config& t, const BlockParameters& p) {
           fmt::format("found {}, expected the liner to end above the crank pin's circle (z = {})",
                       p.liner_length, 0.5 * p.stroke));
   require(t, p.end_wall + p.jacket_thickness > p.liner_wall, "end_wall",
-          "expected to stand clear of the opening around the last liner");
+          "expected to clear the opening around the last liner");
   require(t, p.jacket_bottom() > p.roof(), "jacket_depth",
           fmt::format("found {}, expected less than {}: the liner needs a lower land",
                       p.jacket_depth, p.jacket_top() - p.roof()));
@@ -38,7 +38,8 @@ void check_block(const Config& t, const BlockParameters& p) {
   require(t, p.shoulder_height > 0.0 && p.shoulder_height < p.liner_bottom(), "shoulder_height",
           "expected between the crank axis and the liner's lower end");
   require(t, p.crankcase_half_width - p.crankcase_wall > 0.5 * p.stroke + 0.35 * p.bore,
-          "crankcase_half_width", "expected room for the crank: half stroke + 0.35 bore + wall");
+          "crankcase_half_width",
+          "expected clearance for the crank: half stroke + 0.35 bore + wall");
   require(t, p.column_reach < p.housing_radius() + p.deck_overhang, "column_reach",
           "expected below the deck plate's edge");
   require(t, p.bearing_boss > p.bearing_bore, "bearing_boss", "expected more than bearing_bore");
@@ -50,12 +51,12 @@ void check_block(const Config& t, const BlockParameters& p) {
 }
 
 // Half width of the openings in the bearing walls, of the liner's radius: wider than the part of
-// the liner that stands above the wall.
+// the liner above the wall.
 constexpr double kWindow = 0.75;
 
 // --- solids --------------------------------------------------------------------------------------
 
-// A polygon of (y, z), mirrored at y = 0, pushed along x.
+// A polygon of (y, z), mirrored at y = 0, extruded along x.
 Solid symmetric_prism(GmshSession& s, const std::vector<std::array<double, 2>>& right, double x0,
                       double x1) {
   std::vector<Vector3d> polygon;
@@ -123,7 +124,7 @@ Solids hollows(GmshSession& s, const BlockParameters& p) {
     tools.push_back(upright(s, x, p.jacket_radius(), p.jacket_bottom(), p.jacket_top()));
     tools.push_back(upright(s, x, p.liner_radius(), roof, p.deck_height + 1.0));
   }
-  // The bearing walls are open around the liners' free lower ends: the chambers breathe there.
+  // The bearing walls are open around the liners' free lower ends: they connect the chambers.
   const double reach = p.x_of_cylinder(p.cylinders - 1) + p.liner_radius() + p.liner_wall;
   const double window = kWindow * p.liner_radius();
   tools.push_back(

@@ -1,8 +1,8 @@
 #pragma once
-// The block of a truck diesel in line, with wet liners, from telling parameters.
+// The block of an inline truck diesel with wet liners, from its main dimensions.
 //
 // Engine frame: x along the crankshaft, y toward the thrust side, z up; origin on the crank axis in
-// the middle between the first and the last cylinder. Cylinder 1 stands at the most negative x.
+// the middle between the first and the last cylinder. Cylinder 1 has the most negative x.
 // All lengths in the part's unit; defaults in millimetres of a 4.7 litre four-cylinder engine.
 //
 //        z                 deck plate ============ deck_height
@@ -21,7 +21,7 @@ namespace clatter::mesh {
 struct BlockParameters {
   int cylinders = 4;
   double bore = 107, stroke = 130, rod_length = 210;  // diameter; full stroke; centre to centre
-  double cylinder_pitch = 130;                        // distance of neighbouring cylinder axes
+  double cylinder_pitch = 130;                        // distance between neighbouring cylinder axes
   double deck_height = 345, deck_thickness = 16;      // above the crank axis; of the top plate
   double deck_overhang = 4;                           // of the plate over the housing's walls
   double liner_wall = 7, liner_length = 230;
@@ -54,7 +54,7 @@ BlockParameters read_block(const Config& table);
 
 /// Regions "block" and "liner" (conformal). Surfaces liner_i_bore, head_i (top face of liner i,
 /// where the gasket presses), bearing_k, mount_1..4 (front thrust, front antithrust, rear thrust,
-/// rear antithrust), pan_flange, deck, outer (what faces the air: without deck, pan flange,
+/// rear antithrust), pan_flange, deck, outer (exposed to air: without deck, pan flange,
 /// jackets, bores and crankcase).
 PartGeometry build_block(GmshSession& session, const BlockParameters& p);
 

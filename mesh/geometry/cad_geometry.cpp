@@ -11,7 +11,7 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kBoxTolerance = 0.01;  // a wrong unit is off by 2.54 at least
+constexpr double kBoxTolerance = 0.01;  // a wrong unit gives a factor of at least 2.54
 
 void check_box(GmshSession& session, const Config& table, const std::string& unit) {
   if (!table.has("expected_box")) return;
@@ -32,24 +32,24 @@ Solids without_small_features(GmshSession& session, const Solids& solids, double
                               const std::string& unit) {
   const Defeatured d = defeature(session, solids, below);
   say(fmt::format(
-      "mesh: {} faces are narrower than {:g} {}; without them and with faces of one "
-      "surface united {} of {} faces are left; volume {:+.3g} %, box {:.6g} x {:.6g} x "
+      "mesh: {} faces are narrower than {:g} {}; after their removal and merging of "
+      "faces {} of {} faces remain; volume {:+.3g} %, box {:.6g} x {:.6g} x "
       "{:.6g} {} (before {:.6g} x {:.6g} x {:.6g})",
-      d.asked, below, unit, d.faces_after, d.faces_before,
+      d.narrow_faces, below, unit, d.faces_after, d.faces_before,
       100.0 * (d.volume_after / d.volume_before - 1.0), d.box_after.x(), d.box_after.y(),
       d.box_after.z(), unit, d.box_before.x(), d.box_before.y(), d.box_before.z()));
   if (!d.kept.empty()) {
-    const auto& [width, place] = d.kept.front();
+    const auto& [width, position] = d.kept.front();
     warn(
-        fmt::format("mesh: {} narrow faces stay, as their neighbours do not meet without them: "
+        fmt::format("mesh: {} narrow faces are kept, as their neighbours do not meet: "
                     "{:.3g} {} wide at ({:.5g}, {:.5g}, {:.5g}){}",
-                    d.kept.size(), width, unit, place.x(), place.y(), place.z(),
+                    d.kept.size(), width, unit, position.x(), position.y(), position.z(),
                     d.kept.size() > 1 ? ", ..." : ""));
   }
   return d.solids;
 }
 
-// Order by place, not by the tag that the import happened to give.
+// Ordered by position, as import tags are arbitrary.
 Solids in_order(const GmshSession& session, Solids solids) {
   std::sort(solids.begin(), solids.end(), [&](Solid a, Solid b) {
     const Eigen::Vector3d p = session.centre(a), q = session.centre(b);
@@ -58,7 +58,7 @@ Solids in_order(const GmshSession& session, Solids solids) {
   return solids;
 }
 
-// Makes the solids share their faces, and keeps what they were.
+// Joins the solids at shared faces and records their original volumes.
 std::vector<CadSolid> join_solids(GmshSession& session, const Solids& solids) {
   std::vector<CadSolid> known;
   for (size_t i = 0; i < solids.size(); ++i) {

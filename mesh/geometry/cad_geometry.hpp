@@ -1,5 +1,5 @@
 #pragma once
-// Any given STEP, BREP or IGES file.
+// Parts from STEP, BREP or IGES files.
 #include "mesh/geometry/part_geometry.hpp"
 
 namespace clatter::mesh {
@@ -7,7 +7,7 @@ namespace clatter::mesh {
 /// [cad] source = file, region = name (default "solid"), expected_box = [dx, dy, dz] (optional: the
 /// part's size within 1 %, guards against a wrong unit, hard case G6), volume_tolerance (of each of
 /// several solids against its mesh, default 1e-6: solid_volumes.hpp), defeature_below = width
-/// (optional, part's unit: faces narrower are taken out, gmsh_defeature.hpp). Several solids are
+/// (optional, part's unit: narrower faces are removed, gmsh_defeature.hpp). Several solids are
 /// joined at shared faces; each is a region of its own, NAME_1, NAME_2, ... ordered by centre of
 /// mass.
 PartGeometry build_cad(GmshSession& session, const Config& table, const std::string& unit);

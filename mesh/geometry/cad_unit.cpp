@@ -29,7 +29,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The words between the quotes of CONVERSION_BASED_UNIT('INCH', ...), else the prefix of SI_UNIT.
+// The quoted name of CONVERSION_BASED_UNIT('INCH', ...), else the prefix of SI_UNIT.
 std::string unit_of_statement(const std::string& statement) {
   const size_t named = statement.find("CONVERSION_BASED_UNIT('");
   if (named != std::string::npos) {
@@ -50,7 +50,7 @@ std::string unit_of_statement(const std::string& statement) {
   return "m";
 }
 
-// A file in inches also has the millimetre that defines them: a unit with a name goes first.
+// A file in inches also has the millimetre that defines them: a named unit has priority.
 std::string step_unit(const std::string& text) {
   std::string si;
   for (size_t at = text.find("LENGTH_UNIT"); at != std::string::npos;
@@ -79,7 +79,7 @@ std::string iges_global_section(const std::string& text) {
   return section;
 }
 
-// Parameters are parted by commas, texts are counted: 4HINCH.
+// Parameters are separated by commas, texts begin with their length: 4HINCH.
 std::vector<std::string> iges_parameters(const std::string& section) {
   std::vector<std::string> parameters(1);
   size_t i = 0;

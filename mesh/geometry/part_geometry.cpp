@@ -43,7 +43,7 @@ PartGeometry build_part(GmshSession& session, const Config& config) {
 
 Solid require_one(const Solids& solids, const std::string& what) {
   if (solids.size() != 1) {
-    throw NumericsError(fmt::format("{}: found {} separate solids, expected one connected piece",
+    throw NumericsError(fmt::format("{}: found {} separate solids, expected one connected solid",
                                     what, solids.size()));
   }
   return solids.front();

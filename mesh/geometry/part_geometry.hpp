@@ -1,5 +1,5 @@
 #pragma once
-// The geometry of a part as built or imported: solids by region, surfaces by where they lie.
+// The geometry of a part as built or imported: solids by region, surfaces by position.
 #include <string>
 #include <vector>
 
@@ -14,13 +14,13 @@ struct RegionSolids {
   Solids solids;
 };
 
-/// A solid of a CAD file as it was read, to be held against its mesh.
+/// A solid of a CAD file as it was read, for comparison with its mesh.
 struct CadSolid {
-  std::string name;           // that the file gives it; may be empty
-  size_t number = 0, of = 0;  // its place among the file's solids, from 1
+  std::string name;           // in the file; may be empty
+  size_t number = 0, of = 0;  // index among the file's solids, from 1
   Eigen::Vector3d centre;     // of mass, in the part's unit
   double volume = 0.0;        // by OpenCASCADE, as read, in the part's unit cubed
-  double joined = 0.0;        // the same of its pieces after the solids were joined
+  double joined = 0.0;        // the same of its parts after the solids were joined
   Solids pieces = {};         // each a region of the part
 };
 
@@ -28,8 +28,9 @@ struct PartGeometry {
   std::vector<RegionSolids> regions;
   std::vector<NamedSurface> surfaces;
   std::vector<CadSolid> cad_solids = {};  // of a file with several; empty elsewhere
-  double volume_tolerance = 1e-6;  // of a CAD solid against its mesh, beside its chords; relative
-  std::string unit = "mm";         // of its lengths, for messages
+  double volume_tolerance =
+      1e-6;  // of a CAD solid against its mesh, in addition to the chord error; relative
+  std::string unit = "mm";  // of its lengths, for messages
 };
 
 /// A length unit in metres: "mm", "cm", "m" or "in" (key `length_unit`, default "mm").
@@ -39,11 +40,11 @@ struct LengthUnit {
 };
 LengthUnit read_length_unit(const Config& config);
 
-/// Builds what key `kind` names ("block", "piston", "box", "cylinder", "cad") from the table of the
-/// same name, and adds the user's own surfaces [surface.NAME].
+/// Builds the part of key `kind` ("block", "piston", "box", "cylinder", "cad") from the table of
+/// the same name, and adds the user's surfaces [surface.NAME].
 PartGeometry build_part(GmshSession& session, const Config& config);
 
-/// One solid or NumericsError: a boolean of connected shapes that leaves more has failed.
+/// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.
 Solid require_one(const Solids& solids, const std::string& what);
 
 }  // namespace clatter::mesh

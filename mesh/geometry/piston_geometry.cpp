@@ -41,12 +41,12 @@ void check_piston(const Config& t, const PistonParameters& p) {
   require(std::abs(p.pin_offset) < 0.1 * p.diameter, "pin_offset", "expected a small offset");
 }
 
-/// Builds one piston; every upright cylinder stands on the piston's axis, not the pin's.
+/// Builds one piston; every vertical cylinder is on the piston's axis, not the pin's.
 class PistonBuilder {
  public:
   PistonBuilder(GmshSession& session, const PistonParameters& p) : s_(session), p_(p) {}
 
-  // Upper and lower part share the plane at the belt's lower end, so that the skirt is a face.
+  // Upper and lower part share the plane at the belt's lower end, so that the skirt is one face.
   Solids build() {
     Solid body = require_one(s_.cut({blank()}, hollows()), "piston: hollows");
     body = require_one(s_.fuse({body}, bosses()), "piston: bosses");
@@ -113,8 +113,8 @@ class PistonBuilder {
     return s_.box({std::min(a, b), -w, z0}, {std::max(a, b), w, z1});
   }
 
-  // Bosses around the pin, and pillars that carry them from the crown; above the belt's lower end
-  // the pillars run into the belt's wall, short of the grooves.
+  // Bosses around the pin, and pillars that connect them to the crown; above the belt's lower end
+  // the pillars extend into the belt's wall, short of the grooves.
   Solids bosses() {
     const double inner = 0.5 * p_.boss_gap, outer = p_.panel_distance;
     const double groove =

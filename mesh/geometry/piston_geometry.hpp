@@ -1,5 +1,5 @@
 #pragma once
-// A truck diesel's aluminium piston from telling parameters.
+// A truck diesel's aluminium piston from its main dimensions.
 //
 // Piston frame: origin at the pin's centre, x along the pin, y toward the thrust side, z up. All
 // lengths in the part's unit. The skirt is a plain cylinder of the bore's diameter: its barrel
@@ -19,7 +19,7 @@ struct PistonParameters {
   double diameter = 107, compression_height = 69.5, skirt_depth = 45;  // skirt's end below the pin
   double pin_offset = 0;  // of the pin's axis from the piston's toward the thrust side
   double bowl_diameter = 62, bowl_depth = 14, crown_thickness = 11;  // under the bowl
-  double belt_wall = 12;                                             // behind the outer diameter
+  double belt_wall = 12;                                             // inside the outer diameter
   double groove_depth = 4.5;
   std::vector<double> land_heights = {9.0, 7.0, 4.5, 4.0};  // from the crown down
   std::vector<double> groove_heights = {3.0, 2.5, 3.5};     // between the lands
@@ -34,7 +34,7 @@ struct PistonParameters {
 /// Reads table [piston]; InputError for dimensions that do not fit together.
 PistonParameters read_piston(const Config& table);
 
-/// Region "piston". Surfaces crown (all faces that the gas presses on; their resultant is
+/// Region "piston". Surfaces crown (all faces loaded by gas pressure; their resultant is
 /// pi/4 diameter^2 in -z), skirt (outer faces of both sides below the belt), pin_bore.
 PartGeometry build_piston(GmshSession& session, const PistonParameters& p);
 

@@ -24,7 +24,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// "std::__cxx11::basic_string<char, ...>" is long and says no more than its short name.
+// "std::__cxx11::basic_string<char, ...>" is shortened to std::string.
 std::string shortened(std::string line) {
   const size_t from = line.find("std::__cxx11::basic_string<"), to = line.rfind(" >");
   if (from != std::string::npos && to != std::string::npos && to > from)
@@ -32,7 +32,7 @@ std::string shortened(std::string line) {
   return line.substr(0, 200);
 }
 
-// The last line that is no news of Gmsh's work: "terminate called after throwing ...".
+// The last line that is not a progress message: "terminate called after throwing ...".
 std::string last_words(const ChildEnd& end) {
   const std::vector<std::string> lines = lines_of(end.chatter);
   const auto at = std::find_if(lines.rbegin(), lines.rend(),
@@ -42,7 +42,7 @@ std::string last_words(const ChildEnd& end) {
 
 }  // namespace
 
-std::string place_of(const ChildEnd& end) {
+std::string last_step(const ChildEnd& end) {
   const std::vector<std::string> lines = lines_of(end.chatter);
   const auto at = std::find_if(lines.rbegin(), lines.rend(),
                                [](const std::string& line) { return line.starts_with(kInfo); });
@@ -54,8 +54,8 @@ std::string place_of(const ChildEnd& end) {
 
 std::string describe_end(const ChildEnd& end, const ChildLimits& limits) {
   const std::string words = last_words(end);
-  return fmt::format("gmsh {} at: {}{}", end.describe(limits), place_of(end),
-                     words.empty() ? "" : fmt::format(" (it said: {})", words));
+  return fmt::format("gmsh {} at: {}{}", end.describe(limits), last_step(end),
+                     words.empty() ? "" : fmt::format(" (last output: {})", words));
 }
 
 MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimits& limits) {
@@ -67,7 +67,7 @@ MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimi
   const std::string what = fmt::format("{}: {}", path.string(), describe_end(end, limits));
   if (end.kind == ChildEnd::Kind::kTimeLimit || end.kind == ChildEnd::Kind::kMemoryLimit)
     throw NumericsError(what);
-  throw InputError(what + ", expected a sound MSH file");
+  throw InputError(what + ", expected a valid MSH file");
 }
 
 }  // namespace clatter::mesh

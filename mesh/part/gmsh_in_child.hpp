@@ -1,5 +1,5 @@
 #pragma once
-// Gmsh and OpenCASCADE in a child process: both crash on real CAD files and damaged meshes, by
+// Gmsh and OpenCASCADE in a child process: both crash on real CAD files and corrupt meshes, by
 // signals, by exit and by throwing across callbacks (hard case N17).
 #include <filesystem>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace clatter::mesh {
 
-/// What Gmsh was at: its own last line about its work ("Meshing surface 7 (Cylinder,
+/// What Gmsh was doing: its last progress message ("Meshing surface 7 (Cylinder,
 /// Frontal-Delaunay)"), else the step of gmsh_call().
-std::string place_of(const ChildEnd& end);
+std::string last_step(const ChildEnd& end);
 
-/// "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (...)", with what was said
-/// on stderr last.
+/// "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (...)", with the last line
+/// of stderr.
 std::string describe_end(const ChildEnd& end, const ChildLimits& limits);
 
-/// Reads an MSH file with Gmsh in a child process. InputError for all that Gmsh reports and where
-/// it crashes on the file; NumericsError when a limit ended it.
+/// Reads an MSH file with Gmsh in a child process. InputError for errors and crashes of Gmsh;
+/// NumericsError when a limit ended it.
 MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimits& limits);
 
 }  // namespace clatter::mesh

@@ -52,7 +52,7 @@ void name_faces(const PartGeometry& part, const std::string& where, FaceList& li
   for (const NamedSurface& surface : part.surfaces) {
     try {
       const Selection selection = select_faces(list.faces, surface, scale, where);
-      for (const std::string& doubt : selection.doubts) warn(doubt);
+      for (const std::string& warning : selection.warnings) warn(warning);
       for (const std::string& remark : selection.remarks) say(remark);
       for (const int tag : selection.tags) list.surfaces[tag].push_back(surface.name);
     } catch (const InputError& nothing) {
@@ -91,7 +91,7 @@ ListedFaces list_faces(const Config& config, const std::string& where, bool tria
   result.list.name = config.text("name");
   result.list.unit = unit.name;
   result.metres = unit.metres;
-  read_mesh_settings(config);  // its keys are known ones
+  read_mesh_settings(config);  // marks its keys as known
   GmshSession session(result.list.name);
   const PartGeometry part = build_part(session, config);
   config.finish();
@@ -103,8 +103,8 @@ ListedFaces list_faces(const Config& config, const std::string& where, bool tria
     result.drawn = triangles_of(session, result.list);
     orient_faces(result.list, result.drawn);
   } catch (const NumericsError& failed) {
-    warn(fmt::format("{}: the faces cannot be drawn, nor is it known which side is outside: {}",
-                     where, failed.what()));
+    warn(fmt::format("{}: the faces cannot be drawn, and their outer side is unknown: {}", where,
+                     failed.what()));
   }
   return result;
 }
@@ -118,10 +118,9 @@ ListedFaces list_faces_in_child(const Config& config, const std::string& where, 
   const bool fell = !end.done() && end.kind != ChildEnd::Kind::kTimeLimit &&
                     end.kind != ChildEnd::Kind::kMemoryLimit;
   if (triangles && fell) {
-    warn(
-        fmt::format("{}: {}: the faces are listed without a picture, and it is not known which "
-                    "side of them is outside",
-                    where, describe_end(end, limits)));
+    warn(fmt::format(
+        "{}: {}: the faces are listed without triangles, and their outer side is unknown", where,
+        describe_end(end, limits)));
     end = attempt(false);
   }
   if (!end.done()) throw NumericsError(fmt::format("{}: {}", where, describe_end(end, limits)));

@@ -1,5 +1,5 @@
 #pragma once
-// A finished mesh as bytes (core/base/wire.hpp), from the child process in which gmsh works.
+// Serialisation of a finished mesh (core/base/wire.hpp), sent by the child process that runs gmsh.
 #include "core/base/stopwatch.hpp"
 #include "core/base/wire.hpp"
 #include "mesh/cad/gmsh_session.hpp"
@@ -33,14 +33,14 @@ void wire(Archive& archive, Self& s) {
 
 template <class Archive, SelfOf<WorstCell> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [value, block, cell, label, place] = s;
-  archive(value, block, cell, label, place);
+  auto& [value, block, cell, label, position] = s;
+  archive(value, block, cell, label, position);
 }
 
 template <class Archive, SelfOf<Measure> Self>
 void wire(Archive& archive, Self& s) {
-  auto& [worst, block, cell, label, place, low, high, histogram, by_type, worst_cells] = s;
-  archive(worst, block, cell, label, place, low, high, histogram, by_type, worst_cells);
+  auto& [worst, block, cell, label, position, low, high, histogram, by_type, worst_cells] = s;
+  archive(worst, block, cell, label, position, low, high, histogram, by_type, worst_cells);
 }
 
 template <class Archive, SelfOf<QualityReport> Self>

@@ -18,8 +18,8 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kCoarsest = 0.1;          // of the part's size: what Gmsh gives edges at most
-constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin round walls stay below
+constexpr double kCoarsest = 0.1;          // of the part's size: the largest edge that Gmsh makes
+constexpr double kVolumeTolerance = 0.01;  // coarse facets on thin curved walls are below
 
 using FaceTags = std::map<std::string, std::vector<int>>;
 
@@ -29,36 +29,36 @@ FaceTags find_surfaces(const std::vector<FaceFacts>& faces, const PartGeometry& 
   FaceTags tags;
   for (const NamedSurface& surface : part.surfaces) {
     const Selection selection = select_faces(faces, surface, scale, where);
-    for (const std::string& doubt : selection.doubts) warn(doubt);
+    for (const std::string& warning : selection.warnings) warn(warning);
     for (const std::string& remark : selection.remarks) say(remark);
     tags[surface.name] = selection.tags;
   }
   return tags;
 }
 
-// Gmsh gives edges a tenth of the part's size at most; so that larger sizes are one and the same
-// mesh, faces and solids get no more either. Coarser chords would cut through walls.
+// Gmsh limits edges to a tenth of the part's size; faces and solids get the same limit, so that all
+// larger sizes give the same mesh. Coarser chords would cut through walls.
 void cap_size(SizeSettings& sizes, double coarsest) {
   if (sizes.size <= coarsest) return;
   say(
       fmt::format("mesh: element size {:g} is above a tenth of the part's diagonal: {:.4g}, the "
-                  "coarsest there is, is taken (lengths in the part's unit)",
+                  "largest allowed, is used (lengths in the part's unit)",
                   sizes.size, coarsest));
   sizes.size = std::max(coarsest, sizes.min_size);
 }
 
-// Features far below the size asked for: cells there are as small as they are.
+// Features far below the requested size: they determine the size of cells there.
 void say_small_features(GmshSession& session, const std::vector<FaceFacts>& faces, double size) {
   constexpr double kFarBelow = 0.2;  // of the size: cells grow to it over several layers
   const SmallFeatures features = find_small_features(session, faces, kFarBelow * size);
   if (features.count() == 0) return;
-  say(
-      fmt::format("mesh: the part has features far smaller than its elements ({:g}), which rule "
-                  "the mesh around them: {}",
-                  size, describe_small_features(features)));
+  say(fmt::format(
+      "mesh: the part has features far smaller than its elements ({:g}), which determine "
+      "the mesh around them: {}",
+      size, describe_small_features(features)));
 }
 
-// A face's own size: the smaller of what the factor and the curvature ask for.
+// A face's local size: the smaller of those by factor and by curvature.
 double size_on(GmshSession& session, int face, const LocalSize& local, const SizeSettings& sizes) {
   double size = local.factor * sizes.size;
   const double radius = local.elements_per_turn > 0 ? session.smallest_radius(face) : 0.0;
@@ -94,7 +94,7 @@ SizeSettings size_settings(GmshSession& session, const MeshSettings& settings,
   return sizes;
 }
 
-// Gmsh's triangles say which face they lie on; the cell they belong to says where outside is.
+// Gmsh's triangles give their face; the cell they belong to gives the outer side.
 Surface surface_of(const RawMesh& raw, const std::vector<int>& tags,
                    const BoundaryFaces& boundary) {
   SurfaceBuilder surface;
@@ -117,7 +117,7 @@ int side_of(const IndexMatrix& triangles, const BoundaryFaces& boundary) {
   return outward.ids[static_cast<size_t>(at - outward.ids.begin() + 1) % 3] == corners[1] ? 1 : -1;
 }
 
-// Volume within the faces by a skin twice as fine as the mesh [cubed unit of the part].
+// Volume enclosed by a skin twice as fine as the mesh [cubed unit of the part].
 double volume_of_finer_skin(GmshSession& session, const RawMesh& raw, const BoundaryFaces& boundary,
                             SizeSettings sizes) {
   sizes.size /= 2.0;
@@ -145,7 +145,7 @@ double cad_volume_of(const GmshSession& session, const PartGeometry& part) {
 }
 
 // Where OpenCASCADE's integral over the solid and the mesh disagree, one of them is wrong: it takes
-// a fixed number of points on splines of any length, and is far off on wavy ones.
+// a fixed number of points on splines of any length, and has large errors on wavy ones.
 void certify_volume(GmshSession& session, const PartGeometry& part, const RawMesh& raw,
                     const BoundaryFaces& boundary, const SizeSettings& sizes,
                     double metres_per_unit, std::map<std::string, double>& certificate) {
@@ -162,7 +162,7 @@ void certify_volume(GmshSession& session, const PartGeometry& part, const RawMes
                       volume, cad_volume, integrated));
     say(
         fmt::format("mesh: OpenCASCADE integrates the part to {:.6g} m3, a skin twice as fine to "
-                    "{:.6g} m3: the second is taken as the CAD volume",
+                    "{:.6g} m3: the second is used as the CAD volume",
                     cad_volume, integrated));
     cad_volume = integrated;
   }

@@ -15,7 +15,7 @@
 namespace clatter::mesh {
 namespace {
 
-static_assert(sizeof(idx_t) == sizeof(int32_t), "Debian's METIS counts in 32 bits");
+static_assert(sizeof(idx_t) == sizeof(int32_t), "Debian's METIS has 32-bit indices");
 
 /// METIS in this process: k-way (its recursive bisection crashes on some graphs), contiguous parts,
 /// a seed of its own. False when it reports an error.
@@ -84,7 +84,7 @@ void check_parts(const CellNeighbours& graph, const Partition& partition) {
   }
   const auto lost = std::find(reached.begin(), reached.end(), false);
   if (lost != reached.end())
-    throw NumericsError(fmt::format("partition: part {} is in pieces: choose another number",
+    throw NumericsError(fmt::format("partition: part {} is not connected: choose another number",
                                     partition.part[static_cast<size_t>(lost - reached.begin())]));
 }
 
@@ -102,14 +102,14 @@ std::vector<int32_t> metis_parts(const CellNeighbours& graph, int parts) {
     ::_exit(good ? 0 : 1);
   }
   ::close(pipe[1]);
-  const bool whole = child > 0 && read_all(pipe[0], part.data(), bytes);
+  const bool complete = child > 0 && read_all(pipe[0], part.data(), bytes);
   ::close(pipe[0]);
   int status = 0;
   if (child > 0) ::waitpid(child, &status, 0);
   if (child < 0 || WIFSIGNALED(status))
     throw NumericsError(
         fmt::format("partition: METIS ended with signal {}", child < 0 ? 0 : WTERMSIG(status)));
-  if (!whole || status != 0) throw NumericsError("partition: METIS reported an error");
+  if (!complete || status != 0) throw NumericsError("partition: METIS reported an error");
   return part;
 }
 
@@ -174,7 +174,7 @@ Partition partition_cells(const Mesh& mesh, int parts) {
   if (parts == 1) return out;  // METIS divides by zero (hard case M2)
   const CellNeighbours graph = cell_neighbours(mesh);
   if (graph.neighbour.size() > static_cast<size_t>(std::numeric_limits<idx_t>::max()))
-    throw InputError(fmt::format("partition: found {} shared faces, more than METIS counts",
+    throw InputError(fmt::format("partition: found {} shared faces, more than METIS can index",
                                  graph.neighbour.size() / 2));
   const std::vector<int32_t> bodies = graph.bodies();
   if (const int32_t last = *std::max_element(bodies.begin(), bodies.end()); last > 0)

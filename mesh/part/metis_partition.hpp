@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a mesh by METIS (Karypis and Kumar, SIAM J. Sci. Comput. 20, 1998).
+// Partition of a mesh by METIS (Karypis and Kumar, SIAM J. Sci. Comput. 20, 1998).
 #include <cstdint>
 #include <vector>
 
@@ -23,18 +23,18 @@ struct CellNeighbours {
   std::vector<int32_t> bodies() const;
 };
 
-/// Neighbours across faces, found by corners alone: cells that share an edge only are none,
-/// whatever middle nodes lie on it (hard case M1).
+/// Neighbours across faces, found by corners alone: cells that share only an edge are not
+/// neighbours, whatever mid-side nodes lie on it (hard case M1).
 CellNeighbours cell_neighbours(const Mesh& mesh);
 
 /// Divides the cells into `parts` connected parts of nearly equal size with few faces between them;
-/// the same result on every run. METIS may crash or end the process on graphs that it does not
-/// bear, so it runs in a child process (hard case M4). InputError unless 1 <= parts <= cells and
-/// the mesh is one body; NumericsError when METIS fails, or leaves a part empty or in pieces.
+/// the same result on every run. METIS may crash or end the process on some graphs, so it runs in a
+/// child process (hard case M4). InputError unless 1 <= parts <= cells and the mesh is one body;
+/// NumericsError when METIS fails, or leaves a part empty or disconnected.
 Partition partition_cells(const Mesh& mesh, int parts);
 
-/// METIS on a graph of cells, in a child process: the part of each. NumericsError when it reports
-/// an error or dies.
+/// Runs METIS on a graph of cells, in a child process: the part of each cell. NumericsError when it
+/// reports an error or crashes.
 std::vector<int32_t> metis_parts(const CellNeighbours& graph, int parts);
 
 }  // namespace clatter::mesh

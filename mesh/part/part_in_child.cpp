@@ -36,13 +36,13 @@ void wire(Archive& archive, Self& s) {
 
 namespace {
 
-// A folder under $TMPDIR that goes with its owner.
+// A temporary folder under $TMPDIR.
 class ScratchFolder {
  public:
   ScratchFolder() {
     std::string path = (std::filesystem::temp_directory_path() / "clatter-mesh-XXXXXX").string();
     if (::mkdtemp(path.data()) == nullptr)
-      throw FileError(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
+      throw FileError(fmt::format("{}: cannot be created: {}", path, std::strerror(errno)));
     path_ = path;
   }
   ~ScratchFolder() {
@@ -61,7 +61,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << file.rdbuf();
-  if (!file) throw FileError(fmt::format("{}: cannot be read again", path.string()));
+  if (!file) throw FileError(fmt::format("{}: cannot be read back", path.string()));
   return std::move(bytes).str();
 }
 
@@ -100,7 +100,7 @@ bool limit_ended(const ChildEnd& end) {
   return end.kind == ChildEnd::Kind::kTimeLimit || end.kind == ChildEnd::Kind::kMemoryLimit;
 }
 
-// Steps of meshing bear Gmsh's name, those of the geometry do not (gmsh_call).
+// Names of meshing steps begin with "gmsh: ", those of geometry do not (gmsh_call).
 bool fell_while_meshing(const ChildEnd& end) {
   return !limit_ended(end) && end.step.starts_with("gmsh: ");
 }
@@ -108,21 +108,20 @@ bool fell_while_meshing(const ChildEnd& end) {
 std::string advice_of(const ChildEnd& end) {
   if (end.kind == ChildEnd::Kind::kTimeLimit) return "raise the limit or choose larger elements";
   if (end.kind == ChildEnd::Kind::kMemoryLimit)
-    return "choose larger elements, or raise the limit where the machine has more";
-  return "heal the part in its CAD program (tiny edges, faces that overlap) or export it in "
-         "another "
-         "format (STEP, BREP)";
+    return "choose larger elements, or raise the limit if the machine has more memory";
+  return "heal the part in its CAD program (tiny edges, overlapping faces) or export it in "
+         "another format (STEP, BREP)";
 }
 
 struct Attempt {
   MeshSettings settings;
-  std::string difference;  // from what was asked for
+  std::string difference;  // from the requested settings
 };
 
 Attempt simpler_than(MeshSettings settings) {
   if (settings.elements_per_turn > 0) {
     settings.elements_per_turn = 0;
-    return {settings, "without elements_per_turn (local sizes stay)"};
+    return {settings, "without elements_per_turn (local sizes are kept)"};
   }
   settings.adaptive_faces = true;
   return {settings, "with Gmsh's MeshAdapt on the faces"};
@@ -132,8 +131,8 @@ Attempt simpler_than(MeshSettings settings) {
 
 MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   const Stopwatch clock;
-  MeshSettings asked = read_mesh_settings(*job.config);
-  if (job.element_size > 0.0) asked.element_size = job.element_size;
+  MeshSettings requested = read_mesh_settings(*job.config);
+  if (job.element_size > 0.0) requested.element_size = job.element_size;
   std::optional<ScratchFolder> scratch;
   ChildLimits mine = limits;
   if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();
@@ -146,25 +145,26 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
     return made;
   };
 
-  const ChildEnd first = attempt(asked);
+  const ChildEnd first = attempt(requested);
   if (first.done()) return made_of(first, 0.0);
   const std::string fall =
-      fmt::format("{}: {}, with {}", job.where, describe_end(first, limits), sizes_of(asked));
+      fmt::format("{}: {}, with {}", job.where, describe_end(first, limits), sizes_of(requested));
   if (!fell_while_meshing(first))
     throw NumericsError(fmt::format("{}; {}", fall, advice_of(first)));
 
-  const Attempt simpler = simpler_than(asked);
-  warn(fmt::format("{}; trying once more {}", fall, simpler.difference));
+  const Attempt simpler = simpler_than(requested);
+  warn(fmt::format("{}; trying again {}", fall, simpler.difference));
   if (limits.seconds > 0.0) mine.seconds = std::max(1.0, limits.seconds - clock.seconds());
   const ChildEnd second = attempt(simpler.settings);
   if (second.done()) {
-    warn(fmt::format("{}: meshed {}: Gmsh does not survive what was asked for", job.where,
+    warn(fmt::format("{}: meshed {}: Gmsh crashes with the requested settings", job.where,
                      simpler.difference));
-    return made_of(second, asked.elements_per_turn > 0 ? 1.0 : 2.0);
+    return made_of(second, requested.elements_per_turn > 0 ? 1.0 : 2.0);
   }
   throw NumericsError(fmt::format("{}; then, {}: {}; try another element_size_mm{}, or {}", fall,
                                   simpler.difference, describe_end(second, limits),
-                                  asked.local.empty() ? "" : " or local sizes", advice_of(second)));
+                                  requested.local.empty() ? "" : " or local sizes",
+                                  advice_of(second)));
 }
 
 }  // namespace clatter::mesh

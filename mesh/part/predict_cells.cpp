@@ -29,7 +29,7 @@ double curved_size(double radius, const SizeSettings& settings) {
   return std::clamp(size, std::min(settings.min_size, settings.size), settings.size);
 }
 
-// Radius of the circle through three points; infinite where they are in line.
+// Radius of the circle through three points; infinite if they are collinear.
 double radius_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const double twice_area = (b - a).cross(c - a).norm();
   const double sides = (b - a).norm() * (c - b).norm() * (a - c).norm();
@@ -37,7 +37,7 @@ double radius_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen
   return straight ? std::numeric_limits<double>::infinity() : sides / (2.0 * twice_area);
 }
 
-// Length and smallest wanted size of the edge whose samples begin at `first`.
+// Length and smallest size of the edge whose samples begin at `first`.
 FaceSizes::Edge edge_sizes(const std::vector<Eigen::Vector3d>& points, size_t first,
                            const SizeSettings& settings) {
   FaceSizes::Edge edge{0.0, settings.size};
@@ -85,7 +85,7 @@ FaceSizes sizes_on(GmshSession& session, const FaceFacts& face, const SizeSettin
     FaceSizes::Edge edge = edge_sizes(face.edge_points, first, settings);
     edge.size = std::min(edge.size, largest);
     if (edge.length <= 0.0) continue;
-    edge.size = edge.length / std::ceil(edge.length / edge.size);  // whole segments, one at least
+    edge.size = edge.length / std::ceil(edge.length / edge.size);  // an integer number of segments
     sizes.edges.push_back(edge);
   }
   return sizes;
@@ -131,8 +131,8 @@ double require_few_cells(GmshSession& session, double volume, const SizeSettings
     turns = fmt::format(" and elements_per_turn = {}", settings.elements_per_turn);
   throw InputError(fmt::format(
       "{}: mesh: element_size_mm = {:g}{} on a part of {:.4g} x {:.4g} x {:.4g} mm makes about "
-      "{:.2g} cells, expected at most {:g} (max_cells): is the size in mm, and the part's unit "
-      "right? Else choose larger elements, set min_size_mm, or raise mesh.max_cells",
+      "{:.2g} cells, expected at most {:g} (max_cells): check that the size is in mm and the "
+      "part's unit is right, or choose larger elements, set min_size_mm, or raise mesh.max_cells",
       where, 1e3 * settings.element_size, turns, mm.x(), mm.y(), mm.z(), cells,
       settings.max_cells));
 }

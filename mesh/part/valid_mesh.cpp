@@ -19,13 +19,13 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr double kSpotFactor = 0.6;  // finer cells where slivers were
-constexpr double kFoldFactor = 0.5;  // and where cells folded
-constexpr size_t kHopeless = 2;      // times as many slivers: the part itself is so sharp there
-constexpr int64_t kMostGrowth = 2;   // times as many cells: no aim is worth more, slivers are told
-constexpr size_t kManyFolds = 500;   // HighOrder takes 0.2 s for each
+constexpr double kSpotFactor = 0.6;    // finer cells where slivers were
+constexpr double kFoldFactor = 0.5;    // and where cells folded
+constexpr size_t kHopeless = 2;        // times as many slivers: the part itself is that sharp
+constexpr int64_t kMostGrowth = 2;     // times as many cells: beyond that slivers are only reported
+constexpr size_t kManyFolds = 500;     // HighOrder takes 0.2 s for each
 constexpr double kLargestPull = 0.05;  // of the edge
-constexpr double kPulledRatio = 0.05;  // cells that are pulled straight get so good at least
+constexpr double kPulledRatio = 0.05;  // smallest scaled Jacobian after straightening
 
 Mesh convert(const RawMesh& raw, const PartGeometry& part, double metres_per_unit) {
   Mesh mesh;
@@ -60,7 +60,7 @@ double mean_edge(const Eigen::Matrix<double, 4, 3>& x) {
   return sum / 6.0;
 }
 
-// The session's linear mesh, one block a solid, in the session's unit.
+// The session's linear mesh, one block per solid, in the session's unit.
 Mesh linear_mesh(const RawMesh& raw) {
   Mesh mesh;
   mesh.nodes = raw.nodes;
@@ -70,8 +70,8 @@ Mesh linear_mesh(const RawMesh& raw) {
   return mesh;
 }
 
-// Where slivers cannot be lifted, the size does not fit a thin wall or a sharp corner. Finer cells
-// there make room for better ones.
+// Where slivers cannot be removed, the size does not fit a thin wall or a sharp corner. Finer cells
+// there allow better shapes.
 std::vector<FineSpot> spots_at_slivers(const Mesh& mesh, double limit_deg) {
   std::vector<FineSpot> spots;
   for (const CellBlock& block : mesh.cells) {
@@ -93,8 +93,8 @@ bool has_angle_below(const Mesh& mesh, double limit_deg) {
   });
 }
 
-// Meshes and lifts slivers; while some stay, meshes again with finer spots. Leaves the attempt with
-// the fewest in the session, made quadratic, and its sizes in `sizes`.
+// Meshes and removes slivers; while some remain, meshes again with finer spots. Leaves the attempt
+// with the fewest in the session, made quadratic, and its sizes in `sizes`.
 void generate_without_slivers(GmshSession& session, const MeshSettings& settings,
                               SizeSettings& sizes, bool split_corners) {
   const double target = settings.min_dihedral_deg;
@@ -103,7 +103,7 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
   const auto attempt = [&](const SizeSettings& trial) {
     session.generate(trial);
     RawMesh raw = session.extract();
-    enter_step("lifting slivers");
+    enter_step("removing slivers");
     Mesh linear = linear_mesh(raw);
     cells = linear.cell_count();
     int64_t edits = lift_slivers(linear, target).before;
@@ -135,7 +135,7 @@ void generate_without_slivers(GmshSession& session, const MeshSettings& settings
   session.make_quadratic();
 }
 
-// Where cells stay folded, the size does not fit the curvature.
+// Where cells remain folded, the size does not fit the curvature.
 void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityReport& folded,
                         double metres_per_unit) {
   for (const InvalidCell& cell : folded.invalid) {
@@ -145,7 +145,8 @@ void add_spots_at_folds(SizeSettings& sizes, const Mesh& mesh, const ValidityRep
   }
 }
 
-// "face 7 (Plane, centre (1, 2, 3))" of those that hold any of the nodes, in the part's unit.
+// "face 7 (Plane, centre (1, 2, 3))" of the faces that contain any of the nodes, in the part's
+// unit.
 std::string describe_faces_at(GmshSession& session, const std::set<int32_t>& nodes) {
   constexpr size_t kMost = 8;
   const RawMesh raw = session.extract();
@@ -162,7 +163,7 @@ std::string describe_faces_at(GmshSession& session, const std::set<int32_t>& nod
   return fmt::format("{}", fmt::join(faces, ", "));
 }
 
-// The last means; `mesh` has cells that stay folded.
+// The last remedy; `mesh` still has folded cells.
 void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mesh, Repair& repair) {
   const std::vector<PulledNode> pulled = straighten_cells(mesh, kPulledRatio);
   std::set<int32_t> too_far;
@@ -170,18 +171,18 @@ void pull_straight(GmshSession& session, const ValidityReport& folded, Mesh& mes
     if (p.distance > kLargestPull * p.edge) too_far.insert(p.node);
   if (!too_far.empty())
     throw NumericsError(fmt::format(
-        "mesh: {} of {} cells stay invalid after repair and {} nodes would have to leave the "
-        "geometry by more than {:g} of their edge; to blame: {}; choose smaller elements or "
+        "mesh: {} of {} cells are invalid after repair and {} nodes would have to leave the "
+        "geometry by more than {:g} of their edge; on the faces: {}; choose smaller elements or "
         "more per turn there: {}",
         folded.invalid.size(), mesh.cell_count(), too_far.size(), kLargestPull,
         describe_faces_at(session, too_far), describe_invalid(folded, 5)));
   repair.pulled = static_cast<int64_t>(pulled.size());
   if (!pulled.empty()) repair.largest_pull = pulled.front().distance;
-  say(fmt::format("mesh: {} middle nodes leave the geometry, by {:.2g} m at most", repair.pulled,
+  say(fmt::format("mesh: {} mid-side nodes leave the geometry, by {:.2g} m at most", repair.pulled,
                   repair.largest_pull));
 }
 
-// Gmsh's HighOrder on the session's mesh, then the local search; kept where that is better.
+// Gmsh's HighOrder on the session's mesh, then the local search; kept if that is better.
 void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings& settings,
               double metres_per_unit, Mesh& mesh, ValidityReport& folded, Repair& repair) {
   session.optimise_curved_cells();
@@ -192,7 +193,7 @@ void optimise(GmshSession& session, const PartGeometry& part, const MeshSettings
   mesh = std::move(trial);
   folded = std::move(report);
   repair.optimised = true;
-  say("mesh: curved cells unfolded by Gmsh's HighOrder: another run may give other bits");
+  say("mesh: curved cells unfolded by Gmsh's HighOrder: results may differ between runs");
 }
 
 }  // namespace
@@ -210,7 +211,7 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     repair.min_ratio_before = before.min_ratio;
     unfold_cells(mesh, settings.min_scaled_jacobian);
     folded = check_validity(mesh);
-    // HighOrder depends on where memory lies: other bits at each run. Finer cells come first.
+    // HighOrder depends on memory addresses and is not reproducible. Finer cells come first.
     const bool last = pass >= settings.refine_passes;
     if (folded.min_ratio < kQualityFloor.scaled_jacobian && (last || folded.invalid.empty()) &&
         before.invalid.size() <= kManyFolds)
@@ -218,10 +219,11 @@ Repair make_valid_mesh(GmshSession& session, const PartGeometry& part, const Mes
     if (folded.invalid.empty()) return repair;
     if (last) break;
     repair.optimised = false;
-    say(fmt::format("mesh: {} curved cells stay folded, refining there", folded.invalid.size()));
+    say(fmt::format("mesh: {} curved cells are still folded, refining there",
+                    folded.invalid.size()));
     add_spots_at_folds(sizes, mesh, folded, metres_per_unit);
   }
-  say(fmt::format("mesh: {} curved cells stay folded, smoothing the whole mesh",
+  say(fmt::format("mesh: {} curved cells are still folded, smoothing the entire mesh",
                   folded.invalid.size()));
   session.repair_curved_cells();
   mesh = convert(session.extract(), part, metres_per_unit);

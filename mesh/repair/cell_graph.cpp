@@ -81,19 +81,19 @@ void CellGraph::remove_cell(size_t cell) {
   for (int32_t node : cells_[cell]) std::erase(around_[static_cast<size_t>(node)], cell);
 }
 
-Eigen::Matrix<double, 4, 3> CellGraph::place_of(const TetCorners& corners) const {
+Eigen::Matrix<double, 4, 3> CellGraph::positions_of(const TetCorners& corners) const {
   Eigen::Matrix<double, 4, 3> x;
   for (int i = 0; i < 4; ++i) x.row(i) = point(corners[i]).transpose();
   return x;
 }
 
 double CellGraph::angle(const TetCorners& corners, double limit_deg) const {
-  const Eigen::Matrix<double, 4, 3> x = place_of(corners);
+  const Eigen::Matrix<double, 4, 3> x = positions_of(corners);
   return is_positive(x) ? smallest_dihedral(x, limit_deg) : -1.0;
 }
 
 double CellGraph::cosine(const TetCorners& corners) const {
-  const Eigen::Matrix<double, 4, 3> x = place_of(corners);
+  const Eigen::Matrix<double, 4, 3> x = positions_of(corners);
   return is_positive(x) ? largest_cosine(x) : 2.0;
 }
 

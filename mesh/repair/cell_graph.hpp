@@ -41,18 +41,18 @@ class CellGraph {
   void add_cell(const TetCorners& corners, int block);
   void remove_cell(size_t cell);
 
-  /// Smallest dihedral angle [deg]; -1 for a cell that is flat or inside out.
+  /// Smallest dihedral angle [deg]; -1 for a flat or inverted cell.
   double angle(const TetCorners& corners) const { return angle(corners, 180.0); }
   /// The same where it is below `limit_deg`, else some angle that is not (smallest_dihedral()).
   double angle(const TetCorners& corners, double limit_deg) const;
-  /// largest_cosine() of the cell; 2 for a cell that is flat or inside out.
+  /// largest_cosine() of the cell; 2 for a flat or inverted cell.
   double cosine(const TetCorners& corners) const;
 
-  /// Puts nodes and cells back into a mesh of the same blocks.
+  /// Writes nodes and cells back into a mesh of the same blocks.
   void store(Mesh& mesh) const;
 
  private:
-  Eigen::Matrix<double, 4, 3> place_of(const TetCorners& corners) const;
+  Eigen::Matrix<double, 4, 3> positions_of(const TetCorners& corners) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<TetCorners> cells_;

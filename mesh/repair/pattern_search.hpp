@@ -1,5 +1,5 @@
 #pragma once
-// The place of one node that makes its neighbourhood best, by trying.
+// Pattern search for the best position of one node.
 #include <Eigen/Core>
 #include <limits>
 #include <vector>
@@ -23,26 +23,26 @@ inline const std::vector<Eigen::Vector3d>& search_directions() {
 }
 
 /// Moves a point while the score rises: tries all directions at each step length, keeps the best
-/// place, halves the step. `place` is any reference-like view of the point that score(best) looks
-/// at; a score that is not above `best` need not be exact, so it may stop as soon as it knows that.
+/// position, halves the step. `point` is any reference-like view of the point that score(best)
+/// reads; a score that is not above `best` need not be exact, so its computation may stop early.
 /// Returns the best score.
-template <class Place, class Score>
-double search_place(Place place, double first_step, Score score) {
+template <class Point, class Score>
+double search_position(Point point, double first_step, Score score) {
   constexpr int kHalvings = 7;  // the last step is about a hundredth of the first
   double best = score(-std::numeric_limits<double>::infinity());
   double step = first_step;
   for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
-    const Eigen::Vector3d from = place.get();
+    const Eigen::Vector3d from = point.get();
     Eigen::Vector3d to = from;
     for (const Eigen::Vector3d& direction : search_directions()) {
-      place.set(from + step * direction);
+      point.set(from + step * direction);
       const double value = score(best);
       if (value > best) {
         best = value;
-        to = place.get();
+        to = point.get();
       }
     }
-    place.set(to);
+    point.set(to);
   }
   return best;
 }

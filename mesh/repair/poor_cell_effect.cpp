@@ -17,7 +17,7 @@ namespace {
 constexpr int kFields = 6;
 using Fields = Eigen::Matrix<double, Eigen::Dynamic, kFields>;
 
-// The rules that assembly takes for curved cells: what they miss, the model misses too.
+// The quadrature rules of assembly for curved cells, with the same errors.
 const CellRule& rule_of(CellType type) {
   switch (type) {
     case CellType::kTet10:
@@ -53,13 +53,13 @@ Eigen::Matrix<double, 3, kFields> gradients_at(const Eigen::Vector3d& x) {
 
 /// The nodes of poor cells and the cells around them.
 struct Region {
-  std::vector<int32_t> number;   // by node: its unknown, -1 for the others
-  std::vector<CellPlace> cells;  // that have at least one such node
+  std::vector<int32_t> number;   // by node: index of its unknown, -1 for the others
+  std::vector<CellIndex> cells;  // with at least one such node
   Eigen::Index unknowns = 0;
-  Eigen::Vector3d origin;  // near: keeps digits
+  Eigen::Vector3d origin;  // nearby: avoids cancellation
 };
 
-Region region_of(const Mesh& mesh, const std::vector<CellPlace>& poor) {
+Region region_of(const Mesh& mesh, const std::vector<CellIndex>& poor) {
   Region region;
   region.number.assign(static_cast<size_t>(mesh.nodes.rows()), -1);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -88,9 +88,9 @@ class BestFit {
     load_ = Fields::Zero(region.unknowns, kFields);
   }
 
-  void add(const Mesh& mesh, const CellPlace& place) {
-    const CellBlock& block = mesh.cells[static_cast<size_t>(place.first)];
-    CellNodes x = cell_nodes(mesh, block, place.second);
+  void add(const Mesh& mesh, const CellIndex& index) {
+    const CellBlock& block = mesh.cells[static_cast<size_t>(index.first)];
+    CellNodes x = cell_nodes(mesh, block, index.second);
     x.rowwise() -= region_.origin.transpose();
     Fields nodal(x.rows(), kFields);
     for (Eigen::Index i = 0; i < x.rows(); ++i) nodal.row(i) = values_at(x.row(i).transpose());
@@ -110,7 +110,7 @@ class BestFit {
       load += weight * gradient * error;
       interpolation_ += weight * error.colwise().squaredNorm();
     }
-    scatter(block.nodes.row(place.second), stiffness, load);
+    scatter(block.nodes.row(index.second), stiffness, load);
   }
 
   /// X(q) of each field.
@@ -135,7 +135,7 @@ class BestFit {
         const int32_t column = region_.number[static_cast<size_t>(nodes[j])];
         if (column >= 0 && column <= row) entries_.emplace_back(row, column, stiffness(i, j));
       }
-      // Where every node is free q_h is known but for a constant; this holds it.
+      // If every node is free q_h is known up to a constant; this fixes it.
       entries_.emplace_back(row, row, 1e-12 * stiffness(i, i));
     }
   }
@@ -148,9 +148,9 @@ class BestFit {
 
 }  // namespace
 
-double frequency_effect(const Mesh& mesh, const std::vector<CellPlace>& poor) {
+double frequency_effect(const Mesh& mesh, const std::vector<CellIndex>& poor) {
   constexpr double kBending = 3.0;  // |grad grad u|^2 of a bent wall over its curvature squared
-  std::vector<CellPlace> looked_at;
+  std::vector<CellIndex> looked_at;
   const size_t step = poor.size() / kMostPoorCells + 1;
   for (size_t i = 0; i < poor.size(); i += step)
     if (traits(mesh.cells[static_cast<size_t>(poor[i].first)].type).order > 1)
@@ -158,7 +158,7 @@ double frequency_effect(const Mesh& mesh, const std::vector<CellPlace>& poor) {
   if (looked_at.empty()) return 0.0;
   const Region region = region_of(mesh, looked_at);
   BestFit fit(region);
-  for (const CellPlace& place : region.cells) fit.add(mesh, place);
+  for (const CellIndex& index : region.cells) fit.add(mesh, index);
   const double volume = cell_volume(mesh);
   const double thickness = 2.0 * volume / integrate(mesh, mesh.surface("skin")).area;
   const double stiffer = kBending * static_cast<double>(step) * fit.excess().mean() /

@@ -1,9 +1,9 @@
 #pragma once
-// What poor cells cost: an estimate of the stiffness that they add, without the next stages.
+// The effect of poor cells: an estimate of the stiffness that they add, without the next stages.
 //
 // Walls bend: displacements are quadratic in the coordinates there, and a good quadratic cell has
-// every quadratic polynomial q. A cell whose curved edges squeeze its map has not: the mesh comes
-// no nearer to q than the q_h with the least
+// every quadratic polynomial q. A cell whose curved edges distort its map has not: the best
+// approximation of q on the mesh is the q_h with the least
 //
 //   X(q) = integral of |grad (q - q_h)|^2 dV
 //
@@ -15,8 +15,8 @@
 //
 //   relative change of omega^2 = 3 X / (V t^2 / 12),   of the frequency half of that.
 //
-// How good it is: mesh/README.md, tests/mesh/poor_cells_test.cpp. It has the energy of one wall
-// for all: where poor cells sit in the one place that a mode bends, the mode feels more.
+// Accuracy: mesh/README.md, tests/mesh/poor_cells_test.cpp. It assumes the same bending energy
+// everywhere: a mode that bends mainly at the poor cells changes more.
 #include <utility>
 #include <vector>
 
@@ -24,13 +24,13 @@
 
 namespace clatter::mesh {
 
-/// A cell by block and row.
-using CellPlace = std::pair<int32_t, int32_t>;
+/// A cell: block and row.
+using CellIndex = std::pair<int32_t, int32_t>;
 
-/// Estimated relative change of frequencies by these cells against good ones in their place. More
-/// than `kMostPoorCells` of them: every n-th is looked at and stands for n. 0 where all cells of
-/// the list are linear ones: they have no quadratic field, whatever their shape.
-double frequency_effect(const Mesh& mesh, const std::vector<CellPlace>& poor);
+/// Estimated relative change of frequencies by these cells, compared with good ones. Of more than
+/// `kMostPoorCells`, every n-th is evaluated and counts n times. 0 if all cells of the list are
+/// linear: they have no quadratic field, whatever their shape.
+double frequency_effect(const Mesh& mesh, const std::vector<CellIndex>& poor);
 inline constexpr size_t kMostPoorCells = 2000;
 
 }  // namespace clatter::mesh

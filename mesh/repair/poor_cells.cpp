@@ -31,11 +31,11 @@ std::vector<WorstCell> worst_below(const Measure& measure, double limit) {
   return worst;
 }
 
-std::string name_places(const std::vector<WorstCell>& cells, int64_t count, const char* value_unit,
-                        const PlaceUnit& unit) {
+std::string name_positions(const std::vector<WorstCell>& cells, int64_t count,
+                           const char* value_unit, const PositionUnit& unit) {
   std::vector<std::string> names;
   for (const WorstCell& cell : cells) {
-    const Eigen::Vector3d x = cell.place / unit.metres;
+    const Eigen::Vector3d x = cell.position / unit.metres;
     names.push_back(fmt::format("{:.3g}{} in cell {} at ({:.5g}, {:.5g}, {:.5g}) {}", cell.value,
                                 value_unit, cell.label, x.x(), x.y(), x.z(), unit.name));
   }
@@ -55,7 +55,7 @@ std::string effect_text(const PoorCells& poor) {
 PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
                           const QualityLimits& aims) {
   PoorCells poor;
-  std::vector<CellPlace> places;
+  std::vector<CellIndex> indices;
   double volume = 0.0;
   for (size_t b = 0; b < mesh.cells.size(); ++b) {
     const CellBlock& block = mesh.cells[b];
@@ -68,29 +68,29 @@ PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
       poor.below_floor += is_below(cell, kQualityFloor);
       poor.has_estimate = poor.has_estimate || traits(block.type).order > 1;
       volume += volume_of(block.type, x);
-      places.emplace_back(static_cast<int32_t>(b), static_cast<int32_t>(c));
+      indices.emplace_back(static_cast<int32_t>(b), static_cast<int32_t>(c));
     }
   }
-  poor.cells = static_cast<int64_t>(places.size());
-  if (places.empty()) return poor;
+  poor.cells = static_cast<int64_t>(indices.size());
+  if (indices.empty()) return poor;
   poor.volume_share = volume / cell_volume(mesh);
-  poor.frequency_effect = frequency_effect(mesh, places);
+  poor.frequency_effect = frequency_effect(mesh, indices);
   poor.worst_flat = worst_below(quality.min_dihedral_deg, aims.dihedral_deg);
   poor.worst_squeezed = worst_below(quality.scaled_jacobian, aims.scaled_jacobian);
   return poor;
 }
 
 std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                                const PlaceUnit& unit) {
+                                const PositionUnit& unit) {
   std::vector<std::string> kinds;
   if (poor.flat > 0)
     kinds.push_back(fmt::format("{} with a dihedral angle below {:g} deg ({})", poor.flat,
                                 aims.dihedral_deg,
-                                name_places(poor.worst_flat, poor.flat, " deg", unit)));
+                                name_positions(poor.worst_flat, poor.flat, " deg", unit)));
   if (poor.squeezed > 0)
     kinds.push_back(fmt::format("{} with a scaled Jacobian below {:g} ({})", poor.squeezed,
                                 aims.scaled_jacobian,
-                                name_places(poor.worst_squeezed, poor.squeezed, "", unit)));
+                                name_positions(poor.worst_squeezed, poor.squeezed, "", unit)));
   return fmt::format("{} of {} cells are poor: {}; {:.2g} % of the volume{}", poor.cells,
                      mesh.cell_count(), fmt::join(kinds, ", "), 100.0 * poor.volume_share,
                      effect_text(poor));
@@ -103,8 +103,8 @@ void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certi
   certificate["poor_cells_frequency_effect"] = poor.frequency_effect;
 }
 
-void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                      const PlaceUnit& unit, bool accept) {
+void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
+                      const PositionUnit& unit, bool accept) {
   if (poor.cells == 0) return;
   const std::string what = describe_poor_cells(poor, mesh, aims, unit);
   if (poor.below_floor == 0 || accept) {
@@ -114,7 +114,7 @@ void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimi
   throw NumericsError(fmt::format(
       "mesh: {} cells are below {:g} deg or a scaled Jacobian of {:g}, too poor to be trusted; {}: "
       "choose another element_size_mm or finer [[mesh.local]] there, suppress small features by "
-      "[cad] defeature_below, or take the mesh as it is by --accept-poor-cells ([mesh] "
+      "[cad] defeature_below, or accept the mesh with --accept-poor-cells ([mesh] "
       "accept_poor_cells = true)",
       poor.below_floor, kQualityFloor.dihedral_deg, kQualityFloor.scaled_jacobian, what));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Cells that are poorer than aimed at: where they are, what they cost, and when they are too poor.
+// Cells below the target quality: where they are, their effect, and when they are refused.
 #include <map>
 #include <string>
 #include <vector>
@@ -14,28 +14,28 @@ struct QualityLimits {
   double dihedral_deg, scaled_jacobian;
 };
 inline constexpr QualityLimits kQualityAims = {8.0, 0.2};
-/// Below, a mesh of our own is refused. Straight flat cells hardly move frequencies, but condition
-/// numbers grow by 1 / angle^2: at 0.1 deg solvers lose 5 to 6 of their 16 digits more than on good
-/// cells; a sheet of 0.1 mm in cells of 20 mm is still above. Curved cells that are squeezed to
-/// 0.02 have lost their quadratic fields, and no step of repair could help them.
+/// A mesh made here is refused below this. Straight flat cells hardly change frequencies, but
+/// condition numbers grow by 1 / angle^2: at 0.1 deg solvers lose 5 to 6 of their 16 digits more
+/// than on good cells; a sheet of 0.1 mm in cells of 20 mm is still above. Curved cells distorted
+/// to 0.02 have lost their quadratic fields, and no repair step could improve them.
 inline constexpr QualityLimits kQualityFloor = {0.1, 0.02};
 
-/// What is poor in a mesh.
+/// The poor cells of a mesh.
 struct PoorCells {
-  int64_t flat = 0, squeezed = 0;  // dihedral angle, scaled Jacobian below the aim
+  int64_t flat = 0, squeezed = 0;  // dihedral angle, scaled Jacobian below the target
   int64_t cells = 0;               // either
   int64_t below_floor = 0;         // either, below kQualityFloor
   double volume_share = 0.0;       // of the mesh
   double frequency_effect = 0.0;   // relative, estimated (poor_cell_effect.hpp)
-  std::vector<WorstCell> worst_flat, worst_squeezed;  // the worst few of each that are poor
-  bool has_estimate = false;                          // false where all poor cells are linear
+  std::vector<WorstCell> worst_flat, worst_squeezed;  // the worst few of each kind
+  bool has_estimate = false;                          // false when all poor cells are linear
 };
 
 PoorCells find_poor_cells(const Mesh& mesh, const QualityReport& quality,
                           const QualityLimits& aims = kQualityAims);
 
-/// A length unit for places: "mm" and 1e-3.
-struct PlaceUnit {
+/// A length unit for positions: "mm" and 1e-3.
+struct PositionUnit {
   std::string name = "mm";
   double metres = 1e-3;
 };
@@ -44,15 +44,15 @@ struct PlaceUnit {
 /// 3.4, 5) mm, ...), 9 with a scaled Jacobian below 0.2 (...); 0.02 % of the volume, estimated
 /// effect on frequencies 0.003 %".
 std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                                const PlaceUnit& unit);
+                                const PositionUnit& unit);
 
 /// For the certificate: poor_cells, poor_cells_below_floor, poor_cells_volume_share,
 /// poor_cells_frequency_effect.
 void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certificate);
 
-/// Warns of poor cells. NumericsError when some are below kQualityFloor and `accept` is false; says
-/// where, and the ways out.
-void judge_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
-                      const PlaceUnit& unit, bool accept);
+/// Warns of poor cells. NumericsError when some are below kQualityFloor and `accept` is false;
+/// gives their positions and the remedies.
+void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,
+                      const PositionUnit& unit, bool accept);
 
 }  // namespace clatter::mesh

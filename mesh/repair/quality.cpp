@@ -21,25 +21,25 @@ Measure make_measure(double low, double high, double best) {
   return m;
 }
 
-struct Place {
+struct CellRecord {
   CellType type;
   int32_t block, cell, label;
   Eigen::Vector3d centre;
 };
 
 // `sign` 1: small is bad; -1: large is bad.
-void record(Measure& m, double value, double sign, const Place& place) {
+void record(Measure& m, double value, double sign, const CellRecord& cell) {
   const double bins = static_cast<double>(m.histogram.size());
   const double position = (value - m.low) / (m.high - m.low) * bins;
   const auto bin = static_cast<size_t>(std::clamp(position, 0.0, bins - 1.0));
   ++m.histogram[bin];
-  auto& of_type = m.by_type[place.type];
+  auto& of_type = m.by_type[cell.type];
   of_type.resize(m.histogram.size());
   ++of_type[bin];
   const auto worse = [&](const WorstCell& a, const WorstCell& b) {
     return sign * a.value < sign * b.value;
   };
-  const WorstCell here{value, place.block, place.cell, place.label, place.centre};
+  const WorstCell here{value, cell.block, cell.cell, cell.label, cell.centre};
   if (m.worst_cells.size() < kWorstCells || worse(here, m.worst_cells.back())) {
     m.worst_cells.insert(std::upper_bound(m.worst_cells.begin(), m.worst_cells.end(), here, worse),
                          here);
@@ -47,10 +47,10 @@ void record(Measure& m, double value, double sign, const Place& place) {
   }
   if (sign * value >= sign * m.worst) return;
   m.worst = value;
-  m.block = place.block;
-  m.cell = place.cell;
-  m.label = place.label;
-  m.place = place.centre;
+  m.block = cell.block;
+  m.cell = cell.cell;
+  m.label = cell.label;
+  m.position = cell.centre;
 }
 
 // One end of an edge with the next corner of each of the two faces that meet there.
@@ -59,7 +59,7 @@ struct EdgeEnd {
 };
 
 // The corner that follows `here` in the face on the side away from `other`.
-int beside(const CellFace& face, int here, int other) {
+int next_corner(const CellFace& face, int here, int other) {
   const int n = traits(face.type).corners;
   for (int i = 0; i < n; ++i) {
     if (face.nodes[static_cast<size_t>(i)] != here) continue;
@@ -85,8 +85,8 @@ std::vector<EdgeEnd> edge_ends(CellType type) {
     std::vector<const CellFace*> pair;
     for (const CellFace& face : traits(type).faces)
       if (holds(face, a, b)) pair.push_back(&face);
-    ends.push_back({a, b, beside(*pair[0], a, b), beside(*pair[1], a, b)});
-    ends.push_back({b, a, beside(*pair[0], b, a), beside(*pair[1], b, a)});
+    ends.push_back({a, b, next_corner(*pair[0], a, b), next_corner(*pair[1], a, b)});
+    ends.push_back({b, a, next_corner(*pair[0], b, a), next_corner(*pair[1], b, a)});
   }
   return ends;
 }
@@ -129,20 +129,20 @@ void write_measure(H5File& file, const std::string& name, const Measure& m) {
   file.set(group, "worst_block", static_cast<int64_t>(m.block));
   file.set(group, "worst_cell", static_cast<int64_t>(m.cell));
   file.set(group, "worst_label", static_cast<int64_t>(m.label));
-  file.write(group + "/worst_place", Eigen::VectorXd(m.place));
+  file.write(group + "/worst_place", Eigen::VectorXd(m.position));
   for (const auto& [type, histogram] : m.by_type)
     file.write(fmt::format("{}/by_type/{}", group, traits(type).name), histogram);
   std::vector<int32_t> labels;
   std::vector<double> values;
-  RowMatrix places(static_cast<Eigen::Index>(m.worst_cells.size()), 3);
+  RowMatrix positions(static_cast<Eigen::Index>(m.worst_cells.size()), 3);
   for (const WorstCell& cell : m.worst_cells) {
-    places.row(static_cast<Eigen::Index>(labels.size())) = cell.place.transpose();
+    positions.row(static_cast<Eigen::Index>(labels.size())) = cell.position.transpose();
     labels.push_back(cell.label);
     values.push_back(cell.value);
   }
   file.write(group + "/worst_cells", labels);
   file.write(group + "/worst_values", values);
-  file.write(group + "/worst_places", places);
+  file.write(group + "/worst_places", positions);
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ Eigen::Matrix<double, 6, 1> dihedral_angles(const Eigen::Matrix<double, 4, 3>& c
 }
 
 double largest_cosine(const Eigen::Matrix<double, 4, 3>& corners) {
-  constexpr double kFlat = 1e-6;  // |n| >= kFlat L^2: the cosines are right to 4e-10
+  constexpr double kFlat = 1e-6;  // |n| >= kFlat L^2: the cosines are accurate to 4e-10
   const Eigen::Vector3d a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0),
                         c = corners.row(3) - corners.row(0);
   const Eigen::Vector3d ab = b - a, ac = c - a;
@@ -224,14 +224,13 @@ QualityReport measure_quality(const Mesh& mesh) {
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       const CellNodes x = cell_nodes(mesh, block, c);
       const auto corners = x.topRows(traits(block.type).corners);
-      const Place place{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
-                        cell_label(block, c), corners.colwise().mean().transpose()};
+      const CellRecord cell{block.type, static_cast<int32_t>(b), static_cast<int32_t>(c),
+                            cell_label(block, c), corners.colwise().mean().transpose()};
       const auto [low, high] = extreme_angles(block.type, x);
-      record(report.min_dihedral_deg, low, 1.0, place);
-      record(report.max_dihedral_deg, high, -1.0, place);
-      if (corners.rows() == 4)
-        record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, place);
-      record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, place);
+      record(report.min_dihedral_deg, low, 1.0, cell);
+      record(report.max_dihedral_deg, high, -1.0, cell);
+      if (corners.rows() == 4) record(report.radius_ratio, radius_ratio(x.topRows<4>()), 1.0, cell);
+      record(report.scaled_jacobian, jacobian_bounds(block.type, x).ratio(), 1.0, cell);
     }
   }
   return report;

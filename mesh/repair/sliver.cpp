@@ -19,10 +19,10 @@ using Eigen::Vector3d;
 
 constexpr int kSweeps = 8;
 constexpr double kFirstStep = 0.25;  // of the mean edge around the node
-constexpr double kWorthwhile = 0.5;  // degrees that an edit must gain
-constexpr double kBlunt = 100.0;     // degrees: clear of boxes' edges
+constexpr double kWorthwhile = 0.5;  // smallest gain of an edit, degrees
+constexpr double kBlunt = 100.0;     // degrees: above the edges of boxes
 
-/// The smallest dihedral angle of some cells, again and again while one of their nodes moves.
+/// The smallest dihedral angle of some cells, evaluated repeatedly while one of their nodes moves.
 class SmallestAngle {
  public:
   SmallestAngle(const CellGraph& graph, std::vector<TetCorners> cells)
@@ -35,7 +35,7 @@ class SmallestAngle {
     for (size_t c = 0; c < cells_.size(); ++c) {
       cosines_[c] = graph_.cosine(cells_[c]);
       if (cosines_[c] > enough + kCosineError && best >= -1.0) {
-        std::swap(cells_[c], cells_.front());  // it will end the next search too, mostly
+        std::swap(cells_[c], cells_.front());  // it usually ends the next search too
         return best;
       }
       if (cosines_[c] > largest) largest = cosines_[c];
@@ -70,9 +70,9 @@ struct GraphNode {
 };
 
 // Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
-double place_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
-  return search_place(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
-                      SmallestAngle(graph, cells));
+double move_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
+  return search_position(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
+                         SmallestAngle(graph, cells));
 }
 
 std::vector<TetCorners> corners_around(const CellGraph& graph, int32_t node) {
@@ -83,11 +83,11 @@ std::vector<TetCorners> corners_around(const CellGraph& graph, int32_t node) {
 
 using Edge = std::array<int32_t, 2>;
 
-/// Edges that get one node in common, what goes and what comes.
+/// Edges that get a common node, with the removed and added cells.
 struct Split {
   std::vector<size_t> removed;
   std::vector<TetCorners> added;
-  Vector3d place;
+  Vector3d position;
   double angle = -2.0;
 };
 
@@ -96,7 +96,8 @@ TetCorners with(TetCorners cell, int32_t old_node, int32_t new_node) {
   return cell;
 }
 
-// Tries one node on all of `edges` (one edge, or both diagonals of the cell, which then vanishes).
+// Tries one node on all of `edges` (one edge, or both diagonals of the cell, which is then
+// removed).
 Split try_split(CellGraph& graph, size_t cell, const std::vector<Edge>& edges) {
   Split split;
   Vector3d middle = Vector3d::Zero();
@@ -112,14 +113,14 @@ Split try_split(CellGraph& graph, size_t cell, const std::vector<Edge>& edges) {
   }
   std::sort(split.removed.begin(), split.removed.end());
   split.removed.erase(std::unique(split.removed.begin(), split.removed.end()), split.removed.end());
-  split.angle = place_node(graph, node, split.added);
-  split.place = graph.point(node);
+  split.angle = move_node(graph, node, split.added);
+  split.position = graph.point(node);
   graph.remove_last_node();
   return split;
 }
 
 void apply(CellGraph& graph, const Split& split, int block) {
-  graph.add_node(split.place);
+  graph.add_node(split.position);
   for (size_t c : split.removed) graph.remove_cell(c);
   for (const TetCorners& corners : split.added) graph.add_cell(corners, block);
 }
@@ -167,7 +168,7 @@ bool sweep(CellGraph& graph, const std::vector<size_t>& bad, double target_deg) 
     const TetCorners corners = graph.cell(c);
     const double before = graph.angle(corners);
     for (int32_t node : corners) {
-      if (!graph.fixed(node)) place_node(graph, node, corners_around(graph, node));
+      if (!graph.fixed(node)) move_node(graph, node, corners_around(graph, node));
     }
     changed = changed || graph.angle(corners) > before;
     if (graph.angle(corners) < target_deg) changed = split_cell(graph, c) || changed;
@@ -175,13 +176,13 @@ bool sweep(CellGraph& graph, const std::vector<size_t>& bad, double target_deg) 
   return changed;
 }
 
-// The cell's numbers in the graph, and the edge opposite to the one between its boundary faces.
+// The cell's nodes in the graph, and the edge opposite to the one between its boundary faces.
 struct Blunt {
   size_t cell;
   Edge opposite;
 };
 
-// Each block has a boundary of its own: regions share curved faces too.
+// Each block has its own boundary: regions share curved faces too.
 std::vector<Blunt> blunt_corners(const Mesh& mesh) {
   std::vector<Blunt> found;
   size_t first = 0;

@@ -11,7 +11,7 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr int kHalvings = 6;  // then straight: a 64th of a bow folds nothing that matters
+constexpr int kHalvings = 6;  // then straight: a 64th of a bow is negligible
 
 struct Bow {
   Eigen::Vector3d middle, from_middle;  // of the edge; of the node, as it was

@@ -13,7 +13,7 @@ namespace clatter::mesh {
 namespace {
 
 constexpr int kSweeps = 10;
-constexpr double kFirstStep = 0.1;  // of the cell's size: middle nodes have little room
+constexpr double kFirstStep = 0.1;  // of the cell's size: mid-side nodes can move little
 
 using CellId = std::pair<size_t, Eigen::Index>;  // block, row
 
@@ -52,8 +52,8 @@ class CurvedCells {
     return found;
   }
 
-  // Moves the free nodes of the cell until it is good enough, middle nodes before corners: those
-  // leave the straight shape alone. True when the cell got better.
+  // Moves the free nodes of the cell until it is good enough, mid-side nodes before corners: they
+  // keep the straight shape. True when the cell improved.
   bool improve(const CellId& id, double target) {
     const double before = ratio(id);
     const CellBlock& block = mesh_.cells[id.first];
@@ -61,8 +61,8 @@ class CurvedCells {
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;
-      search_place(Node{mesh_.nodes, node}, kFirstStep * size,
-                   [&](double best) { return worst_around(node, best); });
+      search_position(Node{mesh_.nodes, node}, kFirstStep * size,
+                      [&](double best) { return worst_around(node, best); });
     }
     return ratio(id) > before;
   }
@@ -75,8 +75,8 @@ class CurvedCells {
     void set(const Eigen::Vector3d& x) { nodes.row(row) = x.transpose(); }
   };
 
-  // Exact where it is above `best`. The cell that ends the search goes to the front: it will end
-  // the next one too, mostly.
+  // Exact where it is above `best`. The cell that ends the search goes to the front: it usually
+  // ends the next one too.
   double worst_around(int32_t node, double best) {
     double worst = 1.0;
     std::vector<CellId>& cells = around_[static_cast<size_t>(node)];

@@ -14,7 +14,7 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
 
 
 def sources(reader):
-    """The reader and what it stands on."""
+    """The reader and its dependencies."""
     if reader == 'msh':
         return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/base/error.cpp', HERE / 'msh_fuzz.cpp')]
     if reader == 'matrix':

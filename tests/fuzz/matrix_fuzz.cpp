@@ -1,5 +1,5 @@
 // Any text is either a symmetric matrix or an InputError: no crash, no hang, no runaway memory.
-// What was read is a lower triangle of finite values.
+// The result is a lower triangle of finite values.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,7 +1,6 @@
-"""clatter-mesh as a process on parts that meshers do not like (odd_parts.cpp), with random settings.
+"""clatter-mesh as a process on parts that are difficult to mesh (odd_parts.cpp), with random settings.
 
-Whatever the part and the settings: it ends within its limits with exit code 0, 2, 3 or 4; with 0 it says how good the
-mesh is, otherwise it says one line; it leaves no file, no process and nothing on stdout but what was asked for.
+Whatever the part and the settings: it ends within its limits with exit code 0, 2, 3 or 4; with 0 it prints the quality of the mesh, otherwise one error line; it leaves no file, no process and nothing on stdout but the requested output.
 
     mesh_process_fuzz.py [RUNS [SEED]]     runs and prints a table; CLATTER_BIN, CLATTER_BUILD as for the tests,
                                            CLATTER_FUZZ_TIME_LIMIT seconds for each (60)
@@ -30,7 +29,7 @@ def kinds():
 
 @dataclasses.dataclass
 class Run:
-    """One part with one setting, and what came of it."""
+    """One part with one setting, and the outcome."""
     kind: str
     part_seed: int
     settings: str
@@ -42,14 +41,14 @@ class Run:
     dihedral: float = 0.0
     faults: list = dataclasses.field(default_factory=list)
 
-    def place(self):
+    def label(self):
         return f'odd_parts {self.kind} {self.part_seed}, {self.settings!r}'
 
 
 def draw_settings(draw, quick):
-    """Text of [mesh] and what belongs to it: sizes from too large to fine, with and without curvature.
+    """Text of [mesh] and its tables: sizes from too large to fine, with and without curvature.
 
-    Quick ones are coarse and ask for no quality.
+    Quick ones are coarse and have no quality targets.
     """
     lines = ['[mesh]', f'element_size_mm = {10 ** draw.uniform(0.9 if quick else 0.0, 1.5):.3g}']
     if quick:
@@ -58,7 +57,7 @@ def draw_settings(draw, quick):
         lines.append(f'elements_per_turn = {draw.randint(4, 30)}')
     if draw.random() < 0.3:
         lines.append(f'min_size_mm = {10 ** draw.uniform(-2.0, 0.0):.3g}')
-    if draw.random() < 0.6:  # else the default's four, each a mesh of its own
+    if draw.random() < 0.6:  # else the default of four, each remeshing
         lines.append(f'refine_passes = {draw.randint(0, 2)}')
     if draw.random() < 0.4:
         lines += ['[[mesh.local]]', 'surface = "half"', f'factor = {draw.uniform(0.3, 1.0):.3g}']
@@ -71,7 +70,7 @@ def draw_settings(draw, quick):
 
 
 def children_left(folder):
-    """Processes that work in `folder`."""
+    """Processes whose working folder is `folder`."""
     left = []
     for process in pathlib.Path('/proc').glob('[0-9]*'):
         try:
@@ -83,7 +82,7 @@ def children_left(folder):
 
 
 def check(run, done, folder, before):
-    """Appends to run.faults what must not be."""
+    """Appends violations to run.faults."""
     errors = [line for line in done.stderr.splitlines() if line.startswith('clatter-mesh: error: ')]
     others = [line for line in done.stderr.splitlines() if not line.startswith(('clatter-mesh: error: ', 'warning: '))]
     if done.returncode not in (0, 2, 3, 4):
@@ -153,9 +152,9 @@ def runs(count, seed, time_limit, seconds=float('inf'), quick=False):
 
 
 def outcome(run):
-    """A word for the table."""
+    """Outcome in one word, for the table."""
     if run.code == 0:
-        return 'simpler' if 'Gmsh does not survive' in run.said else 'meshed'
+        return 'simpler' if 'Gmsh crashes with' in run.said else 'meshed'
     for word, text in (('crashed', 'crashed'), ('time', '--time-limit'), ('memory', '--memory-limit'),
                        ('too many', 'max_cells')):
         if text in run.said:
@@ -164,7 +163,7 @@ def outcome(run):
 
 
 def table(done):
-    """Markdown: a row a kind, a column an outcome."""
+    """Markdown table: a row per kind, a column per outcome."""
     words = ['meshed', 'simpler', 'refused', 'too many', 'crashed', 'time', 'memory', 'input', 'file', 'FAULT']
     count = collections.Counter((run.kind, outcome(run)) for run in done)
     used = [word for word in words if any(count[run.kind, word] for run in done)]

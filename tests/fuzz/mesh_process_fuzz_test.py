@@ -1,4 +1,4 @@
-"""clatter-mesh as a process never falls over: a short seeded run, and a long one for `make validate`."""
+"""clatter-mesh as a process ends properly on every part: a short seeded run, and a long one for `make validate`."""
 import os
 import sys
 import unittest
@@ -11,7 +11,7 @@ class MeshProcess(unittest.TestCase):
         done = list(runs)
         print(fuzz.table(done), file=sys.stderr)
         self.assertGreater(len(done), 0)
-        self.assertEqual([], [(run.place(), run.faults, run.said) for run in done if run.faults])
+        self.assertEqual([], [(run.label(), run.faults, run.said) for run in done if run.faults])
 
 
 class HardN17Short(MeshProcess):

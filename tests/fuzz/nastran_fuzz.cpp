@@ -1,5 +1,5 @@
-// Any text is either a deck or an InputError: no crash, no hang, no runaway memory. What is read
-// comes back from the writer.
+// Any text is either a deck or an InputError: no crash, no hang, no runaway memory. A deck that is
+// read survives the round trip through the writer.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Parts that meshers do not like, as STEP files: odd_parts KIND SEED FILE. Dimensions are drawn
-// from the seed, lengths in mm. Without arguments it lists the kinds.
+// Parts that are difficult to mesh, as STEP files: odd_parts KIND SEED FILE. Dimensions are random
+// by the seed, lengths in mm. Without arguments it lists the kinds.
 #include <gmsh.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::mt19937 engine;
 double draw(double low, double high) {
   return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
 }
-/// From low to high with equal chances in each decade.
+/// Log-uniform between low and high.
 double draw_log(double low, double high) { return low * std::pow(high / low, draw(0.0, 1.0)); }
 int draw_int(int low, int high) { return low + static_cast<int>(draw(0.0, high - low + 0.999)); }
 

@@ -1,4 +1,4 @@
-// Several solids in one CAD file: each is whole in the mesh, whatever OpenCASCADE integrates.
+// Several solids in one CAD file: each is complete in the mesh, whatever OpenCASCADE integrates.
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ void add_wavy_disk() {
 
 // That disk on a plate of 80 x 80 x 5 mm, and a nut with a hexagonal head's six sides on it.
 // Joined, the plate's upper face gets the spline, and OpenCASCADE's integral over the plate, whose
-// volume is 32 000 mm3 exactly, moves by 3.6e-5.
+// volume is 32 000 mm3 exactly, changes by 3.6e-5.
 void write_assembly(const std::filesystem::path& path) {
   GmshSession session("assembly");
   add_wavy_disk();
@@ -50,11 +50,11 @@ void write_assembly(const std::filesystem::path& path) {
   session.write_cad(path, "mm");
 }
 
-TEST(Assembly, HardG5_AVolumeThatMovesOnlyInOpenCascadesIntegralIsJudgedByTheMesh) {
+TEST(Assembly, HardG5_AVolumeThatChangesOnlyInOpenCascadesIntegralIsCheckedByTheMesh) {
   const Folder folder;
   write_assembly(folder / "assembly.step");
   {
-    GmshSession session("moved");  // the case is what it is meant to be
+    GmshSession session("moved");  // the preconditions of the case
     const Solids solids = session.import_cad(folder / "assembly.step", "mm");
     ASSERT_EQ(solids.size(), 3u);
     EXPECT_THROW(session.fragment(solids), NumericsError);
@@ -69,7 +69,7 @@ TEST(Assembly, HardG5_AVolumeThatMovesOnlyInOpenCascadesIntegralIsJudgedByTheMes
     if (volume > 30e-6) plate = volume;
     if (volume < 1e-6) nut = volume;
   }
-  EXPECT_NEAR(plate / 32e-6, 1.0, 1e-9);  // plane faces: rounding, and the spline lies in one
+  EXPECT_NEAR(plate / 32e-6, 1.0, 1e-9);  // plane faces: rounding, the spline lies in a plane
   const double exact = (1.5 * std::sqrt(3.0) * 25 - pi * 6.25) * 6e-9;
   EXPECT_NEAR(nut / exact, 1.0, 1e-2);  // a coarse round hole
 }
@@ -80,7 +80,7 @@ PartGeometry one_solid(double as_read, double joined) {
   return part;
 }
 
-TEST(Assembly, HardG5_ASolidThatLostAPieceIsNamedWithItsVolumesAndTheWayOut) {
+TEST(Assembly, HardG5_ASolidThatLostAPartIsNamedWithItsVolumesAndTheRemedy) {
   const Mesh mesh = mesh_toml(
                         "name = 'b'\nkind = 'box'\n[box]\nsize = [60, 20, 10]\n[mesh]\n"
                         "element_size_mm = 12\n")
@@ -93,7 +93,7 @@ TEST(Assembly, HardG5_ASolidThatLostAPieceIsNamedWithItsVolumesAndTheWayOut) {
   } catch (const NumericsError& error) {
     for (const char* text :
          {"a.toml: solid 'Nut M8', 7 of 18 at (30, 10, 5) mm", "12000.1 mm3 as read",
-          "12000 mm3 after joining", "its mesh has 12000 mm3", "cad.volume_tolerance (now 1e-06",
+          "12000 mm3 after joining", "by its mesh 12000 mm3", "cad.volume_tolerance (now 1e-06",
           "CAD program"})
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << text << "\n"
                                                                          << error.what();
@@ -106,13 +106,13 @@ TEST(Assembly, HardG5_ASolidThatLostAPieceIsNamedWithItsVolumesAndTheWayOut) {
   EXPECT_THROW(check_solid_volumes(lenient, mesh, 1e-3, "a.toml"), NumericsError);
 }
 
-// A round solid: the mesh is off by its chords, which is no lost piece.
+// A cylinder: the mesh differs by its chords, which is not a lost part.
 TEST(Assembly, HardG5_ChordsExplainWhatARoundSolidLacks) {
   const Meshed tube = mesh_toml(
       "name = 't'\nkind = 'cylinder'\n[cylinder]\nradius = 20\nlength = 30\n[mesh]\n"
       "element_size_mm = 15\n");
   const double exact = pi * 400 * 30, found = 1e9 * tube.volume("solid");
-  ASSERT_GT(std::abs(found - exact), 1e-5 * exact);  // coarse: chords are seen
+  ASSERT_GT(std::abs(found - exact), 1e-5 * exact);  // coarse: chords matter
   EXPECT_NO_THROW(check_solid_volumes(one_solid(exact, 1.0001 * exact), tube.part.mesh, 1e-3, "t"));
   EXPECT_THROW(check_solid_volumes(one_solid(1.5 * exact, exact), tube.part.mesh, 1e-3, "t"),
                NumericsError);

@@ -1,4 +1,4 @@
-// The unit that a CAD file says it is in; the description that a CAD file alone stands for.
+// The unit of a CAD file; the default description for a CAD file alone.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -36,7 +36,7 @@ TEST(CadUnit, StepNamesItsUnitAlsoOverSeveralLines) {
   EXPECT_EQ(unit_of("a.step", "ISO-10303-21;"), "");
 }
 
-TEST(CadUnit, IgesSaysItInItsGlobalSectionAndBrepNever) {
+TEST(CadUnit, IgesHasItInItsGlobalSectionAndBrepNever) {
   const std::string box = testing::iges_box({10, 20, 30});
   EXPECT_EQ(unit_of("a.igs", box), "mm");
   std::string inches = box;

@@ -26,7 +26,7 @@ TEST(Cell, VtkOrderSwapsTheLastTwoNodesAndIsItsOwnInverse) {
   EXPECT_EQ(back, gmsh);
 }
 
-TEST(Cell, MiddleNodesOfFacesLieBetweenTheirCorners) {
+TEST(Cell, MidSideNodesOfFacesLieBetweenTheirCorners) {
   const Tet10Nodes x = reference_tet10();
   for (const auto& face : kTetFaces) {
     for (int e = 0; e < 3; ++e) {
@@ -106,7 +106,7 @@ TEST(Validity, BezierBoundIsBelowEverySampleAndVerdictIsRight) {
       EXPECT_LE(bounds.min, 0.0);
     }
   }
-  EXPECT_GT(folded, 20);  // the cases do reach both sides
+  EXPECT_GT(folded, 20);  // both outcomes occur
   EXPECT_GT(valid, 20);
 }
 
@@ -135,7 +135,7 @@ TEST(Quality, RegularTetrahedronHasItsKnownAngles) {
   EXPECT_NEAR(radius_ratio(x), 1.0, 1e-14);
 }
 
-// Flat, needle-like and plain cells: the short way by normals must never give another answer.
+// Flat, needle-like and plain cells: the shortcut by normals must give the same answer.
 TEST(Quality, SmallestAngleByNormalsIsThatOfAllSixToTheLastBit) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -161,15 +161,15 @@ TEST(Quality, SmallestAngleByNormalsIsThatOfAllSixToTheLastBit) {
       EXPECT_NEAR(cosine, std::cos(exact * M_PI / 180.0), kCosineError);
     }
   }
-  EXPECT_GT(below, 4000);  // both sides are reached
+  EXPECT_GT(below, 4000);  // both outcomes occur
   EXPECT_GT(above, 4000);
 }
 
-TEST(Quality, WorstCellIsNamedWithItsPlace) {
+TEST(Quality, WorstCellIsNamedWithItsPosition) {
   const QualityReport q = measure_quality(one_cell());
   EXPECT_NEAR(q.min_dihedral_deg.worst, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
   EXPECT_NEAR(q.max_dihedral_deg.worst, 90.0, 1e-12);
-  EXPECT_NEAR(q.min_dihedral_deg.place.x(), 0.25, 1e-15);
+  EXPECT_NEAR(q.min_dihedral_deg.position.x(), 0.25, 1e-15);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Gmsh in a child process: the same bits as without, errors of the same kind, crashes told.
+// Gmsh in a child process: identical results, errors of the same kind, crashes reported.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -47,7 +47,7 @@ TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
       << there.cad.substr(0, 100);
 }
 
-TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndWords) {
+TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndMessage) {
   EXPECT_THROW(make("name = 'x'\nkind = 'cad'\n[cad]\nsource = 'none.step'\n"), InputError);
   try {
     make(kTube + "elements_per_trun = 3\n");
@@ -57,19 +57,19 @@ TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndWords) {
   }
 }
 
-TEST(HardN17_GmshInAChild, ItsLastNewsSayWhereItFell) {
+TEST(HardN17_GmshInAChild, TheLastMessageNamesTheStepThatCrashed) {
   ChildEnd end;
   end.kind = ChildEnd::Kind::kCrashed;
   end.signal = 11;
-  EXPECT_EQ(place_of(end), "its start");
+  EXPECT_EQ(last_step(end), "its start");
   end.step = "gmsh: meshing";
-  EXPECT_EQ(place_of(end), "gmsh: meshing");
+  EXPECT_EQ(last_step(end), "gmsh: meshing");
   end.chatter =
       "Info    : Meshing 2D...\nInfo    : [ 20%] Meshing surface 7 (Cylinder, Frontal-Delaunay)\n"
       "free(): invalid pointer\n";
   EXPECT_EQ(describe_end(end, {}),
             "gmsh crashed (signal 11, Segmentation fault) at: Meshing surface 7 (Cylinder, "
-            "Frontal-Delaunay) (it said: free(): invalid pointer)");
+            "Frontal-Delaunay) (last output: free(): invalid pointer)");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// clatter-mesh as a user meets it: exit codes, one line on stderr, nothing left behind.
+// clatter-mesh from the command line: exit codes, one line on stderr, no files left.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -56,7 +56,7 @@ TEST(CliMesh, MakesTheMeshTheStepFileAndTheExports) {
   for (const char* name : {"beam.step", "beam.vtu", "beam.msh"}) {
     EXPECT_GT(std::filesystem::file_size(folder / name), 1000u) << name;
   }
-  // And the second way in: the STEP file that was written.
+  // And from the STEP file that was written.
   const std::string again = put(folder,
                                 "name = 'beam'\nkind = 'cad'\n[cad]\nsource = 'beam.step'\n"
                                 "[surface.clamp]\nplane = { normal = [1, 0, 0], height = 0 }\n");
@@ -81,7 +81,7 @@ TEST(CliMesh, ReadsItsOwnGmshFileBackAndRefusesWhatNoGroupClaims) {
   EXPECT_EQ(first.cells[0].nodes, second.cells[0].nodes);
   const Outcome skipped =
       run(folder, msh + " --units m-kg-s --ignore solid -o " + again + " --quiet");
-  EXPECT_EQ(skipped.code, 2);  // nothing is left
+  EXPECT_EQ(skipped.code, 2);  // no cell remains
 }
 
 void expect_refused(const std::string& toml, int code, const std::string& text) {
@@ -96,7 +96,7 @@ void expect_refused(const std::string& toml, int code, const std::string& text) 
 }
 
 // A foil of 0.01 mm in cells of 12 mm: angles of 0.05 deg, whatever the mesh.
-TEST(CliMesh, HardG8_TooPoorCellsAreRefusedWithPlacesUnlessAccepted) {
+TEST(CliMesh, HardG8_TooPoorCellsAreRefusedWithPositionsUnlessAccepted) {
   const Folder folder;
   const std::string toml =
       "name = 'foil'\nkind = 'box'\n[box]\nsize = [60, 20, 0.01]\n"

@@ -60,8 +60,8 @@ void straighten_all(Mesh& mesh) {
           0.5 * (mesh.nodes.row(cell(kTetEdges[e][0])) + mesh.nodes.row(cell(kTetEdges[e][1])));
 }
 
-/// Some inner corner sinks toward the opposite face of a cell until that has a thousandth of its
-/// height, the first one that inverts no other cell by it.
+/// Moves an inner corner toward the opposite face of a cell until that has a thousandth of its
+/// height; the first corner that inverts no other cell.
 void flatten_one(Mesh& mesh) {
   std::vector<bool> outer(static_cast<size_t>(mesh.nodes.rows()), false);
   for (const int32_t node : nodes_of(mesh.surface("skin"))) outer[static_cast<size_t>(node)] = true;

@@ -108,7 +108,7 @@ TEST(FaceShape, PlaneAndSphere) {
   EXPECT_LT((sphere.point - ball.shift).norm(), 1e-11);
 }
 
-// Other programs write all faces as splines: what such a face is, is found by its points.
+// Some programs write all faces as splines: their shape is found from points.
 TEST(FaceShape, ASplineThatIsACylinderIsCalledSoAndAWavyOneIsNot) {
   const auto make = [](double wave) {
     return Patch(

@@ -1,4 +1,4 @@
-// Small features of CAD parts: they are told, taken out on request, and coarser stays coarser.
+// Small features of CAD parts: reported, removed on request; a larger size gives fewer cells.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(Features, HardG2_CrossingBoresAreUnfoldedByHighOrderWhereNoFinerCellsAreAll
   EXPECT_GT(made.certificate.at("min_scaled_jacobian"), kQualityFloor.scaled_jacobian);
 }
 
-TEST(Features, ASizeAboveATenthOfTheDiagonalIsTold) {
+TEST(Features, ASizeAboveATenthOfTheDiagonalIsReported) {
   ::testing::internal::CaptureStderr();
   mesh_toml(
       "name = 'b'\nkind = 'box'\n[box]\nsize = [60, 60, 60]\n[mesh]\n"
@@ -82,7 +82,7 @@ TEST(Features, ASizeAboveATenthOfTheDiagonalIsTold) {
       << said;
 }
 
-TEST(Features, ShortEdgesNarrowFacesAndSmallRadiiAreListedWithPlaces) {
+TEST(Features, ShortEdgesNarrowFacesAndSmallRadiiAreListedWithPositions) {
   const Folder folder;
   const std::string file = rounded_part(folder, 0.3);
   GmshSession session("small");
@@ -93,13 +93,13 @@ TEST(Features, ShortEdgesNarrowFacesAndSmallRadiiAreListedWithPlaces) {
   ASSERT_FALSE(features.faces.empty());
   ASSERT_FALSE(features.radii.empty());
   EXPECT_NEAR(features.radii.front().size, 0.3, 1e-3);
-  EXPECT_GT(features.edges.front().size, 0.1);  // poles and seams without length are none
+  EXPECT_GT(features.edges.front().size, 0.1);  // without poles and seams of zero length
   const std::string text = describe_small_features(features);
   EXPECT_NE(text.find("radii from 0.3 ("), std::string::npos) << text;
   EXPECT_EQ(find_small_features(session, faces, 0.1).count(), 0u);
 }
 
-TEST(Features, NarrowFacesAreTakenOutOnRequestAndTheVolumeIsWatched) {
+TEST(Features, NarrowFacesAreRemovedOnRequestAndTheVolumeIsChecked) {
   const Folder folder;
   const std::string file = rounded_part(folder, 0.3);
   GmshSession session("defeature");
@@ -117,7 +117,7 @@ TEST(Features, NarrowFacesAreTakenOutOnRequestAndTheVolumeIsWatched) {
   EXPECT_GT(session.extract().nodes.rows(), 50);
 }
 
-TEST(Features, TakingOutMoreThanAPercentIsRefused) {
+TEST(Features, RemovingMoreThanAPercentIsRefused) {
   const Folder folder;
   const std::string file = rounded_part(folder, 0.3);
   try {
@@ -128,16 +128,17 @@ TEST(Features, TakingOutMoreThanAPercentIsRefused) {
   }
 }
 
-// A step of 0.05 mm between parallel faces: nothing closes the gap, so the face stays and is told.
-TEST(Features, AFaceThatCannotGoStaysAndIsTold) {
+// A step of 0.05 mm between parallel faces: nothing closes the gap, so the face is kept and
+// reported.
+TEST(Features, AFaceThatCannotBeRemovedIsKeptAndReported) {
   GmshSession session("step");
   const Solids part = session.fuse({session.box({0, 0, 0}, {60, 40, 10})},
                                    {session.box({60, 0, 0}, {80, 40, 9.95})});
   const Defeatured d = defeature(session, part, 0.2);
-  EXPECT_EQ(d.asked, 1);
+  EXPECT_EQ(d.narrow_faces, 1);
   ASSERT_EQ(d.kept.size(), 1u);
   EXPECT_NEAR(d.kept[0].width, 0.05, 1e-3);
-  EXPECT_NEAR(d.kept[0].place.x(), 60.0, 1e-6);
+  EXPECT_NEAR(d.kept[0].position.x(), 60.0, 1e-6);
   EXPECT_NEAR(d.volume_after / d.volume_before, 1.0, 1e-9);
 }
 

@@ -55,7 +55,7 @@ TEST(MeshFile, TruncatedFileIsRefused) {
   EXPECT_NE(refusal(folder / "one.mesh.h5").find("one.mesh.h5"), std::string::npos);
 }
 
-TEST(MeshFile, FoldedCellIsRefusedWithItsPlace) {
+TEST(MeshFile, FoldedCellIsRefusedWithItsPosition) {
   const Folder folder;
   Tet10Nodes x = reference_tet10();
   x(4, 0) = 0.2;
@@ -105,7 +105,7 @@ TEST(Mesh, MissingSurfaceIsAnErrorThatListsTheOthers) {
 
 // Abaqus C3D10 (manual, "Three-dimensional solid element library"): nodes 5-10 lie on the edges
 // 1-2, 2-3, 3-1, 1-4, 2-4, 3-4.
-TEST(MeshExport, HardG3_AbaqusMiddleNodesLieOnAbaqusEdges) {
+TEST(MeshExport, HardG3_AbaqusMidSideNodesLieOnAbaqusEdges) {
   const Folder folder;
   const Mesh mesh = one_cell();
   export_mesh(mesh, folder / "one.inp");

@@ -39,7 +39,7 @@ inline std::string iges_box(const Eigen::Vector3d& size) {
   global.add("0.01,15H20200101.000000,1.0E-6,100.,4Htest,4Htest,11,0,15H20200101.000000;");
   const auto entity = [&](int type, const std::string& data) {
     const int first = parameters.count() + 1, entry = directory.count() + 1;
-    for (size_t from = 0; from < data.size();) {  // numbers stay whole
+    for (size_t from = 0; from < data.size();) {  // does not split numbers
       size_t length = std::min<size_t>(64, data.size() - from);
       if (from + length < data.size()) length = data.rfind(',', from + length - 1) - from + 1;
       parameters.add(fmt::format("{:<64}{:8}", data.substr(from, length), entry));
@@ -50,7 +50,7 @@ inline std::string iges_box(const Eigen::Vector3d& size) {
     directory.add(fmt::format("{:8}{:8}{:8}{:8}{:8}{:>8}{:>8}{:>8}{:8}", type, 0, 0,
                               parameters.count() - first + 1, 0, "", "", "entity", 0));
   };
-  entity(116, "116,0.,0.,0.,0;");  // a point: of a first patch Gmsh 4.8.4 makes no face
+  entity(116, "116,0.,0.,0.,0;");  // a point: Gmsh 4.8.4 skips the first entity
   for (int d = 0; d < 3; ++d) {
     for (const double at : {0.0, size[d]}) {
       std::array<Eigen::Vector3d, 4> p;

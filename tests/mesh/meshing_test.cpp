@@ -40,7 +40,7 @@ constexpr const char* kOneCylinder =
     "name = 'block'\nkind = 'block'\n[block]\ncylinders = 1\n"
     "[mesh]\nelement_size_mm = 30\nelements_per_turn = 16\n";
 
-TEST(Gmsh, HardG1_ThrownTextBecomesAnErrorOfOurs) {
+TEST(Gmsh, HardG1_AThrownStringBecomesAClatterError) {
   GmshSession session("g1");
   EXPECT_THROW(session.import_cad("/nowhere/part.step", "mm"), InputError);
   EXPECT_THROW(session.volume({4711}), NumericsError);
@@ -70,7 +70,7 @@ int64_t count_negative(const Mesh& mesh, const std::vector<Eigen::Vector4d>& poi
 
 // The block of hard case G2: 3.5 mm wall around a bore. With h = 20 as the largest size gmsh 4.8.4
 // makes 1126 cells: 6 are folded at their corners, none at the four Gauss points.
-TEST(Gmsh, HardG2_FoldedCellsBehindAThinRoundWallAreFoundAndRepaired) {
+TEST(Gmsh, HardG2_FoldedCellsInAThinCurvedWallAreFoundAndRepaired) {
   const auto thin_wall = [](GmshSession& session) {
     return session.cut({session.box({-50, -50, 0}, {50, 50, 150})},
                        {session.cylinder({0, 0, -1}, {0, 0, 152}, 46.5)});
@@ -108,7 +108,7 @@ TEST(Gmsh, HardG2_FoldedCellsBehindAThinRoundWallAreFoundAndRepaired) {
   EXPECT_GT(whole.certificate.at("min_scaled_jacobian"), 0.0);
 }
 
-TEST(Gmsh, HardG3_MiddleNodesOfAStraightBoxLieInTheMiddle) {
+TEST(Gmsh, HardG3_MidSideNodesOfAStraightBoxLieInTheMiddle) {
   const Mesh mesh = mesh_toml(kBeam).part.mesh;
   for (Eigen::Index c = 0; c < mesh.cells[0].nodes.rows(); ++c) {
     const Tet10Nodes x = tet_nodes(mesh, mesh.cells[0], c);
@@ -151,7 +151,7 @@ TEST(Gmsh, HardG5_BooleansGiveAnalyticVolumes) {
 }
 
 // The sample's block turned by 17 degrees about its x axis, written as STEP and read again: bores
-// and decks are found where they now lie.
+// and decks are found at their new positions.
 TEST(Gmsh, HardG5_FourBoresAndDecksAreFoundAfterARotation) {
   const Folder folder;
   const Vector3d up(0.0, -std::sin(17 * pi / 180), std::cos(17 * pi / 180));
@@ -197,7 +197,8 @@ TEST(Gmsh, HardG6_UnitsOfAStepFileAreKeptAndGuarded) {
   EXPECT_THROW(mesh_toml(head + source + "expected_box = [2.36, 0.79, 0.39]\n" + size), InputError);
 }
 
-// Gmsh reads IGES and does not write it: the file is six loose bilinear patches, in millimetres.
+// Gmsh reads IGES and does not write it: the file has six separate bilinear patches, in
+// millimetres.
 TEST(Gmsh, HardG6_UnitsOfAnIgesFileAreKeptAndGuardedAndItsFacesSewn) {
   const Folder folder;
   std::ofstream(folder / "beam.igs") << testing::iges_box({60, 20, 10});
@@ -243,14 +244,14 @@ TEST(Gmsh, HardG9_SurfaceIntegralGivesTheVolumeAndNormalsPointOut) {
 
 // gmsh_call.hpp refuses to compile against another major version or one before 4.8; what runs is
 // what was compiled against.
-TEST(Gmsh, HardG10_LibraryIsTheOneThatTheHeaderSays) {
+TEST(Gmsh, HardG10_LibraryVersionIsThatOfTheHeader) {
   EXPECT_TRUE(GmshSession::library_version().starts_with("4.")) << GmshSession::library_version();
   const GmshSession session("g10");
   EXPECT_TRUE(session.running_version().starts_with(GmshSession::library_version() + "."))
       << session.running_version();
 }
 
-TEST(Piston, GasPressureWorksOnTheWholeBoreArea) {
+TEST(Piston, GasPressureActsOnTheEntireBoreArea) {
   const Meshed m = mesh_toml(
       "name = 'piston'\nkind = 'piston'\n[piston]\npin_offset = 0.5\n"
       "[mesh]\nelement_size_mm = 16\nelements_per_turn = 16\n");
@@ -293,16 +294,16 @@ TEST(Mesher, ElementsPerTurnOnOneSurfaceRefineThatBoreOnly) {
   const Meshed plain = mesh_toml(kTube);
   const Meshed finer =
       mesh_toml(kTube + std::string("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n"));
-  const double asked = 2.0 * pi * 0.010 / 24.0;
-  EXPECT_GT(longest_edge(plain.part.mesh, "inner"), 2.0 * asked);
-  // Gmsh's edges are up to about 1.5 times as long as asked for.
-  EXPECT_LT(longest_edge(finer.part.mesh, "inner"), 1.6 * asked);
-  EXPECT_GT(longest_edge(finer.part.mesh, "outer"), 4.0 * asked);
+  const double requested = 2.0 * pi * 0.010 / 24.0;
+  EXPECT_GT(longest_edge(plain.part.mesh, "inner"), 2.0 * requested);
+  // Gmsh's edges are up to about 1.5 times the requested length.
+  EXPECT_LT(longest_edge(finer.part.mesh, "inner"), 1.6 * requested);
+  EXPECT_GT(longest_edge(finer.part.mesh, "outer"), 4.0 * requested);
 }
 
 // Cells whose centre lies within 6 mm of the bore: their mean edge follows size + growth *
 // distance.
-TEST(Mesher, GrowthSaysHowFastCellsCoarsenAwayFromASurface) {
+TEST(Mesher, GrowthIsTheRateOfCoarseningAwayFromASurface) {
   const auto count = [](double growth) {
     return mesh_toml(kTube +
                      ("[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 16\ngrowth = " +
@@ -313,7 +314,7 @@ TEST(Mesher, GrowthSaysHowFastCellsCoarsenAwayFromASurface) {
   EXPECT_GT(static_cast<double>(slow), 2.0 * static_cast<double>(fast));
 }
 
-TEST(Mesher, ALocalSizeThatAsksForNothingIsRefused) {
+TEST(Mesher, ALocalSizeWithoutEffectIsRefused) {
   EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_min'\ngrowth = 0.2\n")),
                InputError);
 }

@@ -108,7 +108,7 @@ TEST(Quality, EachCellTypeHasAHistogramAndTheWorstCellsComeFirst) {
 
 class MshOfAll : public ::testing::TestWithParam<int> {};
 
-// Gmsh numbers anew when it writes groups only: its nodes in our order, by place.
+// Gmsh renumbers when it writes only groups: its nodes in our order, by position.
 void take_numbers(Mesh& found, const Mesh& expected) {
   std::vector<int32_t> row(static_cast<size_t>(found.nodes.rows()), -1);
   for (Eigen::Index n = 0; n < found.nodes.rows(); ++n)
@@ -200,9 +200,9 @@ TEST(MshGroups, HardG4_CellsInNoGroupAreRefusedAndTheGroupsListed) {
       two_tets("1\n3 7 \"iron\"\n", "11 4 2 7 1 1 2 3 4\n12 4 2 0 2 2 3 4 5\n", 2);
   expect_refused(text,
                  "element 12 (Tetrahedron 4) is in no group of solids, expected one of: iron");
-  const deck::Deck let_go = read_text(text, {"no group"});
-  EXPECT_EQ(let_go.mesh.cell_count(), 1);
-  EXPECT_EQ(let_go.ignored.at("NO GROUP"), 1);
+  const deck::Deck ignored = read_text(text, {"no group"});
+  EXPECT_EQ(ignored.mesh.cell_count(), 1);
+  EXPECT_EQ(ignored.ignored.at("NO GROUP"), 1);
 }
 
 TEST(MshGroups, HardG4_WithoutGroupsOfSolidsAllCellsAreOneRegion) {
@@ -276,7 +276,7 @@ TEST(MshRefusals, EachNamesWhatItFound) {
   const std::string iron = "1\n3 7 \"iron\"\n", cells = "1 4 2 7 1 1 2 3 4\n2 4 2 7 1 2 3 4 5\n";
   const std::string both = "2\n3 7 \"iron\"\n2 9 \"plate\"\n";
   expect_refused(two_tets(both, cells + "3 2 2 9 1 2 3 4\n", 3), "lies within region 'iron'");
-  expect_refused(two_tets(both, cells + "3 2 2 9 1 1 2 5\n", 3), "is no face of a cell");
+  expect_refused(two_tets(both, cells + "3 2 2 9 1 1 2 5\n", 3), "is not a face of a cell");
   expect_refused(two_tets(both, cells + "3 9 2 9 1 1 2 3 4 5 6\n", 3), "other nodes than the tri3");
   expect_refused(two_tets(iron, cells + "3 14 2 7 1 1 2 3 4 5 6 1 2 3 4 5 6 1 2\n", 3),
                  "is a Pyramid 14");
@@ -288,7 +288,7 @@ TEST(MshRefusals, EachNamesWhatItFound) {
       two_tets("2\n3 7 \"iron\"\n3 8 \"iron\"\n", "1 4 2 7 1 1 2 3 4\n2 4 2 8 2 2 3 4 5\n", 2),
       "two groups of dimension 3");
   expect_refused(two_tets("2\n3 7 \"iron\"\n2 9 \"skin\"\n", cells + "3 2 2 9 1 1 3 2\n", 3),
-                 "not the whole boundary");
+                 "not the entire boundary");
   expect_refused(two_tets(iron, "1 4 2 7 1 1 2 3 4\n1 4 2 7 1 2 3 4 5\n", 2),
                  "two elements with the number 1");
   expect_refused(two_tets(iron, "1 4 2 7 1 1 2 4 3\n2 4 2 7 1 2 3 4 5\n", 2), "inverted or folded");

@@ -43,7 +43,7 @@ std::string refusal(const Mesh& mesh, int parts) {
 }
 
 TEST(HardM1, QuadraticTetrahedraThatShareAnEdgeAreNoNeighbours) {
-  // Two tet10 with the edge 0-1 in common: three shared nodes with the middle one, no face.
+  // Two tet10 with the edge 0-1 in common: three shared nodes with the mid-side node, no face.
   Mesh mesh;
   mesh.nodes = RowMatrix::Zero(17, 3);
   mesh.regions = {"body"};
@@ -56,14 +56,14 @@ TEST(HardM1, QuadraticTetrahedraThatShareAnEdgeAreNoNeighbours) {
   EXPECT_NE(refusal(mesh, 2).find("found 2 bodies"), std::string::npos);
 }
 
-TEST(HardM1, CubesOfASmallMeshDoComeApart) {
+TEST(HardM1, CubesOfASmallMeshAreSeparated) {
   Mesh mesh = cubes(2);
   const Partition two = partition_cells(mesh, 2);
   EXPECT_EQ(std::count(two.part.begin(), two.part.end(), 0), 4);
   EXPECT_EQ(two.cut, 4);  // half of 2 x 2 x 2 cubes: one layer of four faces
 }
 
-TEST(HardM2, OnePartIsTheWholeMeshAndMetisIsNotAsked) {
+TEST(HardM2, OnePartIsTheEntireMeshAndMetisIsNotCalled) {
   const Partition one = partition_cells(cubes(2), 1);
   EXPECT_EQ(one.part, std::vector<int32_t>(8, 0));
   EXPECT_EQ(one.cut, 0);
@@ -111,7 +111,7 @@ TEST(HardM3, TooManyPartsAreRefused) {
 }
 
 TEST(HardM4, MetisThatDiesIsAnErrorHere) {
-  // A graph whose rows point far outside: METIS reads foreign memory, in the child.
+  // A graph whose rows point far outside: METIS reads invalid memory, in the child.
   CellNeighbours broken;
   broken.start = {0, 1000000000, 2000000000};
   broken.neighbour = {1, 0};

@@ -1,4 +1,4 @@
-// Poor cells: what they cost against what is said, and when a mesh is refused.
+// Poor cells: true against estimated effect, and when a mesh is refused.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ Eigen::VectorXd clamped_hz(const Mesh& mesh) {
   return fe::lowest_hz(model.K, model.M, 8);
 }
 
-/// Middle nodes of every n-th edge go along it to `share` of its length; no two of these edges
+/// Moves mid-side nodes of every n-th edge along it to `share` of its length; no two of these edges
 /// have a corner in common. 0.25 folds the cells at that corner.
 Mesh squeezed(Mesh mesh, int every, double share) {
   std::set<int32_t> used;
@@ -67,7 +67,7 @@ TEST(PoorCells, HardG8_EstimatedEffectIsThatOnFrequenciesWithinAFactorOfFive) {
   }
 }
 
-// One node of a straight-edged mesh sinks to a thousandth of its height above the opposite face:
+// One node of a straight-edged mesh moves to a thousandth of its height above the opposite face:
 // angles of 0.1 deg. Quadratic cells with straight edges have every quadratic field, however flat.
 TEST(PoorCells, HardG8_FlatStraightCellsHardlyMoveFrequenciesAndTheEstimateSaysSo) {
   const Mesh good = fe::block_mesh({6, 3, 3}, fe::brick({0.06, 0.03, 0.03}));
@@ -110,15 +110,15 @@ TEST(PoorCells, TheWorstAreNamedInThePartsUnitAndBelowTheFloorRefused) {
   const PoorCells poor = poor_cells_of(spoiled);
   ASSERT_GT(poor.below_floor, 0);
   const std::string text = describe_poor_cells(poor, spoiled, kQualityAims, {"cm", 1e-2});
-  const Eigen::Vector3d place = poor.worst_squeezed.at(0).place / 1e-2;
-  EXPECT_NE(
-      text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", place.x(), place.y(), place.z())),
-      std::string::npos)
+  const Eigen::Vector3d position = poor.worst_squeezed.at(0).position / 1e-2;
+  EXPECT_NE(text.find(fmt::format("at ({:.5g}, {:.5g}, {:.5g}) cm", position.x(), position.y(),
+                                  position.z())),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("estimated effect on frequencies"), std::string::npos) << text;
-  EXPECT_NO_THROW(judge_poor_cells(poor, spoiled, kQualityAims, {}, true));
+  EXPECT_NO_THROW(check_poor_cells(poor, spoiled, kQualityAims, {}, true));
   try {
-    judge_poor_cells(poor, spoiled, kQualityAims, {}, false);
+    check_poor_cells(poor, spoiled, kQualityAims, {}, false);
     FAIL() << "not refused";
   } catch (const NumericsError& error) {
     const std::string said = error.what();

@@ -51,7 +51,7 @@ void expect_refused(const std::string& toml, const std::vector<std::string>& say
 TEST(Predict, ASizeTypedInMetresIsRefusedBeforeMeshing) {
   expect_refused(kBox + "element_size_mm = 0.012\n",
                  {"part.toml", "element_size_mm = 0.012", "60 x 20 x 10 mm", "e+10 cells",
-                  "max_cells", "unit right?"});
+                  "max_cells", "unit is right"});
   expect_refused("length_unit = 'm'\n" + kBox + "element_size_mm = 12\n",
                  {"6e+04 x 2e+04 x 1e+04 mm"});
   expect_refused(kTube + "element_size_mm = 10\nelements_per_turn = 900\nmax_cells = 1e5\n",

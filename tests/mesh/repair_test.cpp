@@ -36,7 +36,7 @@ TEST(Sliver, SquareSliverVanishesByOneNodeOnItsCrossingDiagonals) {
   EXPECT_EQ(report.before, 1);
   EXPECT_EQ(report.after, 0);
   EXPECT_EQ(report.new_nodes, 1);
-  EXPECT_EQ(mesh.cell_count(), 8);  // the sliver gone, four cells halved
+  EXPECT_EQ(mesh.cell_count(), 8);  // the sliver removed, four cells halved
   EXPECT_GT(smallest_angle(mesh), 20.0);
   EXPECT_NEAR(cell_volume(mesh), volume, 1e-14);  // the boundary stayed: rounding only
   EXPECT_NO_THROW(boundary_faces(mesh));
@@ -98,7 +98,7 @@ TEST(Sliver, ACellWithTwoFacesInOneRoundFaceIsDivided) {
   mesh.cells = {block};
   const double volume = cell_volume(mesh);
   ASSERT_GT(volume, 0.0);
-  EXPECT_EQ(split_blunt_corners(mesh, 89.0), 0);  // the pieces would have sharper angles
+  EXPECT_EQ(split_blunt_corners(mesh, 89.0), 0);  // the new cells would have sharper angles
   EXPECT_EQ(split_blunt_corners(mesh, 8.0), 0);   // 70.5 degrees at the equator: not blunt
   mesh.nodes.col(2) *= 3.0;
   EXPECT_EQ(split_blunt_corners(mesh, 8.0), 1);  // one node on the axis serves all four cells
@@ -106,8 +106,8 @@ TEST(Sliver, ACellWithTwoFacesInOneRoundFaceIsDivided) {
   EXPECT_NEAR(cell_volume(mesh), 3.0 * volume, 1e-15);
 }
 
-// Face 1 lies in z = 0; an edge of face 2 goes through it, face 3 stands beside.
-TEST(SkinCrossing, NamesTheFacesAndThePlace) {
+// Face 1 lies in z = 0; an edge of face 2 pierces it, face 3 is next to it.
+TEST(SkinCrossing, NamesTheFacesAndThePosition) {
   RowMatrix nodes(9, 3);
   nodes << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, 9, 9, 1, 3, 3, -1, 3, 3, 1, 9, 9, 2;
   std::map<int, IndexMatrix> triangles;
@@ -119,7 +119,7 @@ TEST(SkinCrossing, NamesTheFacesAndThePlace) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].face, 1);
   EXPECT_EQ(found[0].other, 2);
-  EXPECT_EQ(found[0].place, Eigen::Vector3d(1, 1, 0));
+  EXPECT_EQ(found[0].position, Eigen::Vector3d(1, 1, 0));
   triangles.erase(2);
   EXPECT_TRUE(find_crossings(nodes, triangles).empty());
 }

@@ -77,7 +77,7 @@ TEST(Select, NothingSelectedNamesTheNearestFacesAndHowFarOffEachIs) {
             begin + "axis turned by 90 deg" + faces);
   EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n"
                     "box = { min = [0, -2, 0], max = [7, 2, 2] }"),
-            begin + "reaches 1 mm out of the box" + faces);
+            begin + "extends 1 mm out of the box" + faces);
 }
 
 // The bore's centre was read off a drawing, 5 um beside where it is.
@@ -86,10 +86,10 @@ TEST(Select, AFaceFiveMicrometresOffIsTakenAndTold) {
       "[surface.bore]\ncylinder = { radius = 2, point = [5.005, 0, 0], axis = [0, 0, 1] }");
   const Selection selection = select_faces({cylinder_face()}, named[0], kScale, "part.toml");
   EXPECT_EQ(selection.tags, std::vector<int>{4});
-  ASSERT_EQ(selection.doubts.size(), 1u);
-  EXPECT_EQ(selection.doubts[0],
+  ASSERT_EQ(selection.warnings.size(), 1u);
+  EXPECT_EQ(selection.warnings[0],
             "part.toml: surface 'bore': face 4, cylinder of radius 2 mm, axis 0.005 mm away, is "
-            "taken as none is closer: tolerance = 0.0055 in [surface.bore] says that it is meant");
+            "taken as none is closer: tolerance = 0.0055 in [surface.bore] confirms it");
 }
 
 TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
@@ -102,13 +102,13 @@ TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
       "[surface.s]\ncylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n";
   const Selection exact = select_faces({cylinder_face(), beside}, surfaces(bore)[0], kScale, "t");
   EXPECT_EQ(exact.tags, std::vector<int>{4});
-  EXPECT_TRUE(exact.doubts.empty());
+  EXPECT_TRUE(exact.warnings.empty());
   ASSERT_EQ(exact.remarks.size(), 1u);
   EXPECT_NE(exact.remarks[0].find("face 7"), std::string::npos) << exact.remarks[0];
   const Selection wide =
       select_faces({cylinder_face(), beside}, surfaces(bore + "tolerance = 0.01")[0], kScale, "t");
   EXPECT_EQ(wide.tags, (std::vector<int>{4, 7}));
-  EXPECT_TRUE(wide.doubts.empty() && wide.remarks.empty());
+  EXPECT_TRUE(wide.warnings.empty() && wide.remarks.empty());
   const auto narrow = surfaces(
       "[surface.s]\ntolerance = 1e-4\ncylinder = { radius = 2, point = "
       "[5.005, 0, 0], axis = [0, 0, 1] }");

@@ -65,7 +65,7 @@ TEST_P(EveryCell, FunctionsReproduceEveryPolynomialOfTheirOrder) {
   EXPECT_NEAR(sum, polynomial(at), 1e-13);
 }
 
-TEST_P(EveryCell, FacesPointOutwardAndTheirMiddlesLieOnTheirEdges) {
+TEST_P(EveryCell, FacesPointOutwardAndTheirMidSideNodesLieOnTheirEdges) {
   const CellNodes x = reference_nodes(GetParam());
   const Eigen::RowVector3d centre = x.colwise().mean();
   for (const CellFace& face : traits(GetParam()).faces) {
@@ -78,9 +78,9 @@ TEST_P(EveryCell, FacesPointOutwardAndTheirMiddlesLieOnTheirEdges) {
   }
 }
 
-TEST_P(EveryCell, OrdersOfOtherProgramsPutMiddlesWhereTheirManualsSay) {
+TEST_P(EveryCell, OrdersOfOtherProgramsPutMidSideNodesWhereTheirManualsSay) {
   const CellTraits& cell = traits(GetParam());
-  // Corner pairs of the middle nodes, one-based, as printed in the manuals.
+  // Corner pairs of the mid-side nodes, one-based, as printed in the manuals.
   using Edges = std::vector<std::pair<int, int>>;
   const Edges tet = {{1, 2}, {2, 3}, {1, 3}, {1, 4}, {2, 4}, {3, 4}};
   const Edges pyramid = {{1, 2}, {2, 3}, {3, 4}, {4, 1}, {1, 5}, {2, 5}, {3, 5}, {4, 5}};

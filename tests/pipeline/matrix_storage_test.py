@@ -32,17 +32,17 @@ TYPES = [
 
 
 def placed(cell, kind):
-    """Nodes of the cell: as its reference, with shifted corners, with shifted middles too."""
+    """Nodes of the cell: as its reference, with shifted corners, with shifted mid-side nodes too."""
     random = np.random.default_rng(3)
     corners = cell.nodes[:len(cell.nodes) if cell.order == 1 else len(cell.nodes) - len(reference.EDGES[cell.shape])]
     if kind != "box":
         corners = corners + random.uniform(-0.15, 0.15, corners.shape)
     if cell.order == 1:
         return corners
-    middles = np.array(reference.middles(cell.shape, corners))
+    mid_side_nodes = np.array(reference.mid_side_nodes(cell.shape, corners))
     if kind == "curved":
-        middles += random.uniform(-0.05, 0.05, middles.shape)
-    return np.vstack([corners, middles])
+        mid_side_nodes += random.uniform(-0.05, 0.05, mid_side_nodes.shape)
+    return np.vstack([corners, mid_side_nodes])
 
 
 def deck(name, x):

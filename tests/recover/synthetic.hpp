@@ -15,7 +15,7 @@ struct Mesh6 {
 };
 
 /// A sphere of radius 1 about the origin: the icosahedron, each face split `levels` times in four,
-/// every node (also the middles of edges) on the sphere. 20 * 4^levels faces.
+/// every node (also mid-side nodes) on the sphere. 20 * 4^levels faces.
 Mesh6 unit_sphere(int levels);
 
 /// A box [0, size] of flat quadratic triangles, n x n squares a side, two triangles each.

@@ -27,7 +27,7 @@ def tetrahedra():
     return cells
 
 
-# Cells of a brick, edges with middle nodes.
+# Cells of a brick, edges with mid-side nodes.
 SHAPES = {
     "C3D8": ([BRICK], []),
     "C3D8I": ([BRICK], []),
@@ -49,8 +49,8 @@ class Grid:
         for first in itertools.product(*map(range, bricks)):
             for part in parts:
                 corners = 2 * (np.array(first) + part)
-                middles = [(corners[a] + corners[b]) // 2 for a, b in edges]
-                cell = [tuple(map(int, place)) for place in (*corners, *middles)]
+                mid_side_nodes = [(corners[a] + corners[b]) // 2 for a, b in edges]
+                cell = [tuple(map(int, place)) for place in (*corners, *mid_side_nodes)]
                 self.cells.append(cell)
                 for place in cell:
                     self.nodes.setdefault(place, len(self.nodes) + 1)

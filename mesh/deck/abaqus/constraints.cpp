@@ -9,21 +9,21 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Bits of all "first, last" lines of a card; `all` without any.
+// Mask of all "first, last" lines of a card; `all` if there are none.
 DofMask mask_of(const Card& card, const Source& source, DofMask all) {
   DofMask mask = 0;
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, source);
-    fields.at_most(2, "first and last degree of freedom");
+    fields.at_most(2, "first and last DoF");
     mask = static_cast<DofMask>(mask | dof_range(fields, 0));
   }
   return card.size() == 0 ? all : mask;
 }
 
-// The place of a reference node: with rotations of its own, even upon a node of the mesh.
-Place rigid_reference(Reading* reading, int32_t row) {
-  Places& places = *reading->places;
-  return places.mesh_node(row) == Places::kNone ? places.of(row) : places.point_upon(row);
+// Node index of a reference node: with its own rotations, even on a mesh node.
+NodeIndex rigid_reference(Reading* reading, int32_t row) {
+  NodeMap& node_map = *reading->node_map;
+  return node_map.mesh_node(row) == NodeMap::kNone ? node_map.of(row) : node_map.point_upon(row);
 }
 
 void read_rigid_body(Reading* reading, size_t use, const Card& card) {
@@ -46,25 +46,25 @@ void read_rigid_body(Reading* reading, size_t use, const Card& card) {
       rows.insert(rows.end(), nodes.begin(), nodes.end());
     }
   }
-  if (reading->places->mesh_node(row) != Places::kNone) rows.push_back(row);
+  if (reading->node_map->mesh_node(row) != NodeMap::kNone) rows.push_back(row);
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   if (keyword.has("ROTNODE")) {
     const int32_t rotation =
         reading->sets->node_named(keyword.required("ROTNODE", reading->source), use, card.spot());
-    if (reading->places->mesh_node(rotation) != Places::kNone || rotation == row) {
+    if (reading->node_map->mesh_node(rotation) != NodeMap::kNone || rotation == row) {
       reading->source.fail(card.spot(),
                            "*RIGID BODY: found a ROT NODE that is the reference node "
-                           "or belongs to an element, expected one of its own");
+                           "or belongs to an element, expected a separate node");
     }
-    reading->places->set_rotation_node(rotation, rigid.reference);
+    reading->node_map->set_rotation_node(rotation, rigid.reference);
     std::erase(rows, rotation);
   }
   reading->dependents.emplace_back(reading->deck->rigid.size(), std::move(rows));
   reading->deck->rigid.push_back(std::move(rigid));
 }
 
-// *COUPLING and the line of *KINEMATIC or *DISTRIBUTING behind it.
+// *COUPLING and the line of *KINEMATIC or *DISTRIBUTING after it.
 struct Coupling {
   size_t use = 0;
   const Card* card = nullptr;
@@ -100,8 +100,8 @@ std::vector<int32_t> rows_of_surface(Reading* reading, const Coupling& coupling)
   }
   std::vector<int32_t> rows;
   for (int32_t row = 0; row < reading->model->nodes(); ++row) {
-    const int32_t node = reading->places->mesh_node(row);
-    if (node != Places::kNone && wanted[static_cast<size_t>(node)]) rows.push_back(row);
+    const int32_t node = reading->node_map->mesh_node(row);
+    if (node != NodeMap::kNone && wanted[static_cast<size_t>(node)]) rows.push_back(row);
   }
   return rows;
 }
@@ -116,7 +116,7 @@ void read_kinematic(Reading* reading, const Coupling& coupling, const Card& card
   std::vector<int32_t> rows = rows_of_surface(reading, coupling);
   if ((rigid.dofs & kTranslations) != kTranslations) {
     const bool turned = std::any_of(rows.begin(), rows.end(), [&](int32_t row) {
-      return !reading->places->system(row).empty();
+      return !reading->node_map->system(row).empty();
     });
     if (coupling.oriented || turned) {
       reading->source.fail(card.spot(),
@@ -125,8 +125,8 @@ void read_kinematic(Reading* reading, const Coupling& coupling, const Card& card
     }
   }
   const bool own = std::find(rows.begin(), rows.end(), coupling.row) != rows.end();
-  if (!own && reading->places->mesh_node(coupling.row) != Places::kNone) {
-    Rigid carrier = rigid;  // the reference is a node of the mesh: its point moves it
+  if (!own && reading->node_map->mesh_node(coupling.row) != NodeMap::kNone) {
+    Rigid carrier = rigid;  // the reference is a mesh node: its point moves it
     carrier.name += "_reference";
     carrier.dofs = kAllDofs;
     reading->dependents.emplace_back(reading->deck->rigid.size(),
@@ -137,7 +137,7 @@ void read_kinematic(Reading* reading, const Coupling& coupling, const Card& card
   reading->deck->rigid.push_back(std::move(rigid));
 }
 
-// Weights are the areas of a surface of faces; nodes of a node surface count alike.
+// Weights are the areas of a surface of faces; nodes of a node surface have equal weights.
 void read_weighted(Reading* reading, const Coupling& coupling, const Card& card) {
   const Keyword& keyword = card.keyword();
   keyword.allow({"WEIGHTINGMETHOD", "COUPLING"}, reading->source, reading->ignore);
@@ -151,12 +151,12 @@ void read_weighted(Reading* reading, const Coupling& coupling, const Card& card)
   distributing.name = coupling.name;
   distributing.where = reading->source.where(coupling.card->spot());
   distributing.dofs = mask_of(card, reading->source, kAllDofs);
-  distributing.reference = reading->places->of(coupling.row);
+  distributing.reference = reading->node_map->of(coupling.row);
   if (const auto* rows = node_surface(*reading, coupling.use, coupling.surface)) {
     Distributing::Term term;
     for (const int32_t row : *rows) {
-      if (reading->places->mesh_node(row) != Places::kNone) {
-        term.places.push_back(reading->places->mesh_node(row));
+      if (reading->node_map->mesh_node(row) != NodeMap::kNone) {
+        term.node_indices.push_back(reading->node_map->mesh_node(row));
       }
     }
     distributing.terms.push_back(std::move(term));
@@ -169,7 +169,7 @@ void read_weighted(Reading* reading, const Coupling& coupling, const Card& card)
 
 void expect_coupling_done(const Reading& reading, const Card* open) {
   if (open == nullptr) return;
-  reading.source.fail(open->spot(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING behind it");
+  reading.source.fail(open->spot(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING after it");
 }
 
 void read_tie(Reading* reading, size_t use, const Card& card) {
@@ -197,7 +197,7 @@ void read_tie(Reading* reading, size_t use, const Card& card) {
 }  // namespace
 
 DofMask dof_range(const Fields& fields, size_t i) {
-  constexpr std::string_view kWhat = "degree of freedom: 1 to 3 displacements, 4 to 6 rotations";
+  constexpr std::string_view kWhat = "DoF: 1 to 3 displacements, 4 to 6 rotations";
   const int32_t first = fields.integer(i, kWhat, 1, 6);
   const int32_t last = fields.empty(i + 1) ? first : fields.integer(i + 1, kWhat, first, 6);
   DofMask mask = 0;
@@ -222,7 +222,7 @@ void read_rigid(Reading* reading) {
         }
         if (refused) throw FollowUp();
         if (coupling.card == nullptr) {
-          reading->source.fail(card.spot(), "expected one line behind *COUPLING");
+          reading->source.fail(card.spot(), "expected one line after *COUPLING");
         }
         const Coupling done = std::exchange(coupling, Coupling());
         if (card.keyword().key == "KINEMATIC") {
@@ -241,16 +241,16 @@ void read_ties(Reading* reading) {
 }
 
 void finish_rigid(Reading* reading) {
-  std::set<Place> carried;  // nodes of the mesh that their own point moves already
+  std::set<NodeIndex> carried;  // mesh nodes that their own point already moves
   for (const auto& [index, rows] : reading->dependents) {
     Rigid& rigid = reading->deck->rigid[index];
     for (const int32_t row : rows) {
-      Place place = reading->places->find(row);
-      if (place == rigid.reference) {
-        place = reading->places->mesh_node(row);
-        if (place == Places::kNone || !carried.insert(place).second) continue;
+      NodeIndex node_index = reading->node_map->find(row);
+      if (node_index == rigid.reference) {
+        node_index = reading->node_map->mesh_node(row);
+        if (node_index == NodeMap::kNone || !carried.insert(node_index).second) continue;
       }
-      if (place != Places::kNone) rigid.dependents.push_back(place);
+      if (node_index != NodeMap::kNone) rigid.dependents.push_back(node_index);
     }
   }
 }

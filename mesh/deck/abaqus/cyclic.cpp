@@ -7,14 +7,14 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Nodes of the mesh on a surface of either type.
+// Mesh nodes on a surface of either type.
 std::vector<int32_t> side(Reading* reading, size_t use, const Fields& fields, size_t i) {
   const std::string name = fields.word(i, "a surface");
   std::vector<int32_t> nodes;
   if (const auto* rows = node_surface(*reading, use, name)) {
     for (const int32_t row : *rows) {
-      if (reading->places->mesh_node(row) != Places::kNone)
-        nodes.push_back(reading->places->mesh_node(row));
+      if (reading->node_map->mesh_node(row) != NodeMap::kNone)
+        nodes.push_back(reading->node_map->mesh_node(row));
     }
   } else {
     nodes =
@@ -95,7 +95,7 @@ void read_cyclic(Reading* reading) {
                     once(model, card);
                     read_model(reading, use, card, &sector);
                   } else if (card.keyword().key != "TIE") {
-                    modes = ", of which the deck wants some (" +
+                    modes = ", of which the deck requests some (" +
                             reading->source.where(card.spot()) + ")";
                   }
                 });
@@ -107,10 +107,10 @@ void read_cyclic(Reading* reading) {
     }
     if (reading->refusals->any()) throw FollowUp();
     unfold(reading->deck, sector);
-    reading->deck->notes.push_back(fmt::format(
-        "{}: the sector is turned round into the ring of {}: it has the modes of all nodal "
-        "diameters{}",
-        sector.where, sector.count, modes));
+    reading->deck->notes.push_back(
+        fmt::format("{}: the sector is expanded to the ring of {}: it has the modes of all nodal "
+                    "diameters{}",
+                    sector.where, sector.count, modes));
   });
 }
 

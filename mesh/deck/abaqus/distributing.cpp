@@ -19,52 +19,52 @@ const PointElement& coupling_element(Reading* reading, size_t use, const Card& c
   return reading->model->points()[static_cast<size_t>(elements.front() - n_cells)];
 }
 
-// CalculiX: the reference's displacement is the weighted mean, whatever the lever.
+// CalculiX: the reference's displacement is the weighted mean, regardless of the lever arm.
 void add_mean_equations(Reading* reading, const Distributing& distributing) {
   double sum = 0.0;
   for (const auto& term : distributing.terms) {
-    sum += term.weight * static_cast<double>(term.places.size());
+    sum += term.weight * static_cast<double>(term.node_indices.size());
   }
   for (int k = 0; k < 3; ++k) {
     Equation equation;
     equation.where = distributing.where;
     equation.terms.push_back({distributing.reference, k, 1.0});
     for (const auto& term : distributing.terms) {
-      for (const Place place : term.places) {
-        equation.terms.push_back({place, k, -term.weight / sum});
+      for (const NodeIndex node_index : term.node_indices) {
+        equation.terms.push_back({node_index, k, -term.weight / sum});
       }
     }
     reading->deck->equations.push_back(std::move(equation));
   }
 }
 
-// Distance of the reference from the weighted centre, by the reach of the nodes about it.
+// Distance of the reference from the weighted centre, relative to the radius of the nodes about it.
 double lever(const Deck& deck, const Distributing& distributing, const Eigen::Vector3d& reference) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double sum = 0.0, reach = 0.0;
   for (const auto& term : distributing.terms) {
-    for (const Place place : term.places) {
-      centre += term.weight * deck.mesh.nodes.row(place).transpose();
+    for (const NodeIndex node_index : term.node_indices) {
+      centre += term.weight * deck.mesh.nodes.row(node_index).transpose();
       sum += term.weight;
     }
   }
   centre /= sum;
   for (const auto& term : distributing.terms) {
-    for (const Place place : term.places) {
-      reach = std::max(reach, (deck.mesh.nodes.row(place).transpose() - centre).norm());
+    for (const NodeIndex node_index : term.node_indices) {
+      reach = std::max(reach, (deck.mesh.nodes.row(node_index).transpose() - centre).norm());
     }
   }
   return (reference - centre).norm() / reach;
 }
 
-// Element DCOUP3D: its node is the reference; "nodes, weight" a line.
+// Element DCOUP3D: its node is the reference; lines "nodes, weight".
 void read_distributing_coupling(Reading* reading, size_t use, const Card& card) {
   card.keyword().allow({"ELSET"}, reading->source, reading->ignore);
   const PointElement& element = coupling_element(reading, use, card);
   Distributing distributing;
   distributing.name = fmt::format("distributing_{}", reading->deck->distributing.size() + 1);
   distributing.where = reading->source.where(card.spot());
-  distributing.reference = reading->places->of(element.node);
+  distributing.reference = reading->node_map->of(element.node);
   double sum = 0.0;
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, reading->source);
@@ -73,15 +73,15 @@ void read_distributing_coupling(Reading* reading, size_t use, const Card& card) 
     term.weight = fields.number_or(1, 1.0, "weight");
     if (!(term.weight > 0.0)) fields.fail("expected a weight above 0");
     for (const int32_t row : reading->sets->nodes_at(fields, 0, use)) {
-      if (reading->places->mesh_node(row) != Places::kNone) {
-        term.places.push_back(reading->places->mesh_node(row));
+      if (reading->node_map->mesh_node(row) != NodeMap::kNone) {
+        term.node_indices.push_back(reading->node_map->mesh_node(row));
       }
     }
-    sum += term.weight * static_cast<double>(term.places.size());
+    sum += term.weight * static_cast<double>(term.node_indices.size());
     distributing.terms.push_back(std::move(term));
   }
   if (!(sum > 0.0)) reading->source.fail(card.spot(), "expected nodes of solids");
-  // One thousandth of the reach: coordinates with a few digits.
+  // One thousandth of the radius: coordinates may have few digits.
   if (lever(*reading->deck, distributing, reading->model->at(element.node)) <= 1e-3) {
     reading->deck->distributing.push_back(std::move(distributing));
   } else if (reading->ignore->skips("MOMENT")) {

@@ -31,7 +31,7 @@ constexpr std::array<std::pair<std::string_view, int>, 9> kPointTypes = {{{"MASS
                                                                           {"DASHPOT2", 2},
                                                                           {"DASHPOTA", 2}}};
 
-// Nodes of an element of one or two; 0 for other types.
+// Number of nodes of elements with one or two; 0 for other types.
 int point_nodes(std::string_view type) {
   for (const auto& [name, nodes] : kPointTypes) {
     if (name == type) return nodes;
@@ -39,7 +39,7 @@ int point_nodes(std::string_view type) {
   return 0;
 }
 
-// Corners of the faces by their numbers, as sets of bits.
+// Corners of the faces by number, as bit masks.
 constexpr unsigned bits(int a, int b, int c, int d = -1) {
   return 1u << a | 1u << b | 1u << c | (d < 0 ? 0u : 1u << d);
 }
@@ -112,10 +112,10 @@ CellTable& table_of(Scope* scope, const SolidType& solid) {
   return table;
 }
 
-// What the user writes to have nodes behind the last one of an element left out, as CalculiX does.
+// The name for `ignore` that skips extra nodes of an element, as CalculiX does.
 constexpr const char* kExtraNodes = "EXTRA NODES";
 
-// A number, then `n_nodes` nodes, over as many lines as they take.
+// A number, then `n_nodes` nodes, over one or more lines.
 class ElementWalk {
  public:
   ElementWalk(Lines* lines, std::string_view type, int n_nodes, Ignore* ignore)
@@ -202,7 +202,7 @@ Lines::Kind read_points(Lines* lines, const std::string& type, Scope* scope, Set
           });
 }
 
-// Only the numbers are kept: sets may name them. A line that ends in a comma goes on.
+// Only the numbers are kept: sets may name them. A trailing comma continues the line.
 Lines::Kind skip_elements(Lines* lines, const std::string& type, Scope* scope, Ignore* ignore) {
   bool goes_on = false;
   Spot open = 0;
@@ -212,14 +212,14 @@ Lines::Kind skip_elements(Lines* lines, const std::string& type, Scope* scope, I
     std::string_view field;
     FieldWalk(lines->data()).next(&field);
     if (!goes_on) {
-      scope->let_go.push_back(id_of(field, *lines, "the number of an element"));
+      scope->ignored_elements.push_back(id_of(field, *lines, "the number of an element"));
       ++count;
     }
     goes_on = lines->data().ends_with(',');
     if (goes_on) open = lines->spot();
   }
   if (goes_on && kind == Lines::Kind::kEnd) {
-    lines->source().fail(open, "the deck ends behind a comma, expected the rest of the element");
+    lines->source().fail(open, "the deck ends after a comma, expected the rest of the element");
   }
   ignore->skips(type, count);
   return kind;
@@ -255,7 +255,7 @@ Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore) {
   keyword.allow({"NSET", "SYSTEM"}, lines->source(), ignore);
   if (keyword.choice("SYSTEM", "R") != "R") {
     lines->source().fail(keyword.spot, fmt::format("*NODE: found SYSTEM={}, expected R: only "
-                                                   "rectangular coordinates are read",
+                                                   "rectangular coordinates are supported",
                                                    *keyword.find("SYSTEM")));
   }
   const auto first = scope->nodes.ids.size();

@@ -9,15 +9,15 @@
 
 namespace clatter::mesh::deck::abaqus {
 
-/// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R
-/// stands for reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
+/// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R means
+/// reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
 struct SolidType {
   std::string_view name;
   CellType type;
   Formulation formulation;
 };
 
-/// By folded name; none for what is not a solid that is read here.
+/// By folded name; none for types that are not supported solids.
 std::optional<SolidType> solid_type(std::string_view name);
 
 /// Index into traits(type).faces of face `number` (1 for S1, P1); -1 where the cell has no such
@@ -30,10 +30,10 @@ int face_of_number(CellType type, int number);
 /// The inverse: 1, 2, ...
 int number_of_face(CellType type, int face);
 
-/// Reads the data lines of *NODE or *ELEMENT into `scope`, until the next keyword, and returns what
-/// came there. InputError for the first line that is wrong.
+/// Reads the data lines of *NODE or *ELEMENT into `scope` and returns what follows them. InputError
+/// for the first wrong line.
 Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore);
-/// An element type that is not read is refused and passed over like one that the user ignores.
+/// An unsupported element type is refused and then skipped like one that the user ignores.
 Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* refusals);
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Three fields a term, over as many lines as the count at the head says.
+// Three fields per term, over several lines; the number of terms comes first.
 class EquationLines {
  public:
   EquationLines(Reading* reading, size_t use, const Card& card)
@@ -40,13 +40,13 @@ class EquationLines {
       const Fields fields = card_.line(line_++, reading_.source);
       if (fields.size() % 3 != 0 || fields.size() / 3 > static_cast<size_t>(missing)) {
         fields.fail(
-            fmt::format("found {} fields, expected node, degree of freedom, coefficient "
+            fmt::format("found {} fields, expected node, DoF, coefficient "
                         "of at most {} terms",
                         fields.size(), missing));
       }
       for (size_t i = 0; i < fields.size(); i += 3, --missing) {
         equation->terms.push_back({reading_.sets->node_at(fields, i, use_),
-                                   fields.integer(i + 1, "degree of freedom", 1, 6) - 1,
+                                   fields.integer(i + 1, "DoF", 1, 6) - 1,
                                    fields.number(i + 2, "coefficient")});
       }
     }
@@ -58,11 +58,11 @@ class EquationLines {
   size_t line_ = 0;
 };
 
-// Sums of coefficients by place and direction, in the basic axes.
+// Sums of coefficients by node index and direction, in the basic axes.
 class BasicTerms {
  public:
-  void add(Place place, int direction, double coefficient) {
-    terms_[{place, direction}] += coefficient;
+  void add(NodeIndex node_index, int direction, double coefficient) {
+    terms_[{node_index, direction}] += coefficient;
   }
   void add(const BasicTerms& other, double factor) {
     for (const auto& [dof, coefficient] : other.terms_) terms_[dof] += factor * coefficient;
@@ -70,8 +70,8 @@ class BasicTerms {
   void scale(double factor) {
     for (auto& [dof, coefficient] : terms_) coefficient *= factor;
   }
-  double coefficient(Place place, int direction) const {
-    const auto at = terms_.find({place, direction});
+  double coefficient(NodeIndex node_index, int direction) const {
+    const auto at = terms_.find({node_index, direction});
     return at != terms_.end() ? at->second : 0.0;
   }
   double largest() const {
@@ -79,62 +79,62 @@ class BasicTerms {
     for (const auto& [dof, coefficient] : terms_) most = std::max(most, std::abs(coefficient));
     return most;
   }
-  // That term first, terms without weight gone.
-  Equation equation(Place place, int direction, const std::string& where) const {
+  // That term first, without zero terms.
+  Equation equation(NodeIndex node_index, int direction, const std::string& where) const {
     Equation out;
     out.where = where;
-    out.terms.push_back({place, direction, coefficient(place, direction)});
+    out.terms.push_back({node_index, direction, coefficient(node_index, direction)});
     const double least = 1e-14 * largest();
     for (const auto& [dof, coefficient] : terms_) {
-      if (dof == std::pair(place, direction) || std::abs(coefficient) <= least) continue;
+      if (dof == std::pair(node_index, direction) || std::abs(coefficient) <= least) continue;
       out.terms.push_back({dof.first, dof.second, coefficient});
     }
     return out;
   }
 
  private:
-  std::map<std::pair<Place, int>, double> terms_;
+  std::map<std::pair<NodeIndex, int>, double> terms_;
 };
 
 BasicTerms basic_terms(Reading* reading, const RawEquation& equation) {
   BasicTerms out;
-  Places& places = *reading->places;
+  NodeMap& node_map = *reading->node_map;
   for (const Term& term : equation.terms) {
-    const Place rotated = places.rotation_of(term.row);
-    const Place place = rotated == Places::kNone ? places.of(term.row) : rotated;
-    const int direction = rotated == Places::kNone ? term.direction : term.direction + 3;
-    if (direction > 5 || (direction > 2 && !places.is_point(place))) {
+    const NodeIndex rotated = node_map.rotation_of(term.row);
+    const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.of(term.row) : rotated;
+    const int direction = rotated == NodeMap::kNone ? term.direction : term.direction + 3;
+    if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
       reading->source.fail(
           equation.spot,
           fmt::format("found rotation {} of node {}, which has no rotations", term.direction + 1,
                       reading->model->node_ids()[static_cast<size_t>(term.row)]));
     }
-    const std::string& system = places.system(term.row);
+    const std::string& system = node_map.system(term.row);
     if (system.empty()) {
-      out.add(place, direction, term.coefficient);
+      out.add(node_index, direction, term.coefficient);
       continue;
     }
     const Eigen::Matrix3d axes =
         axes_at(reading->deck->systems.at(system), reading->model->at(term.row));
     for (int k = 0; k < 3; ++k) {
-      out.add(place, 3 * (direction / 3) + k, term.coefficient * axes(k, direction % 3));
+      out.add(node_index, 3 * (direction / 3) + k, term.coefficient * axes(k, direction % 3));
     }
   }
   return out;
 }
 
-// Equations whose dependent node has axes of its own mix its directions: they are solved for as
-// many basic directions as there are equations, so that each has a dependent of its own.
-void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations, Place place,
-                    std::vector<BasicTerms> rows) {
+// Equations whose dependent node has transformed axes couple its directions: they are solved for as
+// many basic directions as there are equations, so that each has its own dependent.
+void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
+                    NodeIndex node_index, std::vector<BasicTerms> rows) {
   std::array<bool, 3> taken{};
   std::vector<int> pivots;
   for (size_t i = 0; i < rows.size(); ++i) {
     int pivot = -1;
     for (int k = 0; k < 3; ++k) {
-      const double c = std::abs(rows[i].coefficient(place, k));
+      const double c = std::abs(rows[i].coefficient(node_index, k));
       if (!taken[static_cast<size_t>(k)] && c > 1e-9 * rows[i].largest() &&
-          (pivot < 0 || c > std::abs(rows[i].coefficient(place, pivot)))) {
+          (pivot < 0 || c > std::abs(rows[i].coefficient(node_index, pivot)))) {
         pivot = k;
       }
     }
@@ -143,46 +143,49 @@ void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
     }
     taken[static_cast<size_t>(pivot)] = true;
     pivots.push_back(pivot);
-    rows[i].scale(1.0 / rows[i].coefficient(place, pivot));
+    rows[i].scale(1.0 / rows[i].coefficient(node_index, pivot));
     for (size_t j = 0; j < rows.size(); ++j) {
-      if (j != i) rows[j].add(rows[i], -rows[j].coefficient(place, pivot));
+      if (j != i) rows[j].add(rows[i], -rows[j].coefficient(node_index, pivot));
     }
   }
   for (size_t i = 0; i < rows.size(); ++i) {
     reading->deck->equations.push_back(
-        rows[i].equation(place, pivots[i], reading->source.where(equations[i].spot)));
+        rows[i].equation(node_index, pivots[i], reading->source.where(equations[i].spot)));
   }
 }
 
 void add_equations(Reading* reading, const std::vector<RawEquation>& equations) {
-  std::map<Place, std::pair<std::vector<RawEquation>, std::vector<BasicTerms>>> turned;
+  std::map<NodeIndex, std::pair<std::vector<RawEquation>, std::vector<BasicTerms>>> turned;
   const auto add = [&](const RawEquation& equation) {
     const BasicTerms terms = basic_terms(reading, equation);
     const Term& first = equation.terms.front();
-    const Place rotated = reading->places->rotation_of(first.row);
-    const Place place = rotated == Places::kNone ? reading->places->of(first.row) : rotated;
-    const int direction = rotated == Places::kNone ? first.direction : first.direction + 3;
-    const bool turned_node = !reading->places->system(first.row).empty();
-    if (first.coefficient == 0.0 || (!turned_node && terms.coefficient(place, direction) == 0.0)) {
+    const NodeIndex rotated = reading->node_map->rotation_of(first.row);
+    const NodeIndex node_index =
+        rotated == NodeMap::kNone ? reading->node_map->of(first.row) : rotated;
+    const int direction = rotated == NodeMap::kNone ? first.direction : first.direction + 3;
+    const bool turned_node = !reading->node_map->system(first.row).empty();
+    if (first.coefficient == 0.0 ||
+        (!turned_node && terms.coefficient(node_index, direction) == 0.0)) {
       reading->source.fail(equation.spot, "the first coefficient is 0, expected another value");
     }
     if (!turned_node) {
       reading->deck->equations.push_back(
-          terms.equation(place, direction, reading->source.where(equation.spot)));
-    } else if (rotated != Places::kNone || first.direction > 2) {
+          terms.equation(node_index, direction, reading->source.where(equation.spot)));
+    } else if (rotated != NodeMap::kNone || first.direction > 2) {
       reading->source.fail(equation.spot,
                            "rotations in transformed axes cannot be the first term, expected "
                            "another order");
     } else {
-      turned[place].first.push_back(equation);
-      turned[place].second.push_back(terms);
+      turned[node_index].first.push_back(equation);
+      turned[node_index].second.push_back(terms);
     }
   };
   for (const RawEquation& equation : equations) {
     reading->refusals->attempt([&] { add(equation); });
   }
-  for (const auto& [place, group] : turned) {
-    reading->refusals->attempt([&] { solve_for_node(reading, group.first, place, group.second); });
+  for (const auto& [node_index, group] : turned) {
+    reading->refusals->attempt(
+        [&] { solve_for_node(reading, group.first, node_index, group.second); });
   }
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-// Equations as a deck has them, before the axes of its nodes count.
+// Equations as written in a deck, before transformation to the basic axes.
 #include <vector>
 
 #include "mesh/deck/abaqus/reading.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
-/// A term in the directions of its node.
+/// A term in the axes of its node (*TRANSFORM).
 struct Term {
   int32_t row = 0;
   int direction = 0;  // 0 to 5
@@ -19,11 +19,10 @@ struct RawEquation {
   std::vector<Term> terms;
 };
 
-/// A line of *MPC and those that continue it: they begin with 0.
+/// A line of *MPC and its continuation lines, which begin with 0.
 using MpcLines = std::vector<Fields>;
 
-/// Adds the equations of one *MPC, or a rigid body for BEAM; InputError for types that are not
-/// read.
+/// Adds the equations of one *MPC, or a rigid body for BEAM; InputError for unsupported types.
 void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
              std::vector<RawEquation>* equations);
 

@@ -13,7 +13,7 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// What from_chars does not know: a plus sign, D for E, an exponent without a letter, numbers too
+// Extensions of from_chars: a plus sign, D for E, an exponent without a letter, numbers too
 // small for a double (they are zero).
 std::optional<double> fortran_number(std::string_view text) {
   std::array<char, 64> c_text;
@@ -113,7 +113,7 @@ double Fields::number_or(size_t i, double fallback, std::string_view what) const
 int32_t Fields::integer(size_t i, std::string_view what, int32_t low, int32_t high) const {
   const auto value = to_integer(text(i));
   if (!value || *value < low || *value > high) {
-    fail(fmt::format("found '{}' in field {}, expected a whole number from {} to {} ({})", text(i),
+    fail(fmt::format("found '{}' in field {}, expected an integer from {} to {} ({})", text(i),
                      i + 1, low, high, what));
   }
   return *value;

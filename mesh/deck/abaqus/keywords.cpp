@@ -9,7 +9,7 @@ namespace {
 
 using Entry = std::pair<std::string_view, Role>;
 
-// Output, printing and how a solver works: none of it says anything about the part.
+// Output, printing and solver controls: no effect on the model.
 constexpr std::array kHarmless = {
     "CONTACTFILE",
     "CONTACTOUTPUT",

@@ -98,7 +98,7 @@ void Keyword::allow(std::initializer_list<std::string_view> known, const Source&
     if (std::find(known.begin(), known.end(), parameter) != known.end()) continue;
     if (ignore->skips(parameter)) continue;
     source.fail(spot, fmt::format("{} with the parameter {} is not supported; ignore = [\"{}\"] "
-                                  "reads it without",
+                                  "reads it without the parameter",
                                   name, parameter, parameter));
   }
 }
@@ -125,7 +125,7 @@ Lines::Kind Lines::next() {
     const std::string* file = keyword_.find("INPUT");
     if (file == nullptr && keyword_.key != "INCLUDE") return Kind::kKeyword;
     const std::string name = keyword_.required("INPUT", *source_);
-    if (held_) source_->fail(keyword_.spot, "found a comma behind INPUT, expected the line's end");
+    if (held_) source_->fail(keyword_.spot, "found a comma after INPUT, expected the line's end");
     std::erase_if(keyword_.parameters, [](const auto& p) { return p.first == "INPUT"; });
     source_->include(name, keyword_.spot);
     if (keyword_.key != "INCLUDE") return Kind::kKeyword;
@@ -133,7 +133,7 @@ Lines::Kind Lines::next() {
   return Kind::kEnd;
 }
 
-// A comma at the end: the line goes on, unless what follows is data or the next keyword.
+// A trailing comma continues the line, unless data or the next keyword follows.
 void Lines::read_keyword() {
   keyword_ = Keyword();
   keyword_.spot = source_->spot();

@@ -14,12 +14,12 @@
 
 namespace clatter::mesh::deck::abaqus {
 
-/// What the user lets go (ReadOptions::ignore), compared without case, blanks and star, and how
-/// often it came.
+/// The names that the user ignores (ReadOptions::ignore), compared without case, blanks and star,
+/// and how often each was found.
 class Ignore {
  public:
   explicit Ignore(const ReadOptions& options);
-  /// True, and counted `times` under `name`, when the user lets it go.
+  /// True, and counted `times` under `name`, when the user ignores it.
   bool skips(const std::string& name, int64_t times = 1);
   const std::map<std::string, int64_t>& counted() const { return counted_; }
 
@@ -28,7 +28,7 @@ class Ignore {
   std::map<std::string, int64_t> counted_;
 };
 
-/// A keyword line with all that continues it.
+/// A keyword line with its continuation lines.
 struct Keyword {
   std::string name;  // with star, upper case, single blanks: "*SOLID SECTION"
   std::string key;   // folded, without star: "SOLIDSECTION"
@@ -36,14 +36,13 @@ struct Keyword {
   Spot spot = 0;
 
   bool has(std::string_view parameter) const { return find(parameter) != nullptr; }
-  /// Null where the parameter is not given.
+  /// Null if the parameter is missing.
   const std::string* find(std::string_view parameter) const;
-  /// The value folded; `fallback` where the parameter is not given.
+  /// The value folded; `fallback` if the parameter is missing.
   std::string choice(std::string_view parameter, const std::string& fallback) const;
-  /// InputError where the parameter is not given or has no value.
+  /// InputError if the parameter is missing or has no value.
   const std::string& required(std::string_view parameter, const Source& source) const;
-  /// InputError for the first parameter that is not among `known` and that the user does not let
-  /// go.
+  /// InputError for the first parameter that is neither among `known` nor ignored by the user.
   void allow(std::initializer_list<std::string_view> known, const Source& source,
              Ignore* ignore) const;
 };
@@ -51,8 +50,8 @@ struct Keyword {
 /// The last line of decks that clatter writes.
 inline constexpr std::string_view kEndMark = "** end of the mesh by clatter";
 
-/// Cuts a Source into keywords and data lines; follows *INCLUDE and the parameter INPUT of any
-/// keyword; leaves out comments (**) and empty lines.
+/// Splits a Source into keywords and data lines; follows *INCLUDE and the parameter INPUT of any
+/// keyword; skips comments (**) and empty lines.
 class Lines {
  public:
   enum class Kind { kEnd, kKeyword, kData };
@@ -62,11 +61,11 @@ class Lines {
   const Keyword& keyword() const { return keyword_; }
   /// The data line, trimmed, valid until next().
   std::string_view data() const { return data_; }
-  /// True when the deck ended behind the comma of a keyword line.
+  /// True when the deck ended after the comma of a keyword line.
   bool open_keyword() const { return open_keyword_; }
-  /// True when no data line came behind the last keyword.
+  /// True when no data line followed the last keyword.
   bool bare_keyword() const { return bare_keyword_; }
-  /// True when the last line of the deck was the comment that our own writer ends with.
+  /// True when the last line of the deck was the final comment of our own writer.
   bool marked_end() const { return marked_end_; }
   Spot spot() const { return source_->spot(); }
   const Source& source() const { return *source_; }
@@ -82,7 +81,7 @@ class Lines {
   bool open_keyword_ = false, bare_keyword_ = false, marked_end_ = false;
 };
 
-/// A keyword with its data lines, kept until the whole deck is read.
+/// A keyword with its data lines, kept until the entire deck is read.
 class Card {
  public:
   explicit Card(Keyword keyword) : keyword_(std::move(keyword)) {}
@@ -99,7 +98,7 @@ class Card {
     Spot spot;
   };
   Keyword keyword_;
-  std::string text_;  // the lines, one behind the other
+  std::string text_;  // the lines, concatenated
   std::vector<Line> lines_;
 };
 

@@ -40,21 +40,22 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
   if (is_new(card)) forget_others(&forces_, step);
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, reading_->source);
-    fields.at_most(3, "nodes, degree of freedom, force");
-    const int32_t dof = fields.integer(1, "degree of freedom", 1, 6);
+    fields.at_most(3, "nodes, DoF, force");
+    const int32_t dof = fields.integer(1, "DoF", 1, 6);
     const double value = factor * fields.number(2, "force");
     for (const int32_t row : reading_->sets->nodes_at(fields, 0, use)) {
-      const auto [place, dofs] = held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
+      const auto [node_index, dofs] =
+          held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
       const int32_t id = reading_->model->node_ids()[static_cast<size_t>(row)];
-      if (place == Places::kNone) {
+      if (node_index == NodeMap::kNone) {
         fields.fail(fmt::format("found a force on node {}, which belongs to no element", id));
       }
       if (dofs == 0) {
         fields.fail(fmt::format("found a moment on node {}, which has no rotations", id));
       }
       const int direction = __builtin_ctz(dofs);
-      put(&forces_, std::pair(place, direction),
-          Value{value, step, &reading_->places->system(row)});
+      put(&forces_, std::pair(node_index, direction),
+          Value{value, step, &reading_->node_map->system(row)});
     }
   }
 }
@@ -115,7 +116,7 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
   for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
     if (element < reading_->model->cells()) rotation.covered[static_cast<size_t>(element)] = true;
   }
-  // What an earlier step said of the same elements is replaced.
+  // Replaces the value of an earlier step on the same elements.
   std::erase_if(rotations_, [&](const Rotation& other) {
     return other.step != step && other.covered == rotation.covered;
   });
@@ -139,7 +140,7 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
   for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
     if (element < reading_->model->cells()) gravity.covered[static_cast<size_t>(element)] = true;
   }
-  // Gravity of an earlier step on these elements ends here: there is one field for all of them.
+  // Ends gravity of an earlier step on these elements: there is one field for all of them.
   std::erase_if(gravity_, [&](const auto& entry) { return entry.second.step != step; });
 }
 
@@ -194,7 +195,7 @@ void Loads::list(Step* out, StepNumber step) {
   list_temperature(out, step);
 }
 
-// Faces under the same pressure are one surface; steps share it.
+// Faces with the same pressure are one surface; steps share it.
 void Loads::list_pressures(Step* out) {
   std::map<double, std::vector<CellFaceId>> by_value;
   for (const auto& [face, load] : faces_) by_value[load.value].push_back(face);
@@ -223,7 +224,7 @@ void Loads::list_gravity(Step* out) const {
   }
 }
 
-// A region turns as a whole: what turns of a section is one of its own (abaqus_mesh.cpp).
+// Only entire regions rotate: the rotating part of a section is a region of its own (mesh.cpp).
 void Loads::list_rotations(Step* out) const {
   const Mesh& mesh = reading_->deck->mesh;
   for (const Rotation& rotation : rotations_) {
@@ -242,7 +243,7 @@ void Loads::list_rotations(Step* out) const {
   }
 }
 
-// One initial temperature is the materials' reference; several are taken off the field.
+// A uniform initial temperature is the materials' reference; others are subtracted from the field.
 void Loads::list_temperature(Step* out, StepNumber step) {
   if (temperature_.empty()) return;
   const std::vector<double> initial = initial_field();
@@ -251,8 +252,8 @@ void Loads::list_temperature(Step* out, StepNumber step) {
   if (temperature_ == initial) return;
   RowMatrix field(reading_->deck->mesh.nodes.rows(), 1);
   for (int32_t row = 0; row < reading_->model->nodes(); ++row) {
-    const int32_t node = reading_->places->mesh_node(row);
-    if (node == Places::kNone) continue;
+    const int32_t node = reading_->node_map->mesh_node(row);
+    if (node == NodeMap::kNone) continue;
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
   }

@@ -1,7 +1,7 @@
 #pragma once
-// *CLOAD, *DLOAD, *DSLOAD, *TEMPERATURE: what acts, as the steps go by. What a step says again
-// replaces what earlier steps said (OP=MOD) or everything of its kind (OP=NEW); within one step
-// loads on the same place add up, as in CalculiX.
+// *CLOAD, *DLOAD, *DSLOAD, *TEMPERATURE: the active loads, step by step. A load that a step
+// redefines replaces that of earlier steps (OP=MOD) or all of its kind (OP=NEW); within one step
+// loads on the same node or face add up, as in CalculiX.
 #include <array>
 #include <map>
 #include <string>
@@ -23,8 +23,8 @@ class Loads {
   void read_temperatures(size_t use, const Card& card, StepNumber step);   // *TEMPERATURE
 
   bool empty() const;
-  /// Writes all that acts into `out`; surfaces and fields of the mesh come with it. InputError
-  /// where gravity acts on some elements only, or CENTRIF on a part of a region.
+  /// Writes all active loads into `out`, with the surfaces and fields of the mesh that they need.
+  /// InputError where gravity acts on some elements only, or CENTRIF on a part of a region.
   void list(Step* out, StepNumber step);
 
  private:
@@ -58,12 +58,12 @@ class Loads {
   std::vector<double> initial_field() const;
 
   Reading* reading_;
-  std::map<std::pair<Place, int>, Value> forces_;
+  std::map<std::pair<NodeIndex, int>, Value> forces_;
   std::map<CellFaceId, Value> faces_;
   std::map<std::string, Value> surfaces_;
   std::map<Vector, Gravity> gravity_;
   std::vector<Rotation> rotations_;
-  std::vector<double> temperature_;  // by row; empty: nothing said
+  std::vector<double> temperature_;  // by row; empty: none given
   std::map<std::vector<CellFaceId>, std::string> made_surfaces_;
 };
 

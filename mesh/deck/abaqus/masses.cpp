@@ -32,7 +32,7 @@ Fields only_line(const Reading& reading, const Card& card) {
   return card.line(0, reading.source);
 }
 
-// Moments of inertia only: for products the sign is not the same in all programs.
+// Moments of inertia only: the sign of products differs between programs.
 Eigen::Matrix3d inertia_of(const Fields& fields) {
   for (size_t k = 3; k < 6; ++k) {
     if (fields.number_or(k, 0.0, "product of inertia") != 0.0) {
@@ -53,7 +53,7 @@ void read_masses(Reading* reading) {
     described.push_back(element.spot);
     Mass mass;
     mass.where = reading->source.where(card.spot());
-    mass.place = reading->places->of(element.node);
+    mass.node_index = reading->node_map->of(element.node);
     reading->deck->masses.push_back(std::move(mass));
     return reading->deck->masses.back();
   };
@@ -72,7 +72,7 @@ void read_masses(Reading* reading) {
       Mass& mass = add(element, card);
       const Use& at = reading->model->uses()[use];
       mass.inertia = at.rotation * inertia_of(fields) * at.rotation.transpose();
-      if (!reading->places->is_point(mass.place)) {
+      if (!reading->node_map->is_point(mass.node_index)) {
         reading->source.fail(element.spot, fmt::format("element {}: its node belongs to a solid "
                                                        "and has no rotations",
                                                        element.id));

@@ -9,7 +9,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// The one temperature at which all nodes begin; none where the deck has none or several.
+// The uniform initial temperature of all nodes; none if the deck has none or several.
 std::optional<double> initial_temperature(const Reading& reading) {
   std::optional<double> found;
   bool one = true;
@@ -35,7 +35,7 @@ const Card* first_card(const Reading& reading, std::string_view key) {
 
 using Rows = std::vector<std::pair<double, std::vector<double>>>;  // by temperature, ascending
 
-// Between the rows that enclose `temperature`, constant beyond the ends, as CalculiX does.
+// Interpolates between rows, constant beyond the ends, as CalculiX does.
 std::vector<double> interpolated(const Rows& rows, double temperature) {
   if (temperature <= rows.front().first) return rows.front().second;
   if (temperature >= rows.back().first) return rows.back().second;
@@ -49,7 +49,7 @@ std::vector<double> interpolated(const Rows& rows, double temperature) {
   return out;
 }
 
-// Constants that depend on the temperature are taken at the initial one, when no step changes it.
+// Temperature-dependent constants are evaluated at the initial temperature if no step changes it.
 std::vector<double> at_initial_temperature(const Reading& reading, const Card& card,
                                            const Rows& rows) {
   for (size_t i = 1; i < rows.size(); ++i) {
@@ -80,8 +80,8 @@ std::vector<double> at_initial_temperature(const Reading& reading, const Card& c
   return interpolated(rows, *temperature);
 }
 
-// `count` numbers, eight a line, then perhaps the temperature to which they belong; more sets of
-// lines for other temperatures.
+// `count` numbers, eight per line, then optionally their temperature; more sets of lines for other
+// temperatures.
 std::vector<double> constants_of(const Reading& reading, const Card& card, size_t count) {
   const size_t lines = (count + 7) / 8;
   if (card.size() == 0 || card.size() % lines != 0) {
@@ -105,10 +105,10 @@ std::vector<double> constants_of(const Reading& reading, const Card& card, size_
   return same ? rows.front().second : at_initial_temperature(reading, card, rows);
 }
 
-// Abaqus' upper triangle goes column by column through stresses 11 22 33 12 13 23; ours row by row
-// through 11 22 33 12 23 31.
+// Abaqus' upper triangle is by columns with stresses 11 22 33 12 13 23; ours by rows with 11 22 33
+// 12 23 31.
 std::vector<double> upper_triangle(const std::vector<double>& columns) {
-  constexpr std::array<int, 6> kOurs = {0, 1, 2, 3, 5, 4};  // place of Abaqus' component with us
+  constexpr std::array<int, 6> kOurs = {0, 1, 2, 3, 5, 4};  // our index of Abaqus' component
   Eigen::Matrix<double, 6, 6> C;
   size_t next = 0;
   for (int j = 0; j < 6; ++j) {
@@ -175,8 +175,8 @@ void read_expansion(Reading* reading, const Card& card, Material* material) {
   }
 }
 
-// *ELASTIC, *DENSITY or *EXPANSION of `material`, none where *MATERIAL itself was refused. A
-// material that lacks a part by a refusal is lost.
+// *ELASTIC, *DENSITY or *EXPANSION of `material`, none if *MATERIAL itself was refused. A material
+// with a refused part is dropped.
 void read_part(Reading* reading, const Card& card, Material* material) {
   if (material == nullptr) throw FollowUp();
   const Keyword& keyword = card.keyword();

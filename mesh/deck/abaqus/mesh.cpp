@@ -28,7 +28,7 @@ class Sections {
       any = true;
       read_section(use, card);
     });
-    // A deck that is refused has a mesh all the same, so that its steps can be looked at.
+    // A refused deck still gets a mesh, so that its steps can be checked.
     if (!any || reading_.refusals->any()) by_element_sets(any);
     for_each_card(reading_, {"DLOAD"}, [&](size_t use, const Card& card) {
       for (size_t i = 0; i < card.size(); ++i) {
@@ -61,7 +61,7 @@ class Sections {
         material_named(keyword.required("MATERIAL", reading_.source), card.spot());
     const std::vector<int32_t>& elements = reading_.sets->elements(use, name, card.spot());
     const int32_t n_cells = reading_.model->cells();
-    if (elements.empty() || elements.front() >= n_cells) return;  // only elements that are let go
+    if (elements.empty() || elements.front() >= n_cells) return;  // only ignored elements
     if (reading_.refusals->has_lost(folded(material.name))) throw FollowUp();
     if (material.constants.empty()) {
       reading_.source.fail(card.spot(), fmt::format("material {} has no *ELASTIC", material.name));
@@ -83,7 +83,7 @@ class Sections {
     }
   }
 
-  // A region turns as a whole: what a load turns of it becomes one of its own.
+  // Only entire regions rotate: the part that a load rotates becomes a region of its own.
   void split(size_t use, const Fields& fields) {
     std::vector<bool> turns(region_.size(), false);
     for (const int32_t element : reading_.sets->elements_at(fields, 0, use)) {
@@ -94,14 +94,14 @@ class Sections {
       if (!turns[cell] && region_[cell] != kNoRegion)
         stays[static_cast<size_t>(region_[cell])] = true;
     }
-    std::map<int32_t, int32_t> part;  // of a region that stays in part
+    std::map<int32_t, int32_t> part;  // of a region that does not rotate entirely
     for (size_t cell = 0; cell < region_.size(); ++cell) {
-      const int32_t whole = region_[cell];
-      if (!turns[cell] || whole == kNoRegion || !stays[static_cast<size_t>(whole)]) continue;
-      const auto [at, is_new] = part.emplace(whole, 0);
+      const int32_t parent = region_[cell];
+      if (!turns[cell] || parent == kNoRegion || !stays[static_cast<size_t>(parent)]) continue;
+      const auto [at, is_new] = part.emplace(parent, 0);
       if (is_new) {
-        const Region region = reading_.deck->regions[static_cast<size_t>(whole)];
-        const std::string name = reading_.deck->mesh.regions[static_cast<size_t>(whole)];
+        const Region region = reading_.deck->regions[static_cast<size_t>(parent)];
+        const std::string name = reading_.deck->mesh.regions[static_cast<size_t>(parent)];
         at->second = new_region(reading_.model->main_use(),
                                 fmt::format("{}_{}", name, fields.text(0)), fields.spot());
         reading_.deck->regions.back() = region;
@@ -117,8 +117,8 @@ class Sections {
     reading_.source.fail(spot, fmt::format("there is no material '{}'", name));
   }
 
-  // Without any section: what *ELEMENT, ELSET= put together is a region, the rest is "solid".
-  // With `rest_only` all that has no section yet is "solid".
+  // Without any section: each set of *ELEMENT, ELSET= is a region, the rest is "solid". With
+  // `rest_only` all cells without a section are "solid".
   void by_element_sets(bool rest_only) {
     std::map<std::pair<size_t, Spot>, const IdSet*> sets;  // in the order of the deck
     for (size_t u = 0; u < reading_.model->uses().size(); ++u) {
@@ -131,9 +131,9 @@ class Sections {
       }
     }
     if (rest_only) sets.clear();
-    for (const auto& [place, set] : sets) {
-      const int32_t region = new_region(place.first, set->name, place.second);
-      for (const SetChunk& chunk : set->chunks) fill(place.first, chunk, region);
+    for (const auto& [key, set] : sets) {
+      const int32_t region = new_region(key.first, set->name, key.second);
+      for (const SetChunk& chunk : set->chunks) fill(key.first, chunk, region);
     }
     if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
     const int32_t rest = new_region(reading_.model->main_use(), "solid", 0);
@@ -181,7 +181,7 @@ class Sections {
 
 // Numbers the nodes that cells use, in the order of the deck, and copies them.
 std::vector<int32_t> take_nodes(const Model& model, Mesh* mesh) {
-  std::vector<int32_t> node(static_cast<size_t>(model.nodes()), Places::kNone);
+  std::vector<int32_t> node(static_cast<size_t>(model.nodes()), NodeMap::kNone);
   for (const FlatTable& table : model.tables()) {
     for (const int32_t row : table.nodes) node[static_cast<size_t>(row)] = 0;
   }
@@ -192,14 +192,14 @@ std::vector<int32_t> take_nodes(const Model& model, Mesh* mesh) {
   mesh->nodes.resize(count, 3);
   mesh->node_ids.resize(static_cast<size_t>(count));
   for (size_t row = 0; row < node.size(); ++row) {
-    if (node[row] == Places::kNone) continue;
+    if (node[row] == NodeMap::kNone) continue;
     mesh->nodes.row(node[row]) = model.at(static_cast<int32_t>(row));
     mesh->node_ids[static_cast<size_t>(node[row])] = model.node_ids()[row];
   }
   return node;
 }
 
-// Cells of one type and region stand in one block, in the order of the deck.
+// Cells of one type and region form one block, in the order of the deck.
 class Blocks {
  public:
   Blocks(const Model& model, const std::vector<int32_t>& region, const std::vector<int32_t>& node,

@@ -9,11 +9,11 @@ namespace clatter::mesh::deck::abaqus {
 namespace {
 
 constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
-// A few gigabytes: a small deck can have instances without end.
+// A few gigabytes: a small deck can define very many instances.
 constexpr int64_t kMostNodes = int64_t{1} << 26, kMostCells = int64_t{1} << 26;
 
-// Added to numbers up to `own` so that they lie above `taken`: a multiple of a power of ten, which
-// leaves the own number readable. 0 where they lie there already.
+// Added to numbers up to `own` so that they are above `taken`: a multiple of a power of ten, which
+// keeps the own number readable. 0 if not needed.
 int64_t offset_above(int32_t taken, int32_t lowest, int32_t own) {
   if (lowest > taken) return 0;
   int64_t power = 10;
@@ -57,10 +57,11 @@ void Model::index_scope(const Scope& scope) {
     const double* a = nodes.xyz.data() + 3 * int64_t{first};
     const double* b = nodes.xyz.data() + 3 * int64_t{second};
     if (std::equal(a, a + 3, b)) continue;
-    source_.fail(nodes.spots[static_cast<size_t>(second)],
-                 fmt::format("node {} is defined again in another place; the first time: {}",
-                             nodes.ids[static_cast<size_t>(first)],
-                             source_.where(nodes.spots[static_cast<size_t>(first)])));
+    source_.fail(
+        nodes.spots[static_cast<size_t>(second)],
+        fmt::format("node {} is defined again with other coordinates; first definition: {}",
+                    nodes.ids[static_cast<size_t>(first)],
+                    source_.where(nodes.spots[static_cast<size_t>(first)])));
   }
   std::vector<int32_t> ids;
   std::vector<Spot> spots;
@@ -72,7 +73,7 @@ void Model::index_scope(const Scope& scope) {
     ids.push_back(point.id);
     spots.push_back(point.spot);
   }
-  ids.insert(ids.end(), scope.let_go.begin(), scope.let_go.end());
+  ids.insert(ids.end(), scope.ignored_elements.begin(), scope.ignored_elements.end());
   element_index_.emplace_back(ids);
   const auto known = static_cast<int32_t>(spots.size());
   for (const auto& [first, second] : element_index_.back().duplicates()) {
@@ -208,7 +209,7 @@ int32_t Model::element_at(const Use& use, int32_t local) const {
   if (local < 0) return -1;
   if (local < use.cells) return use.first_cell + local;
   const int32_t point = local - use.cells;
-  if (point >= static_cast<int32_t>(use.scope->points.size())) return kLetGo;
+  if (point >= static_cast<int32_t>(use.scope->points.size())) return kIgnored;
   return cells_ + use.first_point + point;
 }
 
@@ -223,7 +224,7 @@ std::vector<int32_t> Model::find_elements(size_t use, const IdRange& range) cons
   element_index_[static_cast<size_t>(at.index)].for_each(
       range.first, range.last, range.step, [&](int32_t local) {
         const int32_t element = element_at(at, local);
-        if (element != kLetGo) found.push_back(element);
+        if (element != kIgnored) found.push_back(element);
       });
   return found;
 }

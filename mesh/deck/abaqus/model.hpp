@@ -1,6 +1,6 @@
 #pragma once
-// All nodes and elements of the model in one numbering: parts copied into their instances, numbers
-// of the deck replaced by rows.
+// All nodes and elements of the model in one numbering: parts copied into their instances, deck
+// numbers replaced by rows.
 #include <Eigen/Core>
 #include <functional>
 #include <map>
@@ -18,8 +18,8 @@ struct IdRange {
   int32_t first, last, step;
 };
 
-/// A scope in its place. Its elements are numbered: cells in the order of its tables, then points,
-/// then those that the user lets go.
+/// One use of a scope. Its elements are numbered: cells in the order of its tables, then points,
+/// then those that the user ignores.
 struct Use {
   const Scope* scope = nullptr;
   std::string name;  // of the instance; empty: the flat deck or the assembly
@@ -43,8 +43,8 @@ struct FlatTable {
 
 class Model {
  public:
-  /// Takes the deck apart: its tables are emptied, cards and sets stay. InputError for numbers that
-  /// stand for two different things, for nodes that are not there and for instances of no part.
+  /// Consumes the tables of the deck; cards and sets stay. InputError for numbers with two
+  /// meanings, for missing nodes and for instances of unknown parts.
   Model(RawDeck deck, const Source& source);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
@@ -53,18 +53,17 @@ class Model {
   /// Instances in the order of the deck, then the flat deck or the assembly.
   const std::vector<Use>& uses() const { return uses_; }
   size_t main_use() const { return uses_.size() - 1; }
-  /// Of an instance by its name; -1 where there is none.
+  /// Index of an instance by name; -1 if there is none.
   int find_use(const std::string& name) const;
-  /// The name of what a use calls `name`: the same, with "instance." in front where there are
-  /// several instances or the assembly has that name too. What HDF5
-  /// does not allow in names becomes _.
+  /// The public name of `name` in a use: the same, prefixed with "instance." if there are several
+  /// instances or the assembly has that name too. Characters that HDF5 does not allow become _.
   std::string public_name(size_t use, const std::string& name) const;
 
   int32_t nodes() const { return static_cast<int32_t>(node_ids_.size()); }
   const std::vector<int32_t>& node_ids() const { return node_ids_; }
   const std::vector<double>& coordinates() const { return xyz_; }
   Eigen::Vector3d at(int32_t row) const { return Eigen::Vector3d(xyz_.data() + 3 * int64_t{row}); }
-  /// Row of node `id` of a use; -1 where there is none.
+  /// Row of node `id` of a use; -1 if there is none.
   int32_t find_node(size_t use, int32_t id) const;
   std::vector<int32_t> find_nodes(size_t use, const IdRange& range) const;
 
@@ -76,11 +75,11 @@ class Model {
   /// Elements of one node or two; `node` is a row, and `second`, or -1. Their numbers follow those
   /// of the cells.
   const std::vector<PointElement>& points() const { return points_; }
-  /// Element `id` of a use: a cell, cells() + a point, kLetGo for one that the user ignores, or -1.
+  /// Element `id` of a use: a cell, cells() + a point, kIgnored for an ignored one, or -1.
   int32_t find_element(size_t use, int32_t id) const;
   /// Without those that the user ignores.
   std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;
-  static constexpr int32_t kLetGo = -2;
+  static constexpr int32_t kIgnored = -2;
 
  private:
   void add_use(Scope* scope, const InstanceLine* line, int32_t index);

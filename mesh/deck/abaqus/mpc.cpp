@@ -9,7 +9,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of the nodes that a *MPC names behind its type; zeros count for nothing.
+// Rows of the nodes of a *MPC, after its type; zeros are skipped.
 std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& lines) {
   std::vector<int32_t> rows;
   std::vector<bool> known(static_cast<size_t>(reading->model->nodes()), false);
@@ -24,7 +24,7 @@ std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& line
   }
   const Fields& fields = lines.front();
   for (const int32_t row : rows) {
-    if (!reading->places->system(row).empty()) {
+    if (!reading->node_map->system(row).empty()) {
       fields.fail(fmt::format("*MPC {}: node {} has *TRANSFORM, which is not supported here",
                               fields.text(0),
                               reading->model->node_ids()[static_cast<size_t>(row)]));
@@ -49,9 +49,9 @@ RawEquation follow(Spot spot, int32_t row, const Eigen::Vector3d& weights,
 }
 
 constexpr double kInLine =
-    1e-6;  // sine of an angle, or distance over length: coordinates are short
+    1e-6;  // sine of an angle, or distance over length: coordinates have few digits
 
-// PLANE: the nodes stay in the plane that the first three span. To first order in u, with
+// PLANE: the nodes stay in the plane of the first three. To first order in u, with
 // x_p = (1 - s - t) x_a + s x_b + t x_c and the normal n: n . (u_p - (1 - s - t) u_a - s u_b - t
 // u_c) = 0.
 void add_plane(Reading* reading, size_t use, const MpcLines& lines,
@@ -62,7 +62,7 @@ void add_plane(Reading* reading, size_t use, const MpcLines& lines,
     fields.fail(fmt::format("*MPC PLANE: found {} nodes, expected 4 or more", rows.size()));
   }
   const auto at = [&](size_t i) { return reading->model->at(rows[i]); };
-  // Of a set, three that span the plane well: the first, the farthest, the farthest from both.
+  // For a set, three well-spread nodes: the first, the farthest, the farthest from both.
   size_t b = 1, c = 0;
   for (size_t i = 2; i < rows.size(); ++i) {
     if ((at(i) - at(0)).norm() > (at(b) - at(0)).norm()) b = i;
@@ -89,8 +89,8 @@ void add_plane(Reading* reading, size_t use, const MpcLines& lines,
   }
 }
 
-// STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, what is
-// square to the line is u_p = (1 - s) u_a + s u_b: two equations.
+// STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, the
+// components normal to the line are u_p = (1 - s) u_a + s u_b: two equations.
 void add_straight(Reading* reading, size_t use, const MpcLines& lines,
                   std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
@@ -104,7 +104,7 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
     if ((at(i) - at(0)).norm() > (at(b) - at(0)).norm()) b = i;
   }
   const Eigen::Vector3d e = at(b) - at(0);
-  if (!(e.norm() > 0.0)) fields.fail("*MPC STRAIGHT: its nodes are in one place");
+  if (!(e.norm() > 0.0)) fields.fail("*MPC STRAIGHT: its end nodes coincide");
   Eigen::Index along = 0;
   e.cwiseAbs().maxCoeff(&along);
   for (size_t i = 1; i < rows.size(); ++i) {
@@ -121,7 +121,7 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
       square[along] = -e[k] / e[along];
       RawEquation equation =
           follow(fields.spot(), rows[i], square, {{rows[0], 1.0 - s}, {rows[b], s}});
-      // Direction k is the dependent: the other equation has the other one.
+      // Direction k is the dependent; the other equation has the other one.
       const auto own =
           std::find_if(equation.terms.begin(), equation.terms.end(),
                        [&](const Term& t) { return t.row == rows[i] && t.direction == k; });
@@ -131,9 +131,9 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
   }
 }
 
-// MEANROT: the mean turn of nodes about an axis is DoF 1 of the node behind them, whose coordinates
+// MEANROT: the mean rotation of nodes about an axis is DoF 1 of the last node, whose coordinates
 // are the direction of the axis (Dhondt, CalculiX manual, "Mean rotation MPC"). To first order,
-// with the arms p_i from the nodes' centre, square to the axis a, and m nodes,
+// with the arms p_i from the nodes' centre, normal to the axis a, and m nodes,
 //   theta = 1/m sum a . (p_i x (u_i - u_mean)) / |p_i|^2.
 void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
                        std::vector<RawEquation>* equations) {
@@ -147,10 +147,10 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
   }
   const int32_t pilot = rows.back();
   rows.pop_back();
-  Places& places = *reading->places;
+  NodeMap& node_map = *reading->node_map;
   const Eigen::Vector3d axis = reading->model->at(pilot);
   const int32_t id = reading->model->node_ids()[static_cast<size_t>(pilot)];
-  if (places.mesh_node(pilot) != Places::kNone || !(axis.norm() > 0.0)) {
+  if (node_map.mesh_node(pilot) != NodeMap::kNone || !(axis.norm() > 0.0)) {
     fields.fail(
         fmt::format("*MPC MEANROT: found node {}, expected one of its own whose coordinates "
                     "are the direction of the axis",
@@ -185,7 +185,7 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
                                   [](const Term& one, const Term& other) {
                                     return std::abs(one.coefficient) < std::abs(other.coefficient);
                                   }));
-  places.set_rotation_node(pilot, places.of(pilot));
+  node_map.set_rotation_node(pilot, node_map.of(pilot));
   equation.terms.push_back({pilot, 0, -1.0});
   equations->push_back(std::move(equation));
 }
@@ -210,21 +210,21 @@ void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
   if (lines.size() > 1) lines[1].fail(fmt::format("expected one line of *MPC {}", type));
   const int32_t a = reading->sets->node_at(fields, 1, use);
   const int32_t b = reading->sets->node_at(fields, 2, use);
-  Places& places = *reading->places;
+  NodeMap& node_map = *reading->node_map;
   if (type == "BEAM") {
     Rigid rigid;
     rigid.name = fmt::format("beam_{}", reading->deck->rigid.size() + 1);
     rigid.where = reading->source.where(fields.spot());
-    const bool in_mesh = places.mesh_node(b) != Places::kNone;
-    rigid.reference = in_mesh ? places.point_upon(b) : places.of(b);
-    places.of(a);
+    const bool in_mesh = node_map.mesh_node(b) != NodeMap::kNone;
+    rigid.reference = in_mesh ? node_map.point_upon(b) : node_map.of(b);
+    node_map.of(a);
     std::vector<int32_t> rows = {a};
     if (in_mesh) rows.push_back(b);
     reading->dependents.emplace_back(reading->deck->rigid.size(), std::move(rows));
     reading->deck->rigid.push_back(std::move(rigid));
     return;
   }
-  const bool rotations = places.is_point(places.of(a)) && places.is_point(places.of(b));
+  const bool rotations = node_map.is_point(node_map.of(a)) && node_map.is_point(node_map.of(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
     equations->push_back({fields.spot(), {{a, k, 1.0}, {b, k, -1.0}}});
   }

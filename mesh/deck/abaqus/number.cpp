@@ -20,7 +20,7 @@ struct Decimal {
   int exponent = 0;
 };
 
-// `precision` digits behind the first one; -1 for as many as it takes to tell the double.
+// `precision` digits after the first one; -1 for the shortest that identifies the double.
 Decimal decimal_of(double value, int precision) {
   std::array<char, 64> text;
   const auto end = precision < 0 ? std::to_chars(text.data(), text.data() + text.size(), value,
@@ -45,9 +45,9 @@ std::string shortest(const Decimal& decimal) {
   const std::string& digits = decimal.digits;
   const int n = static_cast<int>(digits.size());
   const int e = decimal.exponent;
-  const int shift = e - n + 1;  // of the digits as a whole number
+  const int shift = e - n + 1;  // of the digits as an integer
   const char* sign = decimal.negative ? "-" : "";
-  const std::string whole =
+  const std::string as_integer =
       shift == 0 ? fmt::format("{}{}.", sign, digits) : fmt::format("{}{}e{}", sign, digits, shift);
   constexpr int kMost = static_cast<int>(kWidth);
   std::string fixed;
@@ -59,7 +59,7 @@ std::string shortest(const Decimal& decimal) {
   } else if (e > 0 && e < kMost) {
     fixed = fmt::format("{}{}{:0<{}}.", sign, digits, "", shift);
   }
-  return !fixed.empty() && fixed.size() <= std::max(whole.size(), kWidth) ? fixed : whole;
+  return !fixed.empty() && fixed.size() <= std::max(as_integer.size(), kWidth) ? fixed : as_integer;
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ class Parser {
   }
 
  private:
-  // What a step gives, or the next keyword when it was refused: tables have gaps then, and what
-  // names their nodes and elements is not looked at.
+  // Runs a reading step; goes to the next keyword if it was refused: tables then have gaps, and
+  // references to their nodes and elements are not checked.
   template <class Body>
   Lines::Kind go_on(const Body& body) {
     Lines::Kind kind = Lines::Kind::kEnd;
@@ -74,7 +74,7 @@ class Parser {
     return kind;
   }
 
-  // A deck that was cut at the end of a line shows it by what is open.
+  // A deck truncated at the end of a line has open blocks.
   void check_end() {
     if (scope_ != &deck_.model) {
       source_.fail(scope_->spot, "found *PART without *END PART, the deck ends before it");
@@ -83,11 +83,11 @@ class Parser {
       source_.fail(assembly_, "found *ASSEMBLY without *END ASSEMBLY, the deck ends before it");
     }
     if (step_ >= 0 && last_.key == "STEP" && steps_ > 1 && !lines_.open_keyword()) {
-      // Nothing stands in it; CalculiX takes such a deck, too.
+      // An empty step; CalculiX accepts such a deck, too.
       if (!left_out_) scope_->cards.pop_back();
       deck_.notes.push_back(fmt::format(
-          "{}: the deck ends here, with a *STEP that is empty: it is left out; if the file should "
-          "go on, it was cut",
+          "{}: the deck ends here, with an empty *STEP, which is left out; the file may be "
+          "truncated",
           source_.where(step_)));
       return;
     }
@@ -95,7 +95,7 @@ class Parser {
       source_.fail(step_, "found *STEP without *END STEP, the deck ends before it");
     }
     if (lines_.open_keyword()) {
-      source_.fail(last_.spot, fmt::format("the deck ends behind the comma of {}, expected the "
+      source_.fail(last_.spot, fmt::format("the deck ends after the comma of {}, expected the "
                                            "rest of the line",
                                            last_.name));
     }
@@ -105,8 +105,8 @@ class Parser {
     }
     if (steps_ > 0 || lines_.marked_end()) return;
     deck_.notes.push_back(fmt::format(
-        "{}: the deck ends here, in {}, without a *STEP: read as a model without loads; if the "
-        "file should go on, it was cut",
+        "{}: the deck ends here, in {}, without a *STEP: read as a model without loads; the "
+        "file may be truncated",
         source_.where(source_.spot()), last_.name.empty() ? "nothing" : last_.name));
   }
 
@@ -134,7 +134,7 @@ class Parser {
     if ((role == Role::kProcedure || frozen) && step_ >= 0 && steps_before_ > 0) {
       return begin_left_out(keyword);
     }
-    check_place(keyword, role);
+    check_context(keyword, role);
     if (role == Role::kMaterial) parent_ = Role::kMaterial;
     if (role == Role::kCoupling) parent_ = Role::kCoupling;
     switch (role) {
@@ -162,7 +162,7 @@ class Parser {
         cards_before_step_ = scope_->cards.size();
         steps_before_ = linear_steps_;
         if (!left_out_) return read_card();
-        deck_.notes.push_back(fmt::format("{}: *STEP is left out: it goes on from a step that is",
+        deck_.notes.push_back(fmt::format("{}: *STEP is left out: it continues a step that is",
                                           source_.where(keyword.spot)));
         return skip_data();
       case Role::kStepEnd:
@@ -174,7 +174,7 @@ class Parser {
     }
   }
 
-  // The step that is open goes, and with it those that follow from it.
+  // Drops the open step and those that follow from it.
   Lines::Kind begin_left_out(const Keyword& keyword) {
     left_out_ = true;
     scope_->cards.erase(scope_->cards.begin() + static_cast<long>(cards_before_step_),
@@ -193,12 +193,12 @@ class Parser {
     return skip_data();
   }
 
-  // What stands behind *MATERIAL describes it, until a keyword of another kind comes.
-  void check_place(const Keyword& keyword, Role role) {
+  // Keywords after *MATERIAL belong to it, until one of another kind.
+  void check_context(const Keyword& keyword, Role role) {
     const bool material = role == Role::kMaterialPart || role == Role::kMaterialIdle;
     const bool coupling = role == Role::kCouplingPart;
-    if (material && parent_ != Role::kMaterial) misplaced(keyword, "behind *MATERIAL");
-    if (coupling && parent_ != Role::kCoupling) misplaced(keyword, "behind *COUPLING");
+    if (material && parent_ != Role::kMaterial) misplaced(keyword, "after *MATERIAL");
+    if (coupling && parent_ != Role::kCoupling) misplaced(keyword, "after *COUPLING");
     if (!material && !coupling) parent_ = Role::kUnknown;
     const bool inside = role == Role::kStep || role == Role::kStepEnd;
     if (inside && step_ < 0) misplaced(keyword, "inside a step");
@@ -210,8 +210,8 @@ class Parser {
     if (role == Role::kStepBegin && scope_ != &deck_.model) misplaced(keyword, "outside of parts");
   }
 
-  [[noreturn]] void misplaced(const Keyword& keyword, std::string_view place) const {
-    source_.fail(keyword.spot, fmt::format("found {}, expected it {}", keyword.name, place));
+  [[noreturn]] void misplaced(const Keyword& keyword, std::string_view expected) const {
+    source_.fail(keyword.spot, fmt::format("found {}, expected it {}", keyword.name, expected));
   }
 
   Lines::Kind skip_data() {
@@ -261,7 +261,7 @@ class Parser {
     if (keyword.key == "PART") {
       begin_part(keyword);
     } else if (keyword.key == "ENDPART") {
-      if (scope_ == &deck_.model) misplaced(keyword, "behind *PART");
+      if (scope_ == &deck_.model) misplaced(keyword, "after *PART");
       deck_.parts.push_back(std::move(part_));
       scope_ = &deck_.model;
     } else if (keyword.key == "INSTANCE") {
@@ -272,13 +272,13 @@ class Parser {
       assembly_ = -1;
     } else if (keyword.key == "ENDINSTANCE") {
       if (refusals_->any()) throw FollowUp();
-      misplaced(keyword, "behind *INSTANCE");
+      misplaced(keyword, "after *INSTANCE");
     }
     return no_data(keyword);
   }
 
   void begin_part(const Keyword& keyword) {
-    if (scope_ != &deck_.model) misplaced(keyword, "behind *END PART");
+    if (scope_ != &deck_.model) misplaced(keyword, "after *END PART");
     keyword.allow({"NAME"}, source_, ignore_);
     part_ = Scope();
     part_.name = keyword.required("NAME", source_);
@@ -294,13 +294,13 @@ class Parser {
   Lines::Kind no_data(const Keyword& keyword) {
     const Lines::Kind kind = lines_.next();
     if (kind == Lines::Kind::kData) {
-      source_.fail(lines_.spot(), fmt::format("found '{}', expected no data behind {}",
+      source_.fail(lines_.spot(), fmt::format("found '{}', expected no data after {}",
                                               lines_.data().substr(0, 40), keyword.name));
     }
     return kind;
   }
 
-  // Shift in the first line; two points of an axis and an angle in degrees in the second.
+  // Translation in the first line; two points of an axis and an angle in degrees in the second.
   Lines::Kind read_instance(const Keyword& keyword) {
     if (scope_ != &deck_.model) misplaced(keyword, "outside of parts");
     keyword.allow({"NAME", "PART"}, source_, ignore_);
@@ -310,18 +310,18 @@ class Parser {
     instance.spot = keyword.spot;
     Lines::Kind kind = lines_.next();
     for (int line = 0; kind == Lines::Kind::kData; kind = lines_.next(), ++line) {
-      place(Fields(lines_.data(), source_, lines_.spot()), line, &instance);
+      set_position(Fields(lines_.data(), source_, lines_.spot()), line, &instance);
     }
     if (kind == Lines::Kind::kEnd || lines_.keyword().key != "ENDINSTANCE") {
       source_.fail(keyword.spot,
-                   "expected *END INSTANCE behind the lines of *INSTANCE: what an "
-                   "instance adds to its part is not supported");
+                   "expected *END INSTANCE after the lines of *INSTANCE: additions "
+                   "of an instance to its part are not supported");
     }
     deck_.instances.push_back(instance);
     return no_data(lines_.keyword());
   }
 
-  static void place(const Fields& fields, int line, InstanceLine* instance) {
+  static void set_position(const Fields& fields, int line, InstanceLine* instance) {
     if (line == 0) {
       fields.at_most(3, "translation of an instance");
       for (int k = 0; k < 3; ++k) instance->shift[k] = fields.number_or(k, 0.0, "translation");
@@ -354,7 +354,7 @@ class Parser {
   RawDeck deck_;
   Scope part_;
   Scope* scope_ = &deck_.model;
-  Spot step_ = -1;  // of the step that is open
+  Spot step_ = -1;  // of the open step
   Role parent_ = Role::kUnknown;
 };
 

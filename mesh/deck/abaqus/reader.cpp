@@ -11,28 +11,29 @@
 namespace clatter::mesh::deck {
 namespace abaqus {
 
-// Sets of the deck and surfaces of nodes. A set that holds points stands in Deck::sets with all its
-// places; its nodes of the mesh, if any, in Mesh::node_sets as well.
+// Sets of the deck and surfaces of nodes. A set that contains points is in Deck::sets with all its
+// node indices; its mesh nodes, if any, are in Mesh::node_sets as well.
 void read_node_sets(Reading* reading) {
   const Model& model = *reading->model;
   const auto add = [&](const std::string& name, const std::vector<int32_t>& rows, Spot spot) {
     if (reading->deck->mesh.node_sets.contains(name) || reading->deck->sets.contains(name)) {
       reading->source.fail(spot, fmt::format("found a second node set {}", name));
     }
-    std::vector<Place> nodes, all;
+    std::vector<NodeIndex> nodes, all;
     for (const int32_t row : rows) {
-      const int32_t node = reading->places->mesh_node(row);
-      const Place place = reading->places->find(row);
-      if (node != Places::kNone) nodes.push_back(node);
-      if (node != Places::kNone || place != Places::kNone) {
-        all.push_back(node != Places::kNone ? node : place);
+      const int32_t node = reading->node_map->mesh_node(row);
+      const NodeIndex node_index = reading->node_map->find(row);
+      if (node != NodeMap::kNone) nodes.push_back(node);
+      if (node != NodeMap::kNone || node_index != NodeMap::kNone) {
+        all.push_back(node != NodeMap::kNone ? node : node_index);
       }
     }
     std::sort(nodes.begin(), nodes.end());
     if (all.size() > nodes.size()) reading->deck->sets[name] = all;
     if (!nodes.empty() || rows.empty()) reading->deck->mesh.node_sets[name] = std::move(nodes);
   };
-  // Sets hold others: what is wrong with one is wrong with those around it, so the first is enough.
+  // Sets may contain others: an error in one affects those around it, so only the first is
+  // reported.
   reading->refusals->attempt([&] {
     for (size_t use = 0; use < model.uses().size(); ++use) {
       for (const auto& [key, set] : model.uses()[use].scope->node_sets) {
@@ -59,9 +60,9 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   RawDeck raw = parse(source, &ignore, &refusals);
   Deck deck;
   deck.notes = std::move(raw.notes);
-  std::unique_ptr<const Model> whole;
-  refusals.require([&] { whole = std::make_unique<const Model>(std::move(raw), *source); });
-  const Model& model = *whole;
+  std::unique_ptr<const Model> model_owner;
+  refusals.require([&] { model_owner = std::make_unique<const Model>(std::move(raw), *source); });
+  const Model& model = *model_owner;
   Sets sets(&model);
   deck.mesh.name = name;
   Reading reading{.source = *source,
@@ -70,7 +71,7 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
                   .model = &model,
                   .sets = &sets,
                   .deck = &deck,
-                  .places = nullptr,
+                  .node_map = nullptr,
                   .initial = {},
                   .surface_names = {},
                   .node_surfaces = {},
@@ -83,8 +84,8 @@ Deck read(Source* source, const std::string& name, const ReadOptions& options) {
   read_orientations(&reading);
   std::vector<int32_t> mesh_node;
   refusals.require([&] { mesh_node = build_mesh(&reading); });
-  Places places(&model, &deck, std::move(mesh_node));
-  reading.places = &places;
+  NodeMap node_map(&model, &deck, std::move(mesh_node));
+  reading.node_map = &node_map;
   read_surfaces(&reading);
   read_transforms(&reading);
   read_initial_conditions(&reading);

@@ -8,7 +8,7 @@
 
 namespace clatter::mesh::deck {
 
-/// What is read, in the deck's own units:
+/// Supported, in the deck's own units:
 ///
 ///   mesh        *NODE, *ELEMENT of C3D4 C3D5 C3D6 C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R,
 ///               *NSET, *ELSET, *SURFACE, *PART, *INSTANCE, *INCLUDE
@@ -21,40 +21,39 @@ namespace clatter::mesh::deck {
 ///
 /// Names are kept as first written and compared without case and blanks. Output requests are
 /// skipped; any other keyword, parameter or element type is an InputError "deck.inp:12: ..." unless
-/// the user ignores it by name. These choices are not in the deck's text:
+/// the user ignores it by name. Interpretation of the deck:
 ///
 /// - A region is an element set with a section and has its name; a deck without any section has the
-///   sets of *ELEMENT as regions, without material. Element sets have no place in the mesh
-///   otherwise.
-/// - Nodes without elements are left out unless a constraint, a mass or an equation needs them:
-///   then they are points. A support of such a node holds nothing and is left out.
-/// - A deck of instances: a scope's numbers are kept where they lie above those of the scopes
-///   before, else a multiple of a power of ten is added (node 17 of the second instance: 1017).
-///   What a part names is "instance.name" when there are several instances or the assembly uses the
-///   name as well.
+///   sets of *ELEMENT as regions, without material. Other element sets are not stored in the mesh.
+/// - Nodes without elements are skipped unless a constraint, a mass or an equation needs them: then
+///   they are points. A support of a skipped node has no effect and is skipped too.
+/// - A deck of instances: a scope's numbers are kept if they are above those of the scopes before,
+///   else a multiple of a power of ten is added (node 17 of the second instance: 1017). A name of a
+///   part becomes "instance.name" if there are several instances or the assembly has that name as
+///   well.
 /// - C3D8 and C3D20 are kFull, C3D6, C3D15, C3D8R and C3D20R kReduced, C3D8I kIncompatible.
 /// - Strains of a temperature start at that of *INITIAL CONDITIONS; ZERO of *EXPANSION has no
 ///   effect on constant coefficients.
 /// - A reference node that belongs to an element becomes a point as well, which moves that node; a
 ///   ROT NODE's translations are the rotations of its reference point.
 /// - *DISTRIBUTING COUPLING with its node at the weighted centre of the others means the same in
-///   all programs. Off the centre it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
+///   all programs. Elsewhere it is refused; ignore = ["MOMENT"] reads it as CalculiX does: a
 ///   weighted mean, the moment of a force is lost.
 /// - An element line with too many nodes is refused; ignore = ["EXTRA NODES"] takes the first ones,
 ///   as CalculiX does.
-/// - A *TIE or *COUPLING surface of TYPE=NODE stands for the outer faces whose nodes are all in it.
-/// - Equations between nodes with *TRANSFORM are turned into the basic axes.
-/// - *STEP, PERTURBATION behind a loaded *STATIC step is left out with all that follows and a note
-///   (its stiffness depends on the loads), and so is a step with NLGEOM behind others; ignore =
-///   ["PERTURBATION"] takes the stiffness without them, ignore = ["NLGEOM"] a step as linear,
-///   ignore = ["AMPLITUDE"] loads as they stand. NLGEOM in the first step is refused.
-/// - SPRINGA, SPRING1 and SPRING2 become springs; dashpots are left out aloud.
+/// - A *TIE or *COUPLING surface of TYPE=NODE means the outer faces whose nodes are all in it.
+/// - Equations between nodes with *TRANSFORM are transformed to the basic axes.
+/// - *STEP, PERTURBATION after a loaded *STATIC step is skipped with all that follow and a note
+///   (its stiffness depends on the loads), and so is a step with NLGEOM after others; ignore =
+///   ["PERTURBATION"] takes the unloaded stiffness, ignore = ["NLGEOM"] a step as linear, ignore =
+///   ["AMPLITUDE"] loads without their amplitude. NLGEOM in the first step is refused.
+/// - SPRINGA, SPRING1 and SPRING2 become springs; dashpots are skipped with a note.
 /// - *MPC, MEANROT: DoF 1 of its last node becomes the rotation rx of a point.
-/// - *CYCLIC SYMMETRY MODEL: the sector becomes the ring (cyclic.hpp).
-/// - Steps take over loads and supports from the step before (OP=MOD); within one step loads on the
-///   same place add up. A *STEP, PERTURBATION has only its own loads.
+/// - *CYCLIC SYMMETRY MODEL: the sector is expanded to the full ring (cyclic.hpp).
+/// - Steps inherit loads and supports from the step before (OP=MOD); within one step loads on the
+///   same node or face add up. A *STEP, PERTURBATION has only its own loads.
 ///
-/// InputError for what is wrong in the deck, FileError when it cannot be read.
+/// InputError for errors in the deck, FileError when it cannot be read.
 Deck read_abaqus(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The same from memory, called `name` in messages; *INCLUDE is refused.

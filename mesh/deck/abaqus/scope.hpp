@@ -1,6 +1,6 @@
 #pragma once
-// What a deck says, as it stands there: tables of nodes and elements, sets, and the other keywords
-// as cards. A flat deck is one scope; a deck of parts is one scope a part and one for the assembly.
+// The content of a deck: tables of nodes and elements, sets, and the other keywords as cards. A
+// flat deck is one scope; a deck of parts has one scope per part and one for the assembly.
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
@@ -20,7 +20,7 @@ struct NodeTable {
   std::vector<Spot> spots;
 };
 
-/// Elements of one type name; `nodes` are numbers of the deck in Abaqus' order.
+/// Elements of one type name; `nodes` are deck numbers in Abaqus' order.
 struct CellTable {
   std::string name;  // "C3D8I"
   CellType type = CellType::kTet4;
@@ -39,7 +39,7 @@ struct PointElement {
   Spot spot = 0;
 };
 
-/// What one keyword adds to a set.
+/// The part of a set from one keyword.
 struct SetChunk {
   struct Range {
     int32_t first, last, step;
@@ -70,12 +70,12 @@ struct Scope {
   NodeTable nodes;
   std::vector<CellTable> cells;
   std::vector<PointElement> points;
-  std::vector<int32_t> let_go;  // numbers of elements that the user ignores
+  std::vector<int32_t> ignored_elements;  // numbers of elements that the user ignores
   IdSets node_sets, element_sets;
   std::vector<Card> cards;
 };
 
-/// A part in its place: x -> rotation * x + shift.
+/// A positioned part: x -> rotation * x + shift.
 struct InstanceLine {
   std::string name, part;
   Spot spot = 0;
@@ -90,7 +90,7 @@ struct RawDeck {
   std::vector<std::string> notes;  // Deck::notes
 };
 
-/// The chunk that a new keyword adds to; the set begins with it when it is not there.
+/// The chunk that a new keyword adds to; creates the set if needed.
 SetChunk& new_chunk(IdSets* sets, const std::string& name, Spot spot);
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -7,9 +7,9 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Sets within sets within sets; far beyond what people write.
+// Deepest nesting of sets; far beyond real decks.
 constexpr int kDeepest = 64;
-// A gigabyte of members: small decks can name large sets without end.
+// A gigabyte of members: small decks can repeat large sets very often.
 constexpr size_t kMostMembers = size_t{1} << 28;
 
 void sort_unique(std::vector<int32_t>* values) {
@@ -25,7 +25,7 @@ const IdSets& Sets::sets_of(Kind kind, size_t use) const {
   return kind == Kind::kNodes ? scope.node_sets : scope.element_sets;
 }
 
-// "instance.name" points into the instance.
+// "instance.name" refers to a set of the instance.
 Sets::Key Sets::key_of(size_t use, const std::string& name) const {
   for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
     const int instance = model_->find_use(name.substr(0, dot));
@@ -62,7 +62,7 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Spot spot) 
     model_->source().fail(spot, fmt::format("{} {} holds itself", what, set->second.name));
   }
   if (++depth_ > kDeepest) {
-    model_->source().fail(spot, fmt::format("found more than {} sets within each other", kDeepest));
+    model_->source().fail(spot, fmt::format("found more than {} nested sets", kDeepest));
   }
   std::vector<int32_t> members;
   for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, &members);
@@ -112,8 +112,7 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
   }
 }
 
-// Parts that say the same again and again take no more memory than a few whole sets, and no more
-// time than it takes to look at each member.
+// Repeated ranges take no more memory than a few complete sets, and linear time in their members.
 void Sets::compact(std::vector<int32_t>* out) const {
   const size_t all = static_cast<size_t>(model_->nodes()) + static_cast<size_t>(model_->cells()) +
                      model_->points().size();
@@ -126,7 +125,7 @@ void Sets::compact(std::vector<int32_t>* out) const {
   }
 }
 
-// Rows of *NODE, NSET= or *ELEMENT, ELSET=. A node that is given twice stands for its first row.
+// Rows of *NODE, NSET= or *ELEMENT, ELSET=. A node that is given twice counts as its first row.
 void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const {
   const Use& at = model_->uses()[use];
   for (int32_t row = chunk.row_begin; row < chunk.row_end; ++row) {
@@ -155,7 +154,7 @@ void Sets::add_numbers(Kind kind, size_t use, const SetChunk& chunk,
   }
 }
 
-// Numbers of a range that do not exist are no mistake: programs write ranges over gaps.
+// Missing numbers within a range are no error: programs write ranges over gaps.
 void Sets::add_range(Kind kind, size_t use, const SetChunk::Range& range,
                      std::vector<int32_t>* out) const {
   const IdRange ids{range.first, range.last, range.step};

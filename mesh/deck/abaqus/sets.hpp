@@ -1,5 +1,5 @@
 #pragma once
-// What numbers and names of nodes and elements stand for.
+// Resolves numbers and set names of nodes and elements.
 #include <map>
 #include <string>
 #include <utility>
@@ -9,19 +9,19 @@
 
 namespace clatter::mesh::deck::abaqus {
 
-/// Sets by name, resolved when first asked for and kept. A name is one of the scope, or
-/// "instance.name" from outside; a number is one of the scope, or "instance.number".
+/// Sets by name, resolved on first use and kept. A name is one of the scope, or "instance.name"
+/// from outside; a number is one of the scope, or "instance.number".
 class Sets {
  public:
   explicit Sets(const Model* model) : model_(model) {}
 
-  /// Rows of the nodes of a set, ascending. InputError at `spot` for a name that is not there, at
-  /// the set's line for numbers that are not there and for sets that hold themselves.
+  /// Rows of the nodes of a set, ascending. InputError at `spot` for an unknown name, at the set's
+  /// line for unknown numbers and for sets that contain themselves.
   const std::vector<int32_t>& nodes(size_t use, const std::string& name, Spot spot);
-  /// The same for elements; those of one node come behind the cells (Model::points).
+  /// The same for elements; those of one node follow the cells (Model::points).
   const std::vector<int32_t>& elements(size_t use, const std::string& name, Spot spot);
 
-  /// What stands in field `i`: a number or the name of a set.
+  /// The members of field `i`: a number or the name of a set.
   std::vector<int32_t> nodes_at(const Fields& fields, size_t i, size_t use);
   std::vector<int32_t> elements_at(const Fields& fields, size_t i, size_t use);
   /// One node: its number, or the name of a set of one node.

@@ -26,9 +26,9 @@ Source::Source(std::string_view text, const std::string& name) : in_memory_(true
 void Source::open(const fs::path& path) {
   will_read(path);
   std::error_code trouble;
-  const fs::path whole = fs::weakly_canonical(path, trouble);
+  const fs::path canonical = fs::weakly_canonical(path, trouble);
   OpenFile file;
-  file.path = trouble ? path : whole;
+  file.path = trouble ? path : canonical;
   file.stream.reset(std::fopen(path.c_str(), "rb"));
   if (!file.stream) throw FileError(fmt::format("{}: cannot be opened", path.string()));
   file.name = static_cast<int32_t>(files_.size());
@@ -41,7 +41,7 @@ void Source::begin_segment() {
   segments_.push_back({lines_, open_.back().name, open_.back().line});
 }
 
-// Moves the rest of the text to the front and reads on behind it; false when nothing came.
+// Moves the rest of the text to the front and reads more; false at the end.
 bool Source::refill(OpenFile& file) {
   if (file.at_end) return false;
   const size_t rest = file.text.size();
@@ -97,21 +97,21 @@ std::string Source::where(Spot spot) const {
 void Source::include(const std::string& name, Spot spot) {
   if (in_memory_) fail(spot, "*INCLUDE is not read in a deck without a file");
   if (open_.size() >= kDeepestInclude) {
-    fail(spot, fmt::format("found more than {} files within each other", kDeepestInclude));
+    fail(spot, fmt::format("found more than {} nested files", kDeepestInclude));
   }
   std::error_code trouble;
   fs::path path(name);
   if (path.is_relative()) {
-    const fs::path beside = open_.back().path.parent_path() / path;
+    const fs::path sibling = open_.back().path.parent_path() / path;
     const fs::path top = fs::path(files_.front()).parent_path() / path;
-    path = fs::exists(beside, trouble) ? beside : top;
+    path = fs::exists(sibling, trouble) ? sibling : top;
   }
   if (!fs::is_regular_file(path, trouble)) {
     fail(spot, fmt::format("*INCLUDE: there is no file '{}'", name));
   }
-  const fs::path whole = fs::weakly_canonical(path, trouble);
+  const fs::path canonical = fs::weakly_canonical(path, trouble);
   for (const OpenFile& file : open_) {
-    if (file.path == whole) fail(spot, fmt::format("*INCLUDE: '{}' includes itself", name));
+    if (file.path == canonical) fail(spot, fmt::format("*INCLUDE: '{}' includes itself", name));
   }
   open(path);
 }

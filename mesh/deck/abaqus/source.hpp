@@ -1,5 +1,5 @@
 #pragma once
-// The lines of an Abaqus deck and of the files that it includes, one after the other.
+// The lines of an Abaqus deck and of its included files, in reading order.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -15,11 +15,11 @@ namespace clatter::mesh::deck::abaqus {
 /// Number of a line, counted from 0 through all files in the order of reading.
 using Spot = int32_t;
 
-/// Longest line that is read, most files open within each other.
+/// Longest line, deepest nesting of included files.
 inline constexpr size_t kLongestLine = size_t{1} << 20;
 inline constexpr size_t kDeepestInclude = 64;
 
-/// Streams lines: memory of one line a file, whatever the deck's size.
+/// Streams lines: holds one line per file in memory, whatever the deck's size.
 class Source {
  public:
   /// FileError when the deck cannot be opened.
@@ -27,18 +27,18 @@ class Source {
   /// A deck in memory, called `name` in messages; include() is refused.
   Source(std::string_view text, const std::string& name);
 
-  /// The next line without its end, valid until the next call; false behind the last one.
+  /// The next line without its line ending, valid until the next call; false after the last one.
   /// InputError for a line of more than kLongestLine characters.
   bool next(std::string_view* line);
-  /// Of the line that next() gave last.
+  /// Of the last line that next() returned.
   Spot spot() const { return static_cast<Spot>(lines_ - 1); }
   /// "deck.inp:12"
   std::string where(Spot spot) const;
   /// Continues with the lines of another file, relative to the file of `spot` or, where there is
   /// none, to the deck's folder; then with what follows. InputError for a missing file, for one
-  /// that is open already and for kDeepestInclude files within each other.
+  /// that is open already and for kDeepestInclude nested files.
   void include(const std::string& name, Spot spot);
-  /// The deck and all that it includes, in the order of opening.
+  /// The deck and all included files, in the order of opening.
   const std::vector<std::string>& files() const { return files_; }
 
   /// Throws InputError "deck.inp:12: message".
@@ -54,8 +54,8 @@ class Source {
     std::unique_ptr<std::FILE, Closer> stream;  // none: a deck in memory
     std::filesystem::path path;
     int32_t name = 0;        // index into files_
-    int32_t line = 0;        // lines given so far
-    std::vector<char> kept;  // what was read and not given yet: text
+    int32_t line = 0;        // lines returned so far
+    std::vector<char> kept;  // text that was read but not returned yet
     std::string_view text;
     bool at_end = false;
   };

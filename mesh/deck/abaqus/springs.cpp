@@ -10,9 +10,9 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-constexpr double kStraight = 1e-9;  // of the largest force: digits of a table
+constexpr double kStraight = 1e-9;  // of the largest force: precision of a table
 
-// A line "force, elongation" each; one straight line through the origin is a linear spring.
+// Lines "force, elongation"; a straight line through the origin is a linear spring.
 double slope_of(const Card& card, size_t first, const Source& source) {
   double force = 0.0, elongation = 0.0;
   std::vector<std::pair<double, double>> points;
@@ -31,7 +31,7 @@ double slope_of(const Card& card, size_t first, const Source& source) {
   });
   if (!straight || elongation == 0.0) {
     source.fail(card.spot(),
-                "*SPRING, NONLINEAR: its forces do not lie on one line through 0, expected a "
+                "*SPRING, NONLINEAR: its forces are not on one line through 0, expected a "
                 "linear spring: clatter's parts are linear");
   }
   return slope;
@@ -50,9 +50,9 @@ Property property_of(const Card& card, const std::string& type, const Source& so
     if (card.size() == 0) source.fail(card.spot(), "*SPRING: found no data lines");
     const Fields fields = card.line(0, source);
     const size_t ends = type == "SPRING1" ? 1 : 2;
-    fields.at_most(ends, "degree of freedom of each end");
+    fields.at_most(ends, "DoF of each end");
     for (size_t i = 0; i < ends; ++i) {
-      property.directions.push_back(fields.integer(i, "degree of freedom", 1, 6) - 1);
+      property.directions.push_back(fields.integer(i, "DoF", 1, 6) - 1);
     }
     first = 1;
   } else if (card.size() > 0 && card.line(0, source).empty(0)) {
@@ -74,19 +74,19 @@ Property property_of(const Card& card, const std::string& type, const Source& so
   return property;
 }
 
-// DoF `direction` of a node, which CalculiX may keep as a translation of a rotation node.
+// DoF `direction` of a node, which CalculiX may store as a translation of a rotation node.
 Equation::Term end_of(Reading* reading, const PointElement& element, int32_t row, int direction,
                       double coefficient) {
-  Places& places = *reading->places;
-  const Place rotated = places.rotation_of(row);
-  const Place place = rotated == Places::kNone ? places.of(row) : rotated;
-  if (rotated != Places::kNone) direction += 3;
+  NodeMap& node_map = *reading->node_map;
+  const NodeIndex rotated = node_map.rotation_of(row);
+  const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.of(row) : rotated;
+  if (rotated != NodeMap::kNone) direction += 3;
   const int32_t id = reading->model->node_ids()[static_cast<size_t>(row)];
-  if (direction > 5 || (direction > 2 && !places.is_point(place))) {
+  if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
     reading->source.fail(element.spot,
                          fmt::format("element {}: node {} has no rotations", element.id, id));
   }
-  return {place, direction, coefficient};
+  return {node_index, direction, coefficient};
 }
 
 void add_spring(Reading* reading, const PointElement& element, const Card& card) {
@@ -98,9 +98,10 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
     const Eigen::Vector3d line =
         reading->model->at(element.second) - reading->model->at(element.node);
     if (!(line.norm() > 0.0)) {
-      reading->source.fail(element.spot, fmt::format("element {}: both ends are in one place, "
-                                                     "expected a SPRINGA with a length",
-                                                     element.id));
+      reading->source.fail(element.spot,
+                           fmt::format("element {}: both ends have the same position, "
+                                       "expected a SPRINGA with a length",
+                                       element.id));
     }
     for (int k = 0; k < 3; ++k) {
       const double along = line[k] / line.norm();
@@ -111,7 +112,7 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
   } else {
     const int32_t ends[] = {element.node, element.second};
     for (size_t i = 0; i < property.directions.size(); ++i) {
-      if (!reading->places->system(ends[i]).empty()) {
+      if (!reading->node_map->system(ends[i]).empty()) {
         reading->source.fail(element.spot,
                              fmt::format("element {}: a {} on a node with *TRANSFORM is not "
                                          "supported, expected a SPRINGA",
@@ -134,7 +135,7 @@ void add_spring(Reading* reading, const PointElement& element, const Card& card)
 void read_springs(Reading* reading) {
   std::set<Spot> described;
   const size_t refused = reading->refusals->size();
-  bool said = false;
+  bool noted = false;
   for_each_card(*reading, {"SPRING", "DASHPOT"}, [&](size_t use, const Card& card) {
     const bool spring = card.keyword().key == "SPRING";
     card.keyword().allow({"ELSET", "NONLINEAR"}, reading->source, reading->ignore);
@@ -145,10 +146,10 @@ void read_springs(Reading* reading) {
       }
       if (spring) reading->refusals->attempt([&] { add_spring(reading, element, card); });
     }
-    if (spring || said) return;
-    said = true;
+    if (spring || noted) return;
+    noted = true;
     reading->deck->notes.push_back(fmt::format(
-        "{}: *DASHPOT is left out: dampers take no part in statics and in undamped frequencies",
+        "{}: *DASHPOT is left out: dampers have no effect in statics and on undamped frequencies",
         reading->source.where(card.spot())));
   });
   if (reading->refusals->size() > refused) return;

@@ -11,7 +11,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Walks through the cards of the model and its steps.
+// Processes the cards of the model and its steps.
 class Steps {
  public:
   explicit Steps(Reading* reading)
@@ -29,16 +29,17 @@ class Steps {
   }
 
  private:
-  // Supports outside of steps; where a step starts anew (OP=NEW) they are those of steps as well.
+  // Supports outside of steps; if a step replaces them (OP=NEW) they become those of steps.
   void read_model() {
-    bool inside = false, anew = false;
+    bool inside = false, replaced = false;
     for_each_card(reading_, {"STEP", "ENDSTEP", "BOUNDARY"}, [&](size_t use, const Card& card) {
       const std::string& key = card.keyword().key;
       if (key != "BOUNDARY") inside = key == "STEP";
-      if (key == "BOUNDARY" && inside && card.keyword().choice("OP", "MOD") == "NEW") anew = true;
+      if (key == "BOUNDARY" && inside && card.keyword().choice("OP", "MOD") == "NEW")
+        replaced = true;
       if (key == "BOUNDARY" && !inside) held_.read(use, card, 0);
     });
-    if (anew) return;
+    if (replaced) return;
     model_ = held_;
     reading_.deck->supports = model_.list(nullptr);
   }
@@ -60,21 +61,21 @@ class Steps {
     check_linear(card);
   }
 
-  // A step on the stiffness of the loads before it, or with large displacements, is none of ours;
-  // nor is one that goes on from there.
+  // A step with the stiffness of earlier loads or with large displacements is not supported, nor is
+  // one that continues it.
   bool leaves_out(const Card& card) {
     const Keyword& keyword = card.keyword();
     const bool large = keyword.has("NLGEOM") && keyword.choice("NLGEOM", "YES") != "NO";
     const bool loaded = perturbation_ && loaded_ && !reading_.ignore->skips("PERTURBATION", 0);
     const char* why = nullptr;
     if (left_out_) {
-      why = "it goes on from a step that is";
+      why = "it continues a step that is";
     } else if (reading_.deck->steps.empty()) {
       return false;
     } else if (loaded) {
       why =
           "its stiffness depends on the loads of the steps before it; ignore = "
-          "[\"PERTURBATION\"] takes the stiffness without them";
+          "[\"PERTURBATION\"] uses the unloaded stiffness";
     } else if (large && !reading_.ignore->skips("NLGEOM", 0)) {
       why = "its displacements are large (NLGEOM); ignore = [\"NLGEOM\"] takes it as linear";
     }
@@ -128,19 +129,19 @@ class Steps {
     card.keyword().allow({"SORTED"}, reading_.source, reading_.ignore);
     for (size_t i = 0; i < card.size(); ++i) {
       const Fields fields = card.line(i, reading_.source);
-      fields.at_most(3, "nodes, first and last degree of freedom");
+      fields.at_most(3, "nodes, first and last DoF");
       const DofMask mask = dof_range(fields, 1);
-      std::map<std::pair<std::string, DofMask>, std::vector<Place>> groups;
+      std::map<std::pair<std::string, DofMask>, std::vector<NodeIndex>> groups;
       for (const int32_t row : reading_.sets->nodes_at(fields, 0, use)) {
-        const auto [place, dofs] = held_dofs(reading_, row, mask);
-        if (place != Places::kNone && dofs != 0) {
-          groups[{reading_.places->system(row), dofs}].push_back(place);
+        const auto [node_index, dofs] = held_dofs(reading_, row, mask);
+        if (node_index != NodeMap::kNone && dofs != 0) {
+          groups[{reading_.node_map->system(row), dofs}].push_back(node_index);
         }
       }
-      for (auto& [key, places] : groups) {
+      for (auto& [key, node_indices] : groups) {
         Support retained;
         retained.where = reading_.source.where(fields.spot());
-        retained.places = std::move(places);
+        retained.node_indices = std::move(node_indices);
         retained.dofs = key.second;
         retained.system = key.first;
         reading_.deck->retained.push_back(std::move(retained));
@@ -148,7 +149,7 @@ class Steps {
     }
   }
 
-  // Loads do not change frequencies: a frequency step keeps its supports only.
+  // Loads do not change frequencies: a frequency step keeps only its supports.
   void end() {
     step_.supports = held_.list(&model_);
     if (step_.kind != Step::Kind::kFrequency) loads_.list(&step_, number_);
@@ -162,18 +163,18 @@ class Steps {
     reading_.deck->steps.push_back(std::move(step_));
   }
 
-  // Steps repeat what they take over.
+  // Steps repeat what they inherit.
   void check_memory() {
     constexpr int64_t kMostEntries = int64_t{1} << 25;  // two gigabytes
     entries_ += static_cast<int64_t>(step_.forces.size());
     for (const Support& support : step_.supports) {
-      entries_ += static_cast<int64_t>(support.places.size());
+      entries_ += static_cast<int64_t>(support.node_indices.size());
     }
     if (!step_.temperature.empty()) entries_ += reading_.model->nodes() / 8;
     if (entries_ > kMostEntries) {
       throw InputError(
-          fmt::format("{}: steps have more than {} loads and supports, with those that "
-                      "they take over",
+          fmt::format("{}: steps have more than {} loads and supports, including "
+                      "inherited ones",
                       step_.where, kMostEntries));
     }
   }
@@ -209,10 +210,10 @@ void read_initial_conditions(Reading* reading) {
       }
     }
   });
-  // Nodes without elements have no say in whether there is one temperature.
+  // Nodes without elements do not count for a uniform temperature.
   std::vector<double> known;
   for (size_t row = 0; row < reading->initial.size(); ++row) {
-    if (reading->places->mesh_node(static_cast<int32_t>(row)) != Places::kNone) {
+    if (reading->node_map->mesh_node(static_cast<int32_t>(row)) != NodeMap::kNone) {
       known.push_back(reading->initial[row]);
     }
   }

@@ -43,20 +43,21 @@ double amplitude_factor(const Reading& reading, const Card& card) {
   if (values.empty()) {
     reading.source.fail(card.spot(),
                         fmt::format("amplitude {} changes with time, which is not supported; "
-                                    "ignore = [\"AMPLITUDE\"] takes the values as they stand",
+                                    "ignore = [\"AMPLITUDE\"] uses the values without it",
                                     *name));
   }
   return values.front();
 }
 
-std::pair<Place, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask) {
-  const Place rotated = reading.places->rotation_of(row);
-  if (rotated != Places::kNone) {
+std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask) {
+  const NodeIndex rotated = reading.node_map->rotation_of(row);
+  if (rotated != NodeMap::kNone) {
     return {rotated, static_cast<DofMask>((mask & kTranslations) << 3)};
   }
-  const Place place = reading.places->find(row);
-  if (place == Places::kNone || reading.places->is_point(place)) return {place, mask};
-  return {place, static_cast<DofMask>(mask & kTranslations)};
+  const NodeIndex node_index = reading.node_map->find(row);
+  if (node_index == NodeMap::kNone || reading.node_map->is_point(node_index))
+    return {node_index, mask};
+  return {node_index, static_cast<DofMask>(mask & kTranslations)};
 }
 
 void Supports::read(size_t use, const Card& card, StepNumber step) {
@@ -88,7 +89,7 @@ void Supports::read_line(size_t use, const Fields& fields, double factor, StepNu
   if (mask != 0) {
     fields.at_most(2, "nodes and the name of a support");
   } else {
-    fields.at_most(4, "nodes, first and last degree of freedom, value");
+    fields.at_most(4, "nodes, first and last DoF, value");
     mask = dof_range(fields, 1);
     value = factor * fields.number_or(3, 0.0, "value");
   }
@@ -96,27 +97,27 @@ void Supports::read_line(size_t use, const Fields& fields, double factor, StepNu
 }
 
 void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot) {
-  const auto [place, dofs] = held_dofs(*reading_, row, mask);
-  if (place == Places::kNone) return;
+  const auto [node_index, dofs] = held_dofs(*reading_, row, mask);
+  if (node_index == NodeMap::kNone) return;
   for (int k = 0; k < 6; ++k) {
     if ((dofs >> k & 1) == 0) continue;
-    const Held held{value, &reading_->places->system(row), step,
+    const Held held{value, &reading_->node_map->system(row), step,
                     static_cast<int32_t>(cards_.size()) - 1};
-    const auto [at, is_new] = held_.emplace(std::pair(place, k), held);
+    const auto [at, is_new] = held_.emplace(std::pair(node_index, k), held);
     if (is_new) continue;
     if (at->second.step == step && at->second.value != value) {
-      reading_->source.fail(spot, fmt::format("node {} is held at {} and at {} in direction {}",
+      reading_->source.fail(spot, fmt::format("node {} is fixed at {} and at {} in direction {}",
                                               reading_->model->node_ids()[static_cast<size_t>(row)],
                                               at->second.value, value, k + 1));
     }
-    // The same again: it stays where it was said first.
+    // A repeated value keeps its first line.
     if (at->second.value != value || at->second.step != step) at->second = held;
   }
 }
 
 std::vector<Support> Supports::list(const Supports* other) const {
-  // By card, value and axes; in each the mask by place.
-  std::map<std::tuple<int32_t, double, std::string>, std::map<Place, DofMask>> groups;
+  // By card, value and axes; in each the mask by node index.
+  std::map<std::tuple<int32_t, double, std::string>, std::map<NodeIndex, DofMask>> groups;
   for (const auto& [dof, held] : held_) {
     if (other != nullptr) {
       const auto at = other->held_.find(dof);
@@ -126,13 +127,13 @@ std::vector<Support> Supports::list(const Supports* other) const {
     mask = static_cast<DofMask>(mask | 1 << dof.second);
   }
   std::vector<Support> supports;
-  for (const auto& [key, places] : groups) {
-    std::map<DofMask, std::vector<Place>> by_mask;
-    for (const auto& [place, mask] : places) by_mask[mask].push_back(place);
+  for (const auto& [key, node_indices] : groups) {
+    std::map<DofMask, std::vector<NodeIndex>> by_mask;
+    for (const auto& [node_index, mask] : node_indices) by_mask[mask].push_back(node_index);
     for (auto& [mask, members] : by_mask) {
       Support support;
       support.where = cards_[static_cast<size_t>(std::get<0>(key))];
-      support.places = std::move(members);
+      support.node_indices = std::move(members);
       support.dofs = mask;
       support.value = std::get<1>(key);
       support.system = std::get<2>(key);

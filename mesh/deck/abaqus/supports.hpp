@@ -1,5 +1,5 @@
 #pragma once
-// *BOUNDARY: which DoFs are held, and at which value, as the steps go by.
+// *BOUNDARY: fixed DoFs and their values, step by step.
 #include <map>
 #include <string>
 #include <utility>
@@ -15,18 +15,18 @@ using StepNumber = int32_t;
 /// Factor of a card's AMPLITUDE; 1 without one. InputError for an amplitude that is not constant.
 double amplitude_factor(const Reading& reading, const Card& card);
 
-/// The DoFs of a node in `mask` (1 to 6 of the deck): its place, and the mask there. No place
-/// (kNone) for a node without stiffness; a mask of 0 for rotations of a node that has none.
-std::pair<Place, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
+/// The DoFs of a node in `mask` (1 to 6 of the deck): its node index, and the mask there. kNone for
+/// a node without stiffness; a mask of 0 for rotations of a node that has none.
+std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
 
 class Supports {
  public:
   explicit Supports(Reading* reading) : reading_(reading) {}
 
-  /// One *BOUNDARY. OP=NEW releases what other steps held. InputError for a DoF that one step holds
-  /// at two values.
+  /// One *BOUNDARY. OP=NEW releases supports of other steps. InputError for a DoF with two values
+  /// in one step.
   void read(size_t use, const Card& card, StepNumber step);
-  /// What is held and is not held in the same way by `other` (null: nothing).
+  /// Supports that `other` does not have in the same way (null: all).
   std::vector<Support> list(const Supports* other) const;
 
  private:
@@ -41,8 +41,8 @@ class Supports {
   void hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot);
 
   Reading* reading_;
-  std::map<std::pair<Place, int>, Held> held_;
-  std::vector<std::string> cards_;  // where they stand
+  std::map<std::pair<NodeIndex, int>, Held> held_;
+  std::vector<std::string> cards_;  // their positions in the deck
 };
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -10,7 +10,7 @@
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of a face of a cell, in our order: the first `count` of them.
+// Rows of a face of a cell, in our order: `count` entries.
 struct FaceRows {
   std::array<int32_t, kMaxFaceNodes> rows;
   size_t count, corners;
@@ -33,7 +33,7 @@ FaceRows face_rows(const Model& model, CellFaceId id) {
   return out;
 }
 
-// A face that may be free, by its corners, ascending: the same for both cells that share it.
+// A candidate for a free face, by its sorted corners: the same for both cells that share it.
 struct Candidate {
   std::array<int32_t, 4> corners;
   CellFaceId id;
@@ -51,43 +51,42 @@ int32_t face_count(const Model& model, int32_t cell) {
   return static_cast<int32_t>(traits(model.table_of(cell).type).faces.size());
 }
 
-// Faces of all other cells whose nodes are all touched.
+// Faces of all other cells whose nodes are all selected.
 void add_neighbours(const Model& model, const std::vector<bool>& chosen,
-                    const std::vector<bool>& touched, std::vector<Candidate>* faces) {
-  const auto is_touched = [&](int32_t row) { return touched[static_cast<size_t>(row)]; };
+                    const std::vector<bool>& selected, std::vector<Candidate>* faces) {
+  const auto is_selected = [&](int32_t row) { return selected[static_cast<size_t>(row)]; };
   for (int32_t cell = 0; cell < model.cells(); ++cell) {
     const auto nodes = model.nodes_of(cell);
     if (chosen[static_cast<size_t>(cell)] ||
-        std::count_if(nodes.begin(), nodes.end(), is_touched) < 3) {
+        std::count_if(nodes.begin(), nodes.end(), is_selected) < 3) {
       continue;
     }
     for (int32_t f = 0; f < face_count(model, cell); ++f) {
       const FaceRows face = face_rows(model, {cell, f});
-      if (std::all_of(face.begin(), face.end(), is_touched)) {
+      if (std::all_of(face.begin(), face.end(), is_selected)) {
         faces->push_back(candidate(face, {cell, f}, false));
       }
     }
   }
 }
 
-// Of the faces of those cells, those for which `wanted` is true of all rows and that no other cell
-// of the model has.
+// The faces of those cells for which `wanted` is true of all rows and that no other cell has.
 template <class Wanted>
 std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t>& cells,
                                    const Wanted& wanted) {
   std::vector<Candidate> all;
   std::vector<bool> chosen(static_cast<size_t>(model.cells()), false);
-  std::vector<bool> touched(static_cast<size_t>(model.nodes()), false);
+  std::vector<bool> selected(static_cast<size_t>(model.nodes()), false);
   for (const int32_t cell : cells) {
     chosen[static_cast<size_t>(cell)] = true;
     for (int32_t f = 0; f < face_count(model, cell); ++f) {
       const FaceRows face = face_rows(model, {cell, f});
       if (!std::all_of(face.begin(), face.end(), wanted)) continue;
       all.push_back(candidate(face, {cell, f}, true));
-      for (const int32_t row : face) touched[static_cast<size_t>(row)] = true;
+      for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
     }
   }
-  add_neighbours(model, chosen, touched, &all);
+  add_neighbours(model, chosen, selected, &all);
   std::sort(all.begin(), all.end(),
             [](const Candidate& a, const Candidate& b) { return a.corners < b.corners; });
   std::vector<CellFaceId> faces;
@@ -99,7 +98,7 @@ std::vector<CellFaceId> free_faces(const Model& model, const std::vector<int32_t
   return faces;
 }
 
-// Key of Reading::surface_names; "instance.name" points into the instance.
+// Key of Reading::surface_names; "instance.name" refers to a surface of the instance.
 std::string key_of(const Reading& reading, size_t use, const std::string& name) {
   std::string rest = name;
   for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
@@ -133,7 +132,7 @@ class SurfaceReader {
     }
     std::vector<CellFaceId> faces;
     for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, reading_.source), &faces);
-    // Without faces because the user lets its elements go: not in the mesh.
+    // Without faces because the user ignores its elements: not in the mesh.
     const bool none = faces.empty() && card.size() > 0;
     reading_.surface_names[key] =
         none ? "" : add_surface(&reading_, model_.public_name(use, name), faces);
@@ -198,7 +197,7 @@ std::string add_surface(Reading* reading, const std::string& name,
   for (const CellFaceId& id : faces) {
     if (!known.insert(id).second) continue;
     FaceRows face = face_rows(*reading->model, id);
-    for (int32_t& row : face.rows) row = reading->places->mesh_node(row);
+    for (int32_t& row : face.rows) row = reading->node_map->mesh_node(row);
     const CellType type = reading->model->table_of(id.first).type;
     surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
   }
@@ -239,22 +238,22 @@ std::string surface_of_nodes(Reading* reading, const std::vector<int32_t>& rows,
   const Model& model = *reading->model;
   std::vector<bool> wanted(static_cast<size_t>(model.nodes()), false);
   for (const int32_t row : rows) wanted[static_cast<size_t>(row)] = true;
-  const auto is_wanted = [&](int32_t row) {
+  const auto is_requested = [&](int32_t row) {
     return static_cast<bool>(wanted[static_cast<size_t>(row)]);
   };
   std::vector<int32_t> cells;
   for (int32_t cell = 0; cell < model.cells(); ++cell) {
     const auto nodes = model.nodes_of(cell);
-    if (std::count_if(nodes.begin(), nodes.end(), is_wanted) >= 3) cells.push_back(cell);
+    if (std::count_if(nodes.begin(), nodes.end(), is_requested) >= 3) cells.push_back(cell);
   }
-  const auto faces = free_faces(model, cells, is_wanted);
+  const auto faces = free_faces(model, cells, is_requested);
   for (const CellFaceId& id : faces) {
     for (const int32_t row : face_rows(model, id)) wanted[static_cast<size_t>(row)] = false;
   }
   for (const int32_t row : rows) {
     if (!wanted[static_cast<size_t>(row)]) continue;
     reading->source.fail(spot, fmt::format("surface {} of nodes: node {} belongs to no outer face "
-                                           "whose nodes all belong to it, expected whole faces",
+                                           "whose nodes all belong to it, expected complete faces",
                                            name, model.node_ids()[static_cast<size_t>(row)]));
   }
   return add_surface(reading, name, faces);

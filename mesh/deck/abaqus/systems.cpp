@@ -28,7 +28,7 @@ Eigen::Matrix3d axes_of(const Fields& fields, const Eigen::Vector3d& a, const Ei
   return axes;
 }
 
-// z along the axis; the zero angle is that of the basic axis that is farthest from it.
+// z along the axis; the zero angle is at the basic axis farthest from it.
 Eigen::Matrix3d axes_about(const Fields& fields, const Eigen::Vector3d& axis) {
   if (!(axis.norm() > 0.0)) fields.fail("expected two different points of the axis");
   const Eigen::Vector3d z = axis.normalized();
@@ -41,7 +41,7 @@ Eigen::Matrix3d axes_about(const Fields& fields, const Eigen::Vector3d& axis) {
   return axes;
 }
 
-// Six coordinates of a and b; in `with_origin` three more of the origin c.
+// Six coordinates of a and b; `with_origin`: three more of the origin c.
 System system_of(const Fields& fields, System::Kind kind, bool with_origin) {
   System system;
   system.kind = kind;
@@ -137,7 +137,7 @@ void read_transforms(Reading* reading) {
     } while (reading->deck->systems.contains(system.name));
     reading->deck->systems[system.name] = system;
     const std::string& set = keyword.required("NSET", reading->source);
-    reading->places->set_system(reading->sets->nodes(use, set, card.spot()), system.name);
+    reading->node_map->set_system(reading->sets->nodes(use, set, card.spot()), system.name);
   });
 }
 

@@ -16,10 +16,10 @@
 namespace clatter::mesh::deck {
 namespace {
 
-// Abaqus reads sixteen entries a line.
+// Abaqus reads sixteen entries per line.
 constexpr size_t kEntries = 16;
 
-// The first nodes of faces of cells, in their turn: where a face belongs.
+// The corners of a face in cyclic order, as a key to its cell.
 using FaceCorners = std::array<int32_t, 4>;
 
 FaceCorners turned(std::span<const int32_t> nodes, size_t corners) {
@@ -124,7 +124,7 @@ class Writer {
     return name.find_first_of(", =\t") == std::string::npos ? name : "\"" + name + "\"";
   }
 
-  // Entry i of n, and what stands behind it.
+  // Entry i of n, and its separator.
   void put_entry(int32_t value, size_t i, size_t n) {
     put("{}{}", value, i + 1 == n ? "\n" : i % kEntries == kEntries - 1 ? ",\n" : ", ");
   }
@@ -155,7 +155,7 @@ class Writer {
     }
   }
 
-  // Element and face number of each face that a surface may have: those with all corners on one.
+  // Element and face number of each candidate face: those with all corners on a surface.
   void index_faces() {
     std::vector<bool> on_surface(static_cast<size_t>(mesh_.nodes.rows()), false);
     for (const auto& [name, surface] : mesh_.surfaces) {
@@ -201,7 +201,7 @@ class Writer {
     int number;
   };
 
-  // The face with those corners in that turn: it looks out of its cell.
+  // The face with those corners in that cyclic order: outward from its cell.
   const Face& face_at(std::span<const int32_t> nodes, const std::string& surface) const {
     const FaceCorners wanted = turned(nodes, nodes.size());
     const auto at = std::lower_bound(
@@ -209,7 +209,7 @@ class Writer {
         [](const Face& face, const FaceCorners& corners) { return face.corners < corners; });
     if (at == faces_.end() || at->corners != wanted) {
       throw InputError(
-          fmt::format("mesh '{}': surface {}: the face of nodes {} is no outward face "
+          fmt::format("mesh '{}': surface {}: the face of nodes {} is not an outward face "
                       "of a cell",
                       mesh_.name, surface, fmt::join(nodes, " ")));
     }

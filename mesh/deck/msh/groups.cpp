@@ -36,7 +36,7 @@ std::vector<int> MshGroups::numbers_of(const MshElements& elements, size_t e) co
   if (scan_.version != 2) return elements.groups;
   const auto found = scan_.group_of.find(elements.tags[e]);
   if (found == scan_.group_of.end())
-    fail(fmt::format("Gmsh gives element {}, which is not in the file", elements.tags[e]));
+    fail(fmt::format("Gmsh returns element {}, which is not in the file", elements.tags[e]));
   if (found->second == 0) return {};
   return {found->second};
 }
@@ -87,17 +87,17 @@ bool MshGroups::skips(const MshElements& elements) {
 
 std::vector<std::string> MshGroups::of(const MshElements& elements, size_t e) {
   std::vector<std::string> names;
-  bool let_go = false;
+  bool ignored_group = false;
   for (int number : numbers_of(elements, e)) {
     const std::string name = name_of(elements.dim, number);
     if (ignores(name)) {
-      let_go = true;
+      ignored_group = true;
       if (counted_elements_.insert(elements.tags[e]).second) ++ignored_[name];
     } else {
       names.push_back(name);
     }
   }
-  if (names.empty() && !let_go && counted_elements_.insert(elements.tags[e]).second)
+  if (names.empty() && !ignored_group && counted_elements_.insert(elements.tags[e]).second)
     ++ignored_[elements.kind + " in no group"];
   return names;
 }
@@ -107,11 +107,11 @@ std::optional<int> MshGroups::region_of(const MshElements& elements, size_t e) {
       std::any_of(used_.begin(), used_.end(), [](const auto& group) { return group.first == 3; });
   if (!has_groups) return 0;
   std::vector<int> numbers;
-  bool let_go = false;
+  bool ignored_group = false;
   for (int number : numbers_of(elements, e)) {
     const bool ignored = ignores(name_of(3, number));
     if (!ignored) numbers.push_back(number);
-    let_go = let_go || ignored;
+    ignored_group = ignored_group || ignored;
   }
   const std::string what = fmt::format("element {} ({})", elements.tags[e], elements.kind);
   if (numbers.size() > 1)
@@ -120,12 +120,12 @@ std::optional<int> MshGroups::region_of(const MshElements& elements, size_t e) {
                     "--ignore one of them",
                     what, name_of(3, numbers[0]), name_of(3, numbers[1])));
   if (numbers.size() == 1) return numbers[0];
-  if (!let_go && !ignores("NO GROUP"))
+  if (!ignored_group && !ignores("NO GROUP"))
     fail(
         fmt::format("{} is in no group of solids, expected one of: {}; --ignore \"NO GROUP\" "
                     "leaves such cells out",
                     what, names_present(3)));
-  ++ignored_[let_go ? "cells of ignored groups" : "NO GROUP"];
+  ++ignored_[ignored_group ? "cells of ignored groups" : "NO GROUP"];
   return std::nullopt;
 }
 

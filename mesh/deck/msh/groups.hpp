@@ -1,5 +1,5 @@
 #pragma once
-// Which physical groups an element of a Gmsh file belongs to, and what the user lets go.
+// Physical groups of the elements of a Gmsh file, and which the user ignores.
 #include <map>
 #include <optional>
 #include <set>
@@ -16,15 +16,15 @@ class MshGroups {
   /// `ignore`: element kinds, group names, "NO GROUP"; any case.
   MshGroups(std::string path, const MshScan& scan, const std::vector<std::string>& ignore);
 
-  /// Looks at all elements; InputError for groups that are named and empty, and for names that come
-  /// twice in a dimension or that no file of ours can carry.
+  /// Checks all elements; InputError for named groups that are empty, for duplicate names in a
+  /// dimension, and for names that our files cannot store.
   void learn(const MshContents& contents);
 
   /// True, and counted once, when the user ignores the kind.
   bool skips(const MshElements& elements);
   /// Names of the element's groups without ignored ones; an element without any is counted once.
   std::vector<std::string> of(const MshElements& elements, size_t e);
-  /// Group number of a cell's region, 0 where the file has none; nothing when ignored. InputError
+  /// Group number of a cell's region, 0 if the file has none; nullopt when ignored. InputError
   /// for a cell in no group or in two.
   std::optional<int> region_of(const MshElements& elements, size_t e);
   std::string region_name(int group) const;

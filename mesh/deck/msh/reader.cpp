@@ -46,7 +46,7 @@ class Reader {
   deck::Deck run() {
     number_nodes();
     add_cells();
-    place_nodes();
+    sort_nodes();
     add_surfaces();
     add_node_sets();
     deck_.ignored = groups_.ignored();
@@ -67,7 +67,7 @@ class Reader {
     return static_cast<int32_t>(tag);
   }
 
-  // Where each node's number stands among the file's nodes.
+  // Index of each node number among the file's nodes.
   void number_nodes() {
     by_tag_.resize(contents_.node_tags.size());
     for (size_t i = 0; i < by_tag_.size(); ++i) by_tag_[i] = i;
@@ -91,7 +91,7 @@ class Reader {
                      elements.tags.front(), elements.kind, known, elements.kind));
   }
 
-  // Cells of one type and region together, in the file's order.
+  // One block for cells of one type and region, in the file's order.
   void add_cells() {
     std::map<std::pair<int, CellType>, std::vector<std::pair<const MshElements*, size_t>>> blocks;
     for (const MshElements& elements : contents_.elements) {
@@ -136,9 +136,9 @@ class Reader {
     return Eigen::Vector3d::Map(contents_.coordinates.data() + 3 * node);
   }
 
-  // Rows in ascending order of the numbers; nodes that only groups of curves and points use follow
+  // Rows in ascending order of the numbers; nodes used only by groups of curves and points follow
   // as points.
-  void place_nodes() {
+  void sort_nodes() {
     for (const MshElements& elements : contents_.elements) {
       if (elements.dim > 1 || groups_.skips(elements)) continue;
       for (size_t e = 0; e < elements.tags.size(); ++e) {
@@ -194,7 +194,7 @@ class Reader {
     }
   }
 
-  // The cell's face that the element is.
+  // The cell face of an element.
   BoundaryFace face_of(const MshElements& elements, size_t e, const std::string& group,
                        const std::vector<FaceRef>& faces) const {
     const FaceType type = *face_type_of(elements.gmsh_type);
@@ -209,10 +209,10 @@ class Reader {
         std::equal_range(faces.begin(), faces.end(), FaceRef{key, 0, 0, 0},
                          [](const FaceRef& a, const FaceRef& b) { return a.key < b.key; });
     if (first == last)
-      fail(
-          fmt::format("{} is no face of a cell; --ignore \"{}\" skips the group, --ignore \"{}\" "
-                      "all elements of the kind",
-                      what, group, elements.kind));
+      fail(fmt::format(
+          "{} is not a face of a cell; --ignore \"{}\" skips the group, --ignore \"{}\" "
+          "all elements of the kind",
+          what, group, elements.kind));
     const BoundaryFace face = face_at(deck_.mesh, *first);
     if (face.type != type ||
         !std::is_permutation(ids.begin(), ids.begin() + static_cast<long>(n), face.ids.begin()))
@@ -236,9 +236,10 @@ class Reader {
   }
 
   void check_skin(const Surface& surface) const {
-    const Surface whole = skin_of(boundary_faces(deck_.mesh));
-    if (surface.face_count() == whole.face_count() && nodes_of(surface) == nodes_of(whole)) return;
-    fail("found a group 'skin' that is not the whole boundary, expected another name");
+    const Surface entire = skin_of(boundary_faces(deck_.mesh));
+    if (surface.face_count() == entire.face_count() && nodes_of(surface) == nodes_of(entire))
+      return;
+    fail("found a group 'skin' that is not the entire boundary, expected another name");
   }
 
   void add_node_sets() {
@@ -251,8 +252,8 @@ class Reader {
           for (size_t i = 0; i < n; ++i)
             sets[name].insert(row_[node_at(elements.nodes[e * n + i], elements.tags[e])]);
     }
-    for (const auto& [name, places] : sets) {
-      const std::vector<int32_t> list(places.begin(), places.end());
+    for (const auto& [name, node_indices] : sets) {
+      const std::vector<int32_t> list(node_indices.begin(), node_indices.end());
       if (list.back() < deck_.mesh.nodes.rows())
         deck_.mesh.node_sets[name] = list;
       else

@@ -3,12 +3,12 @@
 //
 //   physical group of   becomes
 //   solids              a region; a cell belongs to exactly one
-//   faces               a surface: faces of cells, outward; between two regions as they are written
+//   faces               a surface: faces of cells, outward; between two regions as written
 //   curves and points   a node set, of both where they share a name
 //
 // Groups without a name are called "volume_7", "surface_7", "curve_7", "point_7". A file without
 // groups of solids has the one region "solid". Numbers of nodes and cells are kept. The group
-// "skin" of our own export is the whole boundary and must be that.
+// "skin" of our own export must be the entire boundary.
 #include <filesystem>
 
 #include "core/base/child_process.hpp"
@@ -25,12 +25,11 @@ bool is_msh(const std::filesystem::path& path);
 ///   an element kind by Gmsh's name     "Hexahedron 27", "Triangle 3"
 ///   a physical group by its name       its elements count as in no group
 ///   "NO GROUP"                         cells in no group, where there are groups of solids
-/// Without that, InputError names the first of: another element kind; a cell in no group or in two;
-/// a face of a group that is no face of a cell or lies within a region; a group without elements;
-/// two groups of a dimension with one name. Faces, lines and points in no group say nothing and are
-/// counted in Deck::ignored, as nodes that nothing uses are.
-/// Gmsh reads the file in a child process within `limits`: where a damaged one makes it crash, that
-/// is an InputError.
+/// Otherwise InputError for the first of: another element kind; a cell in no group or in two;
+/// a face of a group that is not a face of a cell or lies within a region; a group without
+/// elements; two groups of a dimension with one name. Faces, lines and points in no group and
+/// unused nodes are only counted, in Deck::ignored. Gmsh reads the file in a child process within
+/// `limits`: a crash on a corrupt file is an InputError.
 deck::Deck read_msh(const std::filesystem::path& path, const UnitSystem& units,
                     const deck::ReadOptions& options, const ChildLimits& limits = {});
 

@@ -58,7 +58,7 @@ class Scanner {
     return count;
   }
 
-  // MSH 4 says how many blocks there are first.
+  // MSH 4 begins with the number of blocks.
   int64_t count_nodes() {
     if (scan_.version == 2) return count_of("$Nodes");
     if (!scan_.binary) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a Gmsh file says and Gmsh's own reader does not keep.
+// The content of a Gmsh file that Gmsh's own reader drops.
 //
 // Gmsh reads anything that does not begin with $MeshFormat as a script, so that line is checked
 // first. In MSH 2 every element names its physical group, but Gmsh gives all elements of an

@@ -18,19 +18,19 @@ using Eigen::Vector3d;
 
 constexpr DofMask kRotations = kAllDofs & ~kTranslations;
 
-// All three directions or none: the same in every frame.
+// All three directions or none: independent of the frame.
 bool frame_free(DofMask dofs, bool has_rotations) {
-  const auto whole = [dofs](DofMask three) {
+  const auto all_or_none = [dofs](DofMask three) {
     return (dofs & three) == three || (dofs & three) == 0;
   };
-  return whole(kTranslations) && (!has_rotations || whole(kRotations));
+  return all_or_none(kTranslations) && (!has_rotations || all_or_none(kRotations));
 }
 
-void add_term(Equation& equation, Place place, int direction, double coefficient) {
-  if (coefficient != 0.0) equation.terms.push_back({place, direction, coefficient});
+void add_term(Equation& equation, NodeIndex node_index, int direction, double coefficient) {
+  if (coefficient != 0.0) equation.terms.push_back({node_index, direction, coefficient});
 }
 
-// Rows t so that each has a column of its own (its pivot: 1 there, 0 in the other rows), by
+// Transforms rows t so that each has its own pivot column (1 there, 0 in the other rows), by
 // elimination with the largest pivots. Returns the pivots.
 std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
   std::vector<int> pivots;
@@ -51,7 +51,7 @@ std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
 
 // RBE2 in some directions of a displacement system: for each direction t of the dependent d,
 // t . (u_d - u_r - theta_r x (x_d - x_r)) = 0, and for rotations t . (theta_d - theta_r) = 0.
-void add_rigid_rows(Model& model, const RawRigid& raw, Place reference, Place dependent) {
+void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, NodeIndex dependent) {
   const Matrix3d axes = model.systems.directions(model.displacement_system(dependent),
                                                  model.position(dependent), raw.origin);
   const Vector3d arm = model.position(dependent) - model.position(reference);
@@ -84,14 +84,14 @@ void add_rigid(Model& model, const RawRigid& raw) {
   rigid.where = model.where(raw.origin);
   rigid.reference = model.require(raw.reference, raw.origin);
   rigid.dofs = raw.dofs;
-  for (const Place place : model.places(raw.dependents, raw.origin, true)) {
-    if (place == rigid.reference) {
+  for (const NodeIndex node_index : model.node_indices(raw.dependents, raw.origin, true)) {
+    if (node_index == rigid.reference) {
       model.source.fail(raw.origin, fmt::format("RBE2 {}: its reference {} is a dependent, too",
                                                 raw.id, raw.reference));
     }
-    const bool basic = model.displacement_system(place) == 0;
-    if (basic || frame_free(raw.dofs, !model.is_node(place))) {
-      rigid.dependents.push_back(place);
+    const bool basic = model.displacement_system(node_index) == 0;
+    if (basic || frame_free(raw.dofs, !model.is_node(node_index))) {
+      rigid.dependents.push_back(node_index);
     } else if (model.is_node(rigid.reference)) {
       model.source.fail(
           raw.origin,
@@ -99,7 +99,7 @@ void add_rigid(Model& model, const RawRigid& raw) {
                       "a node of solids as reference, expected one of both",
                       raw.id));
     } else {
-      add_rigid_rows(model, raw, rigid.reference, place);
+      add_rigid_rows(model, raw, rigid.reference, node_index);
     }
   }
   if (!rigid.dependents.empty()) model.deck.rigid.push_back(std::move(rigid));
@@ -111,8 +111,8 @@ void add_distributing(Model& model, const RawDistributing& raw) {
   rbe3.where = model.where(raw.origin);
   rbe3.reference = model.require(raw.reference, raw.origin);
   rbe3.dofs = raw.dofs;
-  const auto check_frame = [&](Place place, DofMask dofs) {
-    if (model.displacement_system(place) == 0 || frame_free(dofs, true)) return;
+  const auto check_frame = [&](NodeIndex node_index, DofMask dofs) {
+    if (model.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
     model.source.fail(raw.origin,
                       fmt::format("RBE3 {}: some directions of a displacement system (CD) "
                                   "are not supported, expected 123, 456 or 123456",
@@ -121,15 +121,15 @@ void add_distributing(Model& model, const RawDistributing& raw) {
   check_frame(rbe3.reference, raw.dofs);
   for (const auto& raw_term : raw.terms) {
     Distributing::Term term{raw_term.weight, raw_term.dofs,
-                            model.places(raw_term.grids, raw.origin, true)};
-    for (const Place place : term.places) {
-      check_frame(place, term.dofs);
-      if (model.is_node(place) && (term.dofs & kRotations) != 0) {
+                            model.node_indices(raw_term.grids, raw.origin, true)};
+    for (const NodeIndex node_index : term.node_indices) {
+      check_frame(node_index, term.dofs);
+      if (model.is_node(node_index) && (term.dofs & kRotations) != 0) {
         model.source.fail(
             raw.origin,
             fmt::format("RBE3 {}: found rotations of node {} of solids, which has none; "
                         "expected components 123",
-                        raw.id, model.deck.mesh.node_ids[static_cast<size_t>(place)]));
+                        raw.id, model.deck.mesh.node_ids[static_cast<size_t>(node_index)]));
       }
     }
     rbe3.terms.push_back(std::move(term));
@@ -140,7 +140,7 @@ void add_distributing(Model& model, const RawDistributing& raw) {
 void add_mass(Model& model, const RawMass& raw) {
   Mass mass;
   mass.where = model.where(raw.origin);
-  mass.place = model.require(raw.grid, raw.origin);
+  mass.node_index = model.require(raw.grid, raw.origin);
   const double factor = model.bulk.control.mass_factor;
   mass.mass = factor * raw.mass;
   const Vector3d offset(raw.offset[0], raw.offset[1], raw.offset[2]);
@@ -149,11 +149,11 @@ void add_mass(Model& model, const RawMass& raw) {
   // I21, I31, I32 are integrals of products; the tensor has their negatives.
   inertia << i[0], -i[1], -i[3], -i[1], i[2], -i[4], -i[3], -i[4], i[5];
   if (raw.system < 0) {
-    mass.offset = offset - model.position(mass.place);
+    mass.offset = offset - model.position(mass.node_index);
     mass.inertia = factor * inertia;
   } else {
     const Matrix3d axes =
-        model.systems.directions(raw.system, model.position(mass.place), raw.origin);
+        model.systems.directions(raw.system, model.position(mass.node_index), raw.origin);
     mass.offset = axes * offset;
     mass.inertia = factor * axes * inertia * axes.transpose();
   }
@@ -167,26 +167,26 @@ void add_equation(Model& model, const RawEquation& raw) {
   Equation equation;
   equation.where = model.where(raw.origin);
   for (const auto& term : raw.terms) {
-    const Place place = model.require(term.grid, raw.origin);
+    const NodeIndex node_index = model.require(term.grid, raw.origin);
     const int base = term.direction < 3 ? 0 : 3;
-    if (base == 3 && model.is_node(place)) {
+    if (base == 3 && model.is_node(node_index)) {
       model.source.fail(raw.origin, fmt::format("MPC: found a rotation of node {} of solids, which "
                                                 "has none",
                                                 term.grid));
     }
-    const int32_t system = model.displacement_system(place);
+    const int32_t system = model.displacement_system(node_index);
     if (system == 0) {
-      add_term(equation, place, term.direction, term.coefficient);
+      add_term(equation, node_index, term.direction, term.coefficient);
       continue;
     }
     const Vector3d t =
-        term.coefficient * model.systems.directions(system, model.position(place), raw.origin)
+        term.coefficient * model.systems.directions(system, model.position(node_index), raw.origin)
                                .col(term.direction - base);
     Eigen::Index largest = 0;  // first: the first term of an equation is the dependent
     t.cwiseAbs().maxCoeff(&largest);
-    add_term(equation, place, base + static_cast<int>(largest), t[largest]);
+    add_term(equation, node_index, base + static_cast<int>(largest), t[largest]);
     for (int k = 0; k < 3; ++k) {
-      if (k != largest) add_term(equation, place, base + k, t[k]);
+      if (k != largest) add_term(equation, node_index, base + k, t[k]);
     }
   }
   model.deck.equations.push_back(std::move(equation));

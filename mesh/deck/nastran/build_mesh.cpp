@@ -1,4 +1,4 @@
-// Cells and nodes: numbers of the deck become rows; grids without cells stay out.
+// Cells and nodes: deck numbers become rows; grids without cells are skipped.
 #include <fmt/format.h>
 
 #include <set>
@@ -40,7 +40,7 @@ void find_rows(Model& model) {
                                                            block.ids[cell], block.nodes[i]));
       }
       block.nodes[i] = row;
-      model.place_of_row[static_cast<size_t>(row)] = 0;
+      model.index_of_row[static_cast<size_t>(row)] = 0;
     }
     block.origins = {};
   }
@@ -61,9 +61,9 @@ void build_mesh(Model& model) {
   Grids& grids = model.bulk.grids;
   Mesh& mesh = model.deck.mesh;
   for (size_t row = 0; row < grids.size(); ++row) {
-    if (model.place_of_row[row] < 0) continue;
-    model.place_of_row[row] = model.node_count++;
-    model.row_of_place_.push_back(static_cast<int32_t>(row));
+    if (model.index_of_row[row] < 0) continue;
+    model.index_of_row[row] = model.node_count++;
+    model.row_of_index_.push_back(static_cast<int32_t>(row));
   }
   for (RawBlock& block : model.bulk.blocks) {
     CellBlock cells;
@@ -73,18 +73,18 @@ void build_mesh(Model& model) {
     cells.ids = std::move(block.ids);
     cells.nodes.resize(static_cast<Eigen::Index>(cells.ids.size()), traits(block.type).nodes);
     int32_t* node = cells.nodes.data();
-    block.nodes.drain([&](int32_t row) { *node++ = model.place_of_row[static_cast<size_t>(row)]; });
+    block.nodes.drain([&](int32_t row) { *node++ = model.index_of_row[static_cast<size_t>(row)]; });
     mesh.cells.push_back(std::move(cells));
   }
   mesh.nodes.resize(model.node_count, 3);
   mesh.node_ids.resize(static_cast<size_t>(model.node_count));
-  for (Place node = 0; node < model.node_count; ++node) {
-    const auto row = static_cast<size_t>(model.row_of_place_[static_cast<size_t>(node)]);
+  for (NodeIndex node = 0; node < model.node_count; ++node) {
+    const auto row = static_cast<size_t>(model.row_of_index_[static_cast<size_t>(node)]);
     mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
     mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
   }
   for (const int32_t row : model.hanging_rows)
-    mesh.node_sets[kHangingMidSideNodes].push_back(model.place_of_row[static_cast<size_t>(row)]);
+    mesh.node_sets[kHangingMidSideNodes].push_back(model.index_of_row[static_cast<size_t>(row)]);
 }
 
 }  // namespace clatter::mesh::deck::nastran

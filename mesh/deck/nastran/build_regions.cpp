@@ -10,8 +10,8 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// MAT1 gives two of E, G, NU, or all three. Solids have E and NU; a G that says something else by
-// more than this is refused.
+// MAT1 gives two of E, G, NU, or all three. Solids have E and NU; a G that deviates by more than
+// this is refused.
 constexpr double kModulusTolerance = 0.01;
 
 Material isotropic(const Model& model, int32_t id, const RawMaterial& raw) {

@@ -1,4 +1,4 @@
-// SET1, and the surfaces that comments define.
+// SET1, and surfaces from comments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,22 +9,23 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-void sort_unique(std::vector<Place>& places) {
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+void sort_unique(std::vector<NodeIndex>& node_indices) {
+  std::sort(node_indices.begin(), node_indices.end());
+  node_indices.erase(std::unique(node_indices.begin(), node_indices.end()), node_indices.end());
 }
 
-// Nodes go to the mesh; a set that holds points, too, stands whole in Deck::sets.
-void add_set(Model& model, const std::string& name, std::vector<Place> places, Origin origin) {
+// Nodes go to the mesh; a set that also contains points is complete in Deck::sets.
+void add_set(Model& model, const std::string& name, std::vector<NodeIndex> node_indices,
+             Origin origin) {
   if (model.deck.sets.contains(name) || model.deck.mesh.node_sets.contains(name)) {
     model.source.fail(origin, fmt::format("found a second set {}", shown(name)));
   }
-  sort_unique(places);
-  const auto points = std::lower_bound(places.begin(), places.end(), model.node_count);
-  if (points != places.end()) model.deck.sets[name] = places;
-  if (points != places.begin()) {
-    places.erase(points, places.end());
-    model.deck.mesh.node_sets[name] = std::move(places);
+  sort_unique(node_indices);
+  const auto points = std::lower_bound(node_indices.begin(), node_indices.end(), model.node_count);
+  if (points != node_indices.end()) model.deck.sets[name] = node_indices;
+  if (points != node_indices.begin()) {
+    node_indices.erase(points, node_indices.end());
+    model.deck.mesh.node_sets[name] = std::move(node_indices);
   }
 }
 
@@ -55,7 +56,7 @@ void build_sets(Model& model) {
     const std::string name =
         named == model.bulk.set_names.end() ? fmt::format("set_{}", id) : named->second;
     model.refusals.attempt([&, &one = set] {
-      add_set(model, name, model.places(one.grids, one.origin, false), one.origin);
+      add_set(model, name, model.node_indices(one.grids, one.origin, false), one.origin);
     });
   }
   for (const auto& surface : model.bulk.surfaces) {

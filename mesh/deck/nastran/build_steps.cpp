@@ -1,4 +1,4 @@
-// Subcases: loads, temperatures, supports of their own.
+// Subcases: their loads, temperatures, supports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ class StepBuilder {
     model_.deck.steps.push_back(std::move(step));
   }
 
-  // TEMPERATURE(INITIAL) stands for the reference temperature of every material.
+  // TEMPERATURE(INITIAL) is the reference temperature of every material.
   void initial_temperature() {
     const int32_t set = bulk_.control.initial_temperature;
     if (set == 0) return;
@@ -156,7 +156,7 @@ class StepBuilder {
     }
   }
 
-  // A turns a second about an axis through a grid or the basic origin.
+  // A revolutions per second about an axis through a grid or the basic origin.
   void add_rotation(Step& step, const RawRotation& raw, double factor) {
     const System& system = model_.systems.get(raw.system, raw.origin);
     if (system.kind != System::Kind::kRectangular) {
@@ -175,18 +175,18 @@ class StepBuilder {
   }
 
   void add_force(Step& step, const RawForce& raw, double factor) {
-    const Place place = model_.find(raw.grid, raw.origin);
+    const NodeIndex node_index = model_.find(raw.grid, raw.origin);
     const char* card = raw.moment ? "MOMENT" : "FORCE";
-    if (place < 0) {
+    if (node_index < 0) {
       model_.source.fail(raw.origin, fmt::format("{}: grid {} belongs to no solid and no coupling",
                                                  card, raw.grid));
     }
-    if (raw.moment && model_.is_node(place)) {
+    if (raw.moment && model_.is_node(node_index)) {
       model_.source.fail(raw.origin,
                          fmt::format("MOMENT: node {} of solids has no rotations", raw.grid));
     }
     const Vector3d force =
-        factor * (model_.systems.directions(raw.system, model_.position(place), raw.origin) *
+        factor * (model_.systems.directions(raw.system, model_.position(node_index), raw.origin) *
                   vector(raw.vector));
     for (int k = 0; k < 3; ++k) {
       if (!std::isfinite(force[k])) {
@@ -194,7 +194,7 @@ class StepBuilder {
       }
       if (force[k] == 0.0) continue;
       model_.spend(64, raw.origin);
-      step.forces.push_back({place, (raw.moment ? 3 : 0) + k, force[k], {}});
+      step.forces.push_back({node_index, (raw.moment ? 3 : 0) + k, force[k], {}});
     }
   }
 
@@ -213,10 +213,10 @@ class StepBuilder {
     const double none = set.has_default ? set.default_value : std::nan("");
     RowMatrix values = RowMatrix::Constant(model_.node_count, 1, none);
     for (const auto& entry : set.values) {
-      const Place place = model_.find(entry.grid, entry.origin);
-      if (place >= 0 && model_.is_node(place)) values(place, 0) = entry.value;
+      const NodeIndex node_index = model_.find(entry.grid, entry.origin);
+      if (node_index >= 0 && model_.is_node(node_index)) values(node_index, 0) = entry.value;
     }
-    for (Place node = 0; node < model_.node_count; ++node) {
+    for (NodeIndex node = 0; node < model_.node_count; ++node) {
       if (!std::isnan(values(node, 0))) continue;
       model_.source.fail(
           set.origin, fmt::format("temperature set {}: found no TEMP of node {} and no TEMPD", id,

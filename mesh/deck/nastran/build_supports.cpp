@@ -1,6 +1,6 @@
 // SPC, SPC1, SPCADD, permanent constraints of GRID, ASET and BSET: directions are those of each
-// grid's displacement system. Nodes of solids have no rotations; grids without a place have nothing
-// to hold.
+// grid's displacement system. Nodes of solids have no rotations; grids without a node index have no
+// DoFs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace clatter::mesh::deck::nastran {
 namespace {
 
 struct Held {
-  Place place = 0;
+  NodeIndex node_index = 0;
   DofMask dofs = 0;
   Origin origin = 0;
   double value = 0.0;
@@ -26,25 +26,25 @@ class Holder {
 
   void add(const RawHold& hold) {
     model_.for_each_grid(hold.grids, hold.origin, [&](size_t row) {
-      add_place(model_.place_of_row[row], hold.dofs, hold.value, hold.origin);
+      add_node(model_.index_of_row[row], hold.dofs, hold.value, hold.origin);
     });
   }
 
-  void add_place(Place place, DofMask dofs, double value, Origin origin) {
-    if (place < 0) return;
-    if (model_.is_node(place)) dofs = dofs & kTranslations;
+  void add_node(NodeIndex node_index, DofMask dofs, double value, Origin origin) {
+    if (node_index < 0) return;
+    if (model_.is_node(node_index)) dofs = dofs & kTranslations;
     if (dofs == 0) return;
     model_.spend(16, origin);
-    held_.push_back({place, dofs, origin, value});
+    held_.push_back({node_index, dofs, origin, value});
   }
 
   // One Support for each value, set of directions and system.
   std::vector<Support> supports() {
     std::stable_sort(held_.begin(), held_.end(),
-                     [](const Held& a, const Held& b) { return a.place < b.place; });
+                     [](const Held& a, const Held& b) { return a.node_index < b.node_index; });
     for (size_t i = 0; i < held_.size();) {
       size_t end = i;
-      while (end < held_.size() && held_[end].place == held_[i].place) ++end;
+      while (end < held_.size() && held_[end].node_index == held_[i].node_index) ++end;
       merge(i, end);
       i = end;
     }
@@ -57,7 +57,7 @@ class Holder {
   }
 
  private:
-  // What entries [begin, end) say of one place.
+  // The supports of one node, entries [begin, end).
   void merge(size_t begin, size_t end) {
     std::map<double, DofMask> by_value;
     for (size_t i = begin; i < end; ++i) {
@@ -69,7 +69,7 @@ class Holder {
       dofs = static_cast<DofMask>(dofs | held.dofs);
     }
     const Held& first = held_[begin];
-    const int32_t system = model_.displacement_system(first.place);
+    const int32_t system = model_.displacement_system(first.node_index);
     for (const auto& [value, dofs] : by_value) {
       auto [at, fresh] = groups_.try_emplace({system, value, dofs});
       Support& support = at->second;
@@ -79,7 +79,7 @@ class Holder {
         support.value = value;
         support.system = model_.system_name(system, first.origin);
       }
-      support.places.push_back(first.place);
+      support.node_indices.push_back(first.node_index);
     }
   }
 
@@ -112,12 +112,12 @@ void build_supports(Model& model) {
   };
   Holder permanent(model, "ps");
   for (size_t row = 0; row < model.bulk.grids.held.size(); ++row) {
-    permanent.add_place(model.place_of_row[row], model.bulk.grids.held[row], 0.0,
-                        model.bulk.grids.origins[row]);
+    permanent.add_node(model.index_of_row[row], model.bulk.grids.held[row], 0.0,
+                       model.bulk.grids.origins[row]);
   }
   append(model.deck.supports, permanent.supports());
 
-  // Sets that all subcases choose belong to the model, others to their steps (build_steps).
+  // Sets selected by all subcases belong to the model, others to their steps (build_steps).
   const Control& control = model.bulk.control;
   int32_t set = 0;
   Origin origin = 0;

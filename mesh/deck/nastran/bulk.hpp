@@ -1,5 +1,5 @@
 #pragma once
-// The bulk data as the cards say it: numbers of the deck, its units, its coordinate systems.
+// The bulk data as written: numbers, units and coordinate systems of the deck.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace clatter::mesh::deck::nastran {
 
-/// What a GRID field that may take its value from GRDSET holds while cards are read: nothing, or a
-/// zero that is meant.
+/// Values of a GRID field with a default in GRDSET while cards are read: blank, or an explicit
+/// zero.
 inline constexpr int32_t kBlank = 0, kZero = -2;
-inline constexpr int32_t kNoRow = -1;  // of a middle node that the card leaves out
+inline constexpr int32_t kNoRow = -1;  // of a mid-side node that the card omits
 inline constexpr DofMask kNoneHeld = 0x80;
 
-/// GRID cards, beside each other. Columns that no card uses so far are empty or short (column_at).
+/// GRID cards, as columns. Columns that no card uses so far are empty or short (column_at).
 struct Grids {
   std::vector<int32_t> ids;
   Chunked<std::array<double, 3>> at;  // in the system of cp
@@ -47,7 +47,7 @@ struct RawBlock {
   int32_t property = 0;
   std::vector<int32_t> ids;
   Chunked<int32_t>
-      nodes;  // GRID numbers, nodes per cell each, order of cell.hpp; 0: no middle node
+      nodes;  // GRID numbers, nodes per cell each, order of cell.hpp; 0: no mid-side node
   std::vector<Origin> origins;
 };
 
@@ -112,7 +112,7 @@ struct RawSpring {  // CELAS1, CELAS2
     int direction = 0;
   };
   Origin origin = 0;
-  int32_t property = 0;  // PELAS; 0: its own stiffness
+  int32_t property = 0;  // PELAS; 0: own stiffness
   double stiffness = 0.0;
   std::vector<End> ends;  // one: against the ground
 };
@@ -226,16 +226,16 @@ struct Bulk {
   std::map<int32_t, LoadSet> loads;
   std::map<int32_t, LoadSum> load_sums;
   std::map<int32_t, TemperatureSet> temperatures;
-  std::map<int32_t, int32_t> eigen_counts;  // EIGRL, EIGR: modes wanted, 0: not said
+  std::map<int32_t, int32_t> eigen_counts;  // EIGRL, EIGR: number of modes, 0: not given
 
-  // What "$ clatter" comments say (nastran_writer.hpp).
+  // Content of "$ clatter" comments (nastran_writer.hpp).
   std::map<int32_t, std::string> region_names, set_names;
   std::map<int32_t, std::array<double, 3>> exact;  // coordinates of GRIDs still to come
   struct NamedSurface {
     std::string name;
     Origin origin = 0;
     std::vector<FaceType> types;  // of each face
-    std::vector<int32_t> nodes;   // kMaxFaceNodes GRID numbers a face, 0 behind the last one
+    std::vector<int32_t> nodes;   // kMaxFaceNodes GRID numbers a face, 0 after the last one
   };
   std::vector<NamedSurface> surfaces;
 };

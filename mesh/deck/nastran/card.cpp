@@ -29,7 +29,7 @@ void Card::start(const LineFields& line, Origin origin) {
 
 std::string Card::append(const LineFields& line, Origin origin) {
   if (!line.large && lines_.back().large && fields_.size() % 8 != 0) {
-    return "found a small-field continuation behind the first half of a large-field line, expected "
+    return "found a small-field continuation after the first half of a large-field line, expected "
            "its second half, which begins with *";
   }
   add(line, origin);
@@ -87,7 +87,7 @@ void Card::fail_expected(size_t i, const char* what, const char* expected) const
 
 void Card::expect_end(size_t i) const {
   for (; i < fields_.size(); ++i) {
-    if (!blank(i)) fail(i, fmt::format("found {} behind the last field", shown(text(i))));
+    if (!blank(i)) fail(i, fmt::format("found {} after the last field", shown(text(i))));
   }
 }
 
@@ -103,7 +103,7 @@ double Card::real_or(size_t i, const char* what, double fallback) const {
 
 int32_t Card::id(size_t i, const char* what) const {
   const auto value = parse_integer(text(i));
-  if (!value || *value < 1) fail_expected(i, what, "a whole number from 1 to 2147483647");
+  if (!value || *value < 1) fail_expected(i, what, "an integer from 1 to 2147483647");
   return *value;
 }
 
@@ -113,7 +113,7 @@ int32_t Card::id_or(size_t i, const char* what, int32_t fallback) const {
 
 int32_t Card::integer(size_t i, const char* what) const {
   const auto value = parse_integer(text(i));
-  if (!value) fail_expected(i, what, "a whole number");
+  if (!value) fail_expected(i, what, "an integer");
   return *value;
 }
 
@@ -168,7 +168,7 @@ IdList Card::ids(size_t i, const char* what, size_t* end) const {
   if (end) {
     *end = i;
   } else if (i < size()) {
-    fail_expected(i, what, "a whole number from 1 to 2147483647");
+    fail_expected(i, what, "an integer from 1 to 2147483647");
   }
   return list;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A card of bulk data with all its continuation lines, and its fields as what they mean.
+// A card of bulk data with all its continuation lines, and access to its fields by type.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace clatter::mesh::deck::nastran {
 
-/// Whole numbers as a card lists them: single ones (first = last) and FIRST THRU LAST BY STEP.
+/// An integer list of a card: single ones (first = last) and FIRST THRU LAST BY STEP.
 struct IdRange {
   int32_t first = 0, last = 0, step = 1;
   bool is_range = false;  // of a THRU: members that do not exist are no error
@@ -27,13 +27,13 @@ class Card {
   void start(const LineFields& line, Origin origin);
   /// Adds a continuation line, or returns why it cannot follow.
   std::string append(const LineFields& line, Origin origin);
-  /// Adds the lines of a continuation that stood elsewhere.
+  /// Adds the lines of a continuation found elsewhere.
   std::string append(const Card& continuation);
   bool empty() const { return lines_.empty(); }
   void clear();
 
   std::string_view name() const { return name_; }
-  /// Name of the continuation that the last line asks for.
+  /// Name of the continuation that the last line requires.
   const std::string& next() const { return next_; }
   Origin origin() const { return lines_.front().origin; }
   size_t size() const { return fields_.size(); }
@@ -52,7 +52,8 @@ class Card {
   /// Digits 1 to 6 as bits 0 to 5.
   DofMask components(size_t i, const char* what) const;
   DofMask components_or_none(size_t i, const char* what) const;
-  /// Numbers from field i on, blanks passed over, up to a field that is none (its index in `end`).
+  /// Numbers from field i on, skipping blanks, up to a field that is not a number (its index in
+  /// `end`).
   IdList ids(size_t i, const char* what, size_t* end = nullptr) const;
   bool is_integer(size_t i) const { return parse_integer(text(i)).has_value(); }
   bool is_word(size_t i) const;
@@ -60,7 +61,7 @@ class Card {
   /// "deck.bdf:12: GRID: " and the message; the line is that of field i.
   [[noreturn]] void fail(size_t i, const std::string& message) const;
   [[noreturn]] void fail_expected(size_t i, const char* what, const char* expected) const;
-  /// Fails where something stands in field i or behind it.
+  /// Fails unless field i and all later ones are blank.
   void expect_end(size_t i) const;
 
  private:

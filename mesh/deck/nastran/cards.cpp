@@ -15,7 +15,7 @@ struct Kind {
   size_t most_fields;                // 0: any number
 };
 
-// Sorted by name. Harmless ones steer solvers, output or pictures and change no model.
+// Sorted by name. Harmless ones control solvers, output or plots and do not change the model.
 constexpr std::array kKinds = {Kind{"ASET", read_aset, 8},      Kind{"ASET1", read_aset1, 0},
                                Kind{"BSET", read_aset, 8},      Kind{"BSET1", read_aset1, 0},
                                Kind{"CELAS1", read_celas1, 8},  Kind{"CELAS2", read_celas2, 8},
@@ -55,7 +55,7 @@ class BulkSink : public CardSink {
   BulkSink(const Source& source, Bulk& bulk, Ignored& ignored, Refusals& refusals)
       : source_(source), bulk_(bulk), ignored_(ignored), refusals_(refusals) {}
 
-  /// False when a card was refused, so that others may name what is not there.
+  /// False when a card was refused, so that others may have missing references.
   bool complete() const { return complete_; }
 
   size_t begin(std::string_view name, Origin origin) override {
@@ -113,8 +113,8 @@ class BulkSink : public CardSink {
   Ignored& ignored_;
   Refusals& refusals_;
   bool complete_ = true;
-  std::set<std::string, std::less<>> refused_;  // names of cards that are not read
-  const Kind* kind_ = nullptr;  // of the card that began last; null when it is ignored
+  std::set<std::string, std::less<>> refused_;  // names of unsupported cards
+  const Kind* kind_ = nullptr;                  // of the current card; null when it is ignored
 };
 
 }  // namespace
@@ -127,11 +127,12 @@ Bulk read_bulk(Source& source, Control control, Ignored& ignored, Refusals& refu
   if (!end.complete || !sink.complete()) refusals.raise();
   if (!end.end_data && !end.last.empty()) {
     const std::string missing =
-        end.wanted.empty() ? ""
-                           : fmt::format(" whose continuation {} is missing", shown(end.wanted));
+        end.missing_continuation.empty()
+            ? ""
+            : fmt::format(" whose continuation {} is missing", shown(end.missing_continuation));
     bulk.notes.push_back(
-        fmt::format("{}: the deck ends here, behind card {}{}, without ENDDATA: "
-                    "if the file should go on, it was cut",
+        fmt::format("{}: the deck ends here, after card {}{}, without ENDDATA: "
+                    "the file may be truncated",
                     source.where(source.origin()), end.last, missing));
   }
   return bulk;

@@ -1,14 +1,14 @@
 #pragma once
-// Which cards are understood, which are harmless, which are refused; one function reads each.
+// Cards that are supported, skipped or refused; one function reads each.
 #include "mesh/deck/nastran/bulk.hpp"
 #include "mesh/deck/nastran/lines.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
-/// Reads the bulk data from the present line of `source` to ENDDATA.
+/// Reads the bulk data from the current line of `source` to ENDDATA.
 Bulk read_bulk(Source& source, Control control, Ignored& ignored, Refusals& refusals);
 
-// Each reads one card. InputError with file and line for what is wrong in it or not supported.
+// Each reads one card. InputError with file and line for errors and unsupported fields.
 void read_grid(const Card& card, Bulk& bulk);
 void read_grdset(const Card& card, Bulk& bulk);
 void read_cord1(const Card& card, Bulk& bulk);  // CORD1R, CORD1C, CORD1S

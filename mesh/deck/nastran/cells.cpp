@@ -57,7 +57,7 @@ constexpr size_t kFirstNode = 2;
 
 bool has_node(const Card& card, size_t i) { return !card.blank(i) && card.text(i) != "0"; }
 
-// Linear when no middle node is there, else quadratic.
+// Linear without mid-side nodes, else quadratic.
 CellType type_of(const Card& card) {
   const Family& family = *std::find_if(std::begin(kFamilies), std::end(kFamilies),
                                        [&](const Family& f) { return f.card == card.name(); });
@@ -86,7 +86,7 @@ RawBlock& block_of(Bulk& bulk, CellType type, int32_t property) {
 // Sixteen columns hold at least this many digits of a coordinate.
 constexpr double kColumnPrecision = 1e-10;
 
-// Coordinates in full, as a comment gives them, as long as the card says the same in fewer digits.
+// Full coordinates from a comment, if the card has the same in fewer digits.
 void take_exact(Bulk& bulk, int32_t id, std::array<double, 3>& at) {
   if (bulk.exact.empty()) return;
   const auto found = bulk.exact.find(id);

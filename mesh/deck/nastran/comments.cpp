@@ -1,4 +1,4 @@
-// "$ clatter" comments (nastran_writer.hpp): what Nastran has no card for.
+// "$ clatter" comments (writer.hpp): content that Nastran has no card for.
 #include <fmt/format.h>
 
 #include "mesh/deck/nastran/cards.hpp"
@@ -6,7 +6,7 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// The word at the front of `text`, which loses it.
+// Removes and returns the first word of `text`.
 std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
   const auto word = text.substr(0, text.find(' '));

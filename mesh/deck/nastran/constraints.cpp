@@ -15,8 +15,8 @@ void add_sum(const Card& card, std::map<int32_t, SetSum>& sums) {
   }
 }
 
-// UM of RBE3 chooses which DoFs are solved for: the same equations whichever they are. They must
-// be as many as the reference's.
+// UM of RBE3 selects the dependent DoFs; the equations do not depend on it. Their number must match
+// the reference's.
 size_t pass_um(const Card& card, size_t i, DofMask reference) {
   int count = 0;
   for (++i; i < card.size() && !card.is_word(i); ++i) {

@@ -67,7 +67,7 @@ Command parse_command(std::string_view line) {
   return out;
 }
 
-// Four letters are enough for the name of a command.
+// Four letters suffice for the name of a command.
 bool is(const std::string& word, std::string_view name) {
   return word == name || (word.size() >= 4 && name.starts_with(word));
 }
@@ -118,7 +118,7 @@ class Parser {
  private:
   enum class Part { kUnknown, kExecutive, kCase };
 
-  // Whether the first line of the deck is control, and of which part.
+  // Whether the first line of the deck is executive or case control, and which.
   bool begins(const Command& command) {
     const bool executive = std::find(kHarmlessExecutive.begin(), kHarmlessExecutive.end(),
                                      command.name) != kHarmlessExecutive.end();
@@ -216,7 +216,7 @@ class Parser {
                                                command.name, shown(command.value)));
   }
 
-  // Lists of output sets go on behind a comma.
+  // Lists of output sets continue after a comma.
   void skip_list(std::string_view line) {
     while (without_comment(line).ends_with(',')) {
       const auto more = source_.next();
@@ -244,8 +244,8 @@ class Parser {
   Refusals& refusals_;
   Part part_ = Part::kUnknown;
   Control control_;
-  Choice above_;        // chosen above the first subcase: holds for all
-  bool plots_ = false;  // behind OUTPUT(PLOT): plotter commands
+  Choice above_;        // selected above the first subcase: for all
+  bool plots_ = false;  // after OUTPUT(PLOT): plotter commands
 };
 
 }  // namespace

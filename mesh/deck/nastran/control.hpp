@@ -1,8 +1,8 @@
 #pragma once
-// What stands before BEGIN BULK: executive and case control.
+// Executive and case control, before BEGIN BULK.
 //
 // Read: SOL, SUBCASE, SPC, MPC, LOAD, TEMPERATURE, METHOD, PARAM. Requests for output, titles and
-// other commands that change no model pass without a word (harmless_* in nastran_control.cpp);
+// other commands that do not change the model are skipped silently (harmless_* in control.cpp);
 // anything else is refused by name unless the user ignores it.
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace clatter::mesh::deck::nastran {
 
-/// Sets that a subcase chooses; 0: none.
+/// Sets that a subcase selects; 0: none.
 struct Choice {
   int32_t spc = 0, mpc = 0, load = 0, temperature = 0, method = 0;
 };
@@ -25,14 +25,14 @@ struct Subcase {
   Choice choice;
 };
 
-/// The names that the user lets go, in capitals, with how often each came.
+/// The names that the user ignores, in capitals, with how often each was found.
 class Ignored {
  public:
   explicit Ignored(const std::vector<std::string>& names);
   /// True, and counted, when `name` (capitals) is one of them.
   bool skip(std::string_view name);
   bool lists(std::string_view name) const { return counts_.find(name) != counts_.end(); }
-  /// Those that came.
+  /// Those that were found.
   std::map<std::string, int64_t> counts() const;
 
  private:
@@ -40,17 +40,17 @@ class Ignored {
 };
 
 struct Control {
-  bool has_cases = false;  // there is a case control: it alone chooses sets
-  int32_t solution = 0;    // SOL; 0: not said
+  bool has_cases = false;  // there is a case control: it alone selects sets
+  int32_t solution = 0;    // SOL; 0: not given
   int32_t initial_temperature = 0;
   double mass_factor = 1.0;       // PARAM, WTMASS
   std::vector<Subcase> subcases;  // one at least when has_cases
 };
 
-/// Reads up to and with BEGIN BULK; reads nothing when the deck begins with bulk data.
+/// Reads up to and including BEGIN BULK; reads nothing when the deck begins with bulk data.
 Control read_control(Source& source, Ignored& ignored, Refusals& refusals);
 
-/// What a PARAM of that name and value means; others than WTMASS are harmless.
+/// Applies a PARAM; parameters other than WTMASS are skipped.
 void read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin);
 

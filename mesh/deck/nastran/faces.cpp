@@ -1,4 +1,4 @@
-// Faces of solids as PLOAD4 names them.
+// Faces of solids from PLOAD4.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// Place of a corner among the face's corners, -1 when it is none of them.
+// Index of a corner among the face's corners, -1 if it is none of them.
 int corner_in(const CellFace& face, int corner) {
   const auto* begin = face.nodes.begin();
   const auto* end = begin + traits(face.type).corners;
@@ -16,7 +16,7 @@ int corner_in(const CellFace& face, int corner) {
   return at == end ? -1 : static_cast<int>(at - begin);
 }
 
-// Whether the face is the one that G1 and G3 or G4 (local corners, -1: blank) mean:
+// Whether G1 and G3 or G4 (local corners, -1: blank) define the face:
 //   tetrahedron             G1 on the face, G4 the corner that is not
 //   triangle of a wedge     G1 alone
 //   quadrangle              G1 and G3 at the ends of a diagonal
@@ -43,11 +43,11 @@ void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface) {
   const CellTraits& cell = traits(block->type);
   const auto corner_of = [&](int32_t grid) {
     if (grid == 0) return -1;
-    const Place place = model.find(grid, raw.origin);
+    const NodeIndex node_index = model.find(grid, raw.origin);
     for (int i = 0; i < cell.corners; ++i) {
-      if (block->nodes(row, i) == place) return i;
+      if (block->nodes(row, i) == node_index) return i;
     }
-    refuse(fmt::format("node {} is no corner of cell {}", grid, raw.cell));
+    refuse(fmt::format("node {} is not a corner of cell {}", grid, raw.cell));
     return -1;
   };
   const int g1 = corner_of(raw.g1), g34 = corner_of(raw.g34);
@@ -60,7 +60,7 @@ void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface) {
     }
     return surface.add(face.type, nodes);
   }
-  refuse(fmt::format("G1 = {} and G3 or G4 = {} say no face of cell {}", raw.g1,
+  refuse(fmt::format("G1 = {} and G3 or G4 = {} define no face of cell {}", raw.g1,
                      raw.g34 == 0 ? "blank" : std::to_string(raw.g34), raw.cell));
 }
 

@@ -56,7 +56,8 @@ void split_fixed(std::string_view line, LineFields& out) {
   if (line.size() > kDataEnd) out.next = continuation_name(line.substr(kDataEnd));
 }
 
-// Field 10 of a free line: + or * and a name, a word, or nothing. A number there is data too many.
+// Field 10 of a free line: + or * and a name, a word, or nothing. A number there is an extra data
+// field.
 bool is_marker(std::string_view text) {
   if (text.empty() || text[0] == '+' || text[0] == '*') return true;
   return !is_digit(text[0]) && text[0] != '-' && text[0] != '.';
@@ -66,7 +67,7 @@ std::string split_free(std::string_view line, LineFields& out) {
   size_t comma = line.find(',');
   take_head(line.substr(0, comma), out);
   const size_t per_line = out.large ? 4 : 8;
-  size_t filled = 0;  // data fields of the present line of the card
+  size_t filled = 0;  // data fields of the current line of the card
   while (comma != std::string_view::npos) {
     const size_t begin = comma + 1;
     comma = line.find(',', begin);
@@ -123,7 +124,7 @@ std::string split_line(std::string_view line, LineFields& out) {
 }
 
 std::optional<double> parse_real(std::string_view text) {
-  std::array<char, 64> plain;  // as std::from_chars wants it
+  std::array<char, 64> plain;  // in the syntax of std::from_chars
   if (text.empty() || text.size() + 1 >= plain.size()) return std::nullopt;
   size_t at = text[0] == '+' ? 1 : 0, n = 0;
   bool digits = false, exponent = false;

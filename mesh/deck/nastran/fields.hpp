@@ -3,10 +3,10 @@
 //
 //   small   name of 8 columns, 8 data fields of 8, continuation name in columns 73 to 80
 //   large   the same with 4 data fields of 16: the name ends, or a continuation begins, with *
-//   free    fields between commas, 8 (large: 4) and the continuation name; a line that goes on
-//           behind its continuation name holds the next line of the card as well
+//   free fields between commas, 8 (large: 4) and the continuation name; text after the continuation
+//   name is the next line of the card
 //
-// Tabs stand for blanks up to the next column of eight. Comments ($) end a line.
+// Tabs are blanks up to the next column of eight. Comments ($) end a line.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,19 +22,19 @@ struct LineFields {
   bool large = false;
   std::vector<std::string_view> data;  // trimmed; 8 or 4 for each line of the card
   std::string_view next;               // name of the continuation, without + or *; often empty
-  std::string expanded;                // the line without tabs, where there were some
+  std::string expanded;                // the line without tabs, if it had any
 };
 
-/// Splits `line` (neither blank nor a comment). Returns what is wrong with it, empty when nothing.
+/// Splits `line` (neither blank nor a comment). Returns the error, empty for none.
 std::string split_line(std::string_view line, LineFields& out);
 
-/// The line without a $ and what follows it, and without blanks at its end.
+/// The line without its comment ($) and trailing blanks.
 std::string_view without_comment(std::string_view line);
 std::string_view trimmed(std::string_view text);
 
-/// A real number as Nastran writes it (1.5, .5, 1.5-3, 1.+5, 1D3) or a whole one; finite.
+/// A finite real number in Nastran notation (1.5, .5, 1.5-3, 1.+5, 1D3), or an integer.
 std::optional<double> parse_real(std::string_view text);
-/// A whole number of 32 bits.
+/// A 32-bit integer.
 std::optional<int32_t> parse_integer(std::string_view text);
 
 }  // namespace clatter::mesh::deck::nastran

@@ -33,7 +33,7 @@ class Reader {
     if (!current_.empty()) end_.last = current_.name();
     const bool full = most_ > 0 && current_.size() >= most_;
     if (!current_.empty() && !orphan_ && !full && !orphans_.contains(current_.next())) {
-      end_.wanted = current_.next();
+      end_.missing_continuation = current_.next();
     }
     go_on([&] { finish(); });
     go_on([&] { join_waiting(); });
@@ -41,7 +41,7 @@ class Reader {
   }
 
  private:
-  // A card that is refused goes, the next ones are read.
+  // A refused card is dropped, the next ones are read.
   template <class Body>
   void go_on(const Body& body) {
     if (refusals_.attempt(body)) return;
@@ -49,7 +49,7 @@ class Reader {
     current_.clear();
   }
 
-  // False behind the last line.
+  // False after the last line.
   bool read_line() {
     const auto line = source_.next();
     if (!line) return false;
@@ -93,7 +93,7 @@ class Reader {
     orphan_ = true;
   }
 
-  // Gives the current card away, or puts it or the continuation aside.
+  // Passes the current card on, or stores it or the continuation.
   void finish() {
     if (current_.empty()) return;
     if (orphan_) {
@@ -101,7 +101,7 @@ class Reader {
       if (!orphans_.emplace(name, current_).second) {
         source_.fail(current_.origin(),
                      fmt::format("found a second continuation named {}, expected "
-                                 "one, or each behind its own card",
+                                 "one, or each after its own card",
                                  shown(name)));
       }
     } else if (current_.next().empty() || (most_ > 0 && current_.size() >= most_)) {
@@ -122,7 +122,7 @@ class Reader {
         orphans_.erase(at);
       }
       sink_.card(card);
-      card = Card(source_);  // its memory
+      card = Card(source_);  // frees its memory
     }
     for (const auto& [name, continuation] : orphans_) {
       source_.fail(continuation.origin(),
@@ -131,16 +131,16 @@ class Reader {
     }
   }
 
-  // A continuation that two cards ask for.
+  // A continuation required by two cards.
   void refuse_ambiguous() {
-    std::map<std::string_view, Origin> asked;
+    std::map<std::string_view, Origin> requested;
     for (const Card& card : waiting_) {
       const auto orphan = orphans_.find(card.next());
       if (orphan == orphans_.end()) continue;
-      const auto [first, fresh] = asked.emplace(card.next(), card.origin());
+      const auto [first, fresh] = requested.emplace(card.next(), card.origin());
       if (fresh) continue;
       source_.fail(orphan->second.origin(),
-                   fmt::format("continuation {} belongs to one card, found two that ask for it: {} "
+                   fmt::format("continuation {} belongs to one card, found two that require it: {} "
                                "and {}",
                                shown(card.next()), source_.where(first->second),
                                source_.where(card.origin())));

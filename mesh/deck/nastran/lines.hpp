@@ -1,9 +1,9 @@
 #pragma once
-// Physical lines to cards: continuations in every form, INCLUDE, ENDDATA.
+// Joins physical lines to cards: continuations in every form, INCLUDE, ENDDATA.
 //
-// A continuation line has nothing in field 1, or + or * and perhaps a name. Without a name it goes
-// on with the line before it. With one it goes on with the line before it when that ends in the
-// same name, else with the one card of the deck that ends in it, wherever that stands.
+// A continuation line has a blank field 1, or + or * and optionally a name. Without a name it
+// continues the line before it. With one it continues the line before it if that ends in the same
+// name, else the one card of the deck that ends in it, wherever that is.
 #include <cstddef>
 #include <string_view>
 
@@ -13,12 +13,12 @@
 
 namespace clatter::mesh::deck::nastran {
 
-/// Who takes the cards.
+/// The receiver of the cards.
 class CardSink {
  public:
   virtual ~CardSink() = default;
-  /// A card begins: how many data fields it can have at most (a card that has them all waits for no
-  /// continuation, whatever its last column says), 0 without limit. May refuse it.
+  /// A card begins: returns the maximum number of data fields (a card that has them all expects no
+  /// continuation, whatever its last column holds), 0 for no limit. May refuse it.
   virtual size_t begin(std::string_view name, Origin origin) = 0;
   /// A card is complete.
   virtual void card(const Card& card) = 0;
@@ -26,20 +26,20 @@ class CardSink {
   virtual void comment(std::string_view line, Origin origin) = 0;
 };
 
-/// How reading cards ended.
+/// The result of reading cards.
 struct CardsEnd {
-  bool complete = true;   // no card was refused
-  bool end_data = false;  // there was an ENDDATA
-  std::string last;       // name of the last card
-  std::string wanted;     // the continuation that it asks for and that is not there
+  bool complete = true;              // no card was refused
+  bool end_data = false;             // there was an ENDDATA
+  std::string last;                  // name of the last card
+  std::string missing_continuation;  // of that card
 };
 
-/// Reads up to ENDDATA or the end. Cards come in the order of the deck, those that wait for a
-/// continuation from elsewhere after all others. Refused: a continuation without a card.
+/// Reads up to ENDDATA or the end. Cards are passed in the order of the deck, those with a
+/// continuation elsewhere after all others. Refused: a continuation without a card.
 CardsEnd read_cards(Source& source, CardSink& sink, Refusals& refusals);
 
 /// Follows "INCLUDE name" when `line` is one: name with or without quotes; in quotes over several
-/// lines. False when it is something else.
+/// lines. False for any other line.
 bool follow_include(Source& source, std::string_view line);
 
 }  // namespace clatter::mesh::deck::nastran

@@ -1,7 +1,6 @@
-// Cells with some middle nodes and not others, as meshes have them between linear and quadratic
-// cells. Without the middle node of an edge the cell's displacement is linear along it, which is
-// what a middle node does whose displacement is the mean of the edge's ends: one is added, and set
-// down as hanging.
+// Cells with only some mid-side nodes, as between linear and quadratic cells. Without the mid-side
+// node of an edge the cell's displacement is linear along it, as with a mid-side node whose
+// displacement is the mean of the edge's ends: such a node is added and recorded as hanging.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +11,8 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-/// Rows of the two ends, the lower one first, and the middle node that was made for them.
-using Middles = std::map<std::pair<int32_t, int32_t>, int32_t>;
+/// Rows of the two ends, the lower one first, to the mid-side node made for them.
+using MidSideNodes = std::map<std::pair<int32_t, int32_t>, int32_t>;
 
 class Completer {
  public:
@@ -34,7 +33,7 @@ class Completer {
 
  private:
   int32_t between(int32_t a, int32_t b) {
-    const auto [at, fresh] = middles_.emplace(std::minmax(a, b), 0);
+    const auto [at, fresh] = mid_side_nodes_.emplace(std::minmax(a, b), 0);
     if (fresh) at->second = add(static_cast<size_t>(a), static_cast<size_t>(b));
     return at->second;
   }
@@ -43,21 +42,21 @@ class Completer {
     Grids& grids = model_.bulk.grids;
     if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
     if (next_ == std::numeric_limits<int32_t>::max())
-      model_.source.fail(grids.origins[a], "found no free numbers above that of the last GRID");
+      model_.source.fail(grids.origins[a], "found no free number above the largest GRID");
     const auto row = static_cast<int32_t>(grids.size());
     std::array<double, 3> at{};
     for (size_t k = 0; k < 3; ++k) at[k] = 0.5 * (grids.at[a][k] + grids.at[b][k]);
     grids.ids.push_back(++next_);
     grids.at.push_back(at);
     grids.origins.push_back(grids.origins[a]);
-    model_.place_of_row.push_back(0);
+    model_.index_of_row.push_back(0);
     model_.hanging_rows.push_back(row);
     return row;
   }
 
   Model& model_;
-  Middles middles_;
-  int32_t next_ = 0;  // last number given
+  MidSideNodes mid_side_nodes_;
+  int32_t next_ = 0;  // last assigned number
 };
 
 }  // namespace

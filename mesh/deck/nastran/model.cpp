@@ -7,10 +7,10 @@
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-// What the lists of a deck may cost: about a second of visits, or half a gigabyte of entries.
+// Limit of the effort for lists: about a second of visits, or half a gigabyte of entries.
 constexpr int64_t kMostEffort = 500'000'000, kMostEffortPerGrid = 2000;
 
-// Blank fields of GRID take GRDSET's values.
+// Blank fields of GRID get GRDSET's values.
 void fill_defaults(Bulk& bulk) {
   Grids& grids = bulk.grids;
   const auto fill = [&](auto& column, auto blank, auto zero, auto value) {
@@ -23,7 +23,7 @@ void fill_defaults(Bulk& bulk) {
 }
 
 // Decks that include the same grids twice are common; they must agree.
-IdIndex index_of(const Grids& grids, const Source& source) {
+IdIndex grid_index(const Grids& grids, const Source& source) {
   IdIndex index(grids.ids);
   for (const auto& [a, b] : index.duplicates()) {
     const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
@@ -49,9 +49,9 @@ Model::Model(const Source& deck_source, Bulk cards, Refusals& all_refusals)
     : source(deck_source),
       refusals(all_refusals),
       bulk(with_defaults(std::move(cards))),
-      grids(index_of(bulk.grids, source)),
+      grids(grid_index(bulk.grids, source)),
       systems(bulk, grids, source),
-      place_of_row(bulk.grids.size(), -1) {
+      index_of_row(bulk.grids.size(), -1) {
   for (size_t row = 0; row < bulk.grids.cp.size(); ++row) {
     Eigen::Map<Eigen::Vector3d> at(bulk.grids.at[row].data());
     at = systems.to_basic(bulk.grids.cp[row], at, bulk.grids.origins[row]);
@@ -64,41 +64,44 @@ size_t Model::row_of(int32_t grid, Origin origin) const {
   return static_cast<size_t>(row);
 }
 
-Place Model::place_of(size_t row, Origin origin, bool make_points) {
-  Place& place = place_of_row[row];
-  if (place >= 0 || !make_points) return place;
+NodeIndex Model::node_index_of(size_t row, Origin origin, bool make_points) {
+  NodeIndex& node_index = index_of_row[row];
+  if (node_index >= 0 || !make_points) return node_index;
   spend(16, origin);
-  place = node_count + static_cast<Place>(deck.points.size());
+  node_index = node_count + static_cast<NodeIndex>(deck.points.size());
   const auto& at = bulk.grids.at[row];
   deck.points.push_back({bulk.grids.ids[row], {at[0], at[1], at[2]}});
-  row_of_place_.push_back(static_cast<int32_t>(row));
-  return place;
+  row_of_index_.push_back(static_cast<int32_t>(row));
+  return node_index;
 }
 
-Place Model::require(int32_t grid, Origin origin) {
-  return place_of(row_of(grid, origin), origin, true);
+NodeIndex Model::require(int32_t grid, Origin origin) {
+  return node_index_of(row_of(grid, origin), origin, true);
 }
 
-Place Model::find(int32_t grid, Origin origin) const { return place_of_row[row_of(grid, origin)]; }
+NodeIndex Model::find(int32_t grid, Origin origin) const {
+  return index_of_row[row_of(grid, origin)];
+}
 
-std::vector<Place> Model::places(const IdList& list, Origin origin, bool make_points) {
-  std::vector<Place> out;
+std::vector<NodeIndex> Model::node_indices(const IdList& list, Origin origin, bool make_points) {
+  std::vector<NodeIndex> out;
   for_each_grid(list, origin, [&](size_t row) {
-    const Place place = place_of(row, origin, make_points);
-    if (place < 0) return;
+    const NodeIndex node_index = node_index_of(row, origin, make_points);
+    if (node_index < 0) return;
     spend(16, origin);
-    out.push_back(place);
+    out.push_back(node_index);
   });
   return out;
 }
 
-Eigen::Vector3d Model::position(Place place) const {
-  if (is_node(place)) return deck.mesh.nodes.row(place).transpose();
-  return deck.points[static_cast<size_t>(place - node_count)].at;
+Eigen::Vector3d Model::position(NodeIndex node_index) const {
+  if (is_node(node_index)) return deck.mesh.nodes.row(node_index).transpose();
+  return deck.points[static_cast<size_t>(node_index - node_count)].at;
 }
 
-int32_t Model::displacement_system(Place place) const {
-  return column_at(bulk.grids.cd, static_cast<size_t>(row_of_place_[static_cast<size_t>(place)]));
+int32_t Model::displacement_system(NodeIndex node_index) const {
+  return column_at(bulk.grids.cd,
+                   static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]));
 }
 
 std::string Model::system_name(int32_t system, Origin origin) {
@@ -112,12 +115,12 @@ void Model::spend(int64_t effort, Origin origin) {
   effort_ += effort;
   const auto grid_count = static_cast<int64_t>(bulk.grids.size());
   if (effort_ > std::max(kMostEffort, kMostEffortPerGrid * grid_count)) {
-    source.fail(origin, "the lists of this deck name the same grids too many times over");
+    source.fail(origin, "the lists of this deck repeat the same grids too often");
   }
 }
 
 void count_unused(Model& model) {
-  const auto unused = std::count(model.place_of_row.begin(), model.place_of_row.end(), -1);
+  const auto unused = std::count(model.index_of_row.begin(), model.index_of_row.end(), -1);
   if (unused > 0) model.deck.ignored["GRID (of no solid and no coupling)"] = unused;
 }
 

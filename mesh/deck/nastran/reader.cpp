@@ -16,9 +16,10 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   Refusals refusals;
   Control control = read_control(source, ignored, refusals);
   Bulk bulk = read_bulk(source, std::move(control), ignored, refusals);
-  std::unique_ptr<Model> whole;
-  refusals.require([&] { whole = std::make_unique<Model>(source, std::move(bulk), refusals); });
-  Model& model = *whole;
+  std::unique_ptr<Model> model_owner;
+  refusals.require(
+      [&] { model_owner = std::make_unique<Model>(source, std::move(bulk), refusals); });
+  Model& model = *model_owner;
   model.deck.mesh.name = name;
   model.deck.notes = model.bulk.notes;
   refusals.require([&] { build_mesh(model); });

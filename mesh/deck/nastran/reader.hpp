@@ -4,12 +4,12 @@
 // Formats: small, large and free field, mixed; every form of continuation; INCLUDE; any case; with
 // executive and case control or bulk data alone.
 //
-// Cards and what becomes of them (names in the Deck):
+// Cards and their result (names in the Deck):
 //   GRID GRDSET           nodes of cells in the order of the deck; a grid without cells that a
 //                         coupling, a mass or an MPC names is a Point; others are left out, with
 //                         their number in Deck::ignored
 //   CORD1R/C/S CORD2R/C/S systems "cord_5", those that something in the Deck refers to
-//   CTETRA CPYRAM CPENTA CHEXA  with any middle nodes or none
+//   CTETRA CPYRAM CPENTA CHEXA  with any mid-side nodes or none
 //   PSOLID                region "pid_5"; CORDM counts with MAT9. A deck without any PSOLID has
 //   regions
 //                         without material
@@ -37,12 +37,12 @@
 
 namespace clatter::mesh::deck {
 
-/// Reads a deck and all that it includes, in the deck's own units. Surface "skin" is not made here.
-/// InputError "file:line: ..." for the first card that is not understood or not supported (unless
-/// it is in options.ignore), FileError when the file cannot be read.
+/// Reads a deck and all included files, in the deck's own units. Surface "skin" is not made here.
+/// InputError "file:line: ..." for invalid or unsupported cards (unless in options.ignore),
+/// FileError when the file cannot be read.
 Deck read_nastran(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same of text in memory, which includes nothing; `name` stands in messages.
+/// The same from text in memory, without includes; `name` is for messages.
 Deck read_nastran_text(const std::string& name, std::string_view text,
                        const ReadOptions& options = {});
 

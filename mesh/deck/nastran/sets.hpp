@@ -1,5 +1,5 @@
 #pragma once
-// Which sets hold: SPC and MPC sets, their sums (SPCADD, MPCADD) and what a case control chooses.
+// Active sets: SPC and MPC sets, their sums (SPCADD, MPCADD) and the selection by a case control.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ std::set<int32_t> top_sets(const Sets& sets, const std::map<int32_t, SetSum>& su
   return top;
 }
 
-/// The one set that a deck without case control has; 0 when there is none. InputError that names
-/// them when there are several.
+/// The one set of a deck without case control; 0 if there is none. InputError that names them if
+/// there are several.
 template <class Sets>
 int32_t only_set(const Model& model, const char* card, const Sets& sets,
                  const std::map<int32_t, SetSum>& sums) {
@@ -45,8 +45,7 @@ int32_t only_set(const Model& model, const char* card, const Sets& sets,
                   model.source.files().front(), top.size(), card, names, card));
 }
 
-/// The sets that `chosen` is made of: itself, or the parts of its sum. InputError when one is
-/// missing.
+/// The sets in `chosen`: itself, or the terms of its sum. InputError if one is missing.
 template <class Sets>
 std::vector<int32_t> members_of(const Model& model, const char* card, int32_t chosen,
                                 const Sets& sets, const std::map<int32_t, SetSum>& sums,

@@ -26,15 +26,15 @@ bool is_comment(std::string_view line) {
 }  // namespace
 
 struct Source::Stream {
-  std::filesystem::path path;  // canonical: cycles are seen through links
+  std::filesystem::path path;  // canonical: detects cycles through links
   size_t file = 0;
-  Origin line = 0;  // lines given so far
+  Origin line = 0;  // lines returned so far
   std::ifstream in;
   std::vector<char> buffer;
   size_t begin = 0, end = 0;
   bool at_end = false;
 
-  // Moves what is left to the front and fills up.
+  // Moves the rest to the front and refills.
   void refill() {
     std::memmove(buffer.data(), buffer.data() + begin, end - begin);
     end -= begin;
@@ -44,7 +44,7 @@ struct Source::Stream {
     at_end = !in;
   }
 
-  // A line that does not fit into the buffer is given in its first part alone.
+  // A line that does not fit into the buffer is truncated.
   std::optional<std::string_view> next() {
     bool cut = false;
     std::string_view first;
@@ -146,7 +146,7 @@ std::optional<std::string_view> Source::next() {
 }
 
 void Source::include(const std::string& name) {
-  if (in_memory_) fail(origin(), "INCLUDE is not possible here: the deck is no file");
+  if (in_memory_) fail(origin(), "INCLUDE is not possible here: the deck is not a file");
   if (streams_.size() >= kDeepest) {
     fail(origin(), fmt::format("found INCLUDE more than {} files deep", kDeepest));
   }
@@ -156,7 +156,7 @@ void Source::include(const std::string& name) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
   std::error_code trouble;
-  // The last line may have been the last one of its file: that file is still open.
+  // The last line may have ended its file, which is still open.
   for (auto stream = streams_.rbegin(); stream != streams_.rend(); ++stream) {
     const auto folder = std::filesystem::path(files_[(*stream)->file]).parent_path();
     for (const std::string& spelling : {name, slashed}) {
@@ -171,8 +171,9 @@ void Source::include(const std::string& name) {
       return open(path);
     }
   }
-  fail(origin(), fmt::format("INCLUDE {}: found no such file beside this one or those above it",
-                             shown(name)));
+  fail(origin(),
+       fmt::format("INCLUDE {}: found no such file next to this one or those that include it",
+                   shown(name)));
 }
 
 std::string Source::where(Origin origin) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Physical lines of a Nastran deck, from the deck itself and all that it includes.
+// Physical lines of a Nastran deck and of all included files.
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,23 +13,23 @@ namespace clatter::mesh::deck::nastran {
 /// A line, counted through all files of the deck; Source::where() gives file and line.
 using Origin = uint32_t;
 
-/// Files are read in pieces; no more than one piece of each open file is in memory.
-/// A deck may include others 64 deep and 10 000 times in all; lines that are no comments may have
-/// 65 536 characters. InputError beyond that, FileError when the deck itself cannot be read.
+/// Files are read in blocks; only one block of each open file is in memory.
+/// A deck may include others 64 deep and 10 000 times in all; lines other than comments may have 65
+/// 536 characters. InputError beyond that, FileError when the deck itself cannot be read.
 class Source {
  public:
   explicit Source(const std::filesystem::path& deck);
-  /// Text in memory under a made-up name; it cannot include files.
+  /// Text in memory under a given name; it cannot include files.
   Source(const std::string& name, std::string_view text);
   ~Source();
 
-  /// The next line without its end, or nothing at the end of the deck. The view lives until the
-  /// next call. Ends of included files are passed over in silence.
+  /// The next line without its line ending, or nothing at the end of the deck. The view is valid
+  /// until the next call. Included files end silently.
   std::optional<std::string_view> next();
-  /// The next call of next() gives the last line once more.
+  /// The next call of next() returns the last line again.
   void unread() { again_ = true; }
-  /// Goes on with the file of that name: relative to the file of the last line, then to those that
-  /// include it. InputError when there is none, or when it includes itself.
+  /// Continues with the file of that name: relative to the file of the last line, then to those
+  /// that include it. InputError when there is none, or when it includes itself.
   void include(const std::string& name);
 
   /// Origin of the last line.
@@ -38,7 +38,7 @@ class Source {
   std::string where(Origin origin) const;
   /// InputError "file:line: message".
   [[noreturn]] void fail(Origin origin, const std::string& message) const;
-  /// The deck and all that it includes, in order, each once.
+  /// The deck and all included files, in order, each once.
   const std::vector<std::string>& files() const { return files_; }
 
  private:

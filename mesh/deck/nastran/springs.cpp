@@ -36,22 +36,22 @@ void check_stiffness(const Card& card, size_t i, double stiffness) {
 
 void add_term(Model& model, const RawSpring& raw, const RawSpring::End& end, double sign,
               Spring* spring) {
-  const Place place = model.require(end.grid, raw.origin);
+  const NodeIndex node_index = model.require(end.grid, raw.origin);
   const int base = end.direction < 3 ? 0 : 3;
-  if (base == 3 && model.is_node(place)) {
+  if (base == 3 && model.is_node(node_index)) {
     model.source.fail(raw.origin,
                       fmt::format("spring: found a rotation of node {} of solids, which "
                                   "has none",
                                   end.grid));
   }
-  const int32_t system = model.displacement_system(place);
+  const int32_t system = model.displacement_system(node_index);
   Eigen::Vector3d t = Eigen::Vector3d::Unit(end.direction - base);
   if (system != 0) {
-    t = model.systems.directions(system, model.position(place), raw.origin)
+    t = model.systems.directions(system, model.position(node_index), raw.origin)
             .col(end.direction - base);
   }
   for (int k = 0; k < 3; ++k) {
-    if (t[k] != 0.0) spring->terms.push_back({place, base + k, sign * t[k]});
+    if (t[k] != 0.0) spring->terms.push_back({node_index, base + k, sign * t[k]});
   }
 }
 

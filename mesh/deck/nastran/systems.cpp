@@ -47,7 +47,7 @@ class SystemsBuilder {
 
   void run() {
     std::map<int32_t, std::vector<int32_t>> users;
-    std::map<int32_t, size_t> open;  // references that are not known yet
+    std::map<int32_t, size_t> open;  // unresolved references
     std::deque<int32_t> ready;
     for (const auto& [id, raw] : bulk_.systems) {
       for (int32_t reference : references(id, raw)) {
@@ -123,7 +123,7 @@ class SystemsBuilder {
     const Vector3d x = xz / xz_length - unit * unit.dot(xz / xz_length);
     const double sine = x.norm();
     if (!(z_length > 0.0) || !(sine > kLeastSine) || !std::isfinite(z_length + xz_length)) {
-      fail(raw, fmt::format("coordinate system {}: its three points span no axes", id));
+      fail(raw, fmt::format("coordinate system {}: its three points define no axes", id));
     }
     system.axes << x / sine, unit.cross(x / sine), unit;
     return system;

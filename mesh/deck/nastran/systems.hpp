@@ -3,7 +3,7 @@
 //
 // A, B, C of CORD2 (grids of CORD1): origin, a point of the z axis, a point of the xz plane.
 // Coordinates and directions: rectangular x y z; cylindrical r theta z; spherical r theta phi,
-// where theta opens from the z axis and phi turns about it (MSC Nastran Quick Reference Guide,
+// where theta is measured from the z axis and phi about it (MSC Nastran Quick Reference Guide,
 // CORD2C, CORD2S). Angles in degrees. Numbers: those of the deck, 0 is the basic system.
 #include <map>
 
@@ -14,8 +14,8 @@ namespace clatter::mesh::deck::nastran {
 
 class Systems {
  public:
-  /// Follows references in any order. InputError for a system that is not there, for cycles and for
-  /// points that span no axes. The grids' coordinates are those of the deck.
+  /// Follows references in any order. InputError for a missing system, for cycles and for points
+  /// that define no axes. The grids' coordinates are those of the deck.
   Systems(const Bulk& bulk, const IdIndex& grids, const Source& source);
 
   /// Position in the basic frame. InputError (origin) for an unknown system.

@@ -26,7 +26,7 @@ void put(Text& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-// "1.50e-03" to "1.5-3", "0.25" to ".25", "5" to "5."; as few characters as say the same.
+// "1.50e-03" to "1.5-3", "0.25" to ".25", "5" to "5."; the shortest form.
 std::string compact(std::string_view plain) {
   const size_t e = std::min(plain.find('e'), plain.size());
   std::string mantissa(plain.substr(0, e));
@@ -65,7 +65,7 @@ class Numbers {
   int32_t cell(const CellBlock& block, Eigen::Index row) {
     return block.ids.empty() ? ++last_cell_ : block.ids[static_cast<size_t>(row)];
   }
-  /// Width of the fields that hold them all.
+  /// Width of fields for all numbers.
   int width(int64_t more) const {
     return std::max<int64_t>(largest_, last_cell_ + more) > kMostInSmallField ? kLargeField
                                                                               : kSmallField;
@@ -135,7 +135,7 @@ class Writer {
     }
   }
 
-  /// Middle nodes that hang are left out of their cells: the reader adds them again.
+  /// Hanging mid-side nodes are omitted from their cells: the reader adds them again.
   bool hangs(int32_t node) const {
     const auto set = mesh_.node_sets.find(kHangingMidSideNodes);
     return set != mesh_.node_sets.end() &&
@@ -163,7 +163,7 @@ class Writer {
     }
   }
 
-  // Whole numbers in small fields, or in large ones where they need them.
+  // Integers in small fields, or in large ones if needed.
   void card(std::string_view name, const std::vector<int32_t>& fields) {
     const bool large = width_ == kLargeField;
     put(text_, "{:<8}", large ? fmt::format("{}*", name) : std::string(name));
@@ -203,7 +203,7 @@ std::string nastran_real(double value, int width) {
   const int sign = std::signbit(value) ? 1 : 0;
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
   const int exponent_width = std::abs(exponent) < 10 ? 2 : std::abs(exponent) < 100 ? 3 : 4;
-  // Significant digits beside sign, point and exponent, or sign, point and leading zeros.
+  // Significant digits next to sign, point and exponent, or sign, point and leading zeros.
   const int scientific = width - sign - 1 - exponent_width;
   const int fixed = width - sign - 1 - std::max(0, -exponent - 1);
   const bool is_fixed = fixed >= scientific && exponent < width - sign - 2;

@@ -1,21 +1,20 @@
 #pragma once
-// The mesh as a Nastran bulk data deck that our reader understands back without loss.
+// The mesh as a Nastran bulk data deck that our reader reads back without loss.
 //
-//   GRID*    numbers of node_ids (else index + 1), coordinates in 16 columns. What 16 columns
-//   cannot
-//            hold (12 to 15 digits) stands in full in a comment before the card
+//   GRID* numbers of node_ids (else index + 1), coordinates in 16 columns. Longer ones (12 to 15
+//   digits fit) are also in full in a comment before the card
 //   CTETRA CPYRAM CPENTA CHEXA  numbers of CellBlock::ids (else counted on), PID = region + 1
 //   PSOLID   one a region, material 1; no MAT cards: a mesh has no materials
 //   SET1     one a node set
 //
-// Nastran passes over comments; ours say what it has no card for:
+// Comments hold what Nastran has no card for:
 //   $ clatter region 1 block            name of PID 1
 //   $ clatter set 3 mounts              name of SET1 3
 //   $ clatter surface skin              begins a surface, whose faces follow
 //   $ clatter tri6 1 2 3 4 5 6          nodes of one face in the order of cell.hpp
 //   $ clatter at 17 0.1 0.2 0.30000000000000004   coordinates of GRID 17; they count as long as the
 //                                       card says the same in fewer digits
-// Fields and empty sets are not written. Regions without cells are gone when the deck is read
+// Fields and empty sets are not written. Regions without cells are lost when the deck is read
 // again.
 #include <filesystem>
 #include <iosfwd>
@@ -28,10 +27,10 @@ namespace clatter::mesh::deck {
 /// Lengths in metres. InputError for a mesh whose numbers are not positive.
 void write_nastran(const Mesh& mesh, std::ostream& out);
 
-/// Written beside its name and renamed when complete; FileError when that fails.
+/// Written under a temporary name and renamed when complete; FileError when that fails.
 void write_nastran(const Mesh& mesh, const std::filesystem::path& path);
 
-/// The best that `width` columns can say of a finite number; "1.5-3" for 0.0015 and the like.
+/// The most exact text of a finite number in `width` columns; "1.5-3" for 0.0015 and the like.
 std::string nastran_real(double value, int width);
 
 }  // namespace clatter::mesh::deck

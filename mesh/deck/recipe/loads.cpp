@@ -16,9 +16,9 @@ std::string set_name(const Support& support) {
   return support.name.empty() ? "support" : support.name;
 }
 
-/// The same places and directions, whatever the value.
+/// The same nodes and directions, whatever the value.
 bool same_hold(const Support& a, const Support& b) {
-  return a.places == b.places && a.dofs == b.dofs && a.system == b.system;
+  return a.node_indices == b.node_indices && a.dofs == b.dofs && a.system == b.system;
 }
 
 bool same_supports(const Step& a, const Step& b) {
@@ -26,11 +26,11 @@ bool same_supports(const Step& a, const Step& b) {
                     same_hold);
 }
 
-/// The text of one [[support]] or of a displacement load: place, directions, system.
-std::string hold(const std::string& head, const std::string& place, DofMask dofs,
+/// The text of one [[support]] or of a displacement load: target, directions, system.
+std::string hold(const std::string& head, const std::string& target, DofMask dofs,
                  const Support& support) {
   return fmt::format(
-      "\n{}{}directions = {}\n{}", head, place, toml_directions(dofs),
+      "\n{}{}directions = {}\n{}", head, target, toml_directions(dofs),
       support.system.empty() ? "" : fmt::format("system = {}\n", toml_text(support.system)));
 }
 
@@ -88,9 +88,9 @@ class StepWriter {
     if (force.system.empty()) return unit;
     const System& system = deck_.systems.at(force.system);
     const Eigen::Vector3d at =
-        names_.is_point(force.place)
-            ? deck_.points[static_cast<size_t>(force.place - deck_.mesh.nodes.rows())].at
-            : Eigen::Vector3d(deck_.mesh.nodes.row(force.place));
+        names_.is_point(force.node_index)
+            ? deck_.points[static_cast<size_t>(force.node_index - deck_.mesh.nodes.rows())].at
+            : Eigen::Vector3d(deck_.mesh.nodes.row(force.node_index));
     return axes_at(system, at) * unit;
   }
 
@@ -100,12 +100,13 @@ class StepWriter {
     for (const Step::NodalForce& force : step_.forces) {
       const Eigen::Vector3d value = force.value * direction(force);
       const bool moment = force.direction >= 3;
-      if (!names_.is_point(force.place) && !moment) {
-        field.row(force.place) += value.transpose();
+      if (!names_.is_point(force.node_index) && !moment) {
+        field.row(force.node_index) += value.transpose();
         continue;
       }
-      const std::string point = names_.is_point(force.place) ? names_.point(force.place)
-                                                             : names_.point_on_node(force.place);
+      const std::string point = names_.is_point(force.node_index)
+                                    ? names_.point(force.node_index)
+                                    : names_.point_on_node(force.node_index);
       auto [at, fresh] = on_points.try_emplace(point);
       if (fresh) at->second = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
       (moment ? at->second.second : at->second.first) += value;
@@ -127,10 +128,10 @@ class StepWriter {
   }
 
   void displacements() {
-    const auto prescribe = [&](const Support& support, DofMask part, const std::string& place) {
+    const auto prescribe = [&](const Support& support, DofMask part, const std::string& target) {
       if (part == 0) return;
       std::string body = fmt::format("kind = \"displacement\"\n{}directions = {}\nvalue = {}\n",
-                                     place, toml_directions(part), support.value);
+                                     target, toml_directions(part), support.value);
       if (!support.system.empty()) body += fmt::format("system = {}\n", toml_text(support.system));
       add("displacement", body, 1.0);
     };
@@ -139,19 +140,19 @@ class StepWriter {
     for (const Support& support : step_.supports) all.push_back(&support);
     for (const Support* support : all) {
       if (support->value == 0.0) continue;
-      const NamedPlaces named = names_.places(support->places, set_name(*support));
+      const NamedNodes named = names_.node_indices(support->node_indices, set_name(*support));
       if (!named.node_set.empty())
         prescribe(*support, support->dofs & kTranslations,
                   fmt::format("node_set = {}\n", toml_text(named.node_set)));
       for (const std::string& point : named.points) {
-        const std::string place = fmt::format("point = \"{}\"\n", point);
-        prescribe(*support, support->dofs & kTranslations, place);
-        prescribe(*support, static_cast<DofMask>(support->dofs & ~kTranslations), place);
+        const std::string target = fmt::format("point = \"{}\"\n", point);
+        prescribe(*support, support->dofs & kTranslations, target);
+        prescribe(*support, static_cast<DofMask>(support->dofs & ~kTranslations), target);
       }
     }
   }
 
-  /// Of the materials that expand; one model has one.
+  /// Reference temperature of the materials with expansion; it must be the same for all.
   double reference_temperature() const {
     double reference = 0.0;
     const Material* first = nullptr;
@@ -180,7 +181,7 @@ class StepWriter {
 }  // namespace
 
 std::string support_text(const Support& support, RecipeNames& names) {
-  const NamedPlaces named = names.places(support.places, set_name(support));
+  const NamedNodes named = names.node_indices(support.node_indices, set_name(support));
   std::string out;
   const DofMask shifts = support.dofs & kTranslations;
   if (!named.node_set.empty() && shifts != 0)
@@ -200,7 +201,7 @@ std::string write_steps(Deck& deck, RecipeNames& names) {
       for (const Support& support : step.supports) out += support_text(support, names);
     }
     if (!same_supports(*first, step)) {
-      out += fmt::format("\n# {} ({}) has other supports than {}: it needs a model of its own\n",
+      out += fmt::format("\n# {} ({}) has other supports than {}: it needs a separate model\n",
                          step.name, step.where, first->name);
       continue;
     }

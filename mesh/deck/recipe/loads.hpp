@@ -6,7 +6,7 @@
 
 namespace clatter::mesh::deck {
 
-/// [[support]] tables of one support: nodes together, each point on its own.
+/// [[support]] tables of one support: nodes together, each point separately.
 std::string support_text(const Support& support, RecipeNames& names);
 
 /// Supports of the first step, then [[load]] and [[case]] of every step with the same supports.

@@ -17,12 +17,12 @@ int32_t RecipeNames::label(int32_t node) const {
   return ids.empty() ? node + 1 : ids[static_cast<size_t>(node)];
 }
 
-std::string RecipeNames::point(Place place) const {
-  return fmt::format("point_{}", deck_.points[static_cast<size_t>(place - n_nodes_)].id);
+std::string RecipeNames::point(NodeIndex node_index) const {
+  return fmt::format("point_{}", deck_.points[static_cast<size_t>(node_index - n_nodes_)].id);
 }
 
-std::string RecipeNames::node(Place place) {
-  return node_set({place}, fmt::format("node_{}", label(place)));
+std::string RecipeNames::node(NodeIndex node_index) {
+  return node_set({node_index}, fmt::format("node_{}", label(node_index)));
 }
 
 std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string& wish) {
@@ -38,22 +38,23 @@ std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string&
   return name;
 }
 
-NamedPlaces RecipeNames::places(const std::vector<Place>& places, const std::string& wish) {
-  NamedPlaces named;
+NamedNodes RecipeNames::node_indices(const std::vector<NodeIndex>& node_indices,
+                                     const std::string& wish) {
+  NamedNodes named;
   std::vector<int32_t> nodes;
-  for (const Place place : places) {
-    if (is_point(place))
-      named.points.push_back(point(place));
+  for (const NodeIndex node_index : node_indices) {
+    if (is_point(node_index))
+      named.points.push_back(point(node_index));
     else
-      nodes.push_back(place);
+      nodes.push_back(node_index);
   }
   if (!nodes.empty()) named.node_set = node_set(std::move(nodes), wish);
   return named;
 }
 
-std::string RecipeNames::point_on_node(Place place) {
-  const std::string name = fmt::format("on_node_{}", label(place));
-  on_nodes_[name] = node(place);
+std::string RecipeNames::point_on_node(NodeIndex node_index) {
+  const std::string name = fmt::format("on_node_{}", label(node_index));
+  on_nodes_[name] = node(node_index);
   return name;
 }
 

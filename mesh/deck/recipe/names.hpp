@@ -1,5 +1,5 @@
 #pragma once
-// Names of places for recipe_text.hpp: points, and node sets of the mesh that are made on demand.
+// Names of nodes for text.hpp: points, and node sets of the mesh that are made on demand.
 #include <map>
 #include <string>
 #include <string_view>
@@ -9,28 +9,28 @@
 
 namespace clatter::mesh::deck {
 
-/// Places of one kind each: a node set of the mesh (empty: none) and points by name.
-struct NamedPlaces {
+/// A node set of the mesh (empty: none) and points by name.
+struct NamedNodes {
   std::string node_set;
   std::vector<std::string> points;
 };
 
-/// Names places of a deck; new node sets go into its mesh.
+/// Names nodes and points of a deck; new node sets are added to its mesh.
 class RecipeNames {
  public:
   explicit RecipeNames(Deck& deck);
 
-  bool is_point(Place place) const { return place >= n_nodes_; }
+  bool is_point(NodeIndex node_index) const { return node_index >= n_nodes_; }
   /// "point_12": its number in the deck.
-  std::string point(Place place) const;
+  std::string point(NodeIndex node_index) const;
   /// "node_12": the node set of that node alone.
-  std::string node(Place place);
-  /// A node set of exactly these nodes: one that the mesh has already, else a new one whose name
+  std::string node(NodeIndex node_index);
+  /// A node set of exactly these nodes: an existing one of the mesh, else a new one whose name
   /// begins with `wish`.
   std::string node_set(std::vector<int32_t> nodes, const std::string& wish);
-  NamedPlaces places(const std::vector<Place>& places, const std::string& wish);
-  /// The name of a point that sits on a mesh node; remembers that it is needed.
-  std::string point_on_node(Place place);
+  NamedNodes node_indices(const std::vector<NodeIndex>& node_indices, const std::string& wish);
+  /// The name of a point on a mesh node; records that it is needed.
+  std::string point_on_node(NodeIndex node_index);
   const std::map<std::string, std::string>& points_on_nodes() const { return on_nodes_; }
 
  private:

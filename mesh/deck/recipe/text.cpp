@@ -29,10 +29,10 @@ class Writer {
     systems();
     materials();
     std::string relations = std::exchange(text_, {});
-    // Couplings say which points on nodes they need, so points are written after them.
+    // Couplings register points on nodes, so points are written after them.
     couplings();
     if (deck_.mesh.node_sets.contains(kHangingMidSideNodes))
-      put("\n[[straight_edges]]  # cells of the deck without these middle nodes\nnode_set = {}\n",
+      put("\n[[straight_edges]]  # cells of the deck without these mid-side nodes\nnode_set = {}\n",
           toml_text(kHangingMidSideNodes));
     for (const Tie& tie : deck_.ties) add_tie(tie);
     for (const Equation& equation : deck_.equations)
@@ -107,10 +107,9 @@ class Writer {
         out += fmt::format("C = {}\n", toml_list(c));
         break;
     }
-    out +=
-        material.density > 0.0
-            ? fmt::format("rho = {}\n", material.density)
-            : "rho = 1.0  # the deck has none: mass and frequencies mean nothing with this one\n";
+    out += material.density > 0.0 ? fmt::format("rho = {}\n", material.density)
+                                  : "rho = 1.0  # the deck has none: mass and frequencies are "
+                                    "meaningless with this one\n";
     if (material.expansion.size() == 1)
       out += fmt::format("expansion = {}\n", material.expansion[0]);
     if (material.expansion.size() == 3)
@@ -125,7 +124,7 @@ class Writer {
     const bool linear_hex = type == CellType::kHex8;
     if (formulation == Formulation::kDefault) return "";
     if (linear_hex && formulation == Formulation::kReduced)
-      return "hex8 = \"incompatible\"  # the deck asks for one point and hourglass control\n";
+      return "hex8 = \"incompatible\"  # the deck has one point and hourglass control\n";
     if (linear_hex || type == CellType::kHex20 || type == CellType::kWedge6 ||
         type == CellType::kWedge15)
       return fmt::format("{} = \"{}\"\n", traits(type).name,
@@ -142,12 +141,13 @@ class Writer {
       put("\n[[point]]\nname = {}\nnode_set = {}\n", toml_text(name), toml_text(set));
   }
 
-  std::string reference(Place place) {
-    return names_.is_point(place) ? names_.point(place) : names_.point_on_node(place);
+  std::string reference(NodeIndex node_index) {
+    return names_.is_point(node_index) ? names_.point(node_index)
+                                       : names_.point_on_node(node_index);
   }
 
-  void put_places(const std::vector<Place>& places, const std::string& wish) {
-    const NamedPlaces named = names_.places(places, wish);
+  void put_nodes(const std::vector<NodeIndex>& node_indices, const std::string& wish) {
+    const NamedNodes named = names_.node_indices(node_indices, wish);
     if (!named.node_set.empty()) put("node_set = {}\n", toml_text(named.node_set));
     if (!named.points.empty()) put("points = [\"{}\"]\n", fmt::join(named.points, "\", \""));
   }
@@ -156,7 +156,7 @@ class Writer {
     for (const Rigid& rigid : deck_.rigid) {
       put("\n[[coupling]]\nname = {}\ntype = \"rigid\"\npoint = \"{}\"\ndirections = {}\n",
           toml_text(rigid.name), reference(rigid.reference), toml_directions(rigid.dofs));
-      put_places(rigid.dependents, rigid.name);
+      put_nodes(rigid.dependents, rigid.name);
     }
     for (const Distributing& one : deck_.distributing) {
       put("\n[[coupling]]\nname = {}\npoint = \"{}\"\ndirections = {}\n", toml_text(one.name),
@@ -165,7 +165,7 @@ class Writer {
       for (const Distributing::Term& term : one.terms) {
         put("[[coupling.term]]\nweight = {}\ndirections = {}\n", term.weight,
             toml_directions(term.dofs));
-        put_places(term.places, one.name);
+        put_nodes(term.node_indices, one.name);
       }
     }
   }
@@ -180,12 +180,12 @@ class Writer {
     constexpr const char* kNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
     std::vector<std::string> terms;
     for (const Equation::Term& term : all) {
-      const bool turns = term.direction >= 3 && !names_.is_point(term.place);
-      const std::string place =
-          names_.is_point(term.place) || turns
-              ? fmt::format("point = \"{}\"", reference(term.place))
-              : fmt::format("node_set = {}", toml_text(names_.node(term.place)));
-      terms.push_back(fmt::format("  {{ {}, direction = \"{}\", coefficient = {} }}", place,
+      const bool turns = term.direction >= 3 && !names_.is_point(term.node_index);
+      const std::string target =
+          names_.is_point(term.node_index) || turns
+              ? fmt::format("point = \"{}\"", reference(term.node_index))
+              : fmt::format("node_set = {}", toml_text(names_.node(term.node_index)));
+      terms.push_back(fmt::format("  {{ {}, direction = \"{}\", coefficient = {} }}", target,
                                   kNames[term.direction], term.coefficient));
     }
     return fmt::format("terms = [\n{},\n]\n", fmt::join(terms, ",\n"));
@@ -200,10 +200,10 @@ class Writer {
     for (const Mass& mass : deck_.masses) {
       const bool plain = mass.inertia.isZero(0.0) && mass.offset.isZero(0.0);
       std::string on;
-      if (names_.is_point(mass.place) || !plain) {
-        on = reference(mass.place);
+      if (names_.is_point(mass.node_index) || !plain) {
+        on = reference(mass.node_index);
       } else {
-        const std::string set = names_.node(mass.place);
+        const std::string set = names_.node(mass.node_index);
         on = "mass_" + set;
         put("\n[[nodes]]\nname = {}\nnode_set = {}\n", toml_text(on), toml_text(set));
       }
@@ -215,15 +215,15 @@ class Writer {
     }
   }
 
-  /// Retained nodes stay coordinates of the model; points are sets already.
+  /// Retained nodes remain coordinates of the model; points already are sets.
   void retained() {
-    std::vector<Place> nodes;
+    std::vector<NodeIndex> nodes;
     for (const Support& set : deck_.retained)
-      for (const Place place : set.places)
-        if (!names_.is_point(place)) nodes.push_back(place);
+      for (const NodeIndex node_index : set.node_indices)
+        if (!names_.is_point(node_index)) nodes.push_back(node_index);
     if (!nodes.empty())
       put("\n[[nodes]]\nname = \"retained\"\nnode_set = {}\n",
-          toml_text(names_.places(nodes, "retained").node_set));
+          toml_text(names_.node_indices(nodes, "retained").node_set));
   }
 
   Deck& deck_;

@@ -27,7 +27,7 @@ TEST(AbaqusRigid, ARotNodesTranslationsAreRotationsOfTheReference) {
   EXPECT_EQ(deck.supports[0].dofs, kTranslations & 0b011);  // the lower value first
   EXPECT_EQ(deck.supports[1].dofs, 0b100000);
   EXPECT_EQ(deck.supports[1].value, 0.1);
-  EXPECT_EQ(deck.supports[1].places, std::vector<Place>{point(deck, 9)});
+  EXPECT_EQ(deck.supports[1].node_indices, std::vector<NodeIndex>{point(deck, 9)});
   const auto& forces = deck.steps.at(0).forces;
   ASSERT_EQ(forces.size(), 2u);
   EXPECT_EQ(forces[0].direction, 2);
@@ -42,7 +42,7 @@ TEST(AbaqusRigid, AReferenceNodeOfASolidGetsAPointThatMovesIt) {
   EXPECT_EQ(rigid.reference, 8);
   EXPECT_EQ(deck.points[0].at, Eigen::Vector3d(1, 1, 1));
   EXPECT_EQ(rigid.dependents.size(), 8u);  // node 7 itself among them
-  EXPECT_EQ(deck.supports.at(0).places, std::vector<Place>{8});
+  EXPECT_EQ(deck.supports.at(0).node_indices, std::vector<NodeIndex>{8});
   EXPECT_EQ(deck.supports.at(0).dofs, kAllDofs);
 }
 
@@ -67,7 +67,7 @@ TEST(AbaqusCoupling, ADistributingOneWeighsAreasOrNodesAlike) {
   EXPECT_EQ(deck.distributing[0].dofs, kTranslations);
   EXPECT_EQ(deck.distributing[1].dofs, kAllDofs);
   ASSERT_EQ(deck.distributing[1].terms.size(), 1u);
-  EXPECT_EQ(deck.distributing[1].terms[0].places.size(), 4u);
+  EXPECT_EQ(deck.distributing[1].terms[0].node_indices.size(), 4u);
   EXPECT_TRUE(deck.mesh.node_sets.contains("NODES"));
 }
 
@@ -78,12 +78,12 @@ TEST(AbaqusCoupling, WhatItLacksIsNamed) {
   EXPECT_NE(refusal(kModel + coupling).find("expected *KINEMATIC or *DISTRIBUTING"),
             std::string::npos);
   EXPECT_EQ(refusal(kModel + "*KINEMATIC\n"),
-            "deck.inp:24: found *KINEMATIC, expected it behind *COUPLING");
+            "deck.inp:24: found *KINEMATIC, expected it after *COUPLING");
 }
 
 const std::string kDcoup = "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n33, ";
 
-TEST(AbaqusCoupling, ADcoup3dAtTheCentreIsDistributingOffItTheUserDecides) {
+TEST(AbaqusCoupling, ADcoup3dAtTheCentreIsDistributingElsewhereTheUserDecides) {
   const std::string card = "*DISTRIBUTING COUPLING, ELSET=D\nTOP, 2.\n";
   const Deck deck = read(kModel + "*NODE\n11, .5, .5, 1\n" + kDcoup + "11\n" + card);
   EXPECT_EQ(deck.distributing.at(0).terms.at(0).weight, 2.0);
@@ -110,7 +110,7 @@ TEST(AbaqusTie, SurfacesOfFacesAndOfNodesAreTied) {
   EXPECT_EQ(ids_of(deck, nodes_of(slave)), (std::vector<int32_t>{1, 2, 3, 4}));
 }
 
-TEST(AbaqusTie, NodesThatMakeNoWholeFaceAreRefused) {
+TEST(AbaqusTie, NodesThatMakeNoCompleteFaceAreRefused) {
   EXPECT_NE(
       refusal(kModel + "*SURFACE, NAME=UP\nEALL, S2\n*SURFACE, NAME=DOWN, TYPE=NODE\n1, 2, 3\n"
                        "*TIE, NAME=T\nDOWN, UP\n")
@@ -131,13 +131,13 @@ TEST(AbaqusEquation, TheFirstTermIsTheDependent) {
   ASSERT_EQ(deck.equations.size(), 2u);
   const auto& first = deck.equations[0].terms;
   ASSERT_EQ(first.size(), 2u);
-  EXPECT_EQ(first[0].place, node(deck, 7));
+  EXPECT_EQ(first[0].node_index, node(deck, 7));
   EXPECT_EQ(first[0].direction, 2);
   EXPECT_EQ(first[0].coefficient, 2.0);
   const auto& second = deck.equations[1].terms;
   ASSERT_EQ(second.size(), 5u);
-  EXPECT_EQ(second[0].place, node(deck, 1));
-  EXPECT_EQ(second[4].place, point(deck, 9));
+  EXPECT_EQ(second[0].node_index, node(deck, 1));
+  EXPECT_EQ(second[4].node_index, point(deck, 9));
   EXPECT_EQ(deck.equations[1].where, "deck.inp:27");
 }
 
@@ -153,7 +153,7 @@ TEST(AbaqusEquation, HalfEquationsAreRefused) {
             std::string::npos);
 }
 
-// Whatever the form, displacements that fulfil the deck's equations must fulfil ours.
+// Displacements that satisfy the deck's equations must satisfy ours.
 TEST(AbaqusEquation, TransformedNodesKeepTheMeaningOfTheirEquations) {
   const Deck deck = read(kModel +
                          "*TRANSFORM, NSET=TOP, TYPE=R\n3,4,0,-4,3,0\n"
@@ -165,16 +165,16 @@ TEST(AbaqusEquation, TransformedNodesKeepTheMeaningOfTheirEquations) {
   const Eigen::Vector3d u5 = u1[0] * x + u1[1] * y + 2 * u6.dot(x) * z;
   std::array<bool, 3> dependent{};
   for (const Equation& equation : deck.equations) {
-    EXPECT_EQ(equation.terms[0].place, node(deck, 5));
+    EXPECT_EQ(equation.terms[0].node_index, node(deck, 5));
     dependent[static_cast<size_t>(equation.terms[0].direction)] = true;
     double sum = 0.0;
     for (const auto& term : equation.terms) {
-      const Eigen::Vector3d& u = term.place == node(deck, 5)   ? u5
-                                 : term.place == node(deck, 1) ? u1
-                                                               : u6;
+      const Eigen::Vector3d& u = term.node_index == node(deck, 5)   ? u5
+                                 : term.node_index == node(deck, 1) ? u1
+                                                                    : u6;
       sum += term.coefficient * u[term.direction];
       const bool first = &term == &equation.terms[0];
-      EXPECT_TRUE(first || term.place != node(deck, 5));  // each solved for its own direction
+      EXPECT_TRUE(first || term.node_index != node(deck, 5));  // each solved for its own direction
     }
     EXPECT_NEAR(sum, 0.0, 1e-15);  // a few roundings of numbers near 1
   }
@@ -186,7 +186,7 @@ TEST(AbaqusMpc, PinTieAndBeamAreReadOthersRefused) {
   EXPECT_EQ(deck.equations.size(), 6u);
   ASSERT_EQ(deck.rigid.size(), 1u);
   EXPECT_EQ(deck.rigid[0].reference, point(deck, 9));
-  EXPECT_EQ(deck.rigid[0].dependents, std::vector<Place>{node(deck, 7)});
+  EXPECT_EQ(deck.rigid[0].dependents, std::vector<NodeIndex>{node(deck, 7)});
   EXPECT_NE(refusal(kModel + "*MPC\nDIST, 5, 1, 2, 3\n").find("*MPC of type DIST"),
             std::string::npos);
 }
@@ -197,9 +197,9 @@ TEST(AbaqusMass, PointsCarryMassAndInertia) {
            "*ELEMENT, TYPE=MASS, ELSET=M\n50, 9\n51, 5\n*MASS, ELSET=M\n.25\n"
            "*ELEMENT, TYPE=ROTARYI, ELSET=R\n52, 9\n*ROTARY INERTIA, ELSET=R\n1,2,3\n");
   ASSERT_EQ(deck.masses.size(), 3u);
-  EXPECT_EQ(deck.masses[0].place, point(deck, 9));
+  EXPECT_EQ(deck.masses[0].node_index, point(deck, 9));
   EXPECT_EQ(deck.masses[0].mass, 0.25);
-  EXPECT_EQ(deck.masses[1].place, node(deck, 5));
+  EXPECT_EQ(deck.masses[1].node_index, node(deck, 5));
   EXPECT_EQ(deck.masses[2].inertia.diagonal(), Eigen::Vector3d(1, 2, 3));
 }
 

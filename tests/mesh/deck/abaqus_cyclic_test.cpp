@@ -1,4 +1,4 @@
-// *CYCLIC SYMMETRY MODEL: the sector becomes the ring.
+// *CYCLIC SYMMETRY MODEL: the sector is expanded to the ring.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -37,12 +37,12 @@ TEST(AbaqusCyclic, SectorsAreCopiedAndJoinedNodeByNode) {
     const double radius = deck.mesh.nodes.row(a).head<2>().norm();
     EXPECT_NEAR(std::abs(radius - 1.5), 0.5, 1e-15);
   }
-  // The sector keeps its numbers, a copy counts from a power of ten on.
+  // The sector keeps its numbers, a copy adds a power of ten.
   EXPECT_EQ(deck.mesh.node_ids[0], 1);
   EXPECT_EQ(deck.mesh.cells[0].ids, (std::vector<int32_t>{1, 11, 21, 31}));
   ASSERT_EQ(deck.supports.size(), 1u);
-  EXPECT_EQ(deck.supports[0].places.size(), 4u);
-  EXPECT_THAT(deck.notes.back(), HasSubstr("the sector is turned round into the ring of 4"));
+  EXPECT_EQ(deck.supports[0].node_indices.size(), 4u);
+  EXPECT_THAT(deck.notes.back(), HasSubstr("the sector is expanded to the ring of 4"));
 }
 
 TEST(AbaqusCyclic, DirectionsOfSupportsAndForcesTurnWithTheirCopy) {
@@ -50,17 +50,17 @@ TEST(AbaqusCyclic, DirectionsOfSupportsAndForcesTurnWithTheirCopy) {
                          "*BOUNDARY\n1, 1, 1\n*STEP\n*STATIC\n*CLOAD\n2, 1, 5.\n*END STEP\n");
   ASSERT_EQ(deck.supports.size(), 4u);
   for (const Support& support : deck.supports) {
-    const Eigen::Vector3d x = deck.mesh.nodes.row(support.places.at(0)).transpose();
+    const Eigen::Vector3d x = deck.mesh.nodes.row(support.node_indices.at(0)).transpose();
     const Eigen::Matrix3d axes = support.system.empty() ? Eigen::Matrix3d::Identity().eval()
                                                         : deck.systems.at(support.system).axes;
     EXPECT_LT((axes.col(0) - Eigen::Vector3d(x[0], x[1], 0)).norm(), 1e-12);  // radius 1
   }
   ASSERT_EQ(deck.steps.at(0).forces.size(), 4u);
   for (const Step::NodalForce& force : deck.steps[0].forces)
-    EXPECT_NEAR(deck.mesh.nodes.row(force.place).norm(), 2.0, 1e-15);
+    EXPECT_NEAR(deck.mesh.nodes.row(force.node_index).norm(), 2.0, 1e-15);
 }
 
-TEST(AbaqusCyclic, WhatDoesNotRepeatIsRefusedByLine) {
+TEST(AbaqusCyclic, WhatCannotBeRepeatedIsRefusedByLine) {
   EXPECT_THAT(refusal(kQuarter + kTie + "*CYCLIC SYMMETRY MODEL, N=5\n0,0,0,0,0,1\n"),
               HasSubstr("deck.inp:28: found 4 and 4 nodes on the sides; turned by 72 degrees"));
   EXPECT_THAT(refusal(kQuarter + kTie),

@@ -28,7 +28,7 @@ TEST(AbaqusData, TheBeamOfAPartHasItsFiveHundredNodes) {
             (std::vector<int32_t>{3, 4, 6, 7, 293, 395, 511, 512, 514}));
   ASSERT_EQ(deck.steps.size(), 1u);
   ASSERT_EQ(deck.steps[0].supports.size(), 1u);
-  EXPECT_EQ(deck.steps[0].supports[0].places, deck.mesh.node_set("fixed"));
+  EXPECT_EQ(deck.steps[0].supports[0].node_indices, deck.mesh.node_set("fixed"));
   EXPECT_EQ(deck.steps[0].supports[0].dofs, kTranslations);
 }
 

@@ -51,7 +51,7 @@ template <class Field>
 double residue(const Deck& deck, const Equation& equation, const Field& u) {
   double sum = 0.0;
   for (const Equation::Term& term : equation.terms) {
-    const Eigen::Vector3d x = deck.mesh.nodes.row(term.place).transpose();
+    const Eigen::Vector3d x = deck.mesh.nodes.row(term.node_index).transpose();
     sum += term.coefficient * u(x)[term.direction];
   }
   return sum;
@@ -76,7 +76,7 @@ TEST(AbaqusMpc, PlaneKeepsRigidMotionsAndMotionsWithinThePlaneOnly) {
   EXPECT_THAT(refusal(kModel + "*MPC\nPLANE, 1, 2, 3\n"), HasSubstr("found 3 nodes, expected 4"));
 }
 
-TEST(AbaqusMpc, StraightIsTwoEquationsANodeAndContinuesBehindAZero) {
+TEST(AbaqusMpc, StraightIsTwoEquationsPerNodeAndContinuesAfterAZero) {
   const std::string edge =
       kCubeNodes +
       "*ELEMENT, TYPE=C3D10, ELSET=EALL\n1, 1, 2, 4, 5, 21, 22, 23, 24, 25, 26\n"
@@ -95,7 +95,7 @@ TEST(AbaqusMpc, StraightIsTwoEquationsANodeAndContinuesBehindAZero) {
   const auto bent = [](const Eigen::Vector3d& x) { return Eigen::Vector3d(0, 0, x[0] * x[1]); };
   double off = 0.0;
   for (const Equation& e : deck.equations) {
-    EXPECT_EQ(ids_of(deck, {e.terms[0].place}), std::vector<int32_t>{22});
+    EXPECT_EQ(ids_of(deck, {e.terms[0].node_index}), std::vector<int32_t>{22});
     EXPECT_NEAR(residue(deck, e, rigid), 0.0, 1e-14);
     EXPECT_NEAR(residue(deck, e, along), 0.0, 1e-14);
     off = std::max(off, std::abs(residue(deck, e, bent)));
@@ -114,7 +114,7 @@ TEST(AbaqusTemperature, ConstantsAtOneTemperatureAreConstant) {
   EXPECT_EQ(deck.materials.at("S").constants, (std::vector<double>{2.1e5, .3}));
 }
 
-TEST(AbaqusTemperature, ConstantsAtSeveralAreTakenAtTheInitialOneAloud) {
+TEST(AbaqusTemperature, ConstantsAtSeveralAreTakenAtTheInitialOneWithANote) {
   const std::string table = steel("2.E5, .3, 0.\n1.E5, .2, 100.\n");
   const Deck deck =
       read(table + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 25.\n" + kStep + "*END STEP\n");

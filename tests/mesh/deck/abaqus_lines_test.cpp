@@ -55,7 +55,7 @@ TEST(AbaqusLines, CaseBlanksCommentsAndEmptyLinesDoNotMatter) {
   EXPECT_EQ(deck.regions[0].material, "m");
 }
 
-TEST(AbaqusLines, AKeywordGoesOnBehindACommaWhenParametersFollow) {
+TEST(AbaqusLines, AKeywordContinuesAfterACommaWhenParametersFollow) {
   const Deck deck =
       read(kCubeNodes + "*ELEMENT, TYPE=C3D8,\n** between\n ELSET=EALL\n1,1,2,3,4,5,6,7,8\n" +
            kSteel + "*BOUNDARY,\nBOT, 1, 3\n*STEP,\n*FREQUENCY,\n5\n*END STEP\n");
@@ -64,12 +64,12 @@ TEST(AbaqusLines, AKeywordGoesOnBehindACommaWhenParametersFollow) {
   EXPECT_EQ(deck.steps.at(0).modes, 5);
 }
 
-TEST(AbaqusLines, AnElementGoesOverSeveralLines) {
+TEST(AbaqusLines, AnElementMaySpanSeveralLines) {
   const Deck deck = read(kCubeNodes + "*ELEMENT, TYPE=C3D8\n1,1,2,3,\n4,5,6\n7,8\n");
   EXPECT_EQ(deck.mesh.cell_count(), 1);
 }
 
-TEST(AbaqusLines, TooManyNodesAreRefusedUnlessTheUserLetsThemGo) {
+TEST(AbaqusLines, TooManyNodesAreRefusedUnlessTheUserIgnoresThem) {
   const std::string text = kCubeNodes + "*ELEMENT, TYPE=C3D8\n1,1,2,3,4,5,6,7,8,9,10,\n";
   EXPECT_NE(refusal(text).find("deck.inp:13: found more than the 8 nodes"), std::string::npos);
   const Deck deck = read(text, {"extra nodes"});
@@ -125,7 +125,7 @@ TEST(AbaqusLines, IncludesNestRelativeToTheIncludingFile) {
   EXPECT_TRUE(deck.files[2].ends_with("nodes.inp"));
 }
 
-TEST(AbaqusLines, ATableMayComeFromAFileOfItsOwn) {
+TEST(AbaqusLines, ATableMayComeFromASeparateFile) {
   const mesh::testing::Folder folder;
   std::ofstream(folder / "nodes.txt") << "1,0,0,0\n2,1,0,0\n3,0,1,0\n";
   std::ofstream(folder / "main.inp")
@@ -153,7 +153,7 @@ TEST(AbaqusLines, IncludesThatAreMissingOrIncludeThemselvesAreRefused) {
   EXPECT_THROW(read_abaqus(folder / "none.inp", {}), FileError);
 }
 
-TEST(AbaqusLines, ThreeScoreFilesWithinEachOtherAreEnough) {
+TEST(AbaqusLines, SixtyNestedFilesAreAccepted) {
   const mesh::testing::Folder folder;
   for (int i = 0; i < 70; ++i) {
     std::ofstream(folder / fmt::format("{}.inp", i))

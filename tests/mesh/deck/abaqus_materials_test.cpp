@@ -50,7 +50,7 @@ double entry(const Material& m, size_t i, size_t j) {
   return m.constants[at + j - i];
 }
 
-TEST(AbaqusMaterials, AnOrthotropicStiffnessPutsEachConstantInItsPlace) {
+TEST(AbaqusMaterials, AnOrthotropicStiffnessHasEachConstantAtItsIndex) {
   // D1111 D1122 D2222 D1133 D2233 D3333 D1212 D1313 D2323
   const Material m =
       material("*ELASTIC, TYPE=ORTHO\n1111,1122,2222,1133,2233,3333,1212,1313\n2323\n");
@@ -68,13 +68,13 @@ TEST(AbaqusMaterials, AnOrthotropicStiffnessPutsEachConstantInItsPlace) {
   EXPECT_EQ(entry(m, 3, 4), 0);
 }
 
-TEST(AbaqusMaterials, AnAnisotropicStiffnessPutsEachConstantInItsPlace) {
+TEST(AbaqusMaterials, AnAnisotropicStiffnessHasEachConstantAtItsIndex) {
   const Material m = material(
       "*ELASTIC, TYPE=ANISOTROPIC\n"
       "1111,1122,2222,1133,2233,3333,1112,2212\n"
       "3312,1212,1113,2213,3313,1213,1313,1123\n"
       "2223,3323,1223,1323,2323\n");
-  // Names of our components: 11 22 33 12 23 31, so that C_ij must be the number "ij" of Abaqus.
+  // Our components are 11 22 33 12 23 31: C_ij must be the number "ij" of Abaqus.
   const std::array<int, 6> names = {11, 22, 33, 12, 23, 13};
   const std::array<int, 6> rank = {0, 1, 2, 3, 5, 4};  // Abaqus writes 12 before 13 before 23
   for (size_t i = 0; i < 6; ++i) {
@@ -85,7 +85,7 @@ TEST(AbaqusMaterials, AnAnisotropicStiffnessPutsEachConstantInItsPlace) {
   }
 }
 
-TEST(AbaqusMaterials, WhatIsNotUnderstoodIsRefused) {
+TEST(AbaqusMaterials, UnsupportedInputIsRefused) {
   EXPECT_NE(bad_material("*ELASTIC\n1,.3,0\n2,.3,100\n").find("depend on the temperature"),
             std::string::npos);
   EXPECT_EQ(material("*ELASTIC\n1,.3,0\n1,.3,100\n").constants.size(), 2u);
@@ -95,8 +95,7 @@ TEST(AbaqusMaterials, WhatIsNotUnderstoodIsRefused) {
   EXPECT_NE(bad_material("*DENSITY\n1\n").find("has no *ELASTIC"), std::string::npos);
   EXPECT_NE(bad_material("*ELASTIC\n1,.3\n*PLASTIC\n1,0\n").find("keyword *PLASTIC"),
             std::string::npos);
-  EXPECT_EQ(refusal("*ELASTIC\n1,.3\n"),
-            "deck.inp:1: found *ELASTIC, expected it behind *MATERIAL");
+  EXPECT_EQ(refusal("*ELASTIC\n1,.3\n"), "deck.inp:1: found *ELASTIC, expected it after *MATERIAL");
   EXPECT_NE(refusal(kModel + "*MATERIAL, NAME=steel\n").find("a second material steel"),
             std::string::npos);
 }
@@ -122,7 +121,7 @@ TEST(AbaqusSystems, TheSecondLineTurnsAboutALocalAxis) {
   EXPECT_LT((s.axes.col(1) - Eigen::Vector3d(0, -1, 0)).norm(), 1e-15);
 }
 
-TEST(AbaqusSystems, ACylindricalOneTurnsWithThePlace) {
+TEST(AbaqusSystems, ACylindricalOneRotatesWithThePosition) {
   const System s = orientation(", SYSTEM=CYLINDRICAL", "1, 0, 0, 1, 0, 5\n");
   EXPECT_EQ(s.kind, System::Kind::kCylindrical);
   EXPECT_EQ(s.origin, Eigen::Vector3d(1, 0, 0));
@@ -133,7 +132,7 @@ TEST(AbaqusSystems, ACylindricalOneTurnsWithThePlace) {
   EXPECT_EQ(axes.col(1), Eigen::Vector3d(-1, 0, 0));
 }
 
-TEST(AbaqusSystems, AxesThatAreNoneAreRefused) {
+TEST(AbaqusSystems, InvalidAxesAreRefused) {
   const auto bad = [](const std::string& rest) {
     return refusal(kModel + "*ORIENTATION, NAME=O" + rest);
   };

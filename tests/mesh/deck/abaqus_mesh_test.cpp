@@ -34,7 +34,7 @@ constexpr std::array<Solid, 10> kSolids = {{{"C3D4", CellType::kTet4},
                                             {"C3D20", CellType::kHex20},
                                             {"C3D20R", CellType::kHex20}}};
 
-// Corners of the reference cells of cell.hpp, written down here again.
+// Corners of the reference cells of cell.hpp, independently.
 std::vector<Eigen::Vector3d> reference_corners(int count) {
   switch (count) {
     case 4:
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector3d> reference_corners(int count) {
   }
 }
 
-// Edges in the order of Abaqus' middle nodes, from its manual's drawings.
+// Edges in the order of Abaqus' mid-side nodes, from its manual's drawings.
 std::vector<std::array<size_t, 2>> abaqus_edges(int corners) {
   if (corners == 4) return {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   if (corners == 6) {
@@ -76,7 +76,7 @@ std::string one_element(const Solid& solid) {
   return text + element + "\n";
 }
 
-TEST(AbaqusMesh, MiddleNodesStandInTheMiddleOfTheirEdges) {
+TEST(AbaqusMesh, MidSideNodesLieInTheMiddleOfTheirEdges) {
   for (const Solid& solid : kSolids) {
     const Deck deck = read(one_element(solid));
     ASSERT_EQ(deck.mesh.cells.size(), 1u);
@@ -181,11 +181,12 @@ TEST(AbaqusMesh, SetsThatCannotBeAreRefused) {
   EXPECT_NE(refusal(deep + "*BOUNDARY\nS99, 1\n").find("more than 64 sets"), std::string::npos);
 }
 
-TEST(AbaqusMesh, NumbersThatStandForTwoThingsAreRefused) {
-  EXPECT_NE(refusal(kModel + "*NODE\n3, 7, 7, 7\n")
-                .find("deck.inp:25: node 3 is defined again in another place; the first time: "
-                      "deck.inp:4"),
-            std::string::npos);
+TEST(AbaqusMesh, NumbersWithTwoMeaningsAreRefused) {
+  EXPECT_NE(
+      refusal(kModel + "*NODE\n3, 7, 7, 7\n")
+          .find("deck.inp:25: node 3 is defined again with other coordinates; first definition: "
+                "deck.inp:4"),
+      std::string::npos);
   EXPECT_EQ(read(kModel + "*NODE, NSET=AGAIN\n3, 1, 1, 0\n").mesh.node_set("AGAIN").size(), 1u);
   EXPECT_EQ(refusal(kModel + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n"),
             "deck.inp:25: element 1 is defined twice");
@@ -245,7 +246,7 @@ TEST(AbaqusMesh, ASurfaceOfElementsIsWhatTheyShowOutside) {
   const Deck deck = read(kTwoCells + "*SURFACE, NAME=OUT\nA,\n*SURFACE, NAME=ALL\nA\nB\n2, S1\n");
   EXPECT_EQ(deck.mesh.surface("OUT").face_count(), 3);
   EXPECT_EQ(deck.mesh.surface("ALL").face_count(),
-            7);  // six outside, and the one asked for by name
+            7);  // six outside, and the one given explicitly
   EXPECT_NE(refusal(kTwoCells + "*SURFACE, NAME=F\nA, SPOS\n").find("found face 'SPOS'"),
             std::string::npos);
 }
@@ -265,7 +266,7 @@ TEST(AbaqusParts, OneInstanceKeepsNumbersAndNames) {
   EXPECT_EQ(ids_of(deck, deck.mesh.node_set("TOP")), (std::vector<int32_t>{5, 6}));
   EXPECT_TRUE(deck.mesh.node_sets.contains("BOT"));
   EXPECT_TRUE(deck.mesh.surfaces.contains("LID"));
-  EXPECT_EQ(deck.supports.size(), 3u);  // node 3 is held in y and z: x y z in three masks
+  EXPECT_EQ(deck.supports.size(), 3u);  // node 3 is fixed in y and z: x y z in three masks
 }
 
 TEST(AbaqusParts, InstancesAreMovedThenTurnedAndNumberedApart) {
@@ -278,7 +279,7 @@ TEST(AbaqusParts, InstancesAreMovedThenTurnedAndNumberedApart) {
   EXPECT_EQ(deck.mesh.regions, (std::vector<std::string>{"one.EALL", "two.EALL"}));
   EXPECT_TRUE(deck.mesh.node_sets.contains("two.BOT"));
   EXPECT_TRUE(deck.mesh.surfaces.contains("two.LID"));
-  // Node 2 of the part, (1 0 0): moved to (11 0 0), then turned about (10 0 z) to (10 1 0).
+  // Node 2 of the part, (1 0 0): moved to (11 0 0), then rotated about (10 0 z) to (10 1 0).
   const Eigen::RowVector3d x = deck.mesh.nodes.row(node(deck, 102));
   EXPECT_LT((x - Eigen::RowVector3d(10, 1, 0)).norm(), 1e-14);  // cos(pi / 2) rounds
   const Eigen::Vector3d axis = deck.systems.at("two.O").axes.col(0);
@@ -293,11 +294,11 @@ TEST(AbaqusParts, ReferencePointsOfTheAssemblyGetNumbersOfTheirOwn) {
   ASSERT_EQ(deck.points.size(), 1u);
   EXPECT_EQ(deck.points[0].id, 11);
   EXPECT_EQ(deck.points[0].at, Eigen::Vector3d(5, 5, 5));
-  EXPECT_EQ(deck.sets.at("RP"), std::vector<Place>{8});
-  EXPECT_EQ(deck.rigid.at(0).dependents, (std::vector<Place>{0, 1, 2, 3}));
+  EXPECT_EQ(deck.sets.at("RP"), std::vector<NodeIndex>{8});
+  EXPECT_EQ(deck.rigid.at(0).dependents, (std::vector<NodeIndex>{0, 1, 2, 3}));
 }
 
-TEST(AbaqusParts, PartsOutOfPlaceAreRefused) {
+TEST(AbaqusParts, MisplacedPartsAreRefused) {
   EXPECT_NE(refusal("*PART, NAME=P\n" + kCube).find("deck.inp:1: found *PART without *END PART"),
             std::string::npos);
   EXPECT_NE(refusal("*PART, NAME=P\n" + kCube + "*END PART\n").find("expected instances"),

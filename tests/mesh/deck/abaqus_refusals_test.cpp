@@ -1,4 +1,4 @@
-// Decks that end early, and refusals that come together.
+// Truncated decks, and several refusals at once.
 #include <gmock/gmock.h>
 
 #include "abaqus_support.hpp"
@@ -31,17 +31,17 @@ const std::string kLong =
     "*STEP\n*STATIC\n*CLOAD\n7, 3, 1.\n*END STEP\n"
     "*STEP\n*FREQUENCY\n5\n*END STEP\n";
 
-TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
-  // Behind a *END STEP the deck is whole, with a step less.
+TEST(AbaqusEnd, NoTruncationAtALineEndPassesSilently) {
+  // After a *END STEP the deck is complete, with one step fewer.
   const Deck whole = read(kLong);
   EXPECT_TRUE(whole.notes.empty());
-  int cuts = 0, whole_steps = 0;
+  int cuts = 0, complete_steps = 0;
   for (size_t end = kLong.find('\n'); end + 1 < kLong.size(); end = kLong.find('\n', end + 1)) {
     const std::string cut = kLong.substr(0, end + 1);
     ++cuts;
     if (cut.ends_with("*END STEP\n")) {
       EXPECT_TRUE(read(cut).notes.empty());
-      ++whole_steps;
+      ++complete_steps;
       continue;
     }
     const int line = lines_in(cut) - 1;
@@ -54,22 +54,22 @@ TEST(AbaqusEnd, NoCutAtALineEndPassesSilently) {
     }
   }
   EXPECT_EQ(cuts, 48);
-  EXPECT_EQ(whole_steps, 1);
+  EXPECT_EQ(complete_steps, 1);
 }
 
-TEST(AbaqusEnd, WhatIsOpenAtTheEndIsRefusedByItsLine) {
+TEST(AbaqusEnd, AnOpenBlockAtTheEndIsRefusedByItsLine) {
   EXPECT_THAT(refusal(kModel + "*STEP\n*STATIC\n*CLOAD\n7, 3, 1.\n"),
               HasSubstr("deck.inp:24: found *STEP without *END STEP, the deck ends before it"));
   EXPECT_THAT(refusal(kModel + "*BOUNDARY\n"),
               HasSubstr("deck.inp:24: the deck ends with *BOUNDARY, expected its data lines"));
-  EXPECT_THAT(refusal(kModel + "*SURFACE,\n"), HasSubstr("deck.inp:24: the deck ends behind the "
+  EXPECT_THAT(refusal(kModel + "*SURFACE,\n"), HasSubstr("deck.inp:24: the deck ends after the "
                                                          "comma of *SURFACE"));
   EXPECT_THAT(refusal("*PART, NAME=A\n" + kCube +
                       "*END PART\n*ASSEMBLY, NAME=B\n"
                       "*INSTANCE, NAME=C, PART=A\n*END INSTANCE\n"),
               HasSubstr("found *ASSEMBLY without *END ASSEMBLY"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=S8\n5, 1, 2, 3, 4, 5,\n", {"S8"}),
-              HasSubstr("deck.inp:25: the deck ends behind a comma"));
+              HasSubstr("deck.inp:25: the deck ends after a comma"));
 }
 
 TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {
@@ -87,9 +87,9 @@ TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {
   }
 }
 
-TEST(AbaqusRefusals, WhatFollowsFromARefusalIsNotSaidAgain) {
-  // The material and the surface are lost; what names them is not refused a second time, nor what
-  // names the elements of a type that is not read.
+TEST(AbaqusRefusals, ConsequencesOfARefusalAreNotReported) {
+  // The material and the surface are dropped; references to them, and to elements of an unsupported
+  // type, are not refused again.
   const std::string said =
       refusal(kCube +
               "*ELEMENT, TYPE=B32, ELSET=BEAMS\n50, 1, 2, 3\n"
@@ -103,7 +103,7 @@ TEST(AbaqusRefusals, WhatFollowsFromARefusalIsNotSaidAgain) {
   EXPECT_THAT(said, HasSubstr("deck.inp:23: found face S9"));
 }
 
-TEST(AbaqusRefusals, TheSameAtOtherPlacesIsCountedAndTenAreEnough) {
+TEST(AbaqusRefusals, RepetitionsAreCountedAndTenRefusalsAreTheLimit) {
   std::string twice = kModel, many = kModel;
   for (int i = 0; i < 3; ++i) twice += "*CONTACT PAIR\nA, B\n";
   EXPECT_EQ(refusal(twice),
@@ -126,7 +126,7 @@ TEST(AbaqusRefusals, TablesWithGapsAreNotFollowedByWhatNamesTheirLines) {
   EXPECT_THAT(said, HasSubstr("deck.inp:7: keyword *ODD"));
 }
 
-TEST(AbaqusSteps, AfterLinearStepsOthersAreLeftOutAloud) {
+TEST(AbaqusSteps, AfterLinearStepsOthersAreSkippedWithANote) {
   const Deck deck =
       read(kModel +
            "*BOUNDARY\nBOT, 1, 3\n*STEP\n*FREQUENCY\n5\n*END STEP\n"

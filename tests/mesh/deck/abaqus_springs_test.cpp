@@ -1,4 +1,4 @@
-// *SPRING and *DASHPOT, *MPC MEANROT, steps on the stiffness of loads.
+// *SPRING and *DASHPOT, *MPC MEANROT, steps with the stiffness of loads.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -23,8 +23,8 @@ TEST(AbaqusSpring, BetweenTwoNodesPullsAlongTheirLine) {
   ASSERT_EQ(spring.terms.size(), 6u);
   const Eigen::Vector3d along = Eigen::Vector3d(-.5, -.5, 1).normalized();
   for (const Equation::Term& term : spring.terms) {
-    const bool far = term.place == point(deck, 9);
-    EXPECT_TRUE(far || term.place == node(deck, 7));
+    const bool far = term.node_index == point(deck, 9);
+    EXPECT_TRUE(far || term.node_index == node(deck, 7));
     EXPECT_NEAR(term.coefficient, (far ? 1 : -1) * along[term.direction], 1e-15);
   }
 }
@@ -47,7 +47,7 @@ TEST(AbaqusSpring, OfATableIsReadWhenItIsOneLineThroughZero) {
   const std::string head = kModel + kAxial + "*SPRING, ELSET=SPR, NONLINEAR\n\n";
   EXPECT_EQ(read(head + "-24., -2.\n0., 0.\n12., 1.\n").springs[0].stiffness, 12.0);
   EXPECT_THAT(refusal(head + "-24., -2.\n0., 0.\n13., 1.\n"),
-              HasSubstr("deck.inp:26: *SPRING, NONLINEAR: its forces do not lie on one line"));
+              HasSubstr("deck.inp:26: *SPRING, NONLINEAR: its forces are not on one line"));
 }
 
 TEST(AbaqusSpring, WithoutMeaningIsRefusedByLine) {
@@ -59,7 +59,7 @@ TEST(AbaqusSpring, WithoutMeaningIsRefusedByLine) {
               HasSubstr("deck.inp:26: *SPRING: found 2 lines of stiffness, expected one"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=SPRINGA, ELSET=SPR\n7, 9, 10\n"
                                "*SPRING, ELSET=SPR\n\n1.\n"),
-              HasSubstr("deck.inp:25: element 7: both ends are in one place"));
+              HasSubstr("deck.inp:25: element 7: both ends have the same position"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=SPRING1, ELSET=SPR\n7, 7\n"
                                "*SPRING, ELSET=SPR\n4\n1.\n"),
               HasSubstr("deck.inp:25: element 7: node 7 has no rotations"));
@@ -75,14 +75,15 @@ TEST(AbaqusSpring, StiffnessChangesItsUnitsWithTheDeck) {
   EXPECT_NEAR(deck.springs[0].stiffness, 12e3, 1e-9);  // N/mm
 }
 
-TEST(AbaqusDashpot, IsLeftOutAloudOnce) {
+TEST(AbaqusDashpot, IsSkippedWithOneNote) {
   const Deck deck = read(kModel +
                          "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n7, 7, 9\n8, 8, 9\n"
                          "*DASHPOT, ELSET=D\n\n1.E-5\n");
   EXPECT_TRUE(deck.springs.empty());
   EXPECT_TRUE(deck.points.empty());
   ASSERT_EQ(deck.notes.size(), 2u);  // and the missing *STEP
-  EXPECT_THAT(deck.notes[1], HasSubstr("deck.inp:27: *DASHPOT is left out: dampers take no part"));
+  EXPECT_THAT(deck.notes[1],
+              HasSubstr("deck.inp:27: *DASHPOT is left out: dampers have no effect"));
   EXPECT_THAT(refusal(kModel + "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n7, 7, 9\n"),
               HasSubstr("element 7 of type DASHPOTA has no value (*DASHPOT)"));
 }
@@ -96,12 +97,12 @@ TEST(AbaqusMpc, MeanRotationOfRigidTurnsIsTheirAngleAndOfShiftsNone) {
                            double angle) {
     double sum = 0.0;
     for (const Equation::Term& term : deck.equations[0].terms) {
-      if (term.place == point(deck, 30)) {
-        EXPECT_EQ(term.direction, 3);  // a rotation: DoF 1 of the node behind the others
+      if (term.node_index == point(deck, 30)) {
+        EXPECT_EQ(term.direction, 3);  // a rotation: DoF 1 of the node after the others
         sum += term.coefficient * angle;
         continue;
       }
-      const Eigen::Vector3d x = deck.mesh.nodes.row(term.place).transpose();
+      const Eigen::Vector3d x = deck.mesh.nodes.row(term.node_index).transpose();
       sum += term.coefficient * (shift + turn.cross(x))[term.direction];
     }
     return sum;
@@ -118,7 +119,7 @@ TEST(AbaqusMpc, MeanRotationNeedsAnAxisAndNodesOffIt) {
               HasSubstr("node 1 lies on the axis through the nodes' centre"));
 }
 
-TEST(AbaqusSteps, OnTheStiffnessOfLoadsAreLeftOutWithAllBehindThem) {
+TEST(AbaqusSteps, WithTheStiffnessOfLoadsAreSkippedWithAllAfterThem) {
   const std::string push = "*STEP\n*STATIC\n*CLOAD\n5, 1, 1.\n*END STEP\n";
   const Deck deck = read(kModel + push + "*STEP, PERTURBATION\n*FREQUENCY\n7\n*END STEP\n" + push);
   EXPECT_EQ(deck.steps.size(), 1u);
@@ -126,19 +127,18 @@ TEST(AbaqusSteps, OnTheStiffnessOfLoadsAreLeftOutWithAllBehindThem) {
   EXPECT_THAT(deck.notes[0],
               HasSubstr("deck.inp:29: *STEP is left out: its stiffness depends on the loads"));
   EXPECT_THAT(deck.notes[1],
-              HasSubstr("deck.inp:33: *STEP is left out: it goes on from a step that is"));
+              HasSubstr("deck.inp:33: *STEP is left out: it continues a step that is"));
   const Deck large = read(kModel + push + "*STEP, NLGEOM\n*STATIC\n*END STEP\n");
   EXPECT_EQ(large.steps.size(), 1u);
   EXPECT_THAT(large.notes[0], HasSubstr("its displacements are large (NLGEOM)"));
 }
 
-TEST(AbaqusSteps, AnEmptyOneAtTheEndIsLeftOutAloud) {
+TEST(AbaqusSteps, AnEmptyOneAtTheEndIsSkippedWithANote) {
   const std::string push = "*STEP\n*STATIC\n*CLOAD\n5, 1, 1.\n*END STEP\n";
   const Deck deck = read(kModel + push + "*STEP\n");
   EXPECT_EQ(deck.steps.size(), 1u);
   ASSERT_EQ(deck.notes.size(), 1u);
-  EXPECT_THAT(deck.notes[0],
-              HasSubstr("deck.inp:29: the deck ends here, with a *STEP that is empty"));
+  EXPECT_THAT(deck.notes[0], HasSubstr("deck.inp:29: the deck ends here, with an empty *STEP"));
   EXPECT_THAT(refusal(kModel + push + "*STEP\n*STATIC\n"),
               HasSubstr("deck.inp:29: found *STEP without *END STEP"));
   EXPECT_THAT(refusal(kModel + "*STEP\n"), HasSubstr("deck.inp:24: found *STEP without"));

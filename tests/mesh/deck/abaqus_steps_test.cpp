@@ -27,16 +27,17 @@ TEST(AbaqusBoundary, RangesNamesAndValues) {
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n5, XSYMM\n6, 2\n7, 1, 1, 0.5\n8, ENCASTRE\n");
   std::map<int32_t, DofMask> held;
   for (const Support& support : deck.supports) {
-    for (const Place place : support.places) held[ids_of(deck, {place})[0]] |= support.dofs;
-    EXPECT_EQ(support.value, support.places[0] == node(deck, 7) ? 0.5 : 0.0);
+    for (const NodeIndex node_index : support.node_indices)
+      held[ids_of(deck, {node_index})[0]] |= support.dofs;
+    EXPECT_EQ(support.value, support.node_indices[0] == node(deck, 7) ? 0.5 : 0.0);
     EXPECT_EQ(support.where, "deck.inp:24");
   }
-  // Nodes of solids have no rotations to hold.
+  // Nodes of solids have no rotations to fix.
   EXPECT_EQ(held, (std::map<int32_t, DofMask>{
                       {1, 7}, {2, 7}, {3, 7}, {4, 7}, {5, 1}, {6, 2}, {7, 1}, {8, 7}}));
 }
 
-TEST(AbaqusBoundary, NamesOfSupportsHoldWhatAbaqusSays) {
+TEST(AbaqusBoundary, NamesOfSupportsFixTheDofsOfAbaqus) {
   const std::map<std::string, DofMask> wanted = {
       {"XSYMM", 0b110001},  {"YSYMM", 0b101010},  {"ZSYMM", 0b011100},  {"XASYMM", 0b001110},
       {"YASYMM", 0b010101}, {"ZASYMM", 0b100011}, {"PINNED", 0b000111}, {"ENCASTRE", 0b111111}};
@@ -49,7 +50,7 @@ TEST(AbaqusBoundary, NamesOfSupportsHoldWhatAbaqusSays) {
 
 TEST(AbaqusBoundary, ContradictionsAndStrangeDofsAreRefused) {
   EXPECT_NE(refusal(kModel + "*BOUNDARY\n1, 1, 1, 0.\n1, 1, 1, 2.\n")
-                .find("deck.inp:26: node 1 is held at 0 and at 2 in direction 1"),
+                .find("deck.inp:26: node 1 is fixed at 0 and at 2 in direction 1"),
             std::string::npos);
   EXPECT_NE(refusal(kModel + "*BOUNDARY\n1, 11, 11, 20.\n").find("found '11' in field 2"),
             std::string::npos);
@@ -64,7 +65,7 @@ TEST(AbaqusBoundary, TransformedNodesAreHeldAndPushedInTheirAxes) {
            step("*CLOAD\n7, 1, 3.\n"));
   ASSERT_EQ(deck.supports.size(), 2u);
   EXPECT_EQ(deck.supports[0].system, "");
-  EXPECT_EQ(ids_of(deck, deck.supports[1].places), (std::vector<int32_t>{5, 6, 7, 8}));
+  EXPECT_EQ(ids_of(deck, deck.supports[1].node_indices), (std::vector<int32_t>{5, 6, 7, 8}));
   EXPECT_EQ(deck.supports[1].system, "transform_1");
   EXPECT_EQ(deck.systems.at("transform_1").kind, System::Kind::kCylindrical);
   EXPECT_EQ(deck.steps.at(0).forces.at(0).system, "transform_1");
@@ -83,19 +84,19 @@ TEST(AbaqusSteps, LoadsOfOneStepAddUpAndThoseOfTheNextReplaceThem) {
   EXPECT_EQ(force(deck.steps[2], 2), 0.0);
 }
 
-TEST(AbaqusSteps, SupportsGoOnUntilTheyAreNew) {
+TEST(AbaqusSteps, SupportsPersistUntilTheyAreReplaced) {
   const Deck mod = read(kModel + "*BOUNDARY\nBOT, 1, 3\n" + step("*BOUNDARY\n5, 3, 3, .1\n") +
                         step("*BOUNDARY\n1, 1, 1, .2\n"));
   EXPECT_EQ(mod.supports.size(), 1u);
   ASSERT_EQ(mod.steps[1].supports.size(), 2u);
   EXPECT_EQ(mod.steps[1].supports[0].value, 0.1);
   EXPECT_EQ(mod.steps[1].supports[1].value, 0.2);
-  const Deck anew =
+  const Deck replaced =
       read(kModel + "*BOUNDARY\nBOT, 1, 3\n" + step("") + step("*BOUNDARY, OP=NEW\n5, 1\n"));
-  EXPECT_TRUE(anew.supports.empty());  // not of the whole model any more
-  EXPECT_EQ(anew.steps[0].supports.at(0).places.size(), 4u);
-  ASSERT_EQ(anew.steps[1].supports.size(), 1u);
-  EXPECT_EQ(ids_of(anew, anew.steps[1].supports[0].places), std::vector<int32_t>{5});
+  EXPECT_TRUE(replaced.supports.empty());  // no longer of the entire model
+  EXPECT_EQ(replaced.steps[0].supports.at(0).node_indices.size(), 4u);
+  ASSERT_EQ(replaced.steps[1].supports.size(), 1u);
+  EXPECT_EQ(ids_of(replaced, replaced.steps[1].supports[0].node_indices), std::vector<int32_t>{5});
 }
 
 TEST(AbaqusSteps, PressuresPushOnFacesGravityOnAll) {
@@ -110,7 +111,7 @@ TEST(AbaqusSteps, PressuresPushOnFacesGravityOnAll) {
   EXPECT_EQ(s.acceleration, Eigen::Vector3d(0, 0, -9810));
 }
 
-TEST(AbaqusSteps, LoadsThatAreNotUnderstoodAreRefused) {
+TEST(AbaqusSteps, UnsupportedLoadsAreRefused) {
   const auto bad = [](const std::string& cards) { return refusal(kModel + step(cards)); };
   EXPECT_NE(bad("*DLOAD\nEALL, CORIO, 1., 0,0,0, 0,0,1\n").find("load CORIO"), std::string::npos);
   EXPECT_NE(bad("*DLOAD\nEALL, P7, 1.\n").find("load P7"), std::string::npos);
@@ -169,7 +170,7 @@ TEST(AbaqusSteps, TemperaturesCountFromTheInitialOnes) {
   EXPECT_TRUE(read(kModel + uniform + step("")).steps[0].temperature.empty());
 }
 
-TEST(AbaqusSteps, FrequenciesBehindALoadedStepAreReadWithoutItsStressesOnWish) {
+TEST(AbaqusSteps, FrequenciesAfterALoadedStepAreReadWithoutItsStressesOnRequest) {
   const std::string frequency =
       "*STEP, PERTURBATION\n*FREQUENCY, SOLVER=ARPACK\n7, 0., 100.\n*END STEP\n";
   EXPECT_EQ(read(kModel + frequency).steps.at(0).modes, 7);
@@ -194,7 +195,7 @@ TEST(AbaqusSteps, RetainedDofsAreKept) {
            "*STEP\n*SUBSTRUCTURE GENERATE\n*RETAINED NODAL DOFS, SORTED=NO\nTOP, 1, 3\n"
            "*SUBSTRUCTURE MATRIX OUTPUT, STIFFNESS=YES\n*END STEP\n");
   ASSERT_EQ(deck.retained.size(), 1u);
-  EXPECT_EQ(ids_of(deck, deck.retained[0].places), (std::vector<int32_t>{5, 6, 7, 8}));
+  EXPECT_EQ(ids_of(deck, deck.retained[0].node_indices), (std::vector<int32_t>{5, 6, 7, 8}));
   EXPECT_EQ(deck.retained[0].dofs, kTranslations);
 }
 

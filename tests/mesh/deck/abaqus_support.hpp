@@ -1,5 +1,5 @@
 #pragma once
-// Decks in pieces that the Abaqus tests put together.
+// Parts of decks that the Abaqus tests combine.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -31,7 +31,7 @@ inline Deck read(const std::string& text, const std::vector<std::string>& ignore
   return read_abaqus_text(text, "deck.inp", {ignore});
 }
 
-/// What an InputError says; a failure when there is none.
+/// The message of the InputError; a failure when there is none.
 inline std::string refusal(const std::string& text, const std::vector<std::string>& ignore = {}) {
   try {
     read(text, ignore);
@@ -48,17 +48,17 @@ inline int32_t node(const Deck& deck, int32_t id) {
   return static_cast<int32_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
 }
 
-/// Place of the point `id`.
-inline Place point(const Deck& deck, int32_t id) {
+/// Node index of the point `id`.
+inline NodeIndex point(const Deck& deck, int32_t id) {
   for (size_t p = 0; p < deck.points.size(); ++p) {
     if (deck.points[p].id == id)
-      return static_cast<Place>(deck.mesh.nodes.rows()) + static_cast<Place>(p);
+      return static_cast<NodeIndex>(deck.mesh.nodes.rows()) + static_cast<NodeIndex>(p);
   }
   ADD_FAILURE() << "no point " << id;
   return -1;
 }
 
-/// Numbers of the deck for rows of the mesh.
+/// Deck numbers of rows of the mesh.
 inline std::vector<int32_t> ids_of(const Deck& deck, const std::vector<int32_t>& rows) {
   std::vector<int32_t> ids;
   for (const int32_t row : rows) ids.push_back(deck.mesh.node_ids[static_cast<size_t>(row)]);

@@ -1,4 +1,4 @@
-// What is written is read again as the same mesh.
+// A written deck is read back as the same mesh.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
 }
 
 // A cell of each of the types, the linear ones apart from the quadratic ones, in two regions, with
-// numbers that do not go up, sets, and a surface of all faces of every cell.
+// numbers that do not ascend, sets, and a surface of all faces of every cell.
 std::string all_types() {
   std::string text = "*NODE\n";
   int32_t id = 900;
@@ -123,7 +123,7 @@ TEST(AbaqusWriter, WhatADeckCannotHoldIsRefused) {
   EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);
   mesh = mesh::testing::one_cell();
   std::swap(mesh.surfaces["skin"].faces[0].nodes(0, 0), mesh.surfaces["skin"].faces[0].nodes(0, 1));
-  EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);  // looks inwards
+  EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);  // points inwards
   EXPECT_FALSE(std::filesystem::exists(folder / "x.inp"));
   EXPECT_FALSE(std::filesystem::exists(folder / "x.inp.part"));
   EXPECT_THROW(write_abaqus(mesh::testing::one_cell(), folder / "none/x.inp"), FileError);

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Grids first ... last with coordinates that nobody looks at.
+// Grids first ... last with arbitrary coordinates.
 std::string grids(int first, int last) {
   std::string text;
   for (int i = first; i <= last; ++i) text += fmt::format("GRID,{},,{}.,{}.,0.\n", i, i, i * i);
@@ -33,8 +33,8 @@ struct CellCase {
 
 class NastranCells : public testing::TestWithParam<CellCase> {};
 
-// The corner and middle nodes stand where cell.hpp says: a_other[i] = a_gmsh[p[i]].
-TEST_P(NastranCells, NodesStandInOurOrder) {
+// The corner and mid-side nodes are in the order of cell.hpp: a_other[i] = a_gmsh[p[i]].
+TEST_P(NastranCells, NodesAreInOurOrder) {
   const auto& [card, nodes, type] = GetParam();
   std::string text = fmt::format("{},7,1", card);
   for (int i = 0; i < nodes; ++i) {
@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(All, NastranCells,
                                          CellCase{"CHEXA", 8, CellType::kHex8},
                                          CellCase{"CHEXA", 20, CellType::kHex20}));
 
-// Hex20 with its middle nodes where they are: middle node of ours = mean of its edge's corners.
-TEST(NastranCell, MiddleNodesOfAHexLieBetweenTheirCorners) {
+// Hex20 with straight edges: our mid-side node = mean of its edge's corners.
+TEST(NastranCell, MidSideNodesOfAHexLieBetweenTheirCorners) {
   const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
                                {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
   const int edge[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5},
@@ -88,8 +88,8 @@ TEST(NastranCell, MiddleNodesOfAHexLieBetweenTheirCorners) {
   }
 }
 
-TEST(NastranCell, MiddleNodesThatACardLeavesOutAreAddedOnceAndHang) {
-  // Two tetrahedra share edge 2-3, whose middle node both leave out: G6 of one, G5 of the other.
+TEST(NastranCell, MidSideNodesThatACardOmitsAreAddedOnceAndHang) {
+  // Two tetrahedra share edge 2-3, whose mid-side node both omit: G6 of one, G5 of the other.
   const Deck deck = read_deck(grids(1, 14) +
                               "CTETRA,7,1,1,2,3,4,5,,+\n+,7,8,9,10\n"
                               "CTETRA,8,1,2,3,11,4,,12,+\n+,13,9,10,14\n");
@@ -112,7 +112,7 @@ TEST(NastranCell, WrongNodesAreRefused) {
   EXPECT_THAT(refusal(kTet + "CTETRA,1,1,1,2,3,4\n"),
               StartsWith("t.bdf:8: cell 1: found another one with this number at t.bdf:7"));
   EXPECT_THAT(refusal(grids(1, 12) + "CTETRA,7,1,1,2,3,4,5,6,+\n+,7,8,9,10,11\n"),
-              HasSubstr("found '11' behind the last field"));
+              HasSubstr("found '11' after the last field"));
 }
 
 TEST(NastranCell, NumbersAndOrderAreThoseOfTheDeck) {
@@ -160,7 +160,7 @@ TEST(NastranRegions, ElasticConstantsMustMakeSense) {
   const auto with = [](const std::string& mat) {
     return refusal(kTet.substr(0, kTet.find("MAT1")) + mat + kTet.substr(kTet.find("GRID,1")));
   };
-  EXPECT_EQ(with("MAT1,1,210.,80.77,.3\n"), "");  // G as two digits more or less have it
+  EXPECT_EQ(with("MAT1,1,210.,80.77,.3\n"), "");  // G rounded to two digits
   EXPECT_THAT(with("MAT1,1,210.,70.,.3\n"),
               HasSubstr("found G = 70, expected E / (2 (1 + NU)) = 80.7"));
   EXPECT_THAT(with("MAT1,1,210.\n"), HasSubstr("expected two of E, G and NU"));

@@ -40,7 +40,7 @@ TEST(NastranControl, ExecutiveAndCaseControlAreReadInAnyCase) {
   EXPECT_THAT(deck.supports, SizeIs(2));  // two sets of directions
 }
 
-TEST(NastranControl, SubcasesTakeWhatStandsAboveThemAndSayTheRest) {
+TEST(NastranControl, SubcasesInheritWhatIsAboveThemAndSetTheRest) {
   const Deck deck =
       read_deck("SOL 101\nCEND\nSPC = 1\nSUBCASE 1\nLOAD = 5\nSUBCASE 2\nSPC = 2\nBEGIN BULK\n" +
                 kTet + kSpcs + "FORCE,5,4,,2.,0.,0.,1.\n");

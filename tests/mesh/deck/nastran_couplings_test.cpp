@@ -23,21 +23,21 @@ using testing::SizeIs;
 // Rounding of sines and of a few products of numbers of size 1.
 constexpr double kRounding = 1e-14;
 
-// Grid 9 beside the tetrahedron; cylindrical system 5 about basic z; grid 8 moves in it.
+// Grid 9 next to the tetrahedron; cylindrical system 5 about basic z; grid 8 moves in it.
 const std::string kPoints =
     "GRID,9,,3.,4.,5.\n"
     "CORD2C,5,0,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n"
     "GRID,8,,3.,4.,0.,5\n";
 
-// What an equation gives for a rigid motion x -> u + theta x x of all its places.
+// The value of an equation for a rigid motion x -> u + theta x x of all its nodes.
 double residual(const Deck& deck, const Equation& equation, const Vector3d& u,
                 const Vector3d& theta) {
   double sum = 0.0;
   for (const auto& term : equation.terms) {
-    const auto nodes = static_cast<mesh::deck::Place>(deck.mesh.nodes.rows());
-    const Vector3d at = term.place < nodes
-                            ? Vector3d(deck.mesh.nodes.row(term.place).transpose())
-                            : deck.points[static_cast<size_t>(term.place - nodes)].at;
+    const auto nodes = static_cast<mesh::deck::NodeIndex>(deck.mesh.nodes.rows());
+    const Vector3d at = term.node_index < nodes
+                            ? Vector3d(deck.mesh.nodes.row(term.node_index).transpose())
+                            : deck.points[static_cast<size_t>(term.node_index - nodes)].at;
     const Vector3d move = u + theta.cross(at);
     sum +=
         term.coefficient * (term.direction < 3 ? move[term.direction] : theta[term.direction - 3]);
@@ -53,7 +53,7 @@ TEST(NastranCouplings, Rbe2TiesItsDependentsToAPoint) {
   ASSERT_THAT(deck.rigid, SizeIs(1));
   EXPECT_EQ(deck.rigid[0].name, "rbe2_7");
   EXPECT_EQ(deck.rigid[0].where, "t.bdf:12");
-  EXPECT_EQ(deck.rigid[0].reference, 4);  // the first point, behind four nodes
+  EXPECT_EQ(deck.rigid[0].reference, 4);  // the first point, after four nodes
   EXPECT_EQ(deck.rigid[0].dofs, kTranslations);
   EXPECT_THAT(deck.rigid[0].dependents, ElementsAre(0, 1, 2));
 }
@@ -87,7 +87,7 @@ TEST(NastranCouplings, Rbe2InSomeDirectionsOfACylinderGivesEquations) {
       EXPECT_NEAR(residual(deck, equation, Vector3d::Unit(k), Vector3d::Zero()), 0, kRounding);
       EXPECT_NEAR(residual(deck, equation, Vector3d::Zero(), Vector3d::Unit(k)), 0, kRounding);
     }
-    EXPECT_EQ(equation.terms[0].place, deck.equations[0].terms[0].place);
+    EXPECT_EQ(equation.terms[0].node_index, deck.equations[0].terms[0].node_index);
     EXPECT_EQ(equation.terms[0].coefficient, 1.0);
   }
   // The pivots differ: neither row makes the other's dependent a part of it.
@@ -98,7 +98,8 @@ TEST(NastranCouplings, Rbe2InSomeDirectionsOfACylinderGivesEquations) {
   for (const Equation& equation : deck.equations) {
     double sum = 0.0;
     for (const auto& term : equation.terms) {
-      if (term.place == equation.terms[0].place) sum += term.coefficient * slide[term.direction];
+      if (term.node_index == equation.terms[0].node_index)
+        sum += term.coefficient * slide[term.direction];
     }
     EXPECT_NEAR(sum, 0, kRounding);
   }
@@ -115,10 +116,10 @@ TEST(NastranCouplings, Rbe3KeepsItsWeightGroups) {
   ASSERT_THAT(rbe3.terms, SizeIs(2));
   EXPECT_EQ(rbe3.terms[0].weight, 1.0);
   EXPECT_EQ(rbe3.terms[0].dofs, kTranslations);
-  EXPECT_THAT(rbe3.terms[0].places, ElementsAre(0, 1));
+  EXPECT_THAT(rbe3.terms[0].node_indices, ElementsAre(0, 1));
   EXPECT_EQ(rbe3.terms[1].weight, 2.5);
   EXPECT_EQ(rbe3.terms[1].dofs, 0b011);
-  EXPECT_THAT(rbe3.terms[1].places, ElementsAre(2, 3));
+  EXPECT_THAT(rbe3.terms[1].node_indices, ElementsAre(2, 3));
 }
 
 TEST(NastranCouplings, Rbe3UmNamesAsManyDofsAsTheReferenceHas) {
@@ -168,7 +169,7 @@ TEST(NastranCouplings, MpcTermsTurnIntoTheBasicFrame) {
   ASSERT_THAT(deck.equations, SizeIs(1));
   const auto& terms = deck.equations[0].terms;
   ASSERT_THAT(terms, SizeIs(4));  // -1 times r = (0.6, 0.8, 0) at grid 8
-  EXPECT_EQ(terms[0].place, 0);
+  EXPECT_EQ(terms[0].node_index, 0);
   EXPECT_EQ(terms[0].direction, 0);
   EXPECT_EQ(terms[0].coefficient, 2.0);
   EXPECT_EQ(terms[1].direction, 1);

@@ -46,7 +46,7 @@ TEST(NastranNumbers, WhatIsNoFiniteNumberIsRefused) {
   EXPECT_EQ(parse_integer("-1"), -1);
 }
 
-// The same cell and nodes in every format: nothing may change but the form.
+// The same cell and nodes in every format.
 struct Form {
   const char* name;
   const char* text;
@@ -63,7 +63,7 @@ TEST_P(NastranForms, GiveTheSameTenNodeTetrahedron) {
   ASSERT_EQ(deck.mesh.cells.size(), 1u);
   EXPECT_EQ(deck.mesh.cells[0].type, CellType::kTet10);
   EXPECT_EQ(deck.mesh.cells[0].ids, std::vector<int32_t>{77});
-  // Ours has the middle of 2-3 before that of 1-3 (cell.hpp).
+  // Ours has the mid-side node of 2-3 before that of 1-3 (cell.hpp).
   const std::vector<int32_t> expected = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
   const auto& found = deck.mesh.cells[0].nodes;
   EXPECT_EQ(std::vector<int32_t>(found.data(), found.data() + found.size()), expected);
@@ -153,19 +153,19 @@ TEST(NastranFormat, AContinuationWithoutACardIsNamed) {
   EXPECT_THAT(refusal(kTet + "SET1,5,1,,,,,,,+A\nPARAM,A,1\n+A,2\n+A,3\n"),
               StartsWith("t.bdf:11: found a second continuation named 'A'"));
   EXPECT_THAT(refusal(kTet + "SET1,5,1,,,,,,,+A\nSET1,6,1,,,,,,,+A\nPARAM,A,1\n+A,2\n"),
-              HasSubstr("two that ask for it: t.bdf:8 and t.bdf:9"));
+              HasSubstr("two that require it: t.bdf:8 and t.bdf:9"));
 }
 
 TEST(NastranFormat, HalfALargeLineBeforeASmallOneIsRefused) {
   EXPECT_THAT(refusal("CTETRA* 77              1               1               2\n"
                       "+       3       4\n"),
-              HasSubstr("t.bdf:2: found a small-field continuation behind the first half"));
+              HasSubstr("t.bdf:2: found a small-field continuation after the first half"));
 }
 
 TEST(NastranFormat, DataBeyondTheEighthFreeFieldIsNotDropped) {
   EXPECT_THAT(refusal(kTet + "SET1,5,1,2,3,4,1,2,3,4\n"),
               HasSubstr("t.bdf:8: found '4' as field 10"));
-  EXPECT_THAT(refusal(kTet + "GRID,9,,0.,0.,0.,,,,+\n+,5.\n"), HasSubstr("behind the last field"));
+  EXPECT_THAT(refusal(kTet + "GRID,9,,0.,0.,0.,,,,+\n+,5.\n"), HasSubstr("after the last field"));
 }
 
 TEST(NastranFormat, EnddataEndsTheDeck) {
@@ -194,7 +194,7 @@ TEST(NastranFormat, WrongFieldsAreNamedWithTheirLine) {
   EXPECT_EQ(refusal("GRID,1,,abc,0.,0.\n"),
             "t.bdf:1: GRID: coordinate: found 'ABC', expected a number");
   EXPECT_EQ(refusal("GRID,1.5\n"),
-            "t.bdf:1: GRID: ID: found '1.5', expected a whole number from 1 to 2147483647");
+            "t.bdf:1: GRID: ID: found '1.5', expected an integer from 1 to 2147483647");
   EXPECT_THAT(refusal("CTETRA,1,1,1,2,3,4,5,6,+\n+,7,8,9,x\n"),
               StartsWith("t.bdf:2: CTETRA: G: found 'X'"));
 }

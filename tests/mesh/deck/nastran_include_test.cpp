@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// A folder of its own for each test, gone behind it.
+// A temporary folder for each test.
 class NastranInclude : public testing::Test {
  protected:
   void SetUp() override {
@@ -69,7 +69,7 @@ TEST_F(NastranInclude, IsRelativeToTheIncludingFileThenToThoseAboveIt) {
   EXPECT_EQ(read("top.bdf").files.size(), 4u);
 }
 
-TEST_F(NastranInclude, LinesAreThoseOfTheFileTheyStandIn) {
+TEST_F(NastranInclude, LinesAreThoseOfTheFileTheyAreIn) {
   write_parts("INCLUDE 'sub/nodes.blk'\n");
   write("sub/nodes.blk", "$\nGRID,3,,0.,1.,0.\nCBAR,1\nGRID,4,,0.,0.,1.\n");
   EXPECT_THAT(refusal_of("top.bdf"), StartsWith("sub/nodes.blk:3: card CBAR is not supported"));

@@ -19,11 +19,11 @@ using testing::SizeIs;
 
 constexpr double kRounding = 1e-14;  // of a few operations on numbers of size 10
 
-Vector3d total(const Step& step, mesh::deck::Place place, int base = 0) {
+Vector3d total(const Step& step, mesh::deck::NodeIndex node_index, int base = 0) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& force : step.forces) {
     const int k = force.direction - base;
-    if (force.place == place && k >= 0 && k < 3) sum[k] += force.value;
+    if (force.node_index == node_index && k >= 0 && k < 3) sum[k] += force.value;
   }
   return sum;
 }
@@ -96,7 +96,7 @@ TEST(NastranPressure, OnATetrahedronG4IsTheCornerThatIsNotOnTheFace) {
   ASSERT_THAT(deck.steps[0].pressures, SizeIs(1));
   EXPECT_EQ(deck.steps[0].pressures[0].surface, "pload4_3");
   EXPECT_EQ(deck.steps[0].pressures[0].value, 5.0);
-  // Outward: the face 1 2 4 lies in y = 0 and looks along -y.
+  // Outward: the face 1 2 4 lies in y = 0 and points along -y.
   const auto& nodes = deck.mesh.surface("pload4_3").faces[0].nodes;
   const Vector3d a = deck.mesh.nodes.row(nodes(0, 0)), b = deck.mesh.nodes.row(nodes(0, 1)),
                  c = deck.mesh.nodes.row(nodes(0, 2));
@@ -116,9 +116,9 @@ TEST(NastranPressure, QuadranglesAreNamedByADiagonal) {
               ElementsAre(5, 6, 7, 8));
   EXPECT_THAT(face_of(read_deck(hex + "PLOAD4,3,1,5.,,,,6,1\n"), "pload4_3"),
               ElementsAre(1, 2, 5, 6));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,2\n"), HasSubstr("say no face of cell 1"));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,7\n"), HasSubstr("say no face of cell 1"));
-  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1\n"), HasSubstr("say no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,2\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,7\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1\n"), HasSubstr("define no face of cell 1"));
 
   const std::string wedge = deck + "CPENTA,1,1,1,2,3,5,6,7\n";
   EXPECT_THAT(face_of(read_deck(wedge + "PLOAD4,3,1,5.,,,,5\n"), "pload4_3"), ElementsAre(5, 6, 7));
@@ -130,7 +130,7 @@ TEST(NastranPressure, QuadranglesAreNamedByADiagonal) {
               ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(face_of(read_deck(pyramid + "PLOAD4,3,1,5.,,,,2,1\n"), "pload4_3"),
               ElementsAre(1, 2, 5));
-  EXPECT_THAT(refusal(pyramid + "PLOAD4,3,1,5.,,,,1,5\n"), HasSubstr("say no face of cell 1"));
+  EXPECT_THAT(refusal(pyramid + "PLOAD4,3,1,5.,,,,1,5\n"), HasSubstr("define no face of cell 1"));
 }
 
 TEST(NastranPressure, ValuesThatDifferGetSurfacesOfTheirOwn) {
@@ -150,7 +150,7 @@ TEST(NastranPressure, WhatIsNotPressureOnASolidIsRefused) {
   EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,1,3,+\n+,0,1.,0.,0.\n"),
               HasSubstr("along a vector"));
   EXPECT_THAT(refusal(kTet + "GRID,9\nPLOAD4,3,1,5.,,,,1,9\n"),
-              HasSubstr("node 9 is no corner of cell 1"));
+              HasSubstr("node 9 is not a corner of cell 1"));
 }
 
 TEST(NastranTemperature, FieldsCoverAllNodes) {
@@ -164,7 +164,7 @@ TEST(NastranTemperature, FieldsCoverAllNodes) {
   EXPECT_THAT(refusal("CEND\nTEMP=5\nBEGIN BULK\n" + kTet), HasSubstr("found no TEMP or TEMPD"));
 }
 
-TEST(NastranTemperature, InitialTemperatureStandsForTheMaterialsReference) {
+TEST(NastranTemperature, InitialTemperatureIsTheMaterialsReference) {
   const Deck deck = read_deck("CEND\nTEMP(INIT) = 4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\n");
   EXPECT_EQ(deck.materials.at("mat_1").reference_temperature, 20.0);
   EXPECT_THAT(refusal("CEND\nTEMP(INIT)=4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\nTEMP,4,2,50.\n"),

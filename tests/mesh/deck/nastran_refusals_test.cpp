@@ -1,4 +1,4 @@
-// Bulk data that ends early, refusals that come together, RFORCE.
+// Truncated bulk data, several refusals at once, RFORCE.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,11 +17,11 @@ TEST(NastranEnd, ADeckWithoutEnddataSaysWhereItEnds) {
   const Deck cut = read_deck(kTet);
   ASSERT_EQ(cut.notes.size(), 1u);
   EXPECT_THAT(cut.notes[0],
-              HasSubstr("t.bdf:7: the deck ends here, behind card CTETRA, without ENDDATA"));
+              HasSubstr("t.bdf:7: the deck ends here, after card CTETRA, without ENDDATA"));
   EXPECT_TRUE(read_deck(kTet + "ENDDATA\n").notes.empty());
 }
 
-TEST(NastranEnd, NoCutAtALineEndPassesSilently) {
+TEST(NastranEnd, NoTruncationAtALineEndPassesSilently) {
   const std::string whole = "SOL 101\nCEND\nSUBCASE 1\nSPC=1\nLOAD=2\nBEGIN BULK\n" + kTet +
                             "SPC1,1,123,1,2,3\nFORCE,2,4,0,1.,0.,0.,1.\nENDDATA\n";
   EXPECT_TRUE(read_deck(whole).notes.empty());

@@ -61,9 +61,9 @@ TEST_F(NastranSharedDecks, SolidBendingIsABlockOfLinearTetrahedra) {
   EXPECT_NEAR(mass(deck, "pid_1"), 6.0, kVolumeTolerance);  // 1 x 2 x 3, density 1
   EXPECT_EQ(node(deck, 6), Vector3d(.473466, .462498, 2.52883));
   EXPECT_THAT(deck.materials.at("mat_1").constants, ElementsAre(3e7, 0.3));
-  // SPCADD 2 of SPC1 1 (all of 13 grids) and 3 (rotations of all): what solids have of it.
+  // SPCADD 2 of SPC1 1 (all of 13 grids) and 3 (rotations of all): restricted to solids.
   ASSERT_THAT(deck.supports, SizeIs(1));
-  EXPECT_THAT(deck.supports[0].places, SizeIs(13));
+  EXPECT_THAT(deck.supports[0].node_indices, SizeIs(13));
   ASSERT_THAT(deck.steps, SizeIs(1));
   double force = 0.0;
   for (const auto& load : deck.steps[0].forces) force += load.value;
@@ -92,11 +92,11 @@ TEST_F(NastranSharedDecks, SatelliteHasSolidsInTurnedSystems) {
   EXPECT_THAT(deck.rigid, SizeIs(43));
   double masses = 0.0;
   for (const auto& mass : deck.masses) masses += mass.mass;
-  EXPECT_NEAR(masses, 0.77200001, 1e-9);  // as many digits as the cards have
+  EXPECT_NEAR(masses, 0.77200001, 1e-9);  // the digits of the cards
   EXPECT_EQ(deck.ignored.at("CQUAD4"), 4580);
 }
 
-TEST_F(NastranSharedDecks, ShellsAreNotDroppedInSilence) {
+TEST_F(NastranSharedDecks, ShellsAreNotDroppedSilently) {
   EXPECT_THAT([&] { read("ISat_Dploy_Sm.dat"); },
               testing::ThrowsMessage<InputError>(
                   HasSubstr("ISat_Dploy_Sm.dat:87: card USET is not supported")));
@@ -113,7 +113,7 @@ TEST_F(NastranSharedDecks, FiveCubesOfAllKindsOfCells) {
   EXPECT_EQ(count(deck, CellType::kTet4, "pid_2"), 436);
   EXPECT_EQ(count(deck, CellType::kPyramid13, "pid_5"), 16);
   EXPECT_EQ(count(deck, CellType::kTet10, "pid_5"), 443);
-  EXPECT_EQ(count(deck, CellType::kTet10, "pid_4"), 447);     // 36 of them lack a middle node
+  EXPECT_EQ(count(deck, CellType::kTet10, "pid_4"), 447);     // 36 of them lack a mid-side node
   EXPECT_EQ(count(deck, CellType::kPyramid13, "pid_4"), 16);  // without those of their bases
   // Cubes of 100 mm and 7.829e-6 kg/mm3; coordinates have eleven digits.
   for (const char* region : {"pid_1", "pid_2", "pid_3", "pid_4", "pid_5"}) {

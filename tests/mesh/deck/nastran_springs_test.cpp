@@ -20,9 +20,9 @@ TEST(NastranSpring, OfTwoGridsOrToTheGround) {
   ASSERT_EQ(deck.springs.size(), 2u);
   EXPECT_EQ(deck.springs[0].stiffness, 7.5);
   ASSERT_EQ(deck.springs[0].terms.size(), 2u);
-  EXPECT_EQ(deck.springs[0].terms[0].place, 4);  // the point behind four nodes
+  EXPECT_EQ(deck.springs[0].terms[0].node_index, 4);  // the point after four nodes
   EXPECT_EQ(deck.springs[0].terms[0].coefficient, 1.0);
-  EXPECT_EQ(deck.springs[0].terms[1].place, 1);
+  EXPECT_EQ(deck.springs[0].terms[1].node_index, 1);
   EXPECT_EQ(deck.springs[0].terms[1].coefficient, -1.0);
   EXPECT_EQ(deck.springs[1].stiffness, 8.5);
   ASSERT_EQ(deck.springs[1].terms.size(), 1u);

@@ -22,15 +22,15 @@ TEST(NastranSupports, Spc1ListsAndRanges) {
   EXPECT_EQ(deck.supports[0].name, "spc_5");
   EXPECT_EQ(deck.supports[0].where, "t.bdf:8");
   EXPECT_EQ(deck.supports[0].dofs, kTranslations);
-  EXPECT_THAT(deck.supports[0].places, ElementsAre(0, 1, 3));
+  EXPECT_THAT(deck.supports[0].node_indices, ElementsAre(0, 1, 3));
   // Numbers that a THRU spans need not exist; listed ones must.
-  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,2,THRU,2000000000\n").supports[0].places,
+  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,2,THRU,2000000000\n").supports[0].node_indices,
               ElementsAre(1, 2, 3));
-  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,1,THRU,4,BY,3\n").supports[0].places, ElementsAre(0, 3));
+  EXPECT_THAT(read_deck(kTet + "SPC1,5,2,1,THRU,4,BY,3\n").supports[0].node_indices,
+              ElementsAre(0, 3));
   EXPECT_THAT(refusal(kTet + "SPC1,5,2,1,30\n"), HasSubstr("t.bdf:8: found no GRID 30"));
   EXPECT_THAT(refusal(kTet + "SPC1,5,2,4,THRU,1\n"), HasSubstr("found 4 THRU 1"));
-  EXPECT_THAT(refusal(kTet + "SPC1,5,2,THRU,4\n"),
-              HasSubstr("found 'THRU', expected a whole number"));
+  EXPECT_THAT(refusal(kTet + "SPC1,5,2,THRU,4\n"), HasSubstr("found 'THRU', expected an integer"));
   EXPECT_THAT(refusal(kTet + "SPC1,5,,1\n"), HasSubstr("C: found nothing"));
 }
 
@@ -41,7 +41,7 @@ TEST(NastranSupports, SpcHoldsAtAValue) {
   EXPECT_EQ(deck.supports[0].dofs, 0b011);
   EXPECT_EQ(deck.supports[1].value, 0.25);
   EXPECT_EQ(deck.supports[1].dofs, 0b100);
-  EXPECT_THAT(deck.supports[1].places, ElementsAre(1));
+  EXPECT_THAT(deck.supports[1].node_indices, ElementsAre(1));
   EXPECT_THAT(refusal(kTet + "SPC,5,1,1,.5\nSPC,5,1,1,.25\n"), HasSubstr("found 0.25 and 0.5"));
 }
 
@@ -49,16 +49,16 @@ TEST(NastranSupports, WhatSeveralCardsHoldIsMerged) {
   const Deck deck = read_deck(kTet + "SPC1,5,1,1,2\nSPC1,5,23,1,2\nSPC1,5,12,1\n");
   ASSERT_THAT(deck.supports, SizeIs(1));
   EXPECT_EQ(deck.supports[0].dofs, kTranslations);
-  EXPECT_THAT(deck.supports[0].places, ElementsAre(0, 1));
+  EXPECT_THAT(deck.supports[0].node_indices, ElementsAre(0, 1));
 }
 
 TEST(NastranSupports, SolidsHaveNoRotationsPointsHave) {
   const Deck deck = read_deck(kTet + kPoint + "SPC1,5,123456,2,9\n");
   ASSERT_THAT(deck.supports, SizeIs(2));
   EXPECT_EQ(deck.supports[0].dofs, kTranslations);
-  EXPECT_THAT(deck.supports[0].places, ElementsAre(1));
+  EXPECT_THAT(deck.supports[0].node_indices, ElementsAre(1));
   EXPECT_EQ(deck.supports[1].dofs, kAllDofs);
-  EXPECT_THAT(deck.supports[1].places, ElementsAre(4));
+  EXPECT_THAT(deck.supports[1].node_indices, ElementsAre(4));
   EXPECT_THAT(read_deck(kTet + "SPC1,5,456,1,THRU,4\n").supports, IsEmpty());
 }
 
@@ -68,9 +68,9 @@ TEST(NastranSupports, DirectionsAreThoseOfEachGridsSystem) {
   const Deck found = read_deck(deck + "SPC1,5,13,1,2,3\n");
   ASSERT_THAT(found.supports, SizeIs(2));
   EXPECT_EQ(found.supports[0].system, "");
-  EXPECT_THAT(found.supports[0].places, ElementsAre(0, 2));
+  EXPECT_THAT(found.supports[0].node_indices, ElementsAre(0, 2));
   EXPECT_EQ(found.supports[1].system, "cord_5");
-  EXPECT_THAT(found.supports[1].places, ElementsAre(1));
+  EXPECT_THAT(found.supports[1].node_indices, ElementsAre(1));
   EXPECT_EQ(found.supports[1].name, "spc_5_2");
   EXPECT_TRUE(found.systems.contains("cord_5"));
 }
@@ -89,11 +89,11 @@ TEST(NastranSupports, AsetAndBsetAreRetained) {
       read_deck(kTet + kPoint + "ASET1,123456,9\nASET,1,3,2,3\nBSET1,3,3,THRU,4\nBSET,1,12\n");
   EXPECT_THAT(deck.supports, IsEmpty());
   ASSERT_THAT(deck.retained, SizeIs(3));  // by directions: 3, 123, all
-  EXPECT_THAT(deck.retained[0].places, ElementsAre(1, 2, 3));
+  EXPECT_THAT(deck.retained[0].node_indices, ElementsAre(1, 2, 3));
   EXPECT_EQ(deck.retained[1].dofs, kTranslations);
-  EXPECT_THAT(deck.retained[1].places, ElementsAre(0));
+  EXPECT_THAT(deck.retained[1].node_indices, ElementsAre(0));
   EXPECT_EQ(deck.retained[2].dofs, kAllDofs);
-  EXPECT_THAT(deck.retained[2].places, ElementsAre(4));
+  EXPECT_THAT(deck.retained[2].node_indices, ElementsAre(4));
 }
 
 TEST(NastranSets, Set1HoldsNodesAndPoints) {

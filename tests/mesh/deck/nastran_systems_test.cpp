@@ -16,7 +16,7 @@ using testing::HasSubstr;
 // Rounding of a few operations on numbers of size 10.
 constexpr double kRounding = 1e-14;
 
-// Position of grid 9, given in `grid`, with `cards` beside it.
+// Position of grid 9, given in `grid`, with `cards` in the deck.
 Vector3d position(const std::string& cards, const std::string& grid) {
   const Deck deck = read_deck(kTet + cards + "CONM2,1,9,,1.\n" + grid);
   return deck.points.at(0).at;
@@ -54,13 +54,13 @@ TEST(NastranSystems, ReferencesAreFollowedInAnyOrder) {
   EXPECT_LT((position(cords, "GRID,9,7,2.,3.,4.\n") - expected).norm(), kRounding);
 }
 
-TEST(NastranSystems, Cord1StandsOnGridsThatMayHaveSystemsThemselves) {
+TEST(NastranSystems, Cord1RefersToGridsThatMayHaveSystemsThemselves) {
   // Grids 2, 3, 4 of the tetrahedron: origin (1,0,0), z toward (0,1,0), xz plane through (0,0,1).
   const std::string cord = "CORD1R,5,2,3,4\n";
   const double r = std::sqrt(2.0);
   EXPECT_LT((position(cord, "GRID,9,5,0.,0.,1.\n") - Vector3d(1 - 1 / r, 1 / r, 0)).norm(),
             kRounding);
-  // Two systems on one card, the second on grids that stand in the first.
+  // Two systems on one card, the second with grids in the first.
   const std::string two =
       "CORD1C,5,1,4,2,6,21,22,23\nGRID,21,5,1.,90.,0.\nGRID,22,5,1.,90.,1.\nGRID,23,5,2.,90.,0.\n";
   // Origin (0,1,0), z along z, x along y; r = 1 at 0 degrees is one more along y.
@@ -82,11 +82,11 @@ TEST(NastranSystems, CyclesAndMissingOnesAreRefused) {
               HasSubstr("found a second coordinate system 5"));
 }
 
-TEST(NastranSystems, PointsThatSpanNoAxesAreRefused) {
+TEST(NastranSystems, PointsThatDefineNoAxesAreRefused) {
   for (const char* points :
        {"0.,0.,0.,0.,0.,0.,+\n+,1.,0.,0.\n", "0.,0.,0.,0.,0.,1.,+\n+,0.,0.,5.\n",
         "0.,0.,0.,0.,0.,1.\n", "0.,0.,0.,1.,0.,0.,+\n+,1.,1.-14,0.\n"}) {
-    EXPECT_THAT(refusal(kTet + "CORD2R,5,0," + points), HasSubstr("span no axes")) << points;
+    EXPECT_THAT(refusal(kTet + "CORD2R,5,0," + points), HasSubstr("define no axes")) << points;
   }
 }
 

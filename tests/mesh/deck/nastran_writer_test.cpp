@@ -53,13 +53,13 @@ TEST(NastranReal, SixteenColumnsLoseNoMoreThanTheyMust) {
       worst_of_coordinates = std::max(worst_of_coordinates, loss);
     }
   }
-  // Half a unit of the eleventh digit behind the first: -1.2345678901-40.
+  // Half a unit of the eleventh digit after the first: -1.2345678901-40.
   EXPECT_LE(worst, 0.5e-10);
   // Half a unit of the twelfth: -.00123456789012.
   EXPECT_LE(worst_of_coordinates, 0.5e-11);
 }
 
-// What a mesh says, in one order: blocks by region and type.
+// The content of a mesh in a fixed order: blocks by region and type.
 void expect_same(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.nodes.rows(), b.nodes.rows());
   EXPECT_EQ((a.nodes.array() == b.nodes.array()).all(), true);  // the same bits
@@ -94,7 +94,7 @@ Mesh written_and_read(const Mesh& mesh) {
 class NastranRoundTrip : public testing::TestWithParam<CellType> {};
 
 TEST_P(NastranRoundTrip, GivesTheSameMesh) {
-  // Coordinates with all their digits: thirds, turned.
+  // Coordinates with all digits: thirds, rotated.
   const auto map = [](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x[0] / 3 - 0.1 * x[1], x[1] * 1e-3 + 0.7 * x[2], x[2] / 7 - 100.0);
   };
@@ -166,7 +166,7 @@ TEST(NastranWriter, IsTheExportToBdf) {
   std::filesystem::remove(file);
 }
 
-TEST(NastranWriter, WritesWholeFilesOrNone) {
+TEST(NastranWriter, WritesCompleteFilesOrNone) {
   const auto folder = std::filesystem::temp_directory_path() / "clatter_nastran_writer";
   std::filesystem::create_directories(folder);
   const Mesh mesh = read_deck(kTet).mesh;
@@ -180,7 +180,7 @@ TEST(NastranWriter, WritesWholeFilesOrNone) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
+TEST(NastranWriter, OmitsHangingMidSideNodes) {
   const Mesh mesh = read_deck(
                         "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
                         "GRID,5,,.5,0.,0.\nGRID,6,,.5,.5,0.\nGRID,7,,0.,.5,0.\nGRID,8,,0.,0.,.5\n"
@@ -196,11 +196,11 @@ TEST(NastranWriter, LeavesOutMiddleNodesThatHang) {
   EXPECT_EQ(again.cells.at(0).nodes, mesh.cells.at(0).nodes);
   EXPECT_EQ(again.node_sets, mesh.node_sets);
 
-  // Elsewhere they are nodes like others: that is told.
+  // In other formats they are ordinary nodes, with a warning.
   const auto deck = std::filesystem::path(testing::TempDir()) / "clatter_hanging.inp";
   testing::internal::CaptureStderr();
   mesh::export_mesh(mesh, deck);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the 2 middle nodes of the set"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the 2 mid-side nodes of the set"));
   std::filesystem::remove(deck);
 }
 

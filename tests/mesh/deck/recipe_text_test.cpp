@@ -25,32 +25,32 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
 
-struct Told {
+struct Parsed {
   std::string text;
   Recipe recipe;
 };
 
-Told tell(Deck deck) {
+Parsed parse(Deck deck) {
   deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
   const std::string text = recipe_text(deck);
   return {text, assembly::read_recipe(Config::parse(text, "deck.fe.toml"), deck.mesh)};
 }
 
-TEST(RecipeText, SaysMaterialSupportForceAndStep) {
-  const Told told = tell(read(kModel + "*BOUNDARY\nBOT, 1, 3\n"
-                                       "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
-  ASSERT_THAT(told.recipe.materials, SizeIs(1));
-  EXPECT_EQ(told.recipe.materials[0].youngs, 2.1e5);
-  EXPECT_EQ(told.recipe.materials[0].poisson, 0.3);
-  EXPECT_EQ(told.recipe.materials[0].density, 7.8e-9);
-  EXPECT_EQ(told.recipe.materials[0].integration.hex8, fe::Integration::kFull);
-  ASSERT_THAT(told.recipe.supports, SizeIs(1));
-  EXPECT_EQ(told.recipe.supports[0].place.node_set, "BOT");
-  EXPECT_THAT(told.recipe.supports[0].directions, ElementsAre(0, 1, 2));
-  ASSERT_THAT(told.recipe.loads, SizeIs(1));
-  EXPECT_EQ(told.recipe.loads[0].kind, LoadSpec::Kind::kNodal);
-  ASSERT_THAT(told.recipe.cases, SizeIs(1));
-  EXPECT_EQ(told.recipe.cases.begin()->second.begin()->second, 1.0);
+TEST(RecipeText, WritesMaterialSupportForceAndStep) {
+  const Parsed parsed = parse(read(kModel + "*BOUNDARY\nBOT, 1, 3\n"
+                                            "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
+  ASSERT_THAT(parsed.recipe.materials, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.materials[0].youngs, 2.1e5);
+  EXPECT_EQ(parsed.recipe.materials[0].poisson, 0.3);
+  EXPECT_EQ(parsed.recipe.materials[0].density, 7.8e-9);
+  EXPECT_EQ(parsed.recipe.materials[0].integration.hex8, fe::Integration::kFull);
+  ASSERT_THAT(parsed.recipe.supports, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.supports[0].place.node_set, "BOT");
+  EXPECT_THAT(parsed.recipe.supports[0].directions, ElementsAre(0, 1, 2));
+  ASSERT_THAT(parsed.recipe.loads, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.loads[0].kind, LoadSpec::Kind::kNodal);
+  ASSERT_THAT(parsed.recipe.cases, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.cases.begin()->second.begin()->second, 1.0);
 }
 
 TEST(RecipeText, GivesEveryNumberBackToTheLastBit) {
@@ -58,7 +58,7 @@ TEST(RecipeText, GivesEveryNumberBackToTheLastBit) {
   EXPECT_EQ(toml_list({value, -1e-300, 5.0}), "[0.30000000000000004, -1e-300, 5]");
   Deck deck = read(kModel);
   deck.materials.begin()->second.constants[0] = 1.0 / 3.0;
-  EXPECT_EQ(tell(std::move(deck)).recipe.materials[0].youngs, 1.0 / 3.0);
+  EXPECT_EQ(parse(std::move(deck)).recipe.materials[0].youngs, 1.0 / 3.0);
 }
 
 TEST(RecipeText, QuotesNamesThatTomlWouldMisread) {
@@ -70,37 +70,37 @@ TEST(RecipeText, QuotesNamesThatTomlWouldMisread) {
   material.key() = "St \"37.2\"";
   deck.regions[0].material = material.key();
   deck.materials.insert(std::move(material));
-  EXPECT_EQ(tell(std::move(deck)).recipe.materials[0].youngs, 2.1e5);
+  EXPECT_EQ(parse(std::move(deck)).recipe.materials[0].youngs, 2.1e5);
 }
 
-TEST(RecipeText, SaysWhatIsMissingInsteadOfInventingIt) {
+TEST(RecipeText, NotesWhatIsMissingInsteadOfInventingIt) {
   const std::string no_density = kCube +
                                  "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E5, 0.3\n"
                                  "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n";
-  EXPECT_THAT(tell(read(no_density)).text, HasSubstr("rho = 1.0  # the deck has none"));
+  EXPECT_THAT(parse(read(no_density)).text, HasSubstr("rho = 1.0  # the deck has none"));
   Deck bare = read(kCube);
   EXPECT_THAT(recipe_text(bare), HasSubstr("# region \"EALL\" has no material in the deck"));
 }
 
 TEST(RecipeText, NamesTheLaterStepWhoseSupportsDiffer) {
-  const Told told =
-      tell(read(kModel + "*STEP\n*STATIC\n*BOUNDARY\nBOT, 1, 3\n*CLOAD\nTOP, 3, 1.\n*END STEP\n"
-                         "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
-  EXPECT_THAT(told.recipe.cases, SizeIs(1));
-  EXPECT_THAT(told.text, HasSubstr("it needs a model of its own"));
+  const Parsed parsed =
+      parse(read(kModel + "*STEP\n*STATIC\n*BOUNDARY\nBOT, 1, 3\n*CLOAD\nTOP, 3, 1.\n*END STEP\n"
+                          "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
+  EXPECT_THAT(parsed.recipe.cases, SizeIs(1));
+  EXPECT_THAT(parsed.text, HasSubstr("it needs a separate model"));
 }
 
 TEST(RecipeText, KeepsARigidBodyOnItsPointAndItsMass) {
-  const Told told =
-      tell(read(kModel + "*RIGID BODY, NSET=TOP, REF NODE=9\n"
-                         "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
-  ASSERT_THAT(told.recipe.points, SizeIs(1));
-  EXPECT_EQ(told.recipe.points[0].point.place, Eigen::Vector3d(0.5, 0.5, 2.0));
-  ASSERT_THAT(told.recipe.couplings, SizeIs(1));
-  EXPECT_TRUE(told.recipe.couplings[0].rigid);
-  EXPECT_EQ(told.recipe.couplings[0].on_point, told.recipe.points[0].point.name);
-  ASSERT_THAT(told.recipe.point_masses, SizeIs(1));
-  EXPECT_EQ(told.recipe.point_masses[0].mass, 2.5);
+  const Parsed parsed =
+      parse(read(kModel + "*RIGID BODY, NSET=TOP, REF NODE=9\n"
+                          "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
+  ASSERT_THAT(parsed.recipe.points, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.points[0].point.place, Eigen::Vector3d(0.5, 0.5, 2.0));
+  ASSERT_THAT(parsed.recipe.couplings, SizeIs(1));
+  EXPECT_TRUE(parsed.recipe.couplings[0].rigid);
+  EXPECT_EQ(parsed.recipe.couplings[0].on_point, parsed.recipe.points[0].point.name);
+  ASSERT_THAT(parsed.recipe.point_masses, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.point_masses[0].mass, 2.5);
 }
 
 TEST(RecipeText, SharesANodeSetAndMakesNoSecondOne) {

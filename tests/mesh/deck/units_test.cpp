@@ -50,7 +50,7 @@ TEST(UnitsByName, UnknownOnesAreRefusedWithTheKnownOnes) {
                   HasSubstr("deck.inp: found units 'mm-g-s', expected one of: m-kg-s, mm-t-s, ")));
 }
 
-/// A deck with one of everything that has a unit, all values 1.
+/// A deck with one item of each kind with a unit, all values 1.
 Deck of_ones() {
   Deck deck;
   deck.mesh.nodes = RowMatrix::Ones(2, 3);
