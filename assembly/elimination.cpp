@@ -98,7 +98,7 @@ std::vector<bool> Eliminator::moves_nodes(int64_t nodal_dofs) const {
   return moves;
 }
 
-/// Columns of C that become pivots, one a row; none when the rows are not independent on them.
+/// Columns of C that become pivots, one per row; none when the rows are not independent.
 std::vector<int32_t> Eliminator::choose_pivots(const Eigen::MatrixXd& C,
                                                const std::vector<int32_t>& ids) const {
   std::vector<int32_t> candidates;
@@ -138,7 +138,7 @@ void Eliminator::give_way(int32_t id, SparseRow row) {
   pivot_rows_.push_back(std::move(row));
 }
 
-/// Replaces ids that have just given way in the rows of earlier pivots.
+/// Replaces newly eliminated ids in the rows of earlier pivots.
 void Eliminator::substitute(const std::vector<int32_t>& fresh) {
   std::vector<int32_t> rows;
   for (const int32_t id : fresh) {
@@ -168,7 +168,7 @@ void Eliminator::depend(int32_t dof, const Functional& on) {
   substitute({dof});
 }
 
-/// Takes rows in: pivots give way to the ids of the coordinates. False when they are not
+/// Adds rows: pivots are replaced by the ids of the coordinates. False when the rows are not
 /// independent.
 bool Eliminator::eliminate(const std::vector<Functional>& functionals,
                            const std::vector<int32_t>& q_ids) {
@@ -181,8 +181,8 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 
-  // Rows are scaled so that displacements and rotations compare in the pivot search: by their
-  // largest entry before expansion, so that what cancels in it is seen to be rounding.
+  // Rows are scaled by their largest entry so that displacements and rotations are comparable in
+  // the pivot search; before expansion, so that cancelled entries are recognised as rounding.
   const auto m = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(ids.size()));
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m);
@@ -229,7 +229,7 @@ void Eliminator::add_mean(const Functional& mean, const std::string& where) {
   const bool moves = std::any_of(row.begin(), row.end(),
                                  [this](const auto& entry) { return is_coordinate(entry.first); });
   const int32_t id = allocate(1, kFree);
-  if (!moves) {  // a group that supports hold altogether: it depends on them
+  if (!moves) {  // a group whose DoFs are all held: it depends on the supports
     give_way(id, row);
     return;
   }
@@ -289,7 +289,7 @@ Elimination Eliminator::finish() const {
     if (state_[id] == kFree || state_[id] == kKept) out.reduced_of[id] = next++;
     if (state_[id] == kFixed) out.support_of[id] = held++;
   }
-  // A row of T is a column of its transpose: rows are appended, nothing is sorted or searched.
+  // A row of T is a column of its transpose: rows are appended without sorting or searching.
   const auto dofs = static_cast<Eigen::Index>(n_dofs_);
   SparseMatrix t(next, dofs), t_s(held, dofs), pivots(next, dofs), pivots_s(held, dofs);
   Eigen::Index pivot = 0;

@@ -16,9 +16,8 @@
 namespace {
 
 constexpr const char* kSummary =
-    "Assembles a part's mass and stiffness matrices, couples reference nodes and contact patches "
-    "to "
-    "them, and makes unit load cases.";
+    "Assembles a part's mass and stiffness matrices, adds couplings, supports and contact patches, "
+    "and builds unit load cases.";
 
 constexpr const char* kEpilog = R"(Sample:
   clatter-assembly block.mesh.h5 -c block.fe.toml -o block.fe.h5
@@ -49,7 +48,7 @@ Matrices that another program assembled, instead of all that:
   [matrices]
   K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
   M = "mass.mtx"
-  dofs = "dofs.tsv"    # what row i is (docs/formats.md); without it x y z of a mesh's nodes
+  dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
 
 assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
@@ -76,7 +75,7 @@ void print_summary(const clatter::fe::FeModel& model, double seconds, bool json)
                        {"seconds", clatter::json_number(seconds)}});
 }
 
-/// One warning of all materials and the size that look like another unit.
+/// One warning for all materials and sizes that suggest a wrong unit.
 void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::path& config) {
   using namespace clatter;
   std::vector<std::string> doubts;
@@ -92,7 +91,7 @@ void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::pat
   warn_of_doubts(config.string(), doubts);
 }
 
-/// From matrices of others, or assembled on the mesh; `inputs` gets the files that were read.
+/// Imports matrices of other programs or assembles on the mesh; adds the files read to `inputs`.
 clatter::assembly::BuiltModel make_model(const std::filesystem::path& mesh_path,
                                          const clatter::Config& config,
                                          std::vector<std::filesystem::path>& inputs,

@@ -20,8 +20,8 @@ void RecipeReader::force_load(const Config& table, LoadSpec& spec) const {
 
 void RecipeReader::displacement_load(const Config& table, LoadSpec& spec) const {
   spec.kind = LoadSpec::Kind::kDisplacement;
-  spec.place = place(table, "load " + spec.name, true);
-  spec.directions = directions(table, "directions", {}, spec.place.point.empty() ? 3 : 6);
+  spec.selection = selection(table, "load " + spec.name, true);
+  spec.directions = directions(table, "directions", {}, spec.selection.point.empty() ? 3 : 6);
   if (spec.directions.empty())
     table.fail("directions", "found nothing, expected the directions that move");
   spec.axes = axes(table);

@@ -24,8 +24,8 @@ TEST(RigidCoupling, FollowsItsReferenceLikeALever) {
   const DofNumbers numbers(nodes, points);
   ReferenceDofs reference;
   for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  reference.place = points[0].place;
-  const auto rows = rigid_dependences(numbers, DofPlace::of_node(0), {0, 1, 2, 3}, reference);
+  reference.position = points[0].position;
+  const auto rows = rigid_dependences(numbers, NodeOrPoint::of_node(0), {0, 1, 2, 3}, reference);
   ASSERT_EQ(rows.size(), 3u);  // a node has no rotation
   // r = (0, 2, 0): u_x = p_x - 2 rz, u_y = p_y, u_z = p_z + 2 rx.
   EXPECT_EQ(rows[0].on.dofs, (std::vector<int32_t>{3, 8}));
@@ -49,12 +49,12 @@ point = [0.3, 0.0, 0.5]
   const DofNumbers numbers(mesh.nodes, points);
   ReferenceDofs reference;
   for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  reference.place = points[0].place;
+  reference.position = points[0].position;
   Saddle saddle(mesh, 1);
   hold_foot(mesh, saddle);
   for (const int32_t node : mesh.node_sets.at("z1"))
     for (const auto& row :
-         rigid_dependences(numbers, DofPlace::of_node(node), {0, 1, 2}, reference))
+         rigid_dependences(numbers, NodeOrPoint::of_node(node), {0, 1, 2}, reference))
       saddle.add(row);
   Eigen::VectorXd f = some_forces(saddle.size());
   const Eigen::VectorXd want = saddle.solve(f);
@@ -164,7 +164,7 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
   const auto ride = [&](const std::vector<Member>& members, int32_t point,
                         const std::vector<int>& directions) {
     const Coupling coupling =
-        distribute(members, points[static_cast<size_t>(point)].place, directions, "test");
+        distribute(members, points[static_cast<size_t>(point)].position, directions, "test");
     const std::vector<Functional> rows = coupling.nodal_rows();
     for (size_t k = 0; k < rows.size(); ++k)
       saddle.add(Dependence{numbers.of_point(point, directions[k]), rows[k]});
@@ -173,14 +173,15 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
        {0, 1, 2, 3, 4, 5});
   ReferenceDofs p1;
   for (int d = 0; d < 6; ++d) p1.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  p1.place = points[0].place;
-  for (const auto& row : rigid_dependences(numbers, DofPlace::of_point(1), {0, 1, 2, 3, 4, 5}, p1))
+  p1.position = points[0].position;
+  for (const auto& row :
+       rigid_dependences(numbers, NodeOrPoint::of_point(1), {0, 1, 2, 3, 4, 5}, p1))
     saddle.add(row);
   std::vector<Member> members(3);
   const int32_t n0 = mesh.node_sets.at("n0")[0], n100 = mesh.node_sets.at("n100")[0];
   members[0] = {{numbers.of_point(1, 0), numbers.of_point(1, 1), numbers.of_point(1, 2), -1,
                  numbers.of_point(1, 4), -1},
-                points[1].place,
+                points[1].position,
                 2.0};
   members[1] = {{3 * n0, 3 * n0 + 1, 3 * n0 + 2, -1, -1, -1}, mesh.nodes.row(n0).transpose(), 1.0};
   members[2] = {

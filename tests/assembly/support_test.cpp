@@ -39,7 +39,7 @@ directions = "xyz"
   expect_parts(refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
                                      "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
                                      "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
-               {"load m", "nothing is attached"});
+               {"load m", "nothing attached"});
 }
 
 TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
