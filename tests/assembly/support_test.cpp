@@ -35,7 +35,7 @@ directions = "xyz"
                              "\"xyz\"\n[[point_mass]]\non = \"a\"\nmass = 1.0\n";
   EXPECT_EQ(refusal(mesh, loaded), "accepted");
   expect_parts(refusal(mesh, loaded + "inertia = [1.0, 1.0, 1.0]\n"),
-               {"point a", "mass on rx", "nothing holds"});
+               {"point a", "mass on rx", "nothing attached"});
   expect_parts(refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
                                      "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
                                      "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
