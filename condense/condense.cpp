@@ -73,7 +73,7 @@ std::string describe_modes(const std::map<std::string, double>& c) {
   if (proved) {
     text = fmt::format("none is missing ({})", count);
   } else if (counted && amls) {
-    text += fmt::format("" ({}, inconclusive within the errors)", count);
+    text += fmt::format(" ({}, inconclusive within the errors)", count);
   } else {
     text +=
         amls ? " (prove_count = false, or no gap wider than the errors)" : " (prove_count = false)";
