@@ -18,10 +18,10 @@ namespace {
 using Corners = std::vector<std::array<int32_t, 3>>;
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Adds the middle of each edge once; `place` moves it onto the surface.
-class Middles {
+/// Adds the mid-side node of each edge once, on the sphere if `onto_sphere`.
+class MidSideNodes {
  public:
-  Middles(Points& points, bool onto_sphere) : points_(points), onto_sphere_(onto_sphere) {}
+  MidSideNodes(Points& points, bool onto_sphere) : points_(points), onto_sphere_(onto_sphere) {}
   int32_t of(int32_t a, int32_t b) {
     const auto key = std::minmax(a, b);
     const auto [at, is_new] = known_.try_emplace(key, static_cast<int32_t>(points_.size()));
@@ -39,13 +39,13 @@ class Middles {
 };
 
 Mesh6 quadratic(Points points, const Corners& corners, bool onto_sphere) {
-  Middles middles(points, onto_sphere);
+  MidSideNodes mid_side_nodes(points, onto_sphere);
   Mesh6 mesh;
   mesh.triangles.resize(static_cast<Eigen::Index>(corners.size()), 6);
   for (size_t f = 0; f < corners.size(); ++f) {
     const auto& [a, b, c] = corners[f];
-    mesh.triangles.row(static_cast<Eigen::Index>(f)) << a, b, c, middles.of(a, b), middles.of(b, c),
-        middles.of(c, a);
+    mesh.triangles.row(static_cast<Eigen::Index>(f)) << a, b, c, mid_side_nodes.of(a, b),
+        mid_side_nodes.of(b, c), mid_side_nodes.of(c, a);
   }
   mesh.nodes.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (size_t i = 0; i < points.size(); ++i)
@@ -65,10 +65,11 @@ Mesh6 unit_sphere(int levels) {
                   {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                   {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
-    Middles middles(points, true);
+    MidSideNodes mid_side_nodes(points, true);
     Corners finer;
     for (const auto& [a, b, c] : corners) {
-      const int32_t ab = middles.of(a, b), bc = middles.of(b, c), ca = middles.of(c, a);
+      const int32_t ab = mid_side_nodes.of(a, b), bc = mid_side_nodes.of(b, c),
+                    ca = mid_side_nodes.of(c, a);
       finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
     corners = finer;
@@ -113,7 +114,7 @@ Mesh6 hollow_box(const Eigen::Vector3d& size, int n) {
   outer.nodes.conservativeResize(n_outer + hole.nodes.rows(), 3);
   outer.nodes.bottomRows(hole.nodes.rows()) = hole.nodes;
   outer.triangles.conservativeResize(f_outer + hole.triangles.rows(), 6);
-  // Turned round: corners 0 2 1, and the middles of edges 02, 21, 10.
+  // Reversed: corners 0 2 1, and mid-side nodes 02, 21, 10.
   for (Eigen::Index f = 0; f < hole.triangles.rows(); ++f)
     for (int a = 0; a < 6; ++a) {
       static constexpr int kTurned[6] = {0, 2, 1, 5, 4, 3};
