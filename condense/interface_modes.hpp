@@ -18,7 +18,7 @@ struct InterfaceOptions {
   bool by_area = false;           // weight = "area": patch areas instead of M_ss
 };
 
-/// Reads [interface] sets (default: the whole boundary), modes or fmax_hz, weight = "mass" or
+/// Reads [interface] sets (default: the entire boundary), modes or fmax_hz, weight = "mass" or
 /// "area"; nothing when the table is absent. InputError for a set that is not in `boundary`, both
 /// or neither of modes and fmax_hz, and fmax_hz with weight "area".
 std::optional<InterfaceOptions> read_interface_options(const Config& config,

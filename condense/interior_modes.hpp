@@ -14,9 +14,8 @@ namespace clatter::condense {
 struct ModeRequest : sparse::EigenChoice {
   int count = 0;
   double fmax_hz = 0.0;
-  double accurate_to_hz =
-      0.0;                 // the body's frequencies below are requested; 0: as the cut-off allows
-  bool own_modes = false;  // of the body itself instead of fixed-interface modes: Craig-Chang
+  double accurate_to_hz = 0.0;  // limit of the requested frequencies of the body; 0: by the cut-off
+  bool own_modes = false;       // of the body itself instead of fixed-interface modes: Craig-Chang
   std::vector<std::string> load_shapes;  // loads whose static response is in the basis
   bool prove_count = true;
   double frequency_error = 5e-4;  // aimed at by residual modes below accurate_to_hz; 0: none

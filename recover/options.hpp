@@ -52,8 +52,7 @@ struct Options {
   Air air;
   LevelReferences references;
   SpectrumBand spectrum;
-  bool cycle =
-      true;  // analyse the last cycle; with `cycle_requested` a run without one is rejected
+  bool cycle = true;  // analyse the last cycle; if requested, a run without one is rejected
   bool cycle_requested = false;
   bool windows_requested = false;
   std::vector<WindowRule> windows{WindowRule{}};

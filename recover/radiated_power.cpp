@@ -43,8 +43,7 @@ void add_form(const rom::Skin& skin, const std::vector<int32_t>& faces, int64_t 
 
 Eigen::MatrixXd patch_form(const rom::Skin& skin, const std::vector<int32_t>& faces) {
   const Eigen::Index r = skin.T.cols();
-  std::map<int64_t, Eigen::MatrixXd>
-      pieces;  // summed in order: identical results for the same number of threads
+  std::map<int64_t, Eigen::MatrixXd> pieces;  // summed in order: same threads, same result
   std::mutex lock;
   parallel_pieces(static_cast<int64_t>(faces.size()), [&](int64_t begin, int64_t end) {
     Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(r, r);

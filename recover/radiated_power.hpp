@@ -17,8 +17,7 @@ namespace clatter::recover {
 struct Air {
   double density = 1.204;      // [kg/m3], air at 20 degrees C and 101325 Pa
   double sound_speed = 343.2;  // [m/s]
-  double loss_factor =
-      1.0;  // radiation loss factor, 1: every face radiates like a piston in an infinite baffle
+  double loss_factor = 1.0;    // 1: every face radiates like a piston in an infinite baffle
 };
 
 /// A panel's quadratic form.

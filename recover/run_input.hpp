@@ -10,9 +10,8 @@ namespace clatter::recover {
 
 /// The times of the samples of a run.
 struct RunClock {
-  Eigen::VectorXd time;  // n_t [s], uniform steps
-  Eigen::VectorXd
-      angle_deg;  // n_t, crank angle, ascending through all cycles; empty without a crank
+  Eigen::VectorXd time;       // n_t [s], uniform steps
+  Eigen::VectorXd angle_deg;  // n_t, ascending through all cycles; empty without a crank
   double step_s = 0.0;
 
   bool turns() const { return angle_deg.size() > 0; }

@@ -41,8 +41,7 @@ struct PistonLinerOptions {
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
   double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
-  double supply_fill =
-      1.0;  // fill of the oil film entering at the pad's top and bottom edge, 0 to 1
+  double supply_fill = 1.0;   // fill of the oil film entering at top and bottom of the pad, 0 to 1
   // Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
   // slides into it at full speed while its film moves at half of that, so the content of the gap is
   // at most twice this, at the start and at inflow; infinite: only the fills above apply.

@@ -77,8 +77,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     if (refresh) {
       factor(op);
       ++fresh;
-      previous =
-          std::numeric_limits<double>::infinity();  // norms by another matrix are not comparable
+      previous = std::numeric_limits<double>::infinity();  // norms by two matrices do not compare
     }
     const VectorXd dy = lu_.solve(y_pred + op.apply_S(f) - y);
     const double size = norm(dy, stage.kappa, result.worst);

@@ -8,8 +8,7 @@
 namespace clatter::assembly::testing {
 namespace {
 
-using Lattice =
-    std::array<int, 3>;  // four times the brick indices, so that mid-side nodes are integers
+using Lattice = std::array<int, 3>;  // four times the brick indices: integers for mid-side nodes
 
 class Numbering {
  public:
