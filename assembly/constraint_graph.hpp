@@ -34,8 +34,8 @@ class ConstraintGraph {
   /// The relation by which the DoF depends on others.
   const std::string& relation_of(int32_t dof) const;
 
-  /// Dependent DoFs, each after those that it depends on. InputError listing the relations of
-  /// a cycle.
+  /// Dependent DoFs, each after those that it depends on. InputError listing the relations of a
+  /// cycle.
   std::vector<int32_t> order() const;
 
  private:

@@ -60,10 +60,9 @@ rom::DofSet reference_set(const std::string& name, const std::string& kind,
 /// face best (distributing coupling, RBE3):
 /// distribute() with the nodes of the face and their consistent areas W_p = int N_p dA; on a large
 /// face groups of nodes with area-weighted means u_p, R_p. Rigid motions are reproduced exactly; a
-/// force on q_ref is distributed over the face as a traction and adds no stiffness (hard
-/// case B6: an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only).
-/// InputError, beginning with `where`, when the face does not define a rotation (all nodes on a
-/// line).
+/// force on q_ref is distributed over the face as a traction and adds no stiffness (hard case B6:
+/// an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only). InputError,
+/// beginning with `where`, when the face does not define a rotation (all nodes on a line).
 Coupling distributing_coupling(const std::string& name, const std::string& kind,
                                const RowMatrix& coordinates, const SurfaceIntegrals& surface,
                                const std::optional<Eigen::Vector3d>& point, int n_dofs,

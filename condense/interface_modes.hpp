@@ -37,8 +37,8 @@ struct InterfaceReport {
 /// (Castanier, Tan and Pierre 2001; K_bb and M_bb of a Craig-Bampton model are Guyan's), N = M_SS,
 /// or the diagonal of patch areas, whose modes are the shapes of the most pressure work. With the
 /// entire boundary named, R is empty and the free rigid motions are kept with the elastic modes.
-/// All parts of the model are transformed; sets in S move to ReducedModel::combined; z comes
-/// after q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
+/// All parts of the model are transformed; sets in S move to ReducedModel::combined; z comes after
+/// q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
 /// @param motions r x m, the free rigid motions; on return in the new coordinates; limit_hz up to
 /// where frequencies are compared before and after; length [m] the body's size.
 /// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.

@@ -19,8 +19,8 @@ struct SkinFaces {
 };
 
 /// All faces of the named surfaces, each once. A quadrilateral becomes two triangles along its
-/// diagonal, exact on its edges and on the diagonal; a linear triangle gets the midpoints of
-/// its edges. InputError for an unknown surface.
+/// diagonal, exact on its edges and on the diagonal; a linear triangle gets the midpoints of its
+/// edges. InputError for an unknown surface.
 SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces);
 
 }  // namespace clatter::condense

@@ -36,8 +36,8 @@ enum class StaticMass { kCheaper, kSweep, kElimination };
 ///
 /// Rounding in the solve would affect the mass properties: rows and M_bb are changed as little as
 /// possible so that they represent the rigid motions exactly.
-/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib follows
-/// from it.
+/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib follows from
+/// it.
 /// @param kept interior DoFs whose rows of Psi are requested.
 StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,

@@ -6,8 +6,8 @@
 
 namespace clatter::condense {
 
-/// Computes the modes of `model`, with the count proved, compares those of `reduced` with
-/// them (core/modes/compare.hpp) and adds to its certificate: verified_to_hz; verified_modes, the
+/// Computes the modes of `model`, with the count proved, compares those of `reduced` with them
+/// (core/modes/compare.hpp) and adds to its certificate: verified_to_hz; verified_modes, the
 /// elastic ones; verified_frequency_error, the largest |f_reduced / f_full - 1|; verified_mac, the
 /// smallest.
 /// @param to_hz all modes below [Hz]; 0: as far as the certificate states an accuracy.

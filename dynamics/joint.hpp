@@ -9,8 +9,8 @@
 namespace clatter::dynamics {
 
 /// Force on point A: -F(e) n - c d', with d = d_A - d_B, e = |d|, n = d / e; the opposite on B.
-/// Its power balance, force . v + dE/dt + lost = input, holds exactly; `input` is the power of
-/// the rod's prescribed rotation on the joint's force.
+/// Its power balance, force . v + dE/dt + lost = input, holds exactly; `input` is the power of the
+/// rod's prescribed rotation on the joint's force.
 class Joint : public ForceElement {
  public:
   Joint(std::string name, std::unique_ptr<Anchor> a, std::unique_ptr<Anchor> b,

@@ -1,6 +1,6 @@
 #pragma once
-// Results derived from one piece of a run: sensor histories and spectra, mean square
-// normal velocity and radiated power per panel, over lines, third octaves and time.
+// Results derived from one piece of a run: sensor histories and spectra, mean square normal
+// velocity and radiated power per panel, over lines, third octaves and time.
 #include <string>
 #include <vector>
 

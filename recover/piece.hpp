@@ -36,8 +36,8 @@ struct Piece {
 };
 
 /// The last 720 degrees, first sample included, last excluded.
-/// @throws InputError when the run is shorter than a cycle, or a cycle is not an integer number
-/// of steps
+/// @throws InputError when the run is shorter than a cycle, or a cycle is not an integer number of
+/// steps
 Piece last_cycle(const RunClock& clock, const std::string& origin);
 
 /// The samples in a span; in degrees about the last firing TDC for which the run covers the span.

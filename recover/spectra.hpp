@@ -13,8 +13,8 @@ struct LineSpectrum {
   Eigen::VectorXd frequency_hz;  // n_l, f_k = k / duration, from 0
   Eigen::MatrixXcd amplitude;    // n_l x columns, peak, unit of the samples
   /// n_l: mean square = sum_k power_factor_k |X_k|^2. 1/2 for a tone, 1 at 0 Hz and at the Nyquist
-  /// line; divided by the taper's equivalent noise bandwidth, so that sums over lines equal
-  /// the mean square of the (tapered) piece.
+  /// line; divided by the taper's equivalent noise bandwidth, so that sums over lines equal the
+  /// mean square of the (tapered) piece.
   Eigen::VectorXd power_factor;
   bool periodic = false;
   double spacing_hz() const { return frequency_hz.size() > 1 ? frequency_hz[1] : 0.0; }

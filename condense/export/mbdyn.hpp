@@ -12,10 +12,9 @@ namespace clatter::condense {
 /// unit modal masses, their damping alpha Lambda + beta I with
 /// the table of modal damping added, and the mass properties. Rigid motions
 /// are left out, as the joint's own node makes them. A coordinate along direction d moves its node
-/// by d times its value; directions without a coordinate are zero. Comments in the
-/// header list row, node and direction of the coordinates. 17 digits. InputError when M_rr is not
-/// positive definite or no boundary coordinate has a position; FileError when the file cannot be
-/// written.
+/// by d times its value; directions without a coordinate are zero. Comments in the header list row,
+/// node and direction of the coordinates. 17 digits. InputError when M_rr is not positive definite
+/// or no boundary coordinate has a position; FileError when the file cannot be written.
 std::vector<std::filesystem::path> export_mbdyn(const rom::ReducedModel& model,
                                                 const std::filesystem::path& path);
 

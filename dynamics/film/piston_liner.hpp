@@ -27,9 +27,8 @@ struct PadSnapshot {
 ///   f = (dh/dy)^T A (p + p_a) + friction
 ///
 /// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
-/// to the skirt; its content follows the integrator's tableau. The liner's slope along the
-/// stroke loads the piston axially (through dh/dz), so that the contact does exactly the work of p
-/// on h.
+/// to the skirt; its content follows the integrator's tableau. The liner's slope along the stroke
+/// loads the piston axially (through dh/dz), so that the contact does exactly the work of p on h.
 class PistonLiner : public dynamics::ForceElement {
  public:
   /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.

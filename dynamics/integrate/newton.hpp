@@ -15,10 +15,10 @@ namespace clatter::dynamics {
 /// contracts.
 ///
 /// Convergence: the last increment is below `kConverged` of what the error test allows, measured in
-/// displacement and, divided by kappa, in velocity. The returned forces are
-/// f + (df/dy) dy of the last increment: they and y satisfy the linear part of the stage exactly,
-/// so momentum is balanced to rounding despite the remaining Newton error. An iteration that does
-/// not converge is a rejected step, never an accepted one.
+/// displacement and, divided by kappa, in velocity. The returned forces are f + (df/dy) dy of the
+/// last increment: they and y satisfy the linear part of the stage exactly, so momentum is balanced
+/// to rounding despite the remaining Newton error. An iteration that does not converge is a
+/// rejected step, never an accepted one.
 class StageNewton {
  public:
   enum class Outcome { kConverged, kDiverged, kRefused };

@@ -134,8 +134,8 @@ TEST_P(QuadraticCell, HardG3_QuadraticFieldIsExactOnStraightQuadraticCells) {
 }
 
 TEST(PatchTest, HardG3_QuadraticFieldShowsSwappedMiddleNodes) {
-  // The order of other programs in our reader: the test must detect it. With
-  // straight cells the swap moves two mid-side nodes, so det J is not positive or the field is off.
+  // The order of other programs in our reader: the test must detect it. With straight cells the
+  // swap moves two mid-side nodes, so det J is not positive or the field is off.
   mesh::Mesh mesh = shaken(mesh::CellType::kTet10);
   mesh.cells[0].nodes.col(8).swap(mesh.cells[0].nodes.col(9));
   try {

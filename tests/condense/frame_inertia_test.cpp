@@ -142,8 +142,8 @@ TEST(FrameInertia, ABarThatTurnsAboutItsEndStretchesAsInTheory) {
 }
 
 TEST(FrameInertia, AWhirlingMassHasTheFrequenciesOmegaPlusAndMinusSpin) {
-  // A point mass on equal springs, in a frame that rotates about z: |w0 +- Omega|, and w0
-  // along the axis.
+  // A point mass on equal springs, in a frame that rotates about z: |w0 +- Omega|, and w0 along the
+  // axis.
   const double m = 2.0, w0 = 300.0, spin = 70.0;
   rom::InertiaInvariants mass;
   for (size_t k = 0; k < 3; ++k) {

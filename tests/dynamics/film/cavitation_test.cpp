@@ -1,5 +1,5 @@
-// The oscillating squeeze film of Ausas, Jai and Buscaglia 2009: distinguishes
-// conserving solvers from others.
+// The oscillating squeeze film of Ausas, Jai and Buscaglia 2009: distinguishes conserving solvers
+// from others.
 #include <gtest/gtest.h>
 
 #include <cmath>
