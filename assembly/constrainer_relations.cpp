@@ -99,13 +99,13 @@ std::vector<Member> Constrainer::members(const CouplingSpec& spec) {
     for (Member& member : found) {
       member.weight *= term.weight;
       for (int d = 0; d < 6; ++d) {
-        const bool wanted = std::count(term.directions.begin(), term.directions.end(), d) > 0;
-        if (wanted && !member.has(d))
+        const bool requested = std::count(term.directions.begin(), term.directions.end(), d) > 0;
+        if (requested && !member.has(d))
           throw InputError(
               fmt::format("{}: found {} of a node, expected displacements (nodes have "
                           "no rotations)",
                           term.selection.where, kDofNames[static_cast<size_t>(d)]));
-        if (!wanted) member.dofs[static_cast<size_t>(d)] = -1;
+        if (!requested) member.dofs[static_cast<size_t>(d)] = -1;
       }
     }
     all.insert(all.end(), found.begin(), found.end());

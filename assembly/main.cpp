@@ -22,7 +22,7 @@ constexpr const char* kSummary =
 constexpr const char* kEpilog = R"(Sample:
   clatter-assembly block.mesh.h5 -c block.fe.toml -o block.fe.h5
 
-The smallest fe.toml names a material for each region of the mesh:
+The smallest fe.toml has a material for each region of the mesh:
   [material.cast_iron]
   regions = ["block"]
   E_gpa = 110.0        # or E [Pa]
@@ -34,9 +34,9 @@ Further tables, any number of each:
   [system.NAME]   rectangular, cylindrical or spherical axes for directions
   [[point]]       reference node with 6 DoFs of its own
   [[support]]     surface, node_set or point held at zero
-  [[coupling]]    reference node that rides on a surface (RBE3) or that nodes follow (RBE2)
+  [[coupling]]    reference node that follows a surface (RBE3) or that nodes follow (RBE2)
   [[equation]]    linear relation of displacements
-  [[tie]]         surfaces that do not match;  [[bolt]]  a cut shank with its tension
+  [[tie]]         non-matching surfaces;  [[bolt]]  a cut shank with its tension
   [[contact]]     grid of patches on a cylinder surface, one radial DoF each
   [[mean]]        mean displacement of a surface along a direction
   [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
@@ -44,14 +44,14 @@ Further tables, any number of each:
   [[load]]        pressure, resultant, force, gravity, centrifugal, nodal field, prescribed displacement
   [[case]]        a sum of loads
 
-Matrices that another program assembled, instead of all that:
+Matrices that another program assembled, instead of all these tables:
   [matrices]
   K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
   M = "mass.mtx"
   dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
 
-assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
+assembly/README.md documents every key; samples/truck_diesel/block.fe.toml is a complete sample.
 Next: clatter-modal block.fe.h5 (modes; --static for load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
 

@@ -102,7 +102,7 @@ void unite(std::vector<std::string>& names, const std::vector<std::string>& more
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-/// Names of sets that `stored` has beside its boundary.
+/// Names of sets that `stored` has besides its boundary.
 std::vector<std::string> sets_beside(const rom::ReducedModel& stored,
                                      const std::vector<std::string>& boundary) {
   std::vector<std::string> names;

@@ -144,8 +144,8 @@ void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBa
   }
   if (!reduced.inertia.empty() && !(out["inertia_invariants_error"] <= kMassLimit)) {
     throw NumericsError(fmt::format(
-        "reduced model: inertia invariants differ by {:.1e} from what M_rr and the rigid "
-        "motions say, expected at most {:.0e}",
+        "reduced model: inertia invariants differ by {:.1e} from those of M_rr and the rigid "
+        "motions, expected at most {:.0e}",
         out["inertia_invariants_error"], kMassLimit));
   }
   if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||

@@ -125,7 +125,7 @@ CondenseOptions read_condense_options(const Config& config) {
   options.modes.frequency_error =
       config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
   if (options.modes.accurate_to_hz > 0.0 && options.modes.frequency_error == 0.0)
-    config.fail("frequency_error", "found 0 beside accurate_to_hz, expected the error to reach");
+    config.fail("frequency_error", "found 0 with accurate_to_hz, expected the error to reach");
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);

@@ -59,7 +59,7 @@ struct PistonSpec : BodySpec {
 struct BlockSpec : BodySpec {
   std::string liner = "liner";        // contact grid of the bore
   std::string liner_axial;            // set of its mean axial displacement; empty: none
-  std::vector<std::string> bearings;  // main bearings beside the crank, sharing its force
+  std::vector<std::string> bearings;  // main bearings next to the crank, sharing its force
   std::string gas_load;               // unit load on the head, per Pa; empty: none
 };
 

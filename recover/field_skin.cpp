@@ -65,11 +65,11 @@ FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin
   const RunClock& clock = body.clock();
   for (int64_t sample : samples) {
     index.time_s.push_back(clock.time[sample] - piece.ftdc_s);
-    if (clock.turns()) index.angle_deg.push_back(clock.angle_deg[sample] - piece.ftdc_deg);
+    if (clock.has_crank()) index.angle_deg.push_back(clock.angle_deg[sample] - piece.ftdc_deg);
   }
   file.write("frames/time", index.time_s);
   describe(file, "frames/time", "s", "instant of each frame, from firing TDC");
-  if (clock.turns()) {
+  if (clock.has_crank()) {
     file.write("frames/crank_angle_deg", index.angle_deg);
     describe(file, "frames/crank_angle_deg", "deg", "crank angle of each frame, from firing TDC");
   }

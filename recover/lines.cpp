@@ -15,7 +15,7 @@ constexpr double kSlack = 1.0 + 1e-9;
 
 /// The power by which lines are chosen: outward radiation, A-weighted. Without the weighting rigid
 /// motion on the mounts would always dominate.
-Eigen::VectorXd heard_power(const Analysis& analysis) {
+Eigen::VectorXd a_weighted_power(const Analysis& analysis) {
   const PanelResult* panel = &analysis.panels.front();
   for (const PanelResult& other : analysis.panels)
     if (other.name == "exposed") panel = &other;
@@ -59,19 +59,19 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
   if (!rule.orders.empty() && analysis.speed_hz == 0.0)
     throw InputError(
         "lines.orders: found orders for a run without a crank angle, expected frequencies_hz");
-  std::vector<double> wanted = rule.frequencies_hz;
-  for (double order : rule.orders) wanted.push_back(order * analysis.speed_hz);
+  std::vector<double> requested_hz = rule.frequencies_hz;
+  for (double order : rule.orders) requested_hz.push_back(order * analysis.speed_hz);
 
   std::vector<ChosenLine> lines;
-  for (double f : wanted) {
+  for (double f : requested_hz) {
     if (f > limit.to_hz * kSlack)
       throw InputError(fmt::format("lines: found {:g} Hz, expected at most {:g} Hz, {}", f,
                                    limit.to_hz, limit.reason));
     const Eigen::Index nearest = std::lround(f / analysis.velocity.spacing_hz());
     lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
   }
-  if (wanted.empty() && !analysis.panels.empty())
-    lines = strongest_peaks(frequency_hz, heard_power(analysis), band.from_hz, rule.strongest);
+  if (requested_hz.empty() && !analysis.panels.empty())
+    lines = strongest_peaks(frequency_hz, a_weighted_power(analysis), band.from_hz, rule.strongest);
   std::sort(lines.begin(), lines.end(),
             [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
   const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };

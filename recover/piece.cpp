@@ -73,7 +73,7 @@ Eigen::VectorXd taper_values(Taper taper, int64_t count) {
 }
 
 Piece last_cycle(const RunClock& clock, const std::string& origin) {
-  if (!clock.turns())
+  if (!clock.has_crank())
     throw InputError(origin +
                      ": output/crank_angle_deg: found no crank rotation, expected complete cycles");
   const int64_t n_t = clock.time.size();
@@ -118,9 +118,9 @@ Piece window(const RunClock& clock, const std::string& name, const Span& span, T
     throw InputError(fmt::format("{}: window '{}': found {} samples, expected at least 2", origin,
                                  name, piece.count));
   piece.first_s = piece.ftdc_s = clock.time[piece.first];
-  if (span.in_seconds && clock.turns())
+  if (span.in_seconds && clock.has_crank())
     piece.ftdc_deg = kCycle * std::round(clock.angle_deg[piece.first + piece.count / 2] / kCycle);
-  if (clock.turns()) piece.ftdc_s = time_at_angle(clock, piece.ftdc_deg);
+  if (clock.has_crank()) piece.ftdc_s = time_at_angle(clock, piece.ftdc_deg);
   return piece;
 }
 

@@ -35,10 +35,10 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
   const auto keep = [&](std::optional<Piece> piece) {
     if (piece) pieces.push_back(*piece);
   };
-  if (options.cycle && (clock.turns() || options.cycle_requested))
+  if (options.cycle && (clock.has_crank() || options.cycle_requested))
     keep(optional_piece(options.cycle_requested, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
-    if (clock.turns() || options.windows_requested)
+    if (clock.has_crank() || options.windows_requested)
       keep(optional_piece(options.windows_requested,
                           [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
@@ -55,7 +55,7 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
                           const std::string& origin) {
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
-  if (clock.turns() || options.frames_requested)
+  if (clock.has_crank() || options.frames_requested)
     piece = optional_piece(options.frames_requested, [&] {
       return window(clock, "frames", rule.span, Taper::kNone, origin);
     });

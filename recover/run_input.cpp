@@ -55,7 +55,7 @@ RunClock read_clock(const H5File& file) {
 }  // namespace
 
 double RunClock::speed_deg_s() const {
-  if (!turns()) return 0.0;
+  if (!has_crank()) return 0.0;
   const Eigen::Index last = time.size() - 1;
   return (angle_deg[last] - angle_deg[0]) / (time[last] - time[0]);
 }
@@ -72,24 +72,25 @@ RunBody::RunBody(const fs::path& run, const std::string& body)
   check_shapes();
 }
 
-void RunBody::pick_body(const std::string& wanted) {
+void RunBody::pick_body(const std::string& requested) {
   std::vector<std::string> with_rom;
   for (const std::string& name : file_.list("bodies"))
     if (file_.has_attribute("bodies/" + name, "rom") && file_.has("bodies/" + name + "/q"))
       with_rom.push_back(name);
-  const auto present = [&](const std::string& name) {
+  const auto is_available = [&](const std::string& name) {
     return std::find(with_rom.begin(), with_rom.end(), name) != with_rom.end();
   };
-  if (!wanted.empty() && present(wanted))
-    name_ = wanted;
-  else if (wanted.empty() && present("block"))
+  if (!requested.empty() && is_available(requested))
+    name_ = requested;
+  else if (requested.empty() && is_available("block"))
     name_ = "block";
-  else if (wanted.empty() && with_rom.size() == 1)
+  else if (requested.empty() && with_rom.size() == 1)
     name_ = with_rom.front();
   else
-    throw InputError(fmt::format("{}: bodies: found [{}] with a reduced model, expected {}",
-                                 file_.path().string(), fmt::join(with_rom, ", "),
-                                 wanted.empty() ? "one, or `body` in the configuration" : wanted));
+    throw InputError(
+        fmt::format("{}: bodies: found [{}] with a reduced model, expected {}",
+                    file_.path().string(), fmt::join(with_rom, ", "),
+                    requested.empty() ? "one, or `body` in the configuration" : requested));
 }
 
 void RunBody::check_shapes() const {

@@ -14,7 +14,7 @@ struct RunClock {
   Eigen::VectorXd angle_deg;  // n_t, ascending through all cycles; empty without a crank
   double step_s = 0.0;
 
-  bool turns() const { return angle_deg.size() > 0; }
+  bool has_crank() const { return angle_deg.size() > 0; }
   /// Mean speed [deg/s].
   double speed_deg_s() const;
 };
@@ -44,7 +44,7 @@ class RunBody {
   RowMatrix samples(const std::string& quantity, int64_t first, int64_t count) const;
 
  private:
-  void pick_body(const std::string& wanted);
+  void pick_body(const std::string& requested);
   void check_shapes() const;
   std::string dataset(const std::string& member) const { return "bodies/" + name_ + "/" + member; }
 

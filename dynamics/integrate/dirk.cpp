@@ -193,9 +193,9 @@ void Dirk::after_acceptance(double dt) {
     return;
   }
   const double factor = kSafety * std::pow(std::max(last_error_, 1e-6), -1.0 / kOrder);
-  const int wanted = rung_for(dt * factor);
+  const int target_rung = rung_for(dt * factor);
   // Grows by at most a factor of two.
-  if (wanted < rung_) rung_ = std::max(wanted, rung_ - 2);
+  if (target_rung < rung_) rung_ = std::max(target_rung, rung_ - 2);
 }
 
 void Dirk::after_rejection(Verdict verdict) {
