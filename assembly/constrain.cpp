@@ -170,7 +170,7 @@ void Constrainer::drop_unattached(const std::string& name, const std::string& wh
   bool attached = false;
   for (size_t d = 0; d < 6; ++d) {
     const int32_t id = reference.ids[d];
-    attached = attached || moves[static_cast<size_t>(id)] || eliminator_->gave_way(id);
+    attached = attached || moves[static_cast<size_t>(id)] || eliminator_->is_eliminated(id);
     if (!eliminator_->is_coordinate(id) || moves[static_cast<size_t>(id)]) continue;
     loose.push_back(kDofNames[d]);
     if (massive[static_cast<size_t>(id)])

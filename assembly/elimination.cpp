@@ -131,7 +131,7 @@ void Eliminator::check_fill(const std::string& where) const {
 }
 
 /// `id` becomes the next pivot.
-void Eliminator::give_way(int32_t id, SparseRow row) {
+void Eliminator::add_pivot(int32_t id, SparseRow row) {
   const auto number = static_cast<int32_t>(pivot_rows_.size());
   state_[static_cast<size_t>(id)] = number;
   for (const auto& entry : row) users_[static_cast<size_t>(entry.first)].push_back(number);
@@ -164,7 +164,7 @@ void Eliminator::depend(int32_t dof, const Functional& on) {
   SparseRow row = expand(on);
   const auto width = static_cast<int64_t>(row.size());
   fill_ += width * (width + 1) / 2;
-  give_way(dof, std::move(row));
+  add_pivot(dof, std::move(row));
   substitute({dof});
 }
 
@@ -216,7 +216,7 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
     for (Eigen::Index g = 0; g < m; ++g)
       if (by_q(k, g) != 0.0) row.emplace_back(q_ids[static_cast<size_t>(g)], by_q(k, g));
     std::sort(row.begin(), row.end());
-    give_way(fresh[static_cast<size_t>(k)], std::move(row));
+    add_pivot(fresh[static_cast<size_t>(k)], std::move(row));
   }
   substitute(fresh);
   const auto width = static_cast<int64_t>(ids.size());
@@ -230,7 +230,7 @@ void Eliminator::add_mean(const Functional& mean, const std::string& where) {
                                  [this](const auto& entry) { return is_coordinate(entry.first); });
   const int32_t id = allocate(1, kFree);
   if (!moves) {  // a group whose DoFs are all held: it depends on the supports
-    give_way(id, row);
+    add_pivot(id, row);
     return;
   }
   if (!eliminate({mean}, {id})) refuse(where, 1);

@@ -74,7 +74,7 @@ class Eliminator {
   Functional express(const Functional& functional);
   bool is_coordinate(int32_t id) const;
   bool is_held(int32_t id) const;
-  bool gave_way(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
+  bool is_eliminated(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
   /// Ids that nodal displacements depend on, and those displacements themselves, as flags.
   std::vector<bool> moves_nodes(int64_t nodal_dofs) const;
 
@@ -92,7 +92,7 @@ class Eliminator {
   void check_fill(const std::string& where) const;
   std::vector<int32_t> choose_pivots(const Eigen::MatrixXd& C,
                                      const std::vector<int32_t>& ids) const;
-  void give_way(int32_t id, SparseRow row);
+  void add_pivot(int32_t id, SparseRow row);
   void substitute(const std::vector<int32_t>& fresh);
   SparseRow gather();
 

@@ -44,8 +44,8 @@ void LoadBuilder::add_body_force(const Eigen::Vector3d& acceleration,
 /// rho r on the elements, m r on the masses of points, r from the axis.
 void LoadBuilder::add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const {
   forces.head(3 * mesh_.nodes.rows()) =
-      centrifugal_load(mesh_, recipe_.materials, load.axis, load.turning);
-  if (!load.turning.empty()) return;
+      centrifugal_load(mesh_, recipe_.materials, load.axis, load.rotating);
+  if (!load.rotating.empty()) return;
   for (const PointMassSpec& spec : recipe_.point_masses) {
     const int32_t point = point_named(spec.on);
     if (point < 0) continue;
@@ -106,7 +106,7 @@ void LoadBuilder::add_to_sets(const fe::FeModel& model, const LoadSpec& load,
                               Eigen::VectorXd& f) const {
   if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) < 0)
     f += set_load(f.size(), model.sets.at(load.set), load.force, load.moment, load.where);
-  if (load.kind == LoadSpec::Kind::kCentrifugal && load.turning.empty()) {
+  if (load.kind == LoadSpec::Kind::kCentrifugal && load.rotating.empty()) {
     for (const PointMassSpec& spec : recipe_.point_masses) {
       if (point_named(spec.on) >= 0) continue;
       const rom::DofSet& set = model.sets.at(spec.on);

@@ -139,9 +139,9 @@ struct LoadSpec {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   fe::RotationAxis axis;                             // centrifugal: axis of rotation and
-  std::vector<int32_t> turning;  // rotating regions; empty: all, and point masses
-  Selection selection;           // prescribed displacement:
-  std::vector<int> directions;   // of `axes`
+  std::vector<int32_t> rotating;  // rotating regions; empty: all, and point masses
+  Selection selection;            // prescribed displacement:
+  std::vector<int> directions;    // of `axes`
   fe::Axes axes;
   double value = 0.0;  // [m] or [rad]; with a field see `field`; else the rise [K]
 };

@@ -67,7 +67,7 @@ void RecipeReader::centrifugal_load(const Config& table, LoadSpec& spec) const {
   for (const std::string& region : table.texts_or("regions", {})) {
     const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
     if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
-    spec.turning.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
+    spec.rotating.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
   }
 }
 

@@ -94,17 +94,17 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
   Eigen::Index rank = 0;
   while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
   if (rank == free.count()) return;
-  const Eigen::VectorXd way = svd.matrixV().col(free.count() - 1);
-  const Eigen::VectorXd loose = free.unit * way;
+  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd motion = free.unit * combination;
   Eigen::Index most = 0;
-  (free.q * way).cwiseAbs().maxCoeff(&most);
+  (free.q * combination).cwiseAbs().maxCoeff(&most);
   throw InputError(
-      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions; free is a "
-                  "{}, most at {}: "
+      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
+                  "not the {}, largest at {}: "
                   "add a set that holds it{}",
                   partition.boundary.size(), rank,
                   free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
-                  fe::motion_name(loose, fe::characteristic_length(model)),
+                  fe::motion_name(motion, fe::characteristic_length(model)),
                   fe::place_of(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
 }

@@ -304,9 +304,9 @@ void carry_rigid_motions(const sparse::SupernodalFactor& factor_ii, const Partit
 StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
-                                  StaticMass way) {
-  const bool with_mass = way == StaticMass::kSweep ||
-                         (way == StaticMass::kCheaper && sweep_is_cheaper(factor_ii.tree()));
+                                  StaticMass method) {
+  const bool with_mass = method == StaticMass::kSweep ||
+                         (method == StaticMass::kCheaper && sweep_is_cheaper(factor_ii.tree()));
   require_memory_for(factor_ii.tree(), kept.size(), with_mass);
   StaticReduction out;
   out.K_bb = K.bb - factor_ii.boundary_part();

@@ -42,6 +42,6 @@ enum class StaticMass { kCheaper, kSweep, kElimination };
 StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
-                                  StaticMass way = StaticMass::kCheaper);
+                                  StaticMass method = StaticMass::kCheaper);
 
 }  // namespace clatter::condense
