@@ -21,7 +21,7 @@ namespace {
 constexpr double kNoStiffness = 1e-13;  // of the largest diagonal entry of K: rounding
 constexpr double kNoMass = 1e-13;       // least eigenvalue of a reference's scaled mass block
 
-/// Builds step by step; the members are what the steps hand on.
+/// Builds the model step by step; the members are the data that the steps share.
 class Builder {
  public:
   Builder(const mesh::Mesh& mesh, const Recipe& recipe, BuiltModel& out)
@@ -56,7 +56,7 @@ Eigen::MatrixXd Builder::momentum(const SparseMatrix& M) const {
   return {};
 }
 
-/// The rows of T that nodes and points have.
+/// The rows of T of nodes and points.
 void Builder::take_coordinates() {
   fe::FeModel& model = out_.model;
   const Elimination& e = constrained_.elimination;
@@ -74,7 +74,7 @@ void Builder::take_coordinates() {
   std::vector<Eigen::Triplet<double, int32_t>> pick;  // 6 p + d of the DoFs
   for (size_t p = 0; p < points_.size(); ++p) {
     points.names.push_back(points_[p].name);
-    points.position.row(static_cast<Eigen::Index>(p)) = points_[p].place.transpose();
+    points.position.row(static_cast<Eigen::Index>(p)) = points_[p].position.transpose();
     for (int d = 0; d < 6; ++d)
       pick.emplace_back(static_cast<int32_t>(6 * p) + d,
                         numbers_.of_point(static_cast<int32_t>(p), d), 1.0);
@@ -100,7 +100,7 @@ void Builder::take_supports(SupportBlocks& blocks) {
     supports.support.push_back(held.support);
     supports.set.dofs.push_back(static_cast<int32_t>(k));
     supports.set.labels.push_back(held.label);
-    supports.set.position.row(k) = numbers_.position(held.place).transpose();
+    supports.set.position.row(k) = numbers_.position(held.owner).transpose();
     supports.set.direction.row(k) = held.direction.transpose();
     supports.set.is_rotation.push_back(held.is_rotation ? 1 : 0);
   }
@@ -120,15 +120,16 @@ void Builder::add_point_masses() {
       add_moments(moments, spec, set);
     } else {
       add_to_point(model.M, spec, model.points.T, 6 * (point - points_.begin()));
-      add_point(moments, spec.mass, point->place + spec.offset, spec.inertia);
+      add_point(moments, spec.mass, point->position + spec.offset, spec.inertia);
     }
   }
   model.M.makeCompressed();
   model.mass = properties_of(moments);
 }
 
-/// A rigid body that nothing elastic holds moves freely: K is zero there, exactly where its cells
-/// are its own. Otherwise elimination leaves rounding of either sign, which is no stiffness.
+/// A rigid body without elastic attachment moves freely: K is zero there, exactly so where its
+/// cells belong to it alone. Otherwise elimination leaves rounding of either sign instead of
+/// stiffness.
 void Builder::check_stiffness() const {
   const fe::FeModel& model = out_.model;
   if (model.size() == 0) return;
@@ -136,24 +137,24 @@ void Builder::check_stiffness() const {
   const double length =
       (model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff()).norm();
   for (const auto& [name, set] : model.sets) {
-    if (!turns(set)) continue;
+    if (!has_rotations(set)) continue;
     for (size_t k = 0; k < set.dofs.size(); ++k) {
       const double unit = set.is_rotation[k] != 0 ? length * length : 1.0;
       const double stiffness = diagonal(set.dofs[k]);
       if (stiffness == 0.0 || stiffness > kNoStiffness * unit * diagonal.maxCoeff()) continue;
       throw InputError(fmt::format(
-          "{}: found no stiffness against {}: {} moves a rigid body that nothing elastic holds, "
-          "expected supports of it or a coupling to what deforms",
+          "{}: found no stiffness against {}: {} moves a rigid body without elastic attachment, "
+          "expected supports of it or a coupling to deformable cells",
           mesh_.name, set.labels[k], name));
     }
   }
 }
 
-/// A reference whose motion moves nothing in some combination would leave M without an inverse.
-/// What springs alone hold has no mass: modes leave such coordinates out.
+/// A reference node with a motion that moves nothing would make M singular. DoFs that only springs
+/// hold have no mass: modal analysis excludes such coordinates.
 void Builder::check_points() const {
   for (const auto& [name, set] : out_.model.sets) {
-    if (!turns(set)) continue;
+    if (!has_rotations(set)) continue;
     std::vector<int32_t> dofs = set.dofs;
     std::erase_if(dofs, [&](int32_t dof) { return out_.model.M.coeff(dof, dof) == 0.0; });
     const auto n = static_cast<Eigen::Index>(dofs.size());
@@ -169,8 +170,8 @@ void Builder::check_points() const {
         scale.asDiagonal() * block * scale.asDiagonal(), Eigen::EigenvaluesOnly);
     if (!(eigen.eigenvalues()(0) > kNoMass))
       throw InputError(fmt::format(
-          "{}: found a motion of {} that moves nothing (what it couples lies on a line or a "
-          "point), expected supports for its rotations or a wider coupling",
+          "{}: found a motion of {} that moves nothing (the coupled nodes lie on a line or at "
+          "a point), expected supports for its rotations or a wider coupling",
           mesh_.name, name));
   }
 }
@@ -197,7 +198,7 @@ void Builder::run(StepClock& clock) {
   transform(matrices.K, constrained_.elimination, &blocks);
   transform(matrices.M, constrained_.elimination);
   add_springs(recipe_.springs, constrained_.springs, constrained_.elimination, matrices.K, blocks);
-  // Swapped, since Eigen 3.4 copies where std::move is asked for.
+  // Swapped, since Eigen 3.4 copies on std::move.
   model.K.swap(matrices.K);
   model.M.swap(matrices.M);
   take_supports(blocks);

@@ -1,5 +1,5 @@
 #pragma once
-// The stage's one call: mesh and recipe in, checked FE model out.
+// The stage's main call: builds a checked FE model from a mesh and a recipe.
 #include <map>
 #include <string>
 
@@ -13,12 +13,13 @@ namespace clatter::assembly {
 struct BuiltModel {
   fe::FeModel model;
   /// dofs, pivots, fixed displacements; errors of mass, centre, inertia against the sum over the
-  /// elements; residue of K on rigid motions; error of T on rigid motions; largest entry of T.
+  /// elements; residual of K on rigid motions; error of T on rigid motions; largest entry of T.
   std::map<std::string, double> certificate;
 };
 
-/// Assembles, couples, loads and proves a model; `clock` gets a lap a step. InputError for what
-/// does not fit the mesh; NumericsError when mass properties or rigid motions are off.
+/// Assembles, constrains, loads and verifies a model; `clock` records one lap per step. InputError
+/// for a recipe that does not fit the mesh; NumericsError when mass properties or rigid motions are
+/// wrong.
 BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepClock& clock);
 
 }  // namespace clatter::assembly

@@ -27,11 +27,11 @@ Eigen::VectorXd centrifugal_load(const mesh::Mesh& mesh, const std::vector<fe::M
 }
 
 Eigen::Matrix<double, 6, 1> centrifugal_force(const PointMassSpec& mass,
-                                              const Eigen::Vector3d& place,
+                                              const Eigen::Vector3d& position,
                                               const fe::RotationAxis& axis) {
   Eigen::Matrix<double, 6, 1> out;
   const Eigen::Vector3d& n = axis.direction;
-  const Eigen::Vector3d force = mass.mass * axis.arm(place + mass.offset);
+  const Eigen::Vector3d force = mass.mass * axis.arm(position + mass.offset);
   out.head<3>() = force;
   out.tail<3>() = mass.offset.cross(force) - n.cross(Eigen::Vector3d(mass.inertia * n));
   return out;

@@ -20,8 +20,8 @@ double largest(const Eigen::MatrixXd& values) {
   return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
 }
 
-/// |K R| over |K| |R|, column by column: the force that a rigid motion should not need, on the
-/// coordinates or, where supports hold every one of them, on the supports.
+/// |K R| over |K| |R|, column by column: the spurious force of a rigid motion, on the coordinates
+/// or, when supports hold all of them, on the supports.
 double rigid_force(const fe::FeModel& model, const Eigen::MatrixXd& motions) {
   const fe::FeSupports& supports = model.supports;
   const Eigen::MatrixXd rigid = model.rigid * motions;
@@ -40,7 +40,7 @@ double rigid_force(const fe::FeModel& model, const Eigen::MatrixXd& motions) {
   return worst;
 }
 
-/// Rigid motions (columns) that no equation holds.
+/// Rigid motions (columns) that no equation constrains.
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& grounded) {
   if (grounded.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(grounded);
@@ -49,7 +49,7 @@ Eigen::MatrixXd free_motions(const Eigen::MatrixXd& grounded) {
 }
 
 void require_below(const std::string& name, const char* what, double found, double limit) {
-  // Written so that NaN is refused too.
+  // Written so that NaN fails too.
   if (found <= limit) return;
   throw NumericsError(
       fmt::format("{}: {}: found {:.3g}, expected at most {:.1g}", name, what, found, limit));
@@ -87,7 +87,7 @@ std::map<std::string, double> certify(const fe::FeModel& model, const Constraine
   numbers["rigid_force_residue"] = rigid_force(model, motions);
   require_below(model.name, "force of rigid motions, |K R| / |K| |R|",
                 numbers["rigid_force_residue"], kRigidTolerance);
-  // A supported model's M lacks what the supports hold.
+  // A supported model's M lacks the mass of the held DoFs.
   if (elimination.supports() > 0 || motions.cols() < 6) return numbers;
   const MassDifference error = compare(properties_of(model.M, model.rigid), model.mass);
   numbers["mass_error"] = error.mass;

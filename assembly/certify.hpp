@@ -1,5 +1,5 @@
 #pragma once
-// Proves an assembled model before it is written.
+// Verifies an assembled model before it is written.
 #include <Eigen/Core>
 #include <map>
 #include <string>
@@ -11,11 +11,12 @@
 namespace clatter::assembly {
 
 /// Checks M, K, T and `rigid` of `model` against each other and against the integrals over the
-/// elements (model.mass); returns the numbers. Supported coordinates count with their own blocks,
-/// so that a supported model is checked too; rigid motions that an equation holds are left out.
-/// NumericsError when mass, centre or inertia are off by more than 1e-9 (hard case B5), or when
-/// rigid motions are not free of force or not recovered to 1e-9.
-/// A lumped mass keeps the total only: centre and inertia are measured, not required.
+/// elements (model.mass); returns the certificate. Supported coordinates enter with their own
+/// blocks, so that a supported model is checked too; rigid motions that an equation constrains are
+/// excluded.
+/// NumericsError when mass, centre or inertia differ by more than 1e-9 (hard case B5), or when
+/// rigid motions cause forces or are not recovered to 1e-9.
+/// A lumped mass preserves only the total: centre and inertia are measured, not required.
 std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
                                       fe::MassForm mass);
 

@@ -23,7 +23,7 @@ void bisect(const RowMatrix& coordinates, Iterator first, Iterator last, size_t 
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const Iterator middle = first + static_cast<std::ptrdiff_t>(count / 2);
-  // Ties go by node number, so that equal coordinates give the same groups everywhere.
+  // Equal coordinates are ordered by node number, so that groups do not depend on the platform.
   std::sort(first, last, [&](int32_t a, int32_t b) {
     return std::tuple(coordinates(a, axis), a) < std::tuple(coordinates(b, axis), b);
   });

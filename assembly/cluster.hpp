@@ -1,5 +1,5 @@
 #pragma once
-// Cuts the nodes of a surface into compact groups.
+// Divides the nodes of a surface into compact groups.
 #include <cstdint>
 #include <vector>
 
@@ -7,9 +7,9 @@
 
 namespace clatter::assembly {
 
-/// Groups of at most `limit` nodes each: halved at the median of the longest extent until small
-/// enough (recursive coordinate bisection). `coordinates` n x 3; each node is in one group. The
-/// result depends on the coordinates and node numbers only.
+/// Groups of at most `limit` nodes each, by recursive bisection at the median of the longest
+/// extent. `coordinates` n x 3; each node is in one group. The result depends on the coordinates
+/// and node numbers only.
 std::vector<std::vector<int32_t>> cluster_nodes(const RowMatrix& coordinates,
                                                 const std::vector<int32_t>& nodes, size_t limit);
 

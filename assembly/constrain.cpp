@@ -21,7 +21,7 @@ Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
   for (size_t p = 0; p < numbers.points().size(); ++p) {
     if (numbers.points()[p].node >= 0) continue;
     const Eigen::Index row = numbers.nodal() + 6 * static_cast<Eigen::Index>(p);
-    rigid.middleRows<3>(row) = rigid_motion(numbers.points()[p].place);
+    rigid.middleRows<3>(row) = rigid_motion(numbers.points()[p].position);
   }
   for (size_t p = 0; p < numbers.points().size(); ++p) {
     const Eigen::Index row = numbers.nodal() + 6 * static_cast<Eigen::Index>(p);
@@ -32,7 +32,7 @@ Eigen::MatrixXd rigid_of(const RowMatrix& nodes, const DofNumbers& numbers) {
 
 }  // namespace
 
-/// Aligned supports first, then dependences, each after those that it rests on.
+/// Aligned supports first, then dependences, each after those that it depends on.
 void Constrainer::start_elimination() {
   const std::vector<int32_t> order = graph_.order();
   std::vector<int32_t> fixed;
@@ -51,9 +51,9 @@ void Constrainer::start_elimination() {
   for (const CouplingSpec& spec : recipe_.couplings) {  // in the order of their ids
     if (!spec.rigid || !spec.on_point.empty()) continue;
     eliminator_->add_coordinates(6);
-    const Eigen::Vector3d& place = own_references_.at(spec.name).place;
+    const Eigen::Vector3d& position = own_references_.at(spec.name).position;
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
-    motion.topRows<3>() = rigid_motion(place);
+    motion.topRows<3>() = rigid_motion(position);
     for (int d = 0; d < 6; ++d) motion_.emplace_back(motion.row(d));
   }
   for (const TieSpec& spec : recipe_.ties) {
@@ -76,23 +76,24 @@ void Constrainer::append_motion(const std::vector<Functional>& functionals) {
   }
 }
 
-/// Supports in directions of their own: at nodes before faces are coupled, at points after.
+/// Supports in oblique directions: at nodes before faces are coupled, at points after.
 void Constrainer::hold_oblique(bool points) {
   for (const HeldGroup& group : supports_) {
-    if (group.along_axes || group.held[0].place.is_point() != points) continue;
+    if (group.along_axes || group.held[0].owner.is_point() != points) continue;
     std::vector<Functional> rows;
     for (const HeldDof& held : group.held) rows.push_back(held_functional(held, numbers_));
     const SupportSpec& spec = recipe_.supports[static_cast<size_t>(group.held[0].support)];
-    const int32_t first = eliminator_->hold(rows, spec.place.where + ": " + group.held[0].label);
+    const int32_t first =
+        eliminator_->hold(rows, spec.selection.where + ": " + group.held[0].label);
     for (size_t k = 0; k < group.held.size(); ++k)
       held_of_[first + static_cast<int32_t>(k)] = group.held[k];
     append_motion(rows);
   }
 }
 
-/// The point's DoFs stay coordinates and displacements of the face give way; where the face is
-/// bound altogether, the point depends on what binds it.
-void Constrainer::ride_onto_points() {
+/// The point's DoFs stay coordinates and displacements of the face are eliminated; where all DoFs
+/// of the face are constrained, the point depends on those constraints.
+void Constrainer::couple_onto_points() {
   for (const Onto& onto : onto_) {
     append_motion(onto.coupling.means);
     if (eliminator_->add_onto(onto.coupling, onto.ids, onto.where)) continue;
@@ -100,8 +101,8 @@ void Constrainer::ride_onto_points() {
     for (size_t k = 0; k < rows.size(); ++k) {
       if (eliminator_->is_held(onto.ids[k]))
         throw InputError(
-            fmt::format("{}: found {} held by a support although other couplings determine it "
-                        "already, expected one of them",
+            fmt::format("{}: found {} held by a support although other couplings already determine "
+                        "it, expected one of them",
                         onto.where, numbers_.name(onto.ids[k], mesh_.node_ids)));
       eliminator_->depend(onto.ids[k], rows[k]);
     }
@@ -122,9 +123,9 @@ void Constrainer::add_generalised(const std::string& name, const Coupling& coupl
 void Constrainer::add_generalised_sets() {
   for (const CouplingSpec& spec : recipe_.couplings) {
     if (spec.rigid || !spec.on_point.empty()) continue;
-    const std::vector<Member> places = members(spec);
-    const Eigen::Vector3d at = own_place(spec, places);
-    Coupling coupling = distribute(places, at, spec.directions, spec.where);
+    const std::vector<Member> coupled = members(spec);
+    const Eigen::Vector3d at = own_position(spec, coupled);
+    Coupling coupling = distribute(coupled, at, spec.directions, spec.where);
     coupling.set = reference_set(spec.name, spec.kind, at, spec.directions);
     add_generalised(spec.name, coupling, spec.where);
   }
@@ -133,9 +134,10 @@ void Constrainer::add_generalised_sets() {
         contact_patches(spec.name, mesh_.nodes, surfaces_.at(spec.surface), spec.grid, spec.where);
     add_generalised(spec.name, patches.coupling, spec.where);
     out_.grids[spec.name] = patches.grid;
-    say(fmt::format("{}: {} strips x {} rows on radius {:.5f} m, {} to {} nodes a patch", spec.name,
-                    patches.grid.angle.size(), patches.grid.axial.size(), patches.grid.radius,
-                    patches.nodes_per_patch.minCoeff(), patches.nodes_per_patch.maxCoeff()));
+    say(fmt::format("{}: {} strips x {} rows on radius {:.5f} m, {} to {} nodes per patch",
+                    spec.name, patches.grid.angle.size(), patches.grid.axial.size(),
+                    patches.grid.radius, patches.nodes_per_patch.minCoeff(),
+                    patches.nodes_per_patch.maxCoeff()));
   }
   for (const MeanSpec& spec : recipe_.means)
     add_generalised(spec.name,
@@ -144,7 +146,7 @@ void Constrainer::add_generalised_sets() {
                     spec.where);
 }
 
-/// Ids that carry mass of a [[point_mass]] on a point or a rigid coupling's reference.
+/// Ids with mass of a [[point_mass]] on a point or on the reference of a rigid coupling.
 std::vector<bool> Constrainer::massive_ids() {
   std::vector<bool> massive(static_cast<size_t>(numbers_.count()) + 6 * own_references_.size());
   for (const PointMassSpec& spec : recipe_.point_masses) {
@@ -161,19 +163,19 @@ std::vector<bool> Constrainer::massive_ids() {
   return massive;
 }
 
-void Constrainer::drop_loose(const std::string& name, const std::string& where,
-                             const ReferenceDofs& reference, const std::vector<bool>& moves,
-                             const std::vector<bool>& massive) {
+void Constrainer::drop_unattached(const std::string& name, const std::string& where,
+                                  const ReferenceDofs& reference, const std::vector<bool>& moves,
+                                  const std::vector<bool>& massive) {
   std::vector<const char*> loose;
   bool attached = false;
   for (size_t d = 0; d < 6; ++d) {
     const int32_t id = reference.ids[d];
-    attached = attached || moves[static_cast<size_t>(id)] || eliminator_->gave_way(id);
+    attached = attached || moves[static_cast<size_t>(id)] || eliminator_->is_eliminated(id);
     if (!eliminator_->is_coordinate(id) || moves[static_cast<size_t>(id)]) continue;
     loose.push_back(kDofNames[d]);
     if (massive[static_cast<size_t>(id)])
       throw InputError(
-          fmt::format("{}: found a mass on {} that nothing holds, expected a "
+          fmt::format("{}: found a mass on {} with nothing attached, expected a "
                       "coupling, an equation or a support",
                       where, kDofNames[d]));
     eliminator_->drop(id);
@@ -182,10 +184,10 @@ void Constrainer::drop_loose(const std::string& name, const std::string& where,
     throw InputError(
         fmt::format("{}: found nothing attached to it, expected a coupling or an equation", where));
   if (!loose.empty())
-    say(fmt::format("{}: {} left out: nothing is attached", name, fmt::join(loose, " ")));
+    say(fmt::format("{}: {} omitted: nothing is attached", name, fmt::join(loose, " ")));
 }
 
-void Constrainer::drop_loose() {
+void Constrainer::drop_unattached() {
   std::vector<bool> moves = eliminator_->moves_nodes(numbers_.nodal());
   for (const Functional& spring : out_.springs) {
     for (const int32_t id : spring.dofs) moves[static_cast<size_t>(id)] = true;
@@ -194,11 +196,11 @@ void Constrainer::drop_loose() {
   }
   const std::vector<bool> massive = massive_ids();
   for (size_t p = 0; p < recipe_.points.size(); ++p)
-    drop_loose(recipe_.points[p].point.name, recipe_.points[p].where,
-               point_dofs(static_cast<int32_t>(p)), moves, massive);
+    drop_unattached(recipe_.points[p].point.name, recipe_.points[p].where,
+                    point_dofs(static_cast<int32_t>(p)), moves, massive);
   for (const CouplingSpec& spec : recipe_.couplings)
     if (own_references_.contains(spec.name))
-      drop_loose(spec.name, spec.where, own_references_.at(spec.name), moves, massive);
+      drop_unattached(spec.name, spec.where, own_references_.at(spec.name), moves, massive);
 }
 
 void Constrainer::number_node_sets() {
@@ -224,12 +226,12 @@ void Constrainer::number_node_sets() {
   }
 }
 
-/// Sets hold ids so far; what is no coordinate of the model leaves them.
+/// Replaces the ids in sets by coordinates; ids that are no coordinates are removed.
 void Constrainer::number_sets() {
   number_node_sets();
   for (size_t p = 0; p < recipe_.points.size(); ++p) {
     const ReferencePoint& point = recipe_.points[p].point;
-    rom::DofSet set = reference_set(point.name, "node", point.place, {0, 1, 2, 3, 4, 5});
+    rom::DofSet set = reference_set(point.name, "node", point.position, {0, 1, 2, 3, 4, 5});
     const ReferenceDofs reference = point_dofs(static_cast<int32_t>(p));
     set.dofs.assign(reference.ids.begin(), reference.ids.end());
     out_.sets[point.name] = std::move(set);
@@ -292,10 +294,10 @@ Constrained Constrainer::run() {
   gather_ties();
   start_elimination();
   hold_oblique(false);
-  ride_onto_points();
+  couple_onto_points();
   hold_oblique(true);
   add_generalised_sets();
-  drop_loose();
+  drop_unattached();
   finish();
   number_sets();
   return std::move(out_);

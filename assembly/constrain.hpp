@@ -30,8 +30,8 @@ struct Constrained {
   std::vector<HeldDof> held;  // n_s, in the order of the supported coordinates
 };
 
-/// InputError for what does not fit the mesh, for conflicts and cycles (both sides are named) and
-/// for points that nothing is attached to.
+/// InputError for what does not fit the mesh, for conflicts and cycles (naming both relations) and
+/// for points with nothing attached.
 Constrained constrain(const mesh::Mesh& mesh, const Recipe& recipe, const DofNumbers& numbers,
                       SurfaceCache& surfaces);
 

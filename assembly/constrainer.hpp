@@ -1,5 +1,5 @@
 #pragma once
-// The steps of constrain(); what they hand on. Relations are gathered and checked first
+// The steps of constrain() and their shared data. Relations are gathered and checked first
 // (constrainer_relations.cpp), then eliminated (constrain.cpp).
 #include <memory>
 #include <set>
@@ -38,25 +38,26 @@ class Constrainer {
   void gather_ties();
   void add_tie(const TieSpec& spec, int32_t jump);
   void add_rigid(const CouplingSpec& spec);
-  void note_rigid(const CouplingSpec& spec, DofPlace place, int32_t reference);
+  void note_rigid(const CouplingSpec& spec, NodeOrPoint owner, int32_t reference);
   void add_onto_point(const CouplingSpec& spec);
   void depend(int32_t dof, Functional on, int relation);
   Functional term(const EquationSpec::Term& term) const;
   std::vector<Member> members(const CouplingSpec& spec);
   ReferenceDofs point_dofs(int32_t point) const;
   int32_t point_named(const std::string& name) const;
-  Eigen::Vector3d own_place(const CouplingSpec& spec, const std::vector<Member>& members);
+  Eigen::Vector3d own_position(const CouplingSpec& spec, const std::vector<Member>& members);
 
   // Elimination.
   void start_elimination();
   void hold_oblique(bool points);
-  void ride_onto_points();
+  void couple_onto_points();
   void add_generalised_sets();
   void add_generalised(const std::string& name, const Coupling& coupling, const std::string& where);
   void append_motion(const std::vector<Functional>& functionals);
-  void drop_loose();
-  void drop_loose(const std::string& name, const std::string& where, const ReferenceDofs& reference,
-                  const std::vector<bool>& moves, const std::vector<bool>& massive);
+  void drop_unattached();
+  void drop_unattached(const std::string& name, const std::string& where,
+                       const ReferenceDofs& reference, const std::vector<bool>& moves,
+                       const std::vector<bool>& massive);
   std::vector<bool> massive_ids();
   void number_sets();
   void number_node_sets();
@@ -75,7 +76,7 @@ class Constrainer {
   std::vector<int32_t> kept_;
   std::vector<Onto> onto_;
   std::map<std::string, ReferenceDofs> own_references_;  // of rigid couplings, by set
-  int32_t next_own_ = 0;                                 // first id of the next one
+  int32_t next_own_ = 0;                                 // first id of the next rigid coupling
   std::vector<Eigen::RowVectorXd> motion_;               // of generalised ids
   std::vector<Eigen::RowVectorXd> grounded_;             // rows of Constrained::grounded
   std::unique_ptr<Eliminator> eliminator_;

@@ -1,4 +1,4 @@
-// What depends on what: supports, sensors, rigid couplings, equations and couplings onto points.
+// Gathers relations: supports, sensors, rigid couplings, equations and couplings onto points.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace clatter::assembly {
 namespace {
 
-constexpr double kGrounded = 1e-9;  // of the motion that an equation's terms make by themselves
+constexpr double kGrounded = 1e-9;  // of the motion of an equation's terms taken one by one
 
 }  // namespace
 
@@ -25,13 +25,13 @@ Constrainer::Constrainer(const mesh::Mesh& mesh, const Recipe& recipe, const Dof
       next_own_(static_cast<int32_t>(numbers.count())) {}
 
 int32_t Constrainer::point_named(const std::string& name) const {
-  return places_of({"", "", name, ""}, mesh_, numbers_)[0].point();
+  return selected({"", "", name, ""}, mesh_, numbers_)[0].point();
 }
 
 ReferenceDofs Constrainer::point_dofs(int32_t point) const {
   ReferenceDofs dofs;
   for (int d = 0; d < 6; ++d) dofs.ids[static_cast<size_t>(d)] = numbers_.of_point(point, d);
-  dofs.place = numbers_.position(DofPlace::of_point(point));
+  dofs.position = numbers_.position(NodeOrPoint::of_point(point));
   return dofs;
 }
 
@@ -43,7 +43,7 @@ void Constrainer::depend(int32_t dof, Functional on, int relation) {
 void Constrainer::gather_supports() {
   std::vector<int> relations;
   for (const SupportSpec& spec : recipe_.supports)
-    relations.push_back(graph_.add_relation(spec.place.where));
+    relations.push_back(graph_.add_relation(spec.selection.where));
   supports_ = plan_supports(recipe_, mesh_, numbers_);
   for (const HeldGroup& group : supports_)
     for (const HeldDof& held : group.held)
@@ -51,13 +51,13 @@ void Constrainer::gather_supports() {
         graph_.hold(dof, relations[static_cast<size_t>(held.support)]);
 }
 
-/// Sensors take the nearest node of their surface. All these displacements stay coordinates.
+/// Sensors use the nearest node of their surface. All these displacements stay coordinates.
 void Constrainer::gather_node_sets() {
   for (const NodeSpec& spec : recipe_.nodes) {
-    const int relation = graph_.add_relation(spec.place.where);
+    const int relation = graph_.add_relation(spec.selection.where);
     std::vector<int32_t> nodes;
-    for (const DofPlace place : places_of(spec.place, mesh_, numbers_))
-      nodes.push_back(place.index);
+    for (const NodeOrPoint owner : selected(spec.selection, mesh_, numbers_))
+      nodes.push_back(owner.index);
     if (spec.near) {
       const auto distance = [&](int32_t node) {
         return (mesh_.nodes.row(node).transpose() - *spec.near).norm();
@@ -66,9 +66,10 @@ void Constrainer::gather_node_sets() {
           *std::min_element(nodes.begin(), nodes.end(),
                             [&](int32_t a, int32_t b) { return distance(a) < distance(b); });
       nodes = {nearest};
-      say(fmt::format("{}: node {} at ({:.4f}, {:.4f}, {:.4f}) m, {:.4f} m from the wanted place",
-                      spec.name, nearest, mesh_.nodes(nearest, 0), mesh_.nodes(nearest, 1),
-                      mesh_.nodes(nearest, 2), distance(nearest)));
+      say(fmt::format(
+          "{}: node {} at ({:.4f}, {:.4f}, {:.4f}) m, {:.4f} m from the requested position",
+          spec.name, nearest, mesh_.nodes(nearest, 0), mesh_.nodes(nearest, 1),
+          mesh_.nodes(nearest, 2), distance(nearest)));
     }
     for (const int32_t node : nodes)
       for (int d = 0; d < 3; ++d) {
@@ -79,18 +80,18 @@ void Constrainer::gather_node_sets() {
   }
 }
 
-/// What a distributing coupling rides on.
+/// The members of a distributing coupling.
 std::vector<Member> Constrainer::members(const CouplingSpec& spec) {
   std::vector<Member> all;
   for (const TermSpec& term : spec.terms) {
     std::vector<Member> found;
-    if (!term.place.surface.empty()) {
-      found = members_of(mesh_.nodes, surfaces_.at(term.place.surface));
+    if (!term.selection.surface.empty()) {
+      found = members_of(mesh_.nodes, surfaces_.at(term.selection.surface));
     } else {
-      for (const DofPlace place : places_of(term.place, mesh_, numbers_)) {
+      for (const NodeOrPoint owner : selected(term.selection, mesh_, numbers_)) {
         Member member;
-        for (int d = 0; d < 6; ++d) member.dofs[static_cast<size_t>(d)] = numbers_.of(place, d);
-        member.place = numbers_.position(place);
+        for (int d = 0; d < 6; ++d) member.dofs[static_cast<size_t>(d)] = numbers_.of(owner, d);
+        member.position = numbers_.position(owner);
         member.weight = 1.0;
         found.push_back(member);
       }
@@ -98,13 +99,13 @@ std::vector<Member> Constrainer::members(const CouplingSpec& spec) {
     for (Member& member : found) {
       member.weight *= term.weight;
       for (int d = 0; d < 6; ++d) {
-        const bool wanted = std::count(term.directions.begin(), term.directions.end(), d) > 0;
-        if (wanted && !member.has(d))
+        const bool requested = std::count(term.directions.begin(), term.directions.end(), d) > 0;
+        if (requested && !member.has(d))
           throw InputError(
               fmt::format("{}: found {} of a node, expected displacements (nodes have "
                           "no rotations)",
-                          term.place.where, kDofNames[static_cast<size_t>(d)]));
-        if (!wanted) member.dofs[static_cast<size_t>(d)] = -1;
+                          term.selection.where, kDofNames[static_cast<size_t>(d)]));
+        if (!requested) member.dofs[static_cast<size_t>(d)] = -1;
       }
     }
     all.insert(all.end(), found.begin(), found.end());
@@ -112,14 +113,14 @@ std::vector<Member> Constrainer::members(const CouplingSpec& spec) {
   return all;
 }
 
-/// The given place of a coupling's own reference node, or the centre of what it couples.
-Eigen::Vector3d Constrainer::own_place(const CouplingSpec& spec,
-                                       const std::vector<Member>& members) {
+/// The given position of a coupling's own reference node, or the centre of its members.
+Eigen::Vector3d Constrainer::own_position(const CouplingSpec& spec,
+                                          const std::vector<Member>& members) {
   if (spec.at) return *spec.at;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double weight = 0.0;
   for (const Member& member : members) {
-    centre += member.weight * member.place;
+    centre += member.weight * member.position;
     weight += member.weight;
   }
   return centre / weight;
@@ -130,17 +131,18 @@ void Constrainer::add_rigid(const CouplingSpec& spec) {
   ReferenceDofs reference;
   if (spec.on_point.empty()) {
     for (int32_t& id : reference.ids) id = next_own_++;
-    reference.place = own_place(spec, members(spec));
+    reference.position = own_position(spec, members(spec));
     own_references_[spec.name] = reference;
-    out_.sets[spec.name] = reference_set(spec.name, spec.kind, reference.place, {0, 1, 2, 3, 4, 5});
+    out_.sets[spec.name] =
+        reference_set(spec.name, spec.kind, reference.position, {0, 1, 2, 3, 4, 5});
   } else {
     reference = point_dofs(point_named(spec.on_point));
   }
-  std::set<int32_t> done;  // a node of two places follows once
+  std::set<int32_t> done;  // a node in two selections follows once
   for (const TermSpec& followers : spec.terms)
-    for (const DofPlace place : places_of(followers.place, mesh_, numbers_)) {
-      note_rigid(spec, place, reference.ids[3]);
-      for (Dependence& one : rigid_dependences(numbers_, place, spec.directions, reference))
+    for (const NodeOrPoint owner : selected(followers.selection, mesh_, numbers_)) {
+      note_rigid(spec, owner, reference.ids[3]);
+      for (Dependence& one : rigid_dependences(numbers_, owner, spec.directions, reference))
         if (done.insert(one.dof).second) depend(one.dof, std::move(one.on), relation);
     }
   if (spec.on_point.empty()) return;
@@ -149,10 +151,10 @@ void Constrainer::add_rigid(const CouplingSpec& spec) {
 }
 
 /// Cells between nodes of one rigid body do not deform.
-void Constrainer::note_rigid(const CouplingSpec& spec, DofPlace place, int32_t reference) {
+void Constrainer::note_rigid(const CouplingSpec& spec, NodeOrPoint owner, int32_t reference) {
   const bool wholly = std::count_if(spec.directions.begin(), spec.directions.end(),
                                     [](int d) { return d < 3; }) == 3;
-  if (wholly && !place.is_point()) out_.rigid_of_node[static_cast<size_t>(place.index)] = reference;
+  if (wholly && !owner.is_point()) out_.rigid_of_node[static_cast<size_t>(owner.index)] = reference;
 }
 
 void Constrainer::add_onto_point(const CouplingSpec& spec) {
@@ -160,7 +162,7 @@ void Constrainer::add_onto_point(const CouplingSpec& spec) {
   const ReferenceDofs reference = point_dofs(point_named(spec.on_point));
   Onto onto;
   onto.where = spec.where;
-  onto.coupling = distribute(members(spec), reference.place, spec.directions, spec.where);
+  onto.coupling = distribute(members(spec), reference.position, spec.directions, spec.where);
   std::set<int32_t> on;
   for (const Functional& row : onto.coupling.nodal_rows())
     on.insert(row.dofs.begin(), row.dofs.end());
@@ -181,11 +183,11 @@ void Constrainer::gather_couplings() {
 }
 
 Functional Constrainer::term(const EquationSpec::Term& term) const {
-  const DofPlace place = places_of(term.place, mesh_, numbers_)[0];
-  return {{numbers_.of(place, term.direction)}, {term.coefficient}};
+  const NodeOrPoint owner = selected(term.selection, mesh_, numbers_)[0];
+  return {{numbers_.of(owner, term.direction)}, {term.coefficient}};
 }
 
-/// Keeps what a sum of terms makes of the unit rigid motions, when it is anything.
+/// Stores the value of a sum of terms for the unit rigid motions, unless it is zero.
 void Constrainer::note_grounded(const std::vector<EquationSpec::Term>& terms) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6), alone = sum;
   for (const EquationSpec::Term& part : terms) {
@@ -214,7 +216,7 @@ void Constrainer::gather_equations() {
   }
 }
 
-/// Springs relate nothing: their ends depend on what they depend on.
+/// Springs are no relations: dependences of their ends are unchanged.
 void Constrainer::gather_springs() {
   for (const SpringSpec& spec : recipe_.springs) {
     Functional elongation;

@@ -71,8 +71,8 @@ std::vector<int32_t> ConstraintGraph::order() const {
   std::vector<int32_t> ordered;
   for (const int32_t root : dependents_) {
     if (marks.contains(root)) continue;
-    std::vector<int32_t> path = {root};  // the chain of open DoFs
-    std::vector<size_t> next = {0};      // how far each one's list is read
+    std::vector<int32_t> path = {root};  // the chain of unfinished DoFs
+    std::vector<size_t> next = {0};      // next entry of each one's list
     marks[root] = Mark::kOpen;
     while (!path.empty()) {
       const std::vector<int32_t>& on = links_.at(path.back()).on;

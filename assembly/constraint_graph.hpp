@@ -1,5 +1,5 @@
 #pragma once
-// Which DoF depends on which, by whose word. Conflicts are named here, never solved away.
+// Which DoF depends on which others, and by which relation. Conflicts are reported, not resolved.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -8,21 +8,22 @@
 
 namespace clatter::assembly {
 
-/// Gathers all dependences before anything is eliminated.
+/// Collects all dependences before anything is eliminated.
 class ConstraintGraph {
  public:
-  /// `name` says what a DoF is called in messages.
+  /// `name` returns the name of a DoF for messages.
   explicit ConstraintGraph(std::function<std::string(int32_t)> name) : name_(std::move(name)) {}
 
   /// A relation "file:line: coupling foot"; returns its number.
   int add_relation(const std::string& where);
 
   /// DoF `dof` depends on the DoFs `on` by `relation`. `may_be_held`: the dof is the reference of a
-  /// distributing coupling, where displacements of the face give way and a support is no conflict.
-  /// InputError naming both sides when it depends already, is held, or must stay a coordinate.
+  /// distributing coupling, where displacements of the face are eliminated and a support is no
+  /// conflict.
+  /// InputError naming both relations when it already depends, is held, or must stay a coordinate.
   void depend(int32_t dof, const std::vector<int32_t>& on, int relation, bool may_be_held = false);
 
-  /// `dof` is held by a support, or has to remain a coordinate (a sensor): `relation` says which.
+  /// `dof` is held by a support, or must remain a coordinate (a sensor), because of `relation`.
   void hold(int32_t dof, int relation);
   void keep(int32_t dof, int relation);
 
@@ -30,11 +31,11 @@ class ConstraintGraph {
   bool is_held(int32_t dof) const { return held_.contains(dof); }
   /// True when the DoF depends on others.
   bool depends(int32_t dof) const { return links_.contains(dof); }
-  /// The relation by which it does.
+  /// The relation by which the DoF depends on others.
   const std::string& relation_of(int32_t dof) const;
 
-  /// Dependent DoFs, each after those that it depends on. InputError that goes round a cycle and
-  /// names its relations.
+  /// Dependent DoFs, each after those that it depends on. InputError listing the relations of a
+  /// cycle.
   std::vector<int32_t> order() const;
 
  private:

@@ -17,7 +17,7 @@ constexpr double kRoundness = 0.1;   // largest deviation from the mean radius, 
 constexpr double kOnEdge = 1e-9;     // a node on the edge between two strips belongs to the first
 constexpr double kLeastArea = 1e-6;  // of the mean patch area: less is rounding
 
-/// A place in the cylinder's own coordinates.
+/// A position in cylindrical coordinates.
 struct Cylindrical {
   double radius, angle, axial;
   Eigen::Vector3d radial;  // unit vector away from the axis
@@ -69,7 +69,7 @@ rom::ContactGrid make_grid(const PatchGridSpec& spec, double radius) {
   return grid;
 }
 
-/// The patch that holds a place, or -1.
+/// The patch that contains a position, or -1.
 Eigen::Index patch_at(const rom::ContactGrid& grid, const Cylindrical& at) {
   const Eigen::VectorXd& edges = grid.axial_edges;
   if (at.axial < edges(0) || at.axial > edges(edges.size() - 1)) return -1;
@@ -84,13 +84,13 @@ Eigen::Index patch_at(const rom::ContactGrid& grid, const Cylindrical& at) {
   return -1;
 }
 
-double mean_radius(const SurfaceIntegrals& surface, const std::vector<Cylindrical>& places,
+double mean_radius(const SurfaceIntegrals& surface, const std::vector<Cylindrical>& positions,
                    const std::string& where) {
   double radius = 0.0;
-  for (size_t k = 0; k < places.size(); ++k)
-    radius += surface.weight(static_cast<Eigen::Index>(k)) * places[k].radius;
+  for (size_t k = 0; k < positions.size(); ++k)
+    radius += surface.weight(static_cast<Eigen::Index>(k)) * positions[k].radius;
   radius /= surface.area;
-  for (const Cylindrical& at : places) {
+  for (const Cylindrical& at : positions) {
     if (std::abs(at.radius - radius) <= kRoundness * radius) continue;
     throw InputError(fmt::format(
         "{}: found a node {:.6g} m from the axis, expected a cylinder about it (mean radius "
@@ -100,7 +100,7 @@ double mean_radius(const SurfaceIntegrals& surface, const std::vector<Cylindrica
   return radius;
 }
 
-/// Names the first patch that caught too little area and what it covers.
+/// Reports the first patch with too little area, and its range.
 void require_area(const rom::ContactGrid& grid, const Eigen::VectorXd& area,
                   const std::string& where) {
   const double least = kLeastArea * area.cwiseAbs().mean();
@@ -140,11 +140,11 @@ void describe_set(const std::string& name, const PatchGridSpec& spec, const rom:
 PatchCoupling contact_patches(const std::string& name, const RowMatrix& coordinates,
                               const SurfaceIntegrals& surface, const PatchGridSpec& spec,
                               const std::string& where) {
-  std::vector<Cylindrical> places;
+  std::vector<Cylindrical> positions;
   for (const int32_t node : surface.nodes)
-    places.push_back(to_cylindrical(spec, coordinates.row(node).transpose()));
+    positions.push_back(to_cylindrical(spec, coordinates.row(node).transpose()));
   PatchCoupling out;
-  out.grid = make_grid(spec, mean_radius(surface, places, where));
+  out.grid = make_grid(spec, mean_radius(surface, positions, where));
   describe_set(name, spec, out.grid, out.coupling.set);
 
   const auto patches = static_cast<Eigen::Index>(out.coupling.set.labels.size());
@@ -153,14 +153,14 @@ PatchCoupling contact_patches(const std::string& name, const RowMatrix& coordina
   out.coupling.disjoint = true;
   out.coupling.rows.resize(static_cast<size_t>(patches));
   const double dust = 1e-12 * surface.weight.cwiseAbs().maxCoeff();
-  for (size_t k = 0; k < places.size(); ++k) {
+  for (size_t k = 0; k < positions.size(); ++k) {
     const double weight = surface.weight(static_cast<Eigen::Index>(k));
-    const Eigen::Index patch = patch_at(out.grid, places[k]);
-    // Corner nodes of flat quadratic faces carry no weight, so they need not enter.
+    const Eigen::Index patch = patch_at(out.grid, positions[k]);
+    // Corner nodes of flat quadratic faces have no weight and are skipped.
     if (patch < 0 || std::abs(weight) <= dust) continue;
     Functional& row = out.coupling.rows[static_cast<size_t>(patch)];
     for (int d = 0; d < 3; ++d) {
-      const double value = weight * places[k].radial(d);
+      const double value = weight * positions[k].radial(d);
       if (value == 0.0) continue;
       row.dofs.push_back(3 * surface.nodes[k] + d);
       row.values.push_back(value);

@@ -9,7 +9,7 @@
 
 namespace clatter::assembly {
 
-/// A part of the circle cut into equal strips.
+/// A part of the circle divided into equal strips.
 struct Sector {
   double begin = 0.0;  // [rad] from zero_angle, right-handed about the axis
   double end = 0.0;    // [rad], begin < end <= begin + 2 pi
@@ -34,12 +34,12 @@ struct PatchCoupling {
 
 /// Mean radial displacement of each patch, positive away from the axis:
 ///   q_p = sum_{a in p} w_a e_r(x_a) . u_a / sum_{a in p} w_a,   w_a = int N_a dA.
-/// A node belongs to the cell that it lies in, which on this grid is the one with the nearest
-/// centre; nodes outside all sectors or the axial range belong to none. So patches are disjoint.
-/// Motion along the axis and about it moves no patch. Patch forces p A_patch of a uniform pressure
-/// tend to its consistent nodal forces with the cell size.
-/// InputError, beginning with `where`: a patch without area (mesh too coarse for it, or a window
-/// in the surface), or a surface that is no cylinder about this axis.
+/// A node belongs to the patch in which it lies (on this grid, the one with the nearest centre);
+/// nodes outside all sectors or the axial range belong to none. So patches are disjoint.
+/// Motion along or about the axis moves no patch. Patch forces p A_patch of a uniform pressure
+/// converge to its consistent nodal forces with the cell size.
+/// InputError, beginning with `where`: a patch without area (the mesh too coarse, or an opening in
+/// the surface), or a surface that is not a cylinder about this axis.
 PatchCoupling contact_patches(const std::string& name, const RowMatrix& coordinates,
                               const SurfaceIntegrals& surface, const PatchGridSpec& spec,
                               const std::string& where);

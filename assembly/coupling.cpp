@@ -16,12 +16,12 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kUndefined = 1e-8;  // smallest over largest eigenvalue of the scaled A
-constexpr double kTakesPart = 1e-6;  // of an undefined motion in a wanted direction
+constexpr double kTakesPart = 1e-6;  // of an undefined motion in a requested direction
 
-/// Motion of a place with the reference: rows x y z rx ry rz.
-Matrix6 place_motion(const Eigen::Vector3d& place, const Eigen::Vector3d& centre) {
+/// Motion of a position with the reference: rows x y z rx ry rz.
+Matrix6 member_motion(const Eigen::Vector3d& position, const Eigen::Vector3d& centre) {
   Matrix6 motion = Matrix6::Identity();
-  motion.topRows<3>() = rigid_motion(place, centre);
+  motion.topRows<3>() = rigid_motion(position, centre);
   return motion;
 }
 
@@ -35,22 +35,22 @@ struct Extent {
 Extent extent_of(const std::vector<Member>& members) {
   Extent extent;
   for (const Member& member : members) {
-    extent.centre += member.weight * member.place;
+    extent.centre += member.weight * member.position;
     extent.weight += member.weight;
   }
   extent.centre /= extent.weight;
   for (const Member& member : members)
-    extent.radius += member.weight * (member.place - extent.centre).squaredNorm();
+    extent.radius += member.weight * (member.position - extent.centre).squaredNorm();
   extent.radius = std::sqrt(extent.radius / extent.weight);
   if (!(extent.radius > 0.0)) extent.radius = 1.0;
   return extent;
 }
 
-/// A^+ of the normal equations; motions that the members leave undefined must not take part in the
-/// wanted rows of `shift`.
+/// A^+ of the normal equations; motions that the members leave undefined must not contribute to the
+/// requested rows of `shift`.
 Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& shift,
                          const std::vector<int>& directions, const std::string& where) {
-  // Scaled by the members' own extent, so that displacements and rotations compare.
+  // Scaled by the members' extent, so that displacements and rotations are comparable.
   Eigen::Matrix<double, 6, 1> scale;
   scale << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / extent.radius);
   scale /= std::sqrt(extent.weight);
@@ -66,8 +66,8 @@ Matrix6 inverse_on_range(const Matrix6& A, const Extent& extent, const Matrix6& 
     for (const int d : directions)
       if (std::abs(loose(d)) > kTakesPart * scale(d))
         throw InputError(fmt::format(
-            "{}: found places that do not define {} of the reference (a line or a point), "
-            "expected a face with area or places that span it",
+            "{}: found nodes that do not define {} of the reference (on a line or at a point), "
+            "expected a face with area or nodes that define it",
             where, kDofNames[static_cast<size_t>(d)]));
   }
   return scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
@@ -110,7 +110,8 @@ Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& p
   for (size_t p = 0; p < groups.size(); ++p) {
     Matrix6 R = Matrix6::Zero();
     for (size_t k = 0; k < groups[p].members.size(); ++k)
-      R += groups[p].shares[k] * place_motion(members[groups[p].members[k]].place, extent.centre);
+      R += groups[p].shares[k] *
+           member_motion(members[groups[p].members[k]].position, extent.centre);
     for (int d = 0; d < 6; ++d) {
       if (!members[groups[p].members[0]].has(d)) continue;
       const double arm = d < 3 ? 1.0 : extent.radius;
@@ -118,7 +119,7 @@ Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& p
       A += groups[p].weight * arm * arm * R.row(d).transpose() * R.row(d);
     }
   }
-  const Matrix6 shift = place_motion(point, extent.centre);
+  const Matrix6 shift = member_motion(point, extent.centre);
   const Eigen::MatrixXd C =
       shift * inverse_on_range(A, extent, shift, directions, where) * weighted.transpose();
   Coupling coupling;
@@ -160,7 +161,7 @@ Coupling mean_displacement(const std::string& name, const RowMatrix& coordinates
                            const std::string& where) {
   std::vector<Member> members;
   for (const Member& member : members_of(coordinates, surface)) {
-    const double along = member.place.dot(direction);
+    const double along = member.position.dot(direction);
     if (!range || (along >= range->first && along <= range->second)) members.push_back(member);
   }
   if (members.empty())

@@ -1,5 +1,5 @@
 #pragma once
-// Generalised coordinates q = C u: the motion of a reference node that rides on a face, the mean
+// Generalised coordinates q = C u: the motion of a reference node coupled to a face, the mean
 // displacement of a face.
 #include <Eigen/Core>
 #include <cstdint>
@@ -19,12 +19,12 @@ struct Functional {
   std::vector<double> values;
 };
 
-/// Generalised coordinates that enter the model together.
+/// Generalised coordinates added to the model together.
 ///
-/// A row over a large face would couple each displacement of the face with each other in K and M.
-/// So large faces go in two steps: `means` are mean displacements of groups of nodes, which become
-/// coordinates too, and `rows` combine these few. The model then grows by entries within groups and
-/// among group means only.
+/// A row over a large face would couple all displacements of the face with one another in K and M.
+/// So large faces are coupled in two steps: `means` are mean displacements of groups of nodes,
+/// which become coordinates too, and `rows` combine these few. Entries are then added within groups
+/// and among group means only.
 struct Coupling {
   std::vector<Functional> rows;   // on nodal DoFs; on the means' numbers when there are means
   std::vector<Functional> means;  // on nodal DoFs, no DoF in two of them
@@ -35,7 +35,8 @@ struct Coupling {
   std::vector<Functional> nodal_rows() const;
 };
 
-/// Faces with more nodes than this go in two steps; groups have at most kGroupNodes nodes.
+/// Faces with more nodes than this are coupled in two steps, in groups of at most kGroupNodes
+/// nodes.
 inline constexpr size_t kLargeFace = 100;
 inline constexpr size_t kGroupNodes = 24;
 
@@ -43,15 +44,15 @@ struct Member;
 
 /// Rows q = C u for `directions` (0 ... 5: x y z rx ry rz) of a reference node at `point` that fits
 /// the motion of the members best (RBE3):
-///   minimise sum_p W_p sum_d (u_pd - (R_p q)_d)^2,  d the DoFs by which member p takes part,
+///   minimise sum_p W_p sum_d (u_pd - (R_p q)_d)^2,  d the DoFs of member p in the coupling,
 ///   C = A^-1 [W_p R_p^T ...],  A = sum_p W_p R_p^T R_p,  R = [I, -(x - point) x].
-/// A rotation of a member counts with W_p L^2, L the members' root mean square distance from their
-/// centre. Large faces go by group means. The coupling's set is the caller's. InputError, beginning
-/// with `where`, when the members do not define one of the directions.
+/// A rotation of a member has the weight W_p L^2, L the members' root mean square distance from
+/// their centre. Large faces use group means. The caller fills the coupling's set. InputError,
+/// beginning with `where`, when the members do not define one of the directions.
 Coupling distribute(const std::vector<Member>& members, const Eigen::Vector3d& point,
                     const std::vector<int>& directions, const std::string& where);
 
-/// Labels, place and directions of a reference node's coordinates; no dofs yet.
+/// Labels, position and directions of a reference node's coordinates; no dofs yet.
 rom::DofSet reference_set(const std::string& name, const std::string& kind,
                           const Eigen::Vector3d& point, const std::vector<int>& directions);
 
@@ -59,10 +60,9 @@ rom::DofSet reference_set(const std::string& name, const std::string& kind,
 /// face best (distributing coupling, RBE3):
 /// distribute() with the nodes of the face and their consistent areas W_p = int N_p dA; on a large
 /// face groups of nodes with area-weighted means u_p, R_p. Rigid motions are reproduced exactly; a
-/// force on q_ref is spread over the face like a traction and adds nothing to its stiffness (hard
-/// case B6: an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only).
-/// InputError, beginning with `where`, when the face does not define a rotation (all nodes on a
-/// line).
+/// force on q_ref is distributed over the face as a traction and adds no stiffness (hard case B6:
+/// an RBE2 would). `n_dofs` 6 (displacement, rotation) or 3 (displacement only). InputError,
+/// beginning with `where`, when the face does not define a rotation (all nodes on a line).
 Coupling distributing_coupling(const std::string& name, const std::string& kind,
                                const RowMatrix& coordinates, const SurfaceIntegrals& surface,
                                const std::optional<Eigen::Vector3d>& point, int n_dofs,
@@ -76,7 +76,7 @@ Coupling mean_displacement(const std::string& name, const RowMatrix& coordinates
                            const std::optional<std::pair<double, double>>& range,
                            const std::string& where);
 
-/// Unit rigid motions (x, y, z, rx, ry, rz about `point`) of the place `x`: 3 x 6, [I, -(x - p) x].
+/// Unit rigid motions (x, y, z, rx, ry, rz about `point`) at position `x`: 3 x 6, [I, -(x - p) x].
 Eigen::Matrix<double, 3, 6> rigid_motion(const Eigen::Vector3d& x,
                                          const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
 

@@ -10,14 +10,14 @@ int32_t DofNumbers::of_point(int32_t point, int d) const {
   return static_cast<int32_t>(nodal()) + 6 * point + d;
 }
 
-int32_t DofNumbers::of(DofPlace place, int d) const {
-  if (place.is_point()) return of_point(place.point(), d);
-  return d < 3 ? 3 * place.index + d : -1;
+int32_t DofNumbers::of(NodeOrPoint owner, int d) const {
+  if (owner.is_point()) return of_point(owner.point(), d);
+  return d < 3 ? 3 * owner.index + d : -1;
 }
 
-Eigen::Vector3d DofNumbers::position(DofPlace place) const {
-  if (place.is_point()) return points_[static_cast<size_t>(place.point())].place;
-  return nodes_.row(place.index).transpose();
+Eigen::Vector3d DofNumbers::position(NodeOrPoint owner) const {
+  if (owner.is_point()) return points_[static_cast<size_t>(owner.point())].position;
+  return nodes_.row(owner.index).transpose();
 }
 
 std::string DofNumbers::name(int32_t id, const std::vector<int32_t>& node_ids) const {

@@ -10,27 +10,27 @@
 
 namespace clatter::assembly {
 
-/// What a DoF is called: displacements along x, y, z and rotations about them.
+/// Names of DoFs: displacements along x, y, z and rotations about them.
 inline constexpr std::array<const char*, 6> kDofNames = {"x", "y", "z", "rx", "ry", "rz"};
 
-/// A reference point with six DoFs. One that sits on a mesh node shares the node's displacements.
+/// A reference point with six DoFs. One on a mesh node shares the node's displacements.
 struct ReferencePoint {
   std::string name;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
-  int32_t node = -1;                                // mesh node, or -1
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // [m]
+  int32_t node = -1;                                   // mesh node, or -1
 };
 
-/// A node or a point as the place of DoFs: index >= 0 is a node, else point -1 - index.
-struct DofPlace {
+/// A node or a point that has DoFs: index >= 0 is a node, else point -1 - index.
+struct NodeOrPoint {
   int32_t index = 0;
-  static DofPlace of_node(int32_t node) { return {node}; }
-  static DofPlace of_point(int32_t point) { return {-1 - point}; }
+  static NodeOrPoint of_node(int32_t node) { return {node}; }
+  static NodeOrPoint of_point(int32_t point) { return {-1 - point}; }
   bool is_point() const { return index < 0; }
   int32_t point() const { return -1 - index; }
 };
 
-/// Ids: node a has 3 a + d; point p has 3 n_nodes + 6 p + d, but for the displacements of one on a
-/// node. What comes after are generalised coordinates.
+/// Ids: node a has 3 a + d; point p has 3 n_nodes + 6 p + d, except for the displacements of a
+/// point on a node. Generalised coordinates follow.
 class DofNumbers {
  public:
   DofNumbers(const RowMatrix& nodes, const std::vector<ReferencePoint>& points)
@@ -40,11 +40,11 @@ class DofNumbers {
   int64_t count() const { return nodal() + 6 * static_cast<int64_t>(points_.size()); }
   /// DoF d (0 ... 5) of a point.
   int32_t of_point(int32_t point, int d) const;
-  /// DoF d of a place, -1 for a rotation of a node.
-  int32_t of(DofPlace place, int d) const;
-  Eigen::Vector3d position(DofPlace place) const;
-  /// "node 17 x", "point hub rx"; `node_ids` (Mesh::node_ids) are the numbers that the user knows,
-  /// none: counted from one.
+  /// DoF d of a node or point, -1 for a rotation of a node.
+  int32_t of(NodeOrPoint owner, int d) const;
+  Eigen::Vector3d position(NodeOrPoint owner) const;
+  /// "node 17 x", "point hub rx"; `node_ids` (Mesh::node_ids) are the numbers in the user's deck;
+  /// empty: counted from one.
   std::string name(int32_t id, const std::vector<int32_t>& node_ids) const;
   const std::vector<ReferencePoint>& points() const { return points_; }
 

@@ -98,7 +98,7 @@ std::vector<bool> Eliminator::moves_nodes(int64_t nodal_dofs) const {
   return moves;
 }
 
-/// Columns of C that become pivots, one a row; none when the rows are not independent on them.
+/// Columns of C that become pivots, one per row; none when the rows are not independent.
 std::vector<int32_t> Eliminator::choose_pivots(const Eigen::MatrixXd& C,
                                                const std::vector<int32_t>& ids) const {
   std::vector<int32_t> candidates;
@@ -131,14 +131,14 @@ void Eliminator::check_fill(const std::string& where) const {
 }
 
 /// `id` becomes the next pivot.
-void Eliminator::give_way(int32_t id, SparseRow row) {
+void Eliminator::add_pivot(int32_t id, SparseRow row) {
   const auto number = static_cast<int32_t>(pivot_rows_.size());
   state_[static_cast<size_t>(id)] = number;
   for (const auto& entry : row) users_[static_cast<size_t>(entry.first)].push_back(number);
   pivot_rows_.push_back(std::move(row));
 }
 
-/// Replaces ids that have just given way in the rows of earlier pivots.
+/// Replaces newly eliminated ids in the rows of earlier pivots.
 void Eliminator::substitute(const std::vector<int32_t>& fresh) {
   std::vector<int32_t> rows;
   for (const int32_t id : fresh) {
@@ -164,11 +164,11 @@ void Eliminator::depend(int32_t dof, const Functional& on) {
   SparseRow row = expand(on);
   const auto width = static_cast<int64_t>(row.size());
   fill_ += width * (width + 1) / 2;
-  give_way(dof, std::move(row));
+  add_pivot(dof, std::move(row));
   substitute({dof});
 }
 
-/// Takes rows in: pivots give way to the ids of the coordinates. False when they are not
+/// Adds rows: pivots are replaced by the ids of the coordinates. False when the rows are not
 /// independent.
 bool Eliminator::eliminate(const std::vector<Functional>& functionals,
                            const std::vector<int32_t>& q_ids) {
@@ -181,8 +181,8 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 
-  // Rows are scaled so that displacements and rotations compare in the pivot search: by their
-  // largest entry before expansion, so that what cancels in it is seen to be rounding.
+  // Rows are scaled by their largest entry so that displacements and rotations are comparable in
+  // the pivot search; before expansion, so that cancelled entries are recognised as rounding.
   const auto m = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(ids.size()));
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m);
@@ -216,7 +216,7 @@ bool Eliminator::eliminate(const std::vector<Functional>& functionals,
     for (Eigen::Index g = 0; g < m; ++g)
       if (by_q(k, g) != 0.0) row.emplace_back(q_ids[static_cast<size_t>(g)], by_q(k, g));
     std::sort(row.begin(), row.end());
-    give_way(fresh[static_cast<size_t>(k)], std::move(row));
+    add_pivot(fresh[static_cast<size_t>(k)], std::move(row));
   }
   substitute(fresh);
   const auto width = static_cast<int64_t>(ids.size());
@@ -229,8 +229,8 @@ void Eliminator::add_mean(const Functional& mean, const std::string& where) {
   const bool moves = std::any_of(row.begin(), row.end(),
                                  [this](const auto& entry) { return is_coordinate(entry.first); });
   const int32_t id = allocate(1, kFree);
-  if (!moves) {  // a group that supports hold altogether: it depends on them
-    give_way(id, row);
+  if (!moves) {  // a group whose DoFs are all held: it depends on the supports
+    add_pivot(id, row);
     return;
   }
   if (!eliminate({mean}, {id})) refuse(where, 1);
@@ -289,7 +289,7 @@ Elimination Eliminator::finish() const {
     if (state_[id] == kFree || state_[id] == kKept) out.reduced_of[id] = next++;
     if (state_[id] == kFixed) out.support_of[id] = held++;
   }
-  // A row of T is a column of its transpose: rows are appended, nothing is sorted or searched.
+  // A row of T is a column of its transpose: rows are appended without sorting or searching.
   const auto dofs = static_cast<Eigen::Index>(n_dofs_);
   SparseMatrix t(next, dofs), t_s(held, dofs), pivots(next, dofs), pivots_s(held, dofs);
   Eigen::Index pivot = 0;

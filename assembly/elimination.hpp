@@ -1,15 +1,15 @@
 #pragma once
 // Linear constraints by elimination: expresses every displacement by the model's coordinates.
 //
-// A DoF has a number (id): nodal displacements 3 a + d first, then six a reference point, then the
-// generalised coordinates in order of addition. Three kinds of relations take DoFs out:
+// A DoF has a number (id): nodal displacements 3 a + d first, then six per reference point, then
+// the generalised coordinates in order of addition. Three kinds of relations eliminate DoFs:
 //   dependence   u_d = sum_k c_k u_k: rigid couplings, equations, ties;
 //   coupling     q = C u: as many pivot displacements as it has rows (column-pivoted QR of C; a
-//                displacement is a pivot at most once) give way to the coordinates q,
+//                displacement is a pivot at most once) are replaced by the coordinates q,
 //                  u_piv = C_piv^-1 (q - C_rest u_rest);
 //   support      s = u, or s = D u in a direction of its own: a coordinate that is held.
-// Together u = T q + T_s s; with s = 0: K' = T^T K T, M' = T^T M T, f' = T^T f. A coupling loses no
-// displacement pattern, so K' and M' describe the same body; recovery is exact in each case.
+// Together u = T q + T_s s; with s = 0: K' = T^T K T, M' = T^T M T, f' = T^T f. A coupling excludes
+// no displacement field, so K' and M' describe the same body; recovery is exact in each case.
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
@@ -22,14 +22,14 @@
 namespace clatter::assembly {
 
 /// The transformation from all displacements to the model's coordinates q: first the displacements
-/// that remain, by id, then the generalised ones in order of addition (means of groups that gave
-/// way to a coupling's rows are gone); and to the supported coordinates s, likewise.
+/// that remain, by id, then the generalised ones in order of addition (without the group means that
+/// a coupling's rows replaced); and likewise to the supported coordinates s.
 struct Elimination {
   SparseMatrix T;                   // n_dofs x n
   SparseMatrix T_s;                 // n_dofs x n_s
   std::vector<int32_t> reduced_of;  // coordinate of each id, or -1
   std::vector<int32_t> support_of;  // supported coordinate of each id, or -1
-  std::vector<int32_t> pivots;      // displacements and point DoFs that gave way, ascending
+  std::vector<int32_t> pivots;      // eliminated displacements and point DoFs, ascending
   SparseMatrix pivot_rows;          // pivots x n: their rows of T
   SparseMatrix pivot_rows_s;        // pivots x n_s: their rows of T_s
   double growth = 1.0;              // largest |entry| of T between displacements
@@ -48,8 +48,8 @@ class Eliminator {
   /// New coordinates without a relation (a reference node of its own); returns the first id.
   int32_t add_coordinates(int count);
 
-  /// u[dof] = sum values[k] u[dofs[k]]. The caller has seen to it that `dof` depends on nothing yet
-  /// and that no chain of dependences closes (ConstraintGraph).
+  /// u[dof] = sum values[k] u[dofs[k]]. The caller (ConstraintGraph) ensures that `dof` depends on
+  /// nothing yet and that dependences form no cycle.
   void depend(int32_t dof, const Functional& on);
 
   /// Adds a coupling: its means, then its rows, which get the next generalised ids in this order;
@@ -57,24 +57,24 @@ class Eliminator {
   /// supports or earlier couplings, or when it would fill the matrices beyond 32-bit indices.
   int32_t add(const Coupling& coupling, const std::string& where);
 
-  /// The same with existing DoFs `ids` in the place of new coordinates: they stay in the model and
-  /// displacements of the face give way. False when too few can: nothing has changed then but the
-  /// means.
+  /// The same with existing DoFs `ids` instead of new coordinates: they stay in the model and
+  /// displacements of the face are eliminated. False when too few can be: then only the means have
+  /// been added.
   bool add_onto(const Coupling& coupling, const std::vector<int32_t>& ids,
                 const std::string& where);
 
   /// Supports s = rows u; returns the id of the first s. InputError, beginning with `where`, when
-  /// no displacement is left to give way. Points' DoFs may, though they are kept otherwise.
+  /// no displacement is left to eliminate. Points' DoFs may be eliminated here, otherwise not.
   int32_t hold(const std::vector<Functional>& rows, const std::string& where);
 
-  /// Takes a coordinate that occurs in no relation out of the model.
+  /// Removes a coordinate that occurs in no relation.
   void drop(int32_t id);
 
-  /// The functional in terms of what is still in the model.
+  /// The functional in terms of the DoFs that are still in the model.
   Functional express(const Functional& functional);
   bool is_coordinate(int32_t id) const;
   bool is_held(int32_t id) const;
-  bool gave_way(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
+  bool is_eliminated(int32_t id) const { return state_[static_cast<size_t>(id)] >= 0; }
   /// Ids that nodal displacements depend on, and those displacements themselves, as flags.
   std::vector<bool> moves_nodes(int64_t nodal_dofs) const;
 
@@ -92,7 +92,7 @@ class Eliminator {
   void check_fill(const std::string& where) const;
   std::vector<int32_t> choose_pivots(const Eigen::MatrixXd& C,
                                      const std::vector<int32_t>& ids) const;
-  void give_way(int32_t id, SparseRow row);
+  void add_pivot(int32_t id, SparseRow row);
   void substitute(const std::vector<int32_t>& fresh);
   SparseRow gather();
 
@@ -105,7 +105,7 @@ class Eliminator {
   std::vector<int32_t> touched_;
 };
 
-/// What supports add to the stiffness: with s, the equations are K q + K_sq^T s = f and
+/// Stiffness blocks of the supports: with s, the equations are K q + K_sq^T s = f and
 /// K_sq q + K_ss s = f_s + reactions.
 struct SupportBlocks {
   SparseMatrix sq;  // n_s x n
@@ -113,7 +113,7 @@ struct SupportBlocks {
 };
 
 /// Replaces symmetric A (lower triangle, on the first A.cols() DoFs) by T^T A T (lower triangle);
-/// fills the blocks of the supported coordinates when asked for.
+/// fills the blocks of the supported coordinates when `supports` is given.
 void transform(SparseMatrix& lower, const Elimination& elimination,
                SupportBlocks* supports = nullptr);
 

@@ -44,18 +44,18 @@ void LoadBuilder::add_body_force(const Eigen::Vector3d& acceleration,
 /// rho r on the elements, m r on the masses of points, r from the axis.
 void LoadBuilder::add_centrifugal(const LoadSpec& load, Eigen::VectorXd& forces) const {
   forces.head(3 * mesh_.nodes.rows()) =
-      centrifugal_load(mesh_, recipe_.materials, load.axis, load.turning);
-  if (!load.turning.empty()) return;
+      centrifugal_load(mesh_, recipe_.materials, load.axis, load.rotating);
+  if (!load.rotating.empty()) return;
   for (const PointMassSpec& spec : recipe_.point_masses) {
     const int32_t point = point_named(spec.on);
     if (point < 0) continue;
-    const Eigen::Vector3d place = recipe_.points[static_cast<size_t>(point)].point.place;
-    const auto force = centrifugal_force(spec, place, load.axis);
+    const Eigen::Vector3d position = recipe_.points[static_cast<size_t>(point)].point.position;
+    const auto force = centrifugal_force(spec, position, load.axis);
     for (int d = 0; d < 6; ++d) forces(numbers_.of_point(point, d)) += force(d);
   }
 }
 
-/// Above the state without stress, at the nodes [K].
+/// Temperatures at the nodes above the stress-free state [K].
 Eigen::VectorXd LoadBuilder::temperature_rise(const LoadSpec& load) const {
   if (load.field.empty()) return Eigen::VectorXd::Constant(mesh_.nodes.rows(), load.value);
   return mesh_.fields.at(load.field).col(0).array() - load.value;
@@ -101,19 +101,19 @@ Eigen::VectorXd LoadBuilder::forces(const LoadSpec& load) const {
   return forces;
 }
 
-/// What acts on sets: a force, and the weight of point masses.
+/// Loads on sets: a force, and the weight of point masses.
 void LoadBuilder::add_to_sets(const fe::FeModel& model, const LoadSpec& load,
                               Eigen::VectorXd& f) const {
   if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) < 0)
     f += set_load(f.size(), model.sets.at(load.set), load.force, load.moment, load.where);
-  if (load.kind == LoadSpec::Kind::kCentrifugal && load.turning.empty()) {
+  if (load.kind == LoadSpec::Kind::kCentrifugal && load.rotating.empty()) {
     for (const PointMassSpec& spec : recipe_.point_masses) {
       if (point_named(spec.on) >= 0) continue;
       const rom::DofSet& set = model.sets.at(spec.on);
-      if (!turns(set) && set.dofs.size() > 3)
+      if (!has_rotations(set) && set.dofs.size() > 3)
         throw InputError(
             fmt::format("{}: found a mass shared by {} nodes ({}), expected one node "
-                        "for each mass of a part that turns",
+                        "for each mass of a rotating part",
                         load.where, set.dofs.size() / 3, spec.where));
       const auto force = centrifugal_force(spec, set.position.row(0).transpose(), load.axis);
       f += set_load(f.size(), set, force.head<3>(), force.tail<3>(), load.where);
@@ -127,17 +127,17 @@ void LoadBuilder::add_to_sets(const fe::FeModel& model, const LoadSpec& load,
   }
 }
 
-/// s of a prescribed displacement; each wanted direction must be one that a support holds.
+/// s of a prescribed displacement; a support must hold each requested direction.
 Eigen::VectorXd LoadBuilder::prescribed(const LoadSpec& load) const {
   Eigen::VectorXd s = Eigen::VectorXd::Zero(constrained_.elimination.supports());
-  for (const DofPlace place : places_of(load.place, mesh_, numbers_)) {
-    const Eigen::Matrix3d axes = load.axes.at(numbers_.position(place));
+  for (const NodeOrPoint owner : selected(load.selection, mesh_, numbers_)) {
+    const Eigen::Matrix3d axes = load.axes.at(numbers_.position(owner));
     for (const int d : load.directions) {
-      const int32_t id = numbers_.of(place, d);
+      const int32_t id = numbers_.of(owner, d);
       Eigen::Index match = -1;
       for (size_t k = 0; k < constrained_.held.size(); ++k) {
         const HeldDof& held = constrained_.held[k];
-        if (numbers_.of(held.place, held.is_rotation ? 3 + d % 3 : d % 3) != id) continue;
+        if (numbers_.of(held.owner, held.is_rotation ? 3 + d % 3 : d % 3) != id) continue;
         const double along = held.direction.dot(axes.col(d % 3));
         if (std::abs(along) < 1.0 - kSameDirection) continue;
         match = static_cast<Eigen::Index>(k);
@@ -151,7 +151,7 @@ Eigen::VectorXd LoadBuilder::prescribed(const LoadSpec& load) const {
   return s;
 }
 
-/// True when every DoF with a force is a coordinate, held, or depends on some.
+/// True when every DoF with a force is a coordinate, is held, or depends on coordinates.
 bool LoadBuilder::all_attached(const Eigen::VectorXd& forces) const {
   const Elimination& e = constrained_.elimination;
   Eigen::VectorXd most = Eigen::VectorXd::Zero(forces.size());
@@ -171,12 +171,12 @@ void LoadBuilder::build(fe::FeModel& model) {
     add_to_sets(model, load, f);
     const Eigen::VectorXd resultant =
         model.rigid.transpose() * f + constrained_.rigid_s.transpose() * f_s;
-    // Not by the resultant, of which an equation may hold a part.
+    // Not checked by the resultant, of which an equation may carry a part.
     if (load.kind == LoadSpec::Kind::kForce && point_named(load.set) >= 0 && !all_attached(all))
       throw InputError(fmt::format(
-          "{}: found a load on a direction of {} that nothing is attached to, expected a coupling",
+          "{}: found a load on a direction of {} with nothing attached, expected a coupling",
           load.where, load.set));
-    say(fmt::format("load {}: resultant ({:.5g}, {:.5g}, {:.5g}) N a unit of {}", load.name,
+    say(fmt::format("load {}: resultant ({:.5g}, {:.5g}, {:.5g}) N per unit of {}", load.name,
                     resultant(0), resultant(1), resultant(2), load.unit));
     model.loads[load.name] = std::move(f);
     model.load_units[load.name] = load.unit;

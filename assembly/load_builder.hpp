@@ -11,7 +11,7 @@
 
 namespace clatter::assembly {
 
-/// Makes the loads of a model whose coordinates and sets stand already.
+/// Builds the loads of a model whose coordinates and sets exist.
 class LoadBuilder {
  public:
   /// `momentum` (3 n_nodes x 3): M times unit accelerations of all nodes; empty when no load needs
@@ -26,7 +26,7 @@ class LoadBuilder {
         surfaces_(surfaces),
         momentum_(momentum) {}
 
-  /// Fills loads, support_loads, prescribed, load_units and cases; says each load's resultant.
+  /// Fills loads, support_loads, prescribed, load_units and cases; prints each load's resultant.
   void build(fe::FeModel& model);
 
  private:

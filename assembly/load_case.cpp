@@ -30,22 +30,22 @@ Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Ve
     out(set.dofs.at(0)) = set.direction.row(0) * force;
     return out;
   }
-  // Places are counted by what they can take along each axis, so that each axis gets its sum.
+  // Nodes are counted per axis, by the DoFs along it, so that the sum along each axis is right.
   Eigen::Vector3d can_push = Eigen::Vector3d::Zero(), can_turn = Eigen::Vector3d::Zero();
   for (size_t k = 0; k < set.dofs.size(); ++k) {
     const Eigen::RowVector3d direction = set.direction.row(static_cast<Eigen::Index>(k));
     if (direction.cwiseAbs().maxCoeff() < 1.0)
       throw InputError(fmt::format(
-          "{}: found a set with directions beside the axes ({}), expected nodes or a coupling",
-          where, set.kind));
+          "{}: found a set with directions off the axes ({}), expected nodes or a coupling", where,
+          set.kind));
     (set.is_rotation[k] ? can_turn : can_push) += direction.transpose().cwiseAbs2();
   }
   for (int d = 0; d < 3; ++d) {
     const bool lost =
         (force(d) != 0.0 && can_push(d) == 0.0) || (moment(d) != 0.0 && can_turn(d) == 0.0);
     if (lost)
-      throw InputError(fmt::format("{}: found a load along {} that no coordinate of the set takes",
-                                   where, "xyz"[d]));
+      throw InputError(fmt::format(
+          "{}: found a load along {}, expected a set with a coordinate along it", where, "xyz"[d]));
   }
   Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
   for (size_t k = 0; k < set.dofs.size(); ++k) {

@@ -7,7 +7,7 @@
 
 namespace clatter::assembly {
 
-/// Force of 1 Pa that pushes on a surface: f_a = - int N_a n dA [N/Pa].
+/// Nodal forces of a pressure of 1 Pa on a surface: f_a = - int N_a n dA [N/Pa].
 Eigen::VectorXd pressure_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface);
 
 /// A resultant `force` [N] spread evenly over a surface: f_a = force w_a / A. It acts at the
@@ -16,8 +16,8 @@ Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& sur
                                const Eigen::Vector3d& force);
 
 /// A force [N] and moment [N m] on a set, in the model's coordinates (size n). The force is shared
-/// evenly by the places of the set. InputError, beginning with `where`, when the set has no
-/// coordinate that takes a part of it. On a bolt the force's part along it is the tension.
+/// evenly by the nodes of the set. InputError, beginning with `where`, when the set has no
+/// coordinate along a component of it. On a bolt the force's component along it is the tension.
 Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Vector3d& force,
                          const Eigen::Vector3d& moment, const std::string& where);
 

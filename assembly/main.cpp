@@ -16,14 +16,13 @@
 namespace {
 
 constexpr const char* kSummary =
-    "Assembles a part's mass and stiffness matrices, couples reference nodes and contact patches "
-    "to "
-    "them, and makes unit load cases.";
+    "Assembles a part's mass and stiffness matrices, adds couplings, supports and contact patches, "
+    "and builds unit load cases.";
 
 constexpr const char* kEpilog = R"(Sample:
   clatter-assembly block.mesh.h5 -c block.fe.toml -o block.fe.h5
 
-The smallest fe.toml names a material for each region of the mesh:
+The smallest fe.toml has a material for each region of the mesh:
   [material.cast_iron]
   regions = ["block"]
   E_gpa = 110.0        # or E [Pa]
@@ -35,9 +34,9 @@ Further tables, any number of each:
   [system.NAME]   rectangular, cylindrical or spherical axes for directions
   [[point]]       reference node with 6 DoFs of its own
   [[support]]     surface, node_set or point held at zero
-  [[coupling]]    reference node that rides on a surface (RBE3) or that nodes follow (RBE2)
+  [[coupling]]    reference node that follows a surface (RBE3) or that nodes follow (RBE2)
   [[equation]]    linear relation of displacements
-  [[tie]]         surfaces that do not match;  [[bolt]]  a cut shank with its tension
+  [[tie]]         non-matching surfaces;  [[bolt]]  a cut shank with its tension
   [[contact]]     grid of patches on a cylinder surface, one radial DoF each
   [[mean]]        mean displacement of a surface along a direction
   [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
@@ -45,14 +44,14 @@ Further tables, any number of each:
   [[load]]        pressure, resultant, force, gravity, centrifugal, nodal field, prescribed displacement
   [[case]]        a sum of loads
 
-Matrices that another program assembled, instead of all that:
+Matrices that another program assembled, instead of all these tables:
   [matrices]
   K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
   M = "mass.mtx"
-  dofs = "dofs.tsv"    # what row i is (docs/formats.md); without it x y z of a mesh's nodes
+  dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
 
-assembly/README.md shows every key; samples/truck_diesel/block.fe.toml is a full one.
+assembly/README.md documents every key; samples/truck_diesel/block.fe.toml is a complete sample.
 Next: clatter-modal block.fe.h5 (modes; --static for load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
 
@@ -76,7 +75,7 @@ void print_summary(const clatter::fe::FeModel& model, double seconds, bool json)
                        {"seconds", clatter::json_number(seconds)}});
 }
 
-/// One warning of all materials and the size that look like another unit.
+/// One warning for all materials and sizes that suggest a wrong unit.
 void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::path& config) {
   using namespace clatter;
   std::vector<std::string> doubts;
@@ -92,7 +91,7 @@ void warn_of_units(const clatter::fe::FeModel& model, const std::filesystem::pat
   warn_implausible(config.string(), doubts);
 }
 
-/// From matrices of others, or assembled on the mesh; `inputs` gets the files that were read.
+/// Imports matrices of other programs or assembles on the mesh; adds the files read to `inputs`.
 clatter::assembly::BuiltModel make_model(const std::filesystem::path& mesh_path,
                                          const clatter::Config& config,
                                          std::vector<std::filesystem::path>& inputs,

@@ -1,5 +1,5 @@
 #pragma once
-// Integrals over the mass of a mesh: the points that mass properties and body forces share.
+// Integrals over the mass of a mesh: integration points shared by mass properties and body forces.
 #include <Eigen/LU>
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace clatter::assembly {
 
 /// Calls visit(c, N, x, dm) at each point of each cell c of a block: N the values of the shape
-/// functions there, x the place [m], dm = density weight det J [kg]. Sums over it are exact for
+/// functions there, x the position [m], dm = density weight det J [kg]. Sums over it are exact for
 /// polynomials of x up to x x^T: det J has at most the degrees that cube_bernstein.cpp lists, x
 /// adds its own twice.
 template <class Visit>

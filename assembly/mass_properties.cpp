@@ -28,12 +28,12 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
   return sum;
 }
 
-void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& place,
+void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,
                const Eigen::Matrix3d& inertia) {
   moments.mass += mass;
-  moments.first += mass * place;
+  moments.first += mass * position;
   // J = tr(S) I - S has the inverse S = tr(J)/2 I - J.
-  moments.second += mass * place * place.transpose() +
+  moments.second += mass * position * position.transpose() +
                     0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
 }
 

@@ -20,8 +20,8 @@ struct MassMoments {
 /// Integrals of rho, rho x and rho x x^T over all cells; exact for curved cells too (degree 7).
 MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials);
 
-/// Adds a point mass [kg] at `place` [m] with inertia about itself [kg m2].
-void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& place,
+/// Adds a point mass [kg] at `position` [m] with inertia about its own centre [kg m2].
+void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,
                const Eigen::Matrix3d& inertia);
 
 /// Inertia about the centre of mass: J = tr(S) I - S of the centred second moments.

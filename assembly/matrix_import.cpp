@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "assembly/mass_properties.hpp"
-#include "assembly/matrix_places.hpp"
+#include "assembly/matrix_rows.hpp"
 #include "core/base/error.hpp"
 #include "core/base/matrix_text.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Kind = rom::MappedDof::Kind;
 
-/// To SI: a rotation's rows and columns are forces times a length.
+/// To SI: rows and columns of rotations are multiplied by a length.
 void scale(SparseMatrix& matrix, double unit, double length,
            const std::vector<rom::MappedDof>& dofs) {
   const auto arm = [&](Eigen::Index j) {
@@ -42,7 +42,7 @@ SparseMatrix read_sized(const std::filesystem::path& path, size_t dofs, const st
   return matrix;
 }
 
-/// |K r| over |K| |r|, with rows of K measured by the sum of their entries' sizes.
+/// |K r| over |K| |r|, with |K| |r| from the absolute values of the entries.
 double rigid_residue(const SparseMatrix& K, const Eigen::MatrixXd& rigid) {
   const Eigen::MatrixXd force = multiply_symmetric(K, rigid);
   const Eigen::MatrixXd size = multiply_symmetric(K.cwiseAbs(), rigid.cwiseAbs());
@@ -54,20 +54,21 @@ double rigid_residue(const SparseMatrix& K, const Eigen::MatrixXd& rigid) {
   return worst;
 }
 
-/// Mass, centre and inertia are known when every rigid motion is.
+/// Mass, centre and inertia; empty unless every translation is known.
 rom::MassProperties mass_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
   for (Eigen::Index d = 0; d < 3; ++d)
     if (rigid.col(d).isZero(0.0)) return {};
   return properties_of(M, rigid);
 }
 
-SparseMatrix rows_and_columns(const SparseMatrix& lower, const std::vector<int32_t>& place,
+SparseMatrix rows_and_columns(const SparseMatrix& lower, const std::vector<int32_t>& coordinate,
                               int32_t size) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<size_t>(lower.nonZeros()));
   for (Eigen::Index j = 0; j < lower.cols(); ++j) {
     for (SparseMatrix::InnerIterator entry(lower, j); entry; ++entry) {
-      const int32_t p = place[static_cast<size_t>(entry.row())], q = place[static_cast<size_t>(j)];
+      const int32_t p = coordinate[static_cast<size_t>(entry.row())],
+                    q = coordinate[static_cast<size_t>(j)];
       if (p >= 0 && q >= 0) entries.emplace_back(p, q, entry.value());
     }
   }
@@ -94,40 +95,40 @@ std::optional<MatrixFiles> read_matrix_files(const Config& config) {
 }
 
 BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
-  const MatrixPlaces places =
-      mesh ? places_of(*mesh) : places_of(rom::read_dof_map(files.dofs), files.dofs.string());
+  const MatrixRows layout =
+      mesh ? matrix_rows(*mesh) : matrix_rows(rom::read_dof_map(files.dofs), files.dofs.string());
   const std::string source = mesh ? "the mesh (three a node)" : files.dofs.string();
-  SparseMatrix K = read_sized(files.K, places.dofs.size(), source);
-  SparseMatrix M = read_sized(files.M, places.dofs.size(), source);
+  SparseMatrix K = read_sized(files.K, layout.dofs.size(), source);
+  SparseMatrix M = read_sized(files.M, layout.dofs.size(), source);
 
-  std::vector<int32_t> place(places.dofs.size(), -1), kept;
-  for (size_t j = 0; j < place.size(); ++j) {
+  std::vector<int32_t> coordinate(layout.dofs.size(), -1), kept;
+  for (size_t j = 0; j < coordinate.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
     if (K.coeff(row, row) >= kHeldStiffness) continue;
-    place[j] = static_cast<int32_t>(kept.size());
+    coordinate[j] = static_cast<int32_t>(kept.size());
     kept.push_back(static_cast<int32_t>(j));
   }
   if (kept.empty())
-    throw InputError(fmt::format("{}: every degree of freedom is held", files.K.string()));
+    throw InputError(fmt::format("{}: found every DoF held, expected some free", files.K.string()));
   const auto size = static_cast<int32_t>(kept.size());
-  scale(K, files.units.force() / files.units.length, files.units.length, places.dofs);
-  scale(M, files.units.mass, files.units.length, places.dofs);
+  scale(K, files.units.force() / files.units.length, files.units.length, layout.dofs);
+  scale(M, files.units.mass, files.units.length, layout.dofs);
 
   BuiltModel built;
   fe::FeModel& model = built.model;
   model.name = !files.name.empty() ? files.name : mesh ? mesh->name : files.K.stem().string();
   model.alpha = files.alpha;
   model.beta = files.beta;
-  const Eigen::MatrixXd rigid = rigid_motions(places.dofs);
+  const Eigen::MatrixXd rigid = rigid_motions(layout.dofs);
   model.mass = mass_of(M, rigid);
-  model.K = rows_and_columns(K, place, size);
-  model.M = rows_and_columns(M, place, size);
+  model.K = rows_and_columns(K, coordinate, size);
+  model.M = rows_and_columns(M, coordinate, size);
   model.rigid = rigid(kept, Eigen::all);
-  model.nodes = places.nodes;
-  model.T = displacement_of(places, place, size);
-  model.sets = sets_of(places, place);
+  model.nodes = layout.nodes;
+  model.T = displacement_of(layout, coordinate, size);
+  model.sets = sets_of(layout, coordinate);
   if (mesh) model.surfaces = mesh->surfaces;
-  const auto held = static_cast<double>(place.size() - kept.size());
+  const auto held = static_cast<double>(coordinate.size() - kept.size());
   built.certificate = {{"dofs", size}, {"held_dofs", held}};
   if (held == 0.0) built.certificate["rigid_force_residue"] = rigid_residue(K, rigid);
   return built;

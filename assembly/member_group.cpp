@@ -37,11 +37,11 @@ std::vector<MemberGroup> group_members(const std::vector<Member>& members) {
     else
       groups.push_back(make_group(members, {m}));
   }
-  RowMatrix places(static_cast<Eigen::Index>(members.size()), 3);
+  RowMatrix positions(static_cast<Eigen::Index>(members.size()), 3);
   for (size_t m = 0; m < members.size(); ++m)
-    places.row(static_cast<Eigen::Index>(m)) = members[m].place.transpose();
+    positions.row(static_cast<Eigen::Index>(m)) = members[m].position.transpose();
   for (const auto& [mask, list] : alike)
-    for (const std::vector<int32_t>& cluster : cluster_nodes(places, list, kGroupNodes))
+    for (const std::vector<int32_t>& cluster : cluster_nodes(positions, list, kGroupNodes))
       groups.push_back(make_group(members, {cluster.begin(), cluster.end()}));
   return groups;
 }
@@ -69,7 +69,7 @@ void set_rows(const Eigen::MatrixXd& C, const std::vector<MemberGroup>& groups,
   for (Eigen::Index c = 0; c < C.cols(); ++c) {
     const MemberGroup& group = groups[static_cast<size_t>(c / 6)];
     const auto d = static_cast<size_t>(c % 6);
-    if (C.col(c).isZero(0.0)) continue;  // a direction that no row asks for
+    if (C.col(c).isZero(0.0)) continue;  // a direction that no row uses
     id[static_cast<size_t>(c)] =
         direct ? members[group.members[0]].dofs[d] : static_cast<int32_t>(coupling.means.size());
     if (direct) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Places that a coupling rides on, and their grouping on large faces.
+// Nodes and points that define a coupling, and their grouping on large faces.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -9,17 +9,16 @@
 
 namespace clatter::assembly {
 
-/// A node or point with the DoFs by which it takes part in a coupling.
+/// A node or point with its DoFs in a coupling.
 struct Member {
-  std::array<int32_t, 6> dofs = {-1, -1, -1,
-                                 -1, -1, -1};       // ids of x y z rx ry rz; -1: not this one
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // [m]
-  double weight = 0.0;                              // > 0
+  std::array<int32_t, 6> dofs = {-1, -1, -1, -1, -1, -1};  // ids of x y z rx ry rz; -1: not coupled
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // [m]
+  double weight = 0.0;                                     // > 0
 
   bool has(int d) const { return dofs[static_cast<size_t>(d)] >= 0; }
 };
 
-/// Members that act by their weighted mean.
+/// Members represented by their weighted mean.
 struct MemberGroup {
   std::vector<size_t> members;
   std::vector<double> shares;  // sum to one
@@ -31,11 +30,11 @@ struct MemberGroup {
 std::vector<MemberGroup> group_members(const std::vector<Member>& members);
 
 /// Nodes of a face with its consistent areas as weights. Corners of quadratic faces, whose area is
-/// zero or negative, are left out: a coupling needs positive weights, and only their proportion.
+/// zero or negative, are omitted: a coupling needs positive weights, and only their ratios.
 std::vector<Member> members_of(const RowMatrix& coordinates, const SurfaceIntegrals& surface);
 
 /// Turns rows C (m x 6 groups, DoF d of group g in column 6 g + d) into rows and means of a
-/// coupling; entries that are rounding are left out.
+/// coupling; entries at rounding level are omitted.
 void set_rows(const Eigen::MatrixXd& C, const std::vector<MemberGroup>& groups,
               const std::vector<Member>& members, Coupling& coupling);
 

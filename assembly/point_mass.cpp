@@ -22,11 +22,11 @@ void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
   if (set.kind == "contact_grid" || set.kind == "mean" || set.kind == "bolt")
     throw InputError(fmt::format("{}: found a set of kind {}, expected a coupling, point or nodes",
                                  spec.where, set.kind));
-  if (!turns(set) && set.dofs.size() % 3 != 0)
+  if (!has_rotations(set) && set.dofs.size() % 3 != 0)
     throw InputError(
         fmt::format("{}: found {} directions, expected x y z", spec.where, set.dofs.size()));
   const bool needs_turn = !spec.inertia.isZero(0.0) || !spec.offset.isZero(0.0);
-  if (needs_turn && !turns(set))
+  if (needs_turn && !has_rotations(set))
     throw InputError(
         fmt::format("{}: found an inertia or offset on a set without rotations, expected a "
                     "coupling with six directions",
@@ -35,7 +35,7 @@ void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
 
 }  // namespace
 
-bool turns(const rom::DofSet& set) {
+bool has_rotations(const rom::DofSet& set) {
   return std::any_of(set.is_rotation.begin(), set.is_rotation.end(), [](int r) { return r != 0; });
 }
 
@@ -48,7 +48,7 @@ Eigen::Matrix<double, 6, 6> mass_block(const PointMassSpec& spec) {
 
 void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& set) {
   check_takes(spec, set);
-  if (!turns(set)) {
+  if (!has_rotations(set)) {
     const double share = spec.mass / static_cast<double>(set.dofs.size() / 3);
     for (const int32_t dof : set.dofs) M.coeffRef(dof, dof) += share;
     return;
@@ -79,9 +79,9 @@ void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix
 }
 
 void add_moments(MassMoments& moments, const PointMassSpec& spec, const rom::DofSet& set) {
-  const size_t places = turns(set) ? 1 : set.dofs.size() / 3;
-  for (size_t p = 0; p < places; ++p)
-    add_point(moments, spec.mass / static_cast<double>(places),
+  const size_t nodes = has_rotations(set) ? 1 : set.dofs.size() / 3;
+  for (size_t p = 0; p < nodes; ++p)
+    add_point(moments, spec.mass / static_cast<double>(nodes),
               set.position.row(static_cast<Eigen::Index>(3 * p)).transpose() + spec.offset,
               spec.inertia);
 }

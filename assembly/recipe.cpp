@@ -13,9 +13,9 @@ RecipeReader::RecipeReader(const Config& config, const mesh::Mesh& mesh)
 }
 
 void RecipeReader::fail_unknown(const Config& table, std::string_view key, const std::string& found,
-                                const std::vector<std::string>& present) {
+                                const std::vector<std::string>& available) {
   table.fail(key,
-             fmt::format("found \"{}\", expected one of: {}", found, fmt::join(present, ", ")));
+             fmt::format("found \"{}\", expected one of: {}", found, fmt::join(available, ", ")));
 }
 
 std::string RecipeReader::where(const Config& table, const std::string& what) {
@@ -84,21 +84,22 @@ std::string RecipeReader::node_set(const Config& table) const {
   return name;
 }
 
-Place RecipeReader::place(const Config& table, const std::string& what, bool or_point) const {
-  Place place;
-  place.where = where(table, what);
+Selection RecipeReader::selection(const Config& table, const std::string& what,
+                                  bool or_point) const {
+  Selection selection;
+  selection.where = where(table, what);
   const bool by_point = or_point && table.has("point");
   if (table.has("surface")) {
     if (table.has("node_set") || by_point)
       table.fail(by_point ? "point" : "node_set", "found a surface as well, expected one");
-    place.surface = surface(table);
+    selection.surface = surface(table);
   } else if (by_point) {
     if (table.has("node_set")) table.fail("node_set", "found a point as well, expected one");
-    place.point = known_point(table, "point", table.text("point"));
+    selection.point = known_point(table, "point", table.text("point"));
   } else {
-    place.node_set = node_set(table);
+    selection.node_set = node_set(table);
   }
-  return place;
+  return selection;
 }
 
 std::string RecipeReader::new_set(const Config& table) {

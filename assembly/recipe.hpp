@@ -1,5 +1,5 @@
 #pragma once
-// What a part's fe.toml says. assembly/README.md shows the file; lengths are in metres here.
+// Contents of a part's fe.toml. assembly/README.md documents the file; lengths here are in metres.
 #include <Eigen/Core>
 #include <map>
 #include <optional>
@@ -24,8 +24,8 @@ struct DampingSpec {
 };
 
 /// A surface or a node set of the mesh, or a point.
-struct Place {
-  std::string surface, node_set, point;  // all but one are empty
+struct Selection {
+  std::string surface, node_set, point;  // exactly one is not empty
   std::string where;                     // for messages: "file:line: table"
 };
 
@@ -38,26 +38,26 @@ struct PointSpec {
 /// [[support]]: displacements held at zero, or at the values of a [[load]].
 struct SupportSpec {
   std::string name;
-  Place place;
+  Selection selection;
   std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
   fe::Axes axes;
 };
 
-/// [[coupling.term]]: places by which a reference node moves.
+/// [[coupling.term]]: nodes and points whose motion defines that of a reference node.
 struct TermSpec {
-  Place place;
+  Selection selection;
   double weight = 1.0;  // of each node; of each m2 on a surface
   std::vector<int> directions = {0, 1, 2};
 };
 
-/// [[coupling]]: a reference node that rides on a face (distributing, RBE3), or that others follow
+/// [[coupling]]: a reference node that follows a face (distributing, RBE3), or that others follow
 /// (rigid, RBE2).
 struct CouplingSpec {
   std::string name, kind, where;
   bool rigid = false;
   std::optional<Eigen::Vector3d> at;  // of its own reference node; absent: the face's centroid
   std::string on_point;               // or a [[point]] as the reference
-  std::vector<TermSpec> terms;  // rigid: what follows; directions count only when distributing
+  std::vector<TermSpec> terms;  // rigid: the followers; directions are used only when distributing
   std::vector<int> directions = {0, 1, 2, 3, 4, 5};  // rigid: of the followers; else: reference
 };
 
@@ -72,7 +72,7 @@ struct TieSpec {
 /// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
 struct EquationSpec {
   struct Term {
-    Place place;  // one node, or a point
+    Selection selection;  // one node, or a point
     int direction = 0;
     double coefficient = 1.0;
   };
@@ -80,14 +80,14 @@ struct EquationSpec {
   std::vector<Term> terms;
 };
 
-/// [[spring]]: its elongation is sum coefficient * u, the force against it stiffness times that.
+/// [[spring]]: elongation = sum coefficient * u, restoring force = stiffness * elongation.
 struct SpringSpec {
   std::string name, where;
   double stiffness = 0.0;  // [N/m]; of rotations [N m/rad]
   std::vector<EquationSpec::Term> terms;
 };
 
-/// [[straight_edges]]: middle nodes that move with the ends of their edge, the mean of both.
+/// [[straight_edges]]: mid-side nodes that move with the mean of the two ends of their edge.
 struct StraightEdgesSpec {
   std::string node_set, where;
 };
@@ -108,7 +108,7 @@ struct MeanSpec {
 /// [[sensor]]: the node of a surface nearest to a point; [[nodes]]: a plain node set.
 struct NodeSpec {
   std::string name, kind;
-  Place place;
+  Selection selection;
   std::optional<Eigen::Vector3d> near;
 };
 
@@ -138,16 +138,16 @@ struct LoadSpec {
   std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
-  fe::RotationAxis axis;                             // centrifugal: of the part, and
-  std::vector<int32_t> turning;                      // the regions that turn; none: all and masses
-  Place place;                                       // prescribed displacement:
-  std::vector<int> directions;                       // of `axes`
+  fe::RotationAxis axis;                             // centrifugal: axis of rotation and
+  std::vector<int32_t> rotating;  // rotating regions; empty: all, and point masses
+  Selection selection;            // prescribed displacement:
+  std::vector<int> directions;    // of `axes`
   fe::Axes axes;
-  double value = 0.0;  // [m] or [rad]; of a field see there; without one the rise [K]
+  double value = 0.0;  // [m] or [rad]; with a field see `field`; else the rise [K]
 };
 
 struct Recipe {
-  std::vector<fe::Material> materials;  // one a region of the mesh
+  std::vector<fe::Material> materials;  // one per region of the mesh
   fe::MassForm mass = fe::MassForm::kConsistent;
   DampingSpec damping;
   std::vector<PointSpec> points;
@@ -165,8 +165,9 @@ struct Recipe {
   std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads
 };
 
-/// Reads and checks the whole file against the mesh; InputError with "file:line: key: found ...,
-/// expected ..." for unknown keys, regions, surfaces, sets, double names, values out of range.
+/// Reads the entire file and checks it against the mesh; InputError with "file:line: key: found
+/// ..., expected ..." for unknown keys, regions, surfaces, sets, duplicate names, values out of
+/// range.
 Recipe read_recipe(const Config& config, const mesh::Mesh& mesh);
 
 }  // namespace clatter::assembly

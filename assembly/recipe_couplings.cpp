@@ -19,9 +19,9 @@ void RecipeReader::points(Recipe& recipe) {
       if (nodes.size() != 1)
         table.fail("node_set", fmt::format("found {} nodes, expected one", nodes.size()));
       spec.point.node = nodes[0];
-      spec.point.place = mesh_.nodes.row(nodes[0]).transpose();
+      spec.point.position = mesh_.nodes.row(nodes[0]).transpose();
     } else {
-      spec.point.place = point(table, "at");
+      spec.point.position = point(table, "at");
     }
     recipe.points.push_back(spec);
   }
@@ -34,8 +34,9 @@ void RecipeReader::supports(Recipe& recipe) const {
     for (const SupportSpec& other : recipe.supports)
       if (other.name == spec.name)
         table.fail("name", fmt::format("found \"{}\" twice, expected different names", spec.name));
-    spec.place = place(table, "support " + spec.name, true);
-    spec.directions = directions(table, "directions", {0, 1, 2}, spec.place.point.empty() ? 3 : 6);
+    spec.selection = selection(table, "support " + spec.name, true);
+    spec.directions =
+        directions(table, "directions", {0, 1, 2}, spec.selection.point.empty() ? 3 : 6);
     spec.axes = axes(table);
     recipe.supports.push_back(spec);
   }
@@ -54,31 +55,31 @@ void RecipeReader::reference(const Config& table, CouplingSpec& spec) {
   spec.where = where(table, "coupling " + spec.name);
 }
 
-/// What the table itself names, then its [[coupling.term]] tables.
+/// Selections of the table itself, then of its [[coupling.term]] tables.
 std::vector<TermSpec> RecipeReader::terms(const Config& table, const CouplingSpec& spec) const {
   std::vector<TermSpec> terms;
-  const auto read_places = [&](const Config& from, const TermSpec& like) {
+  const auto read_selections = [&](const Config& from, const TermSpec& like) {
     TermSpec term = like;
-    term.place.where = spec.where;
+    term.selection.where = spec.where;
     if (from.has("surface") || from.has("node_set")) {
-      term.place = place(from, "coupling " + spec.name);
+      term.selection = selection(from, "coupling " + spec.name);
       terms.push_back(term);
     }
     for (const std::string& name : from.texts_or("points", {})) {
-      term.place = Place{"", "", known_point(from, "points", name), spec.where};
+      term.selection = Selection{"", "", known_point(from, "points", name), spec.where};
       terms.push_back(term);
     }
   };
-  read_places(table, {});
+  read_selections(table, {});
   for (const Config& part : table.tables("term")) {
     if (spec.rigid) table.fail("term", "found terms in a rigid coupling, expected none");
     TermSpec like;
     like.weight = part.number_or("weight", 1.0, Range::positive());
     like.directions = directions(part, "directions", {0, 1, 2}, 6);
     const size_t before = terms.size();
-    read_places(part, like);
+    read_selections(part, like);
     if (terms.size() == before)
-      part.fail("term", "found no place, expected a surface, node_set or points");
+      part.fail("term", "found no nodes, expected a surface, node_set or points");
   }
   if (terms.empty())
     table.fail("surface", "found nothing to couple, expected a surface, node_set, points or terms");
@@ -108,13 +109,13 @@ void RecipeReader::couplings(Recipe& recipe) {
 /// One direction of one node or point.
 EquationSpec::Term RecipeReader::term(const Config& table, const std::string& what) const {
   EquationSpec::Term term;
-  term.place = place(table, what, true);
-  if (!term.place.surface.empty())
+  term.selection = selection(table, what, true);
+  if (!term.selection.surface.empty())
     table.fail("surface", "found a surface, expected a node_set of one node or a point");
-  const bool node = term.place.point.empty();
-  if (node && mesh_.node_set(term.place.node_set).size() != 1)
+  const bool node = term.selection.point.empty();
+  if (node && mesh_.node_set(term.selection.node_set).size() != 1)
     table.fail("node_set", fmt::format("found {} nodes, expected one",
-                                       mesh_.node_set(term.place.node_set).size()));
+                                       mesh_.node_set(term.selection.node_set).size()));
   const std::string name = table.text("direction");
   const auto last = kDofNames.begin() + (node ? 3 : 6);
   const auto at = std::find(kDofNames.begin(), last, name);
@@ -132,12 +133,13 @@ void RecipeReader::equations(Recipe& recipe) const {
       spec.terms.back().coefficient = part.number("coefficient");
     }
     if (spec.terms.empty() || spec.terms[0].coefficient == 0.0)
-      table.fail("terms", "found none or a first one of zero, expected a dependent term first");
+      table.fail("terms",
+                 "found none, or a first coefficient of zero, expected a dependent term first");
     recipe.equations.push_back(spec);
   }
 }
 
-/// Terms are summed up to a displacement or to an angle, never to both.
+/// Terms of one spring are either all displacements or all rotations.
 void RecipeReader::springs(Recipe& recipe) const {
   for (const Config& table : config_.tables("spring")) {
     SpringSpec spec;
@@ -148,7 +150,7 @@ void RecipeReader::springs(Recipe& recipe) const {
       spec.terms.push_back(term(part, "spring " + spec.name));
       spec.terms.back().coefficient = part.number_or("coefficient", 1.0);
       if (spec.terms.back().coefficient == 0.0)
-        part.fail("coefficient", "found 0, expected another number");
+        part.fail("coefficient", "found 0, expected a nonzero number");
       if (spec.terms.back().direction / 3 != spec.terms.front().direction / 3)
         part.fail("direction",
                   "found a rotation beside a displacement, expected one kind in a spring");
@@ -177,7 +179,7 @@ void RecipeReader::ties(Recipe& recipe) {
     for (const Config& table : config_.tables(kind)) {
       TieSpec spec;
       spec.bolt = std::string_view(kind) == "bolt";
-      // A tie has no set, yet a name of its own in messages.
+      // A tie has no set, but a name for messages.
       spec.name = spec.bolt ? new_set(table)
                             : table.text_or("name", fmt::format("tie_{}", recipe.ties.size() + 1));
       spec.where = where(table, fmt::format("{} {}", kind, spec.name));

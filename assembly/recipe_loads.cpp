@@ -20,8 +20,8 @@ void RecipeReader::force_load(const Config& table, LoadSpec& spec) const {
 
 void RecipeReader::displacement_load(const Config& table, LoadSpec& spec) const {
   spec.kind = LoadSpec::Kind::kDisplacement;
-  spec.place = place(table, "load " + spec.name, true);
-  spec.directions = directions(table, "directions", {}, spec.place.point.empty() ? 3 : 6);
+  spec.selection = selection(table, "load " + spec.name, true);
+  spec.directions = directions(table, "directions", {}, spec.selection.point.empty() ? 3 : 6);
   if (spec.directions.empty())
     table.fail("directions", "found nothing, expected the directions that move");
   spec.axes = axes(table);
@@ -67,7 +67,7 @@ void RecipeReader::centrifugal_load(const Config& table, LoadSpec& spec) const {
   for (const std::string& region : table.texts_or("regions", {})) {
     const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
     if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
-    spec.turning.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
+    spec.rotating.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
   }
 }
 

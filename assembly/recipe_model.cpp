@@ -46,7 +46,7 @@ void RecipeReader::mass(Recipe& recipe) const {
     recipe.mass = fe::MassForm::kHrz;
 }
 
-/// zeta = alpha w / 2 + beta / (2 w): `ratio` at `at_hz` gives alpha for the beta beside it.
+/// zeta = alpha w / 2 + beta / (2 w): `ratio` at `at_hz` gives alpha, given beta.
 void RecipeReader::damping(Recipe& recipe) const {
   const auto table = config_.find_table("damping");
   if (!table) return;

@@ -1,6 +1,7 @@
 #pragma once
-// What all tables of a fe.toml share while it is read: the mesh, the length unit, names in use.
-// recipe_model.cpp, recipe_couplings.cpp, recipe_sets.cpp and recipe_loads.cpp read a table each.
+// Reads a fe.toml. All tables share the mesh, the length unit and the names in use.
+// recipe_model.cpp, recipe_couplings.cpp, recipe_sets.cpp and recipe_loads.cpp each read some
+// tables.
 #include <map>
 #include <set>
 #include <string>
@@ -15,13 +16,13 @@ class RecipeReader {
  public:
   RecipeReader(const Config& config, const mesh::Mesh& mesh);
 
-  /// All tables; refuses keys that nobody asked for.
+  /// Reads all tables; rejects unknown keys.
   Recipe read();
 
  private:
   [[noreturn]] static void fail_unknown(const Config& table, std::string_view key,
                                         const std::string& found,
-                                        const std::vector<std::string>& present);
+                                        const std::vector<std::string>& available);
   static std::string where(const Config& table, const std::string& what);
   static Eigen::Vector3d vector(const Config& table, std::string_view key);
   static Eigen::Vector3d unit_vector(const Config& table, std::string_view key);
@@ -32,8 +33,8 @@ class RecipeReader {
                                      const std::vector<int>& fallback, int allowed);
   std::string surface(const Config& table, std::string_view key = "surface") const;
   std::string node_set(const Config& table) const;
-  /// A place by `surface` or `node_set`; by `point` too where one may stand.
-  Place place(const Config& table, const std::string& what, bool or_point = false) const;
+  /// A selection by `surface` or `node_set`, with `or_point` also by `point`.
+  Selection selection(const Config& table, const std::string& what, bool or_point = false) const;
   std::string new_set(const Config& table);
   std::string known_set(const Config& table, std::string_view key) const;
   std::string known_point(const Config& table, std::string_view key, const std::string& name) const;

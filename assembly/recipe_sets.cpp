@@ -25,7 +25,7 @@ std::vector<Sector> RecipeReader::sectors(const Config& table) {
   if (sectors.empty()) table.fail("sector", "found none, expected at least one [[contact.sector]]");
   std::sort(sectors.begin(), sectors.end(),
             [](const Sector& a, const Sector& b) { return a.begin < b.begin; });
-  // The last sector must also end before the first one comes round again.
+  // The last sector must also end before the first one begins again.
   for (size_t i = 0; i < sectors.size(); ++i) {
     const bool last = i + 1 == sectors.size();
     const double next =
@@ -53,7 +53,8 @@ void RecipeReader::contacts(Recipe& recipe) {
     spec.grid.axis = unit_vector(table, "axis");
     const Eigen::Vector3d zero = unit_vector(table, "zero_angle");
     const Eigen::Vector3d across = zero - zero.dot(spec.grid.axis) * spec.grid.axis;
-    if (across.norm() < 1e-6) table.fail("zero_angle", "found the axis, expected one across it");
+    if (across.norm() < 1e-6)
+      table.fail("zero_angle", "found the axis, expected a direction across it");
     spec.grid.zero_angle = across.normalized();
     spec.grid.sectors = sectors(table);
     spec.grid.axial_edges = axial_edges(table);
@@ -76,14 +77,14 @@ void RecipeReader::means(Recipe& recipe) {
 void RecipeReader::nodes(Recipe& recipe) {
   for (const Config& table : config_.tables("sensor")) {
     NodeSpec spec{new_set(table), "sensor", {}, {}};
-    spec.place.where = where(table, "sensor " + spec.name);
-    spec.place.surface = surface(table);
+    spec.selection.where = where(table, "sensor " + spec.name);
+    spec.selection.surface = surface(table);
     spec.near = point(table, "near");
     recipe.nodes.push_back(spec);
   }
   for (const Config& table : config_.tables("nodes")) {
     NodeSpec spec{new_set(table), "node", {}, {}};
-    spec.place = place(table, "nodes " + spec.name);
+    spec.selection = selection(table, "nodes " + spec.name);
     recipe.nodes.push_back(spec);
   }
 }
@@ -106,7 +107,7 @@ void RecipeReader::point_masses(Recipe& recipe) const {
       spec.inertia(1, 2) = spec.inertia(2, 1) = J[4];
       spec.inertia(2, 0) = spec.inertia(0, 2) = J[5];
     }
-    // No body has an inertia whose second moments tr(J)/2 I - J are negative.
+    // No body has negative second moments tr(J)/2 I - J.
     const Eigen::Vector3d moments =
         Eigen::Vector3d::Constant(0.5 * spec.inertia.trace()) - spec.inertia.diagonal();
     if (moments.minCoeff() < -1e-12 * spec.inertia.trace() ||

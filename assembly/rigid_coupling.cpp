@@ -2,15 +2,15 @@
 
 namespace clatter::assembly {
 
-std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, DofPlace place,
+std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, NodeOrPoint owner,
                                           const std::vector<int>& directions,
                                           const ReferenceDofs& reference) {
   Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
-  motion.topRows<3>() = rigid_motion(numbers.position(place), reference.place);
+  motion.topRows<3>() = rigid_motion(numbers.position(owner), reference.position);
   std::vector<Dependence> out;
   for (const int d : directions) {
     Dependence one;
-    one.dof = numbers.of(place, d);
+    one.dof = numbers.of(owner, d);
     if (one.dof < 0) continue;
     for (int r = 0; r < 6; ++r) {
       if (motion(d, r) == 0.0) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Rigid couplings (RBE2): nodes and points that follow a reference like a rigid body.
+// Rigid couplings (RBE2): nodes and points that follow a reference node as a rigid body.
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace clatter::assembly {
 
-/// Ids and place of a reference node's DoFs x y z rx ry rz.
+/// Ids and position of a reference node's DoFs x y z rx ry rz.
 struct ReferenceDofs {
   std::array<int32_t, 6> ids{};
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
 /// One dependence u[dof] = on.
@@ -21,9 +21,9 @@ struct Dependence {
   Functional on;
 };
 
-/// The place's DoFs in `directions` (0 ... 5; rotations of nodes do not exist and are passed over):
+/// The owner's DoFs in `directions` (0 ... 5; nodes have no rotations, which are skipped):
 ///   u = u_ref + theta_ref x (x - x_ref),  theta = theta_ref.
-std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, DofPlace place,
+std::vector<Dependence> rigid_dependences(const DofNumbers& numbers, NodeOrPoint owner,
                                           const std::vector<int>& directions,
                                           const ReferenceDofs& reference);
 

@@ -19,7 +19,7 @@ void add_springs(const std::vector<SpringSpec>& springs, const std::vector<Funct
     for (size_t k = 0; k < elongation.dofs.size(); ++k)
       entries.emplace_back(static_cast<int32_t>(i), elongation.dofs[k], elongation.values[k]);
   }
-  SparseMatrix C(n, elimination.T.rows());  // a term said twice is summed
+  SparseMatrix C(n, elimination.T.rows());  // duplicate terms are summed
   C.setFromTriplets(entries.begin(), entries.end());
   const SparseMatrix t = C * elimination.T;
   const SparseMatrix force = stiffness.asDiagonal() * t;  // of the springs, n_springs x n

@@ -1,5 +1,5 @@
 #pragma once
-// Supports as coordinates that are held: what a model's reactions belong to.
+// Supports as held coordinates, at which a model's reactions act.
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ namespace clatter::assembly {
 /// One held displacement or rotation.
 struct HeldDof {
   int support = 0;  // index into Recipe::supports
-  DofPlace place;
+  NodeOrPoint owner;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   bool is_rotation = false;
   std::string label;  // "foot.17.x": support, node or point, direction of its system
@@ -28,14 +28,14 @@ struct HeldGroup {
   std::vector<HeldDof> held;  // independent directions
 };
 
-/// What the supports hold. A direction that another support holds at the same place already is
-/// passed over: holding twice is holding.
+/// The DoFs that the supports hold. A direction that another support already holds at the same node
+/// or point is skipped.
 std::vector<HeldGroup> plan_supports(const Recipe& recipe, const mesh::Mesh& mesh,
                                      const DofNumbers& numbers);
 
-/// Nodes or the point of a place.
-std::vector<DofPlace> places_of(const Place& place, const mesh::Mesh& mesh,
-                                const DofNumbers& numbers);
+/// The nodes or the point of a selection.
+std::vector<NodeOrPoint> selected(const Selection& selection, const mesh::Mesh& mesh,
+                                  const DofNumbers& numbers);
 
 /// The displacement along (rotation about) the direction, in terms of DoF ids.
 Functional held_functional(const HeldDof& held, const DofNumbers& numbers);

@@ -9,7 +9,8 @@
 
 namespace clatter::assembly {
 
-/// Integrals over a surface, node by node; k = 0 ... n_s - 1 counts the surface's own nodes.
+/// Integrals over a surface, node by node; k = 0 ... n_s - 1 is the index among the surface's
+/// nodes.
 struct SurfaceIntegrals {
   std::vector<int32_t> nodes;  // n_s mesh nodes, ascending
   Eigen::VectorXd weight;      // w_k = int N_k dA [m2]: consistent area, sums to `area`
@@ -18,9 +19,9 @@ struct SurfaceIntegrals {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // [m]
 };
 
-/// `coordinates` n x 3 [m]. The corner nodes of a flat quadratic triangle get w = 0 and its middles
-/// a third of the area each, the corners of a flat 8-node square -1/12 and its middles 1/3: this is
-/// what reproduces a constant pressure exactly.
+/// `coordinates` n x 3 [m]. The corner nodes of a flat quadratic triangle get w = 0 and its
+/// mid-side nodes a third of the area each, the corners of a flat 8-node square -1/12 and its
+/// mid-side nodes 1/3: so a constant pressure is reproduced exactly.
 SurfaceIntegrals integrate_surface(const RowMatrix& coordinates, const mesh::Surface& surface);
 
 }  // namespace clatter::assembly

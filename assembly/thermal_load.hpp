@@ -8,8 +8,8 @@
 
 namespace clatter::assembly {
 
-/// Forces that the temperature rise `dT` (one a node) [K] causes when all displacements are held:
-/// f = sum over cells of int B^T C alpha dT dV [N], 3 n_nodes. K u = f frees the part.
+/// Forces of the temperature rise `dT` (one value per node) [K] with all displacements held:
+/// f = sum over cells of int B^T C alpha dT dV [N], 3 n_nodes. K u = f gives the free expansion.
 Eigen::VectorXd thermal_load(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials,
                              const Eigen::VectorXd& dT);
 

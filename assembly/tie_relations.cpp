@@ -13,8 +13,8 @@ constexpr double kDefaultGap = 0.1;  // of the mean slave face size
 constexpr double kNoArm = 1e-10;     // of the mean slave face size: rounding
 constexpr double kNoMotion = 1e-14;  // entries of the rotation's rows that are rounding
 
-/// The part of a slave node's motion that its distance from the combined masters needs: with
-/// x_j - sum P_jk x_k = arm, the masters' common rotation times the arm. So rigid motions are
+/// The part of a slave node's motion due to its distance from the combined masters,
+/// arm = x_j - sum P_jk x_k: the masters' common rotation times the arm. So rigid motions are
 /// followed exactly across gaps and on curved faces.
 std::array<Functional, 3> rotation_rows(const ProjectedNode& row, const Eigen::Vector3d& arm,
                                         const RowMatrix& nodes, const std::string& where) {

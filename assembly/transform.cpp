@@ -1,4 +1,4 @@
-// T^T A T for a transformation that is the identity but for a few pivot rows.
+// T^T A T for a transformation that is the identity except for a few pivot rows.
 //
 // With u = [u_f; u_p; u_s], f the displacements that remain, p the pivots, s the supported ones,
 // and u_p = P q + P_s s, the form 1/2 u^T A u has the blocks
@@ -18,10 +18,10 @@ using Triplets = std::vector<Eigen::Triplet<double, int32_t>>;
 /// A split by displacements that remain (f), pivots (p) and supported ones (s).
 struct Split {
   SparseMatrix storage;        // holds the entries of A_ff, moved together
-  std::vector<int32_t> outer;  // column starts of A_ff in the new numbering
+  std::vector<int32_t> outer;  // column starts of A_ff after renumbering
   SparseMatrix A_pf;           // pivots x n
   SparseMatrix A_pp;           // pivots x pivots, both triangles
-  SparseMatrix A_sf, A_sp;     // supports x n, supports x pivots; empty unless asked for
+  SparseMatrix A_sf, A_sp;     // supports x n, supports x pivots; empty unless requested
   SparseMatrix A_ss;           // supports x supports, lower triangle
 
   /// A_ff, n x n, lower, without a copy.
@@ -37,7 +37,7 @@ SparseMatrix from_triplets(Eigen::Index rows, Eigen::Index cols, const Triplets&
   return matrix;
 }
 
-/// Sends one entry of the lower triangle to its part.
+/// Assigns one entry of the lower triangle to its block.
 struct Sorter {
   const Elimination& elimination;
   bool with_supports;
@@ -50,7 +50,7 @@ struct Sorter {
       pivot_number[static_cast<size_t>(e.pivots[p])] = static_cast<int32_t>(p);
   }
 
-  /// True when the entry stays in the kept part.
+  /// True when the entry stays in A_ff.
   bool sort(Eigen::Index row, Eigen::Index col, double value) {
     const auto i = static_cast<size_t>(row), j = static_cast<size_t>(col);
     const int32_t ri = elimination.reduced_of[i], rj = elimination.reduced_of[j];
@@ -73,11 +73,11 @@ struct Sorter {
   }
 };
 
-/// The new numbers ascend with the old ones, so the kept entries are moved up in place.
+/// Renumbering preserves the order, so the kept entries are compacted in place.
 Split split(SparseMatrix& lower, const Elimination& elimination, bool with_supports) {
   Sorter sorter(elimination, with_supports);
   Split parts;
-  parts.storage.swap(lower);  // Eigen 3.4 copies where std::move is asked for
+  parts.storage.swap(lower);  // Eigen 3.4 copies on std::move
   parts.storage.makeCompressed();
   const int32_t* outer = parts.storage.outerIndexPtr();
   int32_t* inner = parts.storage.innerIndexPtr();
@@ -112,7 +112,7 @@ SparseMatrix lower_of_sum(const SparseMatrix& X) {
   return SparseMatrix(X + SparseMatrix(X.transpose())).triangularView<Eigen::Lower>();
 }
 
-/// Lower triangle of X + X^T: what the pivots bring in.
+/// Lower triangle of X + X^T, the contribution of the pivots.
 SparseMatrix change_by_pivots(const Split& parts, const SparseMatrix& P) {
   const SparseMatrix right = parts.A_pf + SparseMatrix(0.5 * (parts.A_pp * P));
   return lower_of_sum(SparseMatrix(P.transpose()) * right);

@@ -17,31 +17,31 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr const char* kRequest = "request/text";
-// The same steps give the same bits; a turn among equal frequencies leaves rounding only.
+// The same steps give identical values; a rotation among equal frequencies leaves only rounding.
 constexpr double kLimit = 1e-7;
 
-/// Rows of two skins that stand at one point; points that a skin has twice are left out.
+/// Rows of two skins at the same position; positions that occur twice in a skin are omitted.
 std::vector<std::pair<Index, Index>> common_points(const rom::Skin& a, const rom::Skin& b) {
-  using Place = std::array<double, 3>;
-  const auto places = [](const rom::Skin& skin) {
-    std::map<Place, Index> out;  // -1: twice
+  using Position = std::array<double, 3>;
+  const auto positions = [](const rom::Skin& skin) {
+    std::map<Position, Index> out;  // -1: twice
     for (Index p = 0; p < skin.nodes.rows(); ++p) {
       const auto [at, first] =
-          out.try_emplace(Place{skin.nodes(p, 0), skin.nodes(p, 1), skin.nodes(p, 2)}, p);
+          out.try_emplace(Position{skin.nodes(p, 0), skin.nodes(p, 1), skin.nodes(p, 2)}, p);
       if (!first) at->second = -1;
     }
     return out;
   };
-  const std::map<Place, Index> other = places(b);
+  const std::map<Position, Index> other = positions(b);
   std::vector<std::pair<Index, Index>> pairs;
-  for (const auto& [place, row] : places(a)) {
-    const auto at = other.find(place);
+  for (const auto& [position, row] : positions(a)) {
+    const auto at = other.find(position);
     if (row >= 0 && at != other.end() && at->second >= 0) pairs.emplace_back(row, at->second);
   }
   return pairs;
 }
 
-/// What both models know of their coordinates, row by row, each kind at unit size.
+/// Data that both models hold about their coordinates, row by row, each kind scaled to unit size.
 struct Evidence {
   MatrixXd fresh, stored;
 
@@ -74,7 +74,7 @@ Evidence evidence(const rom::ReducedModel& fresh, const rom::ReducedModel& store
   return out;
 }
 
-/// Orthogonal Q, block by block, with fresh Q next to stored.
+/// Orthogonal Q, block by block, with fresh Q nearest to stored.
 MatrixXd turn(const Evidence& known, const rom::ReducedModel& stored) {
   const Index r = stored.size();
   MatrixXd Q = MatrixXd::Identity(r, r);
@@ -102,7 +102,7 @@ void unite(std::vector<std::string>& names, const std::vector<std::string>& more
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-/// Names of sets that `stored` has beside its boundary.
+/// Names of sets that `stored` has besides its boundary.
 std::vector<std::string> sets_beside(const rom::ReducedModel& stored,
                                      const std::vector<std::string>& boundary) {
   std::vector<std::string> names;
@@ -117,8 +117,8 @@ StoredRequest read_request(const std::filesystem::path& rom) {
   const H5File file = open_artefact(rom, "clatter/rom/1");
   if (!file.has(kRequest) || !file.has("inputs/sha256"))
     throw InputError(
-        fmt::format("{}: {}: found none, expected a part that this clatter condensed: its rows can "
-                    "only be had by condensing anew",
+        fmt::format("{}: {}: found none, expected a part condensed by this version: condense the "
+                    "part again to add rows",
                     rom.string(), kRequest));
   return {file.read_strings(kRequest).at(0), file.read_strings("inputs/path").at(0),
           file.read_strings("inputs/sha256").at(0)};
@@ -152,8 +152,8 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
   options.rows = sets_beside(stored, options.boundary);
   for (const std::string& name : request.sets)
     if (!stored.sets.contains(name)) unite(options.rows, {name});
-  // The count of modes is proved again: the solver takes the same steps then, to the last bit. With
-  // others its rounding, 1e-14 of a mode, comes out as 1e-4 of the weakest residual mode.
+  // The count of modes is proved again, so that the solver takes identical steps. Otherwise its
+  // rounding, 1e-14 of a mode, is amplified to 1e-4 of the weakest residual mode.
   options.certificate = options.inertia_invariants = options.modes.estimate_error = false;
   rom::ReducedModel fresh = condense(model, options, clock);
   const double error = align_basis(fresh, stored);
@@ -162,7 +162,7 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
     throw NumericsError(
         fmt::format("{}: the basis solved for again differs by {:.1e} from the stored one, "
                     "expected at most {:.0e}: repeat with the threads and the BLAS kernel of that "
-                    "run, or condense the part anew with these rows",
+                    "run, or condense the part again with these rows",
                     stored.name, error, kLimit));
   rom::ReducedModel out = stored;
   out.skin = std::move(fresh.skin);

@@ -31,7 +31,7 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
 
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
 void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions) {
-  constexpr double kRounding = 1e-15;  // of the highest value; a double holds no less
+  constexpr double kRounding = 1e-15;  // of the highest value: rounding of doubles
   auto& out = reduced.certificate;
   const sparse::EigenResult low =
       sparse::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
@@ -63,7 +63,7 @@ void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
   if (source.residual.estimated) {
     out["frequency_error_estimate"] = source.residual.error_estimate;
     out["frequency_error_modes"] = source.residual.modes;
-    // Own modes are exact in it: it says nothing of a body whose boundary others move.
+    // Own modes are exact: the estimate would be meaningless for a body joined to others.
     if (interior.own_modes == 0) out["frequency_error_joined"] = source.residual.error_before;
   }
   const Eigen::Index modes = n_k - source.residual.hz.size() - interior.load_shapes;
@@ -103,7 +103,7 @@ MassError compare_mass(const rom::MassProperties& found, const rom::MassProperti
 
 double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r) {
   if (r.cols() == 0) return 0.0;
-  const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians weigh alike
+  const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians have equal weight
   const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
   const Eigen::MatrixXd Mr = reduced.M_rr * unit;
   const Eigen::MatrixXd to_rigid = (unit.transpose() * Mr).ldlt().solve(Mr.transpose());
@@ -144,8 +144,8 @@ void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBa
   }
   if (!reduced.inertia.empty() && !(out["inertia_invariants_error"] <= kMassLimit)) {
     throw NumericsError(fmt::format(
-        "reduced model: inertia invariants differ by {:.1e} from what M_rr and the rigid "
-        "motions say, expected at most {:.0e}",
+        "reduced model: inertia invariants differ by {:.1e} from those of M_rr and the rigid "
+        "motions, expected at most {:.0e}",
         out["inertia_invariants_error"], kMassLimit));
   }
   if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||

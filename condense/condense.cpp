@@ -18,7 +18,7 @@ namespace {
 
 void report_repeated(const DofPartition& partition) {
   if (partition.repeated.empty()) return;
-  warn(fmt::format("boundary: {} DoFs stand in two sets and got one coordinate, the first is {}",
+  warn(fmt::format("boundary: {} DoFs are in two sets and got one coordinate each, the first is {}",
                    partition.repeated.size(), partition.repeated.front()));
 }
 
@@ -40,7 +40,7 @@ int drop_dependent(CraigBampton& source) {
   return dropped;
 }
 
-/// The boundary rows of the rigid motions; fixed-interface modes take no part in them.
+/// The boundary rows of the rigid motions; fixed-interface modes do not contribute.
 Eigen::MatrixXd reduced_rigid(const fe::FeModel& model, const DofPartition& partition,
                               Eigen::Index size) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
@@ -49,7 +49,7 @@ Eigen::MatrixXd reduced_rigid(const fe::FeModel& model, const DofPartition& part
   return rigid;
 }
 
-/// One of fmax_hz, count and accurate_to_hz says how many modes; none with Guyan.
+/// Exactly one of fmax_hz, count and accurate_to_hz sets the number of modes; none with Guyan.
 void check_one_request(const Config& config, const CondenseOptions& options) {
   std::vector<std::string> found;
   for (const char* key : {"accurate_to_hz", "count", "fmax_hz"})
@@ -63,7 +63,7 @@ void check_one_request(const Config& config, const CondenseOptions& options) {
   }
 }
 
-/// Are they all there, and how good are they?
+/// Whether modes are missing, and their accuracy.
 std::string describe_modes(const std::map<std::string, double>& c) {
   const bool proved = c.at("count_proved") > 0.0, counted = c.at("count_below") >= 0.0;
   const bool amls = c.contains("eigen_frequency_error");
@@ -73,10 +73,10 @@ std::string describe_modes(const std::map<std::string, double>& c) {
   if (proved) {
     text = fmt::format("none is missing ({})", count);
   } else if (counted && amls) {
-    text += fmt::format(" ({}, where the errors leave it open)", count);
+    text += fmt::format(" ({}, inconclusive within the errors)", count);
   } else {
-    text += amls ? " (prove_count = false, or the errors leave no gap clear)"
-                 : " (prove_count = false)";
+    text +=
+        amls ? " (prove_count = false, or no gap wider than the errors)" : " (prove_count = false)";
   }
   text += fmt::format("; largest residual {:.1e}", c.at("eigen_residual_max"));
   if (amls)
@@ -88,7 +88,7 @@ std::string describe_modes(const std::map<std::string, double>& c) {
 std::string describe_spectrum(const std::map<std::string, double>& c) {
   if (c.at("certified") == 0.0) {
     return fmt::format(
-        "not certified: without rigid modes, spectrum and condition; stiffness "
+        "not certified: rigid modes, spectrum and condition not checked; stiffness "
         "residue {:.1e}",
         c.at("rigid_stiffness_residue"));
   }
@@ -118,14 +118,14 @@ CondenseOptions read_condense_options(const Config& config) {
   options.rows = config.texts_or("rows", {});
   for (const std::string& name : options.rows)
     if (std::find(options.boundary.begin(), options.boundary.end(), name) != options.boundary.end())
-      config.fail("rows", fmt::format("found \"{}\", which stands in the boundary, expected other "
+      config.fail("rows", fmt::format("found \"{}\", which is in the boundary, expected other "
                                       "sets",
                                       name));
   check_one_request(config, options);
   options.modes.frequency_error =
       config.number_or("frequency_error", options.modes.frequency_error, {0.0, 0.1});
   if (options.modes.accurate_to_hz > 0.0 && options.modes.frequency_error == 0.0)
-    config.fail("frequency_error", "found 0 beside accurate_to_hz, expected the error to reach");
+    config.fail("frequency_error", "found 0 with accurate_to_hz, expected the error to reach");
   options.modes.own_modes = options.method == "craig-chang";
   options.modes.load_shapes = config.texts_or("load_shapes", {});
   options.modes.prove_count = config.flag_or("prove_count", true);

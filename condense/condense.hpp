@@ -13,21 +13,21 @@
 
 namespace clatter::condense {
 
-/// The `.rom.toml`; defaults stand here.
+/// The `.rom.toml` with its defaults.
 struct CondenseOptions {
-  std::string method = "craig-bampton";       // or "craig-chang", "guyan"
-  std::vector<std::string> boundary;          // set names; their order is that of the coordinates
-  ModeRequest modes;                          // shapes of the interior
-  bool certificate = true;                    // false: without its costly part (certificate.hpp)
-  std::vector<std::string> skin = {"skin"};   // surfaces whose displacement can be recovered
-  std::vector<std::string> rows;              // sets whose displacement is kept beside the boundary
-  rom::EliminationOrder order;                // of K_ii, used again where it fits
-  bool inertia_invariants = false;            // of a body that rotates, eq. (9)
+  std::string method = "craig-bampton";      // or "craig-chang", "guyan"
+  std::vector<std::string> boundary;         // set names; their order is that of the coordinates
+  ModeRequest modes;                         // shapes of the interior
+  bool certificate = true;                   // false: without its costly part (certificate.hpp)
+  std::vector<std::string> skin = {"skin"};  // surfaces whose displacement can be recovered
+  std::vector<std::string> rows;    // sets, besides the boundary, whose displacement is kept
+  rom::EliminationOrder order;      // of K_ii, reused where it fits
+  bool inertia_invariants = false;  // of a body that rotates, eq. (9)
   std::optional<InterfaceOptions> interface;  // second reduction, of the boundary
-  rom::DampingTable modal_damping;            // by eigenmodes of the body, beside alpha and beta
+  rom::DampingTable modal_damping;  // by eigenmodes of the body, in addition to alpha and beta
 };
 
-/// Reads the options; InputError for unknown keys and senseless values.
+/// Reads the options; InputError for unknown keys and invalid values.
 CondenseOptions read_condense_options(const Config& config);
 
 /// Reduces `model` by Guyan, Craig-Bampton (eq. 13, 14) or Craig-Chang and certifies the result.
@@ -36,7 +36,7 @@ CondenseOptions read_condense_options(const Config& config);
 rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
                            StepClock& clock);
 
-/// Lines that tell a user what the reduced model holds and what was proved.
+/// Lines for the user on the contents of the reduced model and what was verified.
 std::vector<std::string> describe(const rom::ReducedModel& reduced);
 
 }  // namespace clatter::condense

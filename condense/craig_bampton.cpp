@@ -33,8 +33,8 @@ std::shared_ptr<const sparse::SupernodalFactor> factorise_interior(
 }
 
 rom::EliminationOrder order_of(const sparse::SupernodalFactor& factor, const SparseMatrix& K_ii) {
-  const std::vector<int64_t> places = factor.permutation();
-  return {{places.begin(), places.end()},
+  const std::vector<int64_t> permutation = factor.permutation();
+  return {{permutation.begin(), permutation.end()},
           rom::sha256_of_pattern(K_ii),
           factor.report().ordering,
           factor.report().entries};

@@ -12,16 +12,16 @@
 
 namespace clatter::condense {
 
-/// The basis V = [I 0; Psi_ib Phi_ik] and its matrices, with what was proved on the way.
+/// The basis V = [I 0; Psi_ib Phi_ik], its matrices and the checks made.
 struct CraigBampton : Reduction {
   Eigen::VectorXd fixed_interface_hz;  // of the kept shapes: modes, load shapes, residual modes
-  InteriorModes interior;              // what is known of them; the vectors moved to the basis
+  InteriorModes interior;              // their data; the vectors were moved to the basis
   ResidualReport residual;
   sparse::FactorReport factor;
   double rigid_error = 0.0;  // of the static shapes
 };
 
-/// What is made once for a boundary, whatever modes are added.
+/// Results for a boundary that do not depend on the modes added.
 struct StaticPart {
   std::shared_ptr<const sparse::SupernodalFactor> factor_ii;
   StaticReduction reduction;
@@ -31,8 +31,8 @@ struct StaticPart {
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
 /// @param K, M blocks of the model's matrices by `partition`.
-/// @param kept interior unknowns whose rows of Psi are wanted.
-/// @param order used again when it fits K_ii (hard case C7), in place of one that is looked for.
+/// @param kept interior DoFs whose rows of Psi are requested.
+/// @param order reused when it fits K_ii (hard case C7), instead of computing one.
 /// Throws InputError when the boundary does not hold the body, NumericsError when K_ii is singular.
 StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
                        const PartitionedMatrix& K, const PartitionedMatrix& M,
@@ -41,8 +41,8 @@ StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is
-/// Guyan's, and the cut-off is the first fixed-interface frequency, from where on the basis holds
-/// nothing. Throws NumericsError as solve_modes does.
+/// Guyan's, and the cut-off is the first fixed-interface frequency, above which the basis has no
+/// modes. Throws NumericsError as solve_modes does.
 CraigBampton craig_bampton(const fe::FeModel& model, const DofPartition& partition,
                            const PartitionedMatrix& K, const PartitionedMatrix& M,
                            const StaticPart& statics, const ModeRequest& request, StepClock& clock);

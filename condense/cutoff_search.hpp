@@ -1,5 +1,5 @@
 #pragma once
-// The cut-off that a wanted accuracy of the body's frequencies asks for.
+// The cut-off needed for a requested accuracy of the body's frequencies.
 #include <map>
 #include <string>
 
@@ -7,16 +7,16 @@
 
 namespace clatter::condense {
 
-/// What was asked and what was found.
+/// Request and result of the search.
 struct CutOffSearch {
   double target = 0.0;   // relative frequency error below InteriorModes::accurate_to_hz
   double reached = 0.0;  // bound of it by cutoff_error_bound
   int tried = 0;         // how many cut-offs
 };
 
-/// The estimate of residual_modes.hpp takes the static answer of the modes left out, 1 / lambda_k.
-/// At a frequency f below the cut-off f_c their true part is 1 / (lambda_k - lambda), so the error
-/// is at most estimate / (1 - (f / f_c)^2).
+/// The estimate of residual_modes.hpp uses the static response of the truncated modes, 1 /
+/// lambda_k. At a frequency f below the cut-off f_c their true response is 1 / (lambda_k - lambda),
+/// so the error is at most estimate / (1 - (f / f_c)^2).
 double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
 
 /// A Craig-Bampton basis whose modes below `request.accurate_to_hz` have frequencies within

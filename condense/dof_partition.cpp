@@ -40,7 +40,7 @@ DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::str
     if (coordinate[static_cast<size_t>(dof)] < 0) partition.interior.push_back(dof);
   }
   if (partition.interior.empty()) {
-    throw InputError("boundary: found every degree of freedom, expected some left inside");
+    throw InputError("boundary: found every DoF, expected some interior ones");
   }
   return partition;
 }
@@ -49,11 +49,11 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   const auto n = static_cast<size_t>(lower.cols());
   const auto n_i = static_cast<int>(partition.interior.size());
   const auto n_b = static_cast<int>(partition.boundary.size());
-  std::vector<int> place(n);
+  std::vector<int> block_index(n);
   std::vector<char> is_boundary(n, 0);
-  for (int k = 0; k < n_i; ++k) place[static_cast<size_t>(partition.interior[k])] = k;
+  for (int k = 0; k < n_i; ++k) block_index[static_cast<size_t>(partition.interior[k])] = k;
   for (int k = 0; k < n_b; ++k) {
-    place[static_cast<size_t>(partition.boundary[k])] = k;
+    block_index[static_cast<size_t>(partition.boundary[k])] = k;
     is_boundary[static_cast<size_t>(partition.boundary[k])] = 1;
   }
   std::vector<Eigen::Triplet<double>> ii, ib;
@@ -62,10 +62,10 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   blocks.bb = Eigen::MatrixXd::Zero(n_b, n_b);
   for (int j = 0; j < lower.outerSize(); ++j) {
     const bool column_b = is_boundary[static_cast<size_t>(j)] != 0;
-    const int q = place[static_cast<size_t>(j)];
+    const int q = block_index[static_cast<size_t>(j)];
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
       const bool row_b = is_boundary[static_cast<size_t>(it.row())] != 0;
-      const int p = place[static_cast<size_t>(it.row())];
+      const int p = block_index[static_cast<size_t>(it.row())];
       if (row_b && column_b) {
         blocks.bb(p, q) = blocks.bb(q, p) = it.value();
       } else if (row_b) {
@@ -73,7 +73,7 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
       } else if (column_b) {
         ib.emplace_back(p, q, it.value());
       } else {
-        ii.emplace_back(p, q, it.value());  // ascending places keep p >= q
+        ii.emplace_back(p, q, it.value());  // ascending indices keep p >= q
       }
     }
   }
@@ -94,18 +94,18 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
   Eigen::Index rank = 0;
   while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
   if (rank == free.count()) return;
-  const Eigen::VectorXd way = svd.matrixV().col(free.count() - 1);
-  const Eigen::VectorXd loose = free.unit * way;
+  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd motion = free.unit * combination;
   Eigen::Index most = 0;
-  (free.q * way).cwiseAbs().maxCoeff(&most);
+  (free.q * combination).cwiseAbs().maxCoeff(&most);
   throw InputError(
-      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions; free is a "
-                  "{}, most at {}: "
+      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
+                  "not the {}, largest at {}: "
                   "add a set that holds it{}",
                   partition.boundary.size(), rank,
                   free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
-                  fe::motion_name(loose, fe::characteristic_length(model)),
-                  fe::describe_dof(model, static_cast<int32_t>(most)),
+                  fe::motion_name(motion, fe::characteristic_length(model)),
+                  fe::place_of(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
 }
 

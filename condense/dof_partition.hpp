@@ -1,5 +1,5 @@
 #pragma once
-// The split of a model's degrees of freedom into boundary (retained) and interior ones.
+// Partition of a model's DoFs into boundary (retained) and interior ones.
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
@@ -18,12 +18,12 @@ struct DofPartition {
   std::vector<int32_t> interior;            // n_i indices into the model
   std::map<std::string, rom::DofSet> sets;  // the boundary sets; `dofs` index the reduced model
   std::map<std::string, rom::ContactGrid> grids;  // of those sets that are contact grids
-  std::vector<std::string> repeated;  // labels that name a DoF which was already retained
+  std::vector<std::string> repeated;              // labels of DoFs that were already retained
 };
 
-/// Boundary = the DoFs of the named sets, set by set. A DoF that stands in several sets gets one
-/// coordinate, which all of them share (hard case B3). InputError for an unknown or empty set, or
-/// when nothing is left inside.
+/// Boundary = the DoFs of the named sets, set by set. A DoF in several sets gets one shared
+/// coordinate (hard case B3). InputError for an unknown or empty set, or when no interior DoF is
+/// left.
 DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names);
 
 /// A symmetric matrix in blocks, A = [A_ii A_ib; A_bi A_bb].
@@ -36,8 +36,7 @@ struct PartitionedMatrix {
 /// @param lower n x n, lower triangle.
 PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition);
 
-/// Refuses a boundary that leaves a body free to move by one of the free motions: InputError naming
-/// the motion.
+/// Rejects a boundary that leaves one of the free motions possible: InputError naming the motion.
 void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
                           const fe::FreeMotions& free);
 

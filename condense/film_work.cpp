@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPlaces[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+constexpr double kCentres[] = {0.1, 0.3, 0.5, 0.7, 0.9};
 
 /// cos^2 about `centre`, zero beyond a right angle.
 double around(double angle, double centre) {
@@ -22,8 +22,8 @@ double around(double angle, double centre) {
 }
 
 /// Half a sine from centre - width / 2 to centre + width / 2.
-double along(double place, double centre, double width) {
-  const double s = (place - centre) / width + 0.5;
+double along(double position, double centre, double width) {
+  const double s = (position - centre) / width + 0.5;
   return s <= 0.0 || s >= 1.0 ? 0.0 : std::sin(std::numbers::pi * s);
 }
 
@@ -46,24 +46,24 @@ MatrixXd film_pressures(const rom::ContactGrid& grid) {
   MatrixXd pressures(grid.angle.size() * rows, 10);
   Index field = 0;
   for (const double side : {0.0, std::numbers::pi})
-    for (const double place : kPlaces) {
+    for (const double centre : kCentres) {
       for (Index i = 0; i < grid.angle.size(); ++i)
         for (Index j = 0; j < rows; ++j)
           pressures(i * rows + j, field) =
               around(grid.angle[i], side) *
-              along(grid.axial[j], bottom + place * height, 0.5 * height);
+              along(grid.axial[j], bottom + centre * height, 0.5 * height);
       ++field;
     }
   return pressures;
 }
 
 MatrixXd film_forces(const rom::ReducedModel& model, const std::string& grid) {
-  const std::vector<int32_t>& places = model.set(grid).dofs;
+  const std::vector<int32_t>& dofs = model.set(grid).dofs;
   const MatrixXd resultants =
       patch_areas(model.grid(grid)).asDiagonal() * film_pressures(model.grid(grid));
   MatrixXd forces = MatrixXd::Zero(model.size(), resultants.cols());
-  for (size_t k = 0; k < places.size(); ++k)
-    forces += model.row_of(places[k]).transpose() * resultants.row(static_cast<Index>(k));
+  for (size_t k = 0; k < dofs.size(); ++k)
+    forces += model.row_of(dofs[k]).transpose() * resultants.row(static_cast<Index>(k));
   return forces;
 }
 
@@ -77,12 +77,12 @@ VectorXd static_work(const MatrixXd& K, const MatrixXd& M, const MatrixXd& rigid
     balanced -= inertia * mass.ldlt().solve(MatrixXd(rigid.transpose() * forces));
     held += K.trace() / M.trace() * inertia * per_mass;
   }
-  // Metres and radians weigh alike.
+  // Metres and radians have equal weight.
   const VectorXd scale = held.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LLT<MatrixXd> factor(scale.asDiagonal() * held * scale.asDiagonal());
   if (factor.info() != Eigen::Success)
     throw NumericsError(
-        "film work: the stiffness is not positive definite beside its free motions");
+        "film work: the stiffness is not positive definite apart from its free motions");
   const MatrixXd scaled = scale.asDiagonal() * balanced;
   return scaled.cwiseProduct(factor.solve(scaled)).colwise().sum();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a reduced interface does to the work of film pressure.
+// Effect of an interface reduction on the work of film pressure.
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
@@ -16,8 +16,8 @@ Eigen::MatrixXd film_pressures(const rom::ContactGrid& grid);
 /// Forces on the coordinates of `model` by these pressures on one of its grids, r x 10.
 Eigen::MatrixXd film_forces(const rom::ReducedModel& model, const std::string& grid);
 
-/// p^T A u of the static answer u to each column of `forces`. What rests on nothing is balanced by
-/// its own inertia (inertia relief): (K + s M r r^T M) u = f - M r (r^T M r)^{-1} r^T f.
+/// p^T A u of the static response u to each column of `forces`. Free motions are balanced by
+/// inertia relief: (K + s M r r^T M) u = f - M r (r^T M r)^{-1} r^T f.
 /// @param forces r x k; rigid r x m, the free motions. Returns k works [J].
 Eigen::VectorXd static_work(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M,
                             const Eigen::MatrixXd& rigid, const Eigen::MatrixXd& forces);

@@ -157,7 +157,7 @@ double inertia_error(const rom::ReducedModel& reduced, bool free_body) {
   if (!free_body) return error;
   const MatrixXd momentum = reduced.M_rr * reduced.rigid;
   for (size_t k = 0; k < 3; ++k) {
-    const size_t l = (k + 1) % 3, j = (k + 2) % 3;  // a turn about j moves k towards l
+    const size_t l = (k + 1) % 3, j = (k + 2) % 3;  // a rotation about j moves k towards l
     error = std::max(error, difference(found.first[k], momentum.col(static_cast<Index>(k))));
     error = std::max(error, difference(found.moment[3 * k + l] - found.moment[3 * l + k],
                                        momentum.col(static_cast<Index>(3 + j))));

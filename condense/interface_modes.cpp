@@ -34,10 +34,10 @@ Split split_boundary(const rom::ReducedModel& model, const std::vector<std::stri
   return split;
 }
 
-/// Refuses coordinates that leave a free rigid motion; rigid_R is their part of these motions.
+/// Rejects coordinates that leave a free rigid motion; rigid_R is their part of these motions.
 void check_holds(const rom::ReducedModel& model, const MatrixXd& rigid_R, double length) {
   if (rigid_R.cols() == 0 || rigid_R.rows() == 0) return;
-  MatrixXd scaled = rigid_R;  // columns of unit size; a motion that all coordinates rest in is zero
+  MatrixXd scaled = rigid_R;  // columns of unit size; zero for a motion that moves no coordinate
   for (Index j = 0; j < scaled.cols(); ++j)
     scaled.col(j) /= std::max(scaled.col(j).norm(), 1e-9 * std::max(1.0, length));
   const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(scaled).singularValues();
@@ -49,7 +49,7 @@ void check_holds(const rom::ReducedModel& model, const MatrixXd& rigid_R, double
                   model.name, rigid_R.rows(), rank, rigid_R.cols()));
 }
 
-/// Areas of the patches behind the coordinates `become`; InputError when one is no patch.
+/// Areas of the patches of the coordinates `become`; InputError when one is no patch.
 VectorXd areas_of(const rom::ReducedModel& model, const InterfaceOptions& options,
                   const std::vector<int>& become) {
   VectorXd by_coordinate = VectorXd::Zero(model.n_boundary);
@@ -112,21 +112,21 @@ MatrixXd projected(const MatrixXd& A, const MatrixXd& W) {
   return 0.5 * (out + out.transpose());
 }
 
-/// Sets name coordinates that stay, after all coordinates the places of `become`, and after those
-/// the places that were combined among the coordinates `before`.
+/// Renumbers the DoFs of sets: coordinates that stay, after all coordinates the rows of `become`,
+/// and then the rows that were already combined among the coordinates `before`.
 void renumber(rom::ReducedModel& model, const Split& split, int before, int size) {
-  std::vector<int32_t> place(static_cast<size_t>(model.n_boundary));
+  std::vector<int32_t> renumbered(static_cast<size_t>(model.n_boundary));
   for (size_t k = 0; k < split.stay.size(); ++k)
-    place[static_cast<size_t>(split.stay[k])] = static_cast<int32_t>(k);
+    renumbered[static_cast<size_t>(split.stay[k])] = static_cast<int32_t>(k);
   for (size_t k = 0; k < split.become.size(); ++k)
-    place[static_cast<size_t>(split.become[k])] = size + static_cast<int32_t>(k);
+    renumbered[static_cast<size_t>(split.become[k])] = size + static_cast<int32_t>(k);
   const auto shift = size + static_cast<int32_t>(split.become.size()) - before;
   for (auto& [name, set] : model.sets)
     for (int32_t& dof : set.dofs)
-      dof = dof < before ? place[static_cast<size_t>(dof)] : dof + shift;
+      dof = dof < before ? renumbered[static_cast<size_t>(dof)] : dof + shift;
 }
 
-/// Rigid motions (r x m) in the coordinates behind W: q_R as it is, z the nearest in the mass of S.
+/// Rigid motions (r x m) in the coordinates after W: q_R as it is, z the nearest in the mass of S.
 MatrixXd carried(const rom::ReducedModel& model, const Split& split, const MatrixXd& W,
                  const MatrixXd& motions) {
   const auto n_R = static_cast<Index>(split.stay.size());
@@ -143,7 +143,7 @@ MatrixXd carried(const rom::ReducedModel& model, const Split& split, const Matri
   return out;
 }
 
-/// The model in the coordinates behind W.
+/// The model in the coordinates after W.
 rom::ReducedModel transformed(const rom::ReducedModel& model, const Split& split,
                               const MatrixXd& W) {
   rom::ReducedModel out = model;
@@ -240,7 +240,7 @@ InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOption
   MatrixXd Psi_SR(K_SS.rows(), static_cast<Index>(split.stay.size()));
   if (!all_of_it) {
     Psi_SR = -K_SS.ldlt().solve(MatrixXd(model.K_rr(split.become, split.stay)));
-    // The least change that makes the shapes carry the rigid motions exactly.
+    // The smallest change with which the shapes represent the rigid motions exactly.
     if (rigid_R.cols() > 0)
       Psi_SR +=
           (rigid_S - Psi_SR * rigid_R) * rigid_R.completeOrthogonalDecomposition().pseudoInverse();

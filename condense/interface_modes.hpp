@@ -15,10 +15,10 @@ struct InterfaceOptions {
   std::vector<std::string> sets;  // whose coordinates become modes
   int modes = 0;                  // how many elastic ones, or
   double fmax_hz = 0.0;           // all below; exactly one of both is positive
-  bool by_area = false;           // weight = "area": patch areas in place of M_ss
+  bool by_area = false;           // weight = "area": patch areas instead of M_ss
 };
 
-/// Reads [interface] sets (default: the whole boundary), modes or fmax_hz, weight = "mass" or
+/// Reads [interface] sets (default: the entire boundary), modes or fmax_hz, weight = "mass" or
 /// "area"; nothing when the table is absent. InputError for a set that is not in `boundary`, both
 /// or neither of modes and fmax_hz, and fmax_hz with weight "area".
 std::optional<InterfaceOptions> read_interface_options(const Config& config,
@@ -26,19 +26,19 @@ std::optional<InterfaceOptions> read_interface_options(const Config& config,
 
 struct InterfaceReport {
   int coordinates = 0;             // boundary coordinates that became modes
-  int modes = 0;                   // that took their place
-  double cutoff_hz = 0.0;          // of the modes left out the lowest; 0: by area or none left out
+  int modes = 0;                   // that replaced them
+  double cutoff_hz = 0.0;          // lowest of the truncated modes; 0: by area or none truncated
   double frequency_error = 0.0;    // largest relative one of the body's modes, below the limit
   double pressure_work_error = 0;  // largest relative one (film_work.hpp); without a grid 0
 };
 
-/// Puts q = W z in place of q: of the boundary coordinates b = [R S], S those of the named sets,
+/// Replaces q by q = W z: of the boundary coordinates b = [R S], S those of the named sets,
 ///   q_S = Psi_SR q_R + Phi_S z,   K_SS Phi_S = N Phi_S Lambda,   Psi_SR = -K_SS^{-1} K_SR
 /// (Castanier, Tan and Pierre 2001; K_bb and M_bb of a Craig-Bampton model are Guyan's), N = M_SS,
-/// or the diagonal of patch areas, whose modes are the shapes of the most pressure work. With all
-/// of the boundary named R is empty and the free rigid motions are kept beside the elastic modes.
-/// All parts of the model are transformed; what stood in S moves to ReducedModel::combined; z comes
-/// after q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
+/// or the diagonal of patch areas, whose modes are the shapes of the most pressure work. With the
+/// entire boundary named, R is empty and the free rigid motions are kept with the elastic modes.
+/// All parts of the model are transformed; sets in S move to ReducedModel::combined; z comes after
+/// q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
 /// @param motions r x m, the free rigid motions; on return in the new coordinates; limit_hz up to
 /// where frequencies are compared before and after; length [m] the body's size.
 /// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.

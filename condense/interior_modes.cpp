@@ -42,7 +42,7 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
                                     const ModeRequest& request) {
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   sparse::EigenOptions options = eigen_options(request);
-  options.sigma = 0.0;  // K_ii itself is definite, and its factor is there
+  options.sigma = 0.0;  // K_ii itself is definite and already factorised
   if (guyan) options.count = 1;
   sparse::ModeSet modes = sparse::solve_modes(K.ii, M.ii, options, &factor_ii);
   InteriorModes out;

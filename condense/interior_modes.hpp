@@ -1,5 +1,5 @@
 #pragma once
-// The shapes that a basis gives the interior while the boundary rests.
+// The shapes of the interior with the boundary held.
 #include <string>
 #include <vector>
 
@@ -14,12 +14,12 @@ namespace clatter::condense {
 struct ModeRequest : sparse::EigenChoice {
   int count = 0;
   double fmax_hz = 0.0;
-  double accurate_to_hz = 0.0;  // the body's frequencies below are wanted; 0: as the cut-off allows
-  bool own_modes = false;  // of the body itself in place of its fixed-interface modes: Craig-Chang
-  std::vector<std::string> load_shapes;  // loads whose static answer is in the basis
+  double accurate_to_hz = 0.0;  // limit of the requested frequencies of the body; 0: by the cut-off
+  bool own_modes = false;       // of the body itself instead of fixed-interface modes: Craig-Chang
+  std::vector<std::string> load_shapes;  // loads whose static response is in the basis
   bool prove_count = true;
   double frequency_error = 5e-4;  // aimed at by residual modes below accurate_to_hz; 0: none
-  bool estimate_error = true;     // of the frequencies, also where no residual modes are asked for
+  bool estimate_error = true;     // of the frequencies, also without residual modes
 };
 
 /// The shapes X: X^T M_ii X = I, X^T K_ii X = diag((2 pi hz)^2).
@@ -32,8 +32,8 @@ struct InteriorModes {
   Eigen::VectorXd residuals;    // of the eigenpairs
   double frequency_error = -1;  // of AMLS: the largest, relative, estimated; else negative
   sparse::CountProof proof;     // of their number
-  double cutoff_hz = 0.0;       // all modes below it are there, as far as errors are known
-  double accurate_to_hz = 0.0;  // up to where the body's own frequencies can be had
+  double cutoff_hz = 0.0;       // all modes below it are present, within the known errors
+  double accurate_to_hz = 0.0;  // limit of the body's own frequencies
 };
 
 /// Shapes of the interior by `request`.
@@ -45,11 +45,11 @@ struct InteriorModes {
 /// the body on its supports, or free, with the residual flexibility of the boundary (of a free body
 /// by inertia relief). Both together span what [I; Psi_ib] and the columns
 ///   K_ii^{-1} (M phi)_i = (phi_i - Psi_ib phi_b) / lambda,    K_ii^{-1} (M r)_i
-/// span, r the free rigid motions: a mode is a boundary displacement and the answer to its own
+/// span, r the free rigid motions: a mode is a boundary displacement and the response to its own
 /// inertia, and inertia relief loads the body with M r. So the first coordinates stay boundary
 /// displacements, and each kept mode is exact. accurate_to_hz is the cut-off.
 ///
-/// Load shapes: K_ii^{-1} f_i, the answer with the boundary held, so that static answers to the
+/// Load shapes: K_ii^{-1} f_i, the response with the boundary held, so that static responses to the
 /// load are exact everywhere.
 ///
 /// @param factor_ii of K_ii. @param motions n x m, the free rigid ones, M-orthonormal. InputError

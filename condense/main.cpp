@@ -83,7 +83,7 @@ int write_exports(const Paths& paths, const CommonOptions& common) {
   return 0;
 }
 
-/// Refuses a model that is not the one behind the reduced part.
+/// Rejects a model from which the reduced part was not condensed.
 void check_same_model(const Paths& paths, const condense::StoredRequest& stored) {
   const std::string found = sha256_of_file(paths.model);
   if (found == stored.model_sha256) return;
@@ -112,7 +112,7 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
   const rom::ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
   const double error = with_rows.certificate.at("rows_added_error");
   print_result(fmt::format(
-      "{}: {} skin nodes, {} sets beside the boundary; the basis solved for again "
+      "{}: {} skin nodes, {} sets besides the boundary; the basis solved for again "
       "differs by {:.1e} from the stored one",
       with_rows.name, with_rows.skin.nodes.rows(), with_rows.recovered_sets.size(), error));
   const std::string resolved = H5File::open(paths.add_rows).get_string("/", "config");
@@ -154,13 +154,12 @@ int run(int argc, char** argv) {
   line.option("--set", rows.sets, "with --add-rows: set whose displacement is kept, any number");
   bool uncertified = false;
   line.flag("--no-certificate", uncertified,
-            "leave out what costs: the count of modes, the spectrum and condition of the reduced "
-            "matrices; the file says so");
+            "omit costly checks: the count of modes, the spectrum and condition of the reduced "
+            "matrices; the file records this");
   double verify_hz = std::nan("");
-  line.option(
-      "--verify", verify_hz,
-      "compare with modes of the full model up to this frequency [Hz] and put the largest "
-      "error and the smallest MAC into the certificate; 0: as far as an accuracy is stated");
+  line.option("--verify", verify_hz,
+              "compare with modes of the full model up to this frequency [Hz] and put the largest "
+              "error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
   line.blas();
   line.memory_limit();
   if (!line.parse(argc, argv)) return line.exit_code();

@@ -1,5 +1,5 @@
 #pragma once
-// Modal damping as the user writes it.
+// Modal damping of the `.rom.toml`.
 #include "core/base/config.hpp"
 #include "core/rom/damping_table.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the basis that give the displacements of the skin and of sets beside the boundary.
+// The rows of the basis for the displacements of the skin and of sets besides the boundary.
 #include <string>
 #include <vector>
 
@@ -10,13 +10,13 @@
 namespace clatter::condense {
 
 /// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp); a
-/// face that stands in two of them is taken once. Knows which rows of the basis the skin needs.
+/// face in two of them is used once. Holds the rows of the basis that the skin needs.
 class SkinRecovery {
  public:
   /// InputError for an unknown surface or set.
   SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
                const std::vector<std::string>& surfaces, const std::vector<std::string>& sets);
-  /// Interior unknowns (places in partition.interior) that move the skin and the sets, ascending.
+  /// Interior DoFs (indices into partition.interior) that move the skin and the sets, ascending.
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
@@ -30,7 +30,7 @@ class SkinRecovery {
   std::vector<std::string> surfaces_, sets_;
   SkinFaces faces_;
   std::vector<int32_t> unknowns_;
-  std::vector<int32_t> row_;       // by DoF of the model: its place in unknowns_, or -1
+  std::vector<int32_t> row_;       // by DoF of the model: its index in unknowns_, or -1
   std::vector<int32_t> boundary_;  // by DoF of the model: its coordinate, or -1
 };
 

@@ -10,8 +10,9 @@
 
 namespace clatter::condense {
 
-/// V = [I 0; Psi X]: constraint modes Psi = -K_ii^{-1} K_ib, which are never held (n_i x n_b is the
-/// largest matrix of a condensation) but applied through the factor, and shapes X of the interior.
+/// V = [I 0; Psi X]: constraint modes Psi = -K_ii^{-1} K_ib, which are never stored (n_i x n_b is
+/// the largest matrix of a condensation) but applied through the factor, and shapes X of the
+/// interior.
 class ReducedBasis {
  public:
   ReducedBasis() = default;
@@ -41,7 +42,7 @@ struct ReducedMatrices {
   Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles
 };
 
-/// V^T A V from what the static sweep gave for the boundary; columns of X are taken in blocks. Psi
+/// V^T A V from the boundary blocks of the static sweep; columns of X are processed in blocks. Psi
 /// and X are orthogonal in K.
 ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
                         const StaticReduction& statics, const ReducedBasis& basis);
@@ -50,8 +51,8 @@ ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
 Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
                              const ReducedBasis& basis);
 
-/// Columns that do not depend on those before them: column j is kept when what M leaves of it after
-/// the kept ones are removed is more than `tolerance` of its own M-norm squared (hard case B3).
+/// Columns that do not depend on those before them: column j is kept when its remainder after
+/// projection on the kept ones exceeds `tolerance` of its own M-norm squared (hard case B3).
 /// The first `protected_count` columns are always kept. Ascending indices.
 /// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
 std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,

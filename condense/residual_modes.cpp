@@ -41,7 +41,7 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, const MatrixXd& m
   return {all.values.head(kept), all.vectors.leftCols(kept)};
 }
 
-/// The run over the passes; X holds the added vectors, with the boundary at rest.
+/// The passes; X holds the added vectors, with the boundary held.
 class Correction {
  public:
   Correction(Reduction& reduction, const sparse::SupernodalFactor& factor,
@@ -123,8 +123,8 @@ void Correction::improve(const std::vector<Index>& chosen) {
     const MatrixXd parts = ritz_.vectors.bottomRows(X_.cols())(Eigen::all, chosen);
     sparse::add_product(1.0, X_, parts, vectors);
   }
-  // K-orthonormal first, since lengths differ by many powers of ten; then M-orthonormal with K
-  // diagonal, so that they look like more fixed-interface modes.
+  // K-orthonormal first, since norms differ by many powers of ten; then M-orthonormal with K
+  // diagonal, as fixed-interface modes are.
   MatrixXd gram = sparse::transposed_product(vectors, K_ii_ * vectors);
   const VectorXd unit = gram.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(unit.asDiagonal() * gram * unit.asDiagonal());
@@ -166,7 +166,7 @@ ResidualReport add_residual_modes(Reduction& reduction, const sparse::Supernodal
   Correction correction(reduction, factor_ii, K, M, motions);
   ResidualReport report;
   report.estimated = true;
-  std::vector<char> corrected;  // by place in the ascending list, which passes hardly reorder
+  std::vector<char> corrected;  // by index in the ascending list, which passes hardly reorder
   for (int pass = 0; pass <= kPasses; ++pass) {
     const VectorXd error = correction.estimate(sparse::value_of_hz(limit_hz));
     report.modes = static_cast<int>(error.size());

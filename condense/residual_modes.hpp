@@ -1,5 +1,5 @@
 #pragma once
-// Basis vectors that stand for the truncated fixed-interface modes, and the error that is left.
+// Basis vectors that represent the truncated fixed-interface modes, and the remaining error.
 #include "condense/reduced_basis.hpp"
 #include "core/sparse/factor/supernodal_factor.hpp"
 
@@ -18,10 +18,10 @@ struct ResidualReport {
   int modes = 0;                // elastic modes of the body below the limit
 };
 
-/// Corrects the modes of the whole body below `limit_hz` for the fixed-interface modes that the
+/// Corrects the modes of the entire body below `limit_hz` for the fixed-interface modes that the
 /// basis lacks. A Ritz vector u with value lambda leaves the interior force
 ///   r = lambda (M u)_i - (K u)_i,
-/// whose static answer delta = K_ii^{-1} r with the boundary held is orthogonal to all kept modes
+/// whose static response delta = K_ii^{-1} r with the boundary held is orthogonal to all kept modes
 /// and lowers lambda by r^T delta to first order: that is both the correction (one step of inverse
 /// iteration; Craig and Hale 1988 add such residual vectors by loads, here the modes' own inertia
 /// is the load) and the estimate of the error r^T delta / (2 lambda) of the frequency. Vectors

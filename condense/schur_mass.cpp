@@ -10,7 +10,7 @@
 namespace clatter::condense {
 namespace {
 
-/// @param L the panel of K's front: L11 on top of L21.
+/// @param L the panel of K's front: L11 above L21.
 void carry_mass(const sparse::Front& front, const double* L) {
   const int p = front.columns, q = front.below, h = front.height();
   if (q == 0) return;

@@ -13,7 +13,7 @@ namespace clatter::condense {
 Eigen::MatrixXd schur_mass(const sparse::SupernodalFactor& factor_ii, const SparseMatrix& M_ii,
                            const SparseMatrix& M_ib);
 
-/// Multiplications and additions of that.
+/// Floating-point operations of schur_mass().
 double schur_mass_flops(const sparse::SupernodeTree& tree);
 
 }  // namespace clatter::condense

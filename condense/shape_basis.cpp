@@ -24,7 +24,7 @@ class Collector {
   Collector(const MatrixXd& kept, const sparse::SymmetricProduct& M, Index most)
       : kept_(kept), M_(M), columns_(kept.rows(), most) {}
 
-  /// Takes the columns of `block`, whose first is number `first`.
+  /// Adds the columns of `block`, of which the first has index `first`.
   void take(MatrixXd block, Index first, std::vector<int>& dependent) {
     scale(block);
     const MatrixXd found = columns_.leftCols(count_);
@@ -43,7 +43,7 @@ class Collector {
         continue;
       }
       column /= left;
-      // What rounding brought back while a small rest grew to unit length.
+      // Removes rounding that was amplified by scaling a small remainder to unit length.
       remove(kept_, M_, column);
       remove(columns_.leftCols(count_), M_, column);
       columns_.col(count_++) = column / norm(column);
@@ -57,7 +57,7 @@ class Collector {
   double norm(const MatrixXd& column) const {
     return std::sqrt(std::max(0.0, column.col(0).dot((M_ * column).col(0))));
   }
-  /// To unit length; zero stays zero.
+  /// Scales to unit norm; zero stays zero.
   void scale(MatrixXd& block) const {
     for (Index j = 0; j < block.cols(); ++j) {
       block.col(j) /= std::max(block.col(j).norm(), 1e-300);

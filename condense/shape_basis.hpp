@@ -1,5 +1,5 @@
 #pragma once
-// Any shapes of the interior made to look like modes.
+// Orthonormalises arbitrary shapes of the interior.
 #include <Eigen/Core>
 #include <vector>
 
@@ -14,9 +14,9 @@ struct ShapeBasis {
   std::vector<int> dependent;  // columns of the input that were dropped
 };
 
-/// The part of `shapes` that `kept` does not span. A shape of which less than 1e-9 in the norm of M
-/// is left beside `kept` and the shapes before it depends on them and is dropped; Gram-Schmidt in
-/// the mass inner product, twice, in blocks.
+/// The part of `shapes` that `kept` does not span. A shape with a remainder below 1e-9 in the norm
+/// of M after projection on `kept` and the shapes before it is dropped as dependent; Gram-Schmidt
+/// in the mass inner product, twice, in blocks.
 /// @param shapes n x m, of any length, zero too; kept n x p, eigenvectors of (K, M) with unit modal
 /// mass; K, M n x n, lower triangles, positive definite.
 ShapeBasis shape_basis(const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& kept,

@@ -69,14 +69,14 @@ class Builder {
     return n_nodes_ + static_cast<int32_t>(made_.size()) - 1;
   }
   int32_t middle(int32_t a, int32_t b) {
-    const auto [place, fresh] = middles_.try_emplace(std::minmax(a, b), -1);
-    if (fresh) place->second = new_point({{a, 0.5}, {b, 0.5}});
-    return place->second;
+    const auto [entry, fresh] = midpoints_.try_emplace(std::minmax(a, b), -1);
+    if (fresh) entry->second = new_point({{a, 0.5}, {b, 0.5}});
+    return entry->second;
   }
 
   int32_t n_nodes_;
   std::set<mesh::FaceKey> seen_;
-  std::map<std::pair<int32_t, int32_t>, int32_t> middles_;
+  std::map<std::pair<int32_t, int32_t>, int32_t> midpoints_;
   std::vector<SkinPoint> made_;
   std::vector<int32_t> corners_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Faces of any type as quadratic triangles, the one kind that recovery and radiation know.
+// Faces of any type as quadratic triangles, the only type that recovery and radiation use.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -9,17 +9,17 @@
 
 namespace clatter::condense {
 
-/// A point of the skin as a combination of nodes: one node, the middle of a straight edge, or the
-/// middle of a quadrilateral by its shape functions.
+/// A point of the skin as a combination of nodes: one node, the midpoint of a straight edge, or the
+/// centre of a quadrilateral by its shape functions.
 using SkinPoint = std::vector<std::pair<int32_t, double>>;
 
 struct SkinFaces {
-  std::vector<SkinPoint> points;  // nodes of the model ascending, then middles
+  std::vector<SkinPoint> points;  // nodes of the model ascending, then midpoints
   IndexMatrix triangles;          // f x 6, rows of `points`, outward
 };
 
 /// All faces of the named surfaces, each once. A quadrilateral becomes two triangles along its
-/// diagonal, exact on its edges and on the diagonal; a linear triangle gets the middles of its
+/// diagonal, exact on its edges and on the diagonal; a linear triangle gets the midpoints of its
 /// edges. InputError for an unknown surface.
 SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces);
 

@@ -22,11 +22,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr Index kPanel = 2048;  // rows of Psi that one product takes
+constexpr Index kPanel = 2048;  // rows of Psi per product
 
 int extent(Index value) { return static_cast<int>(value); }
 
-/// What the threads of one sweep share. Rows are those of z = S^{-1} Psi, S the factor's scale.
+/// Data shared by the threads of one sweep. Rows are those of z = S^{-1} Psi, S the factor's scale.
 class Sweep {
  public:
   Sweep(const sparse::SupernodalFactor& factor, const PartitionedMatrix& M,
@@ -34,16 +34,16 @@ class Sweep {
   void run();
 
   MatrixXd half_mass;  // M_bb is this + its transpose + the boundary's own mass
-  RowMatrix rows;      // Psi at the kept unknowns
+  RowMatrix rows;      // Psi at the kept DoFs
 
  private:
   friend class Worker;
   const sparse::SupernodalFactor& factor_;
   const sparse::SupernodeTree& tree_;
   sparse::PermutedMatrix mass_;
-  std::vector<int32_t> kept_at_;  // row of `rows` by place, or -1
+  std::vector<int32_t> kept_at_;  // row of `rows` by permuted index, or -1
   std::vector<int32_t> children_;
-  std::vector<char> used_;  // supernodes that the sweep comes to
+  std::vector<char> used_;  // supernodes that the sweep visits
   bool with_mass_;          // sums M_bb, of all rows
   Index n_b_, panel_rows_ = kPanel;
   RowMatrix panel_, image_;  // rows of z, and of the half of M z that belongs to them
@@ -83,8 +83,8 @@ Sweep::Sweep(const sparse::SupernodalFactor& factor, const PartitionedMatrix& M,
   image_.resize(panel_rows_, n_b_);
 }
 
-/// One thread's columns [begin, end) of Psi. All workers take the same steps and meet at each full
-/// panel.
+/// One thread's columns [begin, end) of Psi. All workers take the same steps and synchronise at
+/// each full panel.
 class Worker {
  public:
   Worker(Sweep& shared, std::barrier<>& meeting, Index begin, Index end)
@@ -124,8 +124,8 @@ class Worker {
   Index begin_, width_;
   std::vector<sparse::Buffer> fronts_;  // height x width, row by row, while children need them
   std::vector<int32_t> left_;           // children that still need the front
-  std::vector<int32_t> local_;          // row of the current front by place
-  std::vector<int32_t> places_;         // of the panel's rows
+  std::vector<int32_t> local_;          // row of the current front by permuted index
+  std::vector<int32_t> indices_;        // permuted indices of the panel's rows
   sparse::BufferPool pool_;
   Index filled_ = 0;
 };
@@ -183,18 +183,18 @@ void Worker::write_panel(int32_t s, const double* front) {
   const int32_t* rows = tree_.rows_of(s);
   for (int32_t k = 0; k < tree_.height(s); ++k) local_[static_cast<size_t>(rows[k])] = k;
   for (int32_t j = 0; j < tree_.columns(s); ++j) {
-    const int32_t place = first(s) + j;
+    const int32_t index = first(s) + j;
     const double* z = front + j * width_;
     std::copy_n(z, width_, &shared_.panel_(filled_ + j, begin_));
-    places_.push_back(place);
+    indices_.push_back(index);
     if (!shared_.with_mass_) continue;
     double* image = &shared_.image_(filled_ + j, begin_);
     std::fill_n(image, width_, 0.0);
     const auto& mass = shared_.mass_;
-    for (int64_t k = mass.starts[static_cast<size_t>(place)];
-         k < mass.starts[static_cast<size_t>(place) + 1]; ++k) {
+    for (int64_t k = mass.starts[static_cast<size_t>(index)];
+         k < mass.starts[static_cast<size_t>(index) + 1]; ++k) {
       const int32_t row = mass.rows[static_cast<size_t>(k)];
-      const double m = mass.values[static_cast<size_t>(k)] * (row == place ? 0.5 : 1.0);
+      const double m = mass.values[static_cast<size_t>(k)] * (row == index ? 0.5 : 1.0);
       const double* other = front + local_[static_cast<size_t>(row)] * width_;
       for (Index c = 0; c < width_; ++c) image[c] += m * other[c];
     }
@@ -217,17 +217,17 @@ void Worker::use_panel() {
   if (filled_ > 0) keep_rows();
   meeting_.arrive_and_wait();
   filled_ = 0;
-  places_.clear();
+  indices_.clear();
 }
 
 /// Kept rows, by columns.
 void Worker::keep_rows() const {
   const auto& scale = shared_.factor_.scale();
   for (Index k = 0; k < filled_; ++k) {
-    const auto place = static_cast<size_t>(places_[static_cast<size_t>(k)]);
-    if (shared_.kept_at_[place] < 0) continue;
-    shared_.rows.row(shared_.kept_at_[place]).segment(begin_, width_) =
-        scale[static_cast<size_t>(tree_.order[place])] *
+    const auto index = static_cast<size_t>(indices_[static_cast<size_t>(k)]);
+    if (shared_.kept_at_[index] < 0) continue;
+    shared_.rows.row(shared_.kept_at_[index]).segment(begin_, width_) =
+        scale[static_cast<size_t>(tree_.order[index])] *
         shared_.panel_.row(k).segment(begin_, width_);
   }
 }
@@ -241,13 +241,13 @@ void Sweep::run() {
     try {
       Worker(*this, meeting, begin, end).run(begin == 0 ? &progress : nullptr);
     } catch (...) {
-      meeting.arrive_and_drop();  // the others end their work, then the failure is thrown on
+      meeting.arrive_and_drop();  // the others finish, then the exception is rethrown
       throw;
     }
   });
 }
 
-/// Entries that the fronts of one path take at most, all columns together.
+/// Upper bound of the entries of the fronts on one path, all columns together.
 double path_entries(const sparse::SupernodeTree& tree) {
   std::vector<double> above(tree.parent.size(), 0.0);
   double most = 0.0;
@@ -278,9 +278,9 @@ bool sweep_is_cheaper(const sparse::SupernodeTree& tree) {
   return 2.0 * tree.size * n_b * n_b <= schur_mass_flops(tree);
 }
 
-/// Rounding in Psi must not stand in the mass properties. Psi + E P carries the rigid motions, with
-/// E = r_i - Psi r_b and P = r_b^+ the change of least norm; the kept rows are changed so, and M_bb
-/// by the symmetric change of least rank that gives it the momentum of these motions.
+/// Removes rounding in Psi from the mass properties. Psi + E P represents the rigid motions, where
+/// E = r_i - Psi r_b and P = r_b^+ give the change of least norm; the kept rows get this change,
+/// and M_bb the symmetric change of least rank that gives it the momentum of these motions.
 void carry_rigid_motions(const sparse::SupernodalFactor& factor_ii, const PartitionedMatrix& K,
                          const PartitionedMatrix& M, const RigidMotions& rigid,
                          const std::vector<int32_t>& kept, StaticReduction& out) {
@@ -304,9 +304,9 @@ void carry_rigid_motions(const sparse::SupernodalFactor& factor_ii, const Partit
 StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
-                                  StaticMass way) {
-  const bool with_mass = way == StaticMass::kSweep ||
-                         (way == StaticMass::kCheaper && sweep_is_cheaper(factor_ii.tree()));
+                                  StaticMass method) {
+  const bool with_mass = method == StaticMass::kSweep ||
+                         (method == StaticMass::kCheaper && sweep_is_cheaper(factor_ii.tree()));
   require_memory_for(factor_ii.tree(), kept.size(), with_mass);
   StaticReduction out;
   out.K_bb = K.bb - factor_ii.boundary_part();

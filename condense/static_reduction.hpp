@@ -1,5 +1,5 @@
 #pragma once
-// The mass that the static shapes of the interior carry, without holding the shapes.
+// The mass of the static shapes of the interior, without storing the shapes.
 #include <Eigen/Core>
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace clatter::condense {
 
-/// Rigid motions that the static shapes must carry: Psi at_boundary = inside.
+/// Rigid motions that the static shapes must represent: Psi at_boundary = inside.
 struct RigidMotions {
   Eigen::MatrixXd at_boundary;  // n_b x m
   Eigen::MatrixXd inside;       // n_i x m
 };
 
-/// What is kept of the constraint modes Psi_ib = -K_ii^{-1} K_ib (Guyan 1965; Craig and Bampton
+/// The stored part of the constraint modes Psi_ib = -K_ii^{-1} K_ib (Guyan 1965; Craig and Bampton
 /// 1968, eq. 8).
 struct StaticReduction {
   Eigen::MatrixXd K_bb, M_bb;  // of the basis [I; Psi], n_b x n_b
-  RowMatrix rows;              // Psi at the interior unknowns asked for
+  RowMatrix rows;              // Psi at the requested interior DoFs
   double rigid_error = 0.0;    // |Psi r_b - r_i| / |r_i| of the plain solve
 };
 
@@ -28,20 +28,20 @@ struct StaticReduction {
 enum class StaticMass { kCheaper, kSweep, kElimination };
 
 /// One sweep from the root of the elimination tree to its leaves: the rows of Psi at a supernode
-/// follow from those above it on the path, so only the fronts of one path are held. Each row is
-/// used where it is made: M_bb += Psi_j^T (M_jj Psi_j / 2 + sum over the rows above M_rj Psi_r) +
-/// transpose, in panels at BLAS-3 speed. All columns at once, shared out to the threads. With many
-/// boundary coordinates M_bb comes by elimination (schur_mass.hpp), and the sweep goes to the kept
-/// rows alone.
+/// follow from those above it on the path, so only the fronts of one path are in memory. Each row
+/// is used as soon as it is computed: M_bb += Psi_j^T (M_jj Psi_j / 2 + sum over the rows above
+/// M_rj Psi_r) + transpose, in panels at BLAS-3 speed. All columns at once, distributed to the
+/// threads. With many boundary coordinates M_bb is computed by elimination (schur_mass.hpp), and
+/// the sweep visits only the kept rows.
 ///
-/// Rounding in the solve would stand in the mass properties: rows and M_bb are changed, as little
-/// as can be, so that they carry the rigid motions exactly.
-/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib comes with
+/// Rounding in the solve would affect the mass properties: rows and M_bb are changed as little as
+/// possible so that they represent the rigid motions exactly.
+/// @param factor_ii of K.ii with the coupling K.ib. K_bb = K.bb - K_bi K_ii^{-1} K_ib follows from
 /// it.
-/// @param kept interior unknowns whose rows of Psi are wanted.
+/// @param kept interior DoFs whose rows of Psi are requested.
 StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const PartitionedMatrix& K, const PartitionedMatrix& M,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
-                                  StaticMass way = StaticMass::kCheaper);
+                                  StaticMass method = StaticMass::kCheaper);
 
 }  // namespace clatter::condense

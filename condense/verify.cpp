@@ -12,7 +12,7 @@ modes::Comparison verify(rom::ReducedModel& reduced, const fe::FeModel& model, d
   modes::Comparison result;
   try {
     result = modes::compare(model, reduced, {limit, 0});
-  } catch (const modes::NothingCompared& error) {  // a certificate without it is still one
+  } catch (const modes::NothingCompared& error) {  // the certificate is valid without it
     warn(fmt::format("not verified: {}", error.what()));
     return result;
   }

@@ -19,7 +19,7 @@ std::vector<int> flattened(const std::vector<std::pair<int, int>>& nodes) {
 NodesAnchor::NodesAnchor(const std::vector<std::pair<int, int>>& nodes)
     : Anchor(flattened(nodes)) {}
 
-AnchorState NodesAnchor::place(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
+AnchorState NodesAnchor::state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
   const auto n = static_cast<Eigen::Index>(coordinates_.size());
   AnchorState state;
   state.G.setZero(2, n);
@@ -34,7 +34,7 @@ AnchorState NodesAnchor::place(double, const Eigen::VectorXd& y, const Eigen::Ve
 RodAnchor::RodAnchor(std::vector<int> coordinates, const SliderCrank& crank, double arm)
     : Anchor(std::move(coordinates)), crank_(crank), arm_(arm) {}
 
-AnchorState RodAnchor::place(double time, const Eigen::VectorXd& y,
+AnchorState RodAnchor::state(double time, const Eigen::VectorXd& y,
                              const Eigen::VectorXd& v) const {
   const auto ideal = crank_.rod_angle(time);
   const double small = y(2), phi = ideal.position + small;

@@ -17,8 +17,8 @@ LoadedBody load_body(const BodySpec& spec) {
   LoadedBody body;
   body.spec = spec;
   body.model = rom::read_reduced_model(spec.rom, false);
-  const std::string doubt = rom::certificate_warning(body.model);
-  if (!doubt.empty()) warn(fmt::format("{}: {}", spec.rom.string(), doubt));
+  const std::string warning = rom::certificate_doubt(body.model);
+  if (!warning.empty()) warn(fmt::format("{}: {}", spec.rom.string(), warning));
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
   body.modal.name = spec.name;
@@ -52,7 +52,7 @@ const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name)
 int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {
   const rom::DofSet& dofs = model.set(set);
   for (size_t i = 0; i < dofs.dofs.size(); ++i) {
-    // A direction within half a degree of the axis is meant to be the axis.
+    // A direction within half a degree of the axis counts as the axis.
     const bool along = std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996;
     if (along && (dofs.is_rotation[i] != 0) == rotation) return dofs.dofs[i];
   }

@@ -8,10 +8,10 @@
 namespace clatter::dynamics {
 
 std::string fingerprint(const Scene& scene) {
-  // Another program may keep other states or step differently.
+  // Another program may store other states or step differently.
   std::string text = sha256_of_file("/proc/self/exe") + "\n" + scene.resolved;
   for (const auto& input : scene.inputs) {
-    if (input.extension() == ".toml") continue;  // its meaning is the configuration
+    if (input.extension() == ".toml") continue;  // already in the configuration
     text += fmt::format("{} {}\n", input.filename().string(), sha256_of_file(input));
   }
   return text;

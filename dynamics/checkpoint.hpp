@@ -1,5 +1,5 @@
 #pragma once
-// All that a run needs to go on from the end of a cycle.
+// The data that a run needs to resume at the end of a cycle.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace clatter::dynamics {
 
-/// Every cycle begins from one of these with elements built anew, whether the run was interrupted
-/// or not: so both give the same bits.
+/// Every cycle starts from a checkpoint with newly built elements, whether the run was interrupted
+/// or not: so both give identical results.
 struct Checkpoint {
-  int cycle = 0;  // cycles that are done
+  int cycle = 0;  // completed cycles
   StageState state;
   int rung = 0;
   std::vector<std::vector<double>> elements;  // internal states, per element
@@ -23,14 +23,14 @@ struct Checkpoint {
   StepStatistics statistics;
 };
 
-/// Text that must agree between a checkpoint and the run that resumes from it: the program itself,
-/// configuration and hashes of all inputs.
+/// Text that must agree between a checkpoint and the run that resumes from it: the hashes of the
+/// program and of all inputs, and the configuration.
 std::string fingerprint(const Scene& scene);
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point,
                       const std::string& fingerprint);
-/// Nothing when there is no such file or it belongs to another scene, other inputs or another
+/// Empty when there is no such file or it belongs to another scene, other inputs or another
 /// program; InputError when it cannot be read.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
                                           const std::string& fingerprint);

@@ -31,7 +31,7 @@ void read_shape(const Config& table, film::SkirtShape& shape) {
   }
 }
 
-// Nothing when the keys are absent; both or none.
+// Empty when the keys are absent; both or none must be given.
 void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
   const auto height = scaled(table.numbers_or("bore_height_mm", {}), kMilli);
   const auto widening = scaled(table.numbers_or("bore_widening_um", {}), kMicro);
@@ -115,7 +115,7 @@ film::PistonLinerOptions read_contact(const Config& table) {
   effects.asperities = table.flag_or("asperities", true);
   effects.friction = table.flag_or("friction", true);
   if (!effects.film && !effects.asperities) {
-    table.fail("asperities", "found false without a film, expected at least one of both");
+    table.fail("asperities", "found false without a film, expected at least one of the two");
   }
   read_shape(table, options.skirt);
   read_bore(table, options.bore);

@@ -5,8 +5,8 @@
 
 namespace clatter::dynamics {
 
-/// Reads [contact]; every key has a default but `bore_mm` and `clearance_um`. `lubrication =
-/// "none"` turns the film off. Heights are z from the pin's centre.
+/// Reads [contact]; every key except `bore_mm` and `clearance_um` has a default. `lubrication =
+/// "none"` switches the film off. Heights are z from the pin's centre.
 film::PistonLinerOptions read_contact(const Config& table);
 
 }  // namespace clatter::dynamics

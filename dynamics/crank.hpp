@@ -15,7 +15,7 @@ struct Motion {
 /// theta = omega t with 0 at firing top dead centre of the crank. The crank pin is at
 /// (y, z) = (-r sin theta, r cos theta): the gas force then pushes the piston toward +y, the thrust
 /// side, after top dead centre. The rod's angle phi about x obeys sin phi = (y_c - e)/l and the pin
-/// stands at z_B = z_c + l cos phi (Heywood 1988, section 2.2, for e = 0).
+/// is at z_B = z_c + l cos phi (Heywood 1988, section 2.2, for e = 0).
 class SliderCrank {
  public:
   /// Lengths [m], speed [rad/s]. InputError unless r > 0, l > r + |e|.

@@ -65,11 +65,11 @@ struct Heading {
   Unit unit;
 };
 
-Heading heading(const std::string& cell, const std::string& place) {
+Heading heading(const std::string& cell, const std::string& position) {
   const auto open = cell.find('['), close = cell.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) {
-    throw InputError(
-        fmt::format("{}: found \"{}\", expected a header such as \"pressure [bar]\"", place, cell));
+    throw InputError(fmt::format("{}: found \"{}\", expected a header such as \"pressure [bar]\"",
+                                 position, cell));
   }
   const auto unit = trimmed(cell.substr(open + 1, close - open - 1));
   const auto found = units().find(unit);
@@ -77,27 +77,27 @@ Heading heading(const std::string& cell, const std::string& place) {
     std::vector<std::string> known;
     for (const auto& entry : units()) known.push_back(entry.first);
     throw InputError(
-        fmt::format("{}: unit [{}], expected one of: {}", place, unit, fmt::join(known, ", ")));
+        fmt::format("{}: unit [{}], expected one of: {}", position, unit, fmt::join(known, ", ")));
   }
   return {trimmed(cell.substr(0, open)), found->second};
 }
 
-double number(const std::string& cell, const std::string& place, const std::string& column) {
+double number(const std::string& cell, const std::string& position, const std::string& column) {
   double value = 0.0;
   const auto* begin = cell.data();
   const auto* end = begin + cell.size();
   const auto parsed = std::from_chars(begin, end, value);
   if (cell.empty() || parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
     throw InputError(
-        fmt::format("{}: {}: found \"{}\", expected a finite number", place, column, cell));
+        fmt::format("{}: {}: found \"{}\", expected a finite number", position, column, cell));
   }
   return value;
 }
 
 size_t column_index(const std::vector<Heading>& headings, const std::string& column,
-                    const std::string& place) {
+                    const std::string& position) {
   if (headings.size() < 2) {
-    throw InputError(fmt::format("{}: found one column, expected at least two", place));
+    throw InputError(fmt::format("{}: found one column, expected at least two", position));
   }
   if (column.empty()) return 1;
   std::vector<std::string> names;
@@ -106,7 +106,7 @@ size_t column_index(const std::vector<Heading>& headings, const std::string& col
     names.push_back(headings[i].name);
   }
   throw InputError(
-      fmt::format("{}: no column \"{}\", found: {}", place, column, fmt::join(names, ", ")));
+      fmt::format("{}: no column \"{}\", found: {}", position, column, fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -122,11 +122,11 @@ CsvColumns read_csv(const std::filesystem::path& path, const std::string& column
   std::string text;
   for (int line = 1; std::getline(stream, text); ++line) {
     if (trimmed(text).empty() || trimmed(text)[0] == '#') continue;
-    const auto place = fmt::format("{}:{}", path.string(), line);
+    const auto position = fmt::format("{}:{}", path.string(), line);
     const auto row = cells(text);
     if (headings.empty()) {
-      for (const auto& cell : row) headings.push_back(heading(cell, place));
-      picked = column_index(headings, column, place);
+      for (const auto& cell : row) headings.push_back(heading(cell, position));
+      picked = column_index(headings, column, position);
       table.abscissa_name = headings[0].name;
       table.abscissa_unit = headings[0].unit.si;
       table.name = headings[picked].name;
@@ -135,18 +135,18 @@ CsvColumns read_csv(const std::filesystem::path& path, const std::string& column
     }
     if (row.size() != headings.size()) {
       throw InputError(
-          fmt::format("{}: found {} cells, expected {}", place, row.size(), headings.size()));
+          fmt::format("{}: found {} cells, expected {}", position, row.size(), headings.size()));
     }
     const auto converted = [&](size_t i) {
       const Unit& unit = headings[i].unit;
-      return number(row[i], place, headings[i].name) * unit.factor + unit.offset;
+      return number(row[i], position, headings[i].name) * unit.factor + unit.offset;
     };
     const double x = converted(0);
     if (!table.x.empty() && !(x > table.x.back())) {
       throw InputError(
           fmt::format("{}: {}: found {} after a row that is not below it, expected "
                       "ascending values",
-                      place, table.abscissa_name, row[0]));
+                      position, table.abscissa_name, row[0]));
     }
     table.x.push_back(x);
     table.y.push_back(converted(picked));

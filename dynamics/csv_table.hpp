@@ -1,5 +1,5 @@
 #pragma once
-// Tables of numbers as text: a header with units, then rows.
+// CSV tables: a header with units, then rows of numbers.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,8 +22,8 @@ struct CsvColumns {
 ///
 /// Separators: comma or semicolon. Units: deg, rad, s, ms, us, Pa, kPa, bar, MPa, N, kN, N m, m,
 /// mm, um, K, degC, 1; each is converted to SI. InputError "file:line: ..." for a missing header,
-/// an unknown unit, a missing or extra cell, what is not a finite number, an abscissa that does not
-/// ascend.
+/// an unknown unit, a missing or extra cell, a value that is not a finite number, an abscissa that
+/// does not ascend.
 CsvColumns read_csv(const std::filesystem::path& path, const std::string& column);
 
 }  // namespace clatter::dynamics

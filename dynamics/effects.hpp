@@ -1,5 +1,5 @@
 #pragma once
-// The table of effects: what is simulated, what is not, why, and what each costs.
+// The table of effects: which are simulated, why, and their cost.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ struct Effect {
   std::string name;
   bool on = false;
   std::string why;      // the key that decides, or the reason
-  std::string element;  // whose seconds are counted here; empty: none of its own
+  std::string element;  // whose seconds are counted here; empty: none
   double seconds = 0.0;
 };
 
@@ -20,7 +20,7 @@ class EffectTable {
  public:
   void add(const std::string& name, bool on, const std::string& why,
            const std::string& element = "");
-  /// Adds seconds of an element to the effect that names it.
+  /// Adds seconds of an element to its effect.
   void charge(const std::string& element, double seconds);
   const std::vector<Effect>& effects() const { return effects_; }
   /// The table as lines of text.

@@ -1,6 +1,6 @@
 #pragma once
-// What every force element must say: forces and their tangent at an implicit stage, its internal
-// states under the same tableau, its power, and what it reports.
+// Interface of force elements: forces and their tangent at an implicit stage, internal states under
+// the same tableau, power, and reported scalars.
 #include <Eigen/Core>
 #include <stdexcept>
 #include <string>
@@ -33,7 +33,7 @@ struct Power {
   double input = 0;   // power from prescribed motion or supply [W]
 };
 
-/// A trial state is not admissible (film thickness <= 0, inner solve stuck): the step is cut.
+/// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.
 class StepRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -53,22 +53,22 @@ class ForceElement {
   const std::vector<int>& coordinates() const { return coordinates_; }
 
   /// Forces at a trial state. `y`, `v`: n_e displacements and velocities; `response.tangent` is
-  /// wanted only if `with_tangent`. Resizes the response. Throws StepRefused.
+  /// computed only if `with_tangent`. Resizes the response. Throws StepRefused.
   virtual void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                         bool with_tangent, Response& response) = 0;
 
-  /// Before the first stage of a step from `time`; also drops what a rejected step left behind.
+  /// Before the first stage of a step from `time`; also discards the states of a rejected step.
   virtual void begin_step(double /*time*/) {}
-  /// The stage converged: keep its internal states and rates.
+  /// The stage converged: stores its internal states and rates.
   virtual void finish_stage(const Stage&) {}
   /// The internal state of the last stage becomes the state.
   virtual void accept_step(double /*time*/) {}
 
-  /// Energy and power at the state of the stage that was finished last; `y`, `v` are of that stage.
+  /// Energy and power at the last finished stage; `y`, `v` are of that stage.
   virtual Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const = 0;
   /// Named scalars of the last accepted state.
   virtual void record(History&) const {}
-  /// Internal state as numbers, for checkpoints; `restore` gets back what `save` gave, in order.
+  /// Internal state as numbers, for checkpoints; `restore` takes the result of `save`.
   virtual std::vector<double> save() const { return {}; }
   virtual void restore(const std::vector<double>& /*state*/) {}
 

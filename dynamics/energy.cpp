@@ -68,7 +68,7 @@ std::vector<double> EnergyBalance::save() const {
 
 void EnergyBalance::restore(const std::vector<double>& state, double time) {
   if (state.size() != 3 + names_.size()) {
-    throw InputError("energy balance: the saved state is of another scene");
+    throw InputError("energy balance: the saved state belongs to another scene");
   }
   stages_[0] = {state[0], state[1], state[2], {state.begin() + 3, state.end()}};
   time_ = time;

@@ -1,5 +1,5 @@
 #pragma once
-// The energy balance that runs along with the integration.
+// The energy balance, updated during the integration.
 #include <map>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct EnergyState {
   double strain = 0.0;                  // 1/2 omega^2 eta^2
   double element = 0.0;                 // stored in elements
   double lost = 0.0;                    // since the start: dampers, friction, film, modal damping
-  double input = 0.0;                   // since the start: loads and given motion
+  double input = 0.0;                   // since the start: loads and prescribed motion
   double exchanged = 0.0;               // since the start: sum of |power| over all terms
   std::map<std::string, double> terms;  // each input (>0 in) and loss (<0) by name
 
@@ -26,8 +26,8 @@ struct EnergyState {
 /// Accumulates  stored(t) - stored(0) = input - lost + imbalance.
 ///
 /// Powers are summed with the scheme's own weights, dt b_i over the three stages, so the balance
-/// measures the integrator and not a quadrature. The inertia forces of accelerated frames are loads
-/// like any other; their work is the term "inertia frame".
+/// measures the integrator and not a quadrature. The inertia forces of accelerated frames are
+/// ordinary loads; their work is the term "inertia frame".
 class EnergyBalance : public StageObserver {
  public:
   explicit EnergyBalance(const System& system, const Tableau& method = tr_bdf2());
@@ -35,9 +35,9 @@ class EnergyBalance : public StageObserver {
   void stage(int index, const StageState& state) override;
   void accept(double dt) override;
   const EnergyState& now() const { return now_; }
-  /// Starts counting anew from the present state.
+  /// Restarts the sums from the current state.
   void reset();
-  /// Powers and energies of the present state, for checkpoints; restore() starts counting from
+  /// Powers and energies of the current state, for checkpoints; restore() restarts the sums from
   /// them.
   std::vector<double> save() const;
   void restore(const std::vector<double>& state, double time);

@@ -21,7 +21,7 @@ double pin_height(const MotoredCycle& cycle, double theta) {
   return mechanism(cycle).piston_pin(theta).position;
 }
 
-/// Highest and lowest stand of the pin on the line y = e: rod and crank in one line.
+/// Highest and lowest position of the pin on the line y = e: rod and crank collinear.
 double highest(const MotoredCycle& cycle) {
   const double reach = cycle.rod_length + 0.5 * cycle.stroke;
   return std::sqrt(reach * reach - cycle.pin_offset * cycle.pin_offset);

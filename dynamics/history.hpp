@@ -1,11 +1,11 @@
 #pragma once
-// Named scalars of one instant, as the elements and bodies report them.
+// Named scalars of one instant, reported by elements and bodies.
 #include <string>
 #include <vector>
 
 namespace clatter::dynamics {
 
-/// Collects (name, unit, value) of one instant. Every instant of a run must bring the same names in
+/// Collects (name, unit, value) of one instant. Every instant of a run must have the same names in
 /// the same order; the run file stores them as `history/<name>` with attribute `unit`.
 class History {
  public:

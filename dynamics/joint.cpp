@@ -31,8 +31,8 @@ void Joint::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::
                      bool with_tangent, Response& response) {
   const auto n_a = static_cast<Eigen::Index>(a_->coordinates().size());
   const auto n_b = static_cast<Eigen::Index>(b_->coordinates().size());
-  const auto A = a_->place(stage.time, y.head(n_a), v.head(n_a));
-  const auto B = b_->place(stage.time, y.tail(n_b), v.tail(n_b));
+  const auto A = a_->state(stage.time, y.head(n_a), v.head(n_a));
+  const auto B = b_->state(stage.time, y.tail(n_b), v.tail(n_b));
   const Eigen::Vector2d d = A.d - B.d, rate = A.rate - B.rate;
   const double e = d.norm();
   Eigen::Vector2d force = -law_.damping * rate;

@@ -9,8 +9,8 @@
 namespace clatter::dynamics {
 
 /// Force on point A: -F(e) n - c d', with d = d_A - d_B, e = |d|, n = d / e; the opposite on B.
-/// Its power balance, force . v + dE/dt + lost = input, holds exactly; `input` is the work of the
-/// rod's given rotation on the joint's force.
+/// Its power balance, force . v + dE/dt + lost = input, holds exactly; `input` is the power of the
+/// rod's prescribed rotation on the joint's force.
 class Joint : public ForceElement {
  public:
   Joint(std::string name, std::unique_ptr<Anchor> a, std::unique_ptr<Anchor> b,
@@ -28,7 +28,7 @@ class Joint : public ForceElement {
   struct Instant {
     Eigen::Vector2d force = Eigen::Vector2d::Zero();       // on A [N]
     Eigen::Vector2d rate = Eigen::Vector2d::Zero();        // d' [m/s]
-    Eigen::Vector2d prescribed = Eigen::Vector2d::Zero();  // given part of it
+    Eigen::Vector2d prescribed = Eigen::Vector2d::Zero();  // prescribed part of it
     double eccentricity = 0.0;
   };
   const Instant& accepted() const { return accepted_; }

@@ -50,21 +50,21 @@ void refuse_gaps(const CsvColumns& table, const std::filesystem::path& path, dou
   }
 }
 
-/// Removes a closing row; refuses a table that is shorter or longer than one cycle.
+/// Removes a closing row; rejects a table that is shorter or longer than one cycle.
 void close_cycle(CsvColumns& table, const std::filesystem::path& path, double typical) {
   const double span = table.x.back() - table.x.front();
-  const auto last_place = fmt::format("{}:{}", path.string(), table.lines.back());
+  const auto last_position = fmt::format("{}:{}", path.string(), table.lines.back());
   constexpr double kSame = 1e-9;
   if (span > kCycle * (1.0 + kSame)) {
     throw InputError(fmt::format("{}: the table spans {:.6g} deg, expected one cycle of 720 deg",
-                                 last_place, span / kDegree));
+                                 last_position, span / kDegree));
   }
   if (span > kCycle * (1.0 - kSame)) {
     const auto [low, high] = std::minmax_element(table.y.begin(), table.y.end());
     if (std::abs(table.y.back() - table.y.front()) > 0.01 * (*high - *low)) {
       throw InputError(fmt::format(
           "{}: the last row closes the cycle with {:.6g} {}, expected the first row's {:.6g}",
-          last_place, table.y.back(), table.unit, table.y.front()));
+          last_position, table.y.back(), table.unit, table.y.front()));
     }
     table.x.pop_back();
     table.y.pop_back();
@@ -75,7 +75,7 @@ void close_cycle(CsvColumns& table, const std::filesystem::path& path, double ty
     throw InputError(
         fmt::format("{}: the table ends {:.6g} deg before the cycle closes (from {:.6g} to {:.6g} "
                     "deg), expected 720 deg",
-                    last_place, (kCycle - span) / kDegree, table.x.front() / kDegree,
+                    last_position, (kCycle - span) / kDegree, table.x.front() / kDegree,
                     table.x.back() / kDegree));
   }
 }
@@ -87,7 +87,7 @@ Spline read_cycle_table(const std::filesystem::path& path, const std::string& co
   CsvColumns table = read_csv(path, column);
   check_units(table, path, "rad", unit);
   if (table.x.size() < 4) {
-    throw InputError(fmt::format("{}:{}: found {} rows, expected a whole cycle", path.string(),
+    throw InputError(fmt::format("{}:{}: found {} rows, expected a complete cycle", path.string(),
                                  table.lines.back(), table.x.size()));
   }
   const double typical = median_step(table);

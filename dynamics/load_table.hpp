@@ -1,5 +1,5 @@
 #pragma once
-// Given loads: over the crank angle (periodic) or over time.
+// Load tables: over the crank angle (periodic) or over time.
 #include <filesystem>
 #include <string>
 
@@ -10,8 +10,8 @@ namespace clatter::dynamics {
 /// Reads a table over the crank angle. It must cover one cycle of 4 pi rad: from its first angle to
 /// one period later, with or without a closing row; a closing row must repeat the first value
 /// (within 1 % of the table's range). A step of more than 20 times the median step is a gap.
-/// Returns value over crank angle [rad], period 4 pi. `unit` is what the column must be in, "Pa".
-/// InputError "file:line: ..." otherwise.
+/// Returns value over crank angle [rad], period 4 pi. `unit` is the required unit of the column,
+/// such as "Pa". InputError "file:line: ..." otherwise.
 Spline read_cycle_table(const std::filesystem::path& path, const std::string& column,
                         const std::string& unit, Spline::Kind kind);
 

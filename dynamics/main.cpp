@@ -23,15 +23,15 @@ using namespace clatter::dynamics;
 
 constexpr const char* kEpilog =
     R"(A scene is a TOML file: [engine] [rod] [piston] [block] [gas] [contact] [[mount]] for piston slap,
-or [[body]] and [[load]] for any reduced bodies without an engine. `base = "other.toml"` takes everything
-that a scene does not say itself from another one, so a variant is a few lines:
+or [[body]] and [[load]] for any reduced bodies without an engine. `base = "other.toml"` takes all
+keys that a scene does not set from another scene, so a variant is a few lines:
 
     base = "slap.run.toml"
     [contact]
     lubrication = "none"
 
-dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM ends at a step with a valid
-file, stem.run.interrupted.h5 (attribute complete = 0); --resume goes on from the last finished cycle.
+dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
+file, stem.run.interrupted.h5 (attribute complete = 0); --resume continues from the last finished cycle.
 
 sample commands
   clatter-dynamics slap.run.toml -o slap.run.h5
@@ -57,8 +57,9 @@ void declare(CommandLine& line, Arguments& a) {
   line.positional("scene", a.scene, "the scene, stem.run.toml", false);
   line.output("-o,--output", a.output, "the run file to write; default: the scene's stem.run.h5");
   line.flag("--resume", a.resume,
-            "go on from the checkpoint beside the output, when it is of this very scene");
-  line.output("--write-motored-cycle", a.motored, "write a motored cycle's pressure table and end");
+            "continue from the checkpoint beside the output, if it belongs to this scene");
+  line.output("--write-motored-cycle", a.motored,
+              "write a motored cycle's pressure table and exit");
   line.option("--bore-mm", a.bore_mm, "motored cycle: bore [mm]");
   line.option("--stroke-mm", a.stroke_mm, "motored cycle: stroke [mm]");
   line.option("--rod-mm", a.rod_mm, "motored cycle: rod length [mm]");
@@ -89,7 +90,7 @@ std::filesystem::path default_output(const std::filesystem::path& scene) {
   return std::filesystem::path(scene).replace_extension(".h5");
 }
 
-// Only a whole run gets the name that was asked for: make and recover take that one for done.
+// Only a complete run gets the requested name, which make and recover treat as finished.
 constexpr const char *kFailed = ".failed.h5", *kInterrupted = ".interrupted.h5";
 
 std::filesystem::path written_file(std::filesystem::path output, const RunResult& result) {
@@ -111,7 +112,7 @@ void print_summary(const RunResult& result, const Arguments& a, double seconds) 
     print_result(fmt::format("  refused {}x: {}", count, reason));
   print_result(fmt::format(
       "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
-      "{:.2f}; {:.2f} in all",
+      "{:.2f}; {:.2f} in total",
       s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
   for (const auto& [name, value] : result.periodicity)
     print_result(fmt::format("{}: {:.3g}", name, value));
@@ -141,13 +142,13 @@ int run(const Arguments& a, const CommonOptions& common) {
   if (control.resume_from) {
     say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
   } else if (a.resume && std::filesystem::exists(checkpoint)) {
-    say(fmt::format("{} is of another scene, other inputs or another program: starting anew",
+    say(fmt::format("{} belongs to another scene, other inputs or another program: starting again",
                     checkpoint.string()));
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, request_stop);
   const RunResult result = simulate(scene, bodies, control);
   clock.lap("integration");
-  for (const std::string& doubt : result.doubts) warn(doubt);
+  for (const std::string& warning : result.warnings) warn(warning);
 
   const auto output = written_file(a.output, result);
   H5File file = H5File::create(output);
@@ -157,13 +158,13 @@ int run(const Arguments& a, const CommonOptions& common) {
   file.commit();
   if (!result.failure.empty()) {
     throw NumericsError(
-        fmt::format("{}; what came before it is in {}", result.failure, output.string()));
+        fmt::format("{}; the results up to there are in {}", result.failure, output.string()));
   }
   if (!result.complete) {
-    throw NumericsError(
-        fmt::format("{}: interrupted after {} whole cycles, what there is stands in {}; --resume "
-                    "goes on",
-                    a.output.string(), result.cycles, output.string()));
+    throw NumericsError(fmt::format(
+        "{}: interrupted after {} complete cycles, the results so far are in {}; continue "
+        "with --resume",
+        a.output.string(), result.cycles, output.string()));
   }
   std::filesystem::remove(checkpoint);
   std::filesystem::remove(written_file(a.output, {}));

@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rotations and displacements differ by orders of magnitude; the scale 1/sqrt(M_ii) levels them.
+/// Rotations and displacements differ by orders of magnitude; the scale 1/sqrt(M_ii) balances them.
 VectorXd mass_scale(const rom::ReducedModel& model) {
   VectorXd scale(model.size());
   for (int i = 0; i < model.size(); ++i) {
@@ -36,7 +36,7 @@ MatrixXd free_motions(const MatrixXd& M, const MatrixXd& K, const MatrixXd& rigi
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness, mass);
   if (solver.info() != Eigen::Success) return MatrixXd(M.rows(), 0);
   const MatrixXd candidates = rigid * solver.eigenvectors();
-  // A motion is free when K r is rounding; the ROM's own certificate demands 1e-10 of it.
+  // A motion is free when K r is at rounding level; the certificate of the model requires 1e-10.
   constexpr double kFree = 1e-8;
   int count = 0;
   MatrixXd kept(M.rows(), candidates.cols());
@@ -54,7 +54,7 @@ struct Spectrum {
 
 Spectrum elastic_spectrum(const std::string& name, const MatrixXd& M, const MatrixXd& K,
                           const MatrixXd& free) {
-  // A typical squared frequency: the free motions get its negative and come out first.
+  // A typical squared frequency: the free motions get its negative and come first.
   const double shift = K.trace() / M.trace();
   const MatrixXd Mr = M * free;
   const MatrixXd shifted = K - shift * Mr * Mr.transpose();
@@ -103,9 +103,9 @@ ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions
     spectrum = elastic_spectrum(model.name, M, K, free);
   } else {
     if (free.cols() != 6) {
-      throw NumericsError(fmt::format(
-          "{}: asked for as a rigid body, but only {} of its six rigid motions are free",
-          model.name, free.cols()));
+      throw NumericsError(
+          fmt::format("{}: found model = \"rigid\", but only {} of its six rigid motions are free",
+                      model.name, free.cols()));
     }
     spectrum = {free, VectorXd::Zero(6)};
   }

@@ -13,7 +13,7 @@
 namespace clatter::dynamics {
 namespace {
 
-/// Builds one model; keeps what its steps share.
+/// Builds one model; holds the data shared by its steps.
 class Builder {
  public:
   Builder(const Scene& scene, const LoadedBodies& bodies)
@@ -105,34 +105,36 @@ class Builder {
   }
 
   void add_contact() {
-    film::PistonLinerBodies touched;
+    film::PistonLinerBodies contact_bodies;
     std::vector<int> coordinates;
     if (scene_.piston->elastic) {
-      touched.piston = surface("piston", scene_.piston->skirt, coordinates);
+      contact_bodies.piston = surface("piston", scene_.piston->skirt, coordinates);
     }
     if (block() != nullptr) {
       std::vector<int> patches;
-      touched.liner = surface("block", scene_.block->liner, patches);
-      fit_liner(*touched.liner, patches);
+      contact_bodies.liner = surface("block", scene_.block->liner, patches);
+      fit_liner(*contact_bodies.liner, patches);
       coordinates.insert(coordinates.end(), patches.begin(), patches.end());
     }
     coordinates.insert(coordinates.end(), pin_.begin(), pin_.end());
     if (block() != nullptr && !scene_.block->liner_axial.empty()) {
-      touched.liner_axial = true;
+      contact_bodies.liner_axial = true;
       coordinates.push_back(y("block", scene_.block->liner_axial, 2, false));
     }
-    touched.stroke = [crank = *model_->crank](double time) {
+    contact_bodies.stroke = [crank = *model_->crank](double time) {
       const auto pin = crank.piston_pin(time);
       return film::StrokeState{pin.position, pin.velocity};
     };
-    check_axes(touched);
-    auto contact = std::make_unique<film::PistonLiner>(*scene_.contact, touched, coordinates);
+    check_axes(contact_bodies);
+    auto contact =
+        std::make_unique<film::PistonLiner>(*scene_.contact, contact_bodies, coordinates);
     model_->contact = contact.get();
     model_->system.add_element(std::move(contact));
   }
 
   void fit_liner(const film::ElasticSurface& liner, const std::vector<int>& patches) {
-    // Radial means see only x, y and the tilts; the least squares of the four gives (y, rx).
+    // Radial means depend only on x, y and the tilts; a least squares fit of the four gives (y,
+    // rx).
     Eigen::MatrixXd seen(liner.rigid.rows(), 4);
     seen << liner.rigid.leftCols<2>(), liner.rigid.col(3), liner.rigid.col(4);
     const Eigen::MatrixXd inverse = seen.completeOrthogonalDecomposition().pseudoInverse();
@@ -141,16 +143,16 @@ class Builder {
     model_->liner = LinerFit{patches, rows};
   }
 
-  void check_axes(const film::PistonLinerBodies& touched) const {
-    if (!touched.piston || !touched.liner) return;
-    const double skirt = touched.piston->grid.axis_point.y() + scene_.engine->pin_offset;
-    const double bore = touched.liner->grid.axis_point.y();
+  void check_axes(const film::PistonLinerBodies& contact_bodies) const {
+    if (!contact_bodies.piston || !contact_bodies.liner) return;
+    const double skirt = contact_bodies.piston->grid.axis_point.y() + scene_.engine->pin_offset;
+    const double bore = contact_bodies.liner->grid.axis_point.y();
     if (std::abs(skirt - bore) > 1e-6) {
       throw InputError(
           fmt::format("{}: engine.pin_offset_mm: skirt axis at y = {:.4g} mm in the piston plus "
                       "pin offset {:.4g} "
                       "mm, expected the bore's axis at {:.4g} mm",
-                      scene_.file.string(), 1e3 * touched.piston->grid.axis_point.y(),
+                      scene_.file.string(), 1e3 * contact_bodies.piston->grid.axis_point.y(),
                       1e3 * scene_.engine->pin_offset, 1e3 * bore));
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A scene made ready to run: bodies, elements, loads, and what is reported of them.
+// The model of a scene: bodies, elements, loads, and reported quantities.
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,14 +34,14 @@ struct Model {
   std::optional<LinerFit> liner;
 
   /// Histories of an accepted state: piston_lateral [m] and piston_tilt [rad] against the liner,
-  /// gas_pressure [Pa], then what the elements report.
+  /// gas_pressure [Pa], then those of the elements.
   void record(const StageState& state, History& history) const;
   /// (lateral [m], tilt [rad]) of the piston against the liner.
   Eigen::Vector2d secondary_motion(double time, const Eigen::VectorXd& y) const;
 };
 
-/// Builds everything anew from what was read; cheap beside load_bodies. InputError for names that a
-/// reduced model does not hold and for geometry that does not fit.
+/// Builds a new model from the data read; cheap compared with load_bodies. InputError for names
+/// that are not in a reduced model and for inconsistent geometry.
 std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& bodies);
 
 }  // namespace clatter::dynamics

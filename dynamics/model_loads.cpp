@@ -54,8 +54,8 @@ void add_frame_inertia(const Scene& scene, const BodyIndex& index, Model& model)
   add("rod", 3, [&crank](double t) { return crank.rod_angle(t).acceleration; });
 }
 
-/// What the ideal mechanism's inertia does to the engine, as forces (y, z) and moment about x at
-/// the crank axis, sum of m a and of its moments.
+/// Inertia loads of the ideal mechanism on the engine: forces (y, z) and moment about x at the
+/// crank axis, sum of m a and of its moments.
 Eigen::Vector3d mechanism_inertia(const EngineSpec& engine, const SliderCrank& crank,
                                   double piston_mass, double t) {
   const auto pin = crank.piston_pin(t);

@@ -11,8 +11,8 @@ namespace clatter::dynamics {
 /// Indices of the bodies in the model's system, by name ("piston", "block", "rod", ...).
 using BodyIndex = std::map<std::string, int>;
 
-/// Adds every load to model.system. All of them grow from nothing over `time.ramp` at the start, as
-/// (3 s^2 - 2 s^3), so that the motion can start from rest at its ideal place.
+/// Adds every load to model.system. All of them grow from zero over `time.ramp` at the start, as
+/// (3 s^2 - 2 s^3), so that the motion can start from rest at its ideal position.
 void add_loads(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
                Model& model);
 

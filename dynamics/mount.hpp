@@ -11,7 +11,7 @@ struct GroundSpring {
   double damping;    // [N s/m] or [N m s/rad]
 };
 
-/// Engine mounts, and guides that keep a body where the model has no other support.
+/// Engine mounts, and guides that hold a body where the model has no other support.
 class Mount : public ForceElement {
  public:
   Mount(std::string name, const std::vector<GroundSpring>& springs);

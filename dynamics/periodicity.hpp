@@ -1,5 +1,5 @@
 #pragma once
-// How much one cycle differs from the one before.
+// Difference of one cycle from the previous one.
 #include <map>
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace clatter::dynamics {
 
-/// Differences between two cycles at equal crank angles; empty names when there was only one.
+/// Differences between two cycles at equal crank angles; empty when there was only one.
 ///
 /// `periodicity_<body>`: sqrt(sum |v - v'|^2 / sum |v|^2) over modal velocities, the norm of
 /// kinetic energy; `periodicity_lateral` [m] and `periodicity_tilt` [rad]: largest difference of

@@ -37,7 +37,7 @@ void UniformSamples::take(const StageState& p, const StageState& n, double t) {
   if (++halves_ % 2 == 0) {
     eta_.row(count_) = hermite(p.eta, p.v, n.eta, n.v, h, s);
     v_.row(count_) = v;
-    a_.row(count_) = (v - v_half_) / (0.5 * step_);  // until the interval is whole
+    a_.row(count_) = (v - v_half_) / (0.5 * step_);  // until the interval is complete
     ++count_;
     return;
   }
@@ -47,7 +47,7 @@ void UniformSamples::take(const StageState& p, const StageState& n, double t) {
 }
 
 void UniformSamples::add(const StageState& previous, const StageState& now) {
-  // The last sample is at the end itself; rounding must not lose it.
+  // The last sample is at the end itself and must not be lost by rounding.
   const double half = 0.5 * step_, slack = 1e-6 * step_;
   const auto next = [&] { return begin_ + half * (halves_ + 1); };
   while (count_ < eta_.rows() && next() <= now.time + slack) take(previous, now, next());

@@ -1,6 +1,5 @@
 #pragma once
-// What one cycle (or one whole run) leaves behind: uniform samples, histories, energies, film
-// fields.
+// Results of one cycle (or of an entire run): uniform samples, histories, energies, film fields.
 #include <map>
 #include <string>
 #include <vector>
@@ -15,7 +14,7 @@ namespace clatter::dynamics {
 /// Between accepted states q and v are cubic Hermite interpolants (of q, v and of v, a). a is the
 /// mean over one sampling interval around its instant, from v half an interval before and after: an
 /// impact shorter than the interval keeps its momentum and does not fold into lower frequencies.
-/// The first and last sample take the half interval that they have.
+/// The first and last sample use the half interval available.
 class UniformSamples {
  public:
   UniformSamples(double begin, double end, double step, int modes);
@@ -44,7 +43,7 @@ class UniformSamples {
 /// Columns of numbers that grow row by row.
 struct Columns {
   std::vector<std::string> names, units;
-  std::vector<std::vector<double>> values;  // one a column
+  std::vector<std::vector<double>> values;  // one per column
 };
 
 /// Film fields of some instants.
@@ -58,7 +57,7 @@ class Recorder {
  public:
   /// `film_every`: time between film fields [s], 0: none.
   Recorder(const Model& model, double begin, double end, double step, double film_every);
-  /// The state that the span starts from: a sample, no history (elements have not seen it).
+  /// The state that the span starts from: a sample, no history (elements were not evaluated there).
   void start(const StageState& state) { samples_.start(state); }
   /// After each accepted step.
   void record(const Model& model, const StageState& previous, const StageState& now,

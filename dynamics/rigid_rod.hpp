@@ -16,8 +16,8 @@ struct RodProperties {
 };
 
 /// The rod's three coordinates (y, z of the centre of mass, rotation about x) as deviations from
-/// the ideal slider-crank motion. Its mass matrix is constant in these coordinates however large
-/// the rotation is, so it is a body of three rigid modes; the joints carry the geometry.
+/// the ideal slider-crank motion. Its mass matrix is constant in these coordinates for any
+/// rotation, so it is a body of three rigid modes; the joints contain the geometry.
 ModalBody make_rigid_rod(const std::string& name, const RodProperties& rod);
 
 }  // namespace clatter::dynamics

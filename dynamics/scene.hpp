@@ -1,5 +1,5 @@
 #pragma once
-// What a scene (stem.run.toml) says. dynamics/README.md shows the file; SI inside.
+// Contents of a scene (stem.run.toml). dynamics/README.md documents the file; values here are SI.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,8 +28,8 @@ struct EngineSpec {
   double speed = 0.0;       // omega [rad/s]
   double stroke = 0.0;      // [m]
   double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
-  // The other cylinders hold the block against the inertia forces of this one: its rigid modes feel
-  // them not, its elastic modes do.
+  // The other cylinders balance the inertia forces of this one on the block's rigid modes, but not
+  // on its elastic modes.
   bool balanced = false;
   RodProperties rod;
 };
@@ -42,7 +42,7 @@ struct GasSpec {
   double ambient = 1e5;  // subtracted from the table's absolute pressure [Pa]
 };
 
-/// [pin_guide]: what holds the piston where a planar rod does not.
+/// [pin_guide]: holds the piston in the directions in which a planar rod does not.
 struct GuideSpec {
   double axial_stiffness = 1e6, axial_damping = 1e2;  // along the pin [N/m], [N s/m]
   double tilt_stiffness = 1e4, tilt_damping = 1.0;    // about y and z [N m/rad], [N m s/rad]
@@ -55,11 +55,11 @@ struct PistonSpec : BodySpec {
   std::string gas_load = "gas";  // unit load, per Pa; empty: none
 };
 
-/// [block]; a rigid block is not simulated at all.
+/// [block]; a rigid block is not simulated.
 struct BlockSpec : BodySpec {
   std::string liner = "liner";        // contact grid of the bore
   std::string liner_axial;            // set of its mean axial displacement; empty: none
-  std::vector<std::string> bearings;  // main bearings beside the crank, sharing its force
+  std::vector<std::string> bearings;  // main bearings next to the crank, sharing its force
   std::string gas_load;               // unit load on the head, per Pa; empty: none
 };
 
@@ -87,8 +87,8 @@ struct LoadSpec {
 struct TimeSpec {
   int cycles = 2;                 // engine scenes; the last one is reported
   double begin = 0.0, end = 0.0;  // [s]; engine scenes: 0 = FTDC of the reported cycle
-  double ramp = 0.0;              // loads grow from nothing over this time at the start [s]
-  double output_step = 2e-5;      // as asked for; it is fitted to the span [s]
+  double ramp = 0.0;              // loads grow from zero over this time at the start [s]
+  double output_step = 2e-5;      // as requested; it is adjusted to the span [s]
 };
 
 struct Scene {

@@ -29,7 +29,7 @@ Checkpoint first_state(const Scene& scene) {
   return point;
 }
 
-/// One cycle from a checkpoint with a model built anew.
+/// One cycle from a checkpoint with a newly built model.
 class CycleRun {
  public:
   CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpoint& from,
@@ -82,9 +82,9 @@ class CycleRun {
   Span span() const { return span_; }
   const StepStatistics& statistics() const { return method_.statistics(); }
   const EnergyBalance& energy() const { return energy_; }
-  std::vector<std::string> doubts(const Accuracy& accuracy) const {
-    return accuracy_doubts(method_.estimate().bodies(method_.weights()), accuracy,
-                           method_.estimate().steps());
+  std::vector<std::string> warnings(const Accuracy& accuracy) const {
+    return accuracy_warnings(method_.estimate().bodies(method_.weights()), accuracy,
+                             method_.estimate().steps());
   }
   std::unique_ptr<Model> model_out() { return std::move(model_); }
   std::unique_ptr<Recorder> recorder_out() { return std::move(recorder_); }
@@ -118,10 +118,10 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
   while (point.cycle < cycles) {
     CycleRun cycle(scene, bodies, point, control.film_every);
     const Span span = cycle.span();
-    bool whole = false;
+    bool finished = false;
     try {
-      whole = cycle.run([&](double t) { progress.update(factor * (t - scene.time.begin)); },
-                        control.stop);
+      finished = cycle.run([&](double t) { progress.update(factor * (t - scene.time.begin)); },
+                           control.stop);
     } catch (const NumericsError& error) {
       result.failure = error.what();
     }
@@ -130,10 +130,10 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
     for (const auto& [name, value] : seconds_by_element(cycle.model())) seconds[name] += value;
     result.energy_residue = cycle.energy().residue();
     result.energy_exchanged = cycle.energy().now().exchanged;
-    result.doubts = cycle.doubts(scene.steps.accuracy);
+    result.warnings = cycle.warnings(scene.steps.accuracy);
     result.periodicity =
         cycle_difference(cycle.model(), cycle.recorder().samples(), point.eta, point.v);
-    if (whole) {
+    if (finished) {
       result.cycles = point.cycle + 1;
       const StepStatistics total = result.statistics;
       point = cycle.checkpoint(result.cycles);
@@ -143,10 +143,10 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
                       scene.engine ? "deg" : "s", total.accepted, result.energy_residue));
       if (point.cycle < cycles && control.checkpoint) control.checkpoint(point);
     }
-    result.complete = whole && result.cycles == cycles;
+    result.complete = finished && result.cycles == cycles;
     result.recorder = cycle.recorder_out();
     result.model = cycle.model_out();
-    if (!whole) break;
+    if (!finished) break;
   }
   for (const auto& [name, value] : seconds) result.model->effects.charge(name, value);
   return result;

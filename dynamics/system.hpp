@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of a scene, the coordinates where forces act, the forces and the loads.
+// The bodies of a scene, their interface coordinates, force elements and loads.
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace clatter::dynamics {
 
-/// A known force: value(t) times a unit load on one body.
+/// A prescribed force: value(t) times a unit load on one body.
 struct Load {
   std::string term;  // its name in the energy balance: "gas", "inertia frame"
   int body = 0;
@@ -19,7 +19,7 @@ struct Load {
   std::function<double(double)> value;  // of time [s]
 };
 
-/// Seconds that elements took.
+/// Computing time of an element.
 struct ElementCost {
   std::string name;
   double seconds = 0.0;
@@ -28,14 +28,14 @@ struct ElementCost {
 
 /// Collects bodies, interface coordinates, elements and loads.
 ///
-/// The modal coordinates of all bodies stand one after the other in one vector eta (N). The
-/// interface coordinates y = P eta (n_y) are numbered in the order in which they were asked for;
-/// every row belongs to one body.
+/// The modal coordinates of all bodies are concatenated in one vector eta (N). The interface
+/// coordinates y = P eta (n_y) are numbered in the order in which they were requested; every row
+/// belongs to one body.
 class System {
  public:
   /// Returns the body's index.
   int add_body(ModalBody body);
-  /// Index in y of coordinate `dof` of a body's q; the same row for the same question.
+  /// Index in y of coordinate `dof` of a body's q; the same index for the same DoF.
   int coordinate(int body, int dof);
   void add_element(std::unique_ptr<ForceElement> element);
   void add_load(Load load);
@@ -63,14 +63,14 @@ class System {
   const Eigen::VectorXd& damping() const { return damping_; }
   const Eigen::VectorXd& inertia() const { return inertia_; }
 
-  /// y = P eta; works for displacements and velocities alike.
+  /// y = P eta; for displacements and velocities alike.
   Eigen::VectorXd interface(const Eigen::VectorXd& modal) const;
   /// g += P^T f_y.
   void add_interface_force(const Eigen::VectorXd& f_y, Eigen::VectorXd& g) const;
   /// Modal force of all loads at `time` (N).
   Eigen::VectorXd load_force(double time) const;
 
-  /// Sums the elements' forces f (n_y) and, if wanted, tangents (n_y x n_y) at a trial state.
+  /// Sums the elements' forces f (n_y) and, if requested, tangents (n_y x n_y) at a trial state.
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Eigen::VectorXd& f, Eigen::MatrixXd& tangent);
   void begin_step(double time);
@@ -81,7 +81,7 @@ class System {
   std::vector<ModalBody> bodies_;
   std::vector<int> offsets_;
   std::vector<std::vector<int>> rows_;  // per body: y indices
-  std::vector<std::vector<int>> dofs_;  // per body: q indices, alongside rows_
+  std::vector<std::vector<int>> dofs_;  // per body: q indices, parallel to rows_
   std::vector<Eigen::MatrixXd> P_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;

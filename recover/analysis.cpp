@@ -74,7 +74,7 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
   const RowMatrix v = body.samples("v", piece.first, piece.count);
   Analysis analysis{.piece = piece};
   analysis.time_s = clock.time.segment(piece.first, piece.count).array() - piece.ftdc_s;
-  if (clock.turns()) {
+  if (clock.has_crank()) {
     analysis.angle_deg = clock.angle_deg.segment(piece.first, piece.count).array() - piece.ftdc_deg;
     analysis.speed_hz = clock.speed_deg_s() / 360.0;
   }

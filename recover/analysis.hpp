@@ -1,6 +1,6 @@
 #pragma once
-// Everything that is derived from one piece of a run: sensor histories and spectra, mean square
-// normal velocity and radiated power per panel, over lines, third octaves and time.
+// Results derived from one piece of a run: sensor histories and spectra, mean square normal
+// velocity and radiated power per panel, over lines, third octaves and time.
 #include <string>
 #include <vector>
 
@@ -40,8 +40,8 @@ struct SensorResult {
 struct Analysis {
   Piece piece{};
   Eigen::VectorXd time_s{};     // samples, from firing TDC
-  Eigen::VectorXd angle_deg{};  // samples, from firing TDC; empty when nothing turns
-  double speed_hz = 0.0;        // revolutions of the crank per second, 0 when nothing turns
+  Eigen::VectorXd angle_deg{};  // samples, from firing TDC; empty without a crank
+  double speed_hz = 0.0;        // revolutions of the crank per second, 0 without a crank
   LineSpectrum velocity{};      // reduced coordinates, n_l x r
   ThirdOctaves bands{};
   std::vector<PanelResult> panels{};
@@ -52,13 +52,13 @@ struct Analysis {
 Analysis analyse(const RunBody& body, const Piece& piece, const Options& options, double to_hz,
                  const std::vector<PanelForm>& forms, const std::vector<Sensor>& sensors);
 
-/// Difference between the last two cycles: sqrt of the time mean of the surface integral of
-/// (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.
+/// Relative difference between the last two cycles: sqrt of the time mean of the surface integral
+/// of (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.
 double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin);
 
-/// Jump between the end of a cycle and its beginning, which a transform takes for one instant:
+/// Jump between the end and the beginning of a cycle, which a transform treats as one instant:
 /// surface RMS of v_n(end) - v_n(begin) over the cycle's RMS of v_n. Negative when the run ends
-/// before the instant that closes the cycle.
+/// before the end of the cycle.
 double cycle_end_jump(const RunBody& body, const Piece& cycle, const PanelForm& skin);
 
 }  // namespace clatter::recover

@@ -28,8 +28,8 @@ std::string field_text(const XdmfSeries& series, const XdmfField& field, size_t 
 }
 
 std::string grid_text(const XdmfSeries& series, size_t step) {
-  // The mesh is named again in each grid: ParaView reads it from the same dataset, and no reader
-  // stumbles over XPointer references.
+  // Each grid repeats the mesh (ParaView reads it from the same dataset), since some readers do not
+  // support XPointer references.
   std::string text = fmt::format(
       "      <Grid Name=\"{} {}\" GridType=\"Uniform\">\n        <Time Value=\"{:.12g}\"/>\n"
       "        <Topology TopologyType=\"Triangle_6\" NumberOfElements=\"{}\">\n          {}\n"

@@ -1,5 +1,5 @@
 #pragma once
-// XDMF3 beside the field file, for ParaView: small XML texts whose heavy data stays in the HDF5
+// XDMF3 files beside the field file, for ParaView: small XML texts that refer to data in the HDF5
 // file.
 #include <cstdint>
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace clatter::recover {
 
-/// A field that each step of a series has.
+/// A field of each step of a series.
 struct XdmfField {
   std::string name{};
   std::string group{};    // datasets group/00000, group/00001, ...
-  bool on_faces = false;  // one number a triangle; else a vector a node
+  bool on_faces = false;  // one number per triangle; else a vector per node
   int precision = 4;      // bytes
 };
 

@@ -8,7 +8,7 @@ namespace clatter::recover {
 
 std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& triangles,
                                 const SkinGeometry& geometry) {
-  // A curved face is four flat triangles to the rays.
+  // For the rays, a curved face is four flat triangles.
   static constexpr int kQuarters[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   std::vector<Triangle> flat;
   flat.reserve(static_cast<size_t>(4 * triangles.rows()));
@@ -24,7 +24,8 @@ std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& trian
   std::vector<char> exposed(static_cast<size_t>(triangles.rows()), 0);
   parallel_pieces(triangles.rows(), [&](int64_t begin, int64_t end) {
     for (int64_t face = begin; face < end; ++face) {
-      // The ray must clear the face itself, whose flat stand-in bulges by a part of its size.
+      // The ray must not hit the face itself, whose flat approximation deviates by a part of its
+      // size.
       const double clearance = 0.2 * std::sqrt(geometry.face_area[face]);
       exposed[static_cast<size_t>(face)] =
           !tree.hits(geometry.face_centre.row(face), geometry.face_normal.row(face), clearance);

@@ -1,6 +1,6 @@
 #include "recover/fft.hpp"
 
-// Foreign code: its narrowing conversions are not ours to mend.
+// Third-party code with narrowing conversions.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wextra"
@@ -10,11 +10,11 @@
 namespace clatter::recover {
 
 Eigen::VectorXcd real_fft(const Eigen::VectorXd& x) {
-  // The plan (twiddle factors) of a length is kept for the next column; one set a thread.
+  // The plan (twiddle factors) of a length is kept for the next column; one set per thread.
   thread_local Eigen::FFT<double> fft;
   const Eigen::Index n = x.size();
   Eigen::VectorXcd full(n);
-  // The complex transform is used: kissfft's real one handles only even lengths.
+  // The complex transform, since kissfft's real one handles only even lengths.
   const Eigen::VectorXcd z = x.cast<std::complex<double>>();
   if (n == 1)
     full = z;

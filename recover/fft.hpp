@@ -1,5 +1,5 @@
 #pragma once
-// The fast Fourier transform behind one file (Eigen's unsupported FFT, which wraps kissfft).
+// The fast Fourier transform (Eigen's unsupported FFT, which wraps kissfft), used only here.
 #include <Eigen/Core>
 #include <complex>
 

@@ -1,7 +1,7 @@
 #pragma once
-// The field file, schema "clatter/field/1". The README shows the whole layout.
+// The field file, schema "clatter/field/1". The README documents the complete layout.
 //
-// Every dataset has attributes `unit` and `meaning`; complex ones stand as a pair x_re, x_im.
+// Every dataset has attributes `unit` and `meaning`; complex ones are a pair x_re, x_im.
 #include <vector>
 
 #include "core/base/h5_file.hpp"
@@ -25,15 +25,15 @@ void write_panels(H5File& file, const std::vector<Panel>& panels);
 /// Writes `analysis/<name>/`: sensors and radiation of one piece.
 void write_analysis(H5File& file, const Analysis& analysis, const LevelReferences& references);
 
-/// What `frames/` holds: datasets displacement/00000, velocity/00000 (n_s x 3, single precision)
-/// and normal_velocity/00000 (n_f), one a frame.
+/// Contents of `frames/`: datasets displacement/00000, velocity/00000 (n_s x 3, single precision)
+/// and normal_velocity/00000 (n_f), one per frame.
 struct FrameIndex {
-  std::vector<double> time_s{}, angle_deg{};  // from firing TDC; angles empty when nothing turns
+  std::vector<double> time_s{}, angle_deg{};  // from firing TDC; angles empty without a crank
   bool displacement = true;
   size_t size() const { return time_s.size(); }
 };
 
-/// Expands and writes frames block by block; the whole expansion never stands in memory.
+/// Expands and writes frames block by block; the complete expansion is never in memory.
 FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin,
                         const SparseRows& face_normal, const Piece& piece,
                         const std::vector<int64_t>& samples, bool displacement);
@@ -43,7 +43,7 @@ FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin
 void write_lines(H5File& file, const Analysis& analysis, const std::vector<ChosenLine>& lines,
                  const rom::Skin& skin, const SparseRows& face_normal);
 
-/// "00042": the member's name of frame or line 42.
+/// "00042": the dataset name of frame or line 42.
 std::string member_name(size_t index);
 
 }  // namespace clatter::recover

@@ -1,4 +1,4 @@
-// The part of the field file that holds the whole skin: frames in time and complex lines.
+// The part of the field file with data of the entire skin: frames in time and complex lines.
 #include <cstdint>
 #include <string>
 
@@ -14,7 +14,7 @@ std::vector<float> to_float(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return {single.begin(), single.end()};
 }
 
-/// Reduced coordinates of the chosen samples, one column a frame.
+/// Reduced coordinates of the chosen samples, one column per frame.
 Eigen::MatrixXd frame_columns(const RunBody& body, const std::string& quantity, const Piece& piece,
                               const std::vector<int64_t>& samples) {
   const RowMatrix rows = body.samples(quantity, piece.first, piece.count);
@@ -65,11 +65,11 @@ FrameIndex write_frames(H5File& file, const RunBody& body, const rom::Skin& skin
   const RunClock& clock = body.clock();
   for (int64_t sample : samples) {
     index.time_s.push_back(clock.time[sample] - piece.ftdc_s);
-    if (clock.turns()) index.angle_deg.push_back(clock.angle_deg[sample] - piece.ftdc_deg);
+    if (clock.has_crank()) index.angle_deg.push_back(clock.angle_deg[sample] - piece.ftdc_deg);
   }
   file.write("frames/time", index.time_s);
   describe(file, "frames/time", "s", "instant of each frame, from firing TDC");
-  if (clock.turns()) {
+  if (clock.has_crank()) {
     file.write("frames/crank_angle_deg", index.angle_deg);
     describe(file, "frames/crank_angle_deg", "deg", "crank angle of each frame, from firing TDC");
   }
@@ -91,7 +91,7 @@ void write_lines(H5File& file, const Analysis& analysis, const std::vector<Chose
   const LineSpectrum& spectrum = analysis.velocity;
   const auto n_l = static_cast<Eigen::Index>(lines.size());
   std::vector<double> frequency_hz, requested_hz;
-  // Real and imaginary parts stand side by side, so that one expansion serves both.
+  // Real and imaginary parts are adjacent columns of one expansion.
   Eigen::MatrixXd reduced(spectrum.amplitude.cols(), 2 * n_l);
   for (Eigen::Index k = 0; k < n_l; ++k) {
     const ChosenLine& line = lines[static_cast<size_t>(k)];

@@ -9,7 +9,7 @@ namespace clatter::recover {
 
 ThirdOctaves third_octaves(double from_hz, double to_hz, double line_spacing_hz) {
   const double half = std::pow(10.0, 0.05);
-  // A band edge asked for by its printed value must not be lost to its last digit.
+  // A band edge requested by its printed value must not be lost by rounding of its last digit.
   constexpr double kSlack = 1e-9;
   std::vector<double> mid;
   ThirdOctaves bands;

@@ -14,18 +14,18 @@ struct ThirdOctaves {
   Eigen::Index size() const { return mid_hz.size(); }
 };
 
-/// All bands that lie inside [from_hz, to_hz] with both edges and are at least `line_spacing_hz`
-/// wide, so that each holds a line. Empty when none does.
+/// All bands with both edges inside [from_hz, to_hz] that are at least `line_spacing_hz` wide, so
+/// that each contains a line. May be empty.
 ThirdOctaves third_octaves(double from_hz, double to_hz, double line_spacing_hz);
 
-/// Nominal name of band n (0 is 1000 Hz), as engineers write it.
+/// Nominal frequency of band n (0 is 1000 Hz) as text.
 std::string nominal_frequency(int n);
 
 /// Sums line powers into bands.
-/// @param frequency_hz lines, rising, equally spaced
+/// @param frequency_hz lines, ascending, equally spaced
 /// @param power per line, any unit
-/// @param periodic true: a line belongs to the band that holds it, lower edge included. False: a
-///        line stands for the density over one spacing around it and is shared between bands.
+/// @param periodic true: a line belongs to the band that contains it, lower edge included. False:
+///        a line represents the density over one spacing around it and is shared between bands.
 Eigen::VectorXd band_sums(const Eigen::VectorXd& frequency_hz, const Eigen::VectorXd& power,
                           const ThirdOctaves& bands, bool periodic);
 
@@ -38,7 +38,7 @@ double a_weighting_power(double frequency_hz);
 double level_db(double power, double reference);
 Eigen::VectorXd levels_db(const Eigen::VectorXd& power, double reference);
 
-/// Stands for the level of nothing, so that files hold finite numbers only [dB].
+/// Level of a power of zero, so that files contain only finite numbers [dB].
 constexpr double kSilence = -999.0;
 
 }  // namespace clatter::recover

@@ -10,12 +10,12 @@
 namespace clatter::recover {
 namespace {
 
-/// Room for a limit that was written with rounded digits.
+/// Tolerance for a limit written with rounded digits.
 constexpr double kSlack = 1.0 + 1e-9;
 
-/// The power that picks lines: what radiates outward, weighted by how loud it is heard. Without the
-/// weighting the rocking on the mounts would always win.
-Eigen::VectorXd heard_power(const Analysis& analysis) {
+/// The power by which lines are chosen: outward radiation, A-weighted. Without the weighting rigid
+/// motion on the mounts would always dominate.
+Eigen::VectorXd a_weighted_power(const Analysis& analysis) {
   const PanelResult* panel = &analysis.panels.front();
   for (const PanelResult& other : analysis.panels)
     if (other.name == "exposed") panel = &other;
@@ -39,16 +39,16 @@ std::vector<ChosenLine> strongest_peaks(const Eigen::VectorXd& frequency_hz,
 
 }  // namespace
 
-FrequencyLimit frequency_limit(const SpectrumBand& asked, double valid_to_hz, double step_s) {
+FrequencyLimit frequency_limit(const SpectrumBand& requested, double valid_to_hz, double step_s) {
   const double nyquist = 0.5 / step_s;
   FrequencyLimit limit{nyquist, "half the sampling frequency of the run"};
   if (valid_to_hz > 0.0 && valid_to_hz < nyquist)
     limit = {valid_to_hz, "as far as the reduced basis holds"};
-  if (asked.to_hz > limit.to_hz * kSlack)
+  if (requested.to_hz > limit.to_hz * kSlack)
     throw InputError(fmt::format("spectrum.to_hz: found {:g} Hz, expected at most {:g} Hz, {}",
-                                 asked.to_hz, limit.to_hz, limit.reason));
-  if (asked.to_hz > 0.0 && asked.to_hz < limit.to_hz)
-    limit = {asked.to_hz, "as spectrum.to_hz says"};
+                                 requested.to_hz, limit.to_hz, limit.reason));
+  if (requested.to_hz > 0.0 && requested.to_hz < limit.to_hz)
+    limit = {requested.to_hz, "as spectrum.to_hz says"};
   return limit;
 }
 
@@ -57,20 +57,21 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
   const Eigen::VectorXd& frequency_hz = analysis.velocity.frequency_hz;
   if (frequency_hz.size() < 2) return {};
   if (!rule.orders.empty() && analysis.speed_hz == 0.0)
-    throw InputError("lines.orders: nothing turns in this run, expected frequencies_hz");
-  std::vector<double> wanted = rule.frequencies_hz;
-  for (double order : rule.orders) wanted.push_back(order * analysis.speed_hz);
+    throw InputError(
+        "lines.orders: found orders for a run without a crank angle, expected frequencies_hz");
+  std::vector<double> requested_hz = rule.frequencies_hz;
+  for (double order : rule.orders) requested_hz.push_back(order * analysis.speed_hz);
 
   std::vector<ChosenLine> lines;
-  for (double f : wanted) {
+  for (double f : requested_hz) {
     if (f > limit.to_hz * kSlack)
       throw InputError(fmt::format("lines: found {:g} Hz, expected at most {:g} Hz, {}", f,
                                    limit.to_hz, limit.reason));
     const Eigen::Index nearest = std::lround(f / analysis.velocity.spacing_hz());
     lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
   }
-  if (wanted.empty() && !analysis.panels.empty())
-    lines = strongest_peaks(frequency_hz, heard_power(analysis), band.from_hz, rule.strongest);
+  if (requested_hz.empty() && !analysis.panels.empty())
+    lines = strongest_peaks(frequency_hz, a_weighted_power(analysis), band.from_hz, rule.strongest);
   std::sort(lines.begin(), lines.end(),
             [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
   const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };

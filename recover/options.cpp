@@ -91,7 +91,7 @@ Options read_options(const Config& config) {
   Options options;
   if (!config.files().empty()) options.origin = config.files().front().string();
   options.body = config.text_or("body", options.body);
-  options.cycle_asked = config.has("cycle");
+  options.cycle_requested = config.has("cycle");
   options.cycle = config.flag_or("cycle", options.cycle);
   if (const auto air = config.find_table("air")) {
     options.air.density = air->number_or("density", options.air.density, Range::positive());
@@ -115,12 +115,12 @@ Options read_options(const Config& config) {
                                           band.to_hz, band.from_hz));
   }
   if (const auto frames = config.find_table("frames")) {
-    options.frames_asked = true;
+    options.frames_requested = true;
     read_frames(*frames, options.frames);
   }
   if (const auto lines = config.find_table("lines")) read_lines(*lines, options.lines);
-  options.windows_asked = config.has("window");
-  if (options.windows_asked) options.windows.clear();
+  options.windows_requested = config.has("window");
+  if (options.windows_requested) options.windows.clear();
   for (const Config& table : config.tables("window")) options.windows.push_back(read_window(table));
   for (const Config& table : config.tables("sensor")) options.sensors.push_back(read_sensor(table));
   for (const Config& table : config.tables("panel")) options.panels.push_back(read_panel(table));

@@ -1,6 +1,6 @@
 #pragma once
-// What the user may choose. Each default stands here once; --help and the stored configuration are
-// made from it.
+// The user's options. Each default is defined once, here; --help and the stored configuration are
+// generated from it.
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ struct LevelReferences {
 /// The band that spectra, third octaves and totals cover.
 struct SpectrumBand {
   double from_hz = 20.0;
-  double to_hz = 0.0;  // 0: as far as the basis holds
+  double to_hz = 0.0;  // 0: the limit of the basis
 };
 
 struct WindowRule {
@@ -31,7 +31,7 @@ struct WindowRule {
   Taper taper = Taper::kTukey;
 };
 
-/// Instants at which the whole skin is written.
+/// Instants at which the entire skin is written.
 struct FrameRule {
   bool on = true;
   Span span{-10.0, 60.0};
@@ -39,7 +39,7 @@ struct FrameRule {
   bool displacement = true;
 };
 
-/// Frequencies at which the whole skin is written as complex velocity.
+/// Frequencies at which the entire skin is written as complex velocity.
 struct LineRule {
   std::vector<double> frequencies_hz;  // the nearest lines are taken
   std::vector<double> orders;          // engine orders: multiples of the speed of the crank
@@ -47,29 +47,29 @@ struct LineRule {
 };
 
 struct Options {
-  std::string origin = "defaults";  // the file that says the following
+  std::string origin = "defaults";  // the file with these options
   std::string body;                 // empty: "block", or the only reduced body of the run
   Air air;
   LevelReferences references;
   SpectrumBand spectrum;
-  bool cycle = true;  // analyse the last cycle; with `cycle_asked` a run without one is refused
-  bool cycle_asked = false;
-  bool windows_asked = false;
+  bool cycle = true;  // analyse the last cycle; if requested, a run without one is rejected
+  bool cycle_requested = false;
+  bool windows_requested = false;
   std::vector<WindowRule> windows{WindowRule{}};
-  bool frames_asked = false;
+  bool frames_requested = false;
   FrameRule frames;
   LineRule lines;
   std::vector<SensorRule> sensors;  // empty: every set of kind "sensor"
   std::vector<PanelRule> panels;    // empty: default_panels()
 };
 
-/// Reads the whole configuration; unknown keys are refused.
+/// Reads the entire configuration; unknown keys are rejected.
 Options read_options(const Config& config);
 
-/// Every choice, defaults included, as TOML that read_options() reads back to the same choices.
+/// All options, defaults included, as TOML that read_options() reads back to the same options.
 std::string resolved_text(const Options& options);
 
-/// The configuration file explained, with the defaults filled in; for --help.
+/// Documentation of the configuration file with its defaults, for --help.
 std::string options_help();
 
 }  // namespace clatter::recover

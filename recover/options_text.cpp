@@ -1,4 +1,4 @@
-// The configuration as text: what was chosen, and the explanation for --help.
+// The configuration as text: the chosen options, and the documentation for --help.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -63,7 +63,7 @@ std::string resolved_text(const Options& o) {
 std::string options_help() {
   const Options d;
   const WindowRule w;
-  return fmt::format(R"(Configuration (slap.field.toml); every key may be left out:
+  return fmt::format(R"(Configuration (slap.field.toml); every key is optional:
 
   body = "block"           # which body of the run
   cycle = true             # analyse the last cycle: exact lines, 1/2 engine order apart
@@ -77,12 +77,12 @@ std::string options_help() {
   [levels]
   velocity_reference = {:g}      # m/s; ISO 1683 has 1e-9
   acceleration_reference = {:g}  # m/s2
-  [frames]                 # instants at which the whole skin is written (ParaView)
+  [frames]                 # instants at which the entire skin is written (ParaView)
   from_deg = {:g}           # crank angle about firing TDC; or from_s, to_s, step_s
   to_deg = {:g}
   step_deg = {:g}
   displacement = true
-  [lines]                  # frequencies at which the whole skin is written
+  [lines]                  # frequencies at which the entire skin is written
   frequencies_hz = [500]   # or orders = [2, 4]; with neither the
   strongest = {}            # highest peaks of the A-weighted ERP
   [[window]]               # a piece that is not periodic, with its own spectra
@@ -97,7 +97,7 @@ std::string options_help() {
   direction = [0, 0, -1]   # outward normal within angle_deg = 45 of it
   box_min = [-1, -1, -0.3]
   box_max = [1, 1, -0.2]
-  exposed = true           # only faces with free sight along their normal)",
+  exposed = true           # only faces whose normal ray hits nothing of the body)",
                      d.spectrum.from_hz, d.air.density, d.air.sound_speed, d.air.loss_factor,
                      d.references.velocity, d.references.acceleration, d.frames.span.from,
                      d.frames.span.to, d.frames.step, d.lines.strongest, w.name, w.span.from,

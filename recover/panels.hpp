@@ -9,25 +9,25 @@
 
 namespace clatter::recover {
 
-/// What a face must fulfil to belong to a panel; everything that is set must hold.
+/// Conditions for a face to belong to a panel; all that are set must hold.
 struct PanelRule {
   std::string name{};
   std::optional<Eigen::Vector3d> direction{};  // outward normal within `angle_deg` of it
   double angle_deg = 45.0;
   std::optional<Eigen::Vector3d> box_min{}, box_max{};  // face centre inside [m]
-  bool exposed = false;  // nothing of the body stands before the face, along its normal
+  bool exposed = false;  // the ray along the face's normal hits nothing of the body
   bool may_be_empty = false;
 };
 
 struct Panel {
   std::string name{};
-  std::vector<int32_t> faces{};  // rising
+  std::vector<int32_t> faces{};  // ascending
   double area = 0.0;             // [m2]
 };
 
-/// "skin" (all faces), "exposed" (without bores, jackets and crankcase walls that look at other
+/// "skin" (all faces), "exposed" (without bores, jackets and crankcase walls that face other
 /// walls), and the exposed faces by side: thrust_side (+y), anti_thrust_side (-y), top (+z), bottom
-/// (-z), end_plus_x, end_minus_x. Sides without a face are left out.
+/// (-z), end_plus_x, end_minus_x. Sides without a face are omitted.
 std::vector<PanelRule> default_panels();
 
 /// For each face, whether the ray from its centre along its outward normal leaves the body freely.
@@ -36,7 +36,7 @@ std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& trian
                                 const SkinGeometry& geometry);
 
 /// Applies the rules in order. Panels may overlap.
-/// @throws InputError for a rule that selects nothing or a name that stands twice
+/// @throws InputError for a rule that selects nothing or a duplicate name
 std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const RowMatrix& nodes,
                                  const IndexMatrix& triangles, const SkinGeometry& geometry);
 

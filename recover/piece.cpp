@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCycle = 720.0;
 
-/// Run time at which the crank stands at `angle`; constant speed between samples.
+/// Run time at which the crank is at `angle`; constant speed between samples.
 double time_at_angle(const RunClock& clock, double angle) {
   return clock.time[0] + (angle - clock.angle_deg[0]) / clock.speed_deg_s();
 }
@@ -73,21 +73,22 @@ Eigen::VectorXd taper_values(Taper taper, int64_t count) {
 }
 
 Piece last_cycle(const RunClock& clock, const std::string& origin) {
-  if (!clock.turns())
-    throw InputError(origin + ": output/crank_angle_deg: nothing turns, expected whole cycles");
+  if (!clock.has_crank())
+    throw InputError(origin +
+                     ": output/crank_angle_deg: found no crank rotation, expected complete cycles");
   const int64_t n_t = clock.time.size();
   const double steps = kCycle / (clock.speed_deg_s() * clock.step_s);
   const int64_t count = std::llround(steps);
   if (count > n_t)
-    throw InputError(fmt::format("{}: output/time: {} samples, expected a whole cycle of {}",
-                                 origin, n_t, count));
-  // A thousandth of a step left over is a phase slip of 0.2 degrees at the Nyquist frequency.
+    throw InputError(fmt::format(
+        "{}: output/time: found {} samples, expected a complete cycle of {}", origin, n_t, count));
+  // A remainder of a thousandth of a step is a phase error of 0.2 degrees at the Nyquist frequency.
   if (std::abs(steps - static_cast<double>(count)) > 1e-3)
     throw InputError(fmt::format(
-        "{}: output/time: a cycle is {:.3f} steps, expected a whole number (or `cycle = false`)",
+        "{}: output/time: found {:.3f} steps per cycle, expected an integer (or `cycle = false`)",
         origin, steps));
   Piece piece{.name = "cycle", .count = count, .step_s = clock.step_s, .periodic = true};
-  // The last sample repeats the one a cycle earlier: leave it out where there is room.
+  // The last sample repeats the one a cycle earlier and is omitted where possible.
   piece.first = std::max<int64_t>(n_t - 1 - count, 0);
   piece.first_s = clock.time[piece.first];
   piece.ftdc_deg = kCycle * std::ceil(clock.angle_deg[piece.first] / kCycle - 1e-9);
@@ -100,8 +101,8 @@ Piece window(const RunClock& clock, const std::string& name, const Span& span, T
   Piece piece{.name = name, .step_s = clock.step_s, .taper = taper};
   const Eigen::VectorXd& axis = span.in_seconds ? clock.time : clock.angle_deg;
   if (axis.size() == 0)
-    throw InputError(
-        fmt::format("{}: window '{}': nothing turns, expected a span in seconds", origin, name));
+    throw InputError(fmt::format(
+        "{}: window '{}': found no crank rotation, expected a span in seconds", origin, name));
   const double first = axis[0], last = axis[axis.size() - 1];
   const double slack = 1e-6 * (last - first);
   if (!span.in_seconds) piece.ftdc_deg = kCycle * std::floor((last + slack - span.to) / kCycle);
@@ -109,17 +110,17 @@ Piece window(const RunClock& clock, const std::string& name, const Span& span, T
   const double to = span.to + (span.in_seconds ? 0.0 : piece.ftdc_deg);
   if (from < first - slack || to > last + slack || !(to > from))
     throw InputError(fmt::format(
-        "{}: window '{}': from {:g} to {:g} {}, expected it inside the run, {:g} to {:g}", origin,
-        name, span.from, span.to, span.in_seconds ? "s" : "deg", first, last));
+        "{}: window '{}': found {:g} to {:g} {}, expected a span inside the run, {:g} to {:g}",
+        origin, name, span.from, span.to, span.in_seconds ? "s" : "deg", first, last));
   piece.first = first_at(axis, from);
   piece.count = std::min<int64_t>(first_at(axis, to) + 1, axis.size()) - piece.first;
   if (piece.count < 2)
-    throw InputError(fmt::format("{}: window '{}': holds {} samples, expected at least 2", origin,
+    throw InputError(fmt::format("{}: window '{}': found {} samples, expected at least 2", origin,
                                  name, piece.count));
   piece.first_s = piece.ftdc_s = clock.time[piece.first];
-  if (span.in_seconds && clock.turns())
+  if (span.in_seconds && clock.has_crank())
     piece.ftdc_deg = kCycle * std::round(clock.angle_deg[piece.first + piece.count / 2] / kCycle);
-  if (clock.turns()) piece.ftdc_s = time_at_angle(clock, piece.ftdc_deg);
+  if (clock.has_crank()) piece.ftdc_s = time_at_angle(clock, piece.ftdc_deg);
   return piece;
 }
 

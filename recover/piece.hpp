@@ -1,5 +1,5 @@
 #pragma once
-// Pieces of a run: the last cycle, windows around an event, and the frames that are shown.
+// Pieces of a run: the last cycle, windows around an event, and the frames to be written.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace clatter::recover {
 
-/// From where to where, in crank angle about firing top dead centre or in run time.
+/// An interval in crank angle about firing top dead centre or in run time.
 struct Span {
   double from = 0.0, to = 0.0;  // [deg] about the last firing TDC that fits, or run time [s]
   bool in_seconds = false;
@@ -21,13 +21,13 @@ std::string name_of(Taper taper);
 /// Values of a taper at `count` samples; Tukey has cosine flanks of a tenth of the length each.
 Eigen::VectorXd taper_values(Taper taper, int64_t count);
 
-/// A row of samples of the run.
+/// A range of consecutive samples of the run.
 struct Piece {
   std::string name{};
   int64_t first = 0, count = 0;
   double step_s = 0.0;
   double first_s = 0.0;   // run time of the first sample [s]
-  double ftdc_s = 0.0;    // run time that phases refer to: firing TDC [s]
+  double ftdc_s = 0.0;    // time origin of phases in run time: firing TDC [s]
   double ftdc_deg = 0.0;  // crank angle there, a multiple of 720
   bool periodic = false;  // the piece is exactly one cycle
   Taper taper = Taper::kNone;
@@ -36,7 +36,7 @@ struct Piece {
 };
 
 /// The last 720 degrees, first sample included, last excluded.
-/// @throws InputError when the run is shorter than a cycle, or a cycle is not a whole number of
+/// @throws InputError when the run is shorter than a cycle, or a cycle is not an integer number of
 /// steps
 Piece last_cycle(const RunClock& clock, const std::string& origin);
 

@@ -10,7 +10,7 @@
 namespace clatter::recover {
 namespace {
 
-/// Faces that belong to the same panels; their part of W is shared by all of these.
+/// Faces that belong to the same panels; their part of W is added to all of these.
 struct Patch {
   std::vector<size_t> panels;
   std::vector<int32_t> faces;
@@ -43,7 +43,7 @@ void add_form(const rom::Skin& skin, const std::vector<int32_t>& faces, int64_t 
 
 Eigen::MatrixXd patch_form(const rom::Skin& skin, const std::vector<int32_t>& faces) {
   const Eigen::Index r = skin.T.cols();
-  std::map<int64_t, Eigen::MatrixXd> pieces;  // summed in order: same bits for the same threads
+  std::map<int64_t, Eigen::MatrixXd> pieces;  // summed in order: same threads, same result
   std::mutex lock;
   parallel_pieces(static_cast<int64_t>(faces.size()), [&](int64_t begin, int64_t end) {
     Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(r, r);
@@ -82,7 +82,7 @@ Eigen::VectorXd normal_velocity_integral(const Eigen::MatrixXd& W, const RowMatr
     const auto rows = v.middleRows(begin, end - begin);
     result.segment(begin, end - begin) = (rows * W).cwiseProduct(rows).rowwise().sum();
   });
-  // W is semidefinite: what rounding leaves below zero is zero.
+  // W is semidefinite: negative values are rounding and set to zero.
   return result.cwiseMax(0.0);
 }
 

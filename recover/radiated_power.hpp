@@ -1,9 +1,9 @@
 #pragma once
-// Mean square normal velocity and equivalent radiated power (ERP) without expanding anything:
+// Mean square normal velocity and equivalent radiated power (ERP) without expansion to the skin:
 //
 //   integral of v_n^2 dS = v_r^T W v_r,   W = sum over faces of integral (n^T T)^T (n^T T) dS
 //
-// W [m2], r x r, is made once per panel; each line or instant then costs r^2.
+// W [m2], r x r, is computed once per panel; each line or instant then costs r^2.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -13,12 +13,11 @@
 
 namespace clatter::recover {
 
-/// The fluid around, and the radiation efficiency that turns normal velocity into power.
+/// The surrounding fluid, and the radiation efficiency.
 struct Air {
   double density = 1.204;      // [kg/m3], air at 20 degrees C and 101325 Pa
   double sound_speed = 343.2;  // [m/s]
-  double loss_factor =
-      1.0;  // radiation loss factor, 1: every face radiates like a piston in a wall
+  double loss_factor = 1.0;    // 1: every face radiates like a piston in an infinite baffle
 };
 
 /// A panel's quadratic form.
@@ -28,8 +27,8 @@ struct PanelForm {
   Eigen::MatrixXd W;  // r x r, symmetric, both triangles filled [m2]
 };
 
-/// Makes the forms of all panels; a face that lies in several panels is worked on once. Blocks of
-/// faces are spread over the threads, each with its own sum.
+/// Computes the forms of all panels; a face in several panels is processed once. Blocks of faces
+/// are distributed to the threads, each with its own sum.
 std::vector<PanelForm> normal_velocity_forms(const rom::Skin& skin, const SkinGeometry& geometry,
                                              const std::vector<Panel>& panels);
 

@@ -7,7 +7,7 @@
 namespace clatter::recover {
 namespace {
 
-/// Slab test; an infinite reciprocal stands for a ray along the slab.
+/// Slab test; the reciprocal is infinite for a ray along the slab.
 bool meets_box(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
                const Eigen::Vector3d& reciprocal) {
   double near = 0.0, far = std::numeric_limits<double>::infinity();

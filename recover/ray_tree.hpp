@@ -1,5 +1,5 @@
 #pragma once
-// Does a ray hit anything? A tree of boxes around flat triangles.
+// Ray intersection test by a tree of boxes around flat triangles.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <vector>
@@ -12,7 +12,7 @@ class RayTree {
  public:
   explicit RayTree(std::vector<Triangle> triangles);
 
-  /// True when the ray origin + t * direction, t > t_min, meets a triangle. Unit `direction`.
+  /// True when the ray origin + t * direction, t > t_min, hits a triangle. Unit `direction`.
   bool hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t_min) const;
 
  private:

@@ -12,14 +12,14 @@
 namespace clatter::recover {
 namespace {
 
-/// A piece that the user did not request may be left out with a warning; a requested one may not.
+/// Omits a default piece that does not fit the run, with a warning; throws for a requested one.
 template <typename Make>
-std::optional<Piece> piece_or_warning(bool asked, const Make& make) {
+std::optional<Piece> optional_piece(bool requested, const Make& make) {
   try {
     return make();
   } catch (const InputError& error) {
-    if (asked) throw;
-    warn(std::string(error.what()) + ": left out");
+    if (requested) throw;
+    warn(std::string(error.what()) + ": omitted");
     return std::nullopt;
   }
 }
@@ -35,13 +35,12 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
   const auto keep = [&](std::optional<Piece> piece) {
     if (piece) pieces.push_back(*piece);
   };
-  if (options.cycle && (clock.turns() || options.cycle_asked))
-    keep(piece_or_warning(options.cycle_asked, [&] { return last_cycle(clock, origin); }));
+  if (options.cycle && (clock.has_crank() || options.cycle_requested))
+    keep(optional_piece(options.cycle_requested, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
-    if (clock.turns() || options.windows_asked)
-      keep(piece_or_warning(options.windows_asked, [&] {
-        return window(clock, rule.name, rule.span, rule.taper, origin);
-      }));
+    if (clock.has_crank() || options.windows_requested)
+      keep(optional_piece(options.windows_requested,
+                          [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
   return pieces;
 }
@@ -51,13 +50,13 @@ struct FrameChoice {
   std::vector<int64_t> samples;
 };
 
-/// The frames asked for; when the default does not fit the run, sixty over the whole of it.
+/// The requested frames; when the default does not fit the run, sixty over the entire run.
 FrameChoice choose_frames(const RunClock& clock, const Options& options,
                           const std::string& origin) {
   const FrameRule& rule = options.frames;
   std::optional<Piece> piece;
-  if (clock.turns() || options.frames_asked)
-    piece = piece_or_warning(options.frames_asked, [&] {
+  if (clock.has_crank() || options.frames_requested)
+    piece = optional_piece(options.frames_requested, [&] {
       return window(clock, "frames", rule.span, Taper::kNone, origin);
     });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
@@ -73,7 +72,7 @@ std::vector<PanelRule> panel_rules(const Options& options) {
   return rules;
 }
 
-/// Share of the mean square normal velocity of the skin that lies above the spectra's limit.
+/// Fraction of the mean square normal velocity of the skin above the spectra's limit.
 double share_above_limit(const Analysis& analysis) {
   const PanelResult& skin = analysis.panels.front();
   const double all = skin.instant_mean_square.mean();

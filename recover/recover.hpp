@@ -1,5 +1,5 @@
 #pragma once
-// The stage's one call: from a run and its reduced model to a field file.
+// The stage's main function: from a run and its reduced model to a field file.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace clatter::recover {
 
-/// What was found, for the printed and the JSON summary.
+/// Results for the printed and the JSON summary.
 struct Summary {
   Options options{};
   std::vector<Panel> panels{};
@@ -26,17 +26,17 @@ struct Summary {
   std::map<std::string, double> certificate{};
 };
 
-/// Recovers everything that `options` ask for and writes it to `file` (conventions, skin, panels,
+/// Recovers everything requested by `options` and writes it to `file` (conventions, skin, panels,
 /// analyses, frames, lines, certificate; provenance and timing are the caller's).
-/// @throws InputError for spans, panels, sensors or frequencies that run or basis do not hold
+/// @throws InputError for spans, panels, sensors or frequencies outside run or basis
 Summary recover(const RunBody& body, const rom::ReducedModel& model, const Options& options,
                 H5File& file, StepClock& clock);
 
-/// Writes the XDMF files that show the committed field file; a file of an older run that shows
-/// nothing any more is removed.
+/// Writes the XDMF files of the committed field file; removes those of an older run that are no
+/// longer valid.
 void write_exports(const std::filesystem::path& field_file, const Summary& summary);
 
-/// The lines that are printed at the end: panels with levels, sensors with peaks.
+/// The text that is printed at the end: panels with levels, sensors with peaks.
 std::string summary_text(const Summary& summary);
 
 }  // namespace clatter::recover

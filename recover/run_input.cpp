@@ -27,9 +27,9 @@ RunClock read_clock(const H5File& file) {
         fmt::format("{}: output/time: found {} samples, expected at least 4", origin, n));
   clock.step_s = (clock.time[n - 1] - clock.time[0]) / static_cast<double>(n - 1);
   if (!clock.time.allFinite() || !(clock.step_s > 0.0))
-    throw InputError(origin + ": output/time: expected finite, rising times");
+    throw InputError(origin + ": output/time: expected finite, ascending times");
   const Eigen::VectorXd steps = clock.time.tail(n - 1) - clock.time.head(n - 1);
-  // A transform over uneven samples would smear every line; 1e-4 of a step keeps its phase error
+  // Nonuniform sampling would smear every line of a transform; 1e-4 of a step keeps the phase error
   // at the Nyquist frequency below 0.02 degrees.
   if ((steps.array() - clock.step_s).abs().maxCoeff() > 1e-4 * clock.step_s)
     throw InputError(
@@ -42,11 +42,12 @@ RunClock read_clock(const H5File& file) {
     throw InputError(
         fmt::format("{}: output/crank_angle_deg: found {} values, expected {} finite ones", origin,
                     angle.size(), n));
-  for (Eigen::Index i = 1; i < n; ++i)  // a wrapped angle is taken up again
+  for (Eigen::Index i = 1; i < n; ++i)  // a wrapped angle is unwrapped
     angle[i] += 720.0 * std::round((angle[i - 1] - angle[i]) / 720.0);
-  if (angle[n - 1] - angle[0] <= 0.0) return clock;  // stands still
+  if (angle[n - 1] - angle[0] <= 0.0) return clock;  // at rest
   if ((angle.tail(n - 1) - angle.head(n - 1)).minCoeff() <= 0.0)
-    throw InputError(origin + ": output/crank_angle_deg: falls, expected a rising angle");
+    throw InputError(
+        origin + ": output/crank_angle_deg: found descending values, expected an ascending angle");
   clock.angle_deg = angle;
   return clock;
 }
@@ -54,7 +55,7 @@ RunClock read_clock(const H5File& file) {
 }  // namespace
 
 double RunClock::speed_deg_s() const {
-  if (!turns()) return 0.0;
+  if (!has_crank()) return 0.0;
   const Eigen::Index last = time.size() - 1;
   return (angle_deg[last] - angle_deg[0]) / (time[last] - time[0]);
 }
@@ -71,35 +72,36 @@ RunBody::RunBody(const fs::path& run, const std::string& body)
   check_shapes();
 }
 
-void RunBody::pick_body(const std::string& wanted) {
+void RunBody::pick_body(const std::string& requested) {
   std::vector<std::string> with_rom;
   for (const std::string& name : file_.list("bodies"))
     if (file_.has_attribute("bodies/" + name, "rom") && file_.has("bodies/" + name + "/q"))
       with_rom.push_back(name);
-  const auto present = [&](const std::string& name) {
+  const auto is_available = [&](const std::string& name) {
     return std::find(with_rom.begin(), with_rom.end(), name) != with_rom.end();
   };
-  if (!wanted.empty() && present(wanted))
-    name_ = wanted;
-  else if (wanted.empty() && present("block"))
+  if (!requested.empty() && is_available(requested))
+    name_ = requested;
+  else if (requested.empty() && is_available("block"))
     name_ = "block";
-  else if (wanted.empty() && with_rom.size() == 1)
+  else if (requested.empty() && with_rom.size() == 1)
     name_ = with_rom.front();
   else
-    throw InputError(fmt::format("{}: bodies: found [{}] with a reduced model, expected {}",
-                                 file_.path().string(), fmt::join(with_rom, ", "),
-                                 wanted.empty() ? "one, or `body` in the configuration" : wanted));
+    throw InputError(
+        fmt::format("{}: bodies: found [{}] with a reduced model, expected {}",
+                    file_.path().string(), fmt::join(with_rom, ", "),
+                    requested.empty() ? "one, or `body` in the configuration" : requested));
 }
 
 void RunBody::check_shapes() const {
   const int64_t n_t = clock_.time.size();
-  const std::vector<int64_t> q = file_.shape(place("q"));
+  const std::vector<int64_t> q = file_.shape(dataset("q"));
   for (const char* member : {"q", "v", "a"}) {
-    const std::vector<int64_t> shape = file_.shape(place(member));
+    const std::vector<int64_t> shape = file_.shape(dataset(member));
     if (shape.size() != 2 || shape[0] != n_t || shape != q)
       throw InputError(
           fmt::format("{}: {}: found shape ({}), expected {} rows and as many columns as q",
-                      file_.path().string(), place(member), fmt::join(shape, ", "), n_t));
+                      file_.path().string(), dataset(member), fmt::join(shape, ", "), n_t));
   }
 }
 
@@ -113,10 +115,10 @@ rom::ReducedModel RunBody::read_model() const {
   rom::ReducedModel model = rom::read_reduced_model(rom_path_);
   const std::string doubt = rom::certificate_warning(model);
   if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
-  const int64_t columns = file_.shape(place("q"))[1];
+  const int64_t columns = file_.shape(dataset("q"))[1];
   if (columns != model.size())
     throw InputError(fmt::format("{}: {}: found {} columns, expected {} as in {}",
-                                 file_.path().string(), place("q"), columns, model.size(),
+                                 file_.path().string(), dataset("q"), columns, model.size(),
                                  rom_path_.string()));
   if (model.skin.triangles.rows() == 0)
     throw InputError(rom_path_.string() +
@@ -129,10 +131,10 @@ bool RunBody::complete() const {
 }
 
 RowMatrix RunBody::samples(const std::string& quantity, int64_t first, int64_t count) const {
-  RowMatrix rows = file_.read_rows(place(quantity), first, count);
+  RowMatrix rows = file_.read_rows(dataset(quantity), first, count);
   if (!rows.allFinite())
     throw InputError(fmt::format("{}: {}: found NaN or infinity, expected finite values",
-                                 file_.path().string(), place(quantity)));
+                                 file_.path().string(), dataset(quantity)));
   return rows;
 }
 

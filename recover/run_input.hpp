@@ -1,5 +1,5 @@
 #pragma once
-// The part of a run file (clatter/run/1) that recovery needs, and the reduced model behind it.
+// The part of a run file (clatter/run/1) that recovery needs, and the reduced model of the body.
 #include <filesystem>
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace clatter::recover {
 
-/// When the samples of a run were taken.
+/// The times of the samples of a run.
 struct RunClock {
   Eigen::VectorXd time;       // n_t [s], uniform steps
-  Eigen::VectorXd angle_deg;  // n_t, crank angle, rising through all cycles; empty: nothing turns
+  Eigen::VectorXd angle_deg;  // n_t, ascending through all cycles; empty without a crank
   double step_s = 0.0;
 
-  bool turns() const { return angle_deg.size() > 0; }
+  bool has_crank() const { return angle_deg.size() > 0; }
   /// Mean speed [deg/s].
   double speed_deg_s() const;
 };
@@ -31,22 +31,22 @@ class RunBody {
   const std::filesystem::path& path() const { return file_.path(); }
   const RunClock& clock() const { return clock_; }
   const std::filesystem::path& rom_path() const { return rom_path_; }
-  /// The hash that the run noted for the reduced model that it used.
+  /// The hash of the reduced model that the run used.
   const std::string& rom_sha256() const { return rom_sha256_; }
 
-  /// Reads the reduced model beside the run, checks its hash and that its size fits the run.
+  /// Reads the reduced model beside the run, checks its hash and its size.
   rom::ReducedModel read_model() const;
 
-  /// False for a run that was stopped inside its last cycle.
+  /// False for a run that was interrupted inside its last cycle.
   bool complete() const;
 
   /// Samples [first, first + count) of "q" [m], "v" [m/s] or "a" [m/s2]: count x r.
   RowMatrix samples(const std::string& quantity, int64_t first, int64_t count) const;
 
  private:
-  void pick_body(const std::string& wanted);
+  void pick_body(const std::string& requested);
   void check_shapes() const;
-  std::string place(const std::string& member) const { return "bodies/" + name_ + "/" + member; }
+  std::string dataset(const std::string& member) const { return "bodies/" + name_ + "/" + member; }
 
   H5File file_;
   std::string name_, rom_sha256_;

@@ -15,7 +15,7 @@ constexpr double kNodeU[6] = {0, 1, 0, 0.5, 0.5, 0};
 constexpr double kNodeV[6] = {0, 0, 1, 0, 0.5, 0.5};
 
 void measure_face(const RowMatrix& nodes, const IndexMatrix& triangles, int64_t face,
-                  SkinGeometry& geometry, Eigen::Vector3d& whole) {
+                  SkinGeometry& geometry, Eigen::Vector3d& total) {
   const Coordinates6 x = face_coordinates(nodes, triangles, face);
   Eigen::Vector3d vector_area = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   Shape6 squares = Shape6::Zero();
@@ -36,7 +36,7 @@ void measure_face(const RowMatrix& nodes, const IndexMatrix& triangles, int64_t 
   geometry.face_normal.row(face) = vector_area.normalized();
   geometry.face_centre.row(face) = moment / area;
   geometry.area += area;
-  whole += vector_area;
+  total += vector_area;
   for (int a = 0; a < 6; ++a) {
     const Eigen::Matrix<double, 3, 2> t = x.transpose() * shape_gradients(kNodeU[a], kNodeV[a]);
     const int32_t node = triangles(face, a);
@@ -55,12 +55,12 @@ SkinGeometry measure_skin(const RowMatrix& nodes, const IndexMatrix& triangles) 
   geometry.face_centre.setZero(n_faces, 3);
   geometry.node_normal.setZero(n_nodes, 3);
   geometry.node_area.setZero(n_nodes);
-  Eigen::Vector3d whole = Eigen::Vector3d::Zero();
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();
   for (int64_t face = 0; face < n_faces; ++face)
-    measure_face(nodes, triangles, face, geometry, whole);
+    measure_face(nodes, triangles, face, geometry, total);
   for (int64_t node = 0; node < n_nodes; ++node) geometry.node_normal.row(node).normalize();
-  geometry.closure = geometry.area > 0.0 ? whole.norm() / geometry.area : 0.0;
-  // A skin that is open makes no enclosed volume, so only a closed one can be proved inside out.
+  geometry.closure = geometry.area > 0.0 ? total.norm() / geometry.area : 0.0;
+  // An open skin encloses no volume, so only a closed one can be found inside out.
   if (n_faces > 0 && geometry.closure < 1e-9 && geometry.volume <= 0.0)
     throw InputError(fmt::format("skin: enclosed volume {:.4g} m3, expected outward triangles",
                                  geometry.volume));

@@ -10,7 +10,7 @@ namespace clatter::recover {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t>;
 
-/// What is measured on a skin once. Normals point out of the solid.
+/// Geometric quantities of a skin. Normals point out of the solid.
 struct SkinGeometry {
   Eigen::VectorXd face_area;  // n_f [m2], integral of dS
   RowMatrix face_normal;      // n_f x 3, unit vector along the integral of n dS

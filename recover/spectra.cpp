@@ -30,7 +30,7 @@ LineSpectrum line_spectrum(const Piece& piece, const RowMatrix& samples, double 
       spectrum.power_factor[k] = 1.0 / noise_bandwidth;
     }
 
-  // The first sample lies start_s after the time that phases refer to.
+  // The first sample is start_s after the time origin of phases.
   const double start_s = piece.start_s();
   Eigen::VectorXcd scale(lines);
   for (int64_t k = 0; k < lines; ++k)

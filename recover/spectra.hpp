@@ -13,7 +13,7 @@ struct LineSpectrum {
   Eigen::VectorXd frequency_hz;  // n_l, f_k = k / duration, from 0
   Eigen::MatrixXcd amplitude;    // n_l x columns, peak, unit of the samples
   /// n_l: mean square = sum_k power_factor_k |X_k|^2. 1/2 for a tone, 1 at 0 Hz and at the Nyquist
-  /// line; divided by the taper's equivalent noise bandwidth, so that sums over lines keep the
+  /// line; divided by the taper's equivalent noise bandwidth, so that sums over lines equal the
   /// mean square of the (tapered) piece.
   Eigen::VectorXd power_factor;
   bool periodic = false;
@@ -23,9 +23,9 @@ struct LineSpectrum {
 /// Transforms each column of `samples` (count x columns, rows = the piece's samples), lines up to
 /// `to_hz` (that line included).
 ///
-/// Over one cycle a plain transform is exact: lines stand 1/2 engine order apart and nothing leaks.
-/// Other pieces lose their mean (line 0 is then zero) and are tapered; amplitudes are divided by
-/// the taper's mean, so a tone inside a window reads its true amplitude.
+/// Over one cycle a plain transform is exact: lines are 1/2 engine order apart, without leakage.
+/// For other pieces the mean is removed (line 0 is then zero) and a taper applied; amplitudes are
+/// divided by the taper's mean, so a tone inside a window has its true amplitude.
 LineSpectrum line_spectrum(const Piece& piece, const RowMatrix& samples, double to_hz);
 
 }  // namespace clatter::recover

@@ -1,7 +1,7 @@
 #pragma once
-// The quadratic triangle: shape functions, quadrature, and its area element.
+// The quadratic triangle: shape functions, quadrature, and area element.
 //
-//   v                     nodes: corners 0, 1, 2, then the middles of edges 01, 12, 20
+//   v                     nodes: corners 0, 1, 2, then mid-side nodes 01, 12, 20
 //   2                     (Gmsh order, which is also VTK's)
 //   | \                   corners at (u, v) = (0,0), (1,0), (0,1)
 //   5   4
@@ -31,7 +31,7 @@ struct QuadraturePoint {
 /// flat triangle.
 const std::array<QuadraturePoint, 6>& quadrature_points();
 
-/// A point of a face: its shape functions and the vector n dS that belongs to it.
+/// A quadrature point of a face: its shape functions and the vector n dS.
 struct FacePoint {
   Shape6 shape;
   Eigen::Vector3d area_vector;  // quadrature weight times (x_u cross x_v) [m2]

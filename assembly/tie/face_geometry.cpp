@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNewtonSteps = 30;
 constexpr double kConverged = 1e-14;  // of the face's size
-constexpr double kFarOutside = 4.0;   // reference coordinates that no point of a facet has
+constexpr double kFarOutside = 4.0;   // reference coordinates beyond those of any facet point
 
 }  // namespace
 
@@ -80,8 +80,8 @@ bool find_reference(const TieFace& face, const Plane& plane, const Eigen::Vector
       (face.x.row(0) - face.x.row(1)).norm() + (face.x.row(0) - face.x.row(2)).norm();
   for (int step = 0; step < kNewtonSteps; ++step) {
     const mesh::FaceShape shape = mesh::face_shape(face.type, xi);
-    const Eigen::Vector3d place = face.x.transpose() * shape.value;
-    const Eigen::Vector2d residual = plane.project(place) - at;
+    const Eigen::Vector3d position = face.x.transpose() * shape.value;
+    const Eigen::Vector2d residual = plane.project(position) - at;
     const Eigen::Matrix2d jacobian = plane.frame * (face.x.transpose() * shape.gradient);
     const double det = jacobian.determinant();
     if (!(std::abs(det) > 1e-12 * jacobian.squaredNorm())) return false;

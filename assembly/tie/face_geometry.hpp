@@ -10,7 +10,7 @@
 
 namespace clatter::assembly {
 
-/// One face with its nodes' places.
+/// One face with its nodes' positions.
 struct TieFace {
   mesh::FaceType type = mesh::FaceType::kTri6;
   std::array<int32_t, mesh::kMaxFaceNodes> nodes{};
@@ -22,8 +22,9 @@ struct TieFace {
 /// All faces of a surface.
 std::vector<TieFace> tie_faces(const RowMatrix& coordinates, const mesh::Surface& surface);
 
-/// A flat piece of a face: three or four of its nodes in order. Linear faces are one facet, a tri6
-/// four triangles, a quad8 four triangles at the corners and a quadrilateral between the middles.
+/// A flat part of a face: three or four of its nodes in order. Linear faces are one facet, a tri6
+/// four triangles, a quad8 four triangles at the corners and one quadrilateral between the mid-side
+/// nodes.
 struct Facet {
   std::array<int, 4> corners{};
   int size = 3;
@@ -42,12 +43,12 @@ struct Plane {
 /// The mean plane of a facet; its normal is that of the face (outward).
 Plane plane_of(const TieFace& face, const Facet& facet);
 
-/// The reference point whose place lies on the plane's normal through `at`, by Newton's method from
-/// `start`. False when it does not converge: the face stands across the plane.
+/// The reference coordinates `xi` of the point of the face on the plane's normal through `at`, by
+/// Newton's method. False when it does not converge: the face is nearly normal to the plane.
 bool find_reference(const TieFace& face, const Plane& plane, const Eigen::Vector2d& at,
                     Eigen::Vector2d& xi);
 
-/// Middle of the reference face.
+/// Centre of the reference face.
 Eigen::Vector2d reference_centre(mesh::FaceType type);
 
 }  // namespace clatter::assembly

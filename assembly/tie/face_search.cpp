@@ -15,7 +15,7 @@ FaceSearch::FaceSearch(const std::vector<TieFace>& faces, double distance) {
   double sum = 0.0, largest = 0.0;
   for (const TieFace& face : faces) {
     Eigen::AlignedBox3d box = box_of(face);
-    // A curved face bulges out of the box of its nodes by a small part of its size.
+    // A curved face exceeds the box of its nodes by a small part of its size.
     const double margin = distance + 0.1 * box.diagonal().norm();
     box.min().array() -= margin;
     box.max().array() += margin;
@@ -23,7 +23,7 @@ FaceSearch::FaceSearch(const std::vector<TieFace>& faces, double distance) {
     largest = std::max(largest, box.diagonal().norm());
     boxes_.push_back(box);
   }
-  // Very uneven faces: no face fills more than a thousand cells or so.
+  // Limits the cells per face to about a thousand for faces of very different sizes.
   size_ = std::max(sum / static_cast<double>(std::max<size_t>(1, faces.size())), 0.1 * largest);
   for (size_t f = 0; f < boxes_.size(); ++f)
     each_cell(boxes_[f], [&](uint64_t key) { cells_[key].push_back(static_cast<int32_t>(f)); });

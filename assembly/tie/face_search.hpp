@@ -15,13 +15,13 @@ class FaceSearch {
   /// Boxes of the faces are enlarged by `distance` [m].
   FaceSearch(const std::vector<TieFace>& faces, double distance);
 
-  /// Faces whose enlarged boxes meet the box, ascending.
+  /// Faces whose enlarged boxes intersect the box, ascending.
   std::vector<int32_t> near(const Eigen::AlignedBox3d& box) const;
 
  private:
   using Cell = Eigen::Matrix<int64_t, 3, 1>;
   Cell cell_of(const Eigen::Vector3d& x) const;
-  /// Calls visit(key) for each cell that the box meets.
+  /// Calls visit(key) for each cell that the box intersects.
   template <typename Visit>
   void each_cell(const Eigen::AlignedBox3d& box, const Visit& visit) const;
 
@@ -30,7 +30,7 @@ class FaceSearch {
   std::unordered_map<uint64_t, std::vector<int32_t>> cells_;
 };
 
-/// The box of a face's nodes. Curved faces leave it by less than their own size.
+/// The bounding box of a face's nodes. Curved faces exceed it by less than their own size.
 Eigen::AlignedBox3d box_of(const TieFace& face);
 
 }  // namespace clatter::assembly

@@ -12,11 +12,11 @@
 namespace clatter::assembly {
 namespace {
 
-constexpr double kShift = 0.2;            // a of the modified basis
-constexpr double kLeastCover = 0.1;       // of a face
-constexpr double kLeastWeight = 0.05;     // of a node
-constexpr double kLeastPiece = 1e-12;     // of a facet's area: rounding at a common edge
-constexpr double kFacing = -0.1;          // cosine between the normals: more is not opposite
+constexpr double kShift = 0.2;         // a of the modified basis
+constexpr double kLeastCover = 0.1;    // of a face
+constexpr double kLeastWeight = 0.05;  // of a node
+constexpr double kLeastPiece = 1e-12;  // of a facet's area: rounding at a common edge
+constexpr double kFacing = -0.1;       // cosine between the normals: above it they are not opposite
 constexpr double kNoCoefficient = 1e-13;  // rounding of coefficients of order one
 
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
@@ -27,7 +27,7 @@ Small modified_basis(mesh::FaceType type) {
   const mesh::FaceTraits& traits = mesh::traits(type);
   Small S = Small::Identity(traits.nodes, traits.nodes);
   if (traits.order == 1) return S;
-  for (int e = 0; e < traits.corners; ++e) {  // middle of corners e and e + 1
+  for (int e = 0; e < traits.corners; ++e) {  // mid-side node of corners e and e + 1
     const int middle = traits.corners + e;
     S(e, middle) = S((e + 1) % traits.corners, middle) = kShift;
     S(middle, middle) = 1.0 - 2.0 * kShift;
@@ -35,7 +35,7 @@ Small modified_basis(mesh::FaceType type) {
   return S;
 }
 
-/// int N^ dA over a whole face, and its area in `area`.
+/// int N^ dA over an entire face; its area in `area`.
 SmallVector full_weights(const TieFace& face, const Small& S, double& area) {
   SmallVector sum = SmallVector::Zero(face.size());
   const mesh::FaceRule& rule = mesh::face_rule(face.type);
@@ -48,14 +48,14 @@ SmallVector full_weights(const TieFace& face, const Small& S, double& area) {
   return S * sum;
 }
 
-/// The integrals of one slave face over its covered pieces.
+/// The integrals of one slave face over its covered parts.
 struct FaceIntegrals {
   Small gram;                               // int N^ N^T dA
   std::map<int32_t, SmallVector> coupling;  // master node k: int N^ N_k dA
   double area = 0.0;
 };
 
-/// Goes through all pieces of a slave face.
+/// Integrates over all covered parts of a slave face.
 class Integrator {
  public:
   Integrator(const std::vector<TieFace>& master, double distance, Projection& out)
@@ -89,7 +89,7 @@ class Integrator {
                 const TieFace& master, const Facet& facet, FaceIntegrals& sums) {
     if (plane_of(master, facet).normal.dot(plane.normal) > kFacing) return;
     Polygon window = polygon_of(master, facet, plane);
-    std::reverse(window.begin(), window.end());  // it faces the other way
+    std::reverse(window.begin(), window.end());  // the faces are opposite
     const Polygon piece = clip(subject, window);
     if (signed_area(piece) <= kLeastPiece * signed_area(subject)) return;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
@@ -153,7 +153,7 @@ struct NodeSums {
   double full = 0.0;                       // int N^_j dA over all slave faces
   double weight = 0.0;                     // D_jj, over what is covered
   std::map<int32_t, double> on;            // M_jk
-  std::array<int32_t, 2> ends = {-1, -1};  // corners beside a middle node
+  std::array<int32_t, 2> ends = {-1, -1};  // corners adjacent to a mid-side node
 };
 
 void add_face(const TieFace& face, const FaceIntegrals& integrals,

@@ -15,30 +15,31 @@ namespace clatter::condense {
 namespace {
 
 /// A node and its component 1, 2 or 3.
-struct Place {
+struct NodeComponent {
   int node = 0, component = 0;
 };
 
-/// Displacements keep the map's places; rotations and modal coordinates get nodes behind them.
-std::vector<Place> places_of(const std::vector<rom::MappedDof>& map) {
+/// Displacements keep the nodes of the map; rotations and modal coordinates get nodes after them.
+std::vector<NodeComponent> node_components(const std::vector<rom::MappedDof>& map) {
   int last = 0;
   for (const rom::MappedDof& dof : map) last = std::max(last, dof.node);
-  std::vector<Place> places;
+  std::vector<NodeComponent> dofs;
   for (const rom::MappedDof& dof : map) {
     const bool along_axis = dof.component >= 1 && dof.component <= 3;
     const bool rotation = dof.component > 3;
-    places.push_back({rotation ? ++last : dof.node, along_axis ? dof.component : 1});
+    dofs.push_back({rotation ? ++last : dof.node, along_axis ? dof.component : 1});
   }
-  return places;
+  return dofs;
 }
 
 void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matrix,
-                  const std::vector<Place>& places) {
+                  const std::vector<NodeComponent>& dofs) {
   WholeFile file(path);
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     for (Eigen::Index i = j; i < matrix.rows(); ++i) {
       if (matrix(i, j) == 0.0) continue;
-      const Place &row = places[static_cast<size_t>(i)], &column = places[static_cast<size_t>(j)];
+      const NodeComponent &row = dofs[static_cast<size_t>(i)],
+                          &column = dofs[static_cast<size_t>(j)];
       file.stream() << fmt::format("{},{},{},{},{:.16e}\n", row.node, row.component, column.node,
                                    column.component, matrix(i, j));
     }
@@ -47,7 +48,7 @@ void write_matrix(const std::filesystem::path& path, const Eigen::MatrixXd& matr
 }
 
 void write_head(std::ostream& out, const rom::ReducedModel& model,
-                const std::vector<rom::MappedDof>& map, const std::vector<Place>& places,
+                const std::vector<rom::MappedDof>& map, const std::vector<NodeComponent>& dofs,
                 const std::string& stem) {
   out << fmt::format("** clatter {}: \"{}\" ({}), SI: m, kg, s, N\n", version(), model.name,
                      model.method);
@@ -60,19 +61,19 @@ void write_head(std::ostream& out, const rom::ReducedModel& model,
       "** row  node  component  what\n",
       model.n_boundary, model.size() - model.n_boundary, stem, stem, stem, kRigidHoldHz);
   for (size_t j = 0; j < map.size(); ++j)
-    out << fmt::format("** {}  {}  {}  {} {}\n", j + 1, places[j].node, places[j].component,
+    out << fmt::format("** {}  {}  {}  {} {}\n", j + 1, dofs[j].node, dofs[j].component,
                        map[j].kind == rom::MappedDof::Kind::kRotation ? "rotation of" : "",
                        map[j].label);
 }
 
 /// Nodes of the boundary coordinates; node j of the modes is `first` + j / 3, component j % 3 + 1.
 void write_nodes(std::ostream& out, const rom::ReducedModel& model,
-                 const std::vector<rom::MappedDof>& map, const std::vector<Place>& places,
+                 const std::vector<rom::MappedDof>& map, const std::vector<NodeComponent>& dofs,
                  int first) {
   out << "*NODE,NSET=CLATTER_BOUNDARY\n";
   std::vector<bool> done(static_cast<size_t>(first), false);
   for (int j = 0; j < model.n_boundary; ++j) {
-    const auto node = static_cast<size_t>(places[static_cast<size_t>(j)].node);
+    const auto node = static_cast<size_t>(dofs[static_cast<size_t>(j)].node);
     if (done[node]) continue;
     done[node] = true;
     const Eigen::Vector3d& p = map[static_cast<size_t>(j)].position;
@@ -82,7 +83,7 @@ void write_nodes(std::ostream& out, const rom::ReducedModel& model,
   for (int k = 0; 3 * k < model.size(); ++k) out << fmt::format("{},0.,0.,0.\n", first + k);
 }
 
-/// Unit masses and springs; CalculiX reads 20 columns of a number, so 14 digits of a spring.
+/// Unit masses and springs; CalculiX reads 20 columns of a number, hence 14 digits for a spring.
 void write_modes(std::ostream& out, const PencilModes& modes, int first) {
   const auto size = static_cast<int>(modes.Lambda.size());
   const int nodes = (size + 2) / 3;
@@ -99,10 +100,10 @@ void write_modes(std::ostream& out, const PencilModes& modes, int first) {
 }
 
 void write_equations(std::ostream& out, const rom::ReducedModel& model, const Eigen::MatrixXd& Phi,
-                     const std::vector<Place>& places, int first) {
+                     const std::vector<NodeComponent>& dofs, int first) {
   for (int i = 0; i < model.n_boundary; ++i) {
-    const Place& place = places[static_cast<size_t>(i)];
-    out << fmt::format("*EQUATION\n{}\n{},{},-1.\n", Phi.cols() + 1, place.node, place.component);
+    const NodeComponent& dof = dofs[static_cast<size_t>(i)];
+    out << fmt::format("*EQUATION\n{}\n{},{},-1.\n", Phi.cols() + 1, dof.node, dof.component);
     for (int j = 0; j < Phi.cols(); ++j)
       out << fmt::format("{},{},{:.12e}\n", first + j / 3, j % 3 + 1, Phi(i, j));
   }
@@ -121,18 +122,18 @@ std::vector<std::filesystem::path> export_calculix(const rom::ReducedModel& mode
                                                    const std::filesystem::path& path) {
   const PencilModes modes = modes_of(model);
   const std::vector<rom::MappedDof> map = rom::map_of(model);
-  const std::vector<Place> places = places_of(map);
+  const std::vector<NodeComponent> dofs = node_components(map);
   int first = 1;  // node of the modes
-  for (const Place& place : places) first = std::max(first, place.node + 1);
+  for (const NodeComponent& dof : dofs) first = std::max(first, dof.node + 1);
   const std::vector<std::filesystem::path> files = calculix_files(path);
-  write_matrix(files[1], model.K_rr, places);
-  write_matrix(files[2], model.M_rr, places);
+  write_matrix(files[1], model.K_rr, dofs);
+  write_matrix(files[2], model.M_rr, dofs);
   WholeFile deck(path);
   std::ostream& out = deck.stream();
-  write_head(out, model, map, places, path.stem().string());
-  write_nodes(out, model, map, places, first);
+  write_head(out, model, map, dofs, path.stem().string());
+  write_nodes(out, model, map, dofs, first);
   write_modes(out, modes, first);
-  write_equations(out, model, modes.Phi, places, first);
+  write_equations(out, model, modes.Phi, dofs, first);
   deck.commit();
   return files;
 }

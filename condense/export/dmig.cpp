@@ -13,7 +13,7 @@ namespace clatter::condense {
 namespace {
 
 constexpr int kField = 16;
-/// Below it an exponent has three digits and no field holds ten digits beside it.
+/// Below it the exponent has three digits, which leave fewer than ten digits in a field.
 constexpr double kSmallest = 1e-99;
 
 void write_head(std::ostream& out, const rom::ReducedModel& model,
@@ -29,7 +29,7 @@ void write_head(std::ostream& out, const rom::ReducedModel& model,
                        map[j].label);
 }
 
-/// GRIDs with what they do not move constrained, SPOINTs.
+/// GRIDs with the components without a coordinate constrained, and SPOINTs.
 void write_points(std::ostream& out, const std::vector<rom::MappedDof>& map) {
   std::map<int, std::string> loose;  // of each grid: the components without a coordinate
   std::map<int, Eigen::Vector3d> position;

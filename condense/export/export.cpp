@@ -12,7 +12,7 @@ namespace clatter::condense {
 
 namespace {
 
-/// Without the sets that were never coordinates: other programs have no rows for them.
+/// Without the sets that are no coordinates: other programs have no rows for them.
 rom::ReducedModel coordinates_only(rom::ReducedModel model) {
   Eigen::Index rows = 0;
   for (const std::string& name : model.recovered_sets) {
@@ -51,7 +51,7 @@ std::vector<std::filesystem::path> export_reduced(const rom::ReducedModel& with_
   if (extension == ".inp") return export_calculix(model, path);
   if (extension == ".pch") return export_dmig(model, path);
   if (extension == ".fem") return export_mbdyn(model, path);
-  return exported_files(path);  // refuses it
+  return exported_files(path);  // throws
 }
 
 }  // namespace clatter::condense

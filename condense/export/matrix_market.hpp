@@ -10,9 +10,9 @@ namespace clatter::condense {
 /// part.K.mtx, part.M.mtx, part.dofs.tsv for "part.mtx".
 std::vector<std::filesystem::path> matrix_market_files(const std::filesystem::path& path);
 
-/// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits: they read back
-/// to the last bit) and part.dofs.tsv, which says what row i is (core/rom/dof_map.hpp). Damping
-/// stands in the head of K. Returns the files; FileError when one cannot be written.
+/// For "part.mtx": part.K.mtx and part.M.mtx (coordinate real symmetric, 17 digits, so that values
+/// are read back exactly) and part.dofs.tsv, the DoF map (core/rom/dof_map.hpp). Damping is in the
+/// header of K. Returns the files; FileError when one cannot be written.
 std::vector<std::filesystem::path> export_matrix_market(const rom::ReducedModel& model,
                                                         const std::filesystem::path& path);
 

@@ -96,7 +96,7 @@ std::vector<std::filesystem::path> export_mbdyn(const rom::ReducedModel& model,
   const Nodes nodes = nodes_of(map);
   if (nodes.empty())
     throw InputError(
-        fmt::format("{}: found no boundary coordinate with a place, expected one or "
+        fmt::format("{}: found no boundary coordinate with a position, expected one or "
                     "more",
                     model.name));
   WholeFile file(path);

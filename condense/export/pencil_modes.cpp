@@ -18,7 +18,7 @@ PencilModes modes_of(const rom::ReducedModel& model) {
                     model.name));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solved(model.K_rr, model.M_rr);
   PencilModes modes{solved.eigenvectors(), solved.eigenvalues()};
-  // What rounding leaves of a zero, n eps lambda_max, and some.
+  // Rounding of a zero eigenvalue, n eps lambda_max, with a margin.
   const double zero = 1e-14 * model.size() * modes.Lambda.maxCoeff();
   modes.rigid = static_cast<int>((modes.Lambda.array() <= zero).count());
   return modes;

@@ -1,5 +1,5 @@
 #pragma once
-// Modes of a reduced part, for formats that want them.
+// Modes of a reduced part, for formats that require them.
 #include <Eigen/Core>
 
 #include "core/rom/reduced_model.hpp"
@@ -10,7 +10,7 @@ namespace clatter::condense {
 struct PencilModes {
   Eigen::MatrixXd Phi;
   Eigen::VectorXd Lambda;  // [rad2/s2]
-  int rigid = 0;           // how many first ones are zero to rounding
+  int rigid = 0;           // number of leading ones that are zero to rounding
 };
 
 /// All modes by a dense solution; InputError when M_rr is not positive definite.

@@ -11,7 +11,7 @@ namespace clatter::film {
 namespace {
 
 constexpr double kFitFactor = 4.4086e-5, kFitPower = 6.804, kFitEnd = 4.0;
-// The table of the exact law: F_5/2(8) is 1e-17 of F_5/2(0), so it ends there.
+// The table of the exact law: F_5/2(8) is 1e-17 of F_5/2(0), where it ends.
 constexpr double kTableBegin = -8.0, kTableEnd = 8.0, kTableStep = 1.0 / 32.0;
 constexpr int kTableNodes = 513;
 

@@ -37,7 +37,7 @@ class Asperity {
 
   /// At gap `h` [m]; negative gaps are within the law (finite, for trial states of a solver).
   Contact at(double h) const;
-  /// From this gap on there is no contact [m].
+  /// Largest gap with contact [m].
   double reach() const;
 
  private:

@@ -63,7 +63,8 @@ void BandedLu::solve(double* x) const {
   }
 }
 
-// A strip of kCount columns: its part of a row stays in registers while the row's factors pass.
+// A strip of kCount columns: its part of a row stays in registers while the row's factors are
+// applied.
 template <int kCount>
 void BandedLu::sweep_strip(double* x, int stride) const {
   for (int i = 1; i < n_; ++i) {

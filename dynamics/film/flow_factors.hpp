@@ -1,5 +1,5 @@
 #pragma once
-// How roughness changes the flow and the shear of a film: functions of H = h / sigma.
+// Effect of roughness on the flow and shear of a film: functions of H = h / sigma.
 #include "dynamics/film/reynolds.hpp"
 
 namespace clatter::film {
@@ -35,7 +35,7 @@ ValueSlope shear_flow_factor(double ratio, double peklenik);
 /// this.
 ///
 /// phi_f of Patir and Cheng 1979, eq. (17) to (19): the mean over the polynomial density
-/// 35/96 (1 - (d/3)^2)^3 with gaps under sigma/100 left out. Below H = 0 constant. Slope by H.
+/// 35/96 (1 - (d/3)^2)^3 with gaps under sigma/100 excluded. Below H = 0 constant. Slope by H.
 ValueSlope mean_inverse_gap(double ratio);
 
 /// Below this h / sigma the flow factors are out of their range; see RoughFilm.

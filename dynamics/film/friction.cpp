@@ -25,8 +25,8 @@ void Friction::clear() {
 }
 
 // Poiseuille part: the sum over axial faces of (s_a + s_b)/4 (p_b - p_a) L, written per cell as w p
-// with w = L/4 (s_before - s_after); at a pad's end its own thickness takes the missing neighbour's
-// place.
+// with w = L/4 (s_before - s_after); at a pad's end the cell's own thickness replaces that of the
+// missing neighbour.
 void Friction::add_film(const Reynolds& solution, const FilmCells& film,
                         const Eigen::ArrayXd& inverse, const Eigen::ArrayXd& inverse_slope,
                         double viscosity, double speed) {

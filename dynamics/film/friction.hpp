@@ -12,7 +12,7 @@ struct FrictionOptions {
   double reversal_speed = 1e-2;  // u_0 of the smoothed sign U / sqrt(U^2 + u_0^2) [m/s]
 };
 
-/// Axial force of each cell on the piston that slides at U along z past a resting liner:
+/// Axial force of each cell on the piston that slides at U along z past a liner at rest:
 ///
 ///   f = -mu U theta (1/h) A + (h/2) dp/dz A - mu_a p_a A U / sqrt(U^2 + u_0^2)
 ///

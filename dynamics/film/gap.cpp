@@ -17,7 +17,7 @@ double table_value(const std::vector<double>& x, const std::vector<double>& y, d
   return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
-// 1 at the end `end`, 0 at the apex; an apex beyond the end leaves that side straight.
+// 1 at the end `end`, 0 at the apex; an apex beyond the end makes that side straight.
 double parabola(double z, double apex, double end) {
   if ((end - apex) * (z - apex) <= 0.0) return 0.0;
   const double t = (z - apex) / (end - apex);
@@ -32,7 +32,7 @@ Eigen::ArrayXd skirt_relief(const SkirtShape& shape, const PadGrid& pad) {
   const bool table = !shape.table_height.empty();
   if (shape.table_height.size() != shape.table_relief.size())
     throw InputError(
-        fmt::format("skirt profile: found {} heights and {} reliefs, expected as many of both",
+        fmt::format("skirt profile: found {} heights and {} reliefs, expected equal numbers",
                     shape.table_height.size(), shape.table_relief.size()));
   for (size_t k = 1; k < shape.table_height.size(); ++k)
     if (!(shape.table_height[k] > shape.table_height[k - 1]))

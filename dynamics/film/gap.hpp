@@ -1,5 +1,5 @@
 #pragma once
-// The gap between skirt and liner: cold shape, and how displacements of the two bodies change it.
+// The gap between skirt and liner: cold shape, and its change by displacements of the two bodies.
 //
 // Angles of pads count from the thrust side (+y) right-handed about z: the outward normal at angle
 // f is n = (-sin f, cos f, 0).
@@ -14,7 +14,7 @@ namespace clatter::film {
 /// Outward normal at pad angle `angle` [rad].
 Eigen::Vector3d pad_normal(double angle);
 
-/// Shape of the skirt as relief: how far it stands back from a cylinder of the skirt's largest
+/// Shape of the skirt as relief: its radial distance inside a cylinder of the skirt's largest
 /// radius.
 ///
 /// relief(f, z) = barrel(z) + ovality sin^2 f; barrel by the table when it is given (linear
@@ -39,7 +39,7 @@ struct LinerShape {
   Eigen::MatrixXd deviation;  // n_a x n_z, outward positive [m]
 };
 
-/// A body's surface known by mean radial displacements of patches.
+/// A body's surface described by mean radial displacements of patches.
 struct ElasticSurface {
   rom::ContactGrid grid;  // patches, axis along +z or -z
   Eigen::MatrixXd
@@ -47,7 +47,7 @@ struct ElasticSurface {
               // frame's origin (rows of ReducedModel::rigid); 0 rows: taken from the patch centres
 };
 
-/// Interpolates fields on a cylinder, known on angle x axial points, at the cells of a pad.
+/// Interpolates fields on a cylinder, given on angle x axial points, at the cells of a pad.
 class CylinderStencil {
  public:
   /// `neighbours[i]`: true when angular point i and i + 1 (cyclic) belong to one connected range.
@@ -95,7 +95,7 @@ class PatchMap {
   RowMatrix defect_, defect_slope_;                   // R_cells - B R_patches, n x 4
 };
 
-/// The liner's resting deviation at the cells of a pad.
+/// The deviation of the liner at rest at the cells of a pad.
 class LinerShapeMap {
  public:
   /// InputError when the tables do not ascend or the shapes differ.

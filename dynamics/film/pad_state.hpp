@@ -1,5 +1,5 @@
 #pragma once
-// Working memory of one pad of a piston-liner contact; taken once, only for effects that are on.
+// Working memory of one pad of a piston-liner contact; allocated once, only for active effects.
 #include <array>
 #include <optional>
 
@@ -20,7 +20,7 @@ struct PadFilm {
   Reynolds reynolds;
   FilmCells cells;
   Eigen::ArrayXd content, fill;              // m [m] and theta of the last accepted step
-  Eigen::ArrayXd before;                     // m~ of the running stage [m]
+  Eigen::ArrayXd before;                     // m~ of the current stage [m]
   Eigen::ArrayXd stage_content, stage_fill;  // m [m] and theta of the last finished stage
   std::array<Eigen::ArrayXd, 4> rates;       // m' of the stages; [0]: last accepted [m/s]
   int last_stage = 0;

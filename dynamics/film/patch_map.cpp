@@ -27,7 +27,7 @@ void require_ascending(const Eigen::VectorXd& values, const char* what) {
                                    k, values[k], values[k - 1]));
 }
 
-// The strip centres as pad angles of a grid, and which strips touch the next one.
+// The strip centres as pad angles of a grid, and which strips are adjacent to the next one.
 struct Strips {
   Eigen::VectorXd angles;
   std::vector<char> neighbours;
@@ -115,7 +115,7 @@ PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
       }
     }
   }
-  // Rotations count by the arc they make on the bore, so that all columns are of one size.
+  // Rotations are scaled by the bore radius, so that all columns are of one size.
   Eigen::DiagonalMatrix<double, 4> scale(1.0, 1.0, 1.0 / grid.radius, 1.0 / grid.radius);
   const Eigen::MatrixXd scaled = rigid_ * scale;
   inverse_ = scale * scaled.completeOrthogonalDecomposition().pseudoInverse();
@@ -125,7 +125,7 @@ PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
 
 void PatchMap::at(double offset, RowMatrix& map, RowMatrix* slope) {
   const int n_z = stencil_.n_axial();
-  // First the correction, which needs R_cells - B R_patches row by row; then B is added on top.
+  // First the correction, which needs R_cells - B R_patches row by row; then B is added.
   auto for_each_entry = [&](auto&& visit) {
     for (int i = 0; i < pad_.n_angle(); ++i) {
       const auto& around = columns_[static_cast<size_t>(i)];

@@ -86,7 +86,7 @@ void PistonLiner::check() const {
   const PistonLinerOptions& o = options_;
   auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
   require(o.effects.film || o.effects.asperities, o.name, "effects", 0.0,
-          "film or asperities on: else nothing separates skirt and liner");
+          "film or asperities on: otherwise nothing separates skirt and liner");
   require(o.clearance >= 0.0, o.name, "clearance", o.clearance, ">= 0 m");
   require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
   require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
@@ -105,7 +105,7 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
 }
 
 // Gap and its derivatives at one state; `height` is the pin centre's engine z.
-void PistonLiner::place_pad(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
+void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
@@ -114,7 +114,7 @@ void PistonLiner::place_pad(Pad& pad, double height, const Eigen::VectorXd& y, b
     pad.gap_by_height += (pad.liner_slopes * y.segment(n_piston_, n_liner_)).array();
     pad.gap_by_y.middleCols(n_piston_, n_liner_) = pad.liner_weights;
   }
-  // Height enters the gap by d(z) and G_l(z), not linearly: its column joins after the sum.
+  // Height affects the gap nonlinearly, by d(z) and G_l(z): its column is added after the sum.
   pad.gap_by_y.col(pin_ + 2).setZero();
   if (liner_axial_ >= 0) pad.gap_by_y.col(liner_axial_).setZero();
   pad.gap += (pad.gap_by_y * y).array();
@@ -132,27 +132,28 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
   for (const auto& owned : pads_) {
     Pad& pad = *owned;
     if (pad.film && !running_) start_content(pad, stage, y, v);
-    place_pad(pad, stroke_height(stroke_.position, y), y, true);
+    update_gap(pad, stroke_height(stroke_.position, y), y, true);
     if (!pad.gap.allFinite()) throw dynamics::StepRefused(options_.name + ": gap is not finite");
     pad.load.setZero();
     if (pad.friction) pad.friction->clear();
     if (pad.film) solve_film(pad, stage, stroke_.velocity);
-    if (asperity_) touch(pad);
-    if (pad.friction) rub(pad, stroke_.velocity);
+    if (asperity_) update_contact(pad);
+    if (pad.friction) update_friction(pad, stroke_.velocity);
     add_force(pad, response.force);
     if (with_tangent) add_tangent(pad, response.tangent);
   }
 }
 
-// The content at the start is the gap at the start, y~ = y - kappa v, filled to the scene's share.
+// The content at the start is the gap at the start, y~ = y - kappa v, filled by the scene's
+// fraction.
 void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
-  place_pad(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start), y_start,
-            false);
+  update_gap(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start),
+             y_start, false);
   if (pad.gap.minCoeff() <= rough_->lowest_gap())
     throw InputError(fmt::format(
-        "{}: the gap at the start is {:.3g} m at its narrowest, expected more than {:.3g} m",
+        "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
         options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
   rough_->thicknesses(pad.gap, pad.film->cells);
   pad.film->content =
@@ -180,7 +181,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   pad.load += pad.grid.area() * film.reynolds.pressure();
 }
 
-void PistonLiner::touch(Pad& pad) {
+void PistonLiner::update_contact(Pad& pad) {
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
     const Asperity::Contact contact = asperity_->at(pad.gap[c]);
     pad.contact[c] = contact.pressure;
@@ -190,7 +191,7 @@ void PistonLiner::touch(Pad& pad) {
   pad.load += pad.grid.area() * pad.contact;
 }
 
-void PistonLiner::rub(Pad& pad, double speed) {
+void PistonLiner::update_friction(Pad& pad, double speed) {
   if (pad.film) {
     PadFilm& film = *pad.film;
     rough_->inverse_gap(pad.gap, film.cells, film.inverse, film.inverse_slope);

@@ -26,10 +26,9 @@ struct PadSnapshot {
 ///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + y_pin,z - y_liner,z
 ///   f = (dh/dy)^T A (p + p_a) + friction
 ///
-/// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid that
-/// rides on the skirt; its content follows the integrator's tableau. The liner's slope along the
-/// stroke loads the piston axially (through dh/dz), so that the contact does exactly the work of p
-/// on h.
+/// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
+/// to the skirt; its content follows the integrator's tableau. The liner's slope along the stroke
+/// loads the piston axially (through dh/dz), so that the contact does exactly the work of p on h.
 class PistonLiner : public dynamics::ForceElement {
  public:
   /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
@@ -50,7 +49,7 @@ class PistonLiner : public dynamics::ForceElement {
   int size() const { return n_total_; }
   std::vector<PadSnapshot> snapshot() const;
   const PistonLinerOptions& options() const { return options_; }
-  /// Linear solves of the film so far; cost figure of the effect.
+  /// Linear solves of the film so far; a measure of the cost of the effect.
   long film_solves() const { return film_solves_; }
   /// Worst mass residual of the last evaluation (0 without film).
   double film_residual() const;
@@ -58,12 +57,12 @@ class PistonLiner : public dynamics::ForceElement {
  private:
   struct Pad;
   void check() const;
-  void place_pad(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
+  void update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
-  void touch(Pad& pad);
-  void rub(Pad& pad, double speed);
+  void update_contact(Pad& pad);
+  void update_friction(Pad& pad, double speed);
   void add_force(const Pad& pad, Eigen::VectorXd& force) const;
   void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
   double stroke_height(double position, const Eigen::VectorXd& y) const;
@@ -75,7 +74,7 @@ class PistonLiner : public dynamics::ForceElement {
   std::unique_ptr<RoughFilm> rough_;
   std::unique_ptr<Asperity> asperity_;
   StrokeState stroke_;
-  bool running_ = false;  // false: the content is still that of the start
+  bool running_ = false;  // false: the content is still the initial one
   long film_solves_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene says about one piston-liner contact.
+// Options of one piston-liner contact.
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -14,9 +14,9 @@
 
 namespace clatter::film {
 
-/// Which effects the contact has; one that is off allocates and computes nothing.
+/// Effects of the contact; one that is off allocates and computes nothing.
 struct ContactEffects {
-  bool film = true;        // oil film; off ("lubrication = none"): dry, asperity contact alone
+  bool film = true;        // oil film; off ("lubrication = none"): dry, asperity contact only
   bool cavitation = true;  // mass-conserving JFO; off: full films with unrestricted pressure
   bool asperities = true;  // asperity pressure, eq. (12)
   bool friction = true;    // film shear and contact friction along the stroke
@@ -40,12 +40,11 @@ struct PistonLinerOptions {
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
-  double initial_fill = 1.0;  // share of the gap that holds oil at the start, 0 to 1
-  double supply_fill =
-      1.0;  // content of the oil film that the pad meets at its top and bottom edge, 0 to 1
+  double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
+  double supply_fill = 1.0;   // fill of the oil film entering at top and bottom of the pad, 0 to 1
   // Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
   // slides into it at full speed while its film moves at half of that, so the content of the gap is
-  // at most twice this, at the start and at inflow; infinite: the fills above alone decide.
+  // at most twice this, at the start and at inflow; infinite: only the fills above apply.
   double oil_thickness = std::numeric_limits<double>::infinity();
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};
@@ -59,7 +58,7 @@ struct StrokeState {
   double velocity = 0.0;  // dz_B/dt [m/s]
 };
 
-/// What the contact touches. Coordinates of the element, in this order:
+/// The bodies in contact. Coordinates of the element, in this order:
 /// [piston patches | liner patches | pin x, y, z, rx, ry, rz | liner axial mean]; absent parts have
 /// none.
 struct PistonLinerBodies {

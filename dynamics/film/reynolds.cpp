@@ -10,8 +10,8 @@
 namespace clatter::film {
 namespace {
 
-// Sets change by whole regions in the first solves; when they still change after this many, cells
-// are moved one by one (least index first), which cannot cycle on a P-matrix (Murty 1974).
+// Sets change by entire regions in the first solves; when they still change after this many, cells
+// are moved one by one (smallest index first), which cannot cycle on a P-matrix (Murty 1974).
 constexpr int kBlockIterations = 40;
 constexpr int kMaxIterations = 2000;
 // Rounding level of p / p_max and of theta - 1: below it a cell on the border keeps its state.
@@ -93,27 +93,27 @@ void Reynolds::build_faces() {
   }
 }
 
-// The short side counts fastest. Around a closed ring the columns are dealt alternately from both
-// ends of the angular range, so that its closure costs only a double band.
+// The short side varies fastest. Around a closed ring the columns are taken alternately from both
+// ends of the angular range, so that closing the ring only doubles the band.
 void Reynolds::number_cells() {
   const int n_i = grid_.n_angle(), n_j = grid_.n_axial();
-  place_.resize(static_cast<size_t>(grid_.size()));
+  row_.resize(static_cast<size_t>(grid_.size()));
   const int axial_band = grid_.periodic() ? 2 * n_j : n_j;
   for (int i = 0; i < n_i; ++i) {
     const int folded = grid_.periodic() ? (2 * i < n_i ? 2 * i : 2 * (n_i - 1 - i) + 1) : i;
     for (int j = 0; j < n_j; ++j)
-      place_[static_cast<size_t>(grid_.cell(i, j))] =
+      row_[static_cast<size_t>(grid_.cell(i, j))] =
           axial_band <= n_i ? folded * n_j + j : j * n_i + i;
   }
   int band = 0;
   for (const Face& face : faces_)
     band = std::max(
-        band, std::abs(place_[static_cast<size_t>(face.a)] - place_[static_cast<size_t>(face.b)]));
+        band, std::abs(row_[static_cast<size_t>(face.a)] - row_[static_cast<size_t>(face.b)]));
   lu_ = BandedLu(grid_.size(), band);
 }
 
-// How far the fill on a face stands above that of the cell upstream, in parts of what that cell
-// lacks.
+// Excess of the fill on a face over that of the upstream cell, as a fraction of the unfilled part
+// of that cell.
 double Reynolds::lift(const Face& face, double speed) const {
   if (stage_.fill_before == nullptr || speed == 0.0) return 0.0;
   const int upstream = speed > 0.0 ? face.a : face.b, downstream = speed > 0.0 ? face.b : face.a;
@@ -152,7 +152,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     weigh_one(g * g * g, film.carry[rim.cell], rim.length, rim.distance, rim.axial, rim_conduct_[r],
               rim_carry_[r]);
     rim_carry_[r] *= rim.sign;
-    // What a layer thinner than the gap brings in does not depend on the gap.
+    // The inflow of a layer thinner than the gap does not depend on the gap.
     const double carry = film.carry[rim.cell];
     rim_entering_[r] =
         std::min(rim_carry_[r], 0.0) * std::min(rim.edge.fill, rim.edge.layer / carry);
@@ -177,18 +177,18 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
 
 void Reynolds::assemble() {
   lu_.set_zero();
-  auto place = [this](int cell) { return place_[static_cast<size_t>(cell)]; };
+  auto row_of = [this](int cell) { return row_[static_cast<size_t>(cell)]; };
   for (int c = 0; c < grid_.size(); ++c) {
-    x_[place(c)] = before_[c];
+    x_[row_of(c)] = before_[c];
     if (is_full(c)) {
-      x_[place(c)] -= storage_[c];
-      lu_.at(place(c), place(c)) += squeeze_[c];
+      x_[row_of(c)] -= storage_[c];
+      lu_.at(row_of(c), row_of(c)) += squeeze_[c];
     } else {
-      lu_.at(place(c), place(c)) += storage_[c];
+      lu_.at(row_of(c), row_of(c)) += storage_[c];
     }
   }
   for (size_t f = 0; f < faces_.size(); ++f) {
-    const int a = faces_[f].a, b = faces_[f].b, pa = place(a), pb = place(b);
+    const int a = faces_[f].a, b = faces_[f].b, pa = row_of(a), pb = row_of(b);
     const double t = conduct_[f], carried = carry_[f];
     if (is_full(a)) {
       lu_.at(pa, pa) += t;
@@ -206,13 +206,13 @@ void Reynolds::assemble() {
       const double lifted = carried * lift_[f], rest = carried - lifted;
       x_[pa] -= lifted;
       x_[pb] += lifted;
-      lu_.at(pa, place(upstream)) += rest;
-      lu_.at(pb, place(upstream)) -= rest;
+      lu_.at(pa, row_of(upstream)) += rest;
+      lu_.at(pb, row_of(upstream)) -= rest;
     }
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
-    const int row = place(rim.cell);
+    const int row = row_of(rim.cell);
     x_[row] += rim_conduct_[r] * rim.edge.pressure / pressure_scale_;
     if (is_full(rim.cell)) lu_.at(row, row) += rim_conduct_[r];
     const double carried = rim_carry_[r];
@@ -224,14 +224,14 @@ void Reynolds::assemble() {
   }
 }
 
-// Moves cells whose unknown broke its bound; true when the split changed.
+// Moves cells whose unknown violates its bound; true when the split changed.
 bool Reynolds::update_split(bool one_at_a_time) {
   double highest = 0.0;
   for (int c = 0; c < grid_.size(); ++c)
-    if (is_full(c)) highest = std::max(highest, x_[place_[static_cast<size_t>(c)]]);
+    if (is_full(c)) highest = std::max(highest, x_[row_[static_cast<size_t>(c)]]);
   bool changed = false;
   for (int c = 0; c < grid_.size(); ++c) {
-    const double value = x_[place_[static_cast<size_t>(c)]];
+    const double value = x_[row_[static_cast<size_t>(c)]];
     const bool broken = is_full(c) ? value < -kBorder * highest : value > 1.0 + kBorder;
     if (!broken) continue;
     full_[static_cast<size_t>(c)] ^= 1;
@@ -275,14 +275,14 @@ int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,
 
 void Reynolds::unpack() {
   for (int c = 0; c < grid_.size(); ++c) {
-    const double value = x_[place_[static_cast<size_t>(c)]];
+    const double value = x_[row_[static_cast<size_t>(c)]];
     const bool full = is_full(c);
     pressure_[c] = full ? (cavitation_ ? std::max(value, 0.0) : value) * pressure_scale_ : 0.0;
     fill_[c] = full ? 1.0 : std::min(value, 1.0);
   }
 }
 
-// Balance of each cell with the values as returned, against the size of its own terms.
+// Balance of each cell with the returned values, relative to its own terms.
 void Reynolds::measure() {
   Eigen::ArrayXd& balance = scratch_;
   balance = storage_ * fill_ + squeeze_ * pressure_ / pressure_scale_ - before_;

@@ -10,14 +10,14 @@
 
 namespace clatter::film {
 
-/// What stands at one edge of a pad. Gauge pressure; cavitation pressure is 0.
+/// Boundary condition at one edge of a pad. Gauge pressure; cavitation pressure is 0.
 struct Edge {
   enum class Kind { kPressure, kWall };
   Kind kind = Kind::kPressure;
   double pressure = 0.0;  // [Pa] >= 0, of the oil outside
-  double fill = 1.0;      // [1] content of the oil that is dragged in over this edge, 0 to 1
+  double fill = 1.0;      // [1] fill of the oil that is dragged in over this edge, 0 to 1
   // [m] bound of theta c at inflow. A layer of thickness t on a wall that slides at 2 U_m past the
-  // grid brings 2 t U_m: layer = 2 t.
+  // grid carries 2 t U_m: layer = 2 t.
   double layer = std::numeric_limits<double>::infinity();
 
   static Edge wall() { return {Kind::kWall, 0.0, 0.0, 0.0}; }
@@ -46,7 +46,7 @@ struct FilmCells {
   void set_smooth(const Eigen::ArrayXd& h);
 };
 
-/// One implicit stage: what does not depend on the cell.
+/// Data of one implicit stage that do not depend on the cell.
 struct FilmStage {
   double kappa = 1.0;      // dt * a_ii [s]
   double viscosity = 0.0;  // [Pa s]
@@ -55,10 +55,10 @@ struct FilmStage {
   double speed_axial = 0.0;  // the same along the axis [m/s]
   bool steady = false;  // true: div q = 0, no storage; kappa and the content before are not used
   // Bulk modulus of the oil [Pa]: a full cell holds (1 + p / B) s. 0: incompressible. A body of
-  // mass m per area stops on a cell that fills within sqrt(m s / B), in place of at once.
+  // mass m per area stops on a cell that fills within sqrt(m s / B) instead of instantly.
   double bulk_modulus = 0.0;
-  // Fill theta at the start of the step, n: where it slopes, a face carries a limited linear
-  // profile in place of the upstream value, second order in the cell size. Null: first order.
+  // Fill theta at the start of the step, n: where it varies, a face carries a limited linear
+  // profile instead of the upstream value, second order in the cell size. Null: first order.
   const Eigen::ArrayXd* fill_before = nullptr;
 };
 
@@ -69,8 +69,8 @@ struct FilmStage {
 ///
 /// (Jakobsson and Floberg 1957, Olsson 1965; p-theta form of Elrod and Adams 1975, with their bulk
 /// modulus in the storage only). Cell-centred finite volumes. A face conducts 2 a^2 b^2 / (a + b)
-/// in place of g^3 and carries 2 a b / (a + b) in place of c, a and b being its neighbours' values:
-/// exact integrals of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge comes out exact
+/// instead of g^3 and carries 2 a b / (a + b) instead of c, a and b being its neighbours' values:
+/// exact integrals of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge is exact
 /// at the centres. theta is upwinded by U_m; with `fill_before` a face carries
 /// theta + l (1 - theta), l = rise / (1 - theta_before) within -1 and 1, where rise is half of van
 /// Leer's limited slope (J. Comput. Phys. 14, 1974) of the fill before: the lift vanishes as the
@@ -93,13 +93,13 @@ class Reynolds {
   const Eigen::ArrayXd& pressure() const { return pressure_; }
   /// Fill theta, n.
   const Eigen::ArrayXd& fill() const { return fill_; }
-  /// Oil in a cell over what it holds when just full, theta + p / B; n.
+  /// Oil content of a cell relative to that when just full, theta + p / B; n.
   Eigen::ArrayXd density() const;
   bool is_full(int cell) const { return full_[static_cast<size_t>(cell)] != 0; }
   /// Largest mass residual of a cell relative to the largest terms of its balance.
   double residual() const { return residual_; }
-  /// Volume that left over the edges in the stage, kappa * sum of q n L [m3] (flow [m3/s] when
-  /// steady).
+  /// Volume that flowed out over the edges in the stage, kappa * sum of q n L [m3] (flow [m3/s]
+  /// when steady).
   double outflow() const { return outflow_; }
 
   /// Exact derivatives of the last solution along the k gap fields `dh` (n x k) [m]: row c of
@@ -137,7 +137,7 @@ class Reynolds {
   bool cavitation_;
   std::vector<Face> faces_;
   std::vector<Rim> rims_;
-  std::vector<int> place_;  // cell -> row of the banded system
+  std::vector<int> row_;  // cell -> row of the banded system
   BandedLu lu_;
   std::vector<char> full_;
   bool started_ = false;

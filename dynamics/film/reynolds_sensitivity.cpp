@@ -1,4 +1,4 @@
-// Exact derivatives of the film solution by the gap: the factor of the last solve, one more sweep.
+// Exact derivatives of the film solution by the gap, by reusing the factor of the last solve.
 #include "dynamics/film/reynolds.hpp"
 
 namespace clatter::film {
@@ -19,7 +19,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
   const double kappa = stage_.steady ? 1.0 : stage_.kappa;
   const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;
   work_.setZero(grid_.size(), BandedLu::padded(k));
-  auto row = [this, k](int cell) { return work_.row(place_[static_cast<size_t>(cell)]).head(k); };
+  auto row = [this, k](int cell) { return work_.row(row_[static_cast<size_t>(cell)]).head(k); };
   if (!stage_.steady) {
     const Eigen::ArrayXd held = density();
     for (int c = 0; c < grid_.size(); ++c)

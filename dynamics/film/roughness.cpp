@@ -41,7 +41,7 @@ void RoughFilm::apply_factors(double h, int cell, FilmCells& film) const {
   const bool below = h < lowest;
   const double at = below ? lowest : h;
   const double ratio = at / sigma_;
-  // Below the range, value and slope of h_T scaled to meet the factor's value at its end.
+  // Below the range, value and slope of h_T scaled to match the factor at the end of its range.
   const double h_t = film.content[cell], d_h_t = film.d_content[cell];
   const double h_t_end = below ? mean_gap(lowest, sigma_).value : h_t;
   auto set = [&](double value, double slope, double& out, double& d_out) {

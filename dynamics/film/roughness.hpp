@@ -1,12 +1,12 @@
 #pragma once
-// From the gap h to the thicknesses that the Reynolds equation works with.
+// From the gap h to the thicknesses in the Reynolds equation.
 #include <Eigen/Core>
 
 #include "dynamics/film/reynolds.hpp"
 
 namespace clatter::film {
 
-/// Roughness of the two walls as the film sees it.
+/// Roughness of the two walls.
 struct RoughnessOptions {
   double piston = 0.0;        // rms height of the wall that carries the grid [m]
   double liner = 0.0;         // rms height of the wall that slides past [m]
@@ -19,10 +19,10 @@ struct RoughnessOptions {
 ///   s = h_T,   g^3 = phi h^3,   c = h_T - sigma (V_p - V_l) Phi_s,   sigma^2 = sigma_p^2 +
 ///   sigma_l^2, V = sigma_i^2 / sigma^2.
 ///
-/// The sign of c holds because the grid rides on the piston: oil in the piston's valleys stays
-/// behind. Under h = sigma / 2, where the factors end, g and c go on in proportion to h_T: they
-/// stay positive and monotone into contact. sigma = 0: all thicknesses are h, which must then be
-/// positive.
+/// The sign of c holds because the grid moves with the piston: oil in the piston's valleys is not
+/// transported. Below h = sigma / 2, where the factors end, g and c continue in proportion to h_T:
+/// they stay positive and monotone into contact. sigma = 0: all thicknesses are h, which must then
+/// be positive.
 class RoughFilm {
  public:
   /// InputError for roughness below 0 or a pattern that is not in the tables.

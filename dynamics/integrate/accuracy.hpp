@@ -1,5 +1,5 @@
 #pragma once
-// What "accurate enough" means, from one number.
+// Error limits from one tolerance.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -14,16 +14,15 @@ namespace clatter::dynamics {
 struct Accuracy {
   double tolerance = 1e-3;
   double displacement_scale = 1e-5;  // of every interface coordinate, so of every gap [m]
-  double velocity_scale = 0.1;       // of the lightest body as a whole [m/s]
-  double arm = 0.05;                 // turns rotations into displacements [m]
+  double velocity_scale = 0.1;       // of the lightest body as a rigid body [m/s]
+  double arm = 0.05;                 // converts rotations to displacements [m]
 };
 
 /// Weights of errors: entry times error is 1 at the limit.
 ///
-/// Displacements are judged coordinate by coordinate. Velocities are judged by the kinetic energy
-/// of their error over all bodies, measured against the lightest body at the velocity scale: a
-/// patch of some grams that a filling film cell pushes does not decide over the step of the whole
-/// engine.
+/// Displacements are checked coordinate by coordinate. Velocities are checked by the kinetic energy
+/// of their error over all bodies, relative to the lightest body at the velocity scale: so a patch
+/// of some grams that a filling film cell pushes does not limit the step of the entire engine.
 struct ErrorWeights {
   Eigen::VectorXd displacement;  // per y
   Eigen::VectorXd velocity;      // per y: of the smallest modal velocity that moves it so fast

@@ -31,7 +31,7 @@ Dirk::Dirk(System& system, const StepOptions& options)
 double Dirk::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
 
 int Dirk::rung_for(double dt) const {
-  // The longest rung not above dt; the small excess keeps exact hits on their rung.
+  // The longest rung not above dt; the small excess keeps exact values on their rung.
   const double exact = 2.0 * std::log2(options_.largest / dt);
   return std::max(0, static_cast<int>(std::ceil(exact - 1e-9)));
 }
@@ -158,7 +158,7 @@ void Dirk::step(double limit) {
     double dt = ladder_step(rung_);
     const double left = limit - now_.time;
     Verdict verdict;
-    // Up to the limit the last two steps leave the ladder, so that none of them is tiny.
+    // The last two steps before the limit leave the ladder, so that neither of them is tiny.
     const bool near_limit = left < 2.0 * dt * (1.0 - 1e-9);
     if (near_limit) {
       dt = left <= dt * (1.0 + 1e-9) ? left : 0.5 * left;
@@ -193,9 +193,9 @@ void Dirk::after_acceptance(double dt) {
     return;
   }
   const double factor = kSafety * std::pow(std::max(last_error_, 1e-6), -1.0 / kOrder);
-  const int wanted = rung_for(dt * factor);
-  // At most a factor of two up at a time.
-  if (wanted < rung_) rung_ = std::max(wanted, rung_ - 2);
+  const int target_rung = rung_for(dt * factor);
+  // Grows by at most a factor of two.
+  if (target_rung < rung_) rung_ = std::max(target_rung, rung_ - 2);
 }
 
 void Dirk::after_rejection(Verdict verdict) {
@@ -224,7 +224,7 @@ void Dirk::give_up(double dt) const {
       names.push_back(system_.element(e).name());
     }
   }
-  const std::string place =
+  const std::string worst =
       worst_ < 0
           ? std::string("no single coordinate")
           : fmt::format("{} (y = {:.6g}, v = {:.6g}) under {}", system_.coordinate_name(worst_),
@@ -234,7 +234,7 @@ void Dirk::give_up(double dt) const {
       "time {:.9g} s: a step of {:.3g} s failed and the next is below the floor of {:.3g} s; "
       "worst: "
       "{}{}; {} steps accepted, {} rejected by error, {} by Newton, {} refused",
-      now_.time, dt, options_.smallest, place,
+      now_.time, dt, options_.smallest, worst,
       last_newton_.reason.empty() ? "" : "; " + last_newton_.reason, statistics_.accepted,
       statistics_.rejected_error, statistics_.rejected_newton, statistics_.rejected_refused));
 }

@@ -19,7 +19,7 @@ namespace clatter::dynamics {
 struct StepOptions {
   const Tableau* method = &tr_bdf2();
   Accuracy accuracy;
-  double largest = 1e-4;    // top of the ladder [s]
+  double largest = 1e-4;    // largest step of the ladder [s]
   double smallest = 1e-10;  // floor: below it the run ends with a NumericsError [s]
   double first = 1e-7;      // length of the starting stage and first step [s]
   bool fixed = false;       // every step has `largest`; no error test (order tests)
@@ -32,26 +32,26 @@ struct StageState {
   Eigen::VectorXd y, v_y;     // n_y interface displacements and velocities
 };
 
-/// Looks at stages as they are finished; what energy accounting needs.
+/// Is called with each finished stage; used for the energy balance.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  /// Stage 0 is the accepted state of the start; then stages 1 and 2 of each attempted step.
+  /// Stage 0 is the accepted state at the start; then stages 1 and 2 of each attempted step.
   virtual void stage(int index, const StageState& state) = 0;
-  /// The step of length `dt` stands: sums with dt b_i over its stages are due.
+  /// The step of length `dt` is accepted: sums with dt b_i over its stages can be formed.
   virtual void accept(double dt) = 0;
 };
 
 /// Integrates a System by a two-stage method (tableau.hpp) with error-controlled steps dt = largest
 /// 2^(-k/2).
 ///
-/// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), sent through the linearised stage
-/// equations (so stiff components do not decide), then the largest |e_y| over interface coordinates
-/// and the norms of e_eta and e_v over all bodies, each over its limit (Accuracy); a step stands
-/// when the largest of the three is at most 1. After an error rejection the step follows (0.9 /
-/// error^(1/3)); after a Newton failure or refusal it is halved and may not grow for some steps,
-/// doubling with each failure in a row (hard case T4). Below `smallest` a NumericsError names the
-/// coordinate and its elements.
+/// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), filtered by the linearised stage
+/// equations (so stiff components do not dominate), then the largest |e_y| over interface
+/// coordinates and the norms of e_eta and e_v over all bodies, each over its limit (Accuracy); a
+/// step is accepted when the largest of the three is at most 1. After an error rejection the next
+/// step is 0.9 / error^(1/3) of this one; after a Newton failure or refusal it is halved and may
+/// not grow for some steps, twice as many after each consecutive failure (hard case T4). Below
+/// `smallest` a NumericsError names the coordinate and its elements.
 class Dirk {
  public:
   Dirk(System& system, const StepOptions& options);
@@ -61,21 +61,21 @@ class Dirk {
   void start(double time, const Eigen::VectorXd& eta, const Eigen::VectorXd& v);
   /// One accepted step, not beyond `limit`.
   void step(double limit);
-  /// Forgets what earlier steps taught (kept matrix, hold on growth), as after a resume.
+  /// Resets the history of earlier steps (kept matrix, hold on growth), as after a resume.
   void forget_history();
 
   const StageState& state() const { return now_; }
   const StageState& previous() const { return before_; }
   const StepStatistics& statistics() const { return statistics_; }
   StepStatistics& statistics() { return statistics_; }
-  /// What the steps with an error test left of each body's velocity.
+  /// The accumulated velocity error of each body, of steps with an error test.
   const ErrorEstimate& estimate() const { return estimate_; }
   const ErrorWeights& weights() const { return weights_; }
   void set_observer(StageObserver* observer) { observer_ = observer; }
 
-  /// The rung on the ladder of steps; with the state all that a resumed run needs.
+  /// The rung on the ladder of steps; together with the state it suffices to resume.
   int rung() const { return rung_; }
-  /// Takes up a state that an earlier run reached.
+  /// Continues from the state of an earlier run.
   void resume(const StageState& state, int rung);
 
  private:

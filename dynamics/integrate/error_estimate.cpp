@@ -49,19 +49,17 @@ std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const 
   return found;
 }
 
-std::vector<std::string> accuracy_doubts(const std::vector<BodyError>& bodies,
-                                         const Accuracy& accuracy, long long steps) {
+std::vector<std::string> accuracy_warnings(const std::vector<BodyError>& bodies,
+                                           const Accuracy& accuracy, long long steps) {
   std::vector<std::string> lines;
   for (const BodyError& body : bodies) {
     if (body.step_limit <= kWanted || body.estimate <= kWanted) continue;
-    // Local errors fall with the third power of the step: their sum over more steps with the
-    // second.
+    // Local errors fall with the third power of the step, so their sum falls with the second.
     const double more_steps = static_cast<double>(steps) * std::sqrt(body.estimate / kWanted);
     const double scale = accuracy.velocity_scale * kWanted / (body.step_limit * more_steps);
     lines.push_back(fmt::format(
-        "{}: velocities are off by about {:.2g} % of the largest ({:.3g} m/s, rms over the body), "
-        "for "
-        "which [accuracy] is too coarse; velocity_m_s = {:.1e} there brings it below 1 %",
+        "{}: velocities are off by about {:.2g} % of the largest ({:.3g} m/s, rms over the body): "
+        "[accuracy] is too coarse; set velocity_m_s = {:.1e} there for less than 1 %",
         body.name, 100.0 * body.estimate, body.speed, scale));
   }
   return lines;

@@ -1,5 +1,5 @@
 #pragma once
-// How far each body's velocity is off in the end, from the local errors of all steps.
+// Estimate of each body's velocity error from the local errors of all steps.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace clatter::dynamics {
 
-/// One body's motion and what the steps left of it.
+/// One body's motion and its accumulated error.
 struct BodyError {
   std::string name;
   double speed = 0.0;     // largest of the run: |v| / sqrt(m), root mean square over the body [m/s]
-  double estimate = 0.0;  // of the error of v, over that
-  double step_limit = 0.0;  // what the error test lets pass in one step, over that
+  double estimate = 0.0;  // of the error of v, relative to `speed`
+  double step_limit = 0.0;  // largest error of one step that passes the test, relative to `speed`
 };
 
 /// Sums local errors mode by mode. A mode's local error is a point of its phase plane,
 ///   e_k = (e_v, omega e_eta),
-/// which turns with the mode and fades with its damping delta, so that in the worst case (all in
+/// which rotates with the mode and decays with its damping delta, so that in the worst case (all in
 /// phase, as errors of a frequency are)
 ///   G_k(t + dt) = G_k(t) exp(-delta dt / 2) + |e_k|,
 /// and a body's error is the largest |G| over its modes. Elements couple and damp modes: where they
-/// rule, as in contact, this is an upper bound. Quasi-static modes have no part in it.
+/// dominate, as in contact, this is an upper bound. Quasi-static modes are excluded.
 class ErrorEstimate {
  public:
   explicit ErrorEstimate(const System& system);
@@ -43,10 +43,10 @@ class ErrorEstimate {
   long long steps_ = 0;
 };
 
-/// Lines for bodies whose motion is so small that the absolute tolerance let their steps err: a
-/// step may be off by more than 1 % of the motion, and the estimate is above 1 %. Each says the
-/// velocity scale that brings it to about 1 %.
-std::vector<std::string> accuracy_doubts(const std::vector<BodyError>& bodies,
-                                         const Accuracy& accuracy, long long steps);
+/// Warnings for bodies whose motion is too small for the absolute tolerance: the error of a step
+/// may exceed 1 % of the motion, and the estimate is above 1 %. Each gives the velocity scale that
+/// reduces the error to about 1 %.
+std::vector<std::string> accuracy_warnings(const std::vector<BodyError>& bodies,
+                                           const Accuracy& accuracy, long long steps);
 
 }  // namespace clatter::dynamics

@@ -13,13 +13,14 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kMaxIterations = 24;
-/// Matrices formed in one stage. A film cell that fills or empties bends the force sharply: then
-/// each iteration needs its own matrix, and a few of them settle which cells are full.
+/// Matrices formed in one stage. A film cell that fills or empties makes the force strongly
+/// nonlinear: then each iteration needs its own matrix, and a few of them decide which cells are
+/// full.
 constexpr int kMaxFresh = 10;
-/// Increments below this part of the error limit count as converged: Newton's leftovers stay well
-/// below the error that the step control sees.
+/// Increments below this fraction of the error limit count as converged: the remaining Newton error
+/// is then far below the error that the step control measures.
 constexpr double kConverged = 0.05;
-/// A matrix that contracts slower than this is formed anew.
+/// A matrix that contracts slower than this is formed again.
 constexpr double kSlow = 0.3;
 
 }  // namespace
@@ -76,7 +77,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     if (refresh) {
       factor(op);
       ++fresh;
-      previous = std::numeric_limits<double>::infinity();  // sizes by another matrix tell nothing
+      previous = std::numeric_limits<double>::infinity();  // norms by two matrices do not compare
     }
     const VectorXd dy = lu_.solve(y_pred + op.apply_S(f) - y);
     const double size = norm(dy, stage.kappa, result.worst);
@@ -87,7 +88,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       result.outcome = Outcome::kConverged;
       return result;
     }
-    // Once one matrix did not serve two states of this stage, each state gets its own.
+    // Once one matrix failed for two states of this stage, each state gets its own.
     refresh = refresh ? fresh > 1 : size > kSlow * previous;
     previous = size;
   }

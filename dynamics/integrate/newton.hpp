@@ -15,10 +15,10 @@ namespace clatter::dynamics {
 /// contracts.
 ///
 /// Convergence: the last increment is below `kConverged` of what the error test allows, measured in
-/// displacement and, divided by kappa, in velocity. The forces that are handed back are
-/// f + (df/dy) dy of the last increment: they and y satisfy the linear part of the stage exactly,
-/// so momentum is balanced to rounding whatever Newton left over. An iteration that does not
-/// converge is a rejected step, never an accepted one.
+/// displacement and, divided by kappa, in velocity. The returned forces are f + (df/dy) dy of the
+/// last increment: they and y satisfy the linear part of the stage exactly, so momentum is balanced
+/// to rounding despite the remaining Newton error. An iteration that does not converge is a
+/// rejected step, never an accepted one.
 class StageNewton {
  public:
   enum class Outcome { kConverged, kDiverged, kRefused };
@@ -34,8 +34,7 @@ class StageNewton {
   /// y~)/kappa.
   Result solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& y_pred,
                const Eigen::VectorXd& y_tilde, Eigen::VectorXd& y, Eigen::VectorXd& f);
-  /// J^{-1} x with the matrix of the last stage; the change of forces that goes with it is T J^{-1}
-  /// x.
+  /// J^{-1} x with the matrix of the last stage; the corresponding change of forces is T J^{-1} x.
   Eigen::VectorXd solve_linear(const Eigen::VectorXd& x) const { return lu_.solve(x); }
   const Eigen::MatrixXd& tangent() const { return tangent_; }
   /// Drops the matrix; the next stage forms a new one.

@@ -11,7 +11,7 @@ namespace clatter::dynamics {
 ///   H = 1 / (mu / kappa^2 + delta / kappa + omega^2)
 ///   a = H / kappa^2 (F - omega^2 eta~ - (delta + kappa omega^2) v~),  v = v~ + kappa a,
 ///   eta = eta~ + kappa v,
-/// which is the stage equation solved for a: no difference of nearly equal numbers at any kappa.
+/// which is the stage equation solved for a: without cancellation at any kappa.
 /// Per body S = P H P^T, so that y = y_pred + S f.
 class StageOperator {
  public:
@@ -22,7 +22,7 @@ class StageOperator {
   /// The accelerations a of the stage under modal forces F; all N.
   Eigen::VectorXd acceleration(const Eigen::VectorXd& eta_tilde, const Eigen::VectorXd& v_tilde,
                                const Eigen::VectorXd& F) const;
-  /// The embedded error (e_eta, e_v) sent through the linear part of the stage equations:
+  /// The embedded error (e_eta, e_v) filtered by the linear part of the stage equations:
   /// H (mu e_v / kappa + (mu / kappa^2 + delta / kappa) e_eta).
   Eigen::VectorXd filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v) const;
   /// S x for a matrix of n_y rows.

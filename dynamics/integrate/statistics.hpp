@@ -1,5 +1,5 @@
 #pragma once
-// What the time integration did and what it cost.
+// Counts and cost of the time integration.
 #include <algorithm>
 #include <limits>
 #include <map>

@@ -15,8 +15,8 @@ struct Tableau {
 };
 
 /// TR-BDF2 as an ESDIRK with gamma = 2 - sqrt 2 (Bank et al. 1985; embedded weights of Hosea and
-/// Shampine 1996). The more accurate one on smooth motion; its first stage carries on with the
-/// rates of the last step's end.
+/// Shampine 1996). The more accurate one for smooth motion; its first stage uses the rates at the
+/// end of the last step.
 inline const Tableau& tr_bdf2() {
   constexpr double w = 0.35355339059327376;      // sqrt(2) / 4
   constexpr double gamma = 0.58578643762690495;  // 2 - sqrt 2
@@ -31,9 +31,9 @@ inline const Tableau& tr_bdf2() {
   return table;
 }
 
-/// The two-stage SDIRK with d = 1 - sqrt(1/2) (Alexander 1977). It takes no rates from the step
-/// before: where a film cell fills or a surface lands, rates jump, and a method that extrapolates
-/// them answers with oscillating pressures. x'_0 enters the error estimate only.
+/// The two-stage SDIRK with d = 1 - sqrt(1/2) (Alexander 1977). It uses no rates of the previous
+/// step: where a film cell fills or a surface makes contact, rates jump, and a method that
+/// extrapolates them gives oscillating pressures. x'_0 enters only the error estimate.
 inline const Tableau& sdirk2() {
   constexpr double d = 0.29289321881345248;
   constexpr double b_1 = 1.0 / 6.0 / (d - d * d), b_2 = 0.5 - b_1 * d;

@@ -26,7 +26,7 @@ Entries read_entries(const std::filesystem::path& path) {
   return entries;
 }
 
-/// Largest difference of any entry, over the largest entry; supported rows are left out.
+/// Largest difference of any entry, over the largest entry; supported rows are excluded.
 double worst_difference(const SparseMatrix& ours, const Entries& theirs,
                         const std::vector<bool>& held) {
   double worst = 0.0, largest = 0.0;
@@ -68,7 +68,7 @@ class AbaqusBeam : public ::testing::Test {
 };
 
 TEST_F(AbaqusBeam, StiffnessAgreesEntryByEntry) {
-  // Abaqus takes four points too; its cells are straight to seven digits of the coordinates.
+  // Abaqus also uses four points; its cells are straight to seven digits of the coordinates.
   const Entries theirs = read_entries(test::shared_data("abaqus_beam") / "STIF1_coord_style.mtx");
   EXPECT_LT(worst_difference(matrices_.K, theirs, held_), 1e-6);
 }

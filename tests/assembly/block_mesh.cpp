@@ -8,7 +8,7 @@
 namespace clatter::assembly::testing {
 namespace {
 
-using Lattice = std::array<int, 3>;  // four times the brick numbers, so that middles are integers
+using Lattice = std::array<int, 3>;  // four times the brick indices: integers for mid-side nodes
 
 class Numbering {
  public:
@@ -40,7 +40,7 @@ std::vector<std::vector<Lattice>> tetrahedra(const Lattice& low) {
       cell.push_back(cell.back());
       cell.back()[static_cast<size_t>(kWalks[w][s])] += 4;
     }
-    if (w >= 3) std::swap(cell[2], cell[3]);  // odd orders turn the wrong way round
+    if (w >= 3) std::swap(cell[2], cell[3]);  // odd permutations reverse the orientation
     cells.push_back(cell);
   }
   return cells;
@@ -158,7 +158,7 @@ Map ring(double inner, double outer, double height) {
 
 Map shaken_brick(const Eigen::Vector3d& size, const std::array<int, 3>& n, double share) {
   return [=](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-    // A generator seeded by the place: the same corner moves alike in every cell.
+    // The generator is seeded by the position, so that a corner moves alike in every cell.
     std::seed_seq seed{static_cast<int>(std::lround(1e6 * x(0))),
                        static_cast<int>(std::lround(1e6 * x(1))),
                        static_cast<int>(std::lround(1e6 * x(2)))};

@@ -13,13 +13,13 @@ using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
 struct BlockOptions {
   mesh::CellType type = mesh::CellType::kTet10;
-  bool curved = false;  // middle nodes follow the map (true) or stay on straight edges
-  bool wrap_x = false;  // x = 0 and x = 1 are one place: rings
+  bool curved = false;  // mid-side nodes follow the map (true) or stay on straight edges
+  bool wrap_x = false;  // x = 0 and x = 1 coincide: rings
 };
 
-/// The unit cube cut into n[0] x n[1] x n[2] bricks of one hexahedron, two wedges, six tetrahedra
-/// or six pyramids each, then mapped. Surfaces: skin, x0, x1, y0, y1, z0, z1 (names of the cube's
-/// sides); region "body"; node set "all".
+/// The unit cube divided into n[0] x n[1] x n[2] bricks of one hexahedron, two wedges, six
+/// tetrahedra or six pyramids each, then mapped. Surfaces: skin, x0, x1, y0, y1, z0, z1 (names of
+/// the cube's sides); region "body"; node set "all".
 mesh::Mesh block_mesh(const std::array<int, 3>& n, const Map& map,
                       const BlockOptions& options = {});
 

@@ -67,7 +67,7 @@ std::vector<double> timoshenko_hz(double height, int count) {
 }
 
 TEST(Cantilever, FrequenciesAreThoseOfBeamTheory) {
-  // nu = 0, so that the clamp does not hinder the section and beam theory is sharp. What remains
+  // nu = 0, so that the clamp does not constrain the section and beam theory is exact. What remains
   // is the mesh's error, which grows with the fourth power of cells per wave: half of the bound.
   const fe::FeModel model = clamped(beam({40, 3, 2}), "0.0");
   const Eigen::VectorXd hz = lowest_hz(model.K, model.M, 8);
@@ -134,7 +134,7 @@ std::vector<double> calculix_hz(const mesh::Mesh& mesh) {
   return hz;
 }
 
-/// The mass with four points a cell, as CalculiX integrates C3D10; supported rows are left out.
+/// The mass with four points a cell, as CalculiX integrates C3D10; supported rows are excluded.
 SparseMatrix four_point_mass(const mesh::Mesh& mesh, const fe::FeModel& model) {
   std::vector<Eigen::Triplet<double, int32_t>> entries;
   const IndexMatrix& cells = mesh.cells[0].nodes;

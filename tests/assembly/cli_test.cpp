@@ -48,7 +48,7 @@ class AssemblyCommand : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   bool has_output() const { return std::filesystem::exists(folder_ / "part.fe.h5"); }
-  /// Exactly one line with "error:" that holds all parts; no output file.
+  /// Exactly one line with "error:" that contains all parts; no output file.
   void expect_refusal(int code, const std::vector<std::string>& parts) {
     EXPECT_EQ(run(), code) << said_;
     const size_t at = said_.find("error: ");

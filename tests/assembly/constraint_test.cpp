@@ -24,8 +24,8 @@ TEST(RigidCoupling, FollowsItsReferenceLikeALever) {
   const DofNumbers numbers(nodes, points);
   ReferenceDofs reference;
   for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  reference.place = points[0].place;
-  const auto rows = rigid_dependences(numbers, DofPlace::of_node(0), {0, 1, 2, 3}, reference);
+  reference.position = points[0].position;
+  const auto rows = rigid_dependences(numbers, NodeOrPoint::of_node(0), {0, 1, 2, 3}, reference);
   ASSERT_EQ(rows.size(), 3u);  // a node has no rotation
   // r = (0, 2, 0): u_x = p_x - 2 rz, u_y = p_y, u_z = p_z + 2 rx.
   EXPECT_EQ(rows[0].on.dofs, (std::vector<int32_t>{3, 8}));
@@ -49,12 +49,12 @@ point = [0.3, 0.0, 0.5]
   const DofNumbers numbers(mesh.nodes, points);
   ReferenceDofs reference;
   for (int d = 0; d < 6; ++d) reference.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  reference.place = points[0].place;
+  reference.position = points[0].position;
   Saddle saddle(mesh, 1);
   hold_foot(mesh, saddle);
   for (const int32_t node : mesh.node_sets.at("z1"))
     for (const auto& row :
-         rigid_dependences(numbers, DofPlace::of_node(node), {0, 1, 2}, reference))
+         rigid_dependences(numbers, NodeOrPoint::of_node(node), {0, 1, 2}, reference))
       saddle.add(row);
   Eigen::VectorXd f = some_forces(saddle.size());
   const Eigen::VectorXd want = saddle.solve(f);
@@ -97,8 +97,8 @@ TEST(DistributingCoupling, CountsRotationsOfPointsByTheirExtent) {
   EXPECT_NEAR(coupling.rows[0].values[0], 0.5, 1e-14);
 }
 
-/// A chain: p1 rides on the end face, p2 and the row x0 ... follows p1 rigidly, p3 rides on p2 and
-/// two nodes, and an equation binds node n50 to p3.
+/// A chain: p1 is coupled to the end face, p2 follows p1 rigidly, p3 is coupled to p2 and two
+/// nodes, and an equation ties node n50 to p3.
 const std::vector<std::string> kChain = {R"(
 [[coupling]]
 point = "p1"
@@ -161,44 +161,45 @@ TEST_P(ChainInOrder, EqualsTheMultipliers) {
   const DofNumbers numbers(mesh.nodes, points);
   Saddle saddle(mesh, 3);
   hold_foot(mesh, saddle);
-  const auto ride = [&](const std::vector<Member>& members, int32_t point,
-                        const std::vector<int>& directions) {
+  const auto couple = [&](const std::vector<Member>& members, int32_t point,
+                          const std::vector<int>& directions) {
     const Coupling coupling =
-        distribute(members, points[static_cast<size_t>(point)].place, directions, "test");
+        distribute(members, points[static_cast<size_t>(point)].position, directions, "test");
     const std::vector<Functional> rows = coupling.nodal_rows();
     for (size_t k = 0; k < rows.size(); ++k)
       saddle.add(Dependence{numbers.of_point(point, directions[k]), rows[k]});
   };
-  ride(members_of(mesh.nodes, integrate_surface(mesh.nodes, mesh.surface("z1"))), 0,
-       {0, 1, 2, 3, 4, 5});
+  couple(members_of(mesh.nodes, integrate_surface(mesh.nodes, mesh.surface("z1"))), 0,
+         {0, 1, 2, 3, 4, 5});
   ReferenceDofs p1;
   for (int d = 0; d < 6; ++d) p1.ids[static_cast<size_t>(d)] = numbers.of_point(0, d);
-  p1.place = points[0].place;
-  for (const auto& row : rigid_dependences(numbers, DofPlace::of_point(1), {0, 1, 2, 3, 4, 5}, p1))
+  p1.position = points[0].position;
+  for (const auto& row :
+       rigid_dependences(numbers, NodeOrPoint::of_point(1), {0, 1, 2, 3, 4, 5}, p1))
     saddle.add(row);
   std::vector<Member> members(3);
   const int32_t n0 = mesh.node_sets.at("n0")[0], n100 = mesh.node_sets.at("n100")[0];
   members[0] = {{numbers.of_point(1, 0), numbers.of_point(1, 1), numbers.of_point(1, 2), -1,
                  numbers.of_point(1, 4), -1},
-                points[1].place,
+                points[1].position,
                 2.0};
   members[1] = {{3 * n0, 3 * n0 + 1, 3 * n0 + 2, -1, -1, -1}, mesh.nodes.row(n0).transpose(), 1.0};
   members[2] = {
       {3 * n100, 3 * n100 + 1, 3 * n100 + 2, -1, -1, -1}, mesh.nodes.row(n100).transpose(), 0.5};
-  ride(members, 2, {0, 2, 4});
+  couple(members, 2, {0, 2, 4});
   const int32_t n50 = mesh.node_sets.at("n50")[0];
   saddle.add(
       Functional{{3 * n50, numbers.of_point(2, 0), numbers.of_point(2, 4)}, {2.0, -1.0, 0.1}});
 
   Eigen::VectorXd f = some_forces(saddle.size());
-  for (const int d : {1, 3, 5}) f(numbers.of_point(2, d)) = 0.0;  // loose DoFs take no load
+  for (const int d : {1, 3, 5}) f(numbers.of_point(2, d)) = 0.0;  // unattached DoFs carry no load
   const Eigen::VectorXd want = saddle.solve(f);
   const Eigen::VectorXd got = solve_model(model, f);
   EXPECT_LT((got - want).norm(), kSolve * want.norm());
 }
 
 TEST(DistributingCoupling, OnABoundFaceDependsOnWhatBindsIt) {
-  // All of the face follows hub rigidly, so that p, which rides on the face, follows hub too.
+  // The entire face follows hub rigidly, so that p, which is coupled to the face, follows hub too.
   const mesh::Mesh mesh = bar();
   const fe::FeModel model = build(mesh, std::string(kFoot) + R"(
 [[point]]

@@ -48,7 +48,7 @@ TEST(ContactPatch, BreathingOfTheBoreMovesEveryPatchOutwards) {
   EXPECT_NEAR(grid.radius, 0.05, 1e-5);  // parabolic arcs: h^4
   EXPECT_EQ(grid.angle.size(), 6);
   EXPECT_EQ(set.labels[5], "liner[1,1]");
-  // Angle 0 is +y, right-handed about z: the first sector's middle strip looks along +y.
+  // Angle 0 is +y, right-handed about z: the first sector's middle strip faces +y.
   EXPECT_LT((set.direction.row(1 * 4 + 2) - Eigen::RowVector3d(0, 1, 0)).norm(), 1e-12);
   EXPECT_LT((set.direction.row(4 * 4 + 2) - Eigen::RowVector3d(0, -1, 0)).norm(), 1e-12);
 
@@ -103,7 +103,7 @@ double pressure_difference(int around) {
 TEST(ContactPatch, PatchForcesOfAUniformPressureTendToItsNodalForces) {
   const double coarse = pressure_difference(16), fine = pressure_difference(32);
   EXPECT_LT(fine, 0.005);
-  // The radius of the node stands for the normal around it: second order, first order at nodes on
+  // The radius of the node represents the normal around it: second order, first order at nodes on
   // the edge of the surface, whose faces lie on one side only. Together 1.5 in this norm.
   EXPECT_GT(std::log2(coarse / fine), 1.5);
 }

@@ -56,7 +56,7 @@ TEST(SurfaceIntegrals, CornersOfFlatQuadraticTrianglesGetNoArea) {
 }
 
 TEST(DistributingCoupling, OfASquareByHand) {
-  // u = (0, 0, x): the plane turns by -1 about y; the centre (1, 1) moves by 1 along z.
+  // u = (0, 0, x): the plane rotates by -1 about y; the centre (1, 1) moves by 1 along z.
   const Square square;
   const Coupling coupling =
       distributing_coupling("ref", "node", square.nodes,
@@ -80,7 +80,7 @@ mesh::Mesh ring_mesh(int around, int along) {
   return block_mesh({around, 1, along}, ring(0.04, 0.06, 0.1), options);
 }
 
-/// A small face, which goes in directly, and a large one, which goes in groups.
+/// A small face, coupled directly, and a large one, coupled in groups.
 class DistributingCouplingOn : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(RingsOfCells, DistributingCouplingOn, ::testing::Values(6, 14));
 
@@ -169,7 +169,7 @@ TEST_P(DistributingCouplingOn, ASolveInGeneralisedCoordinatesEqualsTheNodalOne) 
   for (Eigen::Index k = 0; k < 13; ++k) f_c(k) = f(dofs[static_cast<size_t>(k)]);
   const Eigen::VectorXd want =
       solve_fixed(nodal.K, C.transpose() * f_c, fixed, Eigen::VectorXd::Zero(n));
-  // The condition of K times rounding: 1e6 * 1e-16, with two figures to spare.
+  // The condition of K times rounding: 1e6 * 1e-16, with a margin of two digits.
   EXPECT_LT((u - want).norm(), 1e-8 * want.norm());
   Eigen::VectorXd q_c(13);
   for (Eigen::Index k = 0; k < 13; ++k) q_c(k) = q(dofs[static_cast<size_t>(k)]);
@@ -197,7 +197,7 @@ TEST(Elimination, GroupsKeepTheMatricesOfALargeFaceSparse) {
   const fe::FeModel coupled =
       build(mesh, "[[coupling]]\nname = \"bore\"\nsurface = \"y0\"\n").model;
   const int64_t face = 3 * static_cast<int64_t>(mesh::nodes_of(mesh.surface("y0")).size());
-  // A row over the whole face would add face^2 / 2 entries; groups of 24 nodes a few per cent.
+  // A row over the entire face would add face^2 / 2 entries; groups of 24 nodes a few per cent.
   EXPECT_LT(coupled.K.nonZeros() - plain.K.nonZeros(), face * face / 10);
   EXPECT_EQ(coupled.size(), plain.size());
 }

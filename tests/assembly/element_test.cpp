@@ -33,8 +33,9 @@ TEST(Element, MassOfALinearTetrahedronIsTheTextbookOne) {
 }
 
 TEST(Element, MassOfAStraightQuadraticTetrahedronIsTheTextbookOne) {
-  // rho V / 420: corners 6 and 1, corner-middle -4 on its edges and -6 off them, middles 32, 16
-  // (edges that share a corner), 8 (opposite edges). Zienkiewicz and Taylor by exact integration.
+  // rho V / 420: corners 6 and 1, corner with mid-side node -4 on its edges and -6 off them,
+  // mid-side nodes 32, 16 (edges that share a corner), 8 (opposite edges). Zienkiewicz and Taylor
+  // by exact integration.
   const fe::ElementMatrices cell =
       element(CellType::kTet10, reference(CellType::kTet10), {1.0, 0.0, 6.0 * 420.0});
   EXPECT_NEAR(cell.mass(0, 0), 6.0, 1e-12);

@@ -95,9 +95,9 @@ TEST_F(FeModelFile, ReturnsTheCellsAndTheirMaterials) {
   EXPECT_EQ(back.cells.blocks[0].type, model.cells.blocks[0].type);
   EXPECT_EQ(back.cells.blocks[0].nodes, model.cells.blocks[0].nodes);
   const fe::Material& read = back.cells.materials.at(0);
-  const Eigen::Vector3d place(0.3, 0.1, 0.2);
-  EXPECT_EQ(read.elasticity_at(place), wood.elasticity_at(place));
-  EXPECT_EQ(read.expansion_at(place), wood.expansion_at(place));
+  const Eigen::Vector3d position(0.3, 0.1, 0.2);
+  EXPECT_EQ(read.elasticity_at(position), wood.elasticity_at(position));
+  EXPECT_EQ(read.expansion_at(position), wood.expansion_at(position));
   EXPECT_EQ(read.density, 450.0);
   EXPECT_EQ(read.integration.hex20, fe::Integration::kReduced);
   EXPECT_EQ(read.integration.hex8, fe::Integration::kIncompatible);

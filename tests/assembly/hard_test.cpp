@@ -51,7 +51,7 @@ TEST(AssemblyHard, HardE3_InPlaceTransformEqualsTheDenseProductOfCopies) {
   Eliminator eliminator(40, model.fixed, {2, 7});
   eliminator.add(model.coupling, "test");
   const Elimination elimination = eliminator.finish();
-  ASSERT_EQ(elimination.size(), 37);  // 40 less 3 fixed; 3 pivots make way for 3 coordinates
+  ASSERT_EQ(elimination.size(), 37);  // 40 less 3 fixed; 3 coordinates replace 3 pivots
   const Eigen::MatrixXd T = elimination.T;
   const Eigen::MatrixXd want = T.transpose() * full(model.A) * T;
   SparseMatrix got = model.A;
@@ -68,7 +68,7 @@ TEST(AssemblyHard, HardE3_InPlaceTransformEqualsTheDenseProductOfCopies) {
 }
 
 TEST(AssemblyHard, HardE3_CouplingsOneByOneEqualAllAtOnce) {
-  // Later rows hold pivots of earlier ones: substitution in both directions.
+  // Later rows contain pivots of earlier ones: substitution in both directions.
   RandomModel model = random_model(40);
   Eliminator together(40, model.fixed, {});
   together.add(model.coupling, "test");
@@ -101,7 +101,7 @@ TEST(AssemblyHard, HardE3_SupportedBlocksEqualTheDenseProductsOfCopies) {
   eliminator.depend(30, {{31, 33, 17}, {0.5, -2.0, 0.3}});
   eliminator.hold({{{34, 35, 36}, {0.6, 0.0, 0.8}}}, "test");
   eliminator.add(model.coupling, "test");
-  eliminator.depend(33, {{38, 39}, {1.0, 0.25}});  // what 30 depends on already
+  eliminator.depend(33, {{38, 39}, {1.0, 0.25}});  // DoFs that 30 already depends on
   const Elimination e = eliminator.finish();
   Eigen::MatrixXd T(40, e.size() + e.supports());
   T << Eigen::MatrixXd(e.T), Eigen::MatrixXd(e.T_s);
@@ -130,7 +130,7 @@ TEST(AssemblyHard, HardE4_AMatrixBeyond32BitIndicesIsRefusedBeforeMemoryIsTaken)
     EXPECT_NE(std::string(error.what()).find("2928000000 entries"), std::string::npos)
         << error.what();
   }
-  // The assembler asks the same question: a pattern that claims too much gets no further.
+  // The assembler makes the same check: a pattern that is too large is rejected.
   fe::NodePattern pattern;
   pattern.start = {0, 1'000'000'000'000};
   mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({1, 1, 1}));
@@ -259,13 +259,13 @@ surface = "y0"
   const double want = ovalisation(plain.K, Eigen::MatrixXd(plain.T));
   EXPECT_NEAR(ovalisation(coupled.K, Eigen::MatrixXd(coupled.T)) / want, 1.0, 0.05);
 
-  // RBE2 holds the bore round, which is what must not happen.
+  // RBE2 keeps the bore round, which must not happen here.
   const fe::FeModel stiff =
       build(mesh, "[[coupling]]\nname = \"bore\"\ntype = \"rigid\"\nsurface = \"y0\"\n").model;
   EXPECT_LT(std::abs(ovalisation(stiff.K, Eigen::MatrixXd(stiff.T)) / want), 0.05);
 }
 
-/// A beam along x, whole or cut at the middle into halves that do not match.
+/// A beam along x, complete or cut at mid-length into halves with non-matching meshes.
 mesh::Mesh beam(const std::array<int, 3>& n, double begin, double end,
                 mesh::CellType type = mesh::CellType::kTet10) {
   BlockOptions options;
@@ -333,7 +333,7 @@ surface = "a_x0"
 )") + "slave = \"" + slave + "\"\nmaster = \"" +
                                               master + "\"\n")
                                   .model;
-    const double strain = -1.0 / 2.1e11;  // of 1 Pa that pushes on both ends
+    const double strain = -1.0 / 2.1e11;  // of 1 Pa on both ends
     const Eigen::VectorXd f = model.loads.at("pull") + model.loads.at("hold");
     const Eigen::LLT<Eigen::MatrixXd> factor(full(model.K));
     Eigen::VectorXd q = factor.solve(f);

@@ -223,7 +223,7 @@ TEST(LumpedMass, AFreeModelKeepsItsMassAndSaysHowFarItsInertiaIsOff) {
   const BuiltModel built = build_fe_model(mesh, read_recipe(config, mesh), clock);
   EXPECT_EQ(built.model.M.nonZeros(), built.model.size());
   EXPECT_LT(built.certificate.at("mass_error"), 1e-12);
-  // Two cells along each side: the mass points stand nearer to the outside than the mass.
+  // Two cells along each side: the mass points are nearer to the outside than the mass.
   EXPECT_GT(built.certificate.at("inertia_error"), 1e-3);
   EXPECT_LT(built.certificate.at("inertia_error"), 0.2);
 }

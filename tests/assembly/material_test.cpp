@@ -1,4 +1,4 @@
-// Materials from a file, thermal loads and lumped mass of a whole mesh.
+// Materials from a file, thermal loads and lumped mass of an entire mesh.
 #include "core/fe/material.hpp"
 
 #include <gtest/gtest.h>

@@ -81,7 +81,7 @@ mesh::Mesh sheared(mesh::CellType type) {
       options);
 }
 
-/// A brick whose inside is bent, so that middle nodes leave their edges; sides stay flat.
+/// A brick whose inside is bent, so that mid-side nodes leave their edges; sides stay flat.
 mesh::Mesh bent_inside(mesh::CellType type) {
   BlockOptions options;
   options.type = type;
@@ -127,15 +127,15 @@ TEST_P(QuadraticCell, LinearFieldIsExactOnACurvedMesh) {
   EXPECT_LT(patch_error(bent_inside(GetParam()), linear_field()), 1e-12);
 }
 
-/// Cells with parallel edges, where the functions hold every quadratic polynomial of x.
+/// Cells with parallel edges, where the functions contain every quadratic polynomial of x.
 TEST_P(QuadraticCell, HardG3_QuadraticFieldIsExactOnStraightQuadraticCells) {
   const bool tet = mesh::traits(GetParam()).corners == 4;
   EXPECT_LT(patch_error(tet ? shaken(GetParam()) : sheared(GetParam()), quadratic_field()), 1e-12);
 }
 
 TEST(PatchTest, HardG3_QuadraticFieldShowsSwappedMiddleNodes) {
-  // The order of other programs in our reader: the test must see it, or it proves nothing. With
-  // straight cells the swap moves two middle nodes, so det J is not positive or the field is off.
+  // The order of other programs in our reader: the test must detect it. With straight cells the
+  // swap moves two mid-side nodes, so det J is not positive or the field is off.
   mesh::Mesh mesh = shaken(mesh::CellType::kTet10);
   mesh.cells[0].nodes.col(8).swap(mesh.cells[0].nodes.col(9));
   try {

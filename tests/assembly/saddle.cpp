@@ -30,7 +30,7 @@ void Saddle::add(const Dependence& dependence) {
 
 Eigen::VectorXd Saddle::solve(const Eigen::VectorXd& f) const {
   const auto m = static_cast<Eigen::Index>(rows_.size());
-  const double scale = K_.diagonal().maxCoeff();  // so that both blocks compare
+  const double scale = K_.diagonal().maxCoeff();  // so that both blocks are comparable
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n_ + m, n_ + m);
   A.topLeftCorner(n_, n_) = K_ / scale;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n_ + m);
@@ -41,7 +41,7 @@ Eigen::VectorXd Saddle::solve(const Eigen::VectorXd& f) const {
       A(n_ + r, row.dofs[k]) = A(row.dofs[k], n_ + r) += row.values[k];
     b(n_ + r) = values_[static_cast<size_t>(r)];
   }
-  // Loose DoFs leave A singular: the least solution has zeros there, like DoFs left out.
+  // Unattached DoFs make A singular: the minimum norm solution is zero there, as without them.
   return A.completeOrthogonalDecomposition().solve(b).head(n_);
 }
 

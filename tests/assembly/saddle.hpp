@@ -1,5 +1,5 @@
 #pragma once
-// The oracle of all couplings: the constrained minimum by Lagrange multipliers, dense.
+// Reference solution for all couplings: constrained minimisation by Lagrange multipliers, dense.
 #include <Eigen/Core>
 #include <vector>
 

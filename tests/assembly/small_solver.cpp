@@ -41,7 +41,7 @@ Eigen::VectorXd solve_fixed(const SparseMatrix& K, const Eigen::VectorXd& f,
   const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> factor(K_ii);
   if (factor.info() != Eigen::Success) throw std::runtime_error("stiffness not definite");
   Eigen::VectorXd u_i = factor.solve(f_i);
-  // One refinement: patch tests look at the last digits.
+  // One refinement: patch tests check the last digits.
   u_i += factor.solve(f_i - multiply_symmetric(K_ii, u_i));
   for (size_t i = 0; i < index.size(); ++i)
     if (index[i] >= 0) u(static_cast<Eigen::Index>(i)) = u_i(index[i]);

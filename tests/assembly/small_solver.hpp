@@ -27,7 +27,7 @@ Eigen::VectorXd lowest_hz(const SparseMatrix& K, const SparseMatrix& M, int coun
 /// Both triangles, dense.
 Eigen::MatrixXd full(const SparseMatrix& lower);
 
-/// Model from a recipe in TOML; a steel for all regions is put in front of it.
+/// Model from a recipe in TOML; preceded by a steel for all regions.
 BuiltModel build(const mesh::Mesh& mesh, const std::string& toml);
 
 }  // namespace clatter::assembly::testing

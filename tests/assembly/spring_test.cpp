@@ -1,4 +1,4 @@
-// [[spring]]: what it adds to K, what it holds, and cells of rigid bodies, which add nothing.
+// [[spring]]: its contribution to K, the motions that it holds, and cells of rigid bodies.
 #include <gtest/gtest.h>
 
 #include "bar_model.hpp"
@@ -66,7 +66,7 @@ TEST(Springs, HoldTheRigidMotionsThatStretchThem) {
     return built.certificate.at("rigid_motions_held_by_equations");
   };
   EXPECT_EQ(held(R"({ node_set = "n0", direction = "z" })"), 1.0);
-  // Along the line between both ends no rigid motion stretches it, across the line a turn does.
+  // Along the line between both ends no rigid motion stretches it, across the line a rotation does.
   const std::string one = "{ node_set = \"n0\", direction = ",
                     other = "{ node_set = \"n100\", coefficient = -1.0, direction = ";
   EXPECT_EQ(held(one + "\"x\" }, " + other + "\"x\" }"), 0.0);

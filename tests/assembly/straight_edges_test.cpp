@@ -1,4 +1,4 @@
-// Quadratic cells whose middle nodes follow the ends of their edges.
+// Quadratic cells whose mid-side nodes follow the ends of their edges.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -29,7 +29,7 @@ mesh::Mesh one_cell(CellType type) {
   return mesh;
 }
 
-/// A cube (hex8) under a pyramid13 that has no middle nodes on its base.
+/// A cube (hex8) under a pyramid13 without mid-side nodes on its base.
 mesh::Mesh cube_under_pyramid() {
   mesh::Mesh mesh = one_cell(CellType::kPyramid13);
   const Eigen::Index first = mesh.nodes.rows();

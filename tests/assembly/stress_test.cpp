@@ -15,8 +15,8 @@ namespace {
 
 using mesh::CellNodes;
 using mesh::CellType;
-using Place = Eigen::Vector3d;
-using Displacement = std::function<Eigen::Vector3d(const Place&)>;
+using Position = Eigen::Vector3d;
+using Displacement = std::function<Eigen::Vector3d(const Position&)>;
 
 constexpr double kExact = 1e-12;  // of the stresses: rounding of gradients and of the fit
 
@@ -27,7 +27,7 @@ Eigen::VectorXd displaced(const Eigen::Ref<const Eigen::Matrix<double, -1, 3, Ei
   return u;
 }
 
-/// Orthotropic, thermal, on axes that lie along none of the basic ones.
+/// Orthotropic, thermal, on axes oblique to the basic ones.
 fe::Material spruce() {
   fe::Material material{0.0, 0.0, 450.0};
   fe::Elasticity compliance = fe::Elasticity::Zero();
@@ -36,7 +36,7 @@ fe::Material spruce() {
   material.elasticity = (1e-10 * compliance).inverse();
   material.expansion << 4e-6, 3e-5, 5e-5, 0.0, 0.0, 0.0;
   fe::Axes axes;
-  axes.frame = Eigen::AngleAxisd(0.7, Place(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  axes.frame = Eigen::AngleAxisd(0.7, Position(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
   material.axes = axes;
   return material;
 }
@@ -47,8 +47,8 @@ fe::Material warm_steel() {
   return material;
 }
 
-/// Stress of a constant displacement gradient by tensors: turned to the material's axes, Hooke
-/// there, turned back.
+/// Stress of a constant displacement gradient by tensors: rotated to the material's axes, Hooke's
+/// law there, rotated back.
 fe::Voigt tensor_stress(const fe::Material& material, const Eigen::Matrix3d& gradient) {
   const Eigen::Matrix3d R = material.axes ? material.axes->frame : Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d e = R.transpose() * (0.5 * (gradient + gradient.transpose())) * R;
@@ -56,7 +56,7 @@ fe::Voigt tensor_stress(const fe::Material& material, const Eigen::Matrix3d& gra
   strain << e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(1, 2), 2 * e(2, 0);
   fe::Material on_axes = material;
   on_axes.axes.reset();
-  const fe::Voigt s = on_axes.elasticity_at(Place::Zero()) * strain;
+  const fe::Voigt s = on_axes.elasticity_at(Position::Zero()) * strain;
   Eigen::Matrix3d local;
   local << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
   const Eigen::Matrix3d g = R * local * R.transpose();
@@ -73,13 +73,13 @@ mesh::Mesh mesh_of(CellType type, const Map& map) {
   return block_mesh({2, 2, 2}, map, options);
 }
 
-/// A parallelepiped: reference functions hold every polynomial of x of their degree.
-Place sheared(const Place& x) {
+/// A parallelepiped: reference functions contain every polynomial of x of their degree.
+Position sheared(const Position& x) {
   return {x(0) + 0.3 * x(1), 0.8 * x(1) - 0.1 * x(2), 1.2 * x(2) + 0.2 * x(0)};
 }
 
 double largest_error(const mesh::Mesh& mesh, const fe::RegionStress& found,
-                     const std::function<fe::Voigt(const Place&)>& exact) {
+                     const std::function<fe::Voigt(const Position&)>& exact) {
   double error = 0.0, size = 0.0;
   for (size_t k = 0; k < found.nodes.size(); ++k) {
     const fe::Voigt want = exact(mesh.nodes.row(found.nodes[k]).transpose());
@@ -100,7 +100,7 @@ TEST_P(Stress, OfAConstantStrainIsExactAtEveryNodeOfADistortedMesh) {
   gradient << 1.0, 0.3, -0.2, 0.5, -0.7, 0.4, 0.1, 0.6, 0.9;
   gradient *= 1e-3;
   const mesh::Mesh mesh = mesh_of(GetParam(), shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2));
-  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) { return gradient * x; });
+  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Position& x) { return gradient * x; });
   fe::Material full = kSteel;
   full.integration.hex8 = fe::Integration::kFull;
   for (const fe::Material& material : {kSteel, full, spruce()}) {
@@ -108,7 +108,7 @@ TEST_P(Stress, OfAConstantStrainIsExactAtEveryNodeOfADistortedMesh) {
     const auto found = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, {});
     ASSERT_EQ(found.size(), 1u);
     ASSERT_EQ(found[0].nodes.size(), static_cast<size_t>(mesh.nodes.rows()));
-    EXPECT_LT(largest_error(mesh, found[0], [&](const Place&) { return want; }), kExact);
+    EXPECT_LT(largest_error(mesh, found[0], [&](const Position&) { return want; }), kExact);
   }
 }
 
@@ -119,7 +119,7 @@ TEST_P(Stress, OfFreeThermalExpansionIsZero) {
     const Eigen::Matrix3d R = material.axes ? material.axes->frame : Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d strain =
         R * (80.0 * material.expansion.head<3>()).asDiagonal() * R.transpose();
-    const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) { return strain * x; });
+    const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Position& x) { return strain * x; });
     const auto free = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), u, dT);
     const auto held = fe::nodal_stress(mesh.nodes, cells_of(mesh, material), 0.0 * u, dT);
     EXPECT_LT(free[0].stress.cwiseAbs().maxCoeff(), kExact * held[0].stress.cwiseAbs().maxCoeff());
@@ -134,7 +134,7 @@ TEST_P(Stress, OfAFullyHeldWarmBodyIsHydrostatic) {
                                      Eigen::VectorXd::Constant(mesh.nodes.rows(), 50.0));
   const double pressure = steel.youngs * 1.2e-5 * 50.0 / (1.0 - 2.0 * steel.poisson);
   const fe::Voigt want = (fe::Voigt() << -1, -1, -1, 0, 0, 0).finished() * pressure;
-  EXPECT_LT(largest_error(mesh, held[0], [&](const Place&) { return want; }), kExact);
+  EXPECT_LT(largest_error(mesh, held[0], [&](const Position&) { return want; }), kExact);
   EXPECT_LT(held[0].von_mises.maxCoeff(), kExact * pressure);
 }
 
@@ -146,16 +146,16 @@ INSTANTIATE_TEST_SUITE_P(QuadraticCell, QuadraticStress,
                            return std::string(mesh::traits(info.param).name);
                          });
 
-/// u = (x^2 + y z, y^2 + z x, z^2 + x y): linear stress that quadratic cells hold.
+/// u = (x^2 + y z, y^2 + z x, z^2 + x y): linear stress, which quadratic cells represent exactly.
 TEST_P(QuadraticStress, ThatIsLinearIsExact) {
   const bool tet = mesh::traits(GetParam()).corners == 4;
   const mesh::Mesh mesh =
       mesh_of(GetParam(), tet ? shaken_brick({1.0, 0.8, 1.2}, {2, 2, 2}, 0.2) : Map(sheared));
-  const Eigen::VectorXd u = displaced(mesh.nodes, [](const Place& x) -> Place {
+  const Eigen::VectorXd u = displaced(mesh.nodes, [](const Position& x) -> Position {
     return {x(0) * x(0) + x(1) * x(2), x(1) * x(1) + x(2) * x(0), x(2) * x(2) + x(0) * x(1)};
   });
   for (const fe::Material& material : {kSteel, spruce()}) {
-    const auto exact = [&](const Place& x) {
+    const auto exact = [&](const Position& x) {
       Eigen::Matrix3d gradient;
       gradient << 2 * x(0), x(2), x(1), x(2), 2 * x(1), x(0), x(1), x(0), 2 * x(2);
       return tensor_stress(material, gradient);
@@ -169,11 +169,11 @@ TEST(StressOfHex8, InPureBendingIsExactWithIncompatibleModesOnly) {
   // sigma_xx = E z: u = (x z, -nu y z, -(x^2 + nu (z^2 - y^2)) / 2).
   const double nu = kSteel.poisson;
   const mesh::Mesh mesh = mesh_of(CellType::kHex8, brick({1.0, 0.2, 0.3}));
-  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) -> Place {
+  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Position& x) -> Position {
     return {x(0) * x(2), -nu * x(1) * x(2),
             -0.5 * (x(0) * x(0) + nu * (x(2) * x(2) - x(1) * x(1)))};
   });
-  const auto exact = [](const Place& x) {
+  const auto exact = [](const Position& x) {
     fe::Voigt stress = fe::Voigt::Zero();
     stress(0) = kSteel.youngs * x(2);
     return stress;
@@ -193,8 +193,8 @@ TEST(StressOfHex8, OfALinearTemperatureThatBendsFreelyIsZero) {
   const fe::Material steel = warm_steel();
   const mesh::Mesh mesh = mesh_of(CellType::kHex8, brick({1.0, 0.2, 0.3}));
   const double k = 100.0 * 1.2e-5;
-  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Place& x) -> Place {
-    return k * Place(x(0) * x(2), x(1) * x(2), 0.5 * (x(2) * x(2) - x(0) * x(0) - x(1) * x(1)));
+  const Eigen::VectorXd u = displaced(mesh.nodes, [&](const Position& x) -> Position {
+    return k * Position(x(0) * x(2), x(1) * x(2), 0.5 * (x(2) * x(2) - x(0) * x(0) - x(1) * x(1)));
   });
   const Eigen::VectorXd dT = 100.0 * mesh.nodes.col(2);
   const auto found = fe::nodal_stress(mesh.nodes, cells_of(mesh, steel), u, dT);
@@ -212,7 +212,8 @@ TEST(StressAcrossMaterials, JumpsAndIsNotAveraged) {
   fe::Material soft = kSteel;
   soft.youngs *= 0.5;
   const fe::FeCells cells{{"hard", "soft"}, {kSteel, soft}, mesh.cells, {}};
-  const Eigen::VectorXd u = displaced(mesh.nodes, [](const Place& x) -> Place { return 1e-3 * x; });
+  const Eigen::VectorXd u =
+      displaced(mesh.nodes, [](const Position& x) -> Position { return 1e-3 * x; });
   const auto found = fe::nodal_stress(mesh.nodes, cells, u, {});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_GT(found[0].nodes.size() + found[1].nodes.size(), static_cast<size_t>(mesh.nodes.rows()));

@@ -1,4 +1,4 @@
-// Loose points, supports in any directions, equations that hold a rigid motion.
+// Unattached points, supports in any directions, equations that constrain a rigid motion.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -35,11 +35,11 @@ directions = "xyz"
                              "\"xyz\"\n[[point_mass]]\non = \"a\"\nmass = 1.0\n";
   EXPECT_EQ(refusal(mesh, loaded), "accepted");
   expect_parts(refusal(mesh, loaded + "inertia = [1.0, 1.0, 1.0]\n"),
-               {"point a", "mass on rx", "nothing holds"});
+               {"point a", "mass on rx", "nothing attached"});
   expect_parts(refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
                                      "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
                                      "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
-               {"load m", "nothing is attached"});
+               {"load m", "nothing attached"});
 }
 
 TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
@@ -116,7 +116,7 @@ directions = "z"
     saddle.add(Functional{{3 * node, 3 * node + 1}, {r.x(), r.y()}});
   }
   ASSERT_EQ(model.supports.size(), static_cast<int>(foot.size() + bore.size()));
-  // A turn about z is free: take its part out of the load, and out of both answers.
+  // Rotation about z is free: remove its part from the load and from both solutions.
   Eigen::VectorXd turn(3 * mesh.nodes.rows());
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     turn.segment<3>(3 * a) << -mesh.nodes(a, 1), mesh.nodes(a, 0), 0.0;
@@ -143,7 +143,7 @@ TEST(Supports, HoldingADirectionTwiceIsHoldingIt) {
 }
 
 TEST(Equations, ThatHoldARigidMotionAreLeftOutOfItsProof) {
-  // x of two nodes sums to zero: x itself is held, turns about the middle are not.
+  // x of two nodes sums to zero: x itself is held, rotations about the midpoint are not.
   const BuiltModel built = build(bar(), R"(
 [[equation]]
 terms = [ { node_set = "n0", direction = "x", coefficient = 1.0 },

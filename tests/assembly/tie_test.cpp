@@ -1,4 +1,4 @@
-// Ties of surfaces that do not match.
+// Ties of non-matching surfaces.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -65,15 +65,15 @@ TEST_P(TieOf, CarriesLinearFieldsAndConstantStressAcrossAPlane) {
   for (size_t j = 0; j < found.tied.size(); ++j) {
     const ProjectedNode& row = found.tied[j];
     ASSERT_EQ(row.node, on_slave.nodes[j]);
-    Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+    Eigen::RowVector3d position = Eigen::RowVector3d::Zero();
     double sum = 0.0;
     for (const auto& [node, value] : row.on) {
-      place += value * pair.mesh.nodes.row(node);
+      position += value * pair.mesh.nodes.row(node);
       sum += value;
       pulled[node] += value * on_slave.weight(static_cast<Eigen::Index>(j));
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
-    EXPECT_LT((place - pair.mesh.nodes.row(row.node)).norm(), 1e-12);
+    EXPECT_LT((position - pair.mesh.nodes.row(row.node)).norm(), 1e-12);
   }
   for (size_t k = 0; k < on_master.nodes.size(); ++k)
     EXPECT_NEAR(pulled[on_master.nodes[k]], on_master.weight(static_cast<Eigen::Index>(k)), 1e-13);
@@ -90,12 +90,12 @@ TEST(Tie, OfUnevenQuadrilateralsIsExactToTheQuadrature) {
         integrate_surface(pair.mesh.nodes, pair.mesh.surface("b_z0"));
     std::map<int32_t, double> pulled;
     for (size_t j = 0; j < found.tied.size(); ++j) {
-      Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+      Eigen::RowVector3d position = Eigen::RowVector3d::Zero();
       for (const auto& [node, value] : found.tied[j].on) {
-        place += value * pair.mesh.nodes.row(node);
+        position += value * pair.mesh.nodes.row(node);
         pulled[node] += value * on_slave.weight(static_cast<Eigen::Index>(j));
       }
-      EXPECT_LT((place - pair.mesh.nodes.row(found.tied[j].node)).norm(), 1e-11);
+      EXPECT_LT((position - pair.mesh.nodes.row(found.tied[j].node)).norm(), 1e-11);
     }
     double worst = 0.0;
     for (size_t k = 0; k < on_master.nodes.size(); ++k)
@@ -106,7 +106,8 @@ TEST(Tie, OfUnevenQuadrilateralsIsExactToTheQuadrature) {
 }
 
 TEST(Tie, RigidMotionsCrossCurvedAndGapingInterfaces) {
-  // Two rings of different divisions, one in the other: nodes of one lie beside faces of the other.
+  // Two rings of different divisions, one in the other: nodes of one lie off the faces of the
+  // other.
   const auto ring_of = [](int around, double inner, double outer) {
     BlockOptions options;
     options.curved = options.wrap_x = true;

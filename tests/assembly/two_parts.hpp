@@ -1,5 +1,5 @@
 #pragma once
-// Meshes of two parts that touch without common nodes.
+// Meshes of two parts in contact without common nodes.
 #include <Eigen/Core>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace clatter::assembly::testing {
 mesh::Mesh two_parts(const mesh::Mesh& a, const mesh::Mesh& b);
 
 /// A block of `length` x 1 x 1 m from z = `bottom` on, cut into n bricks of the type. Nodes within
-/// are moved sideways by up to `shake` of a brick, on top and bottom faces too; sides stay flat.
+/// are moved sideways by up to `shake` of a brick, also on top and bottom faces; sides stay flat.
 mesh::Mesh slab(mesh::CellType type, const std::array<int, 3>& n, double shake, double bottom = 0.0,
                 double length = 1.0);
 

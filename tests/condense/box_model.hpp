@@ -46,7 +46,7 @@ inline fe::FeModel held_chain() {
   return model;
 }
 
-/// Mass properties straight from point masses, the independent figure.
+/// Mass properties directly from point masses, as an independent reference.
 inline rom::MassProperties point_mass_properties(const SpringBox& box) {
   rom::MassProperties out;
   const Eigen::VectorXd m = box.M.diagonal();

@@ -48,7 +48,7 @@ class InFolder : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  /// Exit code of one of clatter's programs; what it prints goes to `log`.
+  /// Exit code of one of clatter's programs; its output goes to `log`.
   int call(const std::string& arguments) const {
     const std::string log = (folder_ / "log").string();
     const std::string command =
@@ -115,7 +115,7 @@ TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
   EXPECT_EQ(result.rigid_full, 6);
   ASSERT_GT(result.modes.size(), 4u);
   EXPECT_LT(result.largest_error(), 1e-3);
-  // A frequency that is 0.1 % too high comes from a shape with 0.2 % of foreign energy.
+  // A frequency that is 0.1 % too high comes from a shape with 0.2 % of the energy in other modes.
   EXPECT_GT(result.smallest_mac(), 1.0 - 2e-3);
   for (const auto& mode : result.modes) EXPECT_GE(mode.error, -1e-9);
 }

@@ -1,4 +1,4 @@
-// Craig-Bampton against hand figures, against the full model, and its invariants.
+// Craig-Bampton against hand-computed values, against the full model, and its invariants.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -53,7 +53,7 @@ TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
   const CraigBampton result = craig_bampton(
       model, partition, K, M, static_part(model, partition, K, M, {}, clock), request, clock);
   const MatrixXd &K_rr = result.K_rr, &M_rr = result.M_rr;
-  const double eps = 1e-12;  // a few roundings of numbers of order one
+  const double eps = 1e-12;  // a few rounding errors of numbers of order one
   const Eigen::Vector4d expected(0.25, 1.0 - 1.0 / std::sqrt(2.0), 1.0, 1.0 + 1.0 / std::sqrt(2.0));
   EXPECT_LT((K_rr - MatrixXd(expected.asDiagonal())).cwiseAbs().maxCoeff(), eps);
   EXPECT_NEAR(M_rr(0, 0), 2.75, eps);
@@ -232,7 +232,7 @@ TEST(BadInput, ABoundaryThatDoesNotHoldTheBodyIsRefusedWithTheMotion) {
 TEST(BadInput, ALoosePartIsNamedByItsPlace) {
   auto model = box_model(4, 3, 3);
   const int n = model.size();
-  // A second body that nothing holds.
+  // A second, free body.
   const auto both = test::twice({model.K, model.M});
   model.K = both.K;
   model.M = both.M;
@@ -253,7 +253,7 @@ TEST(BadInput, ALoosePartIsNamedByItsPlace) {
     const std::string text = error.what();
     EXPECT_NE(text.find("6 of the 2 bodies' 12 rigid motions"), std::string::npos) << text;
     EXPECT_NE(text.find("not connected"), std::string::npos) << text;
-    EXPECT_NE(text.find("most at node"), std::string::npos) << text;
+    EXPECT_NE(text.find("largest at node"), std::string::npos) << text;
   }
 }
 

@@ -1,4 +1,4 @@
-// A wanted accuracy picks the cut-off.
+// The cut-off for a requested accuracy.
 #include "condense/cutoff_search.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Inertia of bodies whose frame accelerates and turns, eq. (9): against the sum over partial
+// Inertia of bodies whose frame accelerates and rotates, eq. (9): against the sum over partial
 // masses, Euler's equations, a stretched bar and a whirling mass.
 #include "condense/frame_inertia.hpp"
 
@@ -105,7 +105,7 @@ TEST(FrameInertia, ResultantsOfASolidAreThoseOfNewtonAndEuler) {
   const Vector3d spin = mass.inertia * motion.omega_rate + w.cross(mass.inertia * w);
   const Vector3d moment = c.cross(force) - spin;
   EXPECT_LT((reduced.rigid.rightCols(3).transpose() * p - moment).norm(), 1e-10 * moment.norm());
-  // Two ways to the same integrals; the second knows M_rr and the rigid motions only.
+  // The same integrals computed independently from M_rr and the rigid motions.
   EXPECT_LT(reduced.certificate.at("inertia_invariants_error"), 1e-10);
 }
 
@@ -135,15 +135,15 @@ TEST(FrameInertia, ABarThatTurnsAboutItsEndStretchesAsInTheory) {
   const VectorXd q = K.ldlt().solve(p.tail(rest));
   const auto tip = reduced.set("tip").dofs.front() - held;
   const double theory = 8000.0 * omega * omega * L * L * L / (3.0 * 200e9);
-  EXPECT_NEAR(q[tip], theory, 1e-3 * theory);  // the nodes of x0 are held sideways too
+  EXPECT_NEAR(q[tip], theory, 1e-3 * theory);  // the nodes of x0 are also held laterally
   // Softening: the load grows with the stretch.
   const MatrixXd softer = K + reduced.inertia.softening(motion).bottomRightCorner(rest, rest);
   EXPECT_GT(softer.ldlt().solve(p.tail(rest))[tip], q[tip]);
 }
 
 TEST(FrameInertia, AWhirlingMassHasTheFrequenciesOmegaPlusAndMinusSpin) {
-  // A point mass on equal springs, seen from a frame that turns about z: |w0 +- Omega|, and w0
-  // along the axis.
+  // A point mass on equal springs, in a frame that rotates about z: |w0 +- Omega|, and w0 along the
+  // axis.
   const double m = 2.0, w0 = 300.0, spin = 70.0;
   rom::InertiaInvariants mass;
   for (size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
-// What a reduced body must answer beside its frequencies (hard case B2), how many rigid motions it
-// has (B4), and where a loose part is (C1).
+// Responses of a reduced body besides its frequencies (hard case B2), its number of rigid motions
+// (B4), and the location of an unconnected part (C1).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -42,7 +42,7 @@ rom::ReducedModel reduce(const fe::FeModel& model, int count, double frequency_e
   return condense(model, options, clock);
 }
 
-/// Answers of a body, held at its boundary, to the load "pull" at each frequency: velocities of
+/// Responses of a body, held at its boundary, to the load "pull" at each frequency: velocities of
 /// the skin, one column a frequency, and the forces that hold the boundary.
 struct Response {
   Eigen::MatrixXcd velocity, force;
@@ -89,7 +89,7 @@ Response reduced_response(const rom::ReducedModel& reduced) {
                  reduced.set("left").dofs, reduced.skin.T, band());
 }
 
-/// Root mean square of the difference over the band and all rows, over that of the answer.
+/// Root mean square of the difference over the band and all rows, over that of the response.
 double error_of(const Eigen::MatrixXcd& found, const Eigen::MatrixXcd& expected) {
   return (found - expected).norm() / expected.norm();
 }
@@ -110,7 +110,7 @@ TEST(HardB2, SurfaceVelocityAndForcesTo3KilohertzConvergeWithTheModes) {
     velocity = v;
     force = f;
   }
-  // What engineers ask of an FRF is 0.1 dB, 1.2 %; forces at the boundary get the static part.
+  // The usual requirement for an FRF is 0.1 dB, 1.2 %; forces at the boundary get the static part.
   EXPECT_LT(velocity, 1.2e-2);
   EXPECT_LT(force, 2e-3);
 }
@@ -128,7 +128,7 @@ TEST(HardB4, ExactlySixEigenvaluesVanish) {
   }
 }
 
-/// The box and beside it two masses that hang on each other and on nothing else.
+/// The box and two masses that are connected only to each other.
 fe::FeModel with_loose_pair(const fe::FeModel& box) {
   fe::FeModel model = box;
   const int n = box.size(), all = n + 6;

@@ -1,4 +1,4 @@
-// What breaks reduced bodies in practice (hard cases B3, B4, B5, B8).
+// Failures of reduced bodies in practice (hard cases B3, B4, B5, B8).
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>

@@ -1,4 +1,4 @@
-// The second reduction, of the boundary: characteristic constraint modes and the work of a film.
+// Reduction of the boundary: characteristic constraint modes and the work of a film.
 #include "condense/interface_modes.hpp"
 
 #include <gtest/gtest.h>
@@ -84,11 +84,11 @@ TEST(InterfaceModes, AllOfThemGiveTheSameModelInOtherCoordinates) {
     EXPECT_LT((a - b).cwiseQuotient(a).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT(turned.certificate.at("interface_film_work_error"), 1e-9);
     EXPECT_LT(turned.certificate.at("interface_frequency_error"), 1e-9);
-    // A static answer to a push on one patch and back on another, the places' own displacements.
+    // The static response to opposite forces on two patches: the displacements of these patches.
     const auto answer = [](const rom::ReducedModel& reduced) {
-      const auto& places = reduced.set("liner").dofs;
+      const auto& dofs = reduced.set("liner").dofs;
       const MatrixXd rows =
-          (MatrixXd(2, reduced.size()) << reduced.row_of(places[2]), reduced.row_of(places[11]))
+          (MatrixXd(2, reduced.size()) << reduced.row_of(dofs[2]), reduced.row_of(dofs[11]))
               .finished();
       const auto& left = reduced.set("left").dofs;
       MatrixXd held(static_cast<Eigen::Index>(left.size()), reduced.size());
@@ -137,12 +137,11 @@ TEST(InterfaceModes, KeepRigidMotionsMassInvariantsAndLoads) {
     const VectorXd expected = model.rigid.transpose() * model.loads.at("pull");
     EXPECT_LT((resultant - expected).norm(), 1e-10 * expected.norm());
     // A patch that was a coordinate moves with the body, and so does the skin.
-    const auto& places = small.set("liner").dofs;
-    for (size_t k = 0; k < places.size(); ++k)
-      EXPECT_LT(
-          (small.row_of(places[k]) * small.rigid - model.rigid.row(model.set("liner").dofs[k]))
-              .norm(),
-          1e-10);
+    const auto& dofs = small.set("liner").dofs;
+    for (size_t k = 0; k < dofs.size(); ++k)
+      EXPECT_LT((small.row_of(dofs[k]) * small.rigid - model.rigid.row(model.set("liner").dofs[k]))
+                    .norm(),
+                1e-10);
     const MatrixXd moved = small.skin.T * small.rigid.leftCols(3);
     EXPECT_LT((moved.topRows(3) - MatrixXd::Identity(3, 3)).norm(), 1e-10);
   }
@@ -193,7 +192,7 @@ TEST(FilmWork, OfAPatchIsForceTimesItsDisplacement) {
   model.grids["liner"] = grid;
   const MatrixXd forces = film_forces(model, "liner");
   EXPECT_NEAR(forces(0, 2), 0.05 * 8.0, 1e-15);  // peak of the middle field on the patch
-  EXPECT_EQ(forces.rightCols(5).norm(), 0.0);    // nothing on the other side
+  EXPECT_EQ(forces.rightCols(5).norm(), 0.0);    // zero on the other side
   const VectorXd work = static_work(model.K_rr, model.M_rr, MatrixXd(1, 0), forces);
   EXPECT_NEAR(work[2], 0.4 * 0.4 / 1000.0, 1e-18);
 }

@@ -1,4 +1,4 @@
-// Static answers of loads as basis vectors.
+// Static responses to loads as basis vectors.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -76,7 +76,8 @@ TEST(LoadShapes, MakeTheStaticAnswerExactAtEverySkinNode) {
     EXPECT_LT(skin_error(model, with, "push"), 1e-9) << method;
     EXPECT_LT(skin_error(model, with, "pull"), 1e-9) << method;
   }
-  // Without them, the six modes and the static shapes of the boundary leave per cents.
+  // Without them, the six modes and the static shapes of the boundary leave errors of some per
+  // cent.
   const rom::ReducedModel without = reduce(model, {"left", "right"}, {}, "craig-bampton");
   EXPECT_GT(skin_error(model, without, "push"), 1e-3);
 }
@@ -92,13 +93,13 @@ TEST(LoadShapes, LookLikeModesWithUnitMass) {
 }
 
 TEST(LoadShapes, OfUniformHeatGiveTheFreeExpansion) {
-  // Held without force: every place moves by expansion * dT * (x - x0).
+  // Held without force: every point moves by expansion * dT * (x - x0).
   const auto model =
       test::solid_bar({0.12, 0.04, 0.03}, {4, 2, 2}, 0.3,
                       "[[nodes]]\nname = \"foot\"\nnode_set = \"x0\"\n"
                       "[[load]]\nname = \"heat\"\nkind = \"temperature\"\nvalue = 1.0\n");
   const rom::ReducedModel reduced = reduce(model, {"foot"}, {"heat"}, "craig-bampton");
-  // Six rigid motions are left: the answer of least norm, then their part is taken out.
+  // Six rigid motions are left: the solution of least norm, from which their part is removed.
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(reduced.K_rr);
   const VectorXd u = reduced.skin.T * solver.solve(reduced.loads.at("heat"));
   VectorXd expected(u.size());

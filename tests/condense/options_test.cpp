@@ -1,4 +1,4 @@
-// What a .rom.toml may say beyond boundary and modes.
+// Options of a .rom.toml besides boundary and modes.
 #include <gtest/gtest.h>
 
 #include "condense/condense.hpp"

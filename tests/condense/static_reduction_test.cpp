@@ -39,7 +39,7 @@ struct Case {
   }
 };
 
-/// Both ways to the mass.
+/// Both methods for the mass.
 class StaticReductionTest : public testing::TestWithParam<StaticMass> {};
 INSTANTIATE_TEST_SUITE_P(Mass, StaticReductionTest,
                          testing::Values(StaticMass::kSweep, StaticMass::kElimination),

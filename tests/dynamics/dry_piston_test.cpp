@@ -17,7 +17,8 @@ struct Crossing {
   double time = 0.0, speed = 0.0;
 };
 
-/// When y first passes `gap`, between two accepted states: linear in v, so y is a parabola.
+/// Time at which y first exceeds `gap`, between two accepted states: linear in v, so y is a
+/// parabola.
 Crossing crossing(const StageState& before, const StageState& now, int y, double gap) {
   double low = 0.0, high = 1.0;
   const double h = now.time - before.time;

@@ -1,5 +1,5 @@
 #pragma once
-// Small bodies and elements that the dynamics tests share.
+// Small bodies and elements for the dynamics tests.
 #include <cmath>
 #include <functional>
 #include <memory>

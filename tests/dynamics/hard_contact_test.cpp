@@ -17,7 +17,7 @@ using testing::push;
 using testing::vector;
 using testing::Wall;
 
-/// Refuses its trial states, or gives a hopeless tangent, between two counts of evaluations.
+/// Rejects its trial states, or returns a wrong tangent, between two counts of evaluations.
 class Saboteur : public ForceElement {
  public:
   enum class Kind { kRefuse, kNonsense };
@@ -91,7 +91,7 @@ TEST(HardT3_NewtonFailure, IsRejectedAndCounted) {
     } else {
       EXPECT_GT(count.rejected_newton + count.rejected_error, 0);
     }
-    // m x'' = sin(30 t) - 10 x from rest: nothing of the sabotage may be left in the motion.
+    // m x'' = sin(30 t) - 10 x from rest: the motion must not be affected by the sabotage.
     const double w = std::sqrt(10.0), t = 1.0;
     const double exact = (std::sin(30.0 * t) - 30.0 / w * std::sin(w * t)) / (10.0 - 900.0);
     EXPECT_NEAR(method.state().y(y), exact, 1e-4);
@@ -185,7 +185,7 @@ TEST(HardT9_FreeRun, EnergyDoesNotRiseInTenSeconds) {
     ASSERT_LE(energy.now().stored(), last + 1e-12 * start);
     last = energy.now().stored();
   }
-  EXPECT_GT(last, 0.5 * start);  // and the integrator does not eat the motion either
+  EXPECT_GT(last, 0.5 * start);  // and the integrator does not damp the motion either
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Hard case B1: high frequencies of a reduced body must not rule the step.
+// Hard case B1: high frequencies of a reduced body must not limit the step.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -21,7 +21,7 @@ std::filesystem::path write(const std::string& name, const std::string& text) {
   return path;
 }
 
-/// Rows every 10 deg from -360 to 360, but what `change` makes of row i.
+/// Rows every 10 deg from -360 to 360, each modified by `change`.
 std::string table(const std::function<std::string(int, std::string)>& change) {
   std::string text = "# test\ncrank_angle [deg], pressure [bar]\n";
   for (int i = 0; i <= 72; ++i) {

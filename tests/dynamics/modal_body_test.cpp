@@ -32,7 +32,7 @@ TEST(ModalBody, SixRigidModesAreExactlyZeroAndUndamped) {
   EXPECT_EQ(body.omega_squared.head(6).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_EQ(body.damping.head(6).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT(body.omega_squared(6), std::pow(2.0 * std::numbers::pi * 100.0, 2));
-  // A unit translation in z has no part in elastic modes, and the mass of the whole body.
+  // A unit translation in z has no part in elastic modes, and the mass of the entire body.
   EXPECT_LT(body.rigid.bottomRows(body.modes() - 6).norm(), 1e-9);
 }
 

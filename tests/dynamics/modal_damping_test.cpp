@@ -1,4 +1,4 @@
-// Modal damping by table: what the body's oscillators get, and how free vibration dies away.
+// Modal damping by table: the damping of the body's oscillators, and the decay of free vibration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ rom::ReducedModel bar_with_table() {
 }
 
 /// Logarithmic decrement a period of mode `k` of a body that is released from its shape: ln of the
-/// ratio of two deflections that lie `periods` whole damped periods apart, over `periods`.
+/// ratio of two deflections that are `periods` complete damped periods apart, over `periods`.
 double decrement(const ModalBody& body, int k, double zeta, int periods) {
   System system;
   system.add_body(body);

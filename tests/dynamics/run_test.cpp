@@ -1,4 +1,4 @@
-// Whole scenes from TOML to the run file, on synthetic reduced models.
+// Complete scenes from TOML to the run file, with synthetic reduced models.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -76,7 +76,7 @@ TEST_F(Runs, LubricatedRigidCyclesCloseTheirEnergyBalance) {
   EXPECT_EQ(result.cycles, 2);
   EXPECT_LT(result.energy_residue, 1e-3);
   EXPECT_GT(result.energy_exchanged, 1.0);
-  // Film content settles over some cycles; the second must already lie close beside the first.
+  // Film content settles over some cycles; the second must already be close to the first.
   EXPECT_LT(result.periodicity.at("periodicity_lateral"), 0.5 * 40e-6);
 }
 
@@ -102,7 +102,7 @@ TEST_F(Runs, AResumedRunGivesTheSameBits) {
   ASSERT_FALSE(again.recorder->history().values.empty());
   for (const auto& column : again.recorder->history().values)
     EXPECT_EQ(column.size(), again.recorder->time().size());
-  // Another scene's checkpoint is not taken up, an absent one neither.
+  // Neither another scene's checkpoint nor an absent one is used.
   EXPECT_FALSE(read_checkpoint(file, fingerprint(scene("[contact]\nclearance_um = 21.0\n"))));
   EXPECT_FALSE(read_checkpoint(folder_ / "absent.checkpoint", fingerprint(described)));
 }

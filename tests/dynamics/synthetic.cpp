@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 constexpr double kPi = std::numbers::pi;
 
-/// Collects coordinates, each a displacement along (rotation about) a direction at a place.
+/// Collects coordinates, each a displacement along (rotation about) a direction at a position.
 struct Assembly {
   rom::ReducedModel model;
-  std::vector<Vector3d> place, direction;
+  std::vector<Vector3d> position, direction;
   std::vector<int32_t> rotation;
   std::vector<double> mass, stiffness;
 
@@ -27,9 +27,9 @@ struct Assembly {
            const Vector3d& at, const Vector3d& along, bool turns, double m, double hz) {
     rom::DofSet& dofs = model.sets[set];
     dofs.kind = kind;
-    dofs.dofs.push_back(static_cast<int32_t>(place.size()));
+    dofs.dofs.push_back(static_cast<int32_t>(position.size()));
     dofs.labels.push_back(label);
-    place.push_back(at);
+    position.push_back(at);
     direction.push_back(along);
     rotation.push_back(turns ? 1 : 0);
     mass.push_back(m);
@@ -44,7 +44,7 @@ struct Assembly {
 
   /// M diagonal; K = N^T S N with N the projection off the rigid motions: K r = 0 to rounding.
   rom::ReducedModel finish(const std::string& name) {
-    const auto n = static_cast<Eigen::Index>(place.size());
+    const auto n = static_cast<Eigen::Index>(position.size());
     model.name = name;
     model.method = "guyan";
     model.n_boundary = static_cast<int>(n);
@@ -53,7 +53,7 @@ struct Assembly {
       const auto k = static_cast<size_t>(i);
       const bool turns = rotation[k] != 0;
       model.rigid.row(i).head<3>() = turns ? Vector3d::Zero().eval() : direction[k];
-      model.rigid.row(i).tail<3>() = turns ? direction[k] : place[k].cross(direction[k]);
+      model.rigid.row(i).tail<3>() = turns ? direction[k] : position[k].cross(direction[k]);
     }
     model.M_rr = Eigen::Map<VectorXd>(mass.data(), n).asDiagonal();
     const MatrixXd& R = model.rigid;
@@ -68,7 +68,7 @@ struct Assembly {
       set.is_rotation.clear();
       for (Eigen::Index i = 0; i < m; ++i) {
         const auto k = static_cast<size_t>(set.dofs[static_cast<size_t>(i)]);
-        set.position.row(i) = place[k];
+        set.position.row(i) = position[k];
         set.direction.row(i) = direction[k];
         set.is_rotation.push_back(rotation[k]);
       }

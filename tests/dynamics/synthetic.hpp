@@ -1,5 +1,5 @@
 #pragma once
-// Reduced models made of numbers instead of a mesh: simple bodies with known answers.
+// Reduced models defined without a mesh: simple bodies with known solutions.
 #include <filesystem>
 #include <string>
 

@@ -95,7 +95,7 @@ class Methods(unittest.TestCase):
             values = scipy.linalg.eigh(rom["K_rr"][()], rom["M_rr"][()], eigvals_only=True)
         found = np.sqrt(values) / (2 * np.pi)
         self.assertLess(np.abs(found[:10] / full[:10] - 1).max(), 0.005)
-        self.assertIn("picked a cut-off", self.said)
+        self.assertIn("chose a cut-off", self.said)
 
     def test_the_static_answer_to_a_load_in_the_basis_is_that_of_scipys_lu(self):
         full = (self.T @ sparse_linalg.splu(self.K).solve(self.top)).reshape(-1, 3)

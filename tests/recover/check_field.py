@@ -1,5 +1,5 @@
-"""Reads a field file and its XDMF the way another program would: every reference is resolved, every
-shape compared, and the total power is formed again from the complex lines. Exit 0 when all fits."""
+"""Reads a field file and its XDMF as another program would: resolves every reference, compares every
+shape, and computes the total power again from the complex lines. Exit code 0 when all are consistent."""
 import os
 import sys
 import xml.etree.ElementTree as xml
@@ -44,7 +44,7 @@ def check_units(file):
 
 def check_power(file):
     """ERP of the skin at each written line from the faces' mean normal velocities: never more than
-    the quadratic form says (the mean over a face loses what varies inside it)."""
+    that of the quadratic form (the mean over a face excludes variations inside it)."""
     area = file["skin/face_area"][()]
     rho_c = file.attrs["air_density_kg_m3"] * file.attrs["air_sound_speed_m_s"]
     cycle = file["analysis"][file["lines"].attrs["analysis"].decode()]

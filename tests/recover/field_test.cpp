@@ -1,4 +1,4 @@
-// From run to field file and back: what is read equals what was put in.
+// From run to field file and back: the values read equal those written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,9 +61,10 @@ struct Source {
 };
 
 TEST(FieldFile, MonopoleInsideTheSkinKeepsItsPowerThroughRunSpectraAndFile) {
-  // The end-to-end check of normals, areas, phases and files: the run moves the skin as a monopole
-  // inside would; the power from the file's own normal velocities must be 2 pi |A|^2 / (rho c).
-  const RunPlan plan{.first_angle_deg = -150.0};  // firing TDC is no sample of special place
+  // The end-to-end check of normals, areas, phases and files: the run moves the skin like a
+  // monopole inside it; the power from the file's own normal velocities must be 2 pi |A|^2 / (rho
+  // c).
+  const RunPlan plan{.first_angle_deg = -150.0};  // firing TDC is not at a special sample
   const double order = 12.0;
   Source source;
   source.w = 2 * kPi * order * plan.speed_rpm / 60.0;
@@ -134,7 +135,7 @@ TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
   EXPECT_NEAR(file.read_vector("analysis/cycle/panels/thrust_side/mean_square_velocity")[48],
               0.5 * v * v, 1e-11 * v * v);
 
-  // The 800 Hz third octave holds all of it; the sensor at coordinate 0 has |a| = w^2.
+  // The 800 Hz third octave contains all of it; the sensor at coordinate 0 has |a| = w^2.
   const std::vector<std::string> names = file.read_strings("analysis/cycle/third_octave/nominal");
   const auto band = std::find(names.begin(), names.end(), "800") - names.begin();
   const auto skin_db = file.read_vector("analysis/cycle/panels/skin/third_octave/erp_db");
@@ -195,7 +196,8 @@ TEST(FieldFile, CertificateShowsAMotionThatDoesNotRepeatAndWhatLiesAboveTheSpect
   const auto folder = fresh_folder("jump");
   const auto run = write_run(folder, model_on(mesh, T, 0.0), plan, turning(plan, 12.125));
   const H5File file = open_artefact(recover_file(run, "[spectrum]\nto_hz = 1000\n"), kFieldSchema);
-  // v has constant size w and turns by a quarter over a cycle (0.25 of 2 pi): |jump| = sqrt(2) w.
+  // v has constant magnitude w and rotates by a quarter over a cycle (0.25 of 2 pi): |jump| =
+  // sqrt(2) w.
   EXPECT_NEAR(file.get_double("certificate", "cycle_end_velocity_jump"), std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), std::sqrt(2.0),
               1e-9);

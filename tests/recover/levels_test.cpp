@@ -1,4 +1,4 @@
-// Third octaves, weighting and decibels against printed figures.
+// Third octaves, weighting and decibels against published values.
 #include "recover/levels.hpp"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr Complex kI{0.0, 1.0};
 
 TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
-  // The two x sides of a box move outward with v; the other four only slide along themselves.
+  // The two x sides of a box move outward with v; the other four only move tangentially.
   const Mesh6 mesh = box({0.2, 0.5, 0.3}, 3);
   RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 1);
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a, 0) = mesh.nodes(a, 0) / 0.1 - 1.0;

@@ -1,4 +1,4 @@
-// The program as a user meets it: exit codes, one clear line, untouched older results.
+// The program from the command line: exit codes, one-line messages, unchanged older results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ class Program : public ::testing::Test {
         "cd '" + folder_.string() + "' && '" CLATTER_BIN_DIR "/clatter-recover' " + arguments,
         output_);
   }
-  /// Bad input: exit code `code`, one line that names `words`, no output file.
+  /// Bad input: exit code `code`, one line that contains `words`, no output file.
   void expect_refused(const std::string& arguments, const std::string& words, int code = 2) {
     EXPECT_EQ(recover(arguments + " -o out.field.h5 --quiet"), code) << output_;
     EXPECT_NE(output_.find(words), std::string::npos) << output_;

@@ -1,4 +1,4 @@
-// Areas, normals and weights of a skin against figures known by hand.
+// Areas, normals and weights of a skin against hand-computed values.
 #include "recover/skin.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(Skin, SphereAreaAndVolumeConvergeWithFourthOrder) {
     area_error[level - 1] = std::abs(geometry.area - 4 * kPi);
     volume_error[level - 1] = std::abs(geometry.volume - 4 * kPi / 3);
   }
-  // Quadratic faces: error ~ h^4, so a factor near 16; 12 leaves room for the coarse mesh.
+  // Quadratic faces: error ~ h^4, so a factor near 16; 12 allows for the coarse mesh.
   EXPECT_GT(area_error[0] / area_error[1], 12.0);
   EXPECT_GT(volume_error[0] / volume_error[1], 12.0);
 }
@@ -111,7 +111,7 @@ TEST(Panels, DirectionBoxAndExposurePickTheFacesOfAHollowBox) {
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
   ASSERT_EQ(panels.size(), 8u);  // skin, exposed, six sides
   EXPECT_NEAR(panels[0].area, 6 * (0.09 + 0.01), 1e-14);
-  EXPECT_NEAR(panels[1].area, 6 * 0.09, 1e-14);  // walls of the hole look at each other
+  EXPECT_NEAR(panels[1].area, 6 * 0.09, 1e-14);  // walls of the hole face each other
   for (size_t side = 2; side < 8; ++side) EXPECT_NEAR(panels[side].area, 0.09, 1e-14);
 
   PanelRule half{.name = "half"};

@@ -128,7 +128,7 @@ TEST(Pieces, WindowLiesAboutTheLastFiringTdcThatFits) {
 TEST(Pieces, WhatTheRunDoesNotHoldIsRefused) {
   EXPECT_THROW(last_cycle(steady_clock(720, 500, 0.0), "run"), InputError);
   RunClock uneven = steady_clock(720, 2000, 0.0);
-  uneven.angle_deg *= 0.9993;  // 720.5 steps a cycle
+  uneven.angle_deg *= 0.9993;  // 720.5 steps per cycle
   EXPECT_THROW(last_cycle(uneven, "run"), InputError);
   EXPECT_THROW(window(steady_clock(720, 300, 0.0), "w", {-10, 60, false}, Taper::kNone, "run"),
                InputError);

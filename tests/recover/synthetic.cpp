@@ -18,7 +18,7 @@ namespace {
 using Corners = std::vector<std::array<int32_t, 3>>;
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Adds the middle of each edge once; `place` moves it onto the surface.
+/// Adds the mid-side node of each edge once, on the sphere if `onto_sphere`.
 class MidSideNodes {
  public:
   MidSideNodes(Points& points, bool onto_sphere) : points_(points), onto_sphere_(onto_sphere) {}
@@ -114,7 +114,7 @@ Mesh6 hollow_box(const Eigen::Vector3d& size, int n) {
   outer.nodes.conservativeResize(n_outer + hole.nodes.rows(), 3);
   outer.nodes.bottomRows(hole.nodes.rows()) = hole.nodes;
   outer.triangles.conservativeResize(f_outer + hole.triangles.rows(), 6);
-  // Turned round: corners 0 2 1, and the mid-side nodes of edges 02, 21, 10.
+  // Reversed: corners 0 2 1, and mid-side nodes 02, 21, 10.
   for (Eigen::Index f = 0; f < hole.triangles.rows(); ++f)
     for (int a = 0; a < 6; ++a) {
       static constexpr int kTurned[6] = {0, 2, 1, 5, 4, 3};

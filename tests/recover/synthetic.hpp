@@ -1,5 +1,5 @@
 #pragma once
-// Small skins, reduced models and runs whose answers are known by hand.
+// Small skins, reduced models and runs with known solutions.
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
@@ -15,10 +15,10 @@ struct Mesh6 {
 };
 
 /// A sphere of radius 1 about the origin: the icosahedron, each face split `levels` times in four,
-/// every node (also mid-side nodes) on the sphere. 20 * 4^levels faces.
+/// every node (mid-side nodes too) on the sphere. 20 * 4^levels faces.
 Mesh6 unit_sphere(int levels);
 
-/// A box [0, size] of flat quadratic triangles, n x n squares a side, two triangles each.
+/// A box [0, size] of flat quadratic triangles, n x n squares per side, two triangles each.
 Mesh6 box(const Eigen::Vector3d& size, int n);
 
 /// The box with a box-shaped hole in its middle third: two closed shells in one skin, all normals
@@ -38,7 +38,7 @@ struct Motion {
 };
 using MotionLaw = std::function<Motion(double time_s)>;
 
-/// A steady run: body "block", `cycles` times 720 degrees at `speed_rpm`, `samples` a cycle.
+/// A steady run: body "block", `cycles` times 720 degrees at `speed_rpm`, `samples` per cycle.
 struct RunPlan {
   double speed_rpm = 2000.0;
   int samples = 720;
@@ -55,7 +55,7 @@ std::filesystem::path write_run(const std::filesystem::path& folder, const rom::
 /// A fresh folder under the system's temporary one.
 std::filesystem::path fresh_folder(const std::string& name);
 
-/// Runs a shell command; `output` gets what it printed on both streams. Returns its exit code.
+/// Runs a shell command; `output` gets both output streams. Returns its exit code.
 int run_command(const std::string& command, std::string& output);
 
 }  // namespace clatter::recover::testing

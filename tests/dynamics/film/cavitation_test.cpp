@@ -1,5 +1,5 @@
-// The oscillating squeeze film of Ausas, Jai and Buscaglia 2009: tells conserving solvers from
-// others.
+// The oscillating squeeze film of Ausas, Jai and Buscaglia 2009: distinguishes conserving solvers
+// from others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ Cycle run(int cells, int steps_per_unit, bool second_order) {
       film, [&](double t) { return Eigen::ArrayXd::Constant(cells, gap_at(t)).eval(); }, 1.0 / 6.0,
       0.0);
   auto step = [&](double dt) { second_order ? march.tr_bdf2(dt) : march.implicit_euler(dt); };
-  // Cells of the cavity count whole; its last one, at the moving rim, by its oil against its
+  // Cells of the cavity count fully; its last one, at the moving rim, by its oil against its
   // neighbour's.
   auto width = [&] {
     int inside = 0;
@@ -39,14 +39,14 @@ Cycle run(int cells, int steps_per_unit, bool second_order) {
   const double dt = 1.0 / steps_per_unit;
   double p_1 = 0.0, t_1 = 0.0, p_2 = 0.0, t_2 = 0.0;  // p(0) one and two steps ago
   while (march.time() < 0.78 && cycle.close == 0.0) {
-    // Around the rupture p(0) falls through zero within 1e-4: the step must see it.
+    // Around the rupture p(0) falls through zero within 1e-4: the step must resolve it.
     const double t = march.time();
     const bool near_rupture = t > 0.2499 - 1e-9 && t < 0.2501;
     double next = near_rupture ? 2e-6 : dt;
     for (double stop : {0.2499, 0.40, 0.50, 0.60})
       if (t < stop - 1e-12 && t + next > stop - 1e-9) next = stop - t;
     step(next);
-    // p(0) = .025 - h'/h^3 runs on smoothly: extrapolate the last two values to zero.
+    // p(0) = .025 - h'/h^3 continues smoothly: extrapolate the last two values to zero.
     if (cycle.rupture == 0.0 && !film.is_full(0))
       cycle.rupture = t_1 + (t_1 - t_2) * p_1 / (p_2 - p_1);
     p_2 = p_1;

@@ -1,5 +1,5 @@
 #pragma once
-// What the film tests share: one-dimensional strips, marching in time, a rigid body thrown at a
+// Helpers of the film tests: one-dimensional strips, marching in time, a rigid body thrown at a
 // wall.
 #include <functional>
 
@@ -19,7 +19,7 @@ FilmCells smooth(const Eigen::ArrayXd& h);
 /// Sum of p times area [N].
 double load(const Reynolds& film);
 
-/// Marches a film without sliding through a given gap(t) by the tableau that the integrator uses.
+/// Integrates a film without sliding for a given gap(t) by the integrator's tableau.
 class FilmMarch {
  public:
   FilmMarch(Reynolds& film, std::function<Eigen::ArrayXd(double)> gap, double viscosity,
@@ -40,7 +40,7 @@ class FilmMarch {
 /// Observed order between successive halvings.
 double order(double coarse_error, double fine_error);
 
-/// A body of six coordinates under the element alone: TR-BDF2 with full Newton, halved steps when
+/// A body of six coordinates with only this element: TR-BDF2 with full Newton, halved steps when
 /// refused.
 class Flight {
  public:

@@ -32,12 +32,12 @@ void expect_complementary(const Reynolds& film) {
     EXPECT_LE(film.fill()[c], 1.0);
     EXPECT_GE(film.fill()[c], 0.0);
   }
-  EXPECT_LT(worst, 1e-10);            // demanded; [Pa], zero by construction
-  EXPECT_LT(film.residual(), 1e-10);  // demanded
+  EXPECT_LT(worst, 1e-10);            // required; [Pa], zero by construction
+  EXPECT_LT(film.residual(), 1e-10);  // required
 }
 
 TEST(HardFilm, HardR2_SwitchingCavitiesStayComplementaryAndConserveMass) {
-  // A pad that slides up and down while its gap breathes: cavities open, move, close and reverse.
+  // A pad that slides up and down while its gap oscillates: cavities open, move, close and reverse.
   const PadGrid grid = symmetric_pad();
   Reynolds film(grid, {}, true);
   const double dt = 1e-4;
@@ -81,7 +81,7 @@ TEST(HardFilm, HardR2_DimplesCavitateEachAndReForm) {
   for (int c = 1; c < grid.size(); ++c) cavities += film.is_full(c - 1) && !film.is_full(c);
   std::printf("R2: textured slider, %d separate cavities, %d solves\n", cavities, solves);
   EXPECT_GE(cavities, 1);
-  // Steady flow: what enters leaves.
+  // Steady flow: inflow equals outflow.
   EXPECT_LT(std::abs(film.outflow()), 1e-11 * 0.5 * 1e-6);  // of the flow through the land
 }
 
@@ -111,7 +111,7 @@ TEST(HardFilm, HardR3_ZeroSpeedIsPureSqueezeAndPassingThroughZeroIsSmooth) {
   for (double speed : {0.0, 1e-9, -1e-9}) {
     film.solve(smooth(h), before, {kappa, 0.01, 0.0, speed, false});
     if (speed == 0.0) p_rest = film.pressure();
-    // A parallel film of full oil does not notice sliding at all.
+    // A full parallel film does not depend on sliding.
     EXPECT_LT((film.pressure() - p_rest).abs().maxCoeff(), 1e-9 * p_rest.maxCoeff());
   }
   EXPECT_NEAR(load(film), 1e4 * (1.0 + 2.0 / (cells * cells)),
@@ -122,7 +122,7 @@ TEST(HardFilm, HardR4_MirroredSkirtGivesMirroredPressure) {
   const PadGrid grid = symmetric_pad();
   Reynolds one(grid, {}, true), other(grid, {}, true);
   const Eigen::ArrayXd h = skewed_gap(grid, 1.0, 1.0), mirrored = skewed_gap(grid, -1.0, 1.0);
-  // Several steps from partial fill, so that cavities take part.
+  // Several steps from partial fill, so that cavities are included.
   Eigen::ArrayXd content = 0.8 * h, content_mirrored = 0.8 * mirrored;
   double worst = 0.0, highest = 0.0;
   for (int k = 1; k <= 30; ++k) {

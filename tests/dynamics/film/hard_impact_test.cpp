@@ -23,7 +23,7 @@ class Impact : public ::testing::TestWithParam<Throw> {};
 TEST_P(Impact, HardR1_FilmStaysPositiveAndImpulseBalances) {
   const Throw& shot = GetParam();
   PistonLinerOptions options;
-  options.bulk_modulus = 0.0;  // the hardest case: oil that gives way by flowing only
+  options.bulk_modulus = 0.0;  // the hardest case: incompressible oil
   options.clearance = 50e-6;
   options.cells_around = 10;
   options.cells_along = 12;
@@ -44,7 +44,7 @@ TEST_P(Impact, HardR1_FilmStaysPositiveAndImpulseBalances) {
   while (flight.time < 1.5e-4) {
     const Flight before = flight;
     const std::vector<double> content = element->save();
-    // The trapezoidal sum of the recorded force must see its rise: at most .3 % of the speed a
+    // The trapezoidal sum of the recorded force must resolve its rise: at most .3 % of the speed a
     // step.
     while (!flight.step(dt) || std::abs(flight.v[1] - before.v[1]) > 3e-3 * shot.speed) {
       const int refused = flight.refused;
@@ -77,11 +77,11 @@ TEST_P(Impact, HardR1_FilmStaysPositiveAndImpulseBalances) {
       "m/s, impulse defect %.1e, energy defect %.1e\n",
       shot.name, shot.speed, steps, flight.refused, lowest * 1e6, peak * 1e-3, flight.v[1],
       impulse / gained - 1.0, (kinetic + stored + spent - start) / start);
-  EXPECT_NEAR(impulse / gained, 1.0, 0.01);  // demanded
+  EXPECT_NEAR(impulse / gained, 1.0, 0.01);  // required
   EXPECT_NEAR((kinetic + stored + spent) / start, 1.0,
               0.02);  // trapezoidal sum of the recorded power
   if (shot.effects.asperities) {
-    // Rough walls: what must stay positive is the mean gap h_T, which the film lives on.
+    // Rough walls: the mean gap h_T of the film must stay positive.
     EXPECT_GT(mean_gap(lowest, std::hypot(options.roughness.piston, options.roughness.liner)).value,
               0.0);
   } else {

@@ -76,8 +76,8 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double appr
       same_split = same_split && split_of(element) == split;
       return Eigen::VectorXd((high.force - low.force) / (2.0 * d));
     };
-    // Differences across a switch of a cell say nothing about either side: shrink until the split
-    // stays.
+    // Differences across a switch of a cell are meaningless: reduce the step until the split does
+    // not change.
     double d = 4e-10;
     Eigen::VectorXd difference;
     do {
@@ -117,7 +117,7 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
     std::printf("R6 %-22s %-7s error %.1e  cavitated %.0f %%  asperity share %.0f %%\n",
                 regime.name, elastic ? "elastic" : "rigid", error, 100.0 * cavitated,
                 100.0 * contact);
-    EXPECT_LT(error, 1e-6);  // demanded
+    EXPECT_LT(error, 1e-6);  // required
   }
 }
 

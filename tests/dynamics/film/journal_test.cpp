@@ -90,7 +90,7 @@ TEST(ShortJournal, HardR5_ResidualStaysSmallUpToEccentricity099) {
                      std::sqrt(16.0 * eccentricity * eccentricity + kPi * kPi * q);
     std::printf("short journal eps=%.2f  X ratio %.4f  residual %.1e\n", eccentricity,
                 journal.load / std::pow(length, 3) / x, journal.residual);
-    EXPECT_LT(journal.residual, 1e-10);  // demanded
+    EXPECT_LT(journal.residual, 1e-10);  // required
     // Short-bearing theory is a limit: the ratio falls off when the pressure ridge gets as short as
     // the bearing.
     EXPECT_NEAR(journal.load / std::pow(length, 3) / x, 1.0, eccentricity < 0.95 ? 0.02 : 0.2);

@@ -66,7 +66,7 @@ TEST(PistonLiner, ElasticBodiesInRigidMotionFeelTheSameForceAsRigidOnes) {
   y_e << motion * y, Eigen::VectorXd::Zero(6);
   v_e << motion * v, Eigen::VectorXd::Zero(6);
   settle(elastic, y_e, v_e, other);
-  // Radial resultants come through the patches, friction through the pin.
+  // Radial resultants act on the patches, friction on the pin.
   const Eigen::VectorXd total = motion.transpose() * other.force.head(24) + other.force.tail(6);
   EXPECT_GT(one.force.norm(), 1.0);
   EXPECT_LT((total - one.force).norm(),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// A ring of even gap in which a hump of oil goes round once: mean error of the fill.
+/// A ring of uniform gap in which a hump of oil makes one revolution: mean error of the fill.
 double error_after_one_turn(int cells, bool second_order) {
   const PadGrid ring =
       PadGrid::uniform(0.0, kTurn, cells, 0.0, 1.0, 1, 1.0 / kTurn, true);  // 1 m round
@@ -76,7 +76,7 @@ TEST(Transport, AFrontOfOilNeitherOvershootsNorUndershoots) {
     EXPECT_LT(fill.maxCoeff(), 0.8 + 1e-9);
     EXPECT_GT(fill.minCoeff(), 0.2 - 1e-9);
   }
-  // After half a second the front stands in the middle.
+  // After half a second the front is in the middle.
   EXPECT_NEAR(fill.mean(), 0.5, 1e-3);
   EXPECT_GT(fill[20], 0.75);
   EXPECT_LT(fill[30], 0.25);

@@ -1,4 +1,4 @@
-#include "assembly/matrix_places.hpp"
+#include "assembly/matrix_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -15,19 +15,19 @@ namespace {
 using Kind = rom::MappedDof::Kind;
 
 /// DoFs of each node, for the check of their directions.
-void check_directions(const MatrixPlaces& places, const std::string& file) {
-  std::vector<std::vector<size_t>> of_node(static_cast<size_t>(places.nodes.rows()));
-  for (size_t j = 0; j < places.dofs.size(); ++j) {
-    const rom::MappedDof& dof = places.dofs[j];
+void check_directions(const MatrixRows& layout, const std::string& file) {
+  std::vector<std::vector<size_t>> of_node(static_cast<size_t>(layout.nodes.rows()));
+  for (size_t j = 0; j < layout.dofs.size(); ++j) {
+    const rom::MappedDof& dof = layout.dofs[j];
     if (dof.kind != Kind::kDisplacement) continue;
-    auto& others = of_node[static_cast<size_t>(places.node[j])];
+    auto& others = of_node[static_cast<size_t>(layout.node[j])];
     for (const size_t other : others) {
-      // More than three cannot be at right angles either.
-      if (std::abs(places.dofs[other].direction.dot(dof.direction)) > 1e-6)
-        throw InputError(fmt::format(
-            "{}: rows {} and {}: found directions of node {} that are not at right angles, "
-            "expected so, or two nodes",
-            file, other + 1, j + 1, dof.node));
+      // More than three cannot be orthogonal either.
+      if (std::abs(layout.dofs[other].direction.dot(dof.direction)) > 1e-6)
+        throw InputError(
+            fmt::format("{}: rows {} and {}: found directions of node {} that are not orthogonal, "
+                        "expected orthogonal ones, or two nodes",
+                        file, other + 1, j + 1, dof.node));
     }
     others.push_back(j);
   }
@@ -35,9 +35,9 @@ void check_directions(const MatrixPlaces& places, const std::string& file) {
 
 }  // namespace
 
-MatrixPlaces places_of(const mesh::Mesh& mesh) {
-  MatrixPlaces places;
-  places.nodes = mesh.nodes;
+MatrixRows matrix_rows(const mesh::Mesh& mesh) {
+  MatrixRows layout;
+  layout.nodes = mesh.nodes;
   std::vector<int32_t> order(static_cast<size_t>(mesh.nodes.rows()));
   std::iota(order.begin(), order.end(), 0);
   const auto number = [&](int32_t a) {
@@ -47,7 +47,7 @@ MatrixPlaces places_of(const mesh::Mesh& mesh) {
             [&](int32_t a, int32_t b) { return number(a) < number(b); });
   std::vector<int32_t> first(order.size());  // DoF of each node
   for (const int32_t a : order) {
-    first[static_cast<size_t>(a)] = static_cast<int32_t>(places.dofs.size());
+    first[static_cast<size_t>(a)] = static_cast<int32_t>(layout.dofs.size());
     for (int d = 0; d < 3; ++d) {
       rom::MappedDof dof;
       dof.kind = Kind::kDisplacement;
@@ -56,35 +56,35 @@ MatrixPlaces places_of(const mesh::Mesh& mesh) {
       dof.position = mesh.nodes.row(a);
       dof.direction = Eigen::Vector3d::Unit(d);
       dof.label = fmt::format("{}.{}", number(a), "xyz"[d]);
-      places.dofs.push_back(dof);
-      places.node.push_back(a);
+      layout.dofs.push_back(dof);
+      layout.node.push_back(a);
     }
   }
   for (const auto& [name, nodes] : mesh.node_sets)
     for (const int32_t a : nodes)
-      for (int d = 0; d < 3; ++d) places.sets[name].push_back(first[static_cast<size_t>(a)] + d);
-  return places;
+      for (int d = 0; d < 3; ++d) layout.sets[name].push_back(first[static_cast<size_t>(a)] + d);
+  return layout;
 }
 
-MatrixPlaces places_of(std::vector<rom::MappedDof> map, const std::string& file) {
-  MatrixPlaces places;
+MatrixRows matrix_rows(std::vector<rom::MappedDof> map, const std::string& file) {
+  MatrixRows layout;
   std::map<int, int32_t> rows;
   std::vector<Eigen::Vector3d> positions;
   for (size_t j = 0; j < map.size(); ++j) {
     const rom::MappedDof& dof = map[j];
-    places.node.push_back(-1);
+    layout.node.push_back(-1);
     if (dof.kind == Kind::kModal) continue;
     const auto [at, added] = rows.emplace(dof.node, static_cast<int32_t>(positions.size()));
     if (added) positions.push_back(dof.position);
-    places.node.back() = at->second;
-    if (!dof.set.empty()) places.sets[dof.set].push_back(static_cast<int32_t>(j));
+    layout.node.back() = at->second;
+    if (!dof.set.empty()) layout.sets[dof.set].push_back(static_cast<int32_t>(j));
   }
-  places.nodes.resize(static_cast<Eigen::Index>(positions.size()), 3);
+  layout.nodes.resize(static_cast<Eigen::Index>(positions.size()), 3);
   for (size_t a = 0; a < positions.size(); ++a)
-    places.nodes.row(static_cast<Eigen::Index>(a)) = positions[a];
-  places.dofs = std::move(map);
-  check_directions(places, file);
-  return places;
+    layout.nodes.row(static_cast<Eigen::Index>(a)) = positions[a];
+  layout.dofs = std::move(map);
+  check_directions(layout, file);
+  return layout;
 }
 
 Eigen::MatrixXd rigid_motions(const std::vector<rom::MappedDof>& dofs) {
@@ -100,28 +100,28 @@ Eigen::MatrixXd rigid_motions(const std::vector<rom::MappedDof>& dofs) {
   return rigid;
 }
 
-SparseMatrix displacement_of(const MatrixPlaces& places, const std::vector<int32_t>& place,
+SparseMatrix displacement_of(const MatrixRows& layout, const std::vector<int32_t>& coordinate,
                              int32_t size) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (size_t j = 0; j < place.size(); ++j) {
-    const rom::MappedDof& dof = places.dofs[j];
-    if (place[j] < 0 || dof.kind != Kind::kDisplacement) continue;
+  for (size_t j = 0; j < coordinate.size(); ++j) {
+    const rom::MappedDof& dof = layout.dofs[j];
+    if (coordinate[j] < 0 || dof.kind != Kind::kDisplacement) continue;
     for (int d = 0; d < 3; ++d)
       if (dof.direction[d] != 0.0)
-        entries.emplace_back(3 * places.node[j] + d, place[j], dof.direction[d]);
+        entries.emplace_back(3 * layout.node[j] + d, coordinate[j], dof.direction[d]);
   }
-  SparseMatrix T(static_cast<int>(3 * places.nodes.rows()), size);
+  SparseMatrix T(static_cast<int>(3 * layout.nodes.rows()), size);
   T.setFromTriplets(entries.begin(), entries.end());
   return T;
 }
 
-std::map<std::string, rom::DofSet> sets_of(const MatrixPlaces& places,
-                                           const std::vector<int32_t>& place) {
+std::map<std::string, rom::DofSet> sets_of(const MatrixRows& layout,
+                                           const std::vector<int32_t>& coordinate) {
   std::map<std::string, rom::DofSet> sets;
-  for (const auto& [name, members] : places.sets) {
+  for (const auto& [name, members] : layout.sets) {
     std::vector<int32_t> left;
     for (const int32_t j : members)
-      if (place[static_cast<size_t>(j)] >= 0) left.push_back(j);
+      if (coordinate[static_cast<size_t>(j)] >= 0) left.push_back(j);
     if (left.empty()) continue;
     rom::DofSet& set = sets[name];
     set.kind = "node";
@@ -129,8 +129,8 @@ std::map<std::string, rom::DofSet> sets_of(const MatrixPlaces& places,
     set.direction.resize(static_cast<Eigen::Index>(left.size()), 3);
     for (size_t k = 0; k < left.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      const rom::MappedDof& dof = places.dofs[static_cast<size_t>(left[k])];
-      set.dofs.push_back(place[static_cast<size_t>(left[k])]);
+      const rom::MappedDof& dof = layout.dofs[static_cast<size_t>(left[k])];
+      set.dofs.push_back(coordinate[static_cast<size_t>(left[k])]);
       set.labels.push_back(dof.label);
       set.position.row(row) = dof.position;
       set.direction.row(row) = dof.direction;
