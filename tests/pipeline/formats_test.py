@@ -25,7 +25,7 @@ class Document:
     def __init__(self, kind, text=(stages.SOURCE / "docs/formats.md").read_text()):
         sections = {re.match(r".*?$", part, re.M)[0]: part for part in text.split("\n## ")}
         own = next(part for head, part in sections.items() if head.startswith(f"`.{kind}.h5`"))
-        every = sections["What every artefact carries"]
+        every = sections["Common content"]
         self.attributes = set(words(own)) | set(words(every))
         self.paths, self.certificate = set(), set()
         tables = own.split("| `certificate` | |\n|---|---|\n")
