@@ -5,7 +5,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from clatter_tools.plots import style  # noqa: E402
 
-SERIES = {  # legend, marker, where its numbers stand
+SERIES = {  # legend, marker, position of its numbers
     "guyan": ("no modes (Guyan)", "X", {"xytext": (-7, -3), "ha": "right"}),
     "fixed": ("fixed-interface modes alone", "o", {"xytext": (1, 4), "ha": "left", "rotation": 60}),
     "residual": ("with residual modes", "s", {"xytext": (-4, -10), "ha": "right"}),
