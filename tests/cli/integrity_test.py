@@ -114,7 +114,7 @@ class FlippedBits(stages.PipelineTest):
             file["loads/tip_force"].attrs["unit"] = "N"
         done = stages.run_stage("condense", *self.command("condense"), "--quiet", folder=self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("no checksums of 1 places: loads/tip_force@unit", self.verify(self.folder / "beam.fe.h5").stderr)
+        self.assertIn("no checksums of 1 object: loads/tip_force@unit", self.verify(self.folder / "beam.fe.h5").stderr)
 
     def test_verification_names_the_dataset_in_every_kind_of_artefact(self):
         draw = random.Random(6)
@@ -123,7 +123,7 @@ class FlippedBits(stages.PipelineTest):
             with self.subTest(file=path.name):
                 done = self.verify(path)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-                self.assertIn("every number and text is as it was written", done.stdout)
+                self.assertIn("every number and text is undamaged", done.stdout)
                 dataset, place = draw.choice(sorted(stored(path).items()))
                 self.flip(path, draw, place)
                 done = self.verify(path)
