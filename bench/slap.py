@@ -112,8 +112,7 @@ def main():
                                      for value in TOLERANCES))
         table("film grid, cells around x along",
               runs((f"grid {a} x {b}", f"[contact]\ncells_around = {a}\ncells_along = {b}\n") for a, b in GRIDS))
-        print("
-effects: cost of each (rigid liner: no block to recover)")
+        print("\neffects: cost of each (rigid liner: no block to recover)")
         results = runs(EFFECTS.items(), recovered=False)
         for result in results:
             print_row(result, results[-1])

@@ -1,4 +1,4 @@
-"""Motions below the absolute tolerance of [accuracy]: dynamics says how far its velocities are off, and what helps."""
+"""Motions below the absolute tolerance of [accuracy]: dynamics reports the error of its velocities and a remedy."""
 import re
 import unittest
 
@@ -11,8 +11,8 @@ class SmallMotion(stages.PipelineTest):
     """The beam under a step force of 100 nN: nanometres, where 10 um and 0.1 m/s are no bound."""
 
     def response(self, force, accuracy="", step_us=600.0):
-        """(velocities at the samples, what was warned of) of a step force [N] on the beam's tip; the largest step is by
-        default what a scene has that says none, a hundredth of the span."""
+        """(velocities at the samples, warnings) of a step force [N] on the beam's tip; the
+        default of the largest step is that of a scene, a hundredth of the span."""
         scene = (stages.SOURCE / "samples/beam/step.run.toml").read_text()
         for old, new in (("value = 100.0", f"value = {force}"), ("largest_step_us = 50.0", f"largest_step_us = {step_us}")):
             self.assertIn(old, scene)
@@ -45,7 +45,7 @@ class SmallMotion(stages.PipelineTest):
         self.assertEqual(said, "")
         self.assertLess(actual, 1.0)
 
-    def test_motions_that_the_tolerance_rules_are_not_warned_of(self):
+    def test_motions_well_above_the_tolerance_give_no_warning(self):
         self.assertEqual(self.response(1e4)[1], "")
 
 

@@ -1,4 +1,4 @@
-"""Reduced parts written for other programs, and matrices of others taken in."""
+"""Reduced parts written for other programs, and matrices of others read."""
 import json
 import shutil
 import subprocess
@@ -19,7 +19,7 @@ def reduced_matrices(path):
 
 
 def frequencies(K, M):
-    """[Hz], ascending; rigid motions may come out imaginary and count as zero."""
+    """[Hz], ascending; rigid motions may be imaginary and count as zero."""
     return np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2.0 * np.pi)
 
 
@@ -75,7 +75,7 @@ class MatrixMarket(Exported):
                 lower = sp.csc_matrix((g["data"][()], g["indices"][()], g["indptr"][()]), shape=g.attrs["shape"])
                 np.testing.assert_array_equal(lower.toarray(), np.tril(rom[f"{name}_rr"][()]))
             self.assertEqual(set(back["sets"]), set(rom["sets"]))
-            # The same rigid motions, made of the positions and directions of the map.
+            # The same rigid motions, from the positions and directions of the map.
             np.testing.assert_allclose(back["rigid"][()], rom["rigid"][()], atol=1e-12)
         self.run_stage("modal", "back.fe.h5", "--count", 12, "-o", "back.modes.h5")
         self.run_stage("modal", "beam.rom.h5", "--count", 12, "-o", "rom.modes.h5")
@@ -96,7 +96,7 @@ class MatrixMarket(Exported):
         self.run_stage("condense", "back.fe.h5", "-c", "back.rom.toml", "-o", "back.rom.h5")
         ours = frequencies(*reduced_matrices(self.folder / "back.rom.h5"))
         full = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
-        # Far below the cut-off, where the certificate aims at 5e-4; a reduction can only raise frequencies.
+        # Far below the cut-off, where the target of the certificate is 5e-4; a reduction can only raise frequencies.
         np.testing.assert_allclose(ours[:4], full[:4], rtol=5e-4)
         # Rounding of matrices whose highest frequency is so far above: eps (f_max / f)^2.
         rounding = 1e-15 * (full.max() / full[:len(ours)]) ** 2
@@ -104,7 +104,7 @@ class MatrixMarket(Exported):
 
 
 class Calculix(Exported):
-    """CalculiX 2.20 knows no *MATRIX ASSEMBLE; the deck says the same with springs, masses and equations."""
+    """CalculiX 2.20 does not support *MATRIX ASSEMBLE; the deck is equivalent, with springs, masses and equations."""
 
     def setUp(self):
         super().setUp()
@@ -113,7 +113,7 @@ class Calculix(Exported):
         self.assertEqual(self.export("part.inp"), ["part.inp", "part.K.txt", "part.M.txt"])
 
     def calculix_hz(self, cards="", count=4):
-        """The lowest frequencies that CalculiX finds [Hz]; of the beam's 23 equations it can give four, no more."""
+        """The lowest frequencies by CalculiX [Hz]; with the beam's 23 equations it finds at most four."""
         (self.folder / "job.inp").write_text(f"*INCLUDE,INPUT=part.inp\n{cards}*STEP\n*FREQUENCY\n{count}\n*END STEP\n")
         done = subprocess.run(["ccx", "job"], cwd=self.folder, text=True, capture_output=True, timeout=100)
         self.assertIn("Job finished", done.stdout, done.stdout[-600:])
@@ -199,7 +199,7 @@ class NastranDmig(Exported):
                 i, j = row_of[row], row_of[column]
                 self.assertEqual(read[i, j], 0.0, "one triangle, each entry once")
                 read[i, j] = read[j, i] = value
-            np.testing.assert_allclose(read, matrix, rtol=5e-10, atol=1e-99)  # ten digits beside a sign
+            np.testing.assert_allclose(read, matrix, rtol=5e-10, atol=1e-99)  # ten digits with a sign
 
     def test_every_coordinate_is_a_component_of_a_grid_or_a_scalar_point(self):
         _, grids, spoints = read_bulk(self.text)

@@ -68,7 +68,7 @@ class Faces(OfATube):
         self.assertIn("tube.step: written in mm", done.stderr)
         done = self.mesh("--faces", "tube.step", "--json")
         self.assertEqual(len(done.stdout.splitlines()), 1)
-        self.assertIn("place [mm]", done.stderr)  # the table is still there to read
+        self.assertIn("place [mm]", done.stderr)  # the table is still printed
         faces = json.loads(done.stdout)["faces"]
         kinds = sorted((face["kind"], face["concave"], round(face["radius"], 6)) for face in faces
                        if face["kind"] == "cylinder")
@@ -89,7 +89,7 @@ class Faces(OfATube):
         for face in named:
             self.assertEqual(face["surfaces"], [f"face_{face['number']}"])
 
-    def test_a_surface_that_selects_nothing_is_told_and_the_faces_are_listed(self):
+    def test_a_surface_that_selects_nothing_is_reported_and_the_faces_are_listed(self):
         (self.folder / "t.mesh.toml").write_text(
             TUBE + "[surface.bore]\ncylinder = { radius = 46, point = [0, 0, 0], axis = [0, 0, 1] }\n")
         done = self.mesh("--faces", "t.mesh.toml")
@@ -97,7 +97,7 @@ class Faces(OfATube):
         self.assertIn("cylinder of radius 46.5 mm, radius 0.5 mm more", done.stderr)
         self.assertEqual(len(done.stdout.splitlines()), 5)
 
-    def test_a_length_unit_is_kept_and_the_files_own_is_said(self):
+    def test_a_length_unit_is_kept_and_that_of_the_file_is_reported(self):
         (self.folder / "inch.mesh.toml").write_text(TUBE.replace('kind', 'length_unit = "in"\nkind', 1)
                                                     .replace("53.5", "2").replace("46.5", "1").replace("100", "3"))
         self.mesh("inch.mesh.toml", "-o", "inch.mesh.h5", "--write-step", "inch.step")
@@ -115,7 +115,7 @@ class Faces(OfATube):
             return subprocess.run([sys.executable, stages.SOURCE / "tools/clatter", "plot", "faces", *arguments],
                                   cwd=self.folder, text=True, capture_output=True,
                                   env={**os.environ, "CLATTER_BIN": str(stages.BIN)})
-        done = plot("tube.step", "-o", "b.png")  # by way of clatter-mesh --faces
+        done = plot("tube.step", "-o", "b.png")  # through clatter-mesh --faces
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "b.png").read_bytes()[:4], b"\x89PNG")
         self.assertGreater((self.folder / "b.png").stat().st_size, 20000)
@@ -169,7 +169,7 @@ class BareCad(OfATube):
         self.mesh("tube.step", "-o", "fine.mesh.h5", "--element-size-mm", 10)
         self.assertGreater(len(self.arrays("fine.mesh.h5")["nodes"]), 1.5 * coarse)
         self.assertIn("element_size_mm = 10\n", (self.folder / "fine.mesh.toml").read_text())
-        # Over a description the option goes before what it says.
+        # The option overrides the description.
         self.mesh("fine.mesh.toml", "-o", "over.mesh.h5", "--element-size-mm", 15)
         self.assertEqual(len(self.arrays("over.mesh.h5")["nodes"]), coarse)
 

@@ -93,7 +93,7 @@ class Blocks(unittest.TestCase):
             if command.block and not elsewhere(command):
                 self.assertRegex(command.text, r"^(clatter(-\w+)?|(\.\./)*tools/clatter) ", f"{command}: say in ELSEWHERE what runs it")
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         text = ("Run `clatter nonsense x.h5` or\n\n    make nonsense   # not\n    PRESET=dev ctest -L nonsense -R 'Xyzzy|HardB4'\n"
                 "    cmake --preset nonsense\n    bench/nonsense.py --x\n    clatter info --nonsense \\\n        part.h5\n"
                 "    build/release/tests/nonsense_test --gtest_filter='Nonsense*'\n    F = k x\n")

@@ -89,7 +89,7 @@ class HardCases(unittest.TestCase):
                 with self.subTest(place=repository.place(path, text, match.start())):
                     self.assertTrue(match[1].endswith("docs/") or path.parent == LIST.parent, match[0])
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         text = ("### A1 One\n\nTests: `HardA1`, `Gone.Case`\n\n### A2 Two\n\n### A4 Four\n\nTests: `HardA1`\n\n"
                 f"{HEAD}\n\n| case | |\n|---|---|\n| A3 | x |\n| A4 | y |\n")
         tests = [("HardA1", "Holds"), ("Other", "HardA2_Holds"), ("HardZ9Python", "test_it"),

@@ -58,7 +58,7 @@ class Links(unittest.TestCase):
                        if name not in WRITTEN and not any(path.match(name) for path in paths)]
             self.assertEqual(missing, [], document)
 
-    def test_what_is_broken_is_told(self):
+    def test_broken_links_are_reported(self):
         text = "# A head\n[a](#a-head) [b](#none) [c](README.md) [d](gone.md#x) [e](README.md#none) [f](https://example.org)\n"
         self.assertEqual(broken(repository.SOURCE / "x.md", text),
                          ["no heading #none in x.md", "no file gone.md", "no heading #none in README.md"])

@@ -154,7 +154,7 @@ class References(unittest.TestCase):
         text = "Guyan 1965;\n/// (Craig and\n/// Bampton 1968)\nx; // Liu\n// 1992"
         self.assertEqual([item[:2] for item in citations(prose(source, text))], [("Craig", "1968"), ("Liu", "1992")])
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         bib = ("@article{guyan1965,\n author = {Guyan, R.},\n title = {A {B} C}, journal = {J}, year = {1965},\n volume = {3}\n}\n"
                "@book{ocvirk,\n author = {Ocvirk, F.},\n title = {T}, keywords = {by name}\n}\n"
                "@standard{iso,\n author = {ISO},\n title = {T}, number = {1683}\n}\n")

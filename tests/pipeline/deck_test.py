@@ -280,7 +280,7 @@ class Rotating(unittest.TestCase):
 class Refused(unittest.TestCase):
     """The program says all refusals of a deck at once and leaves nothing behind."""
 
-    def test_several_refusals_come_in_one_run_with_exit_code_2(self):
+    def test_several_errors_are_reported_in_one_run_with_exit_code_2(self):
         stages.require_stages()
         with tempfile.TemporaryDirectory(prefix="clatter-refused-") as folder:
             deck = cube_deck("ALL, 1, 3", "*CLOAD\n2, 7, 1.\n*DLOAD\nCUBE, P8, 1.").replace(
@@ -297,7 +297,7 @@ class Refused(unittest.TestCase):
             self.assertEqual(len(lines), 4)
             self.assertEqual([p.name for p in pathlib.Path(folder).iterdir()], ["cube.inp"])
 
-    def test_a_deck_cut_before_its_steps_is_said_to_be(self):
+    def test_a_deck_cut_before_its_steps_is_reported(self):
         stages.require_stages()
         with tempfile.TemporaryDirectory(prefix="clatter-cut-") as folder:
             deck = cube_deck("ALL, 1, 3", "")

@@ -91,7 +91,7 @@ class Exports(unittest.TestCase):
         groups = [name.strip() for name in re.findall(r"gro = (.*)", done.stdout)]
         self.assertEqual(sorted(groups), sorted(names))
 
-    def test_cells_of_med_are_turned_as_med_has_them_with_middles_on_their_edges(self):
+    def test_cells_of_med_have_meds_orientation_and_mid_side_nodes_on_their_edges(self):
         with h5py.File(self.folder / "cells.med") as med, h5py.File(self.folder / "cells.mesh.h5") as mesh:
             step = med[f"ENS_MAA/cells/{STEP}"]
             points = step["NOE/COO"][()].reshape(3, -1).T

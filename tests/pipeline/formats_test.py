@@ -117,14 +117,14 @@ class Formats(stages.PipelineTest):
             file.visititems(look)
         return found
 
-    def test_a_name_that_the_document_does_not_say_is_found(self):
+    def test_a_name_that_is_not_in_the_document_is_found(self):
         document = Document("fe")
         for path in ("K", "sets/tip/dofs", "supports/T_s", "materials/0/axes/frame", "timing/peak_gib"):
             self.assertTrue(document.says(path), path)
         for path in ("Q", "sets/tip/axis", "dofs", "loads/tip/force", "quality"):
             self.assertFalse(document.says(path), path)
 
-    def test_every_name_in_an_artefact_stands_in_the_document(self):
+    def test_every_name_in_an_artefact_is_in_the_document(self):
         stages.run_stage("modal", "beam.fe.h5", "--static", "-o", "beam.static.h5", folder=self.folder)
         stages.run_stage("mesh", "--faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
         kinds = set()

@@ -87,7 +87,7 @@ class Methods(unittest.TestCase):
         # Both solvers' residuals, squared, are below; rounding of K against the lowest mode is about 1e-9.
         self.assertLess(np.abs(found[:15] / full[:15] - 1).max(), 1e-8)
 
-    def test_a_wanted_accuracy_is_met_against_scipy_and_what_was_picked_is_said(self):
+    def test_a_requested_accuracy_is_met_against_scipy_and_the_choice_is_reported(self):
         values = np.sort(sparse_linalg.eigsh(self.K, 20, self.M, sigma=0.0)[0])
         full = np.sqrt(values) / (2 * np.pi)
         wanted = 0.5 * (full[9] + full[10])

@@ -87,7 +87,7 @@ class Vtk(unittest.TestCase):
         np.testing.assert_array_equal(cells["region"], 0)
         self.assertEqual(sorted(cells["id"]), list(range(1, 9)))
 
-    def test_every_face_of_every_cell_points_outward_with_its_middles_on_its_edges(self):
+    def test_every_face_of_every_cell_points_outward_with_mid_side_nodes_on_its_edges(self):
         grid = self.grid
         self.assertEqual(grid.GetNumberOfCells(), 8)
         for number in range(8):

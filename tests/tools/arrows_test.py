@@ -133,14 +133,14 @@ class Arrows(unittest.TestCase):
         self.assertRegex(wrong_links("dynamics", "LINKS clatter::base clatter::condense")[0], "condense, which is a stage")
         self.assertRegex(wrong_links("recover", "LINKS clatter::fe")[0], "recover uses core/fe, but may use only: ")
 
-    def test_a_foreign_header_stays_behind_files_of_one_name(self):
+    def test_a_third_party_header_is_included_only_by_files_with_its_prefix(self):
         for header, owners in HEADER_OWNERS.items():
             users = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                      if includes_header(p, header)]
             with self.subTest(header=header):
                 self.assertEqual([user for user in users if not user.startswith(tuple(owners))], [])
 
-    def test_no_header_of_ours_shows_a_foreign_type_to_others(self):
+    def test_no_header_exposes_a_third_party_type(self):
         for header, owners in HEADER_OWNERS.items():
             private = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                        if p.suffix != ".cpp" and includes_header(p, header)]

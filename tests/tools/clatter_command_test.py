@@ -73,7 +73,7 @@ class Command(unittest.TestCase):
 
 
 class Slap(unittest.TestCase):
-    def test_a_ringing_impact_is_timed_and_the_shake_below_it_is_not_heard(self):
+    def test_a_ringing_impact_is_timed_and_slow_shaking_is_excluded(self):
         with tempfile.TemporaryDirectory() as scratch:
             path = pathlib.Path(scratch) / "slap.field.h5"
             synthetic.write_field(path, amplitude=40.0, ring_hz=1800.0)

@@ -118,7 +118,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(made[0], "piston.fe.h5")
         self.assertNotIn("piston.mesh.h5", made)
 
-    def test_an_interrupted_run_is_asked_to_go_on(self):
+    def test_an_interrupted_run_is_resumed(self):
         noted = STAND_IN.replace('echo "$output" >> calls', 'echo "$output" >> calls; echo "$all" >> options')
         (self.bin / "clatter-dynamics").write_text(noted.replace("set -e", 'set -e; all="$*"'))
         self.make("slap.run.h5")
