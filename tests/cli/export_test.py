@@ -33,7 +33,7 @@ class Exported(stages.PipelineTest):
         """The files that the export of the beam's reduced part to `name` wrote."""
         return json.loads(self.run_stage("condense", "beam.rom.h5", "--export", name, "--json"))["files"]
 
-    def let_go(self):
+    def release(self):
         """The beam without its support, with enough modes for CalculiX to find ten."""
         self.edit("beam.fe.toml", '[[support]]\nsurface = "x_min"\n', "")
         self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 45")
@@ -131,7 +131,7 @@ class Calculix(Exported):
         np.testing.assert_allclose(self.calculix_hz(), ours[:4], rtol=1e-6)  # seven digits are printed
 
     def test_a_free_body_has_its_rigid_motions_at_a_thousandth_of_a_hertz(self):
-        self.let_go()
+        self.release()
         self.export("part.inp")
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         found = self.calculix_hz(count=10)
@@ -256,7 +256,7 @@ class Mbdyn(Exported):
                 np.testing.assert_array_equal(value, expected)
 
     def test_the_rigid_motions_of_a_free_body_are_left_to_the_joint(self):
-        self.let_go()
+        self.release()
         groups, _, modes = self.records()
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         self.assertEqual(modes, len(ours) - 6)

@@ -27,7 +27,7 @@ def not_covered(text):
 
 
 def cases_of(test):
-    """Cases that the name of a test carries."""
+    """Cases in the name of a test."""
     return re.findall(rf"(?:\b|_)[Hh]ard({CASE})(?=_|\b|[A-Z])", ".".join(test))
 
 
@@ -42,7 +42,7 @@ def citations(text):
 
 
 def complaints(text, tests, cited):
-    """What is wrong, one sentence each. `tests`: [(suite, case)], `cited`: {case: file that cites it}."""
+    """Inconsistencies, one sentence each. `tests`: [(suite, case)], `cited`: {case: file that cites it}."""
     listed, without = entries(text), not_covered(text)
     known = {name for suite, case in tests for name in (suite, f"{suite}.{case}")}
     wrong = []

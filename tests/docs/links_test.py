@@ -1,4 +1,4 @@
-"""Links of documents lead somewhere, and files that CONTRIBUTING.md and others name by themselves exist."""
+"""Link targets exist, and so do files that CONTRIBUTING.md and others name without a folder."""
 import re
 import unittest
 
@@ -27,7 +27,7 @@ def links(text):
 
 
 def broken(path, text):
-    """What is wrong with the links of a document, a sentence each."""
+    """Errors in the links of a document, one sentence each."""
     wrong = []
     for file, anchor in links(text):
         target = path.parent / file

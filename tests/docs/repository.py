@@ -1,4 +1,4 @@
-"""The files of the repository and the tests in them, as the tests of the documents see them."""
+"""The files of the repository and the tests in them, for the tests of the documents."""
 import ast
 import pathlib
 import re
@@ -9,7 +9,7 @@ NOT_OURS = {".git", "build", "__pycache__", ".cache"}
 
 
 def files(*suffixes):
-    """Every file of the repository that ends so, tracked or about to be; without git all but build products."""
+    """Every file of the repository with these endings, tracked or not ignored; without git all but build products."""
     asked = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, capture_output=True, text=True)
     if asked.returncode == 0 and asked.stdout:
         found = [SOURCE / line for line in asked.stdout.splitlines()]

@@ -1,4 +1,4 @@
-"""samples/beam through make: the answer, what is redone, the same bits twice."""
+"""samples/beam through make: results, what is rebuilt, bit-identical repetition."""
 import os
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""The lines of docs/formats.md that read a sparse matrix do so."""
+"""The lines of docs/formats.md that read a sparse matrix work, and its tables list every name in an artefact."""
 import os
 import pathlib
 import re
@@ -11,12 +11,12 @@ import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 
-PLACE, WORD = re.compile(r"`([^`]+)`"), re.compile(r"[\w<>/]+$")
+QUOTED, WORD = re.compile(r"`([^`]+)`"), re.compile(r"[\w<>/]+$")
 
 
 def words(text):
-    """What stands in backticks and is a name or path, "<b>" and the like as "*"."""
-    return [re.sub("<.*?>", "*", word) for word in PLACE.findall(text) if WORD.match(word)]
+    """Names and paths in backticks, with "*" for "<b>" and the like."""
+    return [re.sub("<.*?>", "*", word) for word in QUOTED.findall(text) if WORD.match(word)]
 
 
 class Document:
@@ -38,24 +38,24 @@ class Document:
 
     def read(self, text):
         for row in re.findall(r"^\| .*", text, re.M):
-            places, content = row.strip("| ").partition(" | ")[::2]
+            objects, content = row.strip("| ").partition(" | ")[::2]
             others = re.search("as in the (mesh|FE model)", content)
             last = ""
-            for place in PLACE.findall(places):
-                place = re.sub("<.*?>", "*", place)
-                last = last.rpartition("/")[0] + place if place.startswith("/") else place
+            for name in QUOTED.findall(objects):
+                name = re.sub("<.*?>", "*", name)
+                last = last.rpartition("/")[0] + name if name.startswith("/") else name
                 self.paths.add(last)
                 self.paths |= {f"{last}/{word}" for word in words(content)}
                 if others:
-                    whole = Document("mesh" if others[1] == "mesh" else "fe")
-                    self.paths |= {path for path in whole.paths if path.startswith(last.partition("/")[0])}
-                    self.attributes |= whole.attributes
+                    other = Document("mesh" if others[1] == "mesh" else "fe")
+                    self.paths |= {path for path in other.paths if path.startswith(last.partition("/")[0])}
+                    self.attributes |= other.attributes
 
     def says(self, path):
         """Whether a dataset or group of that path is in a table."""
         pattern = path.split("/")
-        return any(len(known := place.split("/")) >= len(pattern) and
-                   all(a in ("*", b) for a, b in zip(known, pattern)) for place in self.paths)
+        return any(len(known := documented.split("/")) >= len(pattern) and
+                   all(a in ("*", b) for a, b in zip(known, pattern)) for documented in self.paths)
 
 
 class Formats(stages.PipelineTest):
@@ -95,7 +95,7 @@ class Formats(stages.PipelineTest):
                 self.assertTrue(np.all(file["timing/seconds"][()] >= 0))
 
     def names(self, path):
-        """(what, whether the document says it) of all groups, datasets, attributes and certificate keys of a file."""
+        """(name, whether it is in the document) of all groups, datasets, attributes and certificate keys of a file."""
         document, found = Document(path.name.split(".")[1]), []
 
         def look(name, item):

@@ -1,4 +1,4 @@
-"""Methods of the condensation from TOML to files, beside SciPy: own modes, load shapes, modal damping."""
+"""Methods of the condensation from TOML to files, compared with SciPy: own modes, load shapes, modal damping."""
 import pathlib
 import sys
 import tempfile

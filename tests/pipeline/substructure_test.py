@@ -1,9 +1,9 @@
 """Guyan's matrix of CalculiX's own deck `substructure`: a cantilever of C3D20R of which 20 nodes are retained.
 
-The installed CalculiX 2.20 does not condense: what its *SUBSTRUCTURE GENERATE prints for this deck is K_bb, the
-stiffness of the retained nodes with all others held (and the package's reference file is empty). So the condensed
-matrix is compared with what its manual calls it: the reactions to unit displacements, from 60 static steps; and with
-CalculiX's K, taken in by [matrices] and condensed here.
+The installed CalculiX 2.20 does not condense: its *SUBSTRUCTURE GENERATE prints K_bb for this deck, the stiffness
+of the retained nodes with all others held (and the package's reference file is empty). So the condensed matrix
+is compared with its definition in the manual: the reactions to unit displacements, from 60 static steps; and with
+CalculiX's K, read by [matrices] and condensed by clatter.
 """
 import gzip
 import pathlib
@@ -20,12 +20,12 @@ import scipy.sparse as sp  # noqa: E402
 import stages  # noqa: E402
 
 DECK = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test/substructure.inp.gz")
-NEWTON_PER_MILLIMETRE = 1e3  # CalculiX's K is in N/mm, ours in N/m
+NEWTON_PER_MILLIMETRE = 1e3  # CalculiX's K is in N/mm, clatter's in N/m
 ROM = 'method = "guyan"\nboundary = ["retained"]\nskin = []\n'
 
 
 def symmetric(group):
-    """The full matrix of a sparse group that holds the lower triangle."""
+    """The full matrix of a sparse group that contains the lower triangle."""
     lower = sp.csc_matrix((group["data"][()], group["indices"][()], group["indptr"][()]), shape=group.attrs["shape"])
     lower = lower.toarray()
     return lower + np.tril(lower, -1).T

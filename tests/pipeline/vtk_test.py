@@ -1,4 +1,4 @@
-"""VTK's own cells find volumes and outward faces in an exported .vtu of every cell type."""
+"""VTK's cells have positive volumes and outward faces in an exported .vtu of every cell type."""
 import pathlib
 import shutil
 import sys
@@ -16,7 +16,7 @@ try:
 except ImportError:
     vtk = None
 
-# Nastran's cells: corners, and edges in the order of its middle nodes.
+# Nastran's cells: corners, and edges in the order of its mid-side nodes.
 CELLS = {
     "CTETRA": ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]),
     "CHEXA": ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],

@@ -1,4 +1,4 @@
-"""clatter.mk: what is redone and what is not, with stand-ins for the stages that note each call."""
+"""clatter.mk: what is rebuilt and what is not, with stand-ins for the stages that record each call."""
 import os
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import unittest
 RULES = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter.mk"
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
 
-# Reads every input, writes the output through a part file, notes the call; fails when told to.
+# Reads every input, writes the output through a part file, records the call; fails on request.
 STAND_IN = """#!/bin/bash
 set -e
 inputs=()

@@ -1,11 +1,11 @@
-"""The decks of calculix_decks.py: what each shows, how near it must come, and why others are refused."""
+"""The decks of calculix_decks.py: what each shows, its tolerance, and why others are refused."""
 
 PRINTED = 6e-7  # seven digits are printed
 
-ROUNDED = 2e-5  # sides of a sector lie on each other to six digits
+ROUNDED = 2e-5  # the sides of a sector coincide to six digits
 RING = "the sector is expanded to the ring: CalculiX's frequencies of some nodal diameters are among clatter's of all"
 
-# name, what it shows, largest error allowed, words for one that is larger than the digits printed
+# name, what it shows, largest error allowed, reason for an error above the printed digits
 CASES = [
     ("beam8p", "C3D8, forces", PRINTED, ""),
     ("beam10p", "C3D10, forces", PRINTED, ""),
@@ -64,7 +64,7 @@ CASES = [
     ("segststate", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
 ]
 
-# Why decks are refused: a deck counts once, for the first line that one of its refusals fits.
+# Why decks are refused: a deck counts once, for the first row that matches one of its errors.
 CAUSES = [
     ("networks of fluids, fluid cells", r"element type (D|F3D\w*) "),
     ("shells, membranes", r"element type (S|M3D)\d"),
@@ -89,8 +89,8 @@ CAUSES = [
     ("constants that depend on the temperature in steps that change it", r"depend on the temperature|change it"),
 ]
 RINGS = ("segment", "segmentface", "segdyn", "segststate")
-SECTORS = 12  # of all of them
-# The same, beside the installed ccx.
+SECTORS = 12  # of each of them
+# The same, compared with the installed ccx.
 INSTALLED = [
     ("mpcforce", "equations across two materials", PRINTED, ""),
     ("segmentm", "transform, equations", PRINTED, ""),
@@ -104,7 +104,7 @@ INSTALLED = [
     ("beamf2", "first step: forces", PRINTED, "frequencies under load are left out"),
 ]
 SMALL = "CalculiX at 1e-5 of the load: with these *MPC it includes large displacements with and without NLGEOM"
-# The same, NLGEOM let go on both sides.
+# The same, with NLGEOM ignored by both programs.
 LINEAR = [
     ("beamnlp", "forces", PRINTED, ""),
     ("beamnlptp", "forces", PRINTED, ""),
@@ -124,10 +124,10 @@ LINEAR = [
     ("rotor", "first step: centrifugal force, curved C3D20R", 1e-2, "as segment1; frequencies under load are left out"),
     ("dloadlinI", "C3D8I, pressure", 3e-6, "read with --ignore 'EXTRA NODES'; as dloadlinIf"),
 ]
-# Loads of the decks of SMALL, as they stand and a hundred thousandth of it.
+# Loads of the decks of SMALL, in the deck and scaled by 1e-5.
 SMALL_LOADS = {"beamplane": ("22,2,200.", "22,2,.002"), "beamstraight": ("22,2,200.", "22,2,.002")}
 
-# Words that a deck needs beside its own, as the user writes them after --ignore.
+# Arguments of --ignore that a deck needs.
 IGNORE = {
     "dloadlinI": ("EXTRA NODES", "NLGEOM"),
     "dloadlinIf": ("EXTRA NODES",),

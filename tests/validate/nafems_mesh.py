@@ -1,7 +1,7 @@
 """Structured meshes of the NAFEMS benchmarks as Abaqus decks.
 
-A grid of bricks on the unit cube is cut into cells and mapped to the part. Every node has three whole numbers: its place
-in a grid twice as fine, where corners are even and the middle of an edge is the mean of its ends.
+A grid of bricks on the unit cube is cut into cells and mapped to the part. Every node has three integers: its indices in
+a grid twice as fine, where corners are even and a mid-side node is the mean of the ends of its edge.
 """
 import itertools
 
@@ -27,7 +27,7 @@ def tetrahedra():
     return cells
 
 
-# Cells of a brick, edges with middle nodes.
+# Cells of a brick, edges with mid-side nodes.
 SHAPES = {
     "C3D8": ([BRICK], []),
     "C3D8I": ([BRICK], []),
@@ -39,7 +39,7 @@ SHAPES = {
 
 
 class Grid:
-    """nodes: {place in the fine grid: number}; cells: lists of places, in Abaqus' order."""
+    """nodes: {indices in the fine grid: number}; cells: lists of such indices, in Abaqus' order."""
 
     def __init__(self, kind, bricks, to_part):
         self.kind, self.to_part = kind, to_part
@@ -56,7 +56,7 @@ class Grid:
                     self.nodes.setdefault(place, len(self.nodes) + 1)
 
     def where(self, holds):
-        """Numbers of the nodes whose place (i, j, k) in the fine grid fulfils holds(place, last)."""
+        """Numbers of the nodes whose indices (i, j, k) in the fine grid fulfil holds(indices, last)."""
         return [number for place, number in self.nodes.items() if holds(place, self.fine)]
 
     def upper_faces(self):
@@ -108,8 +108,8 @@ def hard_plate(kind, bricks):
 
 
 def membrane(kind, bricks):
-    """FV32: 10 m long, 5 m wide at the held root, 1 m at the tip, 0.05 m thick. One face is kept in its plane and the other
-    is free, so that stress across the thickness is zero: half of a plate that moves in its plane alone."""
+    """FV32: 10 m long, 5 m wide at the held root, 1 m at the tip, 0.05 m thick. One face is held in its plane and the other
+    is free, so that stress across the thickness is zero: half of a plate that moves only in its plane."""
     grid = Grid(kind, bricks, lambda x, y, z: (10 * x, (y - 0.5) * (5 - 4 * x), 0.05 * z))
     root = grid.where(lambda p, last: p[0] == 0)
     face = grid.where(lambda p, last: p[2] == 0)
