@@ -35,9 +35,9 @@ def draw(results, limit, path):
 
 def draw_series(axis, points, series, error, colour):
     """A line through the points, each with its number of coordinates."""
-    legend, marker, place = SERIES[series]
+    legend, marker, text_options = SERIES[series]
     axis.plot([r["processor_seconds"] for r in points], [error(r) for r in points], marker=marker, color=colour, label=legend,
               linestyle="-" if len(points) > 1 else "none")
     for r in points:
         axis.annotate(str(r["coordinates"]), (r["processor_seconds"], error(r)), textcoords="offset points", fontsize=8,
-                      color=colour, **place)
+                      color=colour, **text_options)

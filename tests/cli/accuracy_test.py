@@ -32,17 +32,17 @@ class SmallMotion(stages.PipelineTest):
 
     def test_the_warning_has_the_size_of_the_error_and_its_advice_helps(self):
         reference, _ = self.response(1e-7, step_us=1.0)
-        found, said = self.response(1e-7)
-        percent, scale = map(float, re.search(r"beam: .*off by about (\S+) %.*velocity_m_s = (\S+) there", said).groups())
+        found, warning = self.response(1e-7)
+        percent, scale = map(float, re.search(r"beam: .*off by about (\S+) %.*velocity_m_s = (\S+) there", warning).groups())
         actual = 100.0 * self.error(found, reference)
-        print(f"    stated {percent} %, found {actual:.2f} %: {said}")
+        print(f"    stated {percent} %, found {actual:.2f} %: {warning}")
         self.assertGreater(actual, 2.0)
         # The estimate adds all local errors in phase: an upper bound, by less than three for a beam that rings in a few modes.
         self.assertTrue(0.9 * actual < percent < 3.0 * actual, (percent, actual))
-        found, said = self.response(1e-7, f"\n[accuracy]\nvelocity_m_s = {scale}\n")
+        found, warning = self.response(1e-7, f"\n[accuracy]\nvelocity_m_s = {scale}\n")
         actual = 100.0 * self.error(found, reference)
         print(f"    with the advice {actual:.2f} %")
-        self.assertEqual(said, "")
+        self.assertEqual(warning, "")
         self.assertLess(actual, 1.0)
 
     def test_motions_well_above_the_tolerance_give_no_warning(self):

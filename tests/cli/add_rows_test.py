@@ -50,8 +50,8 @@ class RowsTest(stages.PipelineTest):
 class AddRows(RowsTest):
     def test_rows_added_later_are_those_requested_at_once(self):
         self.condense("once.rom.h5", 'skin = ["z_max", "y_max"]', 'rows = ["sensor_side"]')
-        said = self.add("--surface", "y_max", "--set", "sensor_side", "--json")
-        self.assertLessEqual(json.loads(said.stdout)["rows_added_error"], SAME)
+        done = self.add("--surface", "y_max", "--set", "sensor_side", "--json")
+        self.assertLessEqual(json.loads(done.stdout)["rows_added_error"], SAME)
         self.assert_same_rows("more.rom.h5", "once.rom.h5")
 
     def test_one_after_the_other_is_the_same_as_both_and_what_is_there_stays(self):

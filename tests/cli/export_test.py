@@ -121,7 +121,7 @@ class Calculix(Exported):
         rows = [line.split() for line in lines if len(line.split()) == 5 and line.split()[0].isdigit()]
         return np.array([float(row[3]) for row in rows[:count]])
 
-    def places(self):
+    def nodes_and_components(self):
         """(node, component) of each row as the head of the deck lists them."""
         head = [line.split() for line in (self.folder / "part.inp").read_text().splitlines() if line.startswith("** ")]
         return [(int(row[2]), int(row[3])) for row in head if len(row) > 3 and all(w.isdigit() for w in row[1:4])]
@@ -140,8 +140,8 @@ class Calculix(Exported):
 
     def test_what_is_joined_to_the_part_in_calculix_acts_on_our_coordinate(self):
         K, M = reduced_matrices(self.folder / "beam.rom.h5")
-        row = next(j for j, place in enumerate(self.places()) if place[1] == 3)  # a displacement along z
-        node, component = self.places()[row]
+        row = next(j for j, (_, component) in enumerate(self.nodes_and_components()) if component == 3)  # a displacement along z
+        node, component = self.nodes_and_components()[row]
         K[row, row] += 2.0e6
         spring = f"*ELEMENT,TYPE=SPRING1,ELSET=EXTRA\n99999,{node}\n*SPRING,ELSET=EXTRA\n{component}\n2.e6\n"
         ours = frequencies(K, M)
@@ -149,7 +149,7 @@ class Calculix(Exported):
         np.testing.assert_allclose(self.calculix_hz(spring), ours[:4], rtol=1e-6)
 
     def test_the_matrix_lists_hold_the_same_bits(self):
-        row_of = {place: j for j, place in enumerate(self.places())}
+        row_of = {key: j for j, key in enumerate(self.nodes_and_components())}
         for name, matrix in zip("KM", reduced_matrices(self.folder / "beam.rom.h5")):
             read = np.zeros_like(matrix)
             for line in (self.folder / f"part.{name}.txt").read_text().splitlines():
@@ -172,8 +172,8 @@ def read_bulk(text):
             column = (fields[0], (int(fields[1]), int(fields[2])))
         elif line.startswith("GRID*"):
             column, following = None, lines[k + 1]
-            place = [number(fields[2]), number(fields[3]), number(following[8:24])]
-            grids[int(fields[0])] = (place, following[40:56].strip())
+            position = [number(fields[2]), number(fields[3]), number(following[8:24])]
+            grids[int(fields[0])] = (position, following[40:56].strip())
         elif line.startswith("SPOINT"):
             spoints.append(int(line[8:16]))
         elif line.startswith("*") and column:
@@ -208,8 +208,8 @@ class NastranDmig(Exported):
         for row in self.map:
             if row[2] != "0":
                 moved.setdefault(int(row[1]), set()).add(row[2])
-                place, constrained = grids[int(row[1])]
-                np.testing.assert_allclose(place, [float(x) for x in row[4:7]], rtol=5e-10)
+                position, constrained = grids[int(row[1])]
+                np.testing.assert_allclose(position, [float(x) for x in row[4:7]], rtol=5e-10)
         self.assertEqual(moved.keys(), grids.keys())
         for node, components in moved.items():
             self.assertEqual(set("123456") - components, set(grids[node][1]))

@@ -68,7 +68,7 @@ class Faces(OfATube):
         self.assertIn("tube.step: written in mm", done.stderr)
         done = self.mesh("--faces", "tube.step", "--json")
         self.assertEqual(len(done.stdout.splitlines()), 1)
-        self.assertIn("place [mm]", done.stderr)  # the table is still printed
+        self.assertIn("place [mm]", done.stderr)  # the table is still there to read
         faces = json.loads(done.stdout)["faces"]
         kinds = sorted((face["kind"], face["concave"], round(face["radius"], 6)) for face in faces
                        if face["kind"] == "cylinder")
@@ -127,10 +127,10 @@ class Faces(OfATube):
         from clatter_tools.plots import faces
         ids = np.zeros((12, 9), int)
         ids[2:9, 2:7] = 7
-        whole, light = ids.copy(), np.where(ids > 0, 0.5, 0.0)
+        complete, light = ids.copy(), np.where(ids > 0, 0.5, 0.0)
         ids[5, 4], ids[0, 7] = 0, 9
         found, bright = faces.without_specks(ids, np.where(ids == 7, 0.5, 0.0))
-        np.testing.assert_array_equal(found, whole)
+        np.testing.assert_array_equal(found, complete)
         np.testing.assert_array_equal(bright, light)
 
     def test_each_face_has_its_number_where_it_is_seen(self):

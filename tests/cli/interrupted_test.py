@@ -49,12 +49,12 @@ class HardN11Terminated(stages.PipelineTest):
                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             time.sleep(wait)  # until time stepping; before that the signal ends it like any program
             process.terminate()
-            said = process.communicate()[1]
+            messages = process.communicate()[1]
             self.assertEqual(list(self.folder.glob("*.part")), [])
             if process.returncode != -signal.SIGTERM:
                 break
-        self.assertEqual(process.returncode, 3, said)
-        self.assertIn("step.run.interrupted.h5", said)
+        self.assertEqual(process.returncode, 3, messages)
+        self.assertIn("step.run.interrupted.h5", messages)
         with h5py.File(self.folder / "step.run.interrupted.h5") as run:
             self.assertEqual(run.attrs["complete"], 0)
             self.assertGreater(len(run["output/time"]), 0)
@@ -78,14 +78,14 @@ class HardH2DiskFull(stages.PipelineTest):
 
     def small_disk(self):
         """A file system of 1 MB in the test's folder; the test is skipped where none can be mounted."""
-        place = self.folder / "small"
-        place.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", place], capture_output=True,
+        mount_point = self.folder / "small"
+        mount_point.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", mount_point], capture_output=True,
                                  text=True) if shutil.which("mount") else None
         if mounted is None or mounted.returncode != 0:
             self.skipTest("a 1 MB file system cannot be mounted here: needs root")
-        self.addCleanup(subprocess.run, ["umount", place], check=True)
-        return place
+        self.addCleanup(subprocess.run, ["umount", mount_point], check=True)
+        return mount_point
 
     def test_a_folder_that_does_not_exist(self):
         for stage in stages.STAGES:

@@ -102,8 +102,8 @@ class HardN18OutputEqualsInput(OutputTest):
 class HardN18InputsNamedInFiles(OutputTest):
     """Inputs named in a TOML file, a deck or a run are checked once that is read, before any work."""
 
-    def refuse_named(self, stage, inputs, output, place, option="--depfile"):
-        self.refuse(stage, self.with_output(stage, option, f"./{output}", inputs), ["would overwrite the input", output, place])
+    def refuse_named(self, stage, inputs, output, named_in, option="--depfile"):
+        self.refuse(stage, self.with_output(stage, option, f"./{output}", inputs), ["would overwrite the input", output, named_in])
 
     def test_geometry_and_decks(self):
         done = stages.run_stage("mesh", "beam.mesh.toml", "-o", "b.mesh.h5", "--write-step", "b.step", "--export", "b.inp",
@@ -130,10 +130,10 @@ class HardN18InputsNamedInFiles(OutputTest):
         self.edit("step.run.toml", "value = 100.0", 'table = "force.csv"')
         (self.folder / "force.csv").write_text("time [s], force [N]\n0, 1\n1, 1\n")
         (self.folder / "over.run.toml").write_text('base = "step.run.toml"\n')
-        for name, place in (("beam.rom.h5", "rom"), ("force.csv", "table"), ("step.run.toml", "command line")):
+        for name, named_in in (("beam.rom.h5", "rom"), ("force.csv", "table"), ("step.run.toml", "command line")):
             for option in ("-o", "--depfile"):
                 with self.subTest(name=name, option=option):
-                    self.refuse_named("dynamics", ["over.run.toml"], name, place, option)
+                    self.refuse_named("dynamics", ["over.run.toml"], name, named_in, option)
 
     def test_the_reduced_model_that_a_run_names(self):
         for option in ("-o", "--depfile"):
@@ -164,15 +164,15 @@ class HardN11OutputPlaces(OutputTest):
         self.refuse_place("/dev/null", ["device"])
 
     def test_a_folder_without_permission(self):
-        place = self.folder / "locked"
-        place.mkdir()
+        folder = self.folder / "locked"
+        folder.mkdir()
         if os.geteuid() == 0:  # root may write everywhere but on a file system that is read-only
-            mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "ro,size=1m", "tmpfs", place], capture_output=True)
+            mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "ro,size=1m", "tmpfs", folder], capture_output=True)
             if mounted.returncode != 0:
                 self.skipTest("root, and no read-only file system can be mounted here")
-            self.addCleanup(subprocess.run, ["umount", place], check=True)
+            self.addCleanup(subprocess.run, ["umount", folder], check=True)
         else:
-            place.chmod(0o555)
+            folder.chmod(0o555)
         self.refuse_place("locked/out.vtu", ["Read-only file system" if os.geteuid() == 0 else "Permission denied"])
 
     @unittest.skipIf(os.geteuid() == 0, "root may overwrite every file")

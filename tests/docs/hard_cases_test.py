@@ -59,7 +59,7 @@ def complaints(text, tests, cited):
             if not {suite, f"{suite}.{name}"} & set(listed.get(case, [])):
                 wrong.append(f"the test {suite}.{name} is not named under {case}" if case in listed
                              else f"the test {suite}.{name} is named after {case}, which has no entry")
-    wrong += [f"{place} cites hard case {case}, which is not in the list" for case, place in sorted(cited.items())
+    wrong += [f"{path} cites hard case {case}, which is not in the list" for case, path in sorted(cited.items())
               if case not in listed and case not in without]
     return wrong
 
@@ -86,7 +86,7 @@ class HardCases(unittest.TestCase):
         for path in repository.files(".cpp", ".hpp", ".py", ".md", ".txt", ".cmake"):
             text = path.read_text()
             for match in re.finditer(r"(\S*)hard-cases\.md", text):
-                with self.subTest(place=repository.place(path, text, match.start())):
+                with self.subTest(line=repository.line_of(path, text, match.start())):
                     self.assertTrue(match[1].endswith("docs/") or path.parent == LIST.parent, match[0])
 
     def test_errors_are_reported(self):

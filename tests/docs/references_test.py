@@ -120,9 +120,9 @@ def complaints(listed, found, text):
                    and not (field == "pages" and entry["key"] in NO_PAGES)]
         if missing:
             wrong.append(f"{entry['key']} lacks {', '.join(missing)}")
-    for (first, year), places in sorted(found.items()):
+    for (first, year), found_in in sorted(found.items()):
         if (first, year) not in known:
-            wrong.append(f"{places[0][0]} cites '{places[0][1].strip()}', which has no entry of {first} {year}")
+            wrong.append(f"{found_in[0][0]} cites '{found_in[0][1].strip()}', which has no entry of {first} {year}")
     wrong += [f"{entry['key']} is cited nowhere" for author_year, group in known.items() for entry in group
               if author_year not in found and not ("keywords" in entry and by_name(entry, text))]
     return wrong
@@ -167,7 +167,7 @@ class References(unittest.TestCase):
 
 if __name__ == "__main__":
     if "--list" in sys.argv:
-        for (first, year), places in sorted(cited(proses()).items()):
-            print(f"{first} {year}: {places[0][1]}   [{', '.join(sorted({place for place, _ in places}))}]")
+        for (first, year), found_in in sorted(cited(proses()).items()):
+            print(f"{first} {year}: {found_in[0][1]}   [{', '.join(sorted({where for where, _ in found_in}))}]")
         sys.exit()
     unittest.main(verbosity=2)

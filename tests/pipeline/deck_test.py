@@ -291,9 +291,9 @@ class Refused(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             lines = done.stderr.strip().splitlines()
             self.assertEqual(lines[0], "clatter-mesh: error: 3 refusals:")
-            places = {text: deck[:deck.index(text)].count("\n") + 1 for text in ("*CONTACT PAIR", "2, 7, 1.", "CUBE, P8")}
-            for line, place in zip(lines[1:], places.values()):
-                self.assertTrue(line.startswith(f"  cube.inp:{place}: "), line)
+            line_of = {text: deck[:deck.index(text)].count("\n") + 1 for text in ("*CONTACT PAIR", "2, 7, 1.", "CUBE, P8")}
+            for line, number in zip(lines[1:], line_of.values()):
+                self.assertTrue(line.startswith(f"  cube.inp:{number}: "), line)
             self.assertEqual(len(lines), 4)
             self.assertEqual([p.name for p in pathlib.Path(folder).iterdir()], ["cube.inp"])
 

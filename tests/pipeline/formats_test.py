@@ -132,7 +132,7 @@ class Formats(stages.PipelineTest):
             with self.subTest(artefact=path.name):
                 names = self.names(path)
                 self.assertGreater(len(names), 10)
-                self.assertEqual([name for name, said in names if not said], [])
+                self.assertEqual([name for name, documented in names if not documented], [])
                 kinds.add(path.name.split(".")[1])
         self.assertEqual(kinds, {schema.split("/")[1] for schema in self.documented_schemas()})
 

@@ -39,10 +39,10 @@ def placed(cell, kind):
         corners = corners + random.uniform(-0.15, 0.15, corners.shape)
     if cell.order == 1:
         return corners
-    middles = np.array(reference.middles(cell.shape, corners))
+    mid_sides = np.array(reference.mid_sides(cell.shape, corners))
     if kind == "curved":
-        middles += random.uniform(-0.05, 0.05, middles.shape)
-    return np.vstack([corners, middles])
+        mid_sides += random.uniform(-0.05, 0.05, mid_sides.shape)
+    return np.vstack([corners, mid_sides])
 
 
 def deck(name, x):

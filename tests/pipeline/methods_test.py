@@ -73,7 +73,7 @@ class Methods(unittest.TestCase):
 
     def condense(self, text):
         (self.folder / "beam.rom.toml").write_text('boundary = ["tip"]\n' + text)
-        self.said = self.stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
+        self.output = self.stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
         return h5py.File(self.folder / "beam.rom.h5")
 
     def test_own_modes_have_the_frequencies_that_scipy_finds_in_the_full_model(self):
@@ -95,17 +95,17 @@ class Methods(unittest.TestCase):
             values = scipy.linalg.eigh(rom["K_rr"][()], rom["M_rr"][()], eigvals_only=True)
         found = np.sqrt(values) / (2 * np.pi)
         self.assertLess(np.abs(found[:10] / full[:10] - 1).max(), 0.005)
-        self.assertIn("picked a cut-off", self.said)
+        self.assertIn("picked a cut-off", self.output)
 
     def test_the_static_answer_to_a_load_in_the_basis_is_that_of_scipys_lu(self):
         full = (self.T @ sparse_linalg.splu(self.K).solve(self.top)).reshape(-1, 3)
-        place = {tuple(node): k for k, node in enumerate(self.nodes)}
+        row = {tuple(node): k for k, node in enumerate(self.nodes)}
         errors = []
         for shapes in ("", 'load_shapes = ["top"]\n'):
             with self.condense(f"count = 3\n{shapes}") as rom:
                 q = np.linalg.solve(rom["K_rr"][()], rom["loads/top"][()])
                 skin, u = rom["skin/nodes"][()], (rom["skin/T"][()] @ q).reshape(-1, 3)
-            same = np.array([(k, place[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in place])
+            same = np.array([(k, row[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in row])
             self.assertGreater(len(same), 100)
             difference = u[same[:, 0]] - full[same[:, 1]]
             errors.append(np.linalg.norm(difference, axis=1).max() / np.linalg.norm(full, axis=1).max())
@@ -117,7 +117,7 @@ class Methods(unittest.TestCase):
                            "ratio = 0.05\n") as rom:
             M, K = rom["M_rr"][()], rom["K_rr"][()]
             alpha, force = rom.attrs["alpha"], 100.0 * rom["loads/tip_force"][()]
-        self.assertIn("alpha and beta add to it", self.said)
+        self.assertIn("alpha and beta add to it", self.output)
         values, shapes = scipy.linalg.eigh(K, M)
         # The mode that the force moves most, alone: x'' + 2 zeta w x' + w^2 (x - x_s) = 0.
         k = np.argmax(np.abs(shapes.T @ force) / values)

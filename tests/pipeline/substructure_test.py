@@ -45,7 +45,7 @@ class Substructure(stages.PipelineTest):
         cls.text = text.replace("*SOLID SECTION", "*DENSITY\n7.8E-9\n*SOLID SECTION")
         cls.model = cls.text[:cls.text.index("*STEP")]
         block = re.search(r"\*NODE\n(.*?)\n\*", cls.model, re.S).group(1)
-        cls.place = {int(row[0]): np.array(row[1:]) for row in numbers(block.splitlines())}
+        cls.position = {int(row[0]): np.array(row[1:]) for row in numbers(block.splitlines())}
         block = re.search(r"NSET=N1\n(.*)", cls.model, re.S).group(1)
         cls.retained = [int(node) for row in numbers(block.splitlines()) for node in row]
 
@@ -75,7 +75,7 @@ class Substructure(stages.PipelineTest):
         position, direction = dofs["position"][()] * 1e3, dofs["direction"][()]
         order = []
         for node in self.retained:
-            near = np.linalg.norm(position - self.place[node], axis=1) < 1e-9
+            near = np.linalg.norm(position - self.position[node], axis=1) < 1e-9
             order += [int(np.flatnonzero(near & (direction[:, axis] == 1.0))[0]) for axis in range(3)]
         return dofs["dofs"][()][order]
 
@@ -126,9 +126,9 @@ class Substructure(stages.PipelineTest):
                 ["%%MatrixMarket matrix coordinate real symmetric", f"{len(dofs)} {len(dofs)} {len(turned)}", *turned, ""]))
         rows = []
         for i, (node, axis) in enumerate(dofs):
-            place, direction = self.place[node] * 1e-3, np.eye(3)[axis - 1]
+            position, direction = self.position[node] * 1e-3, np.eye(3)[axis - 1]
             name = ["retained", f"{node}.{axis}"] if node in self.retained else ["", ""]
-            rows.append("\t".join(map(str, [i + 1, node, axis, "displacement", *place, *direction, *name])))
+            rows.append("\t".join(map(str, [i + 1, node, axis, "displacement", *position, *direction, *name])))
         (self.folder / "stored.dofs.tsv").write_text("\n".join(rows) + "\n")
         (self.folder / "stored.fe.toml").write_text(
             '[matrices]\nK = "stored.K.mtx"\nM = "stored.M.mtx"\ndofs = "stored.dofs.tsv"\nunits = "mm-t-s"\n')

@@ -30,18 +30,18 @@ CELLS = {
 
 def deck():
     """One linear and one quadratic cell of each kind, apart from one another."""
-    grids, cells, place = [], [], 0
+    grids, cells, offset = [], [], 0
     for card, (corners, edges) in CELLS.items():
         for order in (1, 2):
             points = [np.array(corner, float) for corner in corners]
             if order == 2:
                 points += [(points[a] + points[b]) / 2 for a, b in edges]
             first = len(grids) + 1
-            grids += [f"GRID,{first + i},,{x + 2 * place},{y},{z}" for i, (x, y, z) in enumerate(points)]
+            grids += [f"GRID,{first + i},,{x + 2 * offset},{y},{z}" for i, (x, y, z) in enumerate(points)]
             fields = [card, len(cells) + 1, 1, *range(first, first + len(points))]
             lines = [fields[:9]] + [["", *fields[k:k + 8]] for k in range(9, len(fields), 8)]
             cells.append("\n".join(",".join(map(str, line)) for line in lines))
-            place += 1
+            offset += 1
     return "\n".join(["BEGIN BULK", "$ clatter set 7 FEW & <OTHERS>", "SET1,7,1,5,9", *grids, *cells, "PSOLID,1,1", "MAT1,1,1.0,,0.3,1.0", "ENDDATA", ""])
 
 

@@ -49,21 +49,21 @@ class Grid:
         for first in itertools.product(*map(range, bricks)):
             for part in parts:
                 corners = 2 * (np.array(first) + part)
-                middles = [(corners[a] + corners[b]) // 2 for a, b in edges]
-                cell = [tuple(map(int, place)) for place in (*corners, *middles)]
+                mid_sides = [(corners[a] + corners[b]) // 2 for a, b in edges]
+                cell = [tuple(map(int, indices)) for indices in (*corners, *mid_sides)]
                 self.cells.append(cell)
-                for place in cell:
-                    self.nodes.setdefault(place, len(self.nodes) + 1)
+                for indices in cell:
+                    self.nodes.setdefault(indices, len(self.nodes) + 1)
 
     def where(self, holds):
         """Numbers of the nodes whose indices (i, j, k) in the fine grid fulfil holds(indices, last)."""
-        return [number for place, number in self.nodes.items() if holds(place, self.fine)]
+        return [number for indices, number in self.nodes.items() if holds(indices, self.fine)]
 
     def upper_faces(self):
         """(cell number, face label) of the faces on the upper side of the grid."""
         faces = []
         for number, cell in enumerate(self.cells, 1):
-            above = [place[2] == self.fine[2] for place in cell]
+            above = [indices[2] == self.fine[2] for indices in cell]
             if self.kind == "C3D10":
                 faces += [(number, f"P{f}") for f, face in enumerate(TET_FACES, 1) if all(above[i] for i in face)]
             elif above[7 if self.kind != "C3D15" else 3]:
@@ -73,12 +73,12 @@ class Grid:
     def deck(self, youngs, density, held, pressure=0.0):
         """An Abaqus deck. `held`: (node numbers, first direction, last direction) of each support."""
         lines = ["*NODE"]
-        for place, number in self.nodes.items():
-            x, y, z = self.to_part(*(np.array(place) / self.fine))
+        for indices, number in self.nodes.items():
+            x, y, z = self.to_part(*(np.array(indices) / self.fine))
             lines.append(f"{number}, {x:.15g}, {y:.15g}, {z:.15g}")
         lines.append(f"*ELEMENT, TYPE={self.kind}, ELSET=BODY")
         for number, cell in enumerate(self.cells, 1):
-            words = [number, *(self.nodes[place] for place in cell)]
+            words = [number, *(self.nodes[indices] for indices in cell)]
             lines += [", ".join(map(str, words[i:i + 10])) + ("," if i + 10 < len(words) else "")
                       for i in range(0, len(words), 10)]
         lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{youngs}, 0.3", "*DENSITY", f"{density}",
