@@ -1,19 +1,20 @@
 #!/usr/bin/python3
-"""Modes and condensation of the free truck-diesel block beside what Debian installs, on the same matrices, under the
-same BLAS setting. Rows (--rows):
+"""Modes and condensation of the free truck-diesel block compared with programs that Debian packages, on the same
+matrices, with the same BLAS setting. Rows (--rows):
 
-  modes        50 modes, 118 000 displacements: clatter (count proved and not), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
+  modes        50 modes, 118 000 displacements: clatter (with and without proof of the count), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
                slicing (which counts), plain CHOLMOD+ARPACK (bench/cholmod_arpack.cpp)
   modes_large  100 modes to 1e-9, 635 000 displacements, without CalculiX and SciPy
-  amls         1000 modes at 0.5 %, 1.3 million displacements, and what the inertia counts below the last of them
+  amls         1000 modes at 0.5 %, 1.3 million displacements, and the inertia counts at the last of them
   condense     2000 static coordinates and 500 modes, 660 000 displacements, 60 000 rows kept (deck, pan flange and
-               bores); CalculiX's *SUBSTRUCTURE beside clatter at --substructure displacements (K alone)
+               bores); also CalculiX's *SUBSTRUCTURE at --substructure displacements (K alone)
   growth       fill, flops and seconds of one factorisation at 50 to 700 thousand displacements; below 112 thousand the
                block has fewer cylinders, since the walls of four need that many
   threads      seconds of a factorisation with one thread and with all (hard case C8)
 
-Seconds are wall time of complete processes, median of the runs (SciPy and CalculiX: one); memory is the peak of the process. "bound" is the flops of
-one factorisation (of two where the count is proved) over the measured rate of a matrix product, without the solves.
+Seconds are wall time of complete processes, median of the runs (SciPy and CalculiX: one); memory is the peak of the
+process. "bound" is the flops of one factorisation (of two where the count is proved) over the measured rate of a matrix
+product, without the solves.
 Needs `ninja -C build/release bench_programs`, and for SLEPc the packages python3-slepc4py-real3.18 and
 python3-petsc4py-real3.18 (its rows say "failed" without them).
 """

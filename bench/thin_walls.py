@@ -2,7 +2,7 @@
 """Thin walls, nearly incompressible materials and jumps of stiffness: solves and seconds of the three eigen-solvers,
 and strips under a tip load against the closed form.
 
-Sheets of C3D20 of 200 x 200 mm from 5 to 0.1 mm beside a cube, the cube with Poisson's ratio up to .499999, a sandwich
+Sheets of C3D20 of 200 x 200 mm from 5 to 0.1 mm and a cube, the cube with Poisson's ratio up to .499999, a sandwich
 with a soft middle layer; 20 lowest modes of the free parts. --before names the bin folder of an older build for
 comparison. Strips 20 mm wide, clamped at one end, nu = 0: P l^3 / 3 E I.
 """

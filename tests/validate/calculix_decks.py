@@ -8,8 +8,8 @@
 Each deck is read, assembled and solved by the executables alone; the results are compared with the frequencies or
 the nodal displacements printed in the .dat.ref (or .frd.ref) file: the largest difference over the largest value.
 Of decks with several steps the first one is compared. Where the reference prints nothing that clatter computes (only
-stresses, for example), the installed ccx runs the same deck up to its first step with *NODE PRINT, U added. Decks with NLGEOM
-are read with --ignore NLGEOM, and the installed ccx runs them without that parameter: linear against linear.
+stresses, for example), the installed ccx runs the same deck up to its first step with *NODE PRINT, U added. Decks with
+NLGEOM are read with --ignore NLGEOM, and the installed ccx runs them without that parameter: linear against linear.
 """
 import collections
 import gzip
