@@ -2,7 +2,7 @@
 """Modes and condensation of the free truck-diesel block compared with programs that Debian packages, on the same
 matrices, with the same BLAS setting. Rows (--rows):
 
-  modes        50 modes, 118 000 displacements: clatter (with and without proof of the count), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
+  modes        50 modes, 118 000 displacements: clatter (count proved or not), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
                slicing (which counts), plain CHOLMOD+ARPACK (bench/cholmod_arpack.cpp)
   modes_large  100 modes to 1e-9, 635 000 displacements, without CalculiX and SciPy
   amls         1000 modes at 0.5 %, 1.3 million displacements, and the inertia counts at the last of them

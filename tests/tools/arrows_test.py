@@ -59,7 +59,7 @@ def sources(folder):
 def complaint(folder, name):
     """The error message when `folder` uses `name`."""
     if name in STAGES:
-        return f"{folder} uses {name}, which is a stage: stages hand each other files; what two of them need " \
+        return f"{folder} uses {name}, which is a stage: stages exchange files; what two of them need " \
                f"belongs into a library below core/"
     return f"{folder} uses {name}, but may use only: {', '.join(sorted(ALLOWED[folder])) or 'no other folder'}"
 
@@ -119,7 +119,7 @@ class Arrows(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_paths_in_comments_lead_to_files(self):
-        wrong = [f"{p.relative_to(SOURCE)}: names {path}, which is not there" for folder in ALLOWED for p in sources(folder)
+        wrong = [f"{p.relative_to(SOURCE)}: names {path}, which does not exist" for folder in ALLOWED for p in sources(folder)
                  for path in re.findall(r"(?<!/)\b((?:core|%s)/[\w/]+\.[ch]pp)" % "|".join(STAGES), p.read_text())
                  if not (SOURCE / path).exists()]
         self.assertEqual(wrong, [])
