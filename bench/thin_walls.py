@@ -19,8 +19,8 @@ import page
 ROOT = Path(__file__).resolve().parent.parent
 SOLVERS = ["block-lanczos", "arpack", "amls"]
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
-MID_SIDES = [(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
-           (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
+MID_SIDE_NODES = [(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
+                  (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
 
 
 def deck(size, cells, nu=0.3, layers=None, soft=1.0, tip=None):
@@ -40,7 +40,7 @@ def deck(size, cells, nu=0.3, layers=None, soft=1.0, tip=None):
         for j in range(cells[1]):
             for i in range(cells[0]):
                 cell += 1
-                ids = [node((2 * i + a, 2 * j + b, 2 * k + c)) for a, b, c in CORNERS + MID_SIDES]
+                ids = [node((2 * i + a, 2 * j + b, 2 * k + c)) for a, b, c in CORNERS + MID_SIDE_NODES]
                 text = [str(n) for n in [cell] + ids]
                 groups[1 if layers and k in layers else 0].append(
                     ", ".join(text[:16]) + ",\n" + ", ".join(text[16:]))

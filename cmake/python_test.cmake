@@ -1,7 +1,7 @@
 # Tests written in Python's unittest.
 
 # clatter_python_test(<file without .py> <label> [class ...]) runs the file, or those classes of it;
-# the label `long` is for `make validate` only.
+# the label `long` is for `make validate` alone.
 function(clatter_python_test file label)
   string(JOIN "_" name ${file} ${ARGN})
   add_test(NAME ${name} COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/${file}.py ${ARGN})

@@ -5,12 +5,12 @@ find_package(fmt REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 
-# No warnings from third-party headers, in any target.
+# Foreign headers are not ours to fix: no warnings from them, in any target.
 add_library(clatter_eigen INTERFACE)
 target_link_libraries(clatter_eigen INTERFACE Eigen3::Eigen)
 
 # The standard library, Eigen and fmt are parsed once for all libraries, once more with GoogleTest for
-# all tests: they take most of a file's compilation time. Every file still includes what it uses.
+# all tests: most of a file's compilation is these headers. Every file still includes what it uses.
 option(CLATTER_PRECOMPILE "precompile the headers of others" ON)
 function(clatter_precompiled name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
@@ -54,7 +54,7 @@ function(clatter_stage name)
 endfunction()
 
 # clatter_test(<name> LABEL unit SOURCES x_test.cpp LINKS clatter::core [DEFINES A=B] [TIMEOUT s])
-# makes one test program; each GoogleTest case is a CTest test with the label.
+# makes one test program; CTest sees each GoogleTest case with the label.
 include(GoogleTest)
 function(clatter_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;LINKS;DEFINES" ${ARGN})
@@ -68,7 +68,7 @@ function(clatter_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
-  # Tests named after a hard case get that label in every program.
+  # Tests named after an entry of the hard cases are labelled so wherever they stand.
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "*Hard??_*:*Hard???_*"
     TEST_LIST ${name}_hard PROPERTIES LABELS hard TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -60,11 +60,11 @@ class HardN17GmshFalls(unittest.TestCase):
         return done.stderr
 
     def test_a_crash_is_reported_with_step_and_sizes_and_a_simpler_setting_is_tried(self):
-        message = self.assert_falls("abort", ["crashed (signal 6, Aborted)", "gmsh: meshing", "element_size_mm = 9",
+        said = self.assert_falls("abort", ["crashed (signal 6, Aborted)", "gmsh: meshing", "element_size_mm = 9",
                                            "elements_per_turn = 12", "without elements_per_turn", "heal the part"],
                                  part="curved.mesh.toml")
-        self.assertEqual(message.count("warning: "), 1)
-        self.assertIn("trying once more without elements_per_turn", message)
+        self.assertEqual(said.count("warning: "), 1)
+        self.assertIn("trying once more without elements_per_turn", said)
         self.assert_falls("abort", ["MeshAdapt"])
 
     def test_aborts_exits_and_unknown_exceptions_are_reported(self):
@@ -73,11 +73,11 @@ class HardN17GmshFalls(unittest.TestCase):
         self.assert_falls("throw", ["threw what is no exception"])
 
     def test_hangs_and_memory_exhaustion_end_at_their_limits_without_a_second_attempt(self):
-        message = self.assert_falls("hang", ["was stopped after 2 s (--time-limit)", "raise the limit"], "--time-limit",
+        said = self.assert_falls("hang", ["was stopped after 2 s (--time-limit)", "raise the limit"], "--time-limit",
                                  "2")
-        self.assertEqual(message.count("\n"), 1)
-        message = self.assert_falls("eat", ["ran out of memory (0.4 GiB, --memory-limit)"], "--memory-limit", "0.4")
-        self.assertEqual(message.count("\n"), 1)
+        self.assertEqual(said.count("\n"), 1)
+        said = self.assert_falls("eat", ["ran out of memory (0.4 GiB, --memory-limit)"], "--memory-limit", "0.4")
+        self.assertEqual(said.count("\n"), 1)
 
     def test_the_simpler_setting_makes_the_mesh_and_says_so(self):
         for way, part, text in (("curved-abort", "curved.mesh.toml", "without elements_per_turn"),

@@ -39,10 +39,10 @@ def placed(cell, kind):
         corners = corners + random.uniform(-0.15, 0.15, corners.shape)
     if cell.order == 1:
         return corners
-    mid_sides = np.array(reference.mid_sides(cell.shape, corners))
+    mid_side_nodes = np.array(reference.mid_side_nodes(cell.shape, corners))
     if kind == "curved":
-        mid_sides += random.uniform(-0.05, 0.05, mid_sides.shape)
-    return np.vstack([corners, mid_sides])
+        mid_side_nodes += random.uniform(-0.05, 0.05, mid_side_nodes.shape)
+    return np.vstack([corners, mid_side_nodes])
 
 
 def deck(name, x):

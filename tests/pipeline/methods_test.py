@@ -73,7 +73,7 @@ class Methods(unittest.TestCase):
 
     def condense(self, text):
         (self.folder / "beam.rom.toml").write_text('boundary = ["tip"]\n' + text)
-        self.output = self.stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
+        self.said = self.stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
         return h5py.File(self.folder / "beam.rom.h5")
 
     def test_own_modes_have_the_frequencies_that_scipy_finds_in_the_full_model(self):
@@ -95,7 +95,7 @@ class Methods(unittest.TestCase):
             values = scipy.linalg.eigh(rom["K_rr"][()], rom["M_rr"][()], eigvals_only=True)
         found = np.sqrt(values) / (2 * np.pi)
         self.assertLess(np.abs(found[:10] / full[:10] - 1).max(), 0.005)
-        self.assertIn("picked a cut-off", self.output)
+        self.assertIn("picked a cut-off", self.said)
 
     def test_the_static_answer_to_a_load_in_the_basis_is_that_of_scipys_lu(self):
         full = (self.T @ sparse_linalg.splu(self.K).solve(self.top)).reshape(-1, 3)
@@ -117,7 +117,7 @@ class Methods(unittest.TestCase):
                            "ratio = 0.05\n") as rom:
             M, K = rom["M_rr"][()], rom["K_rr"][()]
             alpha, force = rom.attrs["alpha"], 100.0 * rom["loads/tip_force"][()]
-        self.assertIn("alpha and beta add to it", self.output)
+        self.assertIn("alpha and beta add to it", self.said)
         values, shapes = scipy.linalg.eigh(K, M)
         # The mode that the force moves most, alone: x'' + 2 zeta w x' + w^2 (x - x_s) = 0.
         k = np.argmax(np.abs(shapes.T @ force) / values)

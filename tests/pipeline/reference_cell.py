@@ -45,7 +45,7 @@ _MONOMIALS = {
     ("wedge", 2): [(i, j, k) for i, j in _FLAT for k in (0, 1)] + [(i, j, 2) for i, j in _FLAT if i + j <= 1]}
 
 
-def mid_sides(shape, corners):
+def mid_side_nodes(shape, corners):
     return [(corners[a] + corners[b]) / 2 for a, b in EDGES[shape]]
 
 
@@ -53,7 +53,7 @@ class Cell:
     def __init__(self, shape, order):
         self.shape, self.order = shape, order
         corners = [np.array(c, float) for c in _CORNERS[shape]]
-        self.nodes = np.array(corners + (mid_sides(shape, corners) if order == 2 else []))
+        self.nodes = np.array(corners + (mid_side_nodes(shape, corners) if order == 2 else []))
         self._powers = np.array(_MONOMIALS[shape, order])
         self._inverse = np.linalg.inv(np.array([self._monomials(x) for x in self.nodes]))
 

@@ -49,8 +49,8 @@ class Grid:
         for first in itertools.product(*map(range, bricks)):
             for part in parts:
                 corners = 2 * (np.array(first) + part)
-                mid_sides = [(corners[a] + corners[b]) // 2 for a, b in edges]
-                cell = [tuple(map(int, indices)) for indices in (*corners, *mid_sides)]
+                mid_side_nodes = [(corners[a] + corners[b]) // 2 for a, b in edges]
+                cell = [tuple(map(int, place)) for place in (*corners, *mid_side_nodes)]
                 self.cells.append(cell)
                 for indices in cell:
                     self.nodes.setdefault(indices, len(self.nodes) + 1)
