@@ -1,5 +1,5 @@
-// assemble_mesh FILE.mesh.h5 [hrz]: assembles K and M of a mesh of steel and prints degrees of
-// freedom, cells, seconds of the pattern, seconds of K and M, and the bytes of both matrices.
+// assemble_mesh FILE.mesh.h5 [hrz]: assembles K and M of a mesh of steel and prints DoFs, cells,
+// seconds of the pattern, seconds of K and M, and the bytes of both matrices.
 #include <fmt/format.h>
 
 #include <string_view>

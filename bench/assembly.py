@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""K and M of tet10 blocks of growing size: clatter beside numpy and SciPy (all cells at once, triplets summed by
-coo_matrix), with --calculix beside CalculiX too (*FREQUENCY, SOLVER=MATRIXSTORAGE: it assembles and writes them).
+"""K and M of tet10 blocks of growing size: clatter, numpy with SciPy (all cells at once, triplets
+summed by coo_matrix), and with --calculix CalculiX (*FREQUENCY, SOLVER=MATRIXSTORAGE: it assembles and writes them).
 
-Seconds of clatter and SciPy are of the assembly alone, medians of the runs, of CalculiX of the whole process; peak
-memory is of the whole process. The last column is the exponent of growth against the line before: 1 is linear.
+Seconds of clatter and SciPy are those of the assembly alone, medians of the runs, of CalculiX those of the complete process; peak memory
+is that of the complete process. The last column is the exponent of growth from the row before: 1 is linear.
 """
 import argparse
 import math
@@ -61,7 +61,7 @@ def clatter_mesh(folder, cubes, build):
 
 
 def clatter(folder, build, runs):
-    """Degrees of freedom, seconds, peak and matrix megabytes."""
+    """DoFs, seconds, peak and matrix megabytes."""
     seconds = []
     for _ in range(runs):
         output, _, peak = run([build / "bench/assemble_mesh", "block.mesh.h5"], folder)
@@ -81,15 +81,15 @@ def scipy(folder, runs):
 def calculix(folder):
     text = (folder / "block.inp").read_text()
     step = "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n"
-    (folder / "whole.inp").write_text(re.sub(r"\*STEP.*", step, text, flags=re.S))
-    _, seconds, peak = run(["ccx", "whole"], folder)
+    (folder / "matrices.inp").write_text(re.sub(r"\*STEP.*", step, text, flags=re.S))
+    _, seconds, peak = run(["ccx", "matrices"], folder)
     return seconds, peak
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cubes", type=int, nargs="+", default=SIZES, help="cubes along an edge, each size")
-    parser.add_argument("--runs", type=int, default=3, help="median of so many")
+    parser.add_argument("--runs", type=int, default=3, help="number of runs for the median")
     parser.add_argument("--calculix", action="store_true", help="CalculiX as well (minutes)")
     parser.add_argument("--build", default=ROOT / "build/release", type=Path, help="with target bench_programs built")
     options = parser.parse_args()

@@ -1,4 +1,4 @@
-"""The free truck-diesel block at a wished size: mesh, matrices, decks for others."""
+"""The free truck-diesel block at a given size: mesh, matrices, decks for others."""
 import re
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ from measured import run
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "samples" / "truck_diesel"
-SAMPLE_DOF, SAMPLE_MM = 111_771, 30.0  # what block.mesh.toml makes, for a first guess
+SAMPLE_DOF, SAMPLE_MM = 111_771, 30.0  # result of block.mesh.toml, as first guess
 
 
 def mesh_toml(size_mm, cylinders):
@@ -20,12 +20,12 @@ def mesh_toml(size_mm, cylinders):
 
 
 def cylinders_of(dof):
-    """The walls of the sample's four cylinders take 110 000 displacements at least: a smaller block has fewer."""
+    """The walls of the sample's four cylinders need at least 110 000 DoFs: a smaller block has fewer cylinders."""
     return int(min(4, max(1, dof // 28_000)))
 
 
 def fe_toml():
-    """Materials alone: the same nodal matrices for all programs."""
+    """The materials without couplings: the same nodal matrices for all programs."""
     text = (SAMPLE / "block.fe.toml").read_text()
     return re.split(r"(?m)^# .*\n*\[\[contact\]\]|^\[\[contact\]\]", text)[0]
 
@@ -51,7 +51,7 @@ def make_mesh_of(folder, binaries, dof):
             return found
         (x0, y0), (x1, y1) = tried[-2:]
         slope = float(np.clip((y1 - y0) / (x1 - x0), -3.0, -0.3)) if abs(x1 - x0) > 1e-6 else slope
-    print(f"bench: {found} displacements is the nearest that the mesher gave to {dof}", file=sys.stderr)
+    print(f"bench: {found} displacements is the nearest mesh to {dof}", file=sys.stderr)
     return found
 
 
@@ -61,7 +61,7 @@ def assemble(folder, binaries, toml, name="block"):
 
 
 def save_npz(folder):
-    """block.K.npz, block.M.npz, both triangles: for programs whose HDF5 is not that of h5py."""
+    """block.K.npz, block.M.npz, both triangles: for programs linked to another HDF5 than h5py."""
     with h5py.File(folder / "block.fe.h5") as model:
         for name in "KM":
             g = model[name]

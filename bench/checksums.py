@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What checksums of an artefact's numbers cost: 500 MB written to and read from HDF5 with layouts and checksums side by
-side. Prints the table of docs/accuracy.md: seconds of one core (user and system), which a busy machine changes little.
+"""What checksums of an artefact's numbers cost: 500 MB written to and read from HDF5 with different layouts and
+checksums. Prints the table of docs/accuracy.md: seconds of one core (user and system), which a busy machine changes little.
 
 usage: bench/checksums.py [megabytes] [folder]"""
 import hashlib
@@ -14,11 +14,11 @@ import h5py
 import numpy as np
 
 KIB = 1024
-REPEATS = 3  # the fastest of
+REPEATS = 3  # the fastest counts
 
 
 def seconds(action):
-    """CPU seconds that the fastest of some calls took."""
+    """CPU seconds of the fastest of some calls."""
     times = []
     for _ in range(REPEATS):
         begin = resource.getrusage(resource.RUSAGE_SELF)
@@ -54,10 +54,10 @@ def main(megabytes=500, folder=None):
         for name, options in layouts():
             rows.append((name, seconds(lambda: write(options)), seconds(read)))
             if not np.array_equal(values, into):
-                raise SystemExit(f"{name}: other numbers came back")
+                raise SystemExit(f"{name}: the numbers read differ from those written")
     for name, digest in (("SHA-256", lambda: hashlib.sha256(values).digest()), ("CRC-32 (zlib)", lambda: zlib.crc32(values))):
         extra = seconds(digest)
-        rows.append((f"{name} beside contiguous data, whole reads only", rows[0][1] + extra, rows[0][2] + extra))
+        rows.append((f"{name} of contiguous data, complete reads only", rows[0][1] + extra, rows[0][2] + extra))
     print(f"| {values.nbytes / 1e6:.0f} MB of doubles | write [s] | read [s] |\n|---|---|---|")
     for name, writing, reading in rows:
         print(f"| {name} | {writing:.2f} | {reading:.2f} |")

@@ -1,6 +1,6 @@
-// cholmod_arpack model.fe.h5 count tolerance: the lowest modes [Hz] by CHOLMOD and ARPACK as their
-// manuals show them: METIS order, supernodal Cholesky of K - sigma M, one right-hand side a solve.
-// What a user gets who writes the loop by hand; no count, no probe, no refinement.
+// cholmod_arpack model.fe.h5 count tolerance: the lowest modes [Hz] by CHOLMOD and ARPACK as in
+// their manuals: METIS permutation, supernodal Cholesky of K - sigma M, one right-hand side per
+// solve. This is a straightforward implementation without count, probe and refinement.
 #include <arpack.h>
 #include <cholmod.h>
 #include <fmt/format.h>

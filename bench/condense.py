@@ -1,21 +1,22 @@
 #!/usr/bin/python3
-"""Modes and condensation of the free truck-diesel block beside what Debian installs, on the same matrices, under the
-same BLAS setting. Rows (--rows):
+"""Modes and condensation of the free truck-diesel block compared with programs that Debian packages, on the same
+matrices, with the same BLAS setting. Rows (--rows):
 
-  modes        50 modes, 118 000 displacements: clatter (count proved and not), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
+  modes        50 modes, 118 000 displacements: clatter (count proved or not), CalculiX, SciPy, SLEPc+MUMPS, its spectrum
                slicing (which counts), plain CHOLMOD+ARPACK (bench/cholmod_arpack.cpp)
   modes_large  100 modes to 1e-9, 635 000 displacements, without CalculiX and SciPy
-  amls         1000 modes at 0.5 %, 1.3 million displacements, and what the inertia counts below the last of them
+  amls         1000 modes at 0.5 %, 1.3 million displacements, and the inertia counts at the last of them
   condense     2000 static coordinates and 500 modes, 660 000 displacements, 60 000 rows kept (deck, pan flange and
-               bores); CalculiX's *SUBSTRUCTURE beside clatter at --substructure displacements (K alone)
+               bores); also CalculiX's *SUBSTRUCTURE at --substructure displacements (K alone)
   growth       fill, flops and seconds of one factorisation at 50 to 700 thousand displacements; below 112 thousand the
-               block has fewer cylinders, since its walls take so many at least
+               block has fewer cylinders, since the walls of four need that many
   threads      seconds of a factorisation with one thread and with all (hard case C8)
 
-Seconds are wall time of whole processes, median of the runs (SciPy and CalculiX: one); memory is the peak of the process. "bound" is the flops of
-one factorisation (of two where the count is proved) over the measured rate of a matrix product: solves come on top.
+Seconds are wall time of complete processes, median of the runs (SciPy and CalculiX: one); memory is the peak of the
+process. "bound" is the flops of one factorisation (of two where the count is proved) over the measured rate of a matrix
+product, without the solves.
 Needs `ninja -C build/release bench_programs`, and for SLEPc the packages python3-slepc4py-real3.18 and
-python3-petsc4py-real3.18 (left out with a word when absent).
+python3-petsc4py-real3.18 (its rows say "failed" without them).
 """
 import argparse
 import os
@@ -51,7 +52,7 @@ class Bench:
         self.setting = blas(options.threads)
         self.rate = dgemm_rate(folder, self.setting)
 
-    def wants(self, peer):
+    def selected(self, peer):
         return not self.options.peers or peer in self.options.peers
 
     def block(self, thousands):
@@ -73,7 +74,7 @@ class Bench:
     # The rows.
 
     def programs(self, count, small):
-        """(peer, name, command, reader of the frequencies); None stands for what needs the last frequency."""
+        """(peer, name, command, reader of the frequencies); None: the command needs the last frequency."""
         (self.folder / "plain.modes.toml").write_text(f"count = {count}\nprove_count = false\n")
         block.deck(self.folder, "ccx", ["*STEP", "*FREQUENCY", str(count), "*END STEP"])
         clatter = [self.bin / "clatter-modal", "block.fe.h5", "--quiet", "-o", "block.modes.h5"]
@@ -88,7 +89,7 @@ class Bench:
         if small:
             rows += [("scipy", "SciPy eigsh, one run", [PYTHON, PEERS / "scipy_modes.py", str(count)], words),
                      ("calculix", "CalculiX *FREQUENCY, one run", ["ccx", "ccx"], theirs)]
-        return [row for row in rows if self.wants(row[0])]
+        return [row for row in rows if self.selected(row[0])]
 
     def modes(self, thousands, small=True):
         cost = self.block(thousands)
@@ -149,7 +150,7 @@ class Bench:
         command = [self.bin / "clatter-condense", "block.fe.h5", "-c", "block.rom.toml", "-o", "block.rom.h5", "--quiet"]
         table = []
         for name, more, factors in (("clatter, --no-certificate", ["--no-certificate"], 1), ("clatter, certified", [], 2)):
-            # Fresh: the order of elimination that an older file holds would be used again.
+            # Remove the old file: its stored permutation would be reused.
             found = medians([*command, *more], self.folder, self.options.runs, ["block.rom.h5"], **self.setting)
             if found is None:
                 table.append([name, f"{cost['dof']:.0f}", "", "failed", "", ""])
@@ -159,7 +160,7 @@ class Bench:
             bound = (factors * cost["flops"] + 2 * static * cost["entries"]) / self.rate
             table.append([name, f"{cost['dof']:.0f}", f"{static} + {count} modes, {rows} rows", f"{found[1]:.1f}",
                           f"{found[2] / 1e3:.2f}", f"{bound:.1f}"])
-        if self.wants("calculix"):
+        if self.selected("calculix"):
             table.append(self.substructure())
         return markdown(["program", "DoF", "reduced to", "seconds", "peak GB",
                          "bound, seconds: factors and one sweep of the static columns"], table)
@@ -182,11 +183,11 @@ class Bench:
         return [f'"{name}"' for name in [f"liner_{k}" for k in liners] + sets]
 
     def substructure(self):
-        """CalculiX's *SUBSTRUCTURE GENERATE at its own size: K alone, for as many coordinates of the deck's first nodes."""
+        """CalculiX's *SUBSTRUCTURE GENERATE at a smaller size: K alone, for as many coordinates of the deck's first nodes."""
         dof = block.make_mesh_of(self.folder, self.bin, 1000 * self.options.substructure)
         text = (self.folder / "block.inp").read_text().split("*NODE", 1)[1].split("*ELEMENT", 1)[0]
         nodes = re.findall(r"^\s*(\d+),", text, re.M)
-        # It needs a *BOUNDARY card: without one the installed 2.20 ends with a broken heap.
+        # Without a *BOUNDARY card the installed 2.20 ends with a corrupted heap.
         held, kept = nodes[:3], nodes[3:3 + self.options.static // 3]
         step = ["*BOUNDARY", *[f"{node}, 1, 3" for node in held], "*NSET, NSET=KEPT", *[f"{node}," for node in kept],
                 "*STEP", "*SUBSTRUCTURE GENERATE", "*RETAINED NODAL DOFS, SORTED=NO", "KEPT, 1, 3",
@@ -221,13 +222,13 @@ class Bench:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rows", nargs="+", choices=THOUSANDS, default=["modes"])
-    parser.add_argument("--sizes", nargs="+", type=float, help="thousands of displacements in place of those above")
+    parser.add_argument("--sizes", nargs="+", type=float, help="thousands of displacements instead of those above")
     parser.add_argument("--peers", nargs="+", choices=["clatter", "clatter-proved", "slepc", "slicing", "cholmod", "scipy", "calculix"],
                         help="only these (default: all that are installed)")
-    parser.add_argument("--modes", type=int, help="how many, in place of those above")
+    parser.add_argument("--modes", type=int, help="number of modes instead of those above")
     parser.add_argument("--static", type=int, default=2000, help="static coordinates of the row condense, about")
     parser.add_argument("--substructure", type=float, default=50, help="thousands of displacements for CalculiX's *SUBSTRUCTURE")
-    parser.add_argument("--memory", type=float, default=21, help="GiB that the row amls may take")
+    parser.add_argument("--memory", type=float, default=21, help="memory limit of the row amls [GiB]")
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--build", default=ROOT / "build/release", type=Path, help="with target bench_programs built")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Error against time: the free truck-diesel block condensed with more and more modes, and with its interface reduced.
+"""Error against time: the free truck-diesel block condensed with an increasing number of modes, and with its interface reduced.
 
 Rows: Guyan; fixed-interface modes alone (--counts); the same with residual modes (--residual, and the sample's own
 setting); the sample's setting with the patches of liner 4 reduced to interface modes (--interface). Of each: reduced
@@ -10,12 +10,12 @@ coordinates, seconds, processor seconds and peak memory of clatter-condense, and
                    side) or on main bearing 4 (upwards): sqrt(integral |v - v_full|^2 / integral |v_full|^2) over area and Hz
   dB               the largest difference of a third octave of their mean square, force of white spectrum
 
-The full model's response is superposed from its modes up to --reference-hz (clatter-modal, count proved); what the others
-add comes from solves with SciPy's sparse LU (frequency_response.left_out). Stiffness (1 + 0.02 i) K in both, that is 1 %
-of critical at every resonance. The reference's own error is measured too: by leaving out its modes above two thirds, and
+The full model's response is superposed from its modes up to --reference-hz (clatter-modal, count proved); the contribution
+of the others comes from solves with SciPy's sparse LU (frequency_response.left_out). Stiffness (1 + 0.02 i) K in both, that is 1 %
+of critical at every resonance. The reference's own error is measured too: by omitting its modes above two thirds of that frequency, and
 by the residual of the equation of motion.
 
-What is finished stays in --folder and is taken from there by the next call; seconds are the least of all runs (--runs, --again).
+Finished results stay in --folder and are reused by the next call; seconds are the least of all runs (--runs, --again).
 """
 import argparse
 import json
@@ -49,7 +49,7 @@ def grid(limit):
     return np.geomspace(FROM_HZ, limit, 1 + int(np.ceil(np.log(limit / FROM_HZ) / STEP)))
 
 
-def force_places(model):
+def force_rows(model):
     """Rows of the sets liner_4 and bearing_4 on which the forces act."""
     angle, height = (model[f"grids/liner_4/{name}"][()] for name in ("angle", "axial"))
     patch = np.abs(angle - PATCH[0]).argmin() * len(height) + np.abs(height - PATCH[1]).argmin()
@@ -59,9 +59,9 @@ def force_places(model):
 
 
 def force_vectors(model, size):
-    """Unit forces [N] as columns: on a coordinate, or on a place that interface modes move."""
+    """Unit forces [N] as columns: on a coordinate, or on a displacement that interface modes reduce."""
     columns = []
-    for name, row in force_places(model):
+    for name, row in force_rows(model):
         dof = model[f"sets/{name}/dofs"][row]
         columns.append(np.eye(1, size, dof)[0] if dof < size else model["combined"][dof - size])
     return np.column_stack(columns)
@@ -100,7 +100,7 @@ def make_reference(folder, options):
 # The reduced models.
 
 def rows_of(options):
-    """(key, series, what, lines of the .rom.toml beside the sample's boundary and skin)"""
+    """(key, series, what, lines of the .rom.toml in addition to the sample's boundary and skin)"""
     sample = tomllib.loads((block.SAMPLE / "block.rom.toml").read_text())
     as_sample = f"fmax_hz = {sample['fmax_hz']}\n"
     return ([("guyan", "guyan", "guyan", 'method = "guyan"\n')]
@@ -127,12 +127,12 @@ def condense(folder, options, text):
 
 
 def least(costs):
-    """On a machine that others use as well the least is nearest to what the work takes."""
+    """On a shared machine the least is nearest to the cost of the work itself."""
     return {name: (max if name == "gigabytes" else min)(cost[name] for cost in costs) for name in costs[0]}
 
 
 def processor_seconds():
-    """Of all processes that have ended: a machine that others use as well, or that pauses one, hardly changes them."""
+    """Of all processes that have ended: hardly affected by other load and pauses of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
@@ -146,11 +146,11 @@ def evaluate(folder, result):
     with h5py.File(folder / "block.rom.h5") as rom:
         K, M = rom["K_rr"][()], rom["M_rr"][()]
         forces = force_vectors(rom, len(K))
-        place = {tuple(node): k for k, node in enumerate(rom["skin/nodes"][()])}
-        kept = np.array([place[tuple(node)] for node in nodes[faces].reshape(-1, 3)]).reshape(faces.shape)
+        row = {tuple(node): k for k, node in enumerate(rom["skin/nodes"][()])}
+        kept = np.array([row[tuple(node)] for node in nodes[faces].reshape(-1, 3)]).reshape(faces.shape)
         outer = frf.normal_motion(rom["skin/nodes"][()], kept) @ rom["skin/T"][()]
     eigenvalues, shapes = scipy.linalg.eigh(K, M)
-    # By number: a reduced model has no fewer modes, and each no lower, than the full one.
+    # By number: a reduced model misses no mode, and none of its modes is lower than that of the full one.
     frequencies = np.sqrt(np.maximum(eigenvalues, 0.0))[rigid:rigid + len(own)] / (2 * np.pi)
     eigenvalues[:rigid] = 0.0
     errors, levels = [], []
@@ -164,7 +164,7 @@ def evaluate(folder, result):
 
 
 def measure(folder, options):
-    """Results by series and size; those that the folder has are measured once more only with --again."""
+    """Results by series and size; those already in the folder are measured again only with --again."""
     for key, series, what, text in rows_of(options):
         path = folder / f"{key}.json"
         if path.exists() and not options.again:
@@ -181,7 +181,7 @@ def measure(folder, options):
 
 
 def prepare(folder, options):
-    """Matrices, modes and reference of the full model, unless the folder has them."""
+    """Matrices, modes and reference of the full model, unless they are in the folder."""
     binaries = options.build.resolve() / "bin"
     if not (folder / "block.fe.h5").exists():
         block.make_mesh(folder, binaries, options.size_mm)
@@ -203,7 +203,7 @@ def table(results, folder, options):
              f"{r['frequency_error']:.1e}", *[f"{error:.1e}" for error in r["frf_error"]], f"{r['decibels']:.2g}"]
             for r in results]
     return [f"{size} DoF, {len(full['own'])} elastic modes below {options.limit:g} Hz. Reference: {full['modes']} modes to "
-            f"{full['last']:.0f} Hz and the static answer of the others; without those above {full['fewer']:.0f} Hz its FRFs "
+            f"{full['last']:.0f} Hz and the static response of the others; without those above {full['fewer']:.0f} Hz its FRFs "
             f"change by {full['change']:.0e}, and the equation of motion holds to {full['residual']:.0e} at "
             f"{', '.join(f'{at:g}' for at in CHECKED_HZ)} Hz.", ""] + markdown(
         ["modes", "coordinates", "seconds", "processor seconds", "of the sample's", "peak GB", "frequency error",
@@ -215,12 +215,12 @@ def main():
     parser.add_argument("--counts", type=int, nargs="*", default=[10, 20, 50, 100, 200, 500], help="fixed-interface modes")
     parser.add_argument("--residual", type=int, nargs="*", default=[50, 100, 300], help="the same, with residual modes")
     parser.add_argument("--interface", type=int, nargs="*", default=[10, 20, 40, 80], help="interface modes of liner 4")
-    parser.add_argument("--limit", type=float, default=3000.0, help="errors are of what lies below [Hz]")
+    parser.add_argument("--limit", type=float, default=3000.0, help="errors are evaluated below this frequency [Hz]")
     parser.add_argument("--reference-hz", type=float, default=9000.0, help="modes of the reference [Hz]")
     parser.add_argument("--size-mm", type=float, help="of the elements (default: the sample's 30)")
-    parser.add_argument("--runs", type=int, default=1, help="of each row; the least seconds count")
-    parser.add_argument("--again", action="store_true", help="measure the rows once more that --folder has: the least counts")
-    parser.add_argument("--folder", type=Path, help="keep everything there (default: a temporary one)")
+    parser.add_argument("--runs", type=int, default=1, help="runs of each row; the least seconds count")
+    parser.add_argument("--again", action="store_true", help="measure rows that are in --folder again: the least counts")
+    parser.add_argument("--folder", type=Path, help="keep all files there (default: a temporary folder)")
     parser.add_argument("--build", default=ROOT / "build/release", type=Path)
     parser.add_argument("--write", action="store_true", help="table into docs/accuracy.md, picture docs/error_time.png")
     options = parser.parse_args()

@@ -5,7 +5,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from clatter_tools.plots import style  # noqa: E402
 
-SERIES = {  # legend, marker, where its numbers stand
+SERIES = {  # legend, marker, position of its numbers
     "guyan": ("no modes (Guyan)", "X", {"xytext": (-7, -3), "ha": "right"}),
     "fixed": ("fixed-interface modes alone", "o", {"xytext": (1, 4), "ha": "left", "rotation": 60}),
     "residual": ("with residual modes", "s", {"xytext": (-4, -10), "ha": "right"}),
@@ -35,9 +35,9 @@ def draw(results, limit, path):
 
 def draw_series(axis, points, series, error, colour):
     """A line through the points, each with its number of coordinates."""
-    legend, marker, place = SERIES[series]
+    legend, marker, text_options = SERIES[series]
     axis.plot([r["processor_seconds"] for r in points], [error(r) for r in points], marker=marker, color=colour, label=legend,
               linestyle="-" if len(points) > 1 else "none")
     for r in points:
         axis.annotate(str(r["coordinates"]), (r["processor_seconds"], error(r)), textcoords="offset points", fontsize=8,
-                      color=colour, **place)
+                      color=colour, **text_options)

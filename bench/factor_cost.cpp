@@ -1,5 +1,5 @@
-// factor_cost model.fe.h5 right-hand-sides threads: what one factorisation of K - sigma M costs, as
-// one line: DoF, entries of L, flops, seconds to analyse, to factorise, to solve a block.
+// factor_cost model.fe.h5 right-hand-sides threads: the cost of one factorisation of K - sigma M in
+// one line: DoFs, entries of L, flops, seconds of analysis, factorisation and solution for a block.
 #include <fmt/format.h>
 
 #include <cmath>

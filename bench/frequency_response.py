@@ -15,15 +15,15 @@ def left_out(chain, shift, hz, loss_factor):
     """What the modes add that a superposition left out. Column j of `chain` (points x terms) is (K'^-1 M)^j K'^-1 f_c
     with K' = K - shift M and f_c the force less the part of the modes that were kept. In that space
     (1 + i eta) K' u = f_c + (omega^2 - (1 + i eta) shift) M u, whose Neumann series converges as
-    |omega^2 - shift| / (lambda - shift), lambda the first mode left out."""
+    |omega^2 - shift| / (lambda - shift), lambda the first omitted mode."""
     omega = 2 * np.pi * np.asarray(hz)
     factor = omega**2 / (1 + 1j * loss_factor) - shift
     return real_times_complex(chain, factor ** np.arange(chain.shape[1])[:, None] / (1 + 1j * loss_factor))
 
 
 def chain(solve, mass, shapes, force, terms):
-    """(K'^-1 M)^j K'^-1 f_c as columns, for left_out. Rows of `shapes` are the modes that were kept: what rounding brings
-    back of them is taken out of every column, since the series would let it grow."""
+    """(K'^-1 M)^j K'^-1 f_c as columns, for left_out. Rows of `shapes` are the kept modes: their components due to rounding
+    are removed from every column, since the series would amplify them."""
     def without_kept(vector):
         return vector - shapes.T @ (shapes @ (mass @ vector))
 
@@ -34,7 +34,7 @@ def chain(solve, mass, shapes, force, terms):
 
 
 def real_times_complex(a, b):
-    """Two real products: numpy would make `a` complex and take twice the work."""
+    """Two real products: numpy would convert `a` to complex and do twice the work."""
     return a @ b.real + 1j * (a @ b.imag)
 
 
@@ -62,7 +62,7 @@ def energy(response):
 
 
 def third_octaves(hz):
-    """(lower edge, mid, upper edge) [Hz] of the bands, to base ten, that lie within the frequencies."""
+    """(lower edge, mid, upper edge) [Hz] of the bands, to base ten, within the range of frequencies."""
     bands = [1000.0 * 10 ** (k / 10) for k in range(-30, 20)]
     edges = [(mid * 10**-0.05, mid, mid * 10**0.05) for mid in bands]
     return [band for band in edges if hz[0] <= band[0] and band[2] <= hz[-1]]

@@ -5,11 +5,11 @@ import scipy.sparse.linalg as sparse_linalg
 
 import frequency_response as frf
 
-TERMS = 6  # of the series for the modes above: (frequency / that of the last mode)^12 of the first term is left
+TERMS = 6  # of the series for the modes above: the remainder is (frequency / that of the last mode)^12 of the first term
 
 
 def factor(matrix):
-    """Its solver by LU; symmetric and definite, so that no pivots are needed."""
+    """Its solver by LU; symmetric and definite, so that no pivoting is needed."""
     return sparse_linalg.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
                               options={"SymmetricMode": True}).solve
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""How fast decks are read: a block of n x n x n cubes, six tet10 each (n = 50: a million nodes, 750 000 cells).
+"""Time to read decks: a block of n x n x n cubes, six tet10 each (n = 50: a million nodes, 750 000 cells).
 
-Counts seconds of the reader and the peak memory of the whole process beside the mesh's own size. With --peers
+Measures seconds of the reader, the peak memory of the process and the size of the mesh. With --peers
 CalculiX reads the Abaqus deck (*NO ANALYSIS: it reads, checks and stops), which takes over a minute and 4 GB.
 """
 import argparse
@@ -30,8 +30,8 @@ def main():
             print(f"{'clatter, ' + name:<18} {deck.stat().st_size / 1e6:8.0f} {float(seconds):8.2f} {peak:8.0f}")
         print(f"{nodes} nodes, {cells} tet10, mesh of {own} MB")
         if options.peers:
-            _, whole, peak = run(["ccx", "block"], folder)
-            print(f"{'CalculiX, Abaqus':<27} {whole:8.2f} {peak:8.0f}")
+            _, seconds, peak = run(["ccx", "block"], folder)
+            print(f"{'CalculiX, Abaqus':<27} {seconds:8.2f} {peak:8.0f}")
 
 
 if __name__ == "__main__":

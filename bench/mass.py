@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What a lumped mass costs and saves: free steel bar of 600 x 40 x 30 mm (tet10), ten lowest elastic modes.
+"""Error and savings of a lumped mass: free steel bar of 600 x 40 x 30 mm (tet10), ten lowest elastic modes.
 
-Each row a mesh; errors against the consistent mass on the finest mesh, entries of M, seconds of assembly and of the
+One row per mesh; errors against the consistent mass on the finest mesh, entries of M, seconds of assembly and of the
 modes (wall time of the programs themselves).
 """
 import argparse
@@ -35,7 +35,7 @@ ELASTIC_HZ = 100.0  # the first elastic mode lies near 440 Hz, the rigid ones at
 
 
 def modes(folder, build, size, lumping, count):
-    """Degrees of freedom, entries of M, seconds of assembly and of the modes, `count` elastic frequencies [Hz]."""
+    """DoFs, entries of M, seconds of assembly and of the modes, `count` elastic frequencies [Hz]."""
     (folder / "bar.mesh.toml").write_text(MESH.format(size=size))
     (folder / "bar.fe.toml").write_text(MODEL.format(lumping=lumping))
 

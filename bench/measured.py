@@ -1,4 +1,4 @@
-"""Processes with their seconds and peak memory, and what the machine can do at most."""
+"""Seconds and peak memory of processes, and the peak rate of the machine."""
 import multiprocessing
 import os
 import statistics
@@ -16,8 +16,8 @@ once(); print(2 * 2000**3 / statistics.median(once() for _ in range(7)))
 
 
 def run(command, folder, required=True, **environment):
-    """Standard output, wall seconds and peak megabytes of a process. When it fails the bench ends, or (required
-    False) the answer is None."""
+    """Standard output, wall seconds and peak megabytes of a process. If it fails the bench ends, or (required
+    False) the result is None."""
     begin = time.monotonic()
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True,
                                env={**os.environ, **environment} if environment else None)
@@ -29,7 +29,7 @@ def run(command, folder, required=True, **environment):
 
 
 def apart(function, *arguments):
-    """Calls it in a process of its own: what this one holds would count as the peak of those it starts."""
+    """Calls it in its own process: the memory of this one would count towards the peak of those it starts."""
     maker = multiprocessing.Process(target=function, args=arguments)
     maker.start()
     maker.join()
@@ -38,8 +38,8 @@ def apart(function, *arguments):
 
 
 def medians(command, folder, runs, fresh=(), **environment):
-    """Output of the last run, median seconds, peak megabytes; None when a run fails. Files of `fresh` are taken away
-    before each run."""
+    """Output of the last run, median seconds, peak megabytes; None when a run fails. Files of `fresh` are
+    deleted before each run."""
     found = []
     for _ in range(runs):
         for name in fresh:
@@ -51,7 +51,7 @@ def medians(command, folder, runs, fresh=(), **environment):
 
 
 def blas(threads):
-    """One BLAS setting for everybody: OpenBLAS 0.3.21 takes its oldest kernel on CPUs that it does not know."""
+    """One BLAS setting for all programs: OpenBLAS 0.3.21 uses its oldest kernel on CPUs that it does not recognise."""
     with open("/proc/cpuinfo") as file:
         flags = next((line.split() for line in file if line.startswith("flags")), [])
     kernel = "SKYLAKEX" if "avx512vl" in flags else "HASWELL" if "avx2" in flags else ""
@@ -61,5 +61,5 @@ def blas(threads):
 
 
 def dgemm_rate(folder, setting):
-    """Floating point operations a second of a matrix product under that setting."""
+    """Floating point operations per second of a matrix product with that setting."""
     return float(run(["/usr/bin/python3", "-c", DGEMM], folder, **setting)[0])

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""What the methods of the condensation keep, on a part of samples/truck_diesel (after `make demo`).
+"""Accuracy of the condensation methods on a part of samples/truck_diesel (after `make demo`).
 
 First table: coordinates, seconds and the largest frequency error of the elastic modes below a limit, of the free part
-and with one set held, both against clatter-modal on the full model. Second: the static answer to a load at the skin's
+and with one set held, both against clatter-modal on the full model. Second: the static response to a load at the skin's
 nodes with one set held, against SciPy's sparse LU of the full stiffness, with and without the load's shape in the
 basis. Third: interface modes of the contact grid, by mass and by patch areas: error of the film's pressure work and of
 the frequencies.
@@ -19,7 +19,7 @@ import scipy.sparse.linalg as sparse_linalg
 from measured import run
 
 ROOT = Path(__file__).resolve().parent.parent
-PARTS = {  # boundary, contact grid, load and what is held for it, limit of the frequencies
+PARTS = {  # boundary, contact grid, load and the set held for it, frequency limit
     "piston": (["skirt", "pin"], "skirt", "gas", "pin", 7500.0),
     "block": (["liner_4", "liner_4_axial", "bearing_1", "bearing_2", "bearing_3", "bearing_4", "bearing_5", "mount_1",
                "mount_2", "mount_3", "mount_4", "sensor_liner", "sensor_block"], "liner_4", "head_4_gas", "mount_1", 3000.0),
@@ -46,7 +46,7 @@ def error_text(found, full):
 
 
 class Part:
-    """One part in a folder of its own."""
+    """One part in its own folder."""
 
     def __init__(self, folder, build, name):
         self.folder, self.build, self.name = folder, build, name
@@ -96,9 +96,9 @@ class Part:
 
     def load_shapes(self):
         nodes, full = self.static_full()
-        place = {tuple(node): k for k, node in enumerate(nodes)}
+        row = {tuple(node): k for k, node in enumerate(nodes)}
         print(f"\n{self.name} under {self.load}, {self.held} held, {len(nodes)} nodes\n")
-        print("| basis | largest error at a skin node, of the largest displacement |\n|---|---|")
+        print("| basis | largest error at a skin node, relative to the largest displacement |\n|---|---|")
         for what, text in {"without": "", "with its load shape": f"load_shapes = {names([self.load])}\n"}.items():
             rom, _ = self.condense(f'fmax_hz = {2 * self.limit}\nskin = ["skin"]\n{text}')
             with h5py.File(rom) as file:
@@ -107,7 +107,7 @@ class Part:
                 q = np.zeros(len(f))
                 q[free] = np.linalg.solve(K[np.ix_(free, free)], f[free])
                 skin, u = file["skin/nodes"][()], (file["skin/T"][()] @ q).reshape(-1, 3)
-            same = [(k, place[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in place]
+            same = [(k, row[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in row]
             a, b = np.array(same).T
             error = np.linalg.norm(u[a] - full[b], axis=1).max() / np.linalg.norm(full, axis=1).max()
             print(f"| {what} | {error:.1e} |", flush=True)

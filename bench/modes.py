@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The lowest modes of the free truck-diesel block: clatter-modal beside SciPy and CalculiX.
+"""The lowest modes of the free truck-diesel block: clatter-modal, SciPy and CalculiX.
 
-All three take the same tet10 mesh; SciPy takes clatter's own matrices. Seconds are wall time of the
-whole process, median of the runs; memory is the largest resident set of the process.
+All three use the same tet10 mesh; SciPy uses clatter's matrices. Seconds are wall time of the
+complete process, median of the runs; memory is the largest resident set of the process.
 """
 import argparse
 import os

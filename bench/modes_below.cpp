@@ -1,5 +1,5 @@
-// modes_below model.fe.h5 threads hz...: how many modes lie below each frequency, by the inertia of
-// K - mu M, one a line.
+// modes_below model.fe.h5 threads hz...: the number of modes below each frequency, by the inertia
+// of K - mu M, one per line.
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """What accuracy costs in piston slap: step tolerance, film grid and elastic effects against seconds.
 
-Runs samples/truck_diesel/slap.run.toml (its reduced models must be there: make demo) again and again, changes one
-thing at a time, and compares each run with the finest of its row: the piston's place, the liner's acceleration (both
-above 300 Hz where the block's shake does not count). Two cycles a run, so that the table takes minutes; seconds are
-what clatter-dynamics itself counts for stepping.
+Runs samples/truck_diesel/slap.run.toml (its reduced models must exist: make demo) repeatedly, changes one
+setting at a time, and compares each run with the finest of its table: the piston's position, the liner's acceleration
+(above 300 Hz, without the block's shaking on its mounts). Two cycles per run, so that a table takes minutes; seconds
+are those of the time stepping, as measured by clatter-dynamics.
 """
 import argparse
 import subprocess
@@ -34,7 +34,7 @@ EFFECTS = {
 
 
 def scene(folder, name, changes):
-    """A scene of a few lines on the sample's."""
+    """A scene that changes a few lines of the sample's."""
     text = f'base = "{SAMPLE / "slap.run.toml"}"\ntitle = "{name}"\n'
     if "[time]" not in changes:
         text += "[time]\ncycles = 2\n"
@@ -63,7 +63,7 @@ def simulate(folder, binaries, name, changes, recovered=True):
             result["time"], result["values"] = slap.band_limited(file, sensor, AT)
             result["bands"], _ = fields.acceleration_bands(file, sensor)
             mid = file[f"{AT}/third_octave/mid_hz"][()]
-            result["heard"] = (mid > 450) & (mid < 4500)
+            result["bands_compared"] = (mid > 450) & (mid < 4500)
         field.unlink()
     run.unlink()
     return result
@@ -82,13 +82,13 @@ def print_row(result, finest):
         when, height = slap.peak(result["time"], result["values"])
         cells += [f"{when * 1e3:9.3f}", f"{height:9.1f}"]
         if "values" in finest:
-            levels = np.abs(result["bands"] - finest["bands"])[result["heard"]].max()
+            levels = np.abs(result["bands"] - finest["bands"])[result["bands_compared"]].max()
             cells += [f"{levels:10.2f}"]
     print(" ".join(cells), flush=True)
 
 
 def table(title, results):
-    """Prints the results beside the last one, which is the finest."""
+    """Prints the results relative to the last one, which is the finest."""
     print(f"\n{title}\n{'':28s} {'steps':>7s} {'seconds':>8s} {'lateral [um]':>12s} {'slap [ms]':>9s} {'[m/s2]':>9s} "
           f"{'bands [dB]':>10s}")
     for result in results:
@@ -102,7 +102,7 @@ def main():
     for part in ("block", "piston"):
         if not (SAMPLE / f"{part}.rom.h5").exists():
             sys.exit(f"bench: {SAMPLE / part}.rom.h5 is missing: make demo")
-    print("differences are from the last row of each table: of the piston's lateral place, and the largest of the "
+    print("differences are from the last row of each table: of the piston's lateral position, and the largest of the "
           "liner's\nthird octaves from 500 Hz to 4 kHz; slap: instant and height of the liner's acceleration")
     with tempfile.TemporaryDirectory() as scratch:
         def runs(names_and_changes, **more):
@@ -112,7 +112,7 @@ def main():
                                      for value in TOLERANCES))
         table("film grid, cells around x along",
               runs((f"grid {a} x {b}", f"[contact]\ncells_around = {a}\ncells_along = {b}\n") for a, b in GRIDS))
-        print("\neffects: what each costs (rigid liner: no block to recover)")
+        print("\neffects: cost of each (rigid liner: no block to recover)")
         results = runs(EFFECTS.items(), recovered=False)
         for result in results:
             print_row(result, results[-1])

@@ -48,5 +48,5 @@ def write_nastran(path, nodes, cells):
 
 
 def make(write, deck, cubes):
-    """Writes the deck in a process of its own."""
+    """Writes the deck in a separate process."""
     apart(lambda: write(deck, *tet_block(cubes)))

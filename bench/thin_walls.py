@@ -2,9 +2,9 @@
 """Thin walls, nearly incompressible materials and jumps of stiffness: solves and seconds of the three eigen-solvers,
 and strips under a tip load against the closed form.
 
-Sheets of C3D20 of 200 x 200 mm from 5 to 0.1 mm beside a cube, the cube with Poisson's ratio up to .499999, a sandwich
-with a soft middle layer; 20 lowest modes of the free parts. --before names the bin folder of an older build, which is
-run beside. Strips 20 mm wide, clamped at one end, nu = 0: P l^3 / 3 E I.
+Sheets of C3D20 of 200 x 200 mm from 5 to 0.1 mm and a cube, the cube with Poisson's ratio up to .499999, a sandwich
+with a soft middle layer; 20 lowest modes of the free parts. --before names the bin folder of an older build for
+comparison. Strips 20 mm wide, clamped at one end, nu = 0: P l^3 / 3 E I.
 """
 import argparse
 import json
@@ -24,16 +24,16 @@ MID_SIDE_NODES = [(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 
 
 
 def deck(size, cells, nu=0.3, layers=None, soft=1.0, tip=None):
-    """A box of C3D20 in mm, t, s; cells of `layers` (by place along z) are softer by `soft`; a clamp at x = 0 and a
+    """A box of C3D20 in mm, t, s; cells of `layers` (by index along z) are softer by `soft`; a clamp at x = 0 and a
     force along z at the other end with `tip` [N]."""
     number, lines, groups = {}, [], ([], [])
 
-    def node(place):
-        if place not in number:
-            number[place] = len(number) + 1
-            where = [size[d] * place[d] / (2 * cells[d]) for d in range(3)]
-            lines.append(f"{number[place]}, " + ", ".join(f"{x:.12g}" for x in where))
-        return number[place]
+    def node(position):
+        if position not in number:
+            number[position] = len(number) + 1
+            where = [size[d] * position[d] / (2 * cells[d]) for d in range(3)]
+            lines.append(f"{number[position]}, " + ", ".join(f"{x:.12g}" for x in where))
+        return number[position]
 
     cell = 0
     for k in range(cells[2]):
@@ -51,8 +51,8 @@ def deck(size, cells, nu=0.3, layers=None, soft=1.0, tip=None):
                      f"{modulus!r}, {nu!r}", "*DENSITY", "7.85e-9", f"*SOLID SECTION, ELSET={name}, MATERIAL={name}"]
     if tip is None:
         return "\n".join(text + ["*STEP", "*FREQUENCY", "20", "*END STEP", ""])
-    text += ["*BOUNDARY"] + [f"{n}, 1, 3" for place, n in number.items() if place[0] == 0]
-    ends = [n for place, n in number.items() if place[0] == 2 * cells[0]]
+    text += ["*BOUNDARY"] + [f"{n}, 1, 3" for position, n in number.items() if position[0] == 0]
+    ends = [n for position, n in number.items() if position[0] == 2 * cells[0]]
     return "\n".join(text + ["*STEP", "*STATIC", "*CLOAD"] + [f"{n}, 3, {tip / len(ends)!r}" for n in ends] +
                      ["*END STEP", ""])
 
@@ -68,7 +68,7 @@ def assembled(folder, build, name, text):
 
 
 def modes(folder, build, model, solver, limit):
-    """"solves, seconds" or how it ended, and the first elastic frequency [Hz]."""
+    """"solves, seconds" or the kind of failure, and the first elastic frequency [Hz]."""
     (folder / "ask.modes.toml").write_text(f'count = 20\neigen_solver = "{solver}"\n')
     begin = time.monotonic()
     try:
@@ -77,11 +77,11 @@ def modes(folder, build, model, solver, limit):
     except subprocess.TimeoutExpired:
         return f"over {limit:.0f} s", ""
     seconds = time.monotonic() - begin
-    said = done.stdout + done.stderr
+    output = done.stdout + done.stderr
     if done.returncode != 0:
         return f"exit {done.returncode}", ""
-    solves = re.search(r"(\d+) solves\)", said).group(1)
-    hz = [float(value) for value in re.findall(r"^ +\d+ +([\d.e+-]+) Hz", said, re.M)]
+    solves = re.search(r"(\d+) solves\)", output).group(1)
+    hz = [float(value) for value in re.findall(r"^ +\d+ +([\d.e+-]+) Hz", output, re.M)]
     return f"{solves}, {seconds:.1f} s", f"{hz[6]:.5g}"
 
 
@@ -116,8 +116,8 @@ def strips(folder, build):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=ROOT / "build/release/bin", type=Path)
-    parser.add_argument("--before", type=Path, help="bin folder of an older build, run beside")
-    parser.add_argument("--limit", type=float, default=60.0, help="seconds that one run may take")
+    parser.add_argument("--before", type=Path, help="bin folder of an older build, for comparison")
+    parser.add_argument("--limit", type=float, default=60.0, help="time limit of one run [s]")
     parser.add_argument("--write", action="store_true", help="put the tables into docs/accuracy.md")
     options = parser.parse_args()
     builds = [options.build] + ([options.before] if options.before else [])
@@ -137,7 +137,7 @@ def main():
     head = ["part", "first elastic [Hz]"] + [f"{solver}{after}" for after in ["", " before"][:len(builds)]
                                              for solver in SOLVERS]
     tables = (page.markdown(head, rows),
-              page.markdown(["strip [mm]", "length / thickness", "against P l^3 / 3 E I", "forward error said",
+              page.markdown(["strip [mm]", "length / thickness", "against P l^3 / 3 E I", "forward error, estimated",
                              "backward error"], statics))
     for mark, table in zip(("thin_walls", "thin_strips"), tables):
         print("\n".join(table))

@@ -1,5 +1,5 @@
 #pragma once
-// What bad input is told.
+// Error messages of bad input.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace clatter::test {
 
-/// The message of the InputError that `action` ends with; "accepted" when it does not.
+/// The message of the InputError that `action` ends with; "accepted" if it does not.
 template <class Action>
 std::string refusal_of(const Action& action) {
   try {
@@ -20,7 +20,7 @@ std::string refusal_of(const Action& action) {
   return "accepted";
 }
 
-/// One line that holds all the parts.
+/// One line that contains all the parts.
 inline void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
   for (const std::string& part : parts)
     EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;

@@ -1,14 +1,14 @@
 #pragma once
-// Public test files that lie beside the source tree, not in it.
+// Public test files next to the source tree, not in it.
 #include <filesystem>
 #include <string>
 
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter::test {
 
-/// `shared/data/<name>` beside the source tree, or further up when the tree is a working copy in a
-/// folder of its own; a path that does not exist when it is nowhere: the test skips.
+/// `shared/data/<name>` next to the source tree, or further up if the tree is a nested working
+/// copy; a nonexistent path if it is nowhere: the test skips.
 inline std::filesystem::path shared_data(const std::string& name) {
   std::filesystem::path above = std::filesystem::path(CLATTER_SOURCE_DIR).parent_path();
   for (int level = 0; level < 3; ++level, above = above.parent_path()) {

@@ -5,11 +5,11 @@
 #   part.rom.h5 -> part.mtx, part.inp, part.pch, part.fem for other programs
 #   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
 #
-# Say which reduced models a scene needs: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other file that
-# a stage read (tables, CAD, base scenes) is known from its dependency file after the first run.
-# CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS goes to every
-# stage (--quiet, --threads 2). An artefact is redone when an input or its stage's program is newer. A run that was
-# interrupted goes on after its last whole cycle.
+# Name the reduced models of a scene: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other
+# file that a stage reads (tables, CAD, base scenes) is in its dependency file after the first run.
+# CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS is passed to
+# every stage (--quiet, --threads 2). An artefact is rebuilt when an input or its stage's program is newer. An
+# interrupted run resumes after its last complete cycle.
 
 clatter_tool := $(lastword $(wildcard $(dir $(lastword $(MAKEFILE_LIST)))clatter \
                                       $(dir $(lastword $(MAKEFILE_LIST)))../../bin/clatter))
@@ -47,19 +47,19 @@ clatter_recover := $(call clatter_program,recover)
 %.field.h5: %.run.h5 field.toml $(clatter_recover)
 	$(clatter_recover) $< -c field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
-# Without a configuration the defaults hold.
+# Without a configuration the defaults apply.
 %.modes.h5: %.fe.h5 $(clatter_modal)
 	$(clatter_modal) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.field.h5: %.run.h5 $(clatter_recover)
 	$(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
-# How well a reduced model keeps the full model's lowest modes: frequency errors and MAC.
+# Accuracy of a reduced model's lowest modes: frequency errors and MAC.
 %.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
 	$(clatter_modal) --compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
 	mv $@.part $@
 
-# A reduced part for other programs. Matrix Market is three files: the name stands for them, as a list.
+# A reduced part for other programs. Matrix Market has three files: the target is a list of them.
 clatter_export = $(clatter_condense) $< --export $@ $(CLATTER_FLAGS)
 
 %.inp: %.rom.h5 $(clatter_condense)
@@ -75,7 +75,7 @@ clatter_export = $(clatter_condense) $< --export $@ $(CLATTER_FLAGS)
 	$(clatter_export)
 	ls $*.K.mtx $*.M.mtx $*.dofs.tsv > $@
 
-# A picture of the kind that its name starts with, from the artefacts that it depends on:
+# A picture of the kind given by the start of its name, from the artefacts that it depends on:
 # `pictures/acceleration-dry.png: slap_dry.field.h5`. `clatter plot list` names the kinds.
 pictures/%.png: $(clatter_tool)
 	$(clatter_tool) plot $(firstword $(subst -, ,$*)) $(filter %.h5,$^) -o $@

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-# Debian keeps the builds (real, complex) beside each other, outside of Python's path.
+# Debian installs both builds (real, complex) outside of Python's path.
 sys.path += glob.glob("/usr/lib/*dir/*/*-real/lib/python3/dist-packages")
 import slepc4py  # noqa: E402
 
@@ -13,7 +13,7 @@ slepc4py.init()
 from petsc4py import PETSc  # noqa: E402
 from slepc4py import SLEPc  # noqa: E402
 
-for prefix in ("", "st_", "eps_"):  # METIS; one process: inertia of the root; null pivots are looked for, as slicing asks
+for prefix in ("", "st_", "eps_"):  # METIS; one process: inertia of the root; detection of null pivots, as slicing requires
     for name, value in (("icntl_7", 5), ("icntl_13", 1), ("icntl_24", 1)):
         PETSc.Options().setValue(f"{prefix}mat_mumps_{name}", value)
 

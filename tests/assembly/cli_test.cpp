@@ -12,7 +12,7 @@
 #include "core/base/artefact.hpp"
 #include "core/fe/fe_model.hpp"
 #include "core/mesh/mesh_file.hpp"
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

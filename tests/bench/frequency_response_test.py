@@ -65,7 +65,7 @@ class Chain(unittest.TestCase):
         dynamic = self.stiffness.toarray() * (1 + 1j * LOSS) - (2 * np.pi * self.hz) ** 2 * np.eye(40)
         exact = np.linalg.solve(dynamic, self.force)
         found = self.model.response(self.force, np.array([self.hz]))[:, 0]
-        # The terms that the series lacks are below its ratio to their number, of a static answer far below the resonance.
+        # The error of the truncated series: its ratio to the power of the number of terms, times the static response.
         self.assertLess(np.linalg.norm(found - exact) / np.linalg.norm(exact), self.ratio**TERMS)
 
     def test_residual_sees_a_mode_that_is_missing(self):

@@ -1,4 +1,4 @@
-"""Motions below the absolute tolerance of [accuracy]: dynamics says how far its velocities are off, and what helps."""
+"""Motions below the absolute tolerance of [accuracy]: dynamics reports the error of its velocities and a remedy."""
 import re
 import unittest
 
@@ -11,8 +11,8 @@ class SmallMotion(stages.PipelineTest):
     """The beam under a step force of 100 nN: nanometres, where 10 um and 0.1 m/s are no bound."""
 
     def response(self, force, accuracy="", step_us=600.0):
-        """(velocities at the samples, what was warned of) of a step force [N] on the beam's tip; the largest step is by
-        default what a scene has that says none, a hundredth of the span."""
+        """(velocities at the samples, warnings) of a step force [N] on the beam's tip; the
+        default of the largest step is that of a scene, a hundredth of the span."""
         scene = (stages.SOURCE / "samples/beam/step.run.toml").read_text()
         for old, new in (("value = 100.0", f"value = {force}"), ("largest_step_us = 50.0", f"largest_step_us = {step_us}")):
             self.assertIn(old, scene)
@@ -32,20 +32,20 @@ class SmallMotion(stages.PipelineTest):
 
     def test_the_warning_has_the_size_of_the_error_and_its_advice_helps(self):
         reference, _ = self.response(1e-7, step_us=1.0)
-        found, said = self.response(1e-7)
-        percent, scale = map(float, re.search(r"beam: .*off by about (\S+) %.*velocity_m_s = (\S+) there", said).groups())
+        found, warning = self.response(1e-7)
+        percent, scale = map(float, re.search(r"beam: .*off by about (\S+) %.*velocity_m_s = (\S+) there", warning).groups())
         actual = 100.0 * self.error(found, reference)
-        print(f"    stated {percent} %, found {actual:.2f} %: {said}")
+        print(f"    stated {percent} %, found {actual:.2f} %: {warning}")
         self.assertGreater(actual, 2.0)
         # The estimate adds all local errors in phase: an upper bound, by less than three for a beam that rings in a few modes.
         self.assertTrue(0.9 * actual < percent < 3.0 * actual, (percent, actual))
-        found, said = self.response(1e-7, f"\n[accuracy]\nvelocity_m_s = {scale}\n")
+        found, warning = self.response(1e-7, f"\n[accuracy]\nvelocity_m_s = {scale}\n")
         actual = 100.0 * self.error(found, reference)
         print(f"    with the advice {actual:.2f} %")
-        self.assertEqual(said, "")
+        self.assertEqual(warning, "")
         self.assertLess(actual, 1.0)
 
-    def test_motions_that_the_tolerance_rules_are_not_warned_of(self):
+    def test_motions_well_above_the_tolerance_give_no_warning(self):
         self.assertEqual(self.response(1e4)[1], "")
 
 

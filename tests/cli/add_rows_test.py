@@ -1,4 +1,4 @@
-"""Rows of T that are added to a condensed part later, and the stored order of elimination."""
+"""Rows of T that are added to a condensed part later, and the stored elimination permutation."""
 import json
 import sys
 import unittest
@@ -9,7 +9,7 @@ import stages
 
 # The beam's second sensor and a surface that the file does not have at first; `skin` is its outer surface.
 SENSOR = '\n[[sensor]]\nname = "sensor_side"\nsurface = "y_max"\nnear = [0.3, 0.04, 0.015]\n'
-# Two solves of one basis; rows at once and later are the same arithmetic but for the order of sums.
+# Two solves of one basis; rows at once and later differ only in the order of sums.
 SAME = 1e-9
 
 
@@ -48,10 +48,10 @@ class RowsTest(stages.PipelineTest):
 
 
 class AddRows(RowsTest):
-    def test_rows_added_later_are_those_asked_for_at_once(self):
+    def test_rows_added_later_are_those_requested_at_once(self):
         self.condense("once.rom.h5", 'skin = ["z_max", "y_max"]', 'rows = ["sensor_side"]')
-        said = self.add("--surface", "y_max", "--set", "sensor_side", "--json")
-        self.assertLessEqual(json.loads(said.stdout)["rows_added_error"], SAME)
+        done = self.add("--surface", "y_max", "--set", "sensor_side", "--json")
+        self.assertLessEqual(json.loads(done.stdout)["rows_added_error"], SAME)
         self.assert_same_rows("more.rom.h5", "once.rom.h5")
 
     def test_one_after_the_other_is_the_same_as_both_and_what_is_there_stays(self):
@@ -60,7 +60,7 @@ class AddRows(RowsTest):
         self.add("--surface", "y_max", "--surface", "z_max", "--set", "sensor_tip", source="first.rom.h5")
         self.assert_same_rows("more.rom.h5", "once.rom.h5")
 
-    def test_rows_are_added_behind_an_interface_reduction(self):
+    def test_rows_are_added_after_an_interface_reduction(self):
         interface = '[interface]\nsets = ["tip"]\nmodes = 3\n'
         text = (self.folder / "beam.rom.toml").read_text()
         (self.folder / "beam.rom.toml").write_text(text + interface)
@@ -120,7 +120,7 @@ class AddRows(RowsTest):
 
 
 class HardC7StoredOrder(RowsTest):
-    """Hard case C7: the order of elimination is found once, kept in the file and used again."""
+    """Hard case C7: the permutation is computed once, stored in the file and reused."""
 
     def ordering(self):
         with h5py.File(self.folder / "beam.rom.h5") as rom:

@@ -23,12 +23,12 @@ class WrongFiles(stages.PipelineTest):
     def test_a_truncated_artefact(self):
         for stage in ("assembly", "modal", "condense", "recover"):
             path = self.folder / self.command(stage)[0]
-            whole = path.read_bytes()
+            complete = path.read_bytes()
             for part in (0.9, 0.5, 0.01):
                 with self.subTest(stage=stage, part=part):
-                    path.write_bytes(whole[:int(part * len(whole))])
+                    path.write_bytes(complete[:int(part * len(complete))])
                     self.assert_refused(stage, says=[path.name])
-            path.write_bytes(whole)
+            path.write_bytes(complete)
 
     def test_a_file_that_is_not_hdf5(self):
         for stage in ("assembly", "modal", "condense", "recover"):

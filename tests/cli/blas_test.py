@@ -1,4 +1,4 @@
-"""--blas NAME|auto: which kernel of OpenBLAS runs, whatever the environment says."""
+"""--blas NAME|auto: selects the OpenBLAS kernel, whatever the environment says."""
 import json
 import os
 import sys
@@ -17,19 +17,19 @@ class Blas(stages.PipelineTest):
             self.skipTest("this CPU has no kernel better than the oldest")
 
     def modal(self, *arguments, kernel="Prescott"):
-        """The beam's modes with OpenBLAS held to a kernel by the environment; what was said."""
+        """The beam's modes with an OpenBLAS kernel set by the environment; returns the messages."""
         done = stages.run_stage("modal", "beam.fe.h5", "--count", 3, "-o", "again.modes.h5", *arguments,
                                 folder=self.folder, env={**os.environ, "OPENBLAS_CORETYPE": kernel})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
     def kernel(self, *arguments, **options):
-        """The kernel that ran, from the one line that says so."""
+        """The kernel that ran, from the line that names it."""
         lines = [line for line in self.modal(*arguments, **options).stderr.splitlines() if line.startswith(RUNS)]
         self.assertEqual(len(lines), 1)
         return lines[0].removeprefix(RUNS)
 
-    def test_an_older_kernel_by_the_environment_is_told_in_one_line_with_the_cure(self):
+    def test_an_older_kernel_by_the_environment_is_reported_in_one_line_with_the_remedy(self):
         lines = [line for line in self.modal().stderr.splitlines() if line.startswith(HELD)]
         self.assertEqual(len(lines), 1)
         self.assertIn("--blas auto", lines[0])
@@ -43,7 +43,7 @@ class Blas(stages.PipelineTest):
         self.assertNotEqual(self.kernel("--blas", "auto"), "Prescott")
         self.assertNotIn(HELD, self.modal("--blas", "auto").stderr)
 
-    def test_a_kernel_asked_for_by_name_runs_in_any_spelling(self):
+    def test_a_kernel_requested_by_name_runs_in_any_spelling(self):
         self.assertEqual(self.kernel("--blas=haswell"), "Haswell")
         self.assertEqual(self.kernel("--blas", "Prescott", kernel="Haswell"), "Prescott")
 

@@ -1,4 +1,4 @@
-"""The certificate of a reduced part: printed, left out on demand, verified by the full model, looked at by readers."""
+"""The certificate of a reduced part: printed, omitted on request, verified by the full model, checked by readers."""
 import hashlib
 import json
 import subprocess
@@ -27,7 +27,7 @@ class Certificate(stages.PipelineTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return [line for line in done.stderr.splitlines() if "beam.rom.h5" in line]
 
-    def test_info_says_what_was_proved_from_which_files_at_which_places(self):
+    def test_info_says_what_was_proved_from_which_files_at_which_positions(self):
         text = self.info()
         self.assertIn("certified; no mode is missing", text)
         self.assertIn("errors estimated, not verified", text)
@@ -54,7 +54,7 @@ class Certificate(stages.PipelineTest):
                 self.assertEqual(len(lines), 1, lines)
                 self.assertIn("not certified", lines[0])
 
-    def test_errors_that_nobody_asks_for_are_not_estimated(self):
+    def test_errors_that_are_not_requested_are_not_estimated(self):
         with open(self.folder / "beam.rom.toml", "a") as toml:
             toml.write("frequency_error = 0.0\n")
         full = self.condense()
@@ -65,7 +65,7 @@ class Certificate(stages.PipelineTest):
                          {"frequency_error_estimate", "frequency_error_joined", "frequency_error_modes"})
         self.assertNotIn("errors estimated", self.info())
 
-    def test_a_certified_part_is_taken_without_a_word_and_one_without_certificate_is_not(self):
+    def test_a_certified_part_gives_no_warning_and_one_without_certificate_does(self):
         self.assertEqual(self.warnings("dynamics"), [])
         with h5py.File(self.folder / "beam.rom.h5", "r+") as rom:
             del rom["certificate"]
@@ -85,7 +85,7 @@ class Certificate(stages.PipelineTest):
         self.assertIn("verified by the full model", self.info())
         self.assertEqual(self.condense("--verify", "0")["verified_to_hz"], found["accurate_to_hz"])
 
-    def test_a_senseless_frequency_to_verify_is_refused(self):
+    def test_a_meaningless_frequency_to_verify_is_refused(self):
         done = stages.run_stage("condense", *self.command("condense"), "--verify", "-5", folder=self.folder)
         self.assertEqual(done.returncode, 2)
         self.assertIn("--verify", done.stderr)

@@ -1,4 +1,4 @@
-"""Reduced parts written for other programs, and matrices of others taken in."""
+"""Reduced parts written for other programs, and matrices of others read."""
 import json
 import shutil
 import subprocess
@@ -19,7 +19,7 @@ def reduced_matrices(path):
 
 
 def frequencies(K, M):
-    """[Hz], ascending; rigid motions may come out imaginary and count as zero."""
+    """[Hz], ascending; rigid motions may be imaginary and count as zero."""
     return np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2.0 * np.pi)
 
 
@@ -33,7 +33,7 @@ class Exported(stages.PipelineTest):
         """The files that the export of the beam's reduced part to `name` wrote."""
         return json.loads(self.run_stage("condense", "beam.rom.h5", "--export", name, "--json"))["files"]
 
-    def let_go(self):
+    def release(self):
         """The beam without its support, with enough modes for CalculiX to find ten."""
         self.edit("beam.fe.toml", '[[support]]\nsurface = "x_min"\n', "")
         self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 45")
@@ -75,7 +75,7 @@ class MatrixMarket(Exported):
                 lower = sp.csc_matrix((g["data"][()], g["indices"][()], g["indptr"][()]), shape=g.attrs["shape"])
                 np.testing.assert_array_equal(lower.toarray(), np.tril(rom[f"{name}_rr"][()]))
             self.assertEqual(set(back["sets"]), set(rom["sets"]))
-            # The same rigid motions, made of the positions and directions of the map.
+            # The same rigid motions, from the positions and directions of the map.
             np.testing.assert_allclose(back["rigid"][()], rom["rigid"][()], atol=1e-12)
         self.run_stage("modal", "back.fe.h5", "--count", 12, "-o", "back.modes.h5")
         self.run_stage("modal", "beam.rom.h5", "--count", 12, "-o", "rom.modes.h5")
@@ -96,7 +96,7 @@ class MatrixMarket(Exported):
         self.run_stage("condense", "back.fe.h5", "-c", "back.rom.toml", "-o", "back.rom.h5")
         ours = frequencies(*reduced_matrices(self.folder / "back.rom.h5"))
         full = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
-        # Far below the cut-off, where the certificate aims at 5e-4; a reduction can only raise frequencies.
+        # Far below the cut-off, where the target of the certificate is 5e-4; a reduction can only raise frequencies.
         np.testing.assert_allclose(ours[:4], full[:4], rtol=5e-4)
         # Rounding of matrices whose highest frequency is so far above: eps (f_max / f)^2.
         rounding = 1e-15 * (full.max() / full[:len(ours)]) ** 2
@@ -104,7 +104,7 @@ class MatrixMarket(Exported):
 
 
 class Calculix(Exported):
-    """CalculiX 2.20 knows no *MATRIX ASSEMBLE; the deck says the same with springs, masses and equations."""
+    """CalculiX 2.20 does not support *MATRIX ASSEMBLE; the deck is equivalent, with springs, masses and equations."""
 
     def setUp(self):
         super().setUp()
@@ -113,7 +113,7 @@ class Calculix(Exported):
         self.assertEqual(self.export("part.inp"), ["part.inp", "part.K.txt", "part.M.txt"])
 
     def calculix_hz(self, cards="", count=4):
-        """The lowest frequencies that CalculiX finds [Hz]; of the beam's 23 equations it can give four, no more."""
+        """The lowest frequencies by CalculiX [Hz]; with the beam's 23 equations it finds at most four."""
         (self.folder / "job.inp").write_text(f"*INCLUDE,INPUT=part.inp\n{cards}*STEP\n*FREQUENCY\n{count}\n*END STEP\n")
         done = subprocess.run(["ccx", "job"], cwd=self.folder, text=True, capture_output=True, timeout=100)
         self.assertIn("Job finished", done.stdout, done.stdout[-600:])
@@ -121,7 +121,7 @@ class Calculix(Exported):
         rows = [line.split() for line in lines if len(line.split()) == 5 and line.split()[0].isdigit()]
         return np.array([float(row[3]) for row in rows[:count]])
 
-    def places(self):
+    def nodes_and_components(self):
         """(node, component) of each row as the head of the deck lists them."""
         head = [line.split() for line in (self.folder / "part.inp").read_text().splitlines() if line.startswith("** ")]
         return [(int(row[2]), int(row[3])) for row in head if len(row) > 3 and all(w.isdigit() for w in row[1:4])]
@@ -131,7 +131,7 @@ class Calculix(Exported):
         np.testing.assert_allclose(self.calculix_hz(), ours[:4], rtol=1e-6)  # seven digits are printed
 
     def test_a_free_body_has_its_rigid_motions_at_a_thousandth_of_a_hertz(self):
-        self.let_go()
+        self.release()
         self.export("part.inp")
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         found = self.calculix_hz(count=10)
@@ -140,8 +140,8 @@ class Calculix(Exported):
 
     def test_what_is_joined_to_the_part_in_calculix_acts_on_our_coordinate(self):
         K, M = reduced_matrices(self.folder / "beam.rom.h5")
-        row = next(j for j, place in enumerate(self.places()) if place[1] == 3)  # a displacement along z
-        node, component = self.places()[row]
+        row = next(j for j, (_, component) in enumerate(self.nodes_and_components()) if component == 3)  # a displacement along z
+        node, component = self.nodes_and_components()[row]
         K[row, row] += 2.0e6
         spring = f"*ELEMENT,TYPE=SPRING1,ELSET=EXTRA\n99999,{node}\n*SPRING,ELSET=EXTRA\n{component}\n2.e6\n"
         ours = frequencies(K, M)
@@ -149,7 +149,7 @@ class Calculix(Exported):
         np.testing.assert_allclose(self.calculix_hz(spring), ours[:4], rtol=1e-6)
 
     def test_the_matrix_lists_hold_the_same_bits(self):
-        row_of = {place: j for j, place in enumerate(self.places())}
+        row_of = {key: j for j, key in enumerate(self.nodes_and_components())}
         for name, matrix in zip("KM", reduced_matrices(self.folder / "beam.rom.h5")):
             read = np.zeros_like(matrix)
             for line in (self.folder / f"part.{name}.txt").read_text().splitlines():
@@ -172,8 +172,8 @@ def read_bulk(text):
             column = (fields[0], (int(fields[1]), int(fields[2])))
         elif line.startswith("GRID*"):
             column, following = None, lines[k + 1]
-            place = [number(fields[2]), number(fields[3]), number(following[8:24])]
-            grids[int(fields[0])] = (place, following[40:56].strip())
+            position = [number(fields[2]), number(fields[3]), number(following[8:24])]
+            grids[int(fields[0])] = (position, following[40:56].strip())
         elif line.startswith("SPOINT"):
             spoints.append(int(line[8:16]))
         elif line.startswith("*") and column:
@@ -199,7 +199,7 @@ class NastranDmig(Exported):
                 i, j = row_of[row], row_of[column]
                 self.assertEqual(read[i, j], 0.0, "one triangle, each entry once")
                 read[i, j] = read[j, i] = value
-            np.testing.assert_allclose(read, matrix, rtol=5e-10, atol=1e-99)  # ten digits beside a sign
+            np.testing.assert_allclose(read, matrix, rtol=5e-10, atol=1e-99)  # ten digits with a sign
 
     def test_every_coordinate_is_a_component_of_a_grid_or_a_scalar_point(self):
         _, grids, spoints = read_bulk(self.text)
@@ -208,8 +208,8 @@ class NastranDmig(Exported):
         for row in self.map:
             if row[2] != "0":
                 moved.setdefault(int(row[1]), set()).add(row[2])
-                place, constrained = grids[int(row[1])]
-                np.testing.assert_allclose(place, [float(x) for x in row[4:7]], rtol=5e-10)
+                position, constrained = grids[int(row[1])]
+                np.testing.assert_allclose(position, [float(x) for x in row[4:7]], rtol=5e-10)
         self.assertEqual(moved.keys(), grids.keys())
         for node, components in moved.items():
             self.assertEqual(set("123456") - components, set(grids[node][1]))
@@ -256,7 +256,7 @@ class Mbdyn(Exported):
                 np.testing.assert_array_equal(value, expected)
 
     def test_the_rigid_motions_of_a_free_body_are_left_to_the_joint(self):
-        self.let_go()
+        self.release()
         groups, _, modes = self.records()
         ours = frequencies(*reduced_matrices(self.folder / "beam.rom.h5"))
         self.assertEqual(modes, len(ours) - 6)

@@ -89,7 +89,7 @@ class Faces(OfATube):
         for face in named:
             self.assertEqual(face["surfaces"], [f"face_{face['number']}"])
 
-    def test_a_surface_that_selects_nothing_is_told_and_the_faces_are_listed(self):
+    def test_a_surface_that_selects_nothing_is_reported_and_the_faces_are_listed(self):
         (self.folder / "t.mesh.toml").write_text(
             TUBE + "[surface.bore]\ncylinder = { radius = 46, point = [0, 0, 0], axis = [0, 0, 1] }\n")
         done = self.mesh("--faces", "t.mesh.toml")
@@ -97,7 +97,7 @@ class Faces(OfATube):
         self.assertIn("cylinder of radius 46.5 mm, radius 0.5 mm more", done.stderr)
         self.assertEqual(len(done.stdout.splitlines()), 5)
 
-    def test_a_length_unit_is_kept_and_the_files_own_is_said(self):
+    def test_a_length_unit_is_kept_and_that_of_the_file_is_reported(self):
         (self.folder / "inch.mesh.toml").write_text(TUBE.replace('kind', 'length_unit = "in"\nkind', 1)
                                                     .replace("53.5", "2").replace("46.5", "1").replace("100", "3"))
         self.mesh("inch.mesh.toml", "-o", "inch.mesh.h5", "--write-step", "inch.step")
@@ -115,7 +115,7 @@ class Faces(OfATube):
             return subprocess.run([sys.executable, stages.SOURCE / "tools/clatter", "plot", "faces", *arguments],
                                   cwd=self.folder, text=True, capture_output=True,
                                   env={**os.environ, "CLATTER_BIN": str(stages.BIN)})
-        done = plot("tube.step", "-o", "b.png")  # by way of clatter-mesh --faces
+        done = plot("tube.step", "-o", "b.png")  # through clatter-mesh --faces
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "b.png").read_bytes()[:4], b"\x89PNG")
         self.assertGreater((self.folder / "b.png").stat().st_size, 20000)
@@ -127,10 +127,10 @@ class Faces(OfATube):
         from clatter_tools.plots import faces
         ids = np.zeros((12, 9), int)
         ids[2:9, 2:7] = 7
-        whole, light = ids.copy(), np.where(ids > 0, 0.5, 0.0)
+        complete, light = ids.copy(), np.where(ids > 0, 0.5, 0.0)
         ids[5, 4], ids[0, 7] = 0, 9
         found, bright = faces.without_specks(ids, np.where(ids == 7, 0.5, 0.0))
-        np.testing.assert_array_equal(found, whole)
+        np.testing.assert_array_equal(found, complete)
         np.testing.assert_array_equal(bright, light)
 
     def test_each_face_has_its_number_where_it_is_seen(self):
@@ -169,7 +169,7 @@ class BareCad(OfATube):
         self.mesh("tube.step", "-o", "fine.mesh.h5", "--element-size-mm", 10)
         self.assertGreater(len(self.arrays("fine.mesh.h5")["nodes"]), 1.5 * coarse)
         self.assertIn("element_size_mm = 10\n", (self.folder / "fine.mesh.toml").read_text())
-        # Over a description the option goes before what it says.
+        # The option overrides the description.
         self.mesh("fine.mesh.toml", "-o", "over.mesh.h5", "--element-size-mm", 15)
         self.assertEqual(len(self.arrays("over.mesh.h5")["nodes"]), coarse)
 

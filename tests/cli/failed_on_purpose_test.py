@@ -1,5 +1,5 @@
-"""A factorisation, an eigen-solve or a count that fails leaves no file: none under the final name, none beside it,
-and an older result stays as it was (hard cases A4, C1, C2; H1)."""
+"""A factorisation, an eigen-solve or a count that fails leaves no file, neither the final nor a temporary one,
+and does not change an older result (hard cases A4, C1, C2; H1)."""
 import os
 import signal
 import subprocess
@@ -11,7 +11,7 @@ import stages
 
 
 class Failing(stages.PipelineTest):
-    """The beam with a broken matrix, an impossible wish or too little memory."""
+    """The beam with an invalid matrix, an impossible request or too little memory."""
 
     def setUp(self):
         super().setUp()
@@ -20,7 +20,7 @@ class Failing(stages.PipelineTest):
         self.environment = {**os.environ, "TMPDIR": str(self.temporary)}
 
     def fails(self, stage, code, says=(), extra=()):
-        """The stage ends with `code` and says why; the older result stays, and where there is none nothing is left."""
+        """The stage ends with `code` and gives the reason; an older result stays, and no other file is left."""
         output = self.folder / self.command(stage)[-1]
         output.write_bytes(b"an older result")
         for older in (True, False):
@@ -38,7 +38,7 @@ class Failing(stages.PipelineTest):
         output.write_bytes(b"an older result")
 
     def listing(self):
-        """All files with what must not change."""
+        """All files with the properties that must not change."""
         return {str(path.relative_to(self.folder)): stages.fingerprint(path)
                 for path in self.folder.rglob("*") if path.is_file()}
 
@@ -52,7 +52,7 @@ class Failing(stages.PipelineTest):
 
 
 def overweight(values, rows, columns):
-    """Entries beside a positive diagonal so large that the matrix is indefinite."""
+    """Entries next to a positive diagonal so large that the matrix is indefinite."""
     values[(rows != columns) & (columns == 100)] *= 1e3
 
 
@@ -88,7 +88,7 @@ class HardC2Factorisations(Failing):
             with self.subTest(stage=stage):
                 self.fails(stage, 3, says=["not positive definite", "node"])
 
-    def test_a_node_that_hangs_on_nothing(self):
+    def test_an_unattached_node(self):
         def cut(values, rows, columns):
             at = (rows // 3 == 40) | (columns // 3 == 40)
             values[at] = np.where(rows[at] == columns[at], 1e9, 0.0)
@@ -103,12 +103,12 @@ class HardC4Memory(Failing):
             with self.subTest(stage=stage):
                 self.fails(stage, 3, says=["MiB", " are left", "--memory-limit"], extra=["--memory-limit", "0.02"])
 
-    def test_a_limit_that_makes_no_sense(self):
+    def test_a_meaningless_limit(self):
         self.fails("modal", 2, says=["--memory-limit"], extra=["--memory-limit", "-1"])
 
 
 class HardH1Interrupted(Failing):
-    def test_a_signal_in_the_midst_of_a_solve_leaves_nothing_behind(self):
+    def test_a_signal_during_a_solve_leaves_no_file(self):
         for stage in ("modal", "condense"):
             arguments = self.command(stage)
             output = self.folder / arguments[-1]
@@ -125,7 +125,7 @@ class HardH1Interrupted(Failing):
         process = subprocess.Popen([stages.BIN / f"clatter-{stage}", *arguments], cwd=self.folder, text=True,
                                    env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         for line in process.stderr:
-            if "read" in line and "DoF" in line:  # said when the model is in memory: the solves come next
+            if "read" in line and "DoF" in line:  # printed when the model is in memory: the solves come next
                 break
         process.send_signal(number)
         process.stderr.read()

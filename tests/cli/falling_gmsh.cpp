@@ -1,6 +1,6 @@
-// Loaded before Gmsh (LD_PRELOAD): its mesher falls in the way that CLATTER_TEST_GMSH names; a
-// prefix "curved-" lets it fall only where elements follow the curvature, "frontal-" only with the
-// frontal algorithm. Otherwise the call goes on to Gmsh.
+// Loaded before Gmsh (LD_PRELOAD): its mesher fails in the way that CLATTER_TEST_GMSH names;
+// with the prefix "curved-" only where elements follow the curvature, with "frontal-" only with the
+// frontal algorithm. Otherwise the call is passed on to Gmsh.
 #include <dlfcn.h>
 #include <gmsh.h>
 #include <unistd.h>
@@ -43,7 +43,7 @@ bool falls_here(std::string& way) {
 
 }  // namespace
 
-// What clatter-mesh calls; the mangled name is Gmsh's.
+// The function that clatter-mesh calls; the mangled name is Gmsh's.
 void gmsh::model::mesh::generate(const int dim) {
   const char* chosen = std::getenv("CLATTER_TEST_GMSH");
   std::string way = chosen == nullptr ? "" : chosen;

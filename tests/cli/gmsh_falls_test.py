@@ -1,4 +1,4 @@
-"""clatter-mesh when Gmsh crashes, exits, hangs or eats memory (hard case N17): one line, exit 3, nothing left."""
+"""clatter-mesh when Gmsh crashes, exits, hangs or exhausts memory (hard case N17): one line, exit 3, no file left."""
 import os
 import pathlib
 import signal
@@ -37,7 +37,7 @@ class HardN17GmshFalls(unittest.TestCase):
         return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
 
     def environment(self, way):
-        # The sanitizers' own run-time library wants to come first; it need not.
+        # The sanitizers' run-time library must normally come first; not here.
         return {**os.environ, "LD_PRELOAD": str(SHIM), "CLATTER_TEST_GMSH": way, "TMPDIR": str(self.folder / "tmp"),
                 "ASAN_OPTIONS": "verify_asan_link_order=0"}
 
@@ -59,7 +59,7 @@ class HardN17GmshFalls(unittest.TestCase):
         self.assertEqual((self.folder / "tube.mesh.h5").read_bytes(), b"the older artefact")
         return done.stderr
 
-    def test_a_crash_is_told_with_step_and_sizes_and_a_simpler_setting_is_tried(self):
+    def test_a_crash_is_reported_with_step_and_sizes_and_a_simpler_setting_is_tried(self):
         said = self.assert_falls("abort", ["crashed (signal 6, Aborted)", "gmsh: meshing", "element_size_mm = 9",
                                            "elements_per_turn = 12", "without elements_per_turn", "heal the part"],
                                  part="curved.mesh.toml")
@@ -67,12 +67,12 @@ class HardN17GmshFalls(unittest.TestCase):
         self.assertIn("trying again without elements_per_turn", said)
         self.assert_falls("abort", ["MeshAdapt"])
 
-    def test_what_cannot_be_caught_exits_and_foreign_throws_are_told(self):
+    def test_aborts_exits_and_unknown_exceptions_are_reported(self):
         self.assert_falls("terminate", ["signal 6", "terminate called after throwing an instance of 'std::string'"])
         self.assert_falls("exit", ["ended with exit code 0 and no result"])
         self.assert_falls("throw", ["threw an exception without text"])
 
-    def test_hang_and_hunger_end_at_their_limits_without_a_second_attempt(self):
+    def test_hangs_and_memory_exhaustion_end_at_their_limits_without_a_second_attempt(self):
         said = self.assert_falls("hang", ["was stopped after 2 s (--time-limit)", "raise the limit"], "--time-limit",
                                  "2")
         self.assertEqual(said.count("\n"), 1)
@@ -99,7 +99,7 @@ class HardN17GmshFalls(unittest.TestCase):
             self.wait_for(lambda: children.read_text().split() and self.files() != self.before)
             child = children.read_text().split()[0]
             process.send_signal(number)
-            # All that holds the pipe has gone when this returns: the child too.
+            # This returns when all processes with the pipe have ended, the child too.
             process.communicate(timeout=60)
             self.assertEqual(process.returncode, -number)
             self.assertFalse(pathlib.Path(f"/proc/{child}/exe").exists())

@@ -1,5 +1,5 @@
-"""A bit that flips in a finished artefact: what reads the number or text refuses it, `clatter info --verify` names it;
-files without checksums are read as they are."""
+"""A flipped bit in a finished artefact: programs that read the number or text refuse it, `clatter info --verify`
+names it; files without checksums are read."""
 import random
 import subprocess
 import unittest
@@ -10,11 +10,11 @@ import stages
 
 TOOL = stages.SOURCE / "tools/clatter"
 FLIPPED = 8  # datasets of each artefact
-ANYWHERE = 40  # bytes of a whole file
+ANYWHERE = 40  # bytes of the entire file
 
 
 def numbers(path):
-    """All that an artefact holds but for times and hashes, which differ from run to run."""
+    """Contents of an artefact except times and hashes, which differ from run to run."""
     found = {}
 
     def take(name, item):
@@ -28,28 +28,28 @@ def numbers(path):
 
 def stored(path):
     """{dataset: (offset, bytes) of its first chunk} of all that is not empty."""
-    places = {}
+    chunks = {}
 
     def take(name, item):
         if isinstance(item, h5py.Dataset) and item.size:
             chunk = item.id.get_chunk_info(0)
-            places[name] = (chunk.byte_offset, min(chunk.size, item.size * item.dtype.itemsize))
+            chunks[name] = (chunk.byte_offset, min(chunk.size, item.size * item.dtype.itemsize))
     with h5py.File(path) as file:
         file.visititems(take)
-    return places
+    return chunks
 
 
 class FlippedBits(stages.PipelineTest):
-    # What reads each artefact and writes another one quickly.
+    # A stage that reads each artefact and writes another one quickly.
     READERS = {"beam.mesh.h5": ("assembly", ["beam.mesh.h5", "-c", "beam.fe.toml", "-o", "out.h5"]),
                "beam.fe.h5": ("modal", ["beam.fe.h5", "--count", "1", "-o", "out.h5"]),
                "beam.rom.h5": ("dynamics", ["step.run.toml", "-o", "out.h5"]),
                "step.run.h5": ("recover", ["step.run.h5", "-c", "step.field.toml", "-o", "out.h5"])}
 
-    def flip(self, path, draw, place):
+    def flip(self, path, draw, chunk):
         """Flips a bit of the file in these bytes (offset, length)."""
         data = bytearray(path.read_bytes())
-        data[place[0] + draw.randrange(place[1])] ^= 1 << draw.randrange(8)
+        data[chunk[0] + draw.randrange(chunk[1])] ^= 1 << draw.randrange(8)
         path.write_bytes(data)
 
     def verify(self, path):
@@ -59,12 +59,12 @@ class FlippedBits(stages.PipelineTest):
         draw = random.Random(5)
         for name, (stage, arguments) in self.READERS.items():
             path, output = self.folder / name, self.folder / "out.h5"
-            good, places = path.read_bytes(), stored(path)
+            good, chunks = path.read_bytes(), stored(path)
             stages.run_stage(stage, *arguments, folder=self.folder)
             expected, refused = numbers(output), 0
-            for dataset in draw.sample(sorted(places), FLIPPED):
+            for dataset in draw.sample(sorted(chunks), FLIPPED):
                 with self.subTest(file=name, dataset=dataset):
-                    self.flip(path, draw, places[dataset])
+                    self.flip(path, draw, chunks[dataset])
                     output.unlink(missing_ok=True)
                     done = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
                     if done.returncode == 0:
@@ -83,7 +83,7 @@ class FlippedBits(stages.PipelineTest):
             self.assertGreaterEqual(refused, FLIPPED // 4, name)
 
     def test_a_byte_anywhere_is_refused_in_a_line_or_changes_nothing(self):
-        """Heads, indices, names and attributes included: no flip makes the HDF5 library crash."""
+        """Headers, indices, names and attributes included: no flip makes the HDF5 library crash."""
         draw, refused = random.Random(8), 0
         for source, (stage, arguments) in {
                 "beam.mesh.h5": ("mesh", ["beam.mesh.h5", "--export", "out.inp"]),
@@ -109,12 +109,12 @@ class FlippedBits(stages.PipelineTest):
             path.write_bytes(good)
         self.assertGreater(refused, 0)  # most bytes of the reduced model are not read for this export
 
-    def test_a_text_that_h5py_edited_is_read_and_said_to_have_no_checksum(self):
+    def test_a_text_that_h5py_edited_is_read_and_reported_without_checksum(self):
         with h5py.File(self.folder / "beam.fe.h5", "r+") as file:
             file["loads/tip_force"].attrs["unit"] = "N"
         done = stages.run_stage("condense", *self.command("condense"), "--quiet", folder=self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("no checksums of 1 places: loads/tip_force@unit", self.verify(self.folder / "beam.fe.h5").stderr)
+        self.assertIn("no checksums of 1 object: loads/tip_force@unit", self.verify(self.folder / "beam.fe.h5").stderr)
 
     def test_verification_names_the_dataset_in_every_kind_of_artefact(self):
         draw = random.Random(6)
@@ -123,14 +123,14 @@ class FlippedBits(stages.PipelineTest):
             with self.subTest(file=path.name):
                 done = self.verify(path)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-                self.assertIn("every number and text is as it was written", done.stdout)
-                dataset, place = draw.choice(sorted(stored(path).items()))
-                self.flip(path, draw, place)
+                self.assertIn("every number and text is undamaged", done.stdout)
+                dataset, chunk = draw.choice(sorted(stored(path).items()))
+                self.flip(path, draw, chunk)
                 done = self.verify(path)
                 self.assertEqual(done.returncode, 2, dataset)
                 self.assertIn(f"{path.name}: damaged after it was written: {dataset}", done.stderr)
 
-    def test_a_file_without_checksums_is_read_and_said_to_have_none(self):
+    def test_a_file_without_checksums_is_read_and_reported_as_such(self):
         path = self.folder / "beam.fe.h5"
         expected = numbers(path)
         plain = self.folder / "plain.h5"
@@ -148,8 +148,8 @@ class FlippedBits(stages.PipelineTest):
         self.assertEqual(list(numbers(path)), list(expected))
         done = stages.run_stage("condense", *self.command("condense"), "--quiet", folder=self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        said = subprocess.run([TOOL, "info", path.name], cwd=self.folder, capture_output=True, text=True)
-        self.assertIn("no checksums", said.stdout)
+        shown = subprocess.run([TOOL, "info", path.name], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("no checksums", shown.stdout)
         done = self.verify(path)
         self.assertEqual(done.returncode, 2)
         self.assertIn("cannot be verified, no checksums", done.stderr)

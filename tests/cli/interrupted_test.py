@@ -1,4 +1,4 @@
-"""A disk that is full and a stage that is killed: nothing half under the final name, the older artefact intact."""
+"""A full disk and a killed stage: no partial file under the final name, the older artefact intact."""
 import os
 import pathlib
 import random
@@ -32,7 +32,7 @@ class HardH1KilledHalfWay(stages.PipelineTest):
         time.sleep(delay)
         process.kill()
         process.wait()
-        if stages.fingerprint(output) != before:  # it was faster than the kill: then it must be whole
+        if stages.fingerprint(output) != before:  # it was faster than the kill: then it must be complete
             with h5py.File(output) as file:
                 self.assertIn("timing", file)
         again = stages.run_stage(stage, *arguments, folder=self.folder)
@@ -47,21 +47,21 @@ class HardN11Terminated(stages.PipelineTest):
         for wait in (0.3, 1.0, 3.0, 10.0):
             process = subprocess.Popen([stages.BIN / "clatter-dynamics", *self.command("dynamics")], cwd=self.folder,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            time.sleep(wait)  # until it steps; before that the signal ends it as any program
+            time.sleep(wait)  # until time stepping; before that the signal ends it like any program
             process.terminate()
-            said = process.communicate()[1]
+            messages = process.communicate()[1]
             self.assertEqual(list(self.folder.glob("*.part")), [])
             if process.returncode != -signal.SIGTERM:
                 break
-        self.assertEqual(process.returncode, 3, said)
-        self.assertIn("step.run.interrupted.h5", said)
+        self.assertEqual(process.returncode, 3, messages)
+        self.assertIn("step.run.interrupted.h5", messages)
         with h5py.File(self.folder / "step.run.interrupted.h5") as run:
             self.assertEqual(run.attrs["complete"], 0)
             self.assertGreater(len(run["output/time"]), 0)
 
 
 class HardH2DiskFull(stages.PipelineTest):
-    def test_a_full_disk_is_told_in_one_line_and_harms_nothing(self):
+    def test_a_full_disk_is_reported_in_one_line_and_damages_nothing(self):
         small = self.small_disk()
         for stage in ("mesh", "assembly", "condense", "dynamics", "recover"):
             name = self.command(stage)[-1]
@@ -78,14 +78,14 @@ class HardH2DiskFull(stages.PipelineTest):
 
     def small_disk(self):
         """A file system of 1 MB in the test's folder; the test is skipped where none can be mounted."""
-        place = self.folder / "small"
-        place.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", place], capture_output=True,
+        mount_point = self.folder / "small"
+        mount_point.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", mount_point], capture_output=True,
                                  text=True) if shutil.which("mount") else None
         if mounted is None or mounted.returncode != 0:
             self.skipTest("a 1 MB file system cannot be mounted here: needs root")
-        self.addCleanup(subprocess.run, ["umount", place], check=True)
-        return place
+        self.addCleanup(subprocess.run, ["umount", mount_point], check=True)
+        return mount_point
 
     def test_a_folder_that_does_not_exist(self):
         for stage in stages.STAGES:

@@ -1,4 +1,4 @@
-"""What is written never overwrites what is read, and an output that cannot be written is told before any work
+"""Outputs never overwrite inputs, and an output that cannot be written is an error before any work
 (hard cases N18, N11)."""
 import os
 import shutil
@@ -20,7 +20,7 @@ COMMANDS = {
 
 class OutputTest(stages.PipelineTest):
     def listing(self):
-        """All files and what links say, with what must not change."""
+        """All files and link targets, with the properties that must not change."""
         return {str(path.relative_to(self.folder)): os.readlink(path) if path.is_symlink() else stages.fingerprint(path)
                 for path in self.folder.rglob("*") if path.is_symlink() or path.is_file()}
 
@@ -100,10 +100,10 @@ class HardN18OutputEqualsInput(OutputTest):
 
 
 class HardN18InputsNamedInFiles(OutputTest):
-    """Inputs that a TOML file, a deck or a run names are known once that is read, and no work comes before."""
+    """Inputs named in a TOML file, a deck or a run are checked once that is read, before any work."""
 
-    def refuse_named(self, stage, inputs, output, place, option="--depfile"):
-        self.refuse(stage, self.with_output(stage, option, f"./{output}", inputs), ["would overwrite the input", output, place])
+    def refuse_named(self, stage, inputs, output, named_in, option="--depfile"):
+        self.refuse(stage, self.with_output(stage, option, f"./{output}", inputs), ["would overwrite the input", output, named_in])
 
     def test_geometry_and_decks(self):
         done = stages.run_stage("mesh", "beam.mesh.toml", "-o", "b.mesh.h5", "--write-step", "b.step", "--export", "b.inp",
@@ -130,10 +130,10 @@ class HardN18InputsNamedInFiles(OutputTest):
         self.edit("step.run.toml", "value = 100.0", 'table = "force.csv"')
         (self.folder / "force.csv").write_text("time [s], force [N]\n0, 1\n1, 1\n")
         (self.folder / "over.run.toml").write_text('base = "step.run.toml"\n')
-        for name, place in (("beam.rom.h5", "rom"), ("force.csv", "table"), ("step.run.toml", "command line")):
+        for name, named_in in (("beam.rom.h5", "rom"), ("force.csv", "table"), ("step.run.toml", "command line")):
             for option in ("-o", "--depfile"):
                 with self.subTest(name=name, option=option):
-                    self.refuse_named("dynamics", ["over.run.toml"], name, place, option)
+                    self.refuse_named("dynamics", ["over.run.toml"], name, named_in, option)
 
     def test_the_reduced_model_that_a_run_names(self):
         for option in ("-o", "--depfile"):
@@ -141,7 +141,7 @@ class HardN18InputsNamedInFiles(OutputTest):
 
 
 class HardN11OutputPlaces(OutputTest):
-    """The input does not exist in any of these: what is told is the output, so it is looked at before any reading."""
+    """The input does not exist in any of these: the error names the output, so it is checked before any reading."""
 
     def refuse_place(self, name, says):
         for stage, (command, outputs) in COMMANDS.items():
@@ -153,10 +153,10 @@ class HardN11OutputPlaces(OutputTest):
     def test_a_missing_folder(self):
         self.refuse_place("nowhere/out.vtu", ["nowhere: No such file or directory"])
 
-    def test_a_file_in_the_place_of_a_folder(self):
+    def test_a_file_instead_of_a_folder(self):
         self.refuse_place("beam.fe.toml/out.vtu", ["beam.fe.toml"])
 
-    def test_a_folder_in_the_place_of_the_file(self):
+    def test_a_folder_instead_of_the_file(self):
         (self.folder / "deep.vtu").mkdir()
         self.refuse_place("deep.vtu", ["is a folder"])
 
@@ -164,15 +164,15 @@ class HardN11OutputPlaces(OutputTest):
         self.refuse_place("/dev/null", ["device"])
 
     def test_a_folder_without_permission(self):
-        place = self.folder / "locked"
-        place.mkdir()
+        folder = self.folder / "locked"
+        folder.mkdir()
         if os.geteuid() == 0:  # root may write everywhere but on a file system that is read-only
-            mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "ro,size=1m", "tmpfs", place], capture_output=True)
+            mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "ro,size=1m", "tmpfs", folder], capture_output=True)
             if mounted.returncode != 0:
                 self.skipTest("root, and no read-only file system can be mounted here")
-            self.addCleanup(subprocess.run, ["umount", place], check=True)
+            self.addCleanup(subprocess.run, ["umount", folder], check=True)
         else:
-            place.chmod(0o555)
+            folder.chmod(0o555)
         self.refuse_place("locked/out.vtu", ["Read-only file system" if os.geteuid() == 0 else "Permission denied"])
 
     @unittest.skipIf(os.geteuid() == 0, "root may overwrite every file")

@@ -1,4 +1,4 @@
-"""Where each program prints what: results on stdout, progress and warnings on stderr, one line of JSON instead."""
+"""Output streams of each program: results on stdout, progress and warnings on stderr, one line of JSON instead."""
 import json
 import unittest
 
@@ -37,7 +37,7 @@ class Output(stages.PipelineTest):
                 self.assertIsInstance(json.loads(done.stdout), dict)
                 self.assertIn(text, done.stderr)
 
-    # (stage, arguments behind --json, members of "error" beside program and message, words of the message)
+    # (stage, arguments after --json, members of "error" in addition to program and message, words of the message)
     ERRORS = [("mesh", ["none.mesh.toml", "-o", "x.mesh.h5"], {"file": "none.mesh.toml", "exit_code": 2}, "no such file"),
               ("assembly", ["beam.mesh.h5", "-c", "wrong.fe.toml", "-o", "x.fe.h5"],
                {"file": "wrong.fe.toml", "line": 7, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
@@ -64,7 +64,7 @@ class Output(stages.PipelineTest):
                 plain = stages.run_stage(stage, *arguments, "--quiet", folder=self.folder)
                 self.assertEqual((plain.stdout, plain.stderr), ("", done.stderr))
 
-    def test_units_that_no_material_has_are_told_once_and_not_refused(self):
+    def test_implausible_units_give_one_warning_and_no_error(self):
         for old, new, expected in UNITS:
             with self.subTest(new):
                 self.setUp()
@@ -75,7 +75,7 @@ class Output(stages.PipelineTest):
         self.assertNotIn("did you mean", stages.run_stage("assembly", *self.command("assembly"),
                                                           folder=self.master).stderr)
 
-    def test_a_box_of_metres_and_a_frequency_of_megahertz_are_told(self):
+    def test_a_box_of_metres_and_a_frequency_of_megahertz_give_a_warning(self):
         self.edit("beam.mesh.toml", 'length_unit = "mm"', 'length_unit = "m"')
         self.edit("beam.mesh.toml", "element_size_mm = 15.0", "element_size_mm = 15000.0")
         done = self.run_stage("mesh")

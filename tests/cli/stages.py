@@ -1,4 +1,4 @@
-"""Runs the stages for tests: a small pipeline made once, and checks of how a stage refuses."""
+"""Runs the stages for tests: a small pipeline made once, and checks of a stage's errors."""
 import hashlib
 import os
 import pathlib
@@ -14,13 +14,13 @@ STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
 
 
 def run_stage(stage, *arguments, folder, **options):
-    """Runs clatter-<stage> in `folder`; returns the finished process with its texts."""
+    """Runs clatter-<stage> in `folder`; returns the finished process with its output."""
     return subprocess.run([BIN / f"clatter-{stage}", *map(str, arguments)], cwd=folder, text=True,
                           capture_output=True, timeout=300, **options)
 
 
 def fingerprint(path):
-    """What must not change: content, inode and time stamp of a file."""
+    """Properties that must not change: content, inode and time stamp of a file."""
     state = path.stat()
     return hashlib.sha256(path.read_bytes()).hexdigest(), state.st_ino, state.st_mtime_ns
 
@@ -33,7 +33,7 @@ def require_stages():
 
 
 def copy_sample(test_class, name):
-    """A sample's own files in a scratch tree beside the tools; returns its folder."""
+    """A sample's source files in a scratch tree together with the tools; returns its folder."""
     root = pathlib.Path(tempfile.mkdtemp(prefix=f"clatter-{name}-"))
     test_class.addClassCleanup(shutil.rmtree, root)
     (root / "tools").symlink_to(SOURCE / "tools")
@@ -42,7 +42,7 @@ def copy_sample(test_class, name):
 
 
 def make(folder, *arguments):
-    """Runs make there with these executables; returns what it said, AssertionError when it fails."""
+    """Runs make there with these executables; returns its output, AssertionError when it fails."""
     done = subprocess.run(["make", f"CLATTER_BIN={BIN}", "CLATTER_FLAGS=--quiet", *arguments], cwd=folder, text=True,
                           capture_output=True, env={**os.environ, "MAKEFLAGS": ""})
     if done.returncode:
@@ -51,7 +51,7 @@ def make(folder, *arguments):
 
 
 class PipelineTest(unittest.TestCase):
-    """Tests in a fresh copy of a folder in which the beam sample has been brought through all stages."""
+    """Tests in a fresh copy of a folder in which the beam sample has run through all stages."""
 
     @classmethod
     def setUpClass(cls):
@@ -67,7 +67,7 @@ class PipelineTest(unittest.TestCase):
 
     @staticmethod
     def commands():
-        """The beam's way through the stages: (stage, arguments)."""
+        """Stages of the beam sample: (stage, arguments)."""
         return [("mesh", ["beam.mesh.toml", "-o", "beam.mesh.h5"]),
                 ("assembly", ["beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5"]),
                 ("modal", ["beam.fe.h5", "-c", "beam.modes.toml", "-o", "beam.modes.h5"]),
@@ -86,14 +86,14 @@ class PipelineTest(unittest.TestCase):
         shutil.copytree(self.master, self.folder, dirs_exist_ok=True)
 
     def edit(self, name, old, new):
-        """Replaces a text in a file; the test fails when it is not there."""
+        """Replaces a text in a file; the test fails if it is missing."""
         path = self.folder / name
         before = path.read_text()
         self.assertIn(old, before, f"{name} has changed, adapt this test")
         path.write_text(before.replace(old, new, 1))
 
     def assert_refused(self, stage, arguments=None, code=2, says=(), program=None, **options):
-        """The stage ends with `code` and one line that says all of `says`; its older artefact stays as it was."""
+        """The stage ends with `code` and one line that says all of `says`; its older artefact is unchanged."""
         arguments = arguments or self.command(stage)
         output = self.folder / arguments[-1]
         before = fingerprint(output) if output.exists() else None

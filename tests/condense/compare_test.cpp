@@ -11,7 +11,7 @@
 #include "core/modes/compare.hpp"
 #include "modal/modes_file.hpp"
 #include "tests/condense/box_model.hpp"
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter {
 namespace {

@@ -1,4 +1,4 @@
-"""Sample commands of READMEs and documents: found in their text, and looked at without running them."""
+"""Sample commands of READMEs and documents: found in their text, and checked without running them."""
 import dataclasses
 import fnmatch
 import functools
@@ -26,11 +26,11 @@ COMMENT = re.compile(r"\s+(#|//)\s.*$")
 class Command:
     path: str    # of the document
     line: int
-    text: str    # as it is written, without its comment
-    block: bool  # in a block of its own, not within a sentence
+    text: str    # as written, without its comment
+    block: bool  # in a separate block, not within a sentence
 
     def words(self):
-        """Its words; variables of the environment in front and placeholders left out."""
+        """Its words, without leading environment variables and placeholders."""
         words = shlex.split(self.text.replace("[", " ").replace("]", " "))
         while words and re.match(r"[A-Z_]+=", words[0]):
             words.pop(0)
@@ -45,7 +45,7 @@ def is_command(text):
 
 
 def blocks(text):
-    """[(line, text)] of the lines in blocks: indented by four, or fenced as shell or as nothing."""
+    """[(line, text)] of the lines in blocks: indented by four, or fenced as shell or without a language."""
     found, fence = [], None
     lines = text.split("\n")
     for number, line in enumerate(lines, 1):
@@ -57,7 +57,7 @@ def blocks(text):
 
 
 def commands_in(path, text):
-    """All commands of a document; a line that ends in a backslash goes on."""
+    """All commands of a document; a line that ends in a backslash continues."""
     found, open_line = [], None
     for number, line in blocks(text):
         line = COMMENT.sub("", line)
@@ -82,7 +82,7 @@ def all_commands():
 
 @functools.cache
 def help_of(program):
-    """What `clatter-mesh --help` says; None when it is not built."""
+    """Output of `clatter-mesh --help`; None if it is not built."""
     path = BIN / program
     if not path.exists():
         return None
@@ -96,7 +96,7 @@ def cmake_text():
 
 @functools.cache
 def test_names():
-    """Names that CTest knows, but for the parameters of parameterised tests."""
+    """Names in CTest, without the parameters of parameterised tests."""
     python = re.findall(r'clatter_python_test\((\w+) "?[\w\\;]+"?((?: \w+)*)\)', cmake_text())
     return ([f"{suite}.{case}" for suite, case in repository.all_tests() if case[:5] != "test_"]
             + ["_".join([file, *classes.split()]) for file, classes in python])
@@ -200,8 +200,8 @@ def look_at_test_program(words):
             if not any(fnmatch.fnmatch(test, text) for test in test_names())]
 
 
-def look_at(command):
-    """What is wrong with a command as it is written, each in a sentence: programs, options, targets, tests that do not exist."""
+def errors_of(command):
+    """Errors of a command, one sentence each: programs, options, targets, tests that do not exist."""
     words = command.words()
     program = words[0]
     if program.startswith("clatter-"):

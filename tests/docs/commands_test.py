@@ -1,7 +1,7 @@
 """Sample commands of READMEs and documents.
 
-Each is looked at: its program, options, make targets and tests exist. Each in a block of a README is run as it is
-written, on the beam of samples/ under the names that the README uses, or is named below with the test that runs it.
+Each is checked: its program, options, make targets and tests exist. Each in a block of a README is run as written,
+on the beam of samples/ under the names that the README uses, or is named below with the test that runs it.
 """
 import os
 import pathlib
@@ -23,7 +23,7 @@ ELSEWHERE = [("README.md", "make demo", "TruckDiesel"),
              ("samples/beam/README.md", "make CLATTER_BIN", "Beam"),
              ("samples/truck_diesel/README.md", "make CLATTER_BIN", "TruckDiesel"),
              ("samples/truck_diesel/README.md", "../../tools/clatter report", "TruckDiesel")]
-# Names in a README that stand for names of the user's part: what they are in the beam.
+# Names of the user's part in a README, and the corresponding names of the beam.
 NAMES = {"liner_2_bore": "y_max", "sensor_x": "sensor_tip"}
 
 DECK = """*NODE, NSET=ALL
@@ -65,7 +65,7 @@ class Blocks(unittest.TestCase):
         found = commands.all_commands()
         self.assertGreater(len([command for command in found if command.block]), 20)
         self.assertGreater(len(found), 80)
-        wrong = [f"{command}: {', '.join(what)}" for command in found if (what := commands.look_at(command))]
+        wrong = [f"{command}: {', '.join(what)}" for command in found if (what := commands.errors_of(command))]
         self.assertEqual(wrong, [], "\n" + "\n".join(wrong))
 
     def test_samples_in_the_help_of_each_program_use_options_that_it_has(self):
@@ -80,7 +80,7 @@ class Blocks(unittest.TestCase):
                 self.assertTrue(samples, text)
                 for sample in samples:
                     command = commands.Command("help", 0, commands.COMMENT.sub("", sample), True)
-                    self.assertEqual(commands.look_at(command), [], sample)
+                    self.assertEqual(commands.errors_of(command), [], sample)
 
     def test_every_block_of_a_readme_is_run_or_named_with_what_runs_it(self):
         tests = {suite for suite, _ in repository.all_tests()}
@@ -93,12 +93,12 @@ class Blocks(unittest.TestCase):
             if command.block and not elsewhere(command):
                 self.assertRegex(command.text, r"^(clatter(-\w+)?|(\.\./)*tools/clatter) ", f"{command}: say in ELSEWHERE what runs it")
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         text = ("Run `clatter nonsense x.h5` or\n\n    make nonsense   # not\n    PRESET=dev ctest -L nonsense -R 'Xyzzy|HardB4'\n"
                 "    cmake --preset nonsense\n    bench/nonsense.py --x\n    clatter info --nonsense \\\n        part.h5\n"
                 "    build/release/tests/nonsense_test --gtest_filter='Nonsense*'\n    F = k x\n")
         found = commands.commands_in("README.md", text)
-        self.assertEqual([what for command in found for what in commands.look_at(command)], [
+        self.assertEqual([what for command in found for what in commands.errors_of(command)], [
             "no target nonsense", "no test has the label nonsense", "no test is named like Xyzzy", "no preset nonsense",
             "no file bench/nonsense.py", "no option --nonsense", "no test program nonsense_test", "no command clatter nonsense"])
         self.assertEqual([command.line for command in found], [3, 4, 5, 6, 7, 9, 1])
@@ -106,7 +106,7 @@ class Blocks(unittest.TestCase):
 
 class Run(stages.PipelineTest):
     """Every clatter command of a README's block, on the beam."""
-    before = {}  # {text of a command: what is to be done before it}
+    before = {}  # {text of a command: preparation for it}
 
     def setUp(self):
         super().setUp()

@@ -27,7 +27,7 @@ def not_covered(text):
 
 
 def cases_of(test):
-    """Cases that the name of a test carries."""
+    """Cases in the name of a test."""
     return re.findall(rf"(?:\b|_)[Hh]ard({CASE})(?=_|\b|[A-Z])", ".".join(test))
 
 
@@ -42,7 +42,7 @@ def citations(text):
 
 
 def complaints(text, tests, cited):
-    """What is wrong, one sentence each. `tests`: [(suite, case)], `cited`: {case: file that cites it}."""
+    """Inconsistencies, one sentence each. `tests`: [(suite, case)], `cited`: {case: file that cites it}."""
     listed, without = entries(text), not_covered(text)
     known = {name for suite, case in tests for name in (suite, f"{suite}.{case}")}
     wrong = []
@@ -59,7 +59,7 @@ def complaints(text, tests, cited):
             if not {suite, f"{suite}.{name}"} & set(listed.get(case, [])):
                 wrong.append(f"the test {suite}.{name} is not named under {case}" if case in listed
                              else f"the test {suite}.{name} is named after {case}, which has no entry")
-    wrong += [f"{place} cites hard case {case}, which is not in the list" for case, place in sorted(cited.items())
+    wrong += [f"{path} cites hard case {case}, which is not in the list" for case, path in sorted(cited.items())
               if case not in listed and case not in without]
     return wrong
 
@@ -86,10 +86,10 @@ class HardCases(unittest.TestCase):
         for path in repository.files(".cpp", ".hpp", ".py", ".md", ".txt", ".cmake"):
             text = path.read_text()
             for match in re.finditer(r"(\S*)hard-cases\.md", text):
-                with self.subTest(place=repository.place(path, text, match.start())):
+                with self.subTest(line=repository.line_of(path, text, match.start())):
                     self.assertTrue(match[1].endswith("docs/") or path.parent == LIST.parent, match[0])
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         text = ("### A1 One\n\nTests: `HardA1`, `Gone.Case`\n\n### A2 Two\n\n### A4 Four\n\nTests: `HardA1`\n\n"
                 f"{HEAD}\n\n| case | |\n|---|---|\n| A3 | x |\n| A4 | y |\n")
         tests = [("HardA1", "Holds"), ("Other", "HardA2_Holds"), ("HardZ9Python", "test_it"),

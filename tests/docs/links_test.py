@@ -1,4 +1,4 @@
-"""Links of documents lead somewhere, and files that CONTRIBUTING.md and others name by themselves exist."""
+"""Link targets exist, and so do files that CONTRIBUTING.md and others name without a folder."""
 import re
 import unittest
 
@@ -27,7 +27,7 @@ def links(text):
 
 
 def broken(path, text):
-    """What is wrong with the links of a document, a sentence each."""
+    """Errors in the links of a document, one sentence each."""
     wrong = []
     for file, anchor in links(text):
         target = path.parent / file
@@ -58,7 +58,7 @@ class Links(unittest.TestCase):
                        if name not in WRITTEN and not any(path.match(name) for path in paths)]
             self.assertEqual(missing, [], document)
 
-    def test_what_is_broken_is_told(self):
+    def test_broken_links_are_reported(self):
         text = "# A head\n[a](#a-head) [b](#none) [c](README.md) [d](gone.md#x) [e](README.md#none) [f](https://example.org)\n"
         self.assertEqual(broken(repository.SOURCE / "x.md", text),
                          ["no heading #none in x.md", "no file gone.md", "no heading #none in README.md"])

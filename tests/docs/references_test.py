@@ -4,7 +4,7 @@ What counts as a citation (text unwrapped, of C++ and CMake only comments):
 
 - author and year: `Guyan 1965`, `Craig and Bampton (1968`, `Grimes, Lewis and Simon, 1994`, `Bank et al. 1985`,
   `Demmel and others 2006`, several years as in `Patir and Cheng 1978, 1979`;
-- the same with the place of publication between: `Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013`, also with a
+- the same with the journal between: `Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013`, also with a
   title in quotes;
 - a standard by its number: `ISO 1683`, `ISO/TS 7849`, `IEC 61260-1:2014`.
 
@@ -12,7 +12,7 @@ An entry belongs to a citation when its first author (or, of a standard, its `nu
 with `keywords = {by name}` are cited by their authors without a year (textbooks, of which any edition will do), those
 with `{by title}` by their title.
 
-    references_test.py --list     prints every citation that is recognised, with its places
+    references_test.py --list     prints every recognised citation with its files and lines
 """
 import collections
 import re
@@ -25,7 +25,7 @@ BIB = repository.SOURCE / "docs/references.bib"
 NAME = r"(?:(?:van|von|de) )?[A-Z](?:'[A-Z])?[a-zé]+(?:[A-Z][a-z]+)?(?:-[A-Z][a-z]+)?"
 NAMES = rf"{NAME}(?:, {NAME})*(?:,? and {NAME}| et al\.| and others)?"
 YEAR = r"(?:18|19|20)\d\d"
-# Where something was published: a title in quotes, a book's title, a journal with its volume.
+# Place of publication: a title in quotes, a book's title, a journal with its volume.
 WORDS = r"(?:(?:[A-Z][\w'-]*\.?|\d+(?:th|st|nd|rd)?|of|the|and|for|to|in|[a-z]+-[a-z]+)[.,:]?(?:\([\d-]+\))?,? )"
 WHERE = rf"(?:\"[^\"]{{5,140}}\",? (?:in )?{WORDS}{{0,14}}|(?:in )?{WORDS}{{1,14}})"
 SHORT = re.compile(rf"\b(?P<names>{NAMES}),? \(?(?P<years>{YEAR}(?:, {YEAR})*)[a-z]?\b")
@@ -37,7 +37,7 @@ NO_NAMES = {"Benchmarks", "Roundtable", "Debian", "Most", "Second", "Release", "
 
 
 def prose(path, text):
-    """What a person reads: comments of C++ and CMake, all of other files; line ends and comment marks become blanks."""
+    """The prose: comments of C++ and CMake, all of other files; line ends and comment marks become spaces."""
     if path.suffix in (".cpp", ".hpp"):
         text = re.sub(r"^(?:(?!//).)*$|^(?:(?!//).)*(?=//)", "", text, flags=re.M)
     elif path.suffix in (".cmake", ".txt"):
@@ -78,7 +78,7 @@ def cited(texts):
 
 
 def entries(text):
-    """[{field: value}] of a .bib, with `key` and `kind`; ValueError says where it is not one."""
+    """[{field: value}] of a .bib, with `key` and `kind`; ValueError with the line of a syntax error."""
     found = []
     for part in re.split(r"^@", text, flags=re.M)[1:]:
         head = re.match(r"(\w+)\{(\w+),\s*", part)
@@ -106,11 +106,11 @@ REQUIRED = {"article": ("author", "title", "journal", "year", "volume", "pages")
             "inproceedings": ("author", "title", "booktitle", "year"), "incollection": ("author", "title", "booktitle", "year"),
             "techreport": ("author", "title", "institution", "year"), "standard": ("author", "title", "number"),
             "manual": ("author", "title"), "misc": ("title",)}
-NO_PAGES = {"gao2008", "chen2008", "ausas2009"}  # the journal counts articles there
+NO_PAGES = {"gao2008", "chen2008", "ausas2009"}  # the journal numbers articles
 
 
 def complaints(listed, found, text):
-    """What is wrong, one sentence each: entries, {(first author, year): [(file, words)]}, all prose."""
+    """Inconsistencies, one sentence each: entries, {(first author, year): [(file, words)]}, all prose."""
     wrong, keys = [], collections.Counter(entry["key"] for entry in listed)
     wrong += [f"the key {key} comes {count} times" for key, count in keys.items() if count > 1]
     known = collections.defaultdict(list)
@@ -120,9 +120,9 @@ def complaints(listed, found, text):
                    and not (field == "pages" and entry["key"] in NO_PAGES)]
         if missing:
             wrong.append(f"{entry['key']} lacks {', '.join(missing)}")
-    for (first, year), places in sorted(found.items()):
+    for (first, year), found_in in sorted(found.items()):
         if (first, year) not in known:
-            wrong.append(f"{places[0][0]} cites '{places[0][1].strip()}', which has no entry of {first} {year}")
+            wrong.append(f"{found_in[0][0]} cites '{found_in[0][1].strip()}', which has no entry of {first} {year}")
     wrong += [f"{entry['key']} is cited nowhere" for author_year, group in known.items() for entry in group
               if author_year not in found and not ("keywords" in entry and by_name(entry, text))]
     return wrong
@@ -154,7 +154,7 @@ class References(unittest.TestCase):
         text = "Guyan 1965;\n/// (Craig and\n/// Bampton 1968)\nx; // Liu\n// 1992"
         self.assertEqual([item[:2] for item in citations(prose(source, text))], [("Craig", "1968"), ("Liu", "1992")])
 
-    def test_what_is_wrong_is_told(self):
+    def test_errors_are_reported(self):
         bib = ("@article{guyan1965,\n author = {Guyan, R.},\n title = {A {B} C}, journal = {J}, year = {1965},\n volume = {3}\n}\n"
                "@book{ocvirk,\n author = {Ocvirk, F.},\n title = {T}, keywords = {by name}\n}\n"
                "@standard{iso,\n author = {ISO},\n title = {T}, number = {1683}\n}\n")
@@ -167,7 +167,7 @@ class References(unittest.TestCase):
 
 if __name__ == "__main__":
     if "--list" in sys.argv:
-        for (first, year), places in sorted(cited(proses()).items()):
-            print(f"{first} {year}: {places[0][1]}   [{', '.join(sorted({place for place, _ in places}))}]")
+        for (first, year), found_in in sorted(cited(proses()).items()):
+            print(f"{first} {year}: {found_in[0][1]}   [{', '.join(sorted({where for where, _ in found_in}))}]")
         sys.exit()
     unittest.main(verbosity=2)

@@ -1,4 +1,4 @@
-"""The files of the repository and the tests in them, as the tests of the documents see them."""
+"""The files of the repository and the tests in them, for the tests of the documents."""
 import ast
 import pathlib
 import re
@@ -9,16 +9,16 @@ NOT_OURS = {".git", "build", "__pycache__", ".cache"}
 
 
 def files(*suffixes):
-    """Every file of the repository that ends so, tracked or about to be; without git all but build products."""
-    asked = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, capture_output=True, text=True)
-    if asked.returncode == 0 and asked.stdout:
-        found = [SOURCE / line for line in asked.stdout.splitlines()]
+    """Every file of the repository with these endings, tracked or not ignored; without git all but build products."""
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, capture_output=True, text=True)
+    if listed.returncode == 0 and listed.stdout:
+        found = [SOURCE / line for line in listed.stdout.splitlines()]
     else:
         found = [path for path in SOURCE.rglob("*") if not NOT_OURS & set(path.relative_to(SOURCE).parts)]
     return sorted(path for path in found if path.suffix in suffixes and path.is_file())
 
 
-def place(path, text, offset):
+def line_of(path, text, offset):
     """`file:line` of an offset in the text of a file."""
     return f"{path.relative_to(SOURCE)}:{text.count(chr(10), 0, offset) + 1}"
 

@@ -8,7 +8,7 @@
 
 #include "core/mesh/mesh_file.hpp"
 #include "support.hpp"
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter::mesh {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 #include "small_solver.hpp"
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter::modal {
 namespace {

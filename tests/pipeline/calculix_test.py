@@ -1,4 +1,4 @@
-"""The beam's frequencies beside CalculiX on the same exported mesh."""
+"""The beam's frequencies compared with CalculiX on the same exported mesh."""
 import pathlib
 import shutil
 import subprocess
@@ -54,7 +54,7 @@ class CalculiX(stages.PipelineTest):
         error = ours / theirs - 1
         for row in zip(ours, theirs, error):
             print("    ours {:12.5f} Hz   CalculiX {:12.5f} Hz   {:+.1e}".format(*row), file=sys.stderr)
-        # Same mesh and shape functions: what is left is the digits of the exported coordinates and of the .dat file.
+        # Same mesh and shape functions: the rest is due to the digits of the exported coordinates and of the .dat file.
         self.assertLess(np.abs(error).max(), 1e-4)
 
 

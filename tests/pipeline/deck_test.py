@@ -19,7 +19,7 @@ UNIT = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2
 
 
 def beam_deck():
-    """C3D20 cantilever in mm, t, s: clamped at x = 0, pushed at x = 80, heated, then its frequencies."""
+    """C3D20 cantilever in mm, t, s: clamped at x = 0, loaded at x = 80, heated, then its frequencies."""
     ids, nodes, lines = {}, [], []
 
     def node(at):
@@ -180,7 +180,7 @@ ALL, 0.
 
 
 class WhollyHeld(unittest.TestCase):
-    """A part whose every degree of freedom is held has reactions, but neither modes nor a reduction."""
+    """A part with all DoFs held has reactions, but neither modes nor a reduction."""
 
     def setUp(self):
         stages.require_stages()
@@ -225,7 +225,7 @@ class WhollyHeld(unittest.TestCase):
 
 
 class Rotating(unittest.TestCase):
-    """The beam turns about z through its held end: rho omega^2 x pulls along it (nu = 0: a bar)."""
+    """The beam rotates about z through its held end: rho omega^2 x acts along it (nu = 0: a bar)."""
 
     OMEGA2 = 4.0e5  # 1/s2
 
@@ -278,9 +278,9 @@ class Rotating(unittest.TestCase):
 
 
 class Refused(unittest.TestCase):
-    """The program says all refusals of a deck at once and leaves nothing behind."""
+    """The program reports all errors of a deck at once and leaves no file."""
 
-    def test_several_refusals_come_in_one_run_with_exit_code_2(self):
+    def test_several_errors_are_reported_in_one_run_with_exit_code_2(self):
         stages.require_stages()
         with tempfile.TemporaryDirectory(prefix="clatter-refused-") as folder:
             deck = cube_deck("ALL, 1, 3", "*CLOAD\n2, 7, 1.\n*DLOAD\nCUBE, P8, 1.").replace(
@@ -291,13 +291,13 @@ class Refused(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             lines = done.stderr.strip().splitlines()
             self.assertEqual(lines[0], "clatter-mesh: error: 3 refusals:")
-            places = {text: deck[:deck.index(text)].count("\n") + 1 for text in ("*CONTACT PAIR", "2, 7, 1.", "CUBE, P8")}
-            for line, place in zip(lines[1:], places.values()):
-                self.assertTrue(line.startswith(f"  cube.inp:{place}: "), line)
+            line_of = {text: deck[:deck.index(text)].count("\n") + 1 for text in ("*CONTACT PAIR", "2, 7, 1.", "CUBE, P8")}
+            for line, number in zip(lines[1:], line_of.values()):
+                self.assertTrue(line.startswith(f"  cube.inp:{number}: "), line)
             self.assertEqual(len(lines), 4)
             self.assertEqual([p.name for p in pathlib.Path(folder).iterdir()], ["cube.inp"])
 
-    def test_a_deck_cut_before_its_steps_is_said_to_be(self):
+    def test_a_deck_cut_before_its_steps_is_reported(self):
         stages.require_stages()
         with tempfile.TemporaryDirectory(prefix="clatter-cut-") as folder:
             deck = cube_deck("ALL, 1, 3", "")

@@ -1,4 +1,4 @@
-"""A finished mesh goes to every format without meshing again; MED as its own library reads it."""
+"""A finished mesh is exported to every format without meshing again; MED is read back by its own library."""
 import pathlib
 import re
 import shutil
@@ -14,8 +14,8 @@ import stages  # noqa: E402
 from vtk_test import deck  # noqa: E402
 
 STEP = "-0000000000000000001-0000000000000000001"
-# MED's cells (MED-fichier, reference elements): edges in the order of their middle nodes, and the volume that the
-# corners have when the lower face, seen from outside, turns anticlockwise.
+# MED's cells (MED-fichier, reference elements): edges in the order of their mid-side nodes, and the volume of the
+# corners when the lower face, seen from outside, is anticlockwise.
 EDGES = {
     "TE4": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
     "HE8": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
@@ -24,7 +24,7 @@ EDGES = {
 }
 LINEAR = {"TE4": "TE4", "T10": "TE4", "HE8": "HE8", "H20": "HE8", "PE6": "PE6", "P15": "PE6", "PY5": "PY5", "P13": "PY5"}
 LOWER = {"TE4": 3, "HE8": 4, "PE6": 3, "PY5": 4}  # corners of the lower face
-# Tetrahedra that fill each cell, of its corners in MED's order, all turned as MED's own tetrahedron.
+# Tetrahedra that fill each cell, by its corners in MED's order, all with the orientation of MED's tetrahedron.
 PIECES = {
     "TE4": [(0, 1, 2, 3)],
     "PY5": [(0, 1, 2, 4), (0, 2, 3, 4)],
@@ -34,7 +34,7 @@ PIECES = {
 
 
 def signed_volumes(points, rows, linear):
-    """Volume of each cell and the largest of its pieces; rows: cells x nodes from 0 in the order of MED."""
+    """Volume of each cell and the largest of its tetrahedra; rows: cells x nodes from 0 in the order of MED."""
     pieces = []
     for a, b, c, d in PIECES[linear]:
         x = points[rows[:, a]]
@@ -91,7 +91,7 @@ class Exports(unittest.TestCase):
         groups = [name.strip() for name in re.findall(r"gro = (.*)", done.stdout)]
         self.assertEqual(sorted(groups), sorted(names))
 
-    def test_cells_of_med_are_turned_as_med_has_them_with_middles_on_their_edges(self):
+    def test_cells_of_med_have_meds_orientation_and_mid_side_nodes_on_their_edges(self):
         with h5py.File(self.folder / "cells.med") as med, h5py.File(self.folder / "cells.mesh.h5") as mesh:
             step = med[f"ENS_MAA/cells/{STEP}"]
             points = step["NOE/COO"][()].reshape(3, -1).T
@@ -125,7 +125,7 @@ class Exports(unittest.TestCase):
                     count = step[f"MAI/{kind}/NOD"].attrs["NBR"]
                     rows = step[f"MAI/{kind}/NOD"][()].reshape(-1, count).T - 1
                     cells, worst = signed_volumes(points, rows, linear)
-                    with self.subTest(part=name, kind=kind):  # MED's cells are left-handed: Gmsh turns them, too, for MED
+                    with self.subTest(part=name, kind=kind):  # MED's cells are left-handed: Gmsh reverses them for MED, too
                         self.assertLess(worst.max(), 0)
                     found -= cells.sum()
             self.assertAlmostEqual(found / volume, 1, delta=1e-12)

@@ -1,4 +1,4 @@
-"""The lines of docs/formats.md that read a sparse matrix do so."""
+"""The lines of docs/formats.md that read a sparse matrix work, and its tables list every name in an artefact."""
 import os
 import pathlib
 import re
@@ -11,12 +11,12 @@ import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 
-PLACE, WORD = re.compile(r"`([^`]+)`"), re.compile(r"[\w<>/]+$")
+QUOTED, WORD = re.compile(r"`([^`]+)`"), re.compile(r"[\w<>/]+$")
 
 
 def words(text):
-    """What stands in backticks and is a name or path, "<b>" and the like as "*"."""
-    return [re.sub("<.*?>", "*", word) for word in PLACE.findall(text) if WORD.match(word)]
+    """Names and paths in backticks, with "*" for "<b>" and the like."""
+    return [re.sub("<.*?>", "*", word) for word in QUOTED.findall(text) if WORD.match(word)]
 
 
 class Document:
@@ -25,7 +25,7 @@ class Document:
     def __init__(self, kind, text=(stages.SOURCE / "docs/formats.md").read_text()):
         sections = {re.match(r".*?$", part, re.M)[0]: part for part in text.split("\n## ")}
         own = next(part for head, part in sections.items() if head.startswith(f"`.{kind}.h5`"))
-        every = sections["What every artefact carries"]
+        every = sections["Common content"]
         self.attributes = set(words(own)) | set(words(every))
         self.paths, self.certificate = set(), set()
         tables = own.split("| `certificate` | |\n|---|---|\n")
@@ -38,24 +38,24 @@ class Document:
 
     def read(self, text):
         for row in re.findall(r"^\| .*", text, re.M):
-            places, content = row.strip("| ").partition(" | ")[::2]
+            objects, content = row.strip("| ").partition(" | ")[::2]
             others = re.search("as in the (mesh|FE model)", content)
             last = ""
-            for place in PLACE.findall(places):
-                place = re.sub("<.*?>", "*", place)
-                last = last.rpartition("/")[0] + place if place.startswith("/") else place
+            for name in QUOTED.findall(objects):
+                name = re.sub("<.*?>", "*", name)
+                last = last.rpartition("/")[0] + name if name.startswith("/") else name
                 self.paths.add(last)
                 self.paths |= {f"{last}/{word}" for word in words(content)}
                 if others:
-                    whole = Document("mesh" if others[1] == "mesh" else "fe")
-                    self.paths |= {path for path in whole.paths if path.startswith(last.partition("/")[0])}
-                    self.attributes |= whole.attributes
+                    other = Document("mesh" if others[1] == "mesh" else "fe")
+                    self.paths |= {path for path in other.paths if path.startswith(last.partition("/")[0])}
+                    self.attributes |= other.attributes
 
     def says(self, path):
         """Whether a dataset or group of that path is in a table."""
         pattern = path.split("/")
-        return any(len(known := place.split("/")) >= len(pattern) and
-                   all(a in ("*", b) for a, b in zip(known, pattern)) for place in self.paths)
+        return any(len(known := documented.split("/")) >= len(pattern) and
+                   all(a in ("*", b) for a, b in zip(known, pattern)) for documented in self.paths)
 
 
 class Formats(stages.PipelineTest):
@@ -95,7 +95,7 @@ class Formats(stages.PipelineTest):
                 self.assertTrue(np.all(file["timing/seconds"][()] >= 0))
 
     def names(self, path):
-        """(what, whether the document says it) of all groups, datasets, attributes and certificate keys of a file."""
+        """(name, whether it is in the document) of all groups, datasets, attributes and certificate keys of a file."""
         document, found = Document(path.name.split(".")[1]), []
 
         def look(name, item):
@@ -117,14 +117,14 @@ class Formats(stages.PipelineTest):
             file.visititems(look)
         return found
 
-    def test_a_name_that_the_document_does_not_say_is_found(self):
+    def test_a_name_that_is_not_in_the_document_is_found(self):
         document = Document("fe")
         for path in ("K", "sets/tip/dofs", "supports/T_s", "materials/0/axes/frame", "timing/peak_gib"):
             self.assertTrue(document.says(path), path)
         for path in ("Q", "sets/tip/axis", "dofs", "loads/tip/force", "quality"):
             self.assertFalse(document.says(path), path)
 
-    def test_every_name_in_an_artefact_stands_in_the_document(self):
+    def test_every_name_in_an_artefact_is_in_the_document(self):
         stages.run_stage("modal", "beam.fe.h5", "--static", "-o", "beam.static.h5", folder=self.folder)
         stages.run_stage("mesh", "--faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
         kinds = set()
@@ -132,7 +132,7 @@ class Formats(stages.PipelineTest):
             with self.subTest(artefact=path.name):
                 names = self.names(path)
                 self.assertGreater(len(names), 10)
-                self.assertEqual([name for name, said in names if not said], [])
+                self.assertEqual([name for name, documented in names if not documented], [])
                 kinds.add(path.name.split(".")[1])
         self.assertEqual(kinds, {schema.split("/")[1] for schema in self.documented_schemas()})
 

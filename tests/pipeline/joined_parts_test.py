@@ -1,4 +1,4 @@
-"""A part cut in two, each half condensed to the cut, joined there again: the modes are those of the whole."""
+"""A part cut in two, each half condensed to the cut, and rejoined: the modes are those of the uncut part."""
 import itertools
 import pathlib
 import sys
@@ -12,7 +12,7 @@ import scipy.linalg  # noqa: E402
 import stages  # noqa: E402
 
 SIZE, CELLS, CUT = (0.30, 0.08, 0.06), (10, 4, 3), 4  # [m]; hex20 cells along x y z; cells before the cut
-# Corners, then the middles of the edges, on the half grid of a cell, in the order of C3D20.
+# Corners, then the mid-side nodes, on the half grid of a cell, in the order of C3D20.
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
 EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 FE = '[material.steel]\nregions = ["EALL"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7850.0\n'
@@ -38,17 +38,17 @@ def deck(first, last):
 
 
 def coordinates(rom):
-    """{(set, place in micrometres, direction): index} of the boundary coordinates, the boundary map of the file."""
+    """{(set, position in micrometres, direction): index} of the boundary coordinates, the boundary map of the file."""
     found = {}
     for name, dofs in rom["sets"].items():
-        places = np.rint(dofs["position"][()] * 1e6).astype(int)
-        for j, place, direction in zip(dofs["dofs"][()], places, dofs["direction"][()]):
-            found[name, tuple(place), tuple(np.rint(direction).astype(int))] = j
+        positions = np.rint(dofs["position"][()] * 1e6).astype(int)
+        for j, position, direction in zip(dofs["dofs"][()], positions, dofs["direction"][()]):
+            found[name, tuple(position), tuple(np.rint(direction).astype(int))] = j
     return found
 
 
 def joined(paths):
-    """K, M of reduced parts whose coordinates of the set "cut" are one and the same where places agree."""
+    """K, M of reduced parts that share the coordinates of the set "cut" at equal positions."""
     parts, index, total = [], {}, 0
     for number, path in enumerate(paths):
         with h5py.File(path) as rom:
@@ -109,17 +109,17 @@ class JoinedParts(unittest.TestCase):
                 K, M, shared = joined([self.folder / f"{name}.rom.h5" for name in ("left", "right")])
                 self.assertEqual(shared, 3 * (51 + 2))  # 51 nodes of the cut and a corner at either end
                 found = np.sqrt(np.maximum(scipy.linalg.eigh(K, M, eigvals_only=True), 0.0)) / (2 * np.pi)
-                whole = self.whole_hz(limit)
-                self.assertEqual(np.count_nonzero(whole == 0.0), 6)
-                self.assertGreater(len(whole), 9)
-                self.assertLess(found[5], 1e-3 * whole[6])  # six rigid motions of the whole, no hinge at the cut
-                error = found[6:len(whole)] / whole[6:] - 1.0
+                uncut = self.whole_hz(limit)
+                self.assertEqual(np.count_nonzero(uncut == 0.0), 6)
+                self.assertGreater(len(uncut), 9)
+                self.assertLess(found[5], 1e-3 * uncut[6])  # six rigid motions of the joined part, no hinge at the cut
+                error = found[6:len(uncut)] / uncut[6:] - 1.0
                 print(f"    cut-off {cutoff:.0f} Hz, {len(error)} modes: largest error {error.max():.2e}, stated {stated:.2e}",
                       file=sys.stderr)
                 self.assertLess(error.max(), stated)
                 self.assertGreater(error.min(), -1e-8)  # a basis can only stiffen
-                # None below the limit that the whole has not: the next one lies above it.
-                self.assertGreater(found[len(whole)], limit)
+                # No spurious mode below the limit: the next one lies above it.
+                self.assertGreater(found[len(uncut)], limit)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""K and M of one cell of each type, entry by entry, beside those that CalculiX writes with
-SOLVER=MATRIXSTORAGE. Where they differ the difference is in the quadrature, and a cell written a second
-time (reference_cell.py) with CalculiX's points shows that it is that and nothing else."""
+"""K and M of one cell of each type, entry by entry, compared with those that CalculiX writes
+with SOLVER=MATRIXSTORAGE. Differences are due to the quadrature
+only, as an independent implementation (reference_cell.py) with CalculiX's points shows."""
 import pathlib
 import shutil
 import subprocess
@@ -18,7 +18,7 @@ import stages  # noqa: E402
 
 E, NU, RHO = 2.1, 0.3, 7.8
 SAME = 1e-11  # of the largest entry: the decks carry 12 digits
-# name, shape, order, CalculiX's points, where our K is the same, where our M is: box, straight, curved
+# name, shape, order, CalculiX's points, where clatter's K is the same, where its M is: box, straight, curved
 TYPES = [
     ("C3D4", "tet", 1, reference.tet_rule(1), "box straight curved", ""),
     ("C3D6", "wedge", 1, reference.wedge_rule(1, 2), "box straight curved", ""),

@@ -1,4 +1,4 @@
-"""Methods of the condensation from TOML to files, beside SciPy: own modes, load shapes, modal damping."""
+"""Methods of the condensation from TOML to files, compared with SciPy: own modes, load shapes, modal damping."""
 import pathlib
 import sys
 import tempfile
@@ -87,7 +87,7 @@ class Methods(unittest.TestCase):
         # Both solvers' residuals, squared, are below; rounding of K against the lowest mode is about 1e-9.
         self.assertLess(np.abs(found[:15] / full[:15] - 1).max(), 1e-8)
 
-    def test_a_wanted_accuracy_is_met_against_scipy_and_what_was_picked_is_said(self):
+    def test_a_requested_accuracy_is_met_against_scipy_and_the_choice_is_reported(self):
         values = np.sort(sparse_linalg.eigsh(self.K, 20, self.M, sigma=0.0)[0])
         full = np.sqrt(values) / (2 * np.pi)
         wanted = 0.5 * (full[9] + full[10])
@@ -99,13 +99,13 @@ class Methods(unittest.TestCase):
 
     def test_the_static_answer_to_a_load_in_the_basis_is_that_of_scipys_lu(self):
         full = (self.T @ sparse_linalg.splu(self.K).solve(self.top)).reshape(-1, 3)
-        place = {tuple(node): k for k, node in enumerate(self.nodes)}
+        row = {tuple(node): k for k, node in enumerate(self.nodes)}
         errors = []
         for shapes in ("", 'load_shapes = ["top"]\n'):
             with self.condense(f"count = 3\n{shapes}") as rom:
                 q = np.linalg.solve(rom["K_rr"][()], rom["loads/top"][()])
                 skin, u = rom["skin/nodes"][()], (rom["skin/T"][()] @ q).reshape(-1, 3)
-            same = np.array([(k, place[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in place])
+            same = np.array([(k, row[tuple(node)]) for k, node in enumerate(skin) if tuple(node) in row])
             self.assertGreater(len(same), 100)
             difference = u[same[:, 0]] - full[same[:, 1]]
             errors.append(np.linalg.norm(difference, axis=1).max() / np.linalg.norm(full, axis=1).max())

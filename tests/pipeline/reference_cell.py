@@ -1,4 +1,4 @@
-"""Isoparametric cells written a second time, in numpy, to compare with: shape functions by inverting the
+"""An independent implementation of isoparametric cells in numpy, for comparison: shape functions by inverting the
 monomials at the nodes, any quadrature rule. Coordinates of the reference cells as in core/mesh/cell.hpp; nodes
 in the order of Abaqus."""
 import itertools

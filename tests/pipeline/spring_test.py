@@ -1,4 +1,4 @@
-"""A cube on springs: by hand, and beside CalculiX on the same deck."""
+"""A cube on springs: against a hand calculation, and against CalculiX on the same deck."""
 import pathlib
 import shutil
 import subprocess
@@ -14,7 +14,7 @@ import stages  # noqa: E402
 SIDE, DENSITY = 10.0, 7.8e-9  # mm, t/mm3
 UP, ACROSS, LEAN = 3.0, 5.0, 2.0  # N/mm
 
-# Springs upward under the four lower corners, across at two, and one that leans from a corner to a held node.
+# Springs upward under the four lower corners, across at two, and one oblique spring from a corner to a held node.
 DECK = f"""*NODE, NSET=NALL
 1, 0, 0, 0
 2, {SIDE}, 0, 0
@@ -61,7 +61,7 @@ DECK = f"""*NODE, NSET=NALL
 9, 1, 3
 """
 PUSH = "*STEP\n*STATIC\n*CLOAD\n6, 1, 1.\n6, 3, 2.\n*NODE PRINT, NSET=NALL\nU\n*END STEP\n"
-MODES = "*STEP\n*FREQUENCY\n4\n*END STEP\n"  # more are too many for 24 unknowns of CalculiX
+MODES = "*STEP\n*FREQUENCY\n4\n*END STEP\n"  # more are too many for 24 DoFs in CalculiX
 NODES = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]) * SIDE
 
 

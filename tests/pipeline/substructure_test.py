@@ -1,9 +1,9 @@
 """Guyan's matrix of CalculiX's own deck `substructure`: a cantilever of C3D20R of which 20 nodes are retained.
 
-The installed CalculiX 2.20 does not condense: what its *SUBSTRUCTURE GENERATE prints for this deck is K_bb, the
-stiffness of the retained nodes with all others held (and the package's reference file is empty). So the condensed
-matrix is compared with what its manual calls it: the reactions to unit displacements, from 60 static steps; and with
-CalculiX's K, taken in by [matrices] and condensed here.
+The installed CalculiX 2.20 does not condense: its *SUBSTRUCTURE GENERATE prints K_bb for this deck, the stiffness
+of the retained nodes with all others held (and the package's reference file is empty). So the condensed matrix
+is compared with its definition in the manual: the reactions to unit displacements, from 60 static steps; and with
+CalculiX's K, read by [matrices] and condensed by clatter.
 """
 import gzip
 import pathlib
@@ -20,12 +20,12 @@ import scipy.sparse as sp  # noqa: E402
 import stages  # noqa: E402
 
 DECK = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test/substructure.inp.gz")
-NEWTON_PER_MILLIMETRE = 1e3  # CalculiX's K is in N/mm, ours in N/m
+NEWTON_PER_MILLIMETRE = 1e3  # CalculiX's K is in N/mm, clatter's in N/m
 ROM = 'method = "guyan"\nboundary = ["retained"]\nskin = []\n'
 
 
 def symmetric(group):
-    """The full matrix of a sparse group that holds the lower triangle."""
+    """The full matrix of a sparse group that contains the lower triangle."""
     lower = sp.csc_matrix((group["data"][()], group["indices"][()], group["indptr"][()]), shape=group.attrs["shape"])
     lower = lower.toarray()
     return lower + np.tril(lower, -1).T
@@ -45,7 +45,7 @@ class Substructure(stages.PipelineTest):
         cls.text = text.replace("*SOLID SECTION", "*DENSITY\n7.8E-9\n*SOLID SECTION")
         cls.model = cls.text[:cls.text.index("*STEP")]
         block = re.search(r"\*NODE\n(.*?)\n\*", cls.model, re.S).group(1)
-        cls.place = {int(row[0]): np.array(row[1:]) for row in numbers(block.splitlines())}
+        cls.position = {int(row[0]): np.array(row[1:]) for row in numbers(block.splitlines())}
         block = re.search(r"NSET=N1\n(.*)", cls.model, re.S).group(1)
         cls.retained = [int(node) for row in numbers(block.splitlines()) for node in row]
 
@@ -75,7 +75,7 @@ class Substructure(stages.PipelineTest):
         position, direction = dofs["position"][()] * 1e3, dofs["direction"][()]
         order = []
         for node in self.retained:
-            near = np.linalg.norm(position - self.place[node], axis=1) < 1e-9
+            near = np.linalg.norm(position - self.position[node], axis=1) < 1e-9
             order += [int(np.flatnonzero(near & (direction[:, axis] == 1.0))[0]) for axis in range(3)]
         return dofs["dofs"][()][order]
 
@@ -126,9 +126,9 @@ class Substructure(stages.PipelineTest):
                 ["%%MatrixMarket matrix coordinate real symmetric", f"{len(dofs)} {len(dofs)} {len(turned)}", *turned, ""]))
         rows = []
         for i, (node, axis) in enumerate(dofs):
-            place, direction = self.place[node] * 1e-3, np.eye(3)[axis - 1]
+            position, direction = self.position[node] * 1e-3, np.eye(3)[axis - 1]
             name = ["retained", f"{node}.{axis}"] if node in self.retained else ["", ""]
-            rows.append("\t".join(map(str, [i + 1, node, axis, "displacement", *place, *direction, *name])))
+            rows.append("\t".join(map(str, [i + 1, node, axis, "displacement", *position, *direction, *name])))
         (self.folder / "stored.dofs.tsv").write_text("\n".join(rows) + "\n")
         (self.folder / "stored.fe.toml").write_text(
             '[matrices]\nK = "stored.K.mtx"\nM = "stored.M.mtx"\ndofs = "stored.dofs.tsv"\nunits = "mm-t-s"\n')

@@ -1,4 +1,4 @@
-"""VTK's own cells find volumes and outward faces in an exported .vtu of every cell type."""
+"""VTK's cells have positive volumes and outward faces in an exported .vtu of every cell type."""
 import pathlib
 import shutil
 import sys
@@ -16,7 +16,7 @@ try:
 except ImportError:
     vtk = None
 
-# Nastran's cells: corners, and edges in the order of its middle nodes.
+# Nastran's cells: corners, and edges in the order of its mid-side nodes.
 CELLS = {
     "CTETRA": ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]),
     "CHEXA": ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
@@ -30,18 +30,18 @@ CELLS = {
 
 def deck():
     """One linear and one quadratic cell of each kind, apart from one another."""
-    grids, cells, place = [], [], 0
+    grids, cells, offset = [], [], 0
     for card, (corners, edges) in CELLS.items():
         for order in (1, 2):
             points = [np.array(corner, float) for corner in corners]
             if order == 2:
                 points += [(points[a] + points[b]) / 2 for a, b in edges]
             first = len(grids) + 1
-            grids += [f"GRID,{first + i},,{x + 2 * place},{y},{z}" for i, (x, y, z) in enumerate(points)]
+            grids += [f"GRID,{first + i},,{x + 2 * offset},{y},{z}" for i, (x, y, z) in enumerate(points)]
             fields = [card, len(cells) + 1, 1, *range(first, first + len(points))]
             lines = [fields[:9]] + [["", *fields[k:k + 8]] for k in range(9, len(fields), 8)]
             cells.append("\n".join(",".join(map(str, line)) for line in lines))
-            place += 1
+            offset += 1
     return "\n".join(["BEGIN BULK", "$ clatter set 7 FEW & <OTHERS>", "SET1,7,1,5,9", *grids, *cells, "PSOLID,1,1", "MAT1,1,1.0,,0.3,1.0", "ENDDATA", ""])
 
 
@@ -87,7 +87,7 @@ class Vtk(unittest.TestCase):
         np.testing.assert_array_equal(cells["region"], 0)
         self.assertEqual(sorted(cells["id"]), list(range(1, 9)))
 
-    def test_every_face_of_every_cell_points_outward_with_its_middles_on_its_edges(self):
+    def test_every_face_of_every_cell_points_outward_with_mid_side_nodes_on_its_edges(self):
         grid = self.grid
         self.assertEqual(grid.GetNumberOfCells(), 8)
         for number in range(8):

@@ -7,7 +7,7 @@
 
 #include "core/base/h5_file.hpp"
 #include "synthetic.hpp"
-#include "tests/places.hpp"
+#include "tests/paths.hpp"
 
 namespace clatter::recover {
 namespace {

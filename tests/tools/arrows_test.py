@@ -1,4 +1,4 @@
-"""The dependency arrows of the design hold: in #include lines, in CMake, and in what is linked."""
+"""The dependencies of the design hold in #include lines, in CMake, and in the linked programs."""
 import json
 import os
 import pathlib
@@ -18,7 +18,7 @@ LIBRARIES = {
     "core/fe": {"core/base", "core/mesh", "core/rom"},
     "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
-# Stages: each is one program, hands the next one files, and uses no other stage.
+# Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
     "mesh": {"core/base", "core/mesh"},
     "assembly": {"core/base", "core/mesh", "core/rom", "core/fe"},
@@ -30,7 +30,7 @@ STAGES = {
 ALLOWED = LIBRARIES | STAGES
 # Library targets that are not named after the folder of their stage.
 FOLDER_OF_TARGET = {"meshing": "mesh", "film": "dynamics"}
-# A foreign library's headers may be included in files of one name only (h5_file, h5_impl, ...).
+# A third-party library's headers may be included only in files with its prefix (h5_file, h5_impl, ...).
 HEADER_OWNERS = {
     r"gmsh\.h": ["mesh/cad/gmsh_"],
     r"cholmod\.h": ["core/sparse/factor/cholmod_"],
@@ -43,7 +43,7 @@ HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")
 
 
 def folder_of_library(target):
-    """The folder in which a library target of ours is made; None for a foreign one."""
+    """The folder that defines a library target of clatter; None for a third-party one."""
     if target in FOLDER_OF_TARGET:
         return FOLDER_OF_TARGET[target]
     if target.startswith("mesh_"):
@@ -57,9 +57,9 @@ def sources(folder):
 
 
 def complaint(folder, name):
-    """What is wrong when `folder` uses `name`, for people."""
+    """The error message when `folder` uses `name`."""
     if name in STAGES:
-        return f"{folder} uses {name}, which is a stage: stages hand each other files; what two of them need " \
+        return f"{folder} uses {name}, which is a stage: stages exchange files; what two of them need " \
                f"belongs into a library below core/"
     return f"{folder} uses {name}, but may use only: {', '.join(sorted(ALLOWED[folder])) or 'no other folder'}"
 
@@ -70,13 +70,13 @@ def wrong_uses(folder, names):
 
 
 def wrong_includes(folder, text):
-    """What is wrong with the #include lines of `text`, a source of `folder`."""
+    """Errors in the #include lines of `text`, a source of `folder`."""
     included = re.findall(r'^\s*#\s*include\s+["<]((?:core/)?\w+)/', text, re.M)
     return wrong_uses(folder, included)
 
 
 def wrong_links(folder, cmake_text):
-    """What is wrong with the libraries that a folder's CMakeLists.txt links."""
+    """Errors in the libraries that a folder's CMakeLists.txt links."""
     named = re.findall(r"\bclatter(?:::|_)(\w+)", re.sub(r"#.*", "", cmake_text))
     return wrong_uses(folder, [f for f in map(folder_of_library, named) if f])
 
@@ -119,7 +119,7 @@ class Arrows(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_paths_in_comments_lead_to_files(self):
-        wrong = [f"{p.relative_to(SOURCE)}: names {path}, which is not there" for folder in ALLOWED for p in sources(folder)
+        wrong = [f"{p.relative_to(SOURCE)}: names {path}, which does not exist" for folder in ALLOWED for p in sources(folder)
                  for path in re.findall(r"(?<!/)\b((?:core|%s)/[\w/]+\.[ch]pp)" % "|".join(STAGES), p.read_text())
                  if not (SOURCE / path).exists()]
         self.assertEqual(wrong, [])
@@ -133,14 +133,14 @@ class Arrows(unittest.TestCase):
         self.assertRegex(wrong_links("dynamics", "LINKS clatter::base clatter::condense")[0], "condense, which is a stage")
         self.assertRegex(wrong_links("recover", "LINKS clatter::fe")[0], "recover uses core/fe, but may use only: ")
 
-    def test_a_foreign_header_stays_behind_files_of_one_name(self):
+    def test_a_third_party_header_is_included_only_by_files_with_its_prefix(self):
         for header, owners in HEADER_OWNERS.items():
             users = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                      if includes_header(p, header)]
             with self.subTest(header=header):
                 self.assertEqual([user for user in users if not user.startswith(tuple(owners))], [])
 
-    def test_no_header_of_ours_shows_a_foreign_type_to_others(self):
+    def test_no_header_exposes_a_third_party_type(self):
         for header, owners in HEADER_OWNERS.items():
             private = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)
                        if p.suffix != ".cpp" and includes_header(p, header)]
@@ -157,7 +157,7 @@ def needed(executable):
 
 
 def loaded(executable):
-    """Every shared library that the loader brings in, with its file."""
+    """Every shared library that the loader loads, with its file."""
     text = subprocess.run(["ldd", executable], capture_output=True, text=True, check=True).stdout
     return {m[1]: m[2] for m in re.finditer(r"^\s*(\S+) => (\S+)", text, re.M)}
 
@@ -200,7 +200,7 @@ class Linking(unittest.TestCase):
         flags = {}
         for entry in json.loads(commands.read_text()):
             words = entry["command"].split()
-            # What alters the layout or alignment of types: machine, language, optimisation, sanitizers.
+            # Flags that change the layout or alignment of types: machine, language, optimisation, sanitizers.
             layout = frozenset(w for w in words if re.match(r"-(m|O|std=|fsanitize|f(pack|short|abi)|DEIGEN_|DNDEBUG)", w))
             flags.setdefault(layout, []).append(entry["file"])
         self.assertEqual(len(flags), 1, "\n".join(f"{sorted(f)}: {files[:3]}" for f, files in flags.items()))

@@ -1,4 +1,4 @@
-"""clatter.mk: what is redone and what is not, with stand-ins for the stages that note each call."""
+"""clatter.mk: what is rebuilt and what is not, with stand-ins for the stages that record each call."""
 import os
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import unittest
 RULES = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter.mk"
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
 
-# Reads every input, writes the output through a part file, notes the call; fails when told to.
+# Reads every input, writes the output through a part file, records the call; fails on request.
 STAND_IN = """#!/bin/bash
 set -e
 inputs=()
@@ -118,7 +118,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(made[0], "piston.fe.h5")
         self.assertNotIn("piston.mesh.h5", made)
 
-    def test_an_interrupted_run_is_asked_to_go_on(self):
+    def test_an_interrupted_run_is_resumed(self):
         noted = STAND_IN.replace('echo "$output" >> calls', 'echo "$output" >> calls; echo "$all" >> options')
         (self.bin / "clatter-dynamics").write_text(noted.replace("set -e", 'set -e; all="$*"'))
         self.make("slap.run.h5")

@@ -1,4 +1,4 @@
-"""Small artefacts with the layout of docs/formats.md and plausible values, for tests of what reads them."""
+"""Small artefacts with the layout of docs/formats.md and plausible values, for tests of the tools that read them."""
 import pathlib
 
 import h5py
@@ -108,7 +108,7 @@ def put(file, name, values, **attributes):
 
 
 def write_field(path, amplitude=40.0, ring_hz=1800.0):
-    """A field file: two sensors that ring after a slap, an ERP, a skin that breathes."""
+    """A field file: two sensors that ring after a slap, an ERP, a skin that expands and contracts."""
     time = np.arange(-0.83e-3, 5e-3, 2e-5)
     nodes, faces = box_skin()
     with new_file(path, "field") as file:

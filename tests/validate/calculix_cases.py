@@ -1,11 +1,11 @@
-"""The decks of calculix_decks.py: what each shows, how near it must come, and why others are refused."""
+"""The decks of calculix_decks.py: what each shows, its tolerance, and why others are refused."""
 
 PRINTED = 6e-7  # seven digits are printed
 
-ROUNDED = 2e-5  # sides of a sector lie on each other to six digits
-RING = "the sector is turned round into the ring: their frequencies of some nodal diameters among ours of all"
+ROUNDED = 2e-5  # the sides of a sector coincide to six digits
+RING = "the sector is expanded to the ring: CalculiX's frequencies of some nodal diameters are among clatter's of all"
 
-# name, what it shows, largest error allowed, words for one that is larger than the digits printed
+# name, what it shows, largest error allowed, reason for an error above the printed digits
 CASES = [
     ("beam8p", "C3D8, forces", PRINTED, ""),
     ("beam10p", "C3D10, forces", PRINTED, ""),
@@ -17,7 +17,7 @@ CASES = [
     ("beampset", "sets of nodes", PRINTED, ""),
     ("beamp2stage", "two stages of loading", PRINTED, ""),
     ("beampis", "iterative solver of CalculiX", PRINTED, ""),
-    ("beampic", "iterative solver of CalculiX", 2e-3, "their solver stops early: beampis, the same deck with the other one, agrees"),
+    ("beampic", "iterative solver of CalculiX", 2e-3, "CalculiX's solver stops early: beampis, the same deck with another preconditioner, agrees"),
     ("beampo1", "orthotropic, orientation", PRINTED, ""),
     ("beampo2", "orthotropic, orientation", PRINTED, ""),
     ("aniso", "anisotropic, 21 constants", PRINTED, ""),
@@ -36,35 +36,35 @@ CASES = [
     ("beam8t", "C3D8, temperature", PRINTED, ""),
     ("beamt", "C3D20R, temperature", PRINTED, ""),
     ("beamt2", "C3D20R, temperature", PRINTED, ""),
-    ("beamt3", "C3D20R, temperature of middle nodes", PRINTED, ""),
+    ("beamt3", "C3D20R, temperature of mid-side nodes", PRINTED, ""),
     ("beam8f", "C3D8, frequencies", PRINTED, ""),
-    ("beamf", "C3D20R, frequencies", 2e-3, "clatter's mass is exact, CalculiX takes the eight points of K"),
+    ("beamf", "C3D20R, frequencies", 2e-3, "clatter's mass is exact, CalculiX uses the eight points of K"),
     *((f"beamdy{i}", "first step: C3D20R, frequencies", 2e-3, "mass as in beamf; the dynamic step is left out")
       for i in range(1, 20)),
-    ("dloadlinIf", "C3D8I, frequencies, nodes too many", 1e-6, "likely the inertia that CalculiX gives incompatible modes"),
+    ("dloadlinIf", "C3D8I, frequencies, superfluous nodes", 1e-6, "probably the inertia that CalculiX gives incompatible modes"),
     ("achtelc", "centrifugal force", PRINTED, ""),
-    ("segment1", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX takes the eight points of K"),
-    ("segment1, eight-point load", "the same with CalculiX's load", PRINTED, "what explains the line above (reduced_mass.py)"),
-    ("segment2", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX takes the eight points of K"),
-    ("segment2, eight-point load", "the same with CalculiX's load", PRINTED, "what explains the line above (reduced_mass.py)"),
-    ("beampfix", "first step: forces", PRINTED, "the step that holds what the first one moved is left out"),
+    ("segment1", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX uses the eight points of K"),
+    ("segment1, eight-point load", "the same with CalculiX's load", PRINTED, "explains the difference in the row above (reduced_mass.py)"),
+    ("segment2", "centrifugal force, curved C3D20R", 1e-2, "clatter's load is exact, CalculiX uses the eight points of K"),
+    ("segment2, eight-point load", "the same with CalculiX's load", PRINTED, "explains the difference in the row above (reduced_mass.py)"),
+    ("beampfix", "first step: forces", PRINTED, "the step that holds DoFs moved by the first one is left out"),
     ("changesolidsection", "first step: forces", PRINTED, "the step with another material is left out"),
     ("beamt6", "first step: temperature", PRINTED, "the coupled step is left out"),
-    ("beamf, eight-point mass", "the same with CalculiX's mass", PRINTED, "what explains the line above (reduced_mass.py)"),
+    ("beamf, eight-point mass", "the same with CalculiX's mass", PRINTED, "explains the difference in the row above (reduced_mass.py)"),
     ("c3d6", "C3D6, forces", PRINTED, "read with --ignore *MEMBRANE, a section without elements"),
     ("beammrlin", "mean rotation (*MPC)", PRINTED, ""),
     ("dashpot1", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
     ("dashpot2", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
     ("dashpot3", "first step: spring and dashpot, frequency", PRINTED, "dampers are left out, and the dynamic step"),
     ("spring5", "first step: spring, frequency", PRINTED, "the dynamic step is left out"),
-    ("damper1", "first step: a rigid body that moves freely beside a held part", PRINTED, "the dynamic step is left out"),
+    ("damper1", "first step: a free rigid body and a held part", PRINTED, "the dynamic step is left out"),
     ("segment", "cyclic symmetry, one nodal diameter", ROUNDED, RING),
     ("segmentface", "cyclic symmetry, one nodal diameter", ROUNDED, RING),
     ("segdyn", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
     ("segststate", "first step: cyclic symmetry, seven nodal diameters", ROUNDED, RING),
 ]
 
-# Why decks are refused: a deck counts once, for the first line that one of its refusals fits.
+# Why decks are refused: a deck counts once, for the first row that matches one of its errors.
 CAUSES = [
     ("networks of fluids, fluid cells", r"element type (D|F3D\w*) "),
     ("shells, membranes", r"element type (S|M3D)\d"),
@@ -89,12 +89,12 @@ CAUSES = [
     ("constants that depend on the temperature in steps that change it", r"depend on the temperature|change it"),
 ]
 RINGS = ("segment", "segmentface", "segdyn", "segststate")
-SECTORS = 12  # of all of them
-# The same, beside the installed ccx.
+SECTORS = 12  # of each of them
+# The same, compared with the installed ccx.
 INSTALLED = [
     ("mpcforce", "equations across two materials", PRINTED, ""),
     ("segmentm", "transform, equations", PRINTED, ""),
-    ("disk2", "centrifugal force on a part, transform, equations", 1e-4, "clatter's load is exact, CalculiX takes the eight points of K"),
+    ("disk2", "centrifugal force on a part, transform, equations", 1e-4, "clatter's load is exact, CalculiX uses the eight points of K"),
     ("distcoup", "distributing coupling off its centre", PRINTED, "read with --ignore MOMENT"),
     ("sens_orien1", "first step: orthotropic, orientation", PRINTED, "the sensitivity is left out"),
     ("sensitivity_I", "first step: forces", PRINTED, "the sensitivity is left out"),
@@ -103,8 +103,8 @@ INSTALLED = [
     ("beampsensfreq", "first step: forces", PRINTED, "read with --ignore 'EXTRA NODES'; frequencies under load and sensitivity are left out"),
     ("beamf2", "first step: forces", PRINTED, "frequencies under load are left out"),
 ]
-SMALL = "CalculiX at 1e-5 of the load: with these *MPC it counts large displacements whether the deck has NLGEOM or not"
-# The same, NLGEOM let go on both sides.
+SMALL = "CalculiX at 1e-5 of the load: with these *MPC it includes large displacements with and without NLGEOM"
+# The same, with NLGEOM ignored by both programs.
 LINEAR = [
     ("beamnlp", "forces", PRINTED, ""),
     ("beamnlptp", "forces", PRINTED, ""),
@@ -120,14 +120,14 @@ LINEAR = [
     ("beamp1rotate", "prescribed displacement", PRINTED, ""),
     ("beamp2rotate", "first step: prescribed displacement", PRINTED, "the next steps are left out"),
     ("beamdynamic", "first step: forces", PRINTED, "the dynamic step is left out"),
-    ("spring3", "first step: spring, forces", PRINTED, "the step behind it is left out"),
+    ("spring3", "first step: spring, forces", PRINTED, "the step after it is left out"),
     ("rotor", "first step: centrifugal force, curved C3D20R", 1e-2, "as segment1; frequencies under load are left out"),
     ("dloadlinI", "C3D8I, pressure", 3e-6, "read with --ignore 'EXTRA NODES'; as dloadlinIf"),
 ]
-# Loads of the decks of SMALL, as they stand and a hundred thousandth of it.
+# Loads of the decks of SMALL, in the deck and scaled by 1e-5.
 SMALL_LOADS = {"beamplane": ("22,2,200.", "22,2,.002"), "beamstraight": ("22,2,200.", "22,2,.002")}
 
-# Words that a deck needs beside its own, as the user writes them after --ignore.
+# Arguments of --ignore that a deck needs.
 IGNORE = {
     "dloadlinI": ("EXTRA NODES", "NLGEOM"),
     "dloadlinIf": ("EXTRA NODES",),

@@ -2,14 +2,14 @@
 """Decks of package calculix-ccx-test through clatter, against the reference output that comes with them.
 
     tests/validate/calculix_decks.py            prints the table
-    tests/validate/calculix_decks.py --write    puts it into docs/validation.md, and the table of decks that are refused
-    tests/validate/calculix_decks.py --all      says of each deck of the package whether it is read, or why not
+    tests/validate/calculix_decks.py --write    puts it into docs/validation.md, and the table of refused decks
+    tests/validate/calculix_decks.py --all      prints for each deck of the package whether it is read, or why not
 
-Each deck is read, assembled and solved by the executables alone; what they find is compared with the frequencies or
+Each deck is read, assembled and solved by the executables alone; the results are compared with the frequencies or
 the nodal displacements printed in the .dat.ref (or .frd.ref) file: the largest difference over the largest value.
 Of decks with several steps the first one is compared. Where the reference prints nothing that clatter computes (only
-stresses, say), the installed ccx runs the same deck up to its first step with *NODE PRINT, U added. Decks with NLGEOM
-are read with --ignore NLGEOM, and the installed ccx runs them without that word: linear against linear.
+stresses, for example), the installed ccx runs the same deck up to its first step with *NODE PRINT, U added. Decks with
+NLGEOM are read with --ignore NLGEOM, and the installed ccx runs them without that parameter: linear against linear.
 """
 import collections
 import gzip
@@ -31,7 +31,7 @@ DECKS = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
 
 
 def reference(name, suffix):
-    """Lines of a reference file, packed or not; none when there is no such file."""
+    """Lines of a reference file, compressed or not; none if there is no such file."""
     for path in (DECKS / f"{name}{suffix}", DECKS / f"{name}{suffix}.gz"):
         if path.exists():
             data = gzip.decompress(path.read_bytes()) if path.suffix == ".gz" else path.read_bytes()
@@ -59,7 +59,7 @@ def frequencies(lines):
 
 def ring_frequencies(name):
     """Of the first step of a sector, all nodal diameters: CalculiX solves for a sine and a cosine together, so that
-    modes of 0 and of half the sectors' number of diameters, of which a ring has one each, stand there twice."""
+    modes of 0 and of half the sectors' number of diameters, of which a ring has one each, are listed twice."""
     of_diameter = collections.defaultdict(list)
     for line in reference(name, ".dat.ref"):
         row = numbers(line)
@@ -88,7 +88,7 @@ def displacements(lines, of_set=""):
     return found
 
 
-def drawn_displacements(lines):
+def frd_displacements(lines):
     """The same of a .frd file."""
     found = {}
     inside = False
@@ -104,9 +104,9 @@ def drawn_displacements(lines):
     return found
 
 
-def assemble(deck, folder, *let_go):
+def assemble(deck, folder, *ignored):
     """a.mesh.h5, a.fe.toml and a.fe.h5 of a deck in `folder`."""
-    ignore = [word for name in (*IGNORE.get(deck.removesuffix(".inp"), ()), *let_go) for word in ("--ignore", name)]
+    ignore = [word for name in (*IGNORE.get(deck.removesuffix(".inp"), ()), *ignored) for word in ("--ignore", name)]
     run("mesh", deck, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", *ignore, folder=folder)
     run("assembly", "a.mesh.h5", "-c", "a.fe.toml", "-o", "a.fe.h5", folder=folder)
 
@@ -138,14 +138,14 @@ def installed(name, folder):
 
 
 def row_of_node(folder):
-    """{number in the deck: row in our files}."""
+    """{number in the deck: row in clatter's files}."""
     with h5py.File(folder / "a.mesh.h5") as file:
         return {int(label): row for row, label in enumerate(file["node_ids"][()])}
 
 
-def rigid_apart(ours, theirs):
-    """Largest relative difference; what they find below 2e-5 of the highest is a rigid motion and their
-    rounding, and ours is held against the highest there."""
+def relative_difference(ours, theirs):
+    """Largest relative difference; frequencies of CalculiX below 2e-5 of the highest are rigid motions with
+    rounding, there the difference is relative to the highest."""
     highest = theirs.max()
     rigid = theirs < 2e-5 * highest
     return float(np.where(rigid, ours / highest, np.abs(ours - theirs) / np.where(rigid, highest, theirs)).max())
@@ -157,16 +157,16 @@ def compare_frequencies(theirs, mass, folder):
         ours = file["frequency_hz"][()]
     if mass:
         ours = reduced_mass.frequencies(folder / "a.mesh.h5", folder / "a.fe.h5", 7.8e-9, len(theirs))
-    return "frequencies", len(theirs), rigid_apart(ours, theirs)
+    return "frequencies", len(theirs), relative_difference(ours, theirs)
 
 
 def compare_ring(theirs, folder):
-    """Each of theirs with the nearest of ours that is not used yet."""
+    """Each of CalculiX's with the nearest of clatter's that is not used yet."""
     run("modal", "a.fe.h5", "--fmax-hz", 1.001 * theirs.max(), "-o", "a.modes.h5", folder=folder)
     with h5py.File(folder / "a.modes.h5") as file:
         left = list(file["frequency_hz"][()])
     ours = [left.pop(int(np.abs(np.array(left) - value).argmin())) for value in theirs]
-    return "frequencies", len(theirs), rigid_apart(np.array(ours), theirs)
+    return "frequencies", len(theirs), relative_difference(np.array(ours), theirs)
 
 
 def compare_displacements(theirs, folder):
@@ -197,42 +197,42 @@ def compare(name, folder):
     if len(theirs):
         return compare_frequencies(theirs, mass, folder)
     if mass:
-        reduced_mass.turn_about_x(folder / "a.mesh.h5", folder / "a.fe.h5", 7.8e-9)
-    theirs = displacements(reference(name, ".dat.ref")) or drawn_displacements(reference(name, ".frd.ref"))
+        reduced_mass.rotate_about_x(folder / "a.mesh.h5", folder / "a.fe.h5", 7.8e-9)
+    theirs = displacements(reference(name, ".dat.ref")) or frd_displacements(reference(name, ".frd.ref"))
     return compare_displacements(theirs, folder)
 
 
 def compare_installed(name, folder):
-    """The same beside the installed ccx."""
+    """The same, compared with the installed ccx."""
     write_deck(name, folder)
     assemble(f"{name}.inp", folder)
     return compare_displacements(installed(name, folder), folder)
 
 
 def compare_linear(name, folder):
-    """The same of a deck whose NLGEOM both let go."""
+    """The same of a deck whose NLGEOM both programs ignore."""
     write_deck(name, folder)
     assemble(f"{name}.inp", folder, "NLGEOM")
     return compare_displacements(installed(name, folder), folder)
 
 
 def all_decks(folder):
-    """{name: what clatter-mesh says when it refuses the deck, empty when it reads it}, of the whole package."""
-    said = {}
+    """{name: errors of clatter-mesh, empty for a deck that is read}, of the entire package."""
+    messages = {}
     for path in sorted([*DECKS.glob("*.inp"), *DECKS.glob("*.inp.gz")]):
         name = path.name.removesuffix(".gz").removesuffix(".inp")
         deck = folder / f"{name}.inp"
         deck.write_text("\n".join(reference(name, ".inp")) + "\n")
         try:
             run("mesh", deck.name, "--units", "m-kg-s", "-o", "a.mesh.h5", "--recipe", "a.fe.toml", folder=folder)
-            said[name] = ""
+            messages[name] = ""
         except RuntimeError as refusal:
-            said[name] = str(refusal)
-    return said
+            messages[name] = str(refusal)
+    return messages
 
 
 def cause(text):
-    """The cause of CAUSES that a deck's refusals have, the first line of its own where none fits."""
+    """The first cause of CAUSES that matches a deck's errors, or the first error if none does."""
     for words, pattern in CAUSES:
         if re.search(pattern, text):
             return words
@@ -240,32 +240,32 @@ def cause(text):
     return re.sub(r".*\.inp:\d+: ", "", lines[0])
 
 
-def refused(said):
-    """The table of causes: of how many decks each is the first."""
+def refused(messages):
+    """The table of causes with the number of decks of each."""
     counts, examples = collections.Counter(), {}
-    for name, text in said.items():
+    for name, text in messages.items():
         if text:
             counts[cause(text)] += 1
             examples.setdefault(cause(text), []).append(name)
     rows = [(words, str(count), ", ".join(examples[words][:4])) for words, count in counts.most_common()]
-    read = sum(not text for text in said.values())
-    return (f"{len(said)} decks, {read} read as they are, {len(said) - read} refused:\n\n" +
+    read = sum(not text for text in messages.values())
+    return (f"{len(messages)} decks, {read} read as is, {len(messages) - read} refused:\n\n" +
             docs_table.markdown(("cause", "decks", "such as"), rows))
 
 
 def say_all():
-    """Prints each deck with its refusals, then the refusals by how many decks have them."""
+    """Prints each deck with its errors, then the number of decks of each error."""
     with tempfile.TemporaryDirectory(prefix="clatter-ccx-") as folder:
-        said = all_decks(pathlib.Path(folder))
+        messages = all_decks(pathlib.Path(folder))
     reasons = collections.Counter()
-    for name, text in said.items():
+    for name, text in messages.items():
         print(f"{name}: {text or 'read'}")
         reasons.update({re.sub(r"\S+\.inp:\d+", "FILE:LINE", re.sub(r"( \(and .*|; ignore = .*)", "", line)).strip()
                         for line in text.splitlines()})
     print()
     for reason, count in reasons.most_common():
         print(f"{count:4} {reason}")
-    print("\n" + refused(said))
+    print("\n" + refused(messages))
 
 
 def table():

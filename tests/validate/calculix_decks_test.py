@@ -19,14 +19,14 @@ class CalculixDecks(unittest.TestCase):
 
     def test_every_refusal_of_the_package_names_file_and_line(self):
         with tempfile.TemporaryDirectory(prefix="clatter-ccx-") as folder:
-            said = calculix_decks.all_decks(pathlib.Path(folder))
-        self.assertGreater(len(said), 300)
-        for name, text in said.items():
+            messages = calculix_decks.all_decks(pathlib.Path(folder))
+        self.assertGreater(len(messages), 300)
+        for name, text in messages.items():
             lines = [line.strip() for line in text.splitlines()]
             if lines and lines[0].endswith("refusals:"):
                 lines = lines[1:]
             for line in lines:
-                with self.subTest(deck=name, said=line):
+                with self.subTest(deck=name, message=line):
                     self.assertRegex(line.removeprefix("clatter-mesh: clatter-mesh: error: "), rf"^{name}\.inp:\d+: ")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Nodal stresses of decks of package calculix-ccx-test beside those that CalculiX itself puts into its .frd file.
+"""Nodal stresses of decks of package calculix-ccx-test compared with those in CalculiX's .frd file.
 
     tests/validate/calculix_stress.py            prints the table
     tests/validate/calculix_stress.py --write    puts it into docs/validation.md
@@ -21,7 +21,7 @@ PRINTED = 6e-6  # six digits in the .frd file
 ROUNDED = 5e-5
 FOUR_DIGITS = "the constants of CalculiX's extrapolation have four digits"
 
-# name, what it shows, largest difference allowed, words for one that is larger than the digits printed
+# name, what it shows, largest difference allowed, reason for one above the printed digits
 CASES = [
     ("beamp", "C3D20R, forces", ROUNDED, FOUR_DIGITS),
     ("beampo1", "C3D20R, orthotropic", ROUNDED, FOUR_DIGITS),

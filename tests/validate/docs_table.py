@@ -1,4 +1,4 @@
-"""Tables of docs/validation.md that commands write: each stands between <!-- name --> and <!-- end -->."""
+"""Tables of docs/validation.md that commands write: each is between <!-- name --> and <!-- end -->."""
 import pathlib
 import tempfile
 
@@ -14,7 +14,7 @@ def markdown(head, rows):
 
 
 def put(name, text):
-    """Puts `text` in the place of that name."""
+    """Replaces the table of that name by `text`."""
     before, rest = PAGE.read_text().split(f"<!-- {name} -->\n", 1)
     after = rest.split("<!-- end -->", 1)[1]
     PAGE.write_text(f"{before}<!-- {name} -->\n{text}\n<!-- end -->{after}")
@@ -28,8 +28,8 @@ def finish(name, text, arguments):
 
 
 def compared(cases, compare):
-    """A row for each case (name, shows, limit, remark), with what compare(name, folder) returns in the middle; each in
-    a folder of its own."""
+    """A row for each case (name, shows, limit, remark), with the values of compare(name, folder) in the middle;
+    each in a separate folder."""
     rows = []
     for name, shows, limit, remark in cases:
         with tempfile.TemporaryDirectory(prefix="clatter-ccx-") as folder:

@@ -77,13 +77,13 @@ def fv32(kind, bricks):
     return frequencies(nafems_mesh.membrane(kind, bricks), 6)
 
 
-def stress_at(folder, place):
-    """xx yy zz xy yz zx [Pa] at the node nearest to a place."""
+def stress_at(folder, position):
+    """xx yy zz xy yz zx [Pa] at the node nearest to a position."""
     run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
     with h5py.File(folder / "a.static.h5") as file:
         (region,) = file["stress_nodes"]
         nodes = file["nodes"][()][file["stress_nodes"][region][()]]
-        return file["cases/step_1/stress"][region][int(np.linalg.norm(nodes - place, axis=1).argmin())]
+        return file["cases/step_1/stress"][region][int(np.linalg.norm(nodes - position, axis=1).argmin())]
 
 
 def le10(kind, bricks):
@@ -94,7 +94,7 @@ def le10(kind, bricks):
 
 @contextlib.contextmanager
 def solved_by_calculix(deck):
-    """A folder with what CalculiX makes of a deck."""
+    """A folder with CalculiX's results for a deck."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="clatter-nafems-"))
     try:
         (folder / "a.inp").write_text(deck)
@@ -112,8 +112,8 @@ def calculix_frequencies(deck, count):
 
 
 def calculix_frequencies_without_mode_mass(deck, nodes, count):
-    """The same [Hz] from CalculiX's matrices, where the incompatible modes of C3D8I are unknowns of nodes above `nodes`,
-    after their mass is taken away."""
+    """The same [Hz] from CalculiX's matrices, where the incompatible modes of C3D8I are DoFs of nodes above `nodes`, after
+    their mass is removed."""
     with solved_by_calculix(f"{deck}*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n{count}\n*END STEP\n") as folder:
         of_node = [int(line.strip().split(".")[0]) <= nodes for line in (folder / "a.dof").read_text().splitlines()]
         K, M = (upper_triangle(folder / f"a.{name}") for name in ("sti", "mas"))
@@ -131,7 +131,7 @@ def upper_triangle(path):
 
 
 def calculix_le10(kind, bricks):
-    """sigma_yy at D [MPa] from its .frd file; only the node at D lies at that place."""
+    """sigma_yy at D [MPa] from its .frd file; only the node at D has that position."""
     deck = nafems_mesh.ellipse(kind, bricks).replace("*END STEP", "*EL FILE\nS\n*END STEP")
     with solved_by_calculix(deck) as folder:
         node = next(words[0] for words in map(str.split, deck.replace(",", " ").splitlines())

@@ -1,7 +1,7 @@
 """Structured meshes of the NAFEMS benchmarks as Abaqus decks.
 
-A grid of bricks on the unit cube is cut into cells and mapped to the part. Every node has three whole numbers: its place
-in a grid twice as fine, where corners are even and the middle of an edge is the mean of its ends.
+A grid of bricks on the unit cube is cut into cells and mapped to the part. Every node has three integers: its indices in
+a grid twice as fine, where corners are even and a mid-side node is the mean of the ends of its edge.
 """
 import itertools
 
@@ -39,7 +39,7 @@ SHAPES = {
 
 
 class Grid:
-    """nodes: {place in the fine grid: number}; cells: lists of places, in Abaqus' order."""
+    """nodes: {indices in the fine grid: number}; cells: lists of such indices, in Abaqus' order."""
 
     def __init__(self, kind, bricks, to_part):
         self.kind, self.to_part = kind, to_part
@@ -52,18 +52,18 @@ class Grid:
                 mid_side_nodes = [(corners[a] + corners[b]) // 2 for a, b in edges]
                 cell = [tuple(map(int, place)) for place in (*corners, *mid_side_nodes)]
                 self.cells.append(cell)
-                for place in cell:
-                    self.nodes.setdefault(place, len(self.nodes) + 1)
+                for indices in cell:
+                    self.nodes.setdefault(indices, len(self.nodes) + 1)
 
     def where(self, holds):
-        """Numbers of the nodes whose place (i, j, k) in the fine grid fulfils holds(place, last)."""
-        return [number for place, number in self.nodes.items() if holds(place, self.fine)]
+        """Numbers of the nodes whose indices (i, j, k) in the fine grid fulfil holds(indices, last)."""
+        return [number for indices, number in self.nodes.items() if holds(indices, self.fine)]
 
     def upper_faces(self):
         """(cell number, face label) of the faces on the upper side of the grid."""
         faces = []
         for number, cell in enumerate(self.cells, 1):
-            above = [place[2] == self.fine[2] for place in cell]
+            above = [indices[2] == self.fine[2] for indices in cell]
             if self.kind == "C3D10":
                 faces += [(number, f"P{f}") for f, face in enumerate(TET_FACES, 1) if all(above[i] for i in face)]
             elif above[7 if self.kind != "C3D15" else 3]:
@@ -73,12 +73,12 @@ class Grid:
     def deck(self, youngs, density, held, pressure=0.0):
         """An Abaqus deck. `held`: (node numbers, first direction, last direction) of each support."""
         lines = ["*NODE"]
-        for place, number in self.nodes.items():
-            x, y, z = self.to_part(*(np.array(place) / self.fine))
+        for indices, number in self.nodes.items():
+            x, y, z = self.to_part(*(np.array(indices) / self.fine))
             lines.append(f"{number}, {x:.15g}, {y:.15g}, {z:.15g}")
         lines.append(f"*ELEMENT, TYPE={self.kind}, ELSET=BODY")
         for number, cell in enumerate(self.cells, 1):
-            words = [number, *(self.nodes[place] for place in cell)]
+            words = [number, *(self.nodes[indices] for indices in cell)]
             lines += [", ".join(map(str, words[i:i + 10])) + ("," if i + 10 < len(words) else "")
                       for i in range(0, len(words), 10)]
         lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{youngs}, 0.3", "*DENSITY", f"{density}",
@@ -108,8 +108,8 @@ def hard_plate(kind, bricks):
 
 
 def membrane(kind, bricks):
-    """FV32: 10 m long, 5 m wide at the held root, 1 m at the tip, 0.05 m thick. One face is kept in its plane and the other
-    is free, so that stress across the thickness is zero: half of a plate that moves in its plane alone."""
+    """FV32: 10 m long, 5 m wide at the held root, 1 m at the tip, 0.05 m thick. One face is held in its plane and the other
+    is free, so that stress across the thickness is zero: half of a plate that moves only in its plane."""
     grid = Grid(kind, bricks, lambda x, y, z: (10 * x, (y - 0.5) * (5 - 4 * x), 0.05 * z))
     root = grid.where(lambda p, last: p[0] == 0)
     face = grid.where(lambda p, last: p[2] == 0)

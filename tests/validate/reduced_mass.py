@@ -1,4 +1,4 @@
-"""Frequencies of C3D20R with the mass that CalculiX takes: the eight points of the stiffness, where clatter is exact."""
+"""Frequencies of C3D20R with the mass as in CalculiX: the eight points of the stiffness, where clatter is exact."""
 import h5py
 import numpy as np
 import scipy.linalg
@@ -28,7 +28,7 @@ def sparse(group):
 
 
 def frequencies(mesh_file, model_file, density, count):
-    """The lowest frequencies [Hz] of a small model of hex20 cells, K from clatter, M with eight points a cell."""
+    """The lowest frequencies [Hz] of a small model of hex20 cells, K from clatter, M with eight points per cell."""
     with h5py.File(mesh_file) as file:
         nodes, cells = file["nodes"][()], file["cells/0/nodes"][()]
     points = [np.array((a, b, c)) / np.sqrt(3) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
@@ -40,14 +40,14 @@ def frequencies(mesh_file, model_file, density, count):
     with h5py.File(model_file) as file:
         K, T = sparse(file["K"]), sparse(file["T"]).toarray()
     K = (K + scipy.sparse.tril(K, -1).T).toarray()
-    # Eight points leave M singular, so the largest 1 / omega^2 are asked for.
+    # Eight points leave M singular, so the largest 1 / omega^2 are computed.
     values = scipy.linalg.eigh(T.T @ np.kron(mass, np.eye(3)) @ T, K, eigvals_only=True)
     return 1 / np.sqrt(values[::-1][:count]) / (2 * np.pi)
 
 
-def turn_about_x(mesh_file, model_file, density):
-    """Puts the load of a part of hex20 cells that turns about the x axis, with eight points a cell, in the model's place
-    of its own; omega^2 stays the factor of the case."""
+def rotate_about_x(mesh_file, model_file, density):
+    """Replaces the model's load by that of a part of hex20 cells that rotates about the x axis, with eight
+    points per cell; omega^2 remains the factor of the case."""
     with h5py.File(mesh_file) as file:
         nodes, cells = file["nodes"][()], file["cells/0/nodes"][()]
     points = [np.array((a, b, c)) / np.sqrt(3) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]

@@ -8,7 +8,7 @@ BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
 
 
 def run(stage, *arguments, folder):
-    """Runs clatter-<stage> quietly in `folder`; RuntimeError with its words when it fails."""
+    """Runs clatter-<stage> quietly in `folder`; RuntimeError with its message when it fails."""
     done = subprocess.run([BIN / f"clatter-{stage}", *map(str, arguments), "--quiet"], cwd=folder, text=True,
                           capture_output=True, timeout=600)
     if done.returncode:

@@ -1,4 +1,4 @@
-"""samples/truck_diesel as `make demo` runs it: what it must show, and its full size. Minutes; `make validate`."""
+"""samples/truck_diesel as `make demo` runs it: expected results, and its full size. Takes minutes; `make validate`."""
 import pathlib
 import re
 import sys

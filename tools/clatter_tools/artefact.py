@@ -1,4 +1,4 @@
-"""One artefact (HDF5 file) as its stages wrote it: head, inputs, certificate, timing, effects."""
+"""One artefact (HDF5 file) as its stage wrote it: attributes, inputs, certificate, timing, effects."""
 import hashlib
 import pathlib
 
@@ -6,7 +6,7 @@ import h5py
 
 
 class BadArtefact(Exception):
-    """A file that is missing, broken or of another kind: one line for the user."""
+    """A file that is missing, damaged or of another kind: one line for the user."""
 
 
 def text(value):
@@ -15,7 +15,7 @@ def text(value):
 
 
 def schema_of(kind):
-    """The schema of today's files of that kind: "clatter/mesh/2"."""
+    """The current schema of files of that kind: "clatter/mesh/2"."""
     return f"clatter/{kind}/{2 if kind in ('mesh', 'fe', 'modes') else 1}"
 
 
@@ -40,44 +40,44 @@ def configuration(file):
 
 
 def dataset(file, name):
-    """A dataset's values; BadArtefact names the file and what it holds in that place when it is absent."""
+    """A dataset's values; if it is absent, BadArtefact names the file and the datasets of its group."""
     if name in file:
         return file[name][()]
     group = name.rpartition("/")[0]
     present = ", ".join(sorted(file[group])) if group in file else "no such group"
-    raise BadArtefact(f"{file.filename}: {name}: absent; {group} holds: {present}")
+    raise BadArtefact(f"{file.filename}: {name}: missing; {group} contains: {present}")
 
 
 def sha256(path):
     digest = hashlib.sha256()
     with open(path, "rb") as stream:
-        for piece in iter(lambda: stream.read(1 << 20), b""):
-            digest.update(piece)
+        for block in iter(lambda: stream.read(1 << 20), b""):
+            digest.update(block)
     return digest.hexdigest()
 
 
 def inputs(file):
-    """Pairs (path, state) of the files that an artefact was made from: "unchanged", "changed since", "gone"."""
+    """Pairs (path, state) of an artefact's input files: "unchanged", "changed since", "missing"."""
     return [(path, state) for path, state, _ in hashed_inputs(file)]
 
 
 def hashed_inputs(file):
-    """The same with the SHA-256 that each had then: (path, state, digest)."""
+    """The same with their SHA-256 at that time: (path, state, digest)."""
     if "inputs/path" not in file:
         return []
     folder = pathlib.Path(file.filename).parent
     found = []
     for path, digest in zip(file["inputs/path"][()], file["inputs/sha256"][()]):
         path = text(path)
-        there = next((p for p in (pathlib.Path(path), folder / path, folder / pathlib.Path(path).name)
+        existing = next((p for p in (pathlib.Path(path), folder / path, folder / pathlib.Path(path).name)
                       if p.exists()), None)
-        state = "gone" if there is None else "unchanged" if sha256(there) == text(digest) else "changed since"
+        state = "missing" if existing is None else "unchanged" if sha256(existing) == text(digest) else "changed since"
         found.append((path, state, text(digest)))
     return found
 
 
 def certificate(file):
-    """What the stage proved, as {name: number}."""
+    """The certificate as {name: number}."""
     return {name: value for name, value in file["certificate"].attrs.items()} if "certificate" in file else {}
 
 
@@ -90,6 +90,6 @@ def timing(file):
 
 
 def totals(file):
-    """(seconds, peak GiB) of the whole stage."""
+    """(seconds, peak GiB) of the stage."""
     attributes = file["timing"].attrs if "timing" in file else {}
     return float(attributes.get("total_seconds", float("nan"))), float(attributes.get("peak_gib", float("nan")))

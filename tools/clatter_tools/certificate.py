@@ -1,9 +1,9 @@
-"""The certificate of a reduced model, grouped, with units and what each figure means."""
+"""The certificate of a reduced model, grouped, with unit and meaning of each figure."""
 import numpy as np
 
 from . import artefact
 
-# (group, rows of (key, how it is printed, meaning))
+# (group, rows of (key, format, meaning))
 GROUPS = [
     ("rigid motions and mass", [
         ("rigid_modes", "{:.0f}", "zero modes, as many as the body has free motions"),
@@ -17,11 +17,11 @@ GROUPS = [
         ("fixed_interface_modes", "{:.0f}", "modes with the boundary held"),
         ("own_modes", "{:.0f}", "modes of the body itself"),
         ("load_shapes", "{:.0f}", "static shapes of load cases"),
-        ("residual_modes", "{:.0f}", "vectors that stand for the modes left out"),
+        ("residual_modes", "{:.0f}", "vectors that represent the truncated modes"),
         ("eigen_residual_max", "{:.1e}", "largest residual of a mode"),
         ("eigen_frequency_error", "{:.1e}", "largest estimated relative error of its frequency, by AMLS"),
         ("modal_mass_error", "{:.1e}", "modal masses against 1"),
-        ("dropped_vectors", "{:.0f}", "dependent vectors taken out"),
+        ("dropped_vectors", "{:.0f}", "dependent vectors removed"),
         ("count_proved", "{:yes}", "no mode is missing, by the inertia count below"),
         ("count_below", "{:.0f}", "modes below the limit by inertia"),
         ("count_limit_hz", "{:.2f} Hz", "the limit of the count"),
@@ -31,10 +31,10 @@ GROUPS = [
         ("accurate_to_hz", "{:.1f} Hz", "the errors below hold up to here"),
         ("frequency_error_estimate", "{:.2e}", "largest estimated relative error of the body's own frequencies"),
         ("frequency_error_joined", "{:.2e}", "the same without residual modes: for a body joined to others"),
-        ("frequency_error_modes", "{:.0f}", "own elastic modes on which both estimates stand"),
-        ("frequency_error_target", "{:.2e}", "the accuracy asked for"),
-        ("frequency_error_bound", "{:.2e}", "what the chosen cut-off promises"),
-        ("rows_added_error", "{:.1e}", "rows added later: difference of the basis solved for again"),
+        ("frequency_error_modes", "{:.0f}", "own elastic modes used for both estimates"),
+        ("frequency_error_target", "{:.2e}", "requested accuracy"),
+        ("frequency_error_bound", "{:.2e}", "bound for the chosen cut-off"),
+        ("rows_added_error", "{:.1e}", "rows added later: difference of the recomputed basis"),
         ("cutoffs_tried", "{:.0f}", "cut-offs tried to find it"),
         ("verified_to_hz", "{:.1f} Hz", "compared with modes of the full model up to here"),
         ("verified_modes", "{:.0f}", "elastic modes compared"),
@@ -44,8 +44,8 @@ GROUPS = [
     ("interface modes", [
         ("interface_coordinates", "{:.0f}", "boundary coordinates before they were reduced"),
         ("interface_modes", "{:.0f}", "characteristic constraint modes kept"),
-        ("interface_cutoff_hz", "{:.1f} Hz", "the lowest of those left out; 0: none is, or they are by area"),
-        ("interface_frequency_error", "{:.2e}", "largest error of a frequency that this reduction added"),
+        ("interface_cutoff_hz", "{:.1f} Hz", "the lowest omitted one; 0: none omitted, or weighted by area"),
+        ("interface_frequency_error", "{:.2e}", "largest frequency error due to this reduction"),
         ("interface_film_work_error", "{:.2e}", "error of the work of a film's pressure"),
     ]),
     ("conditioning", [
@@ -65,9 +65,9 @@ def value_text(form, value):
 
 
 def verdict(found):
-    """One line: what a user should know first."""
+    """A summary in one line."""
     if not found:
-        return "NO CERTIFICATE: nothing is known of its modes and its mass"
+        return "NO CERTIFICATE: its modes and its mass were not checked"
     if not found.get("certified", 1.0):
         return "NOT CERTIFIED: condensed with --no-certificate; modes not counted, spectrum not computed"
     proof = "no mode is missing" if found.get("count_proved") else "THE NUMBER OF MODES IS NOT PROVED"
@@ -76,7 +76,7 @@ def verdict(found):
 
 
 def print_certificate(found):
-    """`found` as of artefact.certificate(file) of a reduced model."""
+    """`found`: artefact.certificate(file) of a reduced model."""
     print(f"certificate: {verdict(found)}")
     left = {name: value for name, value in found.items() if name != "certified"}
     for title, rows in GROUPS:
@@ -92,15 +92,15 @@ def print_certificate(found):
 
 
 def print_boundary(file):
-    """The boundary map: which coordinates belong to which set, where."""
+    """The boundary map: coordinates and mean position of each set."""
     if "sets" not in file:
         return
     units = artefact.text(file.attrs["units"]) if "units" in file.attrs else "SI"
     print(f"boundary: {file.attrs['n_boundary']} of {len(file['K_rr'])} coordinates ({units})")
     for name, dofs in file["sets"].items():
-        at, place = dofs["dofs"][()], dofs["position"][()]
-        turns = np.count_nonzero(dofs["is_rotation"][()])
-        middle = ", ".join(f"{x:.4g}" for x in place.mean(axis=0))
+        at, position = dofs["dofs"][()], dofs["position"][()]
+        rotations = np.count_nonzero(dofs["is_rotation"][()])
+        centre = ", ".join(f"{x:.4g}" for x in position.mean(axis=0))
         span = f"{at.min() + 1}-{at.max() + 1}" if len(at) else "none"
-        print(f"    {name:<26} {span:>14}  {artefact.text(dofs.attrs['kind'])}: {len(at) - turns} displacements, "
-              f"{turns} rotations about ({middle}) m")
+        print(f"    {name:<26} {span:>14}  {artefact.text(dofs.attrs['kind'])}: {len(at) - rotations} displacements, "
+              f"{rotations} rotations about ({centre}) m")

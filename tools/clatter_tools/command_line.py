@@ -1,4 +1,4 @@
-"""The command `clatter`: one subcommand a job, exit codes like the stages' (0 done, 2 bad input)."""
+"""The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input)."""
 import argparse
 import os
 import subprocess
@@ -14,31 +14,31 @@ clatter-recover; each has --help. A Makefile of ten lines includes the rules: in
 def parser():
     top = argparse.ArgumentParser(prog="clatter", description=__import__("clatter_tools").__doc__, epilog=EPILOG)
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    one = commands.add_parser("info", help="what an artefact holds, was made from, proved, and cost")
+    one = commands.add_parser("info", help="contents, inputs, certificate and cost of an artefact")
     one.add_argument("files", nargs="+", metavar="file.h5")
     one.add_argument("--config", action="store_true", help="print the resolved configuration instead")
-    one.add_argument("--verify", action="store_true", help="read every number against its checksum instead")
+    one.add_argument("--verify", action="store_true", help="check every number against its checksum instead")
     one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
     one.add_argument("folder", nargs="?", default=".")
-    one.add_argument("-j", "--jobs", type=int, default=1, help="how many stages at once")
-    one = commands.add_parser("report", help="print what the runs of a folder found")
+    one.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
+    one = commands.add_parser("report", help="print the results of the runs in a folder")
     one.add_argument("folder", nargs="?", default=".")
     one = commands.add_parser("plot", help="draw a picture from artefacts")
-    one.add_argument("kind", help="which picture; 'list' names them")
+    one.add_argument("kind", help="kind of picture; 'list' names them")
     one.add_argument("files", nargs="*", metavar="file.h5")
     one.add_argument("-o", "--output", help="PNG file; default: kind.png")
-    one = commands.add_parser("rules", help="print where clatter.mk lies, for `include`")
+    one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     return top
 
 
 def run_make(folder, jobs):
     if not os.path.exists(os.path.join(folder, "Makefile")):
-        raise BadArtefact(f"{folder}: no Makefile; ten lines with `include $(shell clatter rules)` make one")
+        raise BadArtefact(f"{folder}: no Makefile; write one with `include $(shell clatter rules)`")
     return subprocess.call(["make", "--no-print-directory", "-C", folder, f"-j{jobs}"])
 
 
 def plot(kind, files, output):
-    from . import plots  # matplotlib is slow to load: only when drawing
+    from . import plots  # matplotlib is slow to load
     if kind == "list":
         for name, picture in plots.PICTURES.items():
             print(f"{name:<16} {picture.__doc__.strip().splitlines()[0]}")
@@ -73,7 +73,7 @@ def main(arguments, rules):
     except (OSError, RuntimeError, KeyError) as error:
         if "checksum" not in str(error):
             raise
-        print(f"clatter: error: a file was damaged after it was written (clatter info --verify names it): {error}",
+        print(f"clatter: error: a file was damaged after it was written (clatter info --verify names the dataset): {error}",
               file=sys.stderr)
         return 2
     return 0

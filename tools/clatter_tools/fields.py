@@ -1,4 +1,4 @@
-"""What a field file holds: pieces of a run (a cycle, windows), sensors, panels, the skin."""
+"""Contents of a field file: pieces of a run (a cycle, windows), sensors, panels, the skin."""
 import numpy as np
 
 from .artefact import BadArtefact, dataset, text
@@ -7,7 +7,7 @@ THRUST = np.array([0.0, 1.0, 0.0])
 
 
 def pieces(field):
-    """Names of the pieces that the file has; at least one."""
+    """Names of the pieces in the file; at least one."""
     present = sorted(field["analysis"]) if "analysis" in field else []
     if not present:
         raise BadArtefact(f"{field.filename}: analysis: found nothing, expected a cycle or a window")
@@ -15,7 +15,7 @@ def pieces(field):
 
 
 def piece(field, *wanted):
-    """Path of the first of the wanted pieces that the file has: "analysis/ftdc"."""
+    """Path of the first of the wanted pieces in the file: "analysis/ftdc"."""
     present = pieces(field)
     for name in wanted:
         if name in present:
@@ -34,7 +34,7 @@ def pick_sensor(field, at, part):
 
 
 def channel(field, sensor, direction=THRUST):
-    """Index of the channel that looks most along `direction` and is no rotation."""
+    """Index of the displacement channel that is most parallel to `direction`."""
     along = np.abs(dataset(field, f"{sensor}/direction") @ direction)
     along[dataset(field, f"{sensor}/is_rotation") != 0] = -1
     return int(np.argmax(along))
@@ -61,7 +61,7 @@ def reference(levels):
 
 
 def panel(field, at, *wanted):
-    """Path of the first of the wanted panels that the file has."""
+    """Path of the first of the wanted panels in the file."""
     for name in wanted:
         if f"{at}/panels/{name}" in field:
             return f"{at}/panels/{name}"

@@ -1,4 +1,4 @@
-"""Numbers that a report shows, taken from artefacts; "-" stands for what a file does not hold."""
+"""Numbers of a report, taken from artefacts; "-": not in the file."""
 import pathlib
 
 import numpy as np
@@ -11,12 +11,12 @@ NOTHING = "-"
 
 
 def fe_size(fe):
-    """Number of degrees of freedom of the full model."""
+    """Number of DoFs of the full model."""
     return int(fe["K"].attrs["shape"][0]) if "K" in fe else NOTHING
 
 
 def reduced_size(fe_path):
-    """Number of reduced coordinates in the .rom.h5 beside an .fe.h5."""
+    """Number of reduced coordinates in the .rom.h5 of the same name as an .fe.h5."""
     rom = pathlib.Path(str(fe_path).replace(".fe.h5", ".rom.h5"))
     if not rom.exists():
         return NOTHING
@@ -74,11 +74,11 @@ def field_row(field):
 
 
 def mesh_quality(file):
-    """Measure, worst value, number and place of that cell, a row a measure; none where the mesh has no quality."""
+    """Measure, worst value, number and position of that cell, one row per measure; none if the mesh has no quality group."""
     rows = []
     for name in ("min_dihedral_deg", "scaled_jacobian"):
         if f"quality/{name}" in file:
             measure = file[f"quality/{name}"]
-            place = " ".join(f"{1e3 * x:.1f}" for x in measure["worst_place"][()])
-            rows.append([name, f"{measure.attrs['worst']:.3g}", str(measure.attrs["worst_label"]), place])
+            position = " ".join(f"{1e3 * x:.1f}" for x in measure["worst_place"][()])
+            rows.append([name, f"{measure.attrs['worst']:.3g}", str(measure.attrs["worst_label"]), position])
     return rows

@@ -10,7 +10,7 @@ def crank_angle(run):
 
 
 def history(run, name, unit):
-    """One history; BadArtefact when the file's unit is not the expected one."""
+    """One history; BadArtefact if the file's unit is not the expected one."""
     values = dataset(run, f"history/{name}")
     found = text(run[f"history/{name}"].attrs.get("unit", ""))
     if found != unit:
@@ -23,13 +23,13 @@ def has(run, name):
 
 
 def last_cycle(angle):
-    """Slice of the last whole cycle of 720 deg (the periodic one), or everything when the run is shorter."""
+    """Slice of the last complete cycle of 720 deg (the periodic one), or everything when the run is shorter."""
     first = int(np.searchsorted(angle, angle[-1] - 720.0 - 1e-6))
     return slice(first, None)
 
 
 def centred(angle):
-    """Maps the last cycle's angles to -360 .. 360 deg about firing TDC and the order that sorts them."""
+    """Maps the last cycle's angles to -360 .. 360 deg about firing TDC, and the permutation that sorts them."""
     wrapped = (angle + 360.0) % 720.0 - 360.0
     order = np.argsort(wrapped, kind="stable")
     return wrapped[order], order

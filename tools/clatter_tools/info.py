@@ -1,11 +1,11 @@
-"""`clatter info`: what an artefact holds, what it was made from, what was proved, what it cost."""
+"""`clatter info`: contents, inputs, certificate and cost of an artefact."""
 import h5py
 
 from . import artefact, certificate, integrity
 
 
 def print_tree(group, depth=1):
-    """Groups and datasets with shape and unit; long lists of equal kind are cut after eight."""
+    """Groups and datasets with shape and unit; long lists are cut after eight entries."""
     names = list(group)
     for name in names[:8] if len(names) > 12 else names:
         item = group[name]
@@ -34,7 +34,7 @@ def print_info(path):
     with artefact.open_artefact(path) as file:
         print(f"{path}: {artefact.text(file.attrs.get('schema', 'no schema'))}, "
               f"written by clatter {artefact.text(file.attrs.get('version', 'of unknown version'))}")
-        print_section("made from", [f"{name}  sha256 {digest[:12]}  ({state})"
+        print_section("inputs", [f"{name}  sha256 {digest[:12]}  ({state})"
                                     for name, state, digest in artefact.hashed_inputs(file)])
         if artefact.text(file.attrs.get("schema", "")).startswith("clatter/rom/"):
             certificate.print_certificate(artefact.certificate(file))
@@ -45,10 +45,10 @@ def print_info(path):
         steps = [f"{name:<40} {seconds:9.2f} s   peak {peak:.2f} GiB" for name, seconds, peak in artefact.timing(file)]
         if steps:
             seconds, peak = artefact.totals(file)
-            steps.append(f"{'in all':<40} {seconds:9.2f} s   peak {peak:.2f} GiB")
+            steps.append(f"{'total':<40} {seconds:9.2f} s   peak {peak:.2f} GiB")
         print_section("cost", steps)
-        print_section("integrity", [f"{integrity.describe(file)} (clatter info --verify reads them all)"])
-        print("holds")
+        print_section("integrity", [f"{integrity.describe(file)} (clatter info --verify checks them all)"])
+        print("contents")
         print_tree({name: file[name] for name in file if name not in ("inputs", "certificate", "timing")})
 
 
@@ -60,12 +60,12 @@ def print_section(title, lines):
 
 
 def print_verified(path):
-    """Reads every dataset against its checksum and says so; BadArtefact when one is damaged or has none."""
+    """Checks every dataset against its checksum; BadArtefact if one is damaged or has none."""
     with artefact.open_artefact(path) as file:
         print(integrity.verify(path, file))
 
 
 def print_config(path):
-    """Prints the resolved configuration that the stage ran with."""
+    """Prints the resolved configuration of the stage."""
     with artefact.open_artefact(path) as file:
         print(artefact.configuration(file))

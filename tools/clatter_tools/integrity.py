@@ -1,14 +1,14 @@
-"""Checksums of an artefact: which datasets and texts have one, and whether all is as it was written."""
+"""Checksums of an artefact: which datasets and texts have one, and whether anything was damaged."""
 import h5py
 
 from .artefact import BadArtefact
 
-UNREADABLE = (OSError, RuntimeError, KeyError)  # what h5py makes of a failed read
+UNREADABLE = (OSError, RuntimeError, KeyError)  # raised by h5py on a failed read
 SHOWN = 5
 
 
 def objects(group, damaged):
-    """(path, item) of a group, all groups and datasets below it; the paths of those that cannot be opened join `damaged`."""
+    """(path, item) of a group and of all groups and datasets below it; paths that cannot be opened are appended to `damaged`."""
     try:
         names = sorted(group)
         dict(group.attrs)
@@ -46,15 +46,19 @@ def without_checksum(found):
 
 
 def describe(file):
-    """One line: "checksums of all 34 datasets and all attributes", "no checksums", "no checksums of 2 places: nodes, ..."."""
+    """One line: "checksums of all 34 datasets and all attributes", "no checksums", "checksums, but none of 2 objects: nodes, ..."."""
     found = list(objects(file, []))
     sets = [item for _, item in found if isinstance(item, h5py.Dataset)]
     without = without_checksum(found)
     if not without:
         return f"checksums of all {len(sets)} datasets and all attributes"
     if not any(item.fletcher32 for item in sets):
-        return "no checksums: numbers that were damaged cannot be told from right ones"
-    return f"checksums, but none of {len(without)} places: {shown(without)}"
+        return "no checksums: damaged numbers cannot be detected"
+    return f"checksums, but none of {counted(without)}: {shown(without)}"
+
+
+def counted(names):
+    return f"{len(names)} object{'s' if len(names) > 1 else ''}"
 
 
 def shown(names):
@@ -71,7 +75,7 @@ def pieces(dataset):
 
 
 def verify(path, file):
-    """Reads everything; returns a line of praise, or BadArtefact names what is damaged or cannot be verified."""
+    """Reads everything; returns a line on success, else BadArtefact names what is damaged or cannot be verified."""
     damaged, count, size = [], 0, 0
     found = list(objects(file, damaged))
     for name, item in found:
@@ -88,5 +92,5 @@ def verify(path, file):
         raise BadArtefact(f"{path}: damaged after it was written: {shown(damaged)}")
     without = without_checksum(found)
     if without:
-        raise BadArtefact(f"{path}: cannot be verified, no checksums of {len(without)} places: {shown(without)}")
-    return f"{path}: {count} datasets, {size / 1e6:.1f} MB: every number and text is as it was written"
+        raise BadArtefact(f"{path}: cannot be verified, no checksums of {counted(without)}: {shown(without)}")
+    return f"{path}: {count} datasets, {size / 1e6:.1f} MB: every number and text is undamaged"

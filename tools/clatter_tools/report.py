@@ -1,4 +1,4 @@
-"""`clatter report`: what the runs of a folder found, what every stage cost, where pictures lie."""
+"""`clatter report`: results of the runs of a folder, cost of each stage, paths of pictures."""
 import pathlib
 
 from . import artefact, findings, slap
@@ -7,7 +7,7 @@ STAGES = ["mesh", "fe", "modes", "rom", "run", "field"]
 
 
 def print_report(folder):
-    """Prints findings a run, seconds and memory a stage, and the files to look at."""
+    """Prints findings per run, seconds and memory per stage, and the files to view."""
     folder = pathlib.Path(folder)
     files = {stage: sorted(folder.glob(f"*.{stage}.h5")) for stage in STAGES}
     if not any(files.values()):
@@ -18,7 +18,7 @@ def print_report(folder):
     print_runs(files["run"])
     print_fields(files["field"])
     print_cost([path for stage in STAGES for path in files[stage]])
-    print_places(folder)
+    print_paths(folder)
 
 
 def print_table(title, head, rows):
@@ -54,7 +54,7 @@ def print_quality(paths):
 
 
 def print_comparisons(folder):
-    """The last line of what clatter-modal said about each reduced model."""
+    """The last line of clatter-modal's comparison of each reduced model."""
     tables = sorted(folder.glob("*.compare.txt"))
     if tables:
         print("\nreduced against full model (each mode: *.compare.txt)")
@@ -86,11 +86,11 @@ def print_cost(paths):
             size = path.stat().st_size / 1e6
         total += seconds
         rows.append([path.name, f"{seconds:.1f}", f"{peak:.2f}", f"{size:.1f}"])
-    rows.append(["in all", f"{total:.1f}", "", ""])
+    rows.append(["total", f"{total:.1f}", "", ""])
     print_table("cost of each stage", ["artefact", "seconds", "peak GiB", "file MB"], rows)
 
 
-def print_places(folder):
+def print_paths(folder):
     pictures = sorted(folder.rglob("*.png"))
     series = sorted(folder.glob("*.xdmf"))
     print()

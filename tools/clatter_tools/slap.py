@@ -1,6 +1,6 @@
-"""The slap in a sensor's acceleration: when it comes, how high, how long it rings, how high it sounds.
+"""The slap in a sensor's acceleration: its time, height, ringing time and high-frequency content.
 
-Below FROM_HZ a sensor feels the block shake on its mounts, which says nothing about an impact: all figures are of the
+Below FROM_HZ a sensor measures the motion of the block on its mounts, which is unrelated to an impact: all figures are of the
 acceleration between FROM_HZ and the highest line of the cycle's spectrum.
 """
 import numpy as np
@@ -9,14 +9,14 @@ from . import fields
 from .artefact import dataset
 
 FROM_HZ = 300.0
-AROUND_S = (-2e-3, 5e-3)  # firing TDC: where the slap is looked for
+AROUND_S = (-2e-3, 5e-3)  # search window about firing TDC
 SMOOTH_S = 0.5e-3         # of the running rms
-QUIET = 0.25              # it has rung out when the running rms is below this part of its peak
+QUIET = 0.25              # ringing ends when the running rms is below this fraction of its peak
 HIGH_HZ = 2000.0
 
 
 def band_limited(field, sensor, at, from_hz=FROM_HZ, to_hz=None):
-    """(time from firing TDC [s], acceleration [m/s2]) of the thrust-side channel; `at` is a whole, periodic cycle."""
+    """(time from firing TDC [s], acceleration [m/s2]) of the thrust-side channel; `at` is a complete, periodic cycle."""
     time, values = fields.acceleration(field, sensor, at)
     to_hz = to_hz or dataset(field, f"{at}/frequency_hz")[-1]
     lines = np.fft.rfft(values)
@@ -38,7 +38,7 @@ def peak(time, values):
 
 
 def rung_out(time, values):
-    """When the running rms has fallen to QUIET of its peak around firing TDC [s]; nan when it never does."""
+    """When the running rms has fallen to QUIET of its peak around firing TDC [s]; nan if it never does."""
     count = max(1, round(SMOOTH_S / (time[1] - time[0])))
     running = np.sqrt(np.convolve(values**2, np.ones(count) / count, "same"))
     top_time, top = peak(time, running)
@@ -47,6 +47,6 @@ def rung_out(time, values):
 
 
 def high_rms(field, sensor, at):
-    """Rms around firing TDC of what lies above HIGH_HZ [m/s2]."""
+    """Rms around firing TDC of the content above HIGH_HZ [m/s2]."""
     _, values = around_firing(*band_limited(field, sensor, at, HIGH_HZ))
     return np.sqrt(np.mean(values**2))

@@ -1,4 +1,4 @@
-"""Pictures from artefacts: one function a picture, one style for all."""
+"""Pictures from artefacts: one function per picture, one style for all."""
 from . import accelerations, faces, film, piston, quality, radiation, shape, style
 
 PICTURES = {

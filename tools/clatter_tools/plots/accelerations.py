@@ -15,13 +15,13 @@ def draw(files):
     sensors = [part for part in SENSORS
                if all(fields.pick_sensor(run, fields.piece(run, "cycle"), part) for run in runs)]
     if not sensors:
-        raise BadArtefact(f"{files[0]}: no sensor is named after liner or block")
+        raise BadArtefact(f"{files[0]}: found no sensor whose name contains liner or block")
     figure, axes = style.figure(len(sensors), 2, height=2.7, gridspec_kw={"width_ratios": [1.25, 1]})
     for row, part in zip(axes, sensors):
         draw_time(row[0], runs, part)
         draw_bands(row[1], runs, part)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper left", ncol=2)
-    figure.suptitle(" ")  # keeps room for the legend
+    figure.suptitle(" ")  # reserves space for the legend
     axes[-1, 0].set_xlabel("time after firing TDC [ms]")
     for axis in axes[:-1, 1]:
         axis.set_xlabel("")

@@ -1,4 +1,4 @@
-"""The faces of a part with their numbers, to pick from."""
+"""The faces of a part with their numbers, for selecting them."""
 import os
 import pathlib
 import shutil
@@ -10,17 +10,17 @@ import numpy as np
 from ..artefact import BadArtefact, dataset, open_artefact, text
 from . import raster, style
 
-# Azimuth, elevation [deg], direction along which the half beyond the middle is cut away.
+# Azimuth, elevation [deg], direction along which the half beyond the middle is removed.
 VIEWS = [(40, 25, None), (220, 25, None), (130, -30, None), (310, -30, None), (40, 25, (1, 0, 0)), (100, 25, (0, 1, 0))]
 KINDS = {"plane": "#c8ccd0", "cylinder": "#56B4E9", "cone": "#E69F00", "torus": "#009E73", "sphere": "#CC79A7",
          "revolved": "#F0E442", "spline": "#D9A48F", "other": "#9A86C9"}
 SIZE = (900, 700)  # pixels of a view
-LISTED = 20  # of the faces that no view shows
-SMALLEST = 40  # pixels that a face must show to get its number
+LISTED = 20  # of the faces that are visible in no view
+SMALLEST = 40  # visible pixels that a face needs for its number
 
 
 def draw(files):
-    """The faces of a part by kind, each with its number where it is seen best (.faces.h5, CAD or part.mesh.toml)."""
+    """The faces of a part by kind, each with its number where most of it is visible (.faces.h5, CAD or part.mesh.toml)."""
     if len(files) != 1:
         raise BadArtefact("this picture needs one .faces.h5 file, CAD file or part.mesh.toml")
     if str(files[0]).endswith(".h5"):
@@ -30,7 +30,7 @@ def draw(files):
 
 
 def listed(part, folder):
-    """The .faces.h5 that clatter-mesh makes of a part in that folder."""
+    """Path of the .faces.h5 of a part, written by clatter-mesh in that folder."""
     program = (shutil.which("clatter-mesh", path=os.environ["CLATTER_BIN"]) if "CLATTER_BIN" in os.environ
                else shutil.which("clatter-mesh"))
     if program is None:
@@ -46,7 +46,7 @@ def listed(part, folder):
 def picture(file):
     points, triangles = dataset(file, "nodes"), dataset(file, "triangles")
     if not len(triangles):
-        raise BadArtefact(f"{file.filename}: triangles: found none: its faces could not be meshed; the table has them")
+        raise BadArtefact(f"{file.filename}: triangles: found none: its faces could not be meshed; see the printed table")
     face = dataset(file, "triangle_face")
     kinds = {number: text(kind).split(" ")[0].rstrip(",")
              for number, kind in zip(dataset(file, "number"), dataset(file, "kind"))}
@@ -93,9 +93,9 @@ def seen(points, triangles, face, kinds, azimuth, elevation):
     corners = ((view - (low + high) / 2) * scale + [SIZE[0] / 2, SIZE[1] / 2, 0.0])[triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     turned = np.abs(normal[:, 2]) / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
-    keep = turned > 1e-6  # seen from either side: the skin is closed, and the nearest one hides the rest
+    keep = turned > 1e-6  # either side is visible: the skin is closed, and the nearest face hides the rest
     numbers = np.repeat(face[keep].astype(np.float32)[:, None], 3, axis=1)
-    # Three floats a corner go through the renderer: the face's number and how much it looks at the viewer.
+    # The renderer interpolates three floats per corner: the face's number and the cosine to the viewer.
     value = np.stack([numbers, np.repeat(turned[keep][:, None], 3, axis=1), np.zeros_like(numbers)], axis=2)
     canvas = raster.Canvas(SIZE[1], SIZE[0])
     for chosen, weights in raster.sample_groups(corners[keep]):
@@ -107,7 +107,7 @@ def seen(points, triangles, face, kinds, azimuth, elevation):
 
 
 def without_specks(ids, bright):
-    """The same without pixels that lie alone between two of one face, or of none: where a face is seen from its edge."""
+    """The same without single pixels between two of one face, or of none: faces seen edge-on."""
     for axis in (0, 1):
         before = np.roll(ids, 1, axis)
         alone = (before == np.roll(ids, -1, axis)) & (ids != before)
@@ -130,21 +130,21 @@ def shaded(ids, bright, kinds):
 
 
 def place_labels(views):
-    """A dictionary a view: face number -> (row, column), each face in the view that shows most of it,
-    cut ones only for what is hidden else."""
+    """One dictionary per view: face number -> (row, column), each face in the view that shows most of it, in cut
+    views only if it is hidden in the others."""
     counts = [dict(zip(*np.unique(ids[ids > 0], return_counts=True))) for ids in views]
     labels = [{} for _ in views]
     for number in sorted(set().union(*counts)):
         shown = [count.get(number, 0) for count in counts]
-        whole = [pixels if VIEWS[i][2] is None else 0 for i, pixels in enumerate(shown)]
-        best = int(np.argmax(whole if max(whole) >= SMALLEST else shown))
+        uncut = [pixels if VIEWS[i][2] is None else 0 for i, pixels in enumerate(shown)]
+        best = int(np.argmax(uncut if max(uncut) >= SMALLEST else shown))
         if counts[best][number] >= SMALLEST:
-            labels[best][int(number)] = inmost(views[best] == number)
+            labels[best][int(number)] = innermost(views[best] == number)
     return labels
 
 
-def inmost(mask):
-    """A pixel of the mask far from its border: the last ones that are left when the border is taken off."""
+def innermost(mask):
+    """A pixel of the mask far from its border, by repeated removal of the border."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     first = (rows[0], columns[0])
     left = np.pad(mask[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1], 1)

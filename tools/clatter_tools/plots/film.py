@@ -11,7 +11,7 @@ def draw(files):
         raise BadArtefact("film: none of these runs has a piston-liner contact (history film_min)")
     figure, axes = style.figure(height=3.4)
     axis = axes[0, 0]
-    lowest = 0.0  # asperities of a dry contact press into each other: a gap below 0
+    lowest = 0.0  # in a dry contact asperities overlap: a gap below 0
     for run in runs:
         angle = crank_angle(run)
         window = last_cycle(angle)

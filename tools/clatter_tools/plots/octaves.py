@@ -3,11 +3,11 @@ import numpy as np
 
 from ..artefact import dataset, text
 
-FLOOR_DB = 70.0  # how far below the highest level a picture reaches
+FLOOR_DB = 70.0  # range of levels in a picture
 
 
 def draw_stairs(axis, field, at, levels, **look):
-    """Stairs over the bands of a piece; levels of silence fall below the picture."""
+    """Stairs over the bands of a piece; levels of zero quantities lie below the picture."""
     edges = np.append(dataset(field, f"{at}/third_octave/lower_hz"), dataset(field, f"{at}/third_octave/upper_hz")[-1])
     axis.stairs(levels, np.log10(edges), baseline=None, linewidth=1.5, **look)
 

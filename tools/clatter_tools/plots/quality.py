@@ -1,4 +1,4 @@
-"""How good the cells of meshes are: histograms by cell type, the worst cells by number and place."""
+"""Quality of mesh cells: histograms by cell type, the worst cells with number and position."""
 import numpy as np
 
 from ..artefact import BadArtefact
@@ -9,7 +9,7 @@ LISTED = 5
 
 
 def draw(files):
-    """Histograms of the dihedral angle and the scaled Jacobian, a row a mesh, a colour a cell type (mesh files)."""
+    """Histograms of the dihedral angle and the scaled Jacobian, one row per mesh, one colour per cell type (mesh files)."""
     meshes = style.open_all(files, "mesh")
     figure, axes = style.figure(len(meshes), len(MEASURES), height=3.4)
     for row, mesh in zip(axes, meshes):
@@ -37,8 +37,8 @@ def draw_measure(axis, measure, title):
         axis.stairs(counts, edges, color=colour, linewidth=1.2, label=kind)
     axis.axvline(float(measure.attrs["worst"]), ymax=0.7, color="#000000", linewidth=1.0,
                  linestyle=":")
-    axis.set_yscale("symlog", linthresh=1)  # the few bad ones are what matters
-    axis.set_ylim(0, most * 10 ** (1.6 + 0.25 * len(kinds)))  # room for text and legend above the bars
+    axis.set_yscale("symlog", linthresh=1)  # the few bad ones matter
+    axis.set_ylim(0, most * 10 ** (1.6 + 0.25 * len(kinds)))  # space for text and legend above the bars
     axis.set_xlabel(title)
     axis.set_ylabel("cells")
     axis.legend(loc="upper right")
@@ -48,10 +48,10 @@ def draw_measure(axis, measure, title):
 
 
 def worst_text(measure):
-    """Number, value and place of the worst cells, a line each."""
+    """Number, value and position of the worst cells, one line each."""
     lines = ["worst: cell  value  at [mm]"]
-    for label, value, place in list(zip(measure["worst_cells"][()], measure["worst_values"][()],
+    for label, value, position in list(zip(measure["worst_cells"][()], measure["worst_values"][()],
                                         measure["worst_places"][()]))[:LISTED]:
-        x, y, z = 1e3 * place
+        x, y, z = 1e3 * position
         lines.append(f"{label:11d} {value:6.3g}  {x:.1f} {y:.1f} {z:.1f}")
     return "\n".join(lines)

@@ -5,7 +5,7 @@ from ..artefact import dataset
 from .. import fields
 from . import octaves, style
 
-PANELS = ("exposed", "skin")  # the outside when the model tells it from the inside
+PANELS = ("exposed", "skin")  # the exposed panel if the file has it
 
 
 def draw(files):

@@ -14,9 +14,9 @@ def view_matrix(azimuth_deg, elevation_deg):
 
 
 def split_quadratic(triangles):
-    """tri6 (Gmsh order) as four flat triangles each; `edges` tells which of their sides are element edges.
+    """tri6 (Gmsh order) as four flat triangles each; `edges` marks the sides that are element edges.
 
-    Side k lies opposite corner k. Returns triangles (4 m, 3), edges (4 m, 3) of bool.
+    Side k is opposite corner k. Returns triangles (4 m, 3), edges (4 m, 3) of bool.
     """
     t = np.asarray(triangles)
     parts = [t[:, [0, 3, 5]], t[:, [3, 1, 4]], t[:, [5, 4, 2]], t[:, [3, 4, 5]]]
@@ -36,7 +36,7 @@ def clip(points, triangles, normal, offset):
     kept, new_points, n = [triangles[source[0]]], [points], len(points)
     for wanted in (1, 2):
         old = np.flatnonzero(count == wanted)
-        # The corner that stands alone on its side comes first; the turn of the triangle is kept.
+        # The corner that is alone on its side comes first; the orientation of the triangle is kept.
         alone = np.argmax(inside[old] == (wanted == 1), axis=1)
         a, b, c = (triangles[old, (alone + k) % 3] for k in range(3))
         ab = points[a] + (distance[a] / (distance[a] - distance[b]))[:, None] * (points[b] - points[a])
@@ -55,7 +55,7 @@ def render(points, triangles, colour, edges=None, inner=None, azimuth=-60.0, ele
     """An RGBA image (rows, columns, 4) of float in 0..1; the background is transparent.
 
     points (n, 3); triangles (m, 3); colour (n, 3) by point or (m, 3) by triangle; edges (m, 3) of bool draws these
-    sides dark; `inner` (3) is the flat colour of faces seen from inside, which is how a cut solid's section looks.
+    sides dark; `inner` (3) is the flat colour of faces seen from inside, that is, of a cut solid's section.
     `smooth` is the oversampling per direction.
     """
     columns, rows = size[0] * smooth, size[1] * smooth
@@ -67,7 +67,7 @@ def render(points, triangles, colour, edges=None, inner=None, azimuth=-60.0, ele
     corners = view[triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
-    turned = normal[:, 2] / np.maximum(length, 1e-300)  # > 0: looks at the viewer
+    turned = normal[:, 2] / np.maximum(length, 1e-300)  # > 0: faces the viewer
     keep = turned > 1e-6 if inner is None else np.abs(turned) > 1e-6
     bright = 0.62 + 0.38 * np.clip(normal[keep] / length[keep, None] @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)
     by_point = len(colour) == len(points)
@@ -93,13 +93,13 @@ class Canvas:
         self.image = np.zeros((rows * columns, 4), np.float32)
 
     def draw(self, corners, colour, marks, weights, edge_width):
-        """Puts samples of triangles: corners and colour (m, 3, 3), marks (m, 3), weights (s, 3)."""
-        place = np.einsum("sk,mkd->dms", weights, corners.astype(np.float32))
-        x, y, z = place[0].astype(np.int32), place[1].astype(np.int32), place[2].ravel()
+        """Draws samples of triangles: corners and colour (m, 3, 3), marks (m, 3), weights (s, 3)."""
+        position = np.einsum("sk,mkd->dms", weights, corners.astype(np.float32))
+        x, y, z = position[0].astype(np.int32), position[1].astype(np.int32), position[2].ravel()
         index = (y * self.columns + x).ravel()
         seen = np.flatnonzero(((x >= 0) & (x < self.columns) & (y >= 0) & (y < self.rows)).ravel())
         seen = seen[z[seen] > self.depth[index[seen]]]
-        seen = seen[np.argsort(z[seen], kind="stable")]  # of several samples in a pixel the last one stays
+        seen = seen[np.argsort(z[seen], kind="stable")]  # of several samples in a pixel the last one remains
         index, triangle, sample = index[seen], seen // len(weights), seen % len(weights)
         self.depth[index] = z[seen]
         rgb = np.einsum("nk,nkd->nd", weights[sample], colour[triangle])
@@ -120,14 +120,14 @@ def average(image, smooth):
 
 
 def heights(corners):
-    """Pixels that a barycentric coordinate of 1 stands for, in the image plane, (m, 3)."""
+    """Heights of triangles in the image plane [pixels], (m, 3)."""
     sides = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2)
     area2 = np.abs(np.cross(corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]))
     return (area2[:, None] / np.maximum(sides, 1e-9)).astype(np.float32)
 
 
 def sample_groups(corners):
-    """Yields (triangle ids, barycentric weights (s, 3)): groups of like size, dense enough to leave no hole."""
+    """Yields (triangle ids, barycentric weights (s, 3)): groups of similar size, sampled densely enough to leave no hole."""
     side = np.linalg.norm(corners[:, [2, 0, 1], :2] - corners[:, [1, 2, 0], :2], axis=2).max(axis=1)
     counts = np.ceil(np.maximum(side * 1.2, 1.0)).astype(int)
     for level in 2 ** np.arange(0, int(np.ceil(np.log2(counts.max()))) + 1):

@@ -9,8 +9,8 @@ from . import raster, style
 METAL = np.array([0.80, 0.82, 0.84])
 SECTION = np.array([0.55, 0.36, 0.33])  # cut material
 
-# Columns of each face type that make its triangles. Corners stand in for middles that do not exist: then one of the
-# four parts that are drawn has all the area, and the diagonal of a square is no edge.
+# Columns of each face type that make its triangles. Corners replace missing mid-side nodes: then one of the
+# four parts that are drawn has the entire area, and the diagonal of a square is no edge.
 AS_TRIANGLES = {
     "tri3": ([0, 1, 2, 1, 2, 2],),
     "tri6": ([0, 1, 2, 3, 4, 5],),
@@ -32,7 +32,7 @@ def surface(mesh, name):
 
 
 def draw_mesh(files):
-    """The surface mesh of each part, whole and cut open, its named surfaces in colour (mesh files)."""
+    """The surface mesh of each part, complete and cut open, its named surfaces in colour (mesh files)."""
     meshes = style.open_all(files, "mesh")
     figure, axes = style.figure(len(meshes), 2, height=3.4)
     for row, mesh in zip(axes, meshes):
@@ -45,7 +45,7 @@ def draw_part(axes, mesh):
     quadratic, face_colour, legend = coloured_faces(mesh)
     triangles, edges = raster.split_quadratic(quadratic)
     face_colour = np.tile(face_colour, (4, 1))
-    show(axes[0], raster.render(points, triangles, face_colour, edges, azimuth=40.0), mesh, "whole")
+    show(axes[0], raster.render(points, triangles, face_colour, edges, azimuth=40.0), mesh, "complete")
     cut, parts, source = raster.clip(points, triangles, (1, 0, 0), cut_position(points))
     show(axes[1], raster.render(cut, parts, face_colour[source], inner=SECTION, azimuth=25.0), mesh,
          f"cut at x = {cut_position(points) * 1e3:.0f} mm")
@@ -70,7 +70,7 @@ def cropped(image):
 
 
 def cut_position(points):
-    """Where the cut across the crankshaft lies [m]: off the middle, so that it meets no wall between two bores."""
+    """Position of the cut across the crankshaft [m]: off the middle, so that it hits no wall between two bores."""
     low, high = points[:, 0].min(), points[:, 0].max()
     return low + 0.625 * (high - low)
 
@@ -80,7 +80,7 @@ def cell_count(mesh):
 
 
 def coloured_faces(mesh, limit=7):
-    """(tri6, colour a face, [(name, colour)]): the skin in grey, up to `limit` families of surfaces in colour."""
+    """(tri6, colour of each face, [(name, colour)]): the skin in grey, up to `limit` families of surfaces in colour."""
     families = {}
     for name in mesh["surfaces"]:
         if name != "skin":
@@ -90,7 +90,7 @@ def coloured_faces(mesh, limit=7):
     corner_key = {tuple(sorted(face[:3])): i for i, face in enumerate(faces)}
     ids = {family: [corner_key[key] for name in names for key in map(tuple, np.sort(surface(mesh, name)[:, :3]))
                     if key in corner_key] for family, names in families.items()}
-    # What covers much of the skin tells nothing by its colour; small surfaces go over large ones.
+    # Surfaces that cover much of the skin are not coloured; small surfaces are drawn over large ones.
     chosen = sorted((family for family in ids if 0 < len(ids[family]) < 0.35 * len(faces)),
                     key=lambda family: -len(ids[family]))[:limit]
     legend = list(zip(chosen, style.COLOURS))
@@ -100,7 +100,7 @@ def coloured_faces(mesh, limit=7):
 
 
 def draw_deflection(files):
-    """The skin when it moves most, and its deflection shape at the strongest frequency (one field file)."""
+    """The skin at its largest motion, and its deflection shape at the strongest frequency (one field file)."""
     field = style.open_all(files, "field")[0]
     points, quadratic = dataset(field, "skin/nodes"), dataset(field, "skin/triangles")
     triangles, _ = raster.split_quadratic(quadratic)
@@ -120,7 +120,7 @@ def draw_deflection(files):
 
 
 def strongest_instant(field):
-    """(title, nodal velocity [m/s]) of the frame with the largest mean square velocity beside rigid motion."""
+    """(title, nodal velocity [m/s]) of the frame with the largest mean square velocity without rigid motion."""
     names = sorted(field["frames/velocity"])
     moved = [elastic_part(field, field[f"frames/velocity/{name}"][()].astype(float)) for name in names]
     best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
@@ -129,28 +129,28 @@ def strongest_instant(field):
 
 
 def strongest_line(field):
-    """(title, nodal velocity [m/s] at the phase where it is largest) of the complex line that is heard most."""
+    """(title, nodal velocity [m/s] at the phase where it is largest) of the complex line with the largest A-weighted power."""
     names = sorted(field["lines/velocity_re"])
     if not names:
-        raise BadArtefact(f"{field.filename}: lines: the file holds no complex lines")
+        raise BadArtefact(f"{field.filename}: lines: found no complex lines")
     frequency = dataset(field, "lines/frequency_hz")
     lines = [elastic_part(field, field[f"lines/velocity_re/{n}"][()] + 1j * field[f"lines/velocity_im/{n}"][()])
              for n in names]
     best = int(np.argmax([mean_square(field, line) * a_weight(f) for line, f in zip(lines, frequency)]))
-    # The phase at which the real part carries most: half the angle of sum v^2.
+    # The phase at which the real part is largest: half the angle of sum v^2.
     velocity = (lines[best] * np.exp(-0.5j * np.angle(np.sum(lines[best] ** 2)))).real
     return f"shape at {frequency[best]:.0f} Hz\n(rigid motion removed, enlarged)", velocity
 
 
 def mean_square(field, velocity):
-    """Sum over the skin of |normal velocity|^2, by the nodes' shares of the area when the file has them."""
+    """Sum over the skin of |normal velocity|^2, weighted by the nodes' areas if the file has them."""
     normal = np.einsum("ij,ij->i", velocity, dataset(field, "skin/node_normal"))
     share = dataset(field, "skin/node_area") if "skin/node_area" in field else 1.0
     return float(np.sum(share * np.abs(normal) ** 2))
 
 
 def elastic_part(field, velocity):
-    """Velocity without the rigid motion (three translations, three rotations) that fits it best."""
+    """Velocity without its best-fit rigid motion (three translations, three rotations)."""
     points = dataset(field, "skin/nodes")
     x, y, z = (points - points.mean(axis=0)).T
     zero, one = np.zeros_like(x), np.ones_like(x)

@@ -1,4 +1,4 @@
-"""The shared look: sizes, colours, labels, and how a picture is saved."""
+"""The common style: sizes, colours, labels, and saving of pictures."""
 import os
 import pathlib
 
@@ -24,7 +24,7 @@ def apply():
 
 
 def figure(rows=1, columns=1, height=2.6, sharex=False, **options):
-    """A figure of `rows` x `columns` axes, `height` inches a row; axes always as a 2-D array."""
+    """A figure of `rows` x `columns` axes, `height` inches per row; axes always as a 2-D array."""
     return plt.subplots(rows, columns, figsize=(WIDTH, height * rows + 0.6), sharex=sharex, squeeze=False, **options)
 
 
@@ -45,7 +45,7 @@ def open_all(paths, kind):
 
 
 def label(file):
-    """How a run is called in a legend: its scene's title, also for what was recovered from it; else the file's stem."""
+    """Name of a run in a legend: its scene's title, also for its field file; else the file's stem."""
     if "title" in file.attrs:
         return text(file.attrs["title"])
     own = pathlib.Path(file.filename)
@@ -57,7 +57,7 @@ def label(file):
 
 
 def legend(axis, columns=2):
-    """A legend above the axes, where it covers no curve."""
+    """A legend above the axes, so that it covers no curve."""
     axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncol=columns, borderaxespad=0.2)
 
 
@@ -71,7 +71,7 @@ def mark_firing(axis, position=0.0):
 
 
 def crank_axis(axis, angle):
-    """Ticks every 90 degrees over a whole cycle, else as they come."""
+    """Ticks every 90 degrees over a complete cycle, else the default ones."""
     axis.set_xlim(angle[0], angle[-1])
     if angle[-1] - angle[0] > 300:
         first, last = (int(round(end / 90)) * 90 for end in (angle[0], angle[-1]))
