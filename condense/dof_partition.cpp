@@ -105,7 +105,7 @@ void check_boundary_holds(const fe::FeModel& model, const DofPartition& partitio
                   partition.boundary.size(), rank,
                   free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
                   fe::motion_name(motion, fe::characteristic_length(model)),
-                  fe::place_of(model, static_cast<int32_t>(most)),
+                  fe::describe_dof(model, static_cast<int32_t>(most)),
                   free.bodies > 1 ? ", or join what is not connected" : ""));
 }
 

@@ -17,7 +17,7 @@ LoadedBody load_body(const BodySpec& spec) {
   LoadedBody body;
   body.spec = spec;
   body.model = rom::read_reduced_model(spec.rom, false);
-  const std::string warning = rom::certificate_doubt(body.model);
+  const std::string warning = rom::certificate_warning(body.model);
   if (!warning.empty()) warn(fmt::format("{}: {}", spec.rom.string(), warning));
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});

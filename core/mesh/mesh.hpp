@@ -46,7 +46,7 @@ class SurfaceBuilder {
 /// Node set of the mid-side nodes that were added to complete cells: the deck's cell was linear
 /// along that edge. Their displacement is the mean of the edge's ends ([[straight_edges]] of an
 /// fe.toml), so that such a cell matches adjacent linear cells.
-inline constexpr const char* kHangingMidSideNodes = "hanging_middles";
+inline constexpr const char* kHangingMidSideNodes = "hanging_mid_side_nodes";
 
 /// One part. Every mesh has the surface "skin": all boundary faces of the solid.
 struct Mesh {

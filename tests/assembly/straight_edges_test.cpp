@@ -14,7 +14,7 @@ namespace {
 
 using mesh::CellType;
 
-constexpr const char* kStraight = "[[straight_edges]]\nnode_set = \"hanging_middles\"\n";
+constexpr const char* kStraight = "[[straight_edges]]\nnode_set = \"hanging_mid_side_nodes\"\n";
 
 mesh::Mesh one_cell(CellType type) {
   mesh::Mesh mesh;
