@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -107,12 +108,11 @@ void require_area(const rom::ContactGrid& grid, const Eigen::VectorXd& area,
   for (Eigen::Index p = 0; p < area.size(); ++p) {
     if (area(p) > least) continue;
     const Eigen::Index strip = p / grid.axial.size(), row = p % grid.axial.size();
-    constexpr double kDegree = 180.0 / std::numbers::pi;
     throw InputError(fmt::format(
         "{}: patch [{},{}] (angle {:.4g} to {:.4g} deg, axial {:.6g} to {:.6g} m) caught no node "
         "of the surface; expected fewer strips or rows, a finer mesh, or another range",
-        where, strip, row, kDegree * grid.angle_edges(2 * strip),
-        kDegree * grid.angle_edges(2 * strip + 1), grid.axial_edges(row),
+        where, strip, row, grid.angle_edges(2 * strip) / kDegree,
+        grid.angle_edges(2 * strip + 1) / kDegree, grid.axial_edges(row),
         grid.axial_edges(row + 1)));
   }
 }

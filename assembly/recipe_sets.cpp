@@ -7,18 +7,14 @@
 
 #include "assembly/recipe_reader.hpp"
 
+#include "core/base/units.hpp"
+
 namespace clatter::assembly {
-namespace {
-
-constexpr double kRadian = std::numbers::pi / 180.0;
-
-}  // namespace
-
 std::vector<Sector> RecipeReader::sectors(const Config& table) {
   std::vector<Sector> sectors;
   for (const Config& part : table.tables("sector")) {
-    const double centre = kRadian * part.number("centre_deg", {-360.0, 360.0});
-    const double half = kRadian * part.number("half_width_deg", {0.0, 180.0, true});
+    const double centre = kDegree * part.number("centre_deg", {-360.0, 360.0});
+    const double half = kDegree * part.number("half_width_deg", {0.0, 180.0, true});
     const auto strips = static_cast<int>(part.integer("strips", {1.0, 1000.0}));
     sectors.push_back({centre - half, centre + half, strips});
   }

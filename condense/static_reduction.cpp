@@ -12,6 +12,7 @@
 #include "core/base/memory_limit.hpp"
 #include "core/base/progress.hpp"
 #include "core/base/threads.hpp"
+#include "core/sparse/dense_product.hpp"
 #include "core/sparse/factor/buffer_pool.hpp"
 #include "core/sparse/factor/multifrontal.hpp"
 #include "core/sparse/symmetric_product.hpp"
@@ -23,8 +24,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr Index kPanel = 2048;  // rows of Psi per product
-
-int extent(Index value) { return static_cast<int>(value); }
 
 /// Data shared by the threads of one sweep. Rows are those of z = S^{-1} Psi, S the factor's scale.
 class Sweep {
@@ -166,7 +165,8 @@ void Worker::take_rows_above(int32_t s, double* front) {
 
 /// L11^T z_S = -L21^T z_R.
 void Worker::solve_own_rows(int32_t s, double* front) const {
-  const int p = tree_.columns(s), q = tree_.below(s), h = tree_.height(s), w = extent(width_);
+  const int p = tree_.columns(s), q = tree_.below(s), h = tree_.height(s),
+            w = sparse::blas_size(width_);
   const double* L = shared_.factor_.view().panels + tree_.panel_start[static_cast<size_t>(s)];
   if (q == 0) {
     std::fill_n(front, p * width_, 0.0);
@@ -209,11 +209,11 @@ void Worker::release_parent(int32_t s) {
 
 void Worker::use_panel() {
   meeting_.arrive_and_wait();
-  const int n_b = extent(shared_.n_b_);
+  const int n_b = sparse::blas_size(shared_.n_b_);
   if (filled_ > 0 && shared_.with_mass_)
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b, extent(width_), extent(filled_), 1.0,
-                shared_.panel_.data(), n_b, &shared_.image_(0, begin_), n_b, 1.0,
-                &shared_.half_mass(0, begin_), n_b);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b, sparse::blas_size(width_),
+                sparse::blas_size(filled_), 1.0, shared_.panel_.data(), n_b,
+                &shared_.image_(0, begin_), n_b, 1.0, &shared_.half_mass(0, begin_), n_b);
   if (filled_ > 0) keep_rows();
   meeting_.arrive_and_wait();
   filled_ = 0;

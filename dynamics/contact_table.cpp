@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
+#include "core/base/units.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
 constexpr double kMilli = 1e-3, kMicro = 1e-6;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& value : values) value *= factor;

@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "core/base/whole_file.hpp"
 
 namespace clatter::dynamics {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 SliderCrank mechanism(const MotoredCycle& cycle) {
   return SliderCrank(0.5 * cycle.stroke, cycle.rod_length, cycle.pin_offset, 1.0);

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/csv_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
 constexpr double kCycle = 4.0 * std::numbers::pi;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGapFactor = 20.0;
 
 void check_units(const CsvColumns& table, const std::filesystem::path& path,

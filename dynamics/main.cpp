@@ -4,7 +4,6 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
-#include <numbers>
 
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
@@ -13,6 +12,7 @@
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/gas_cycle.hpp"
 #include "dynamics/run_file.hpp"
 
@@ -73,7 +73,6 @@ void declare(CommandLine& line, Arguments& a) {
 }
 
 int write_table(Arguments& a) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   a.cycle.bore = 1e-3 * a.bore_mm;
   a.cycle.stroke = 1e-3 * a.stroke_mm;
   a.cycle.rod_length = 1e-3 * a.rod_mm;

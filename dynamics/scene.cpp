@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/contact_table.hpp"
 #include "dynamics/crank.hpp"
 
@@ -13,7 +14,6 @@ namespace clatter::dynamics {
 namespace {
 
 constexpr double kMilli = 1e-3, kMicro = 1e-6;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Spline::Kind interpolation(const Config& table, std::string_view fallback) {
   const bool linear_first = fallback == "linear";

@@ -31,7 +31,6 @@ constexpr size_t kStepBytes = 1024;     // size of the shared text of enter_step
 constexpr size_t kChatterBytes = 4096;  // kept of what libraries print
 constexpr char kStepMark = '\x1d';      // in captured output: a step begins
 constexpr int kPollMs = 20;             // between checks of time, memory and signals
-constexpr double kGib = 1024.0 * 1024.0 * 1024.0;
 
 char* step_text = nullptr;  // in the child: shared with the parent
 
@@ -123,7 +122,7 @@ double address_space_bytes() {
 // The parent monitors resident memory; a single huge allocation is refused in the child.
 void limit_address_space([[maybe_unused]] double memory_gib) {
 #ifndef __SANITIZE_ADDRESS__  // its shadow memory takes terabytes
-  const double bytes = address_space_bytes() + (1.25 * memory_gib + 2.0) * kGib;
+  const double bytes = address_space_bytes() + (1.25 * memory_gib + 2.0) * kBytesPerGib;
   rlimit limit{};
   if (bytes > 9e18 || ::getrlimit(RLIMIT_AS, &limit) != 0) return;
   limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(bytes));
@@ -196,7 +195,7 @@ double resident_gib(pid_t process) {
   std::ifstream file(fmt::format("/proc/{}/statm", process));
   double all = 0.0, resident = 0.0;
   file >> all >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGE_SIZE)) / kGib;
+  return resident * static_cast<double>(::sysconf(_SC_PAGE_SIZE)) / kBytesPerGib;
 }
 
 [[noreturn]] void throw_error_of(const std::string& frame) {

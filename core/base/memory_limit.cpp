@@ -13,7 +13,6 @@
 namespace clatter {
 namespace {
 
-constexpr double kGib = 1024.0 * 1024.0 * 1024.0;
 double chosen_gib = 0.0;
 
 double page_bytes() { return static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
@@ -24,14 +23,14 @@ void set_memory_limit_gib(double gib) { chosen_gib = gib; }
 
 double memory_limit_gib() {
   if (chosen_gib > 0.0) return chosen_gib;
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_bytes() / kGib;
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_bytes() / kBytesPerGib;
 }
 
 double memory_in_use_gib() {
   std::ifstream file("/proc/self/statm");
   double all = 0.0, resident = 0.0;
   file >> all >> resident;
-  return resident * page_bytes() / kGib;
+  return resident * page_bytes() / kBytesPerGib;
 }
 
 double memory_left_gib(double enough) {
@@ -59,6 +58,6 @@ std::string memory_text(double gib) {
   return fmt::format("{} {}", std::round(gib * digits) / digits, unit);
 }
 
-double gib_of_doubles(double count) { return 8.0 * count / kGib; }
+double gib_of_doubles(double count) { return 8.0 * count / kBytesPerGib; }
 
 }  // namespace clatter

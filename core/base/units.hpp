@@ -1,9 +1,12 @@
 #pragma once
-// Consistent unit systems: decks and matrix files name none, so the user specifies it.
+// The degree; consistent unit systems: decks and matrix files name none, so the user specifies one.
+#include <numbers>
 #include <string>
 #include <string_view>
 
 namespace clatter {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
 /// A consistent system: forces are mass * length / time^2.
 struct UnitSystem {

@@ -9,6 +9,9 @@ namespace clatter::sparse {
 using DenseView = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 using DenseOut = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
+/// The number of rows or columns as BLAS takes it; a block has fewer than 2^31 of either.
+inline int blas_size(Eigen::Index value) { return static_cast<int>(value); }
+
 /// A^T B; A is n x p, B is n x q.
 Eigen::MatrixXd transposed_product(const DenseView& A, const DenseView& B);
 

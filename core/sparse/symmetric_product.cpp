@@ -8,10 +8,10 @@
 namespace clatter::sparse {
 namespace {
 
-constexpr int kColumns = 8;  // columns in registers per read of the matrix
+constexpr int kRegisterColumns = 8;  // columns in registers per read of the matrix
 
-/// Rows [begin, end) of `width` <= kColumns columns; column i of A serves as row i. Rows of x and y
-/// lie `stride` apart.
+/// Rows [begin, end) of `width` <= kRegisterColumns columns; column i of A serves as row i. Rows of
+/// x and y lie `stride` apart.
 template <int Width>
 inline __attribute__((always_inline)) void multiply_rows(const SparseMatrix& A, const double* x,
                                                          double* y, int64_t stride, int64_t begin,
@@ -32,7 +32,7 @@ inline __attribute__((always_inline)) void multiply_rows(const SparseMatrix& A, 
 
 CLATTER_EACH_CPU void multiply_eight(const SparseMatrix& A, const double* x, double* y,
                                      int64_t stride, int64_t begin, int64_t end) {
-  multiply_rows<kColumns>(A, x, y, stride, begin, end);
+  multiply_rows<kRegisterColumns>(A, x, y, stride, begin, end);
 }
 
 CLATTER_EACH_CPU void multiply_one(const SparseMatrix& A, const double* x, double* y,
@@ -45,15 +45,15 @@ CLATTER_EACH_CPU void multiply_eight_within(const SparseMatrix& A, const double*
                                             int64_t begin, int64_t end) {
   const int32_t* starts = A.outerIndexPtr();
   for (int64_t i = begin; i < end; ++i) {
-    double sum[kColumns] = {};
+    double sum[kRegisterColumns] = {};
     for (int32_t k = starts[i]; k < starts[i + 1]; ++k) {
       const int64_t column = A.innerIndexPtr()[k];
       if (column < first || column >= last) continue;
       const double a = A.valuePtr()[k];
       const double* row = x + (column - first) * stride;
-      for (int c = 0; c < kColumns; ++c) sum[c] += a * row[c];
+      for (int c = 0; c < kRegisterColumns; ++c) sum[c] += a * row[c];
     }
-    std::copy_n(sum, kColumns, y + (i - first) * stride);
+    std::copy_n(sum, kRegisterColumns, y + (i - first) * stride);
   }
 }
 
@@ -80,7 +80,7 @@ void SymmetricProduct::multiply(const double* x, double* y, int count) const {
     for (int64_t first = begin; first < end; first += kRows) {
       const int64_t last = std::min(first + kRows, end);
       int c = 0;
-      for (; c + kColumns <= count; c += kColumns)
+      for (; c + kRegisterColumns <= count; c += kRegisterColumns)
         multiply_eight(full_, x + c, y + c, count, first, last);
       for (; c < count; ++c) multiply_one(full_, x + c, y + c, count, first, last);
     }
@@ -90,7 +90,7 @@ void SymmetricProduct::multiply(const double* x, double* y, int count) const {
 void SymmetricProduct::multiply_block(int64_t first, int64_t last, const double* x, double* y,
                                       int count, bool wide) const {
   const auto rows = [&](int64_t begin, int64_t end) {
-    for (int c = 0; c + kColumns <= count; c += kColumns)
+    for (int c = 0; c + kRegisterColumns <= count; c += kRegisterColumns)
       multiply_eight_within(full_, x + c, y + c, count, first, last, first + begin, first + end);
   };
   wide ? parallel_pieces(last - first, rows) : rows(0, last - first);
@@ -100,8 +100,8 @@ Eigen::MatrixXd SymmetricProduct::operator*(const Eigen::Ref<const Eigen::Matrix
   const Eigen::Index n = full_.cols();
   Eigen::MatrixXd y(n, x.cols());
   RowMatrix from, to;
-  for (Eigen::Index first = 0; first < x.cols(); first += kColumns) {
-    const Eigen::Index count = std::min<Eigen::Index>(kColumns, x.cols() - first);
+  for (Eigen::Index first = 0; first < x.cols(); first += kRegisterColumns) {
+    const Eigen::Index count = std::min<Eigen::Index>(kRegisterColumns, x.cols() - first);
     from = x.middleCols(first, count);
     to.resize(n, count);
     multiply(from.data(), to.data(), static_cast<int>(count));

@@ -10,7 +10,7 @@
 namespace clatter::film {
 namespace {
 
-void require_ascending(const Eigen::VectorXd& edges, const char* what) {
+void require_edges(const Eigen::VectorXd& edges, const char* what) {
   if (edges.size() < 2)
     throw InputError(
         fmt::format("film grid: {}: found {} edges, expected at least 2", what, edges.size()));
@@ -28,8 +28,8 @@ PadGrid::PadGrid(Eigen::VectorXd angle_edges, Eigen::VectorXd axial_edges, doubl
       axial_edges_(std::move(axial_edges)),
       radius_(radius),
       periodic_(periodic) {
-  require_ascending(angle_edges_, "angle");
-  require_ascending(axial_edges_, "axial");
+  require_edges(angle_edges_, "angle");
+  require_edges(axial_edges_, "axial");
   if (!(radius_ > 0.0))
     throw InputError(fmt::format("film grid: radius: found {}, expected > 0", radius_));
   const double span = angle_edges_[angle_edges_.size() - 1] - angle_edges_[0];

@@ -18,7 +18,7 @@ double wrap(double angle) {
   return rest < 0.0 ? rest + kTurn : rest;
 }
 
-void require_ascending(const Eigen::VectorXd& values, const char* what) {
+void require_points(const Eigen::VectorXd& values, const char* what) {
   if (values.size() < 1)
     throw InputError(fmt::format("{}: found no points, expected at least one", what));
   for (Eigen::Index k = 1; k < values.size(); ++k)
@@ -56,8 +56,8 @@ CylinderStencil stencil_of(const rom::ContactGrid& grid) {
 CylinderStencil::CylinderStencil(Eigen::VectorXd angles, std::vector<char> neighbours,
                                  Eigen::VectorXd axials)
     : angles_(std::move(angles)), axials_(std::move(axials)), neighbours_(std::move(neighbours)) {
-  require_ascending(angles_, "angles of a cylinder grid");
-  require_ascending(axials_, "axial points of a cylinder grid");
+  require_points(angles_, "angles of a cylinder grid");
+  require_points(axials_, "axial points of a cylinder grid");
 }
 
 CylinderStencil::Angular CylinderStencil::at_angle(double angle) const {

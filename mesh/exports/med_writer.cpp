@@ -29,9 +29,9 @@ std::vector<int32_t> by_columns(const std::vector<std::vector<int32_t>>& rows) {
   return flat;
 }
 
-class Writer {
+class MedWriter {
  public:
-  Writer(const Mesh& mesh, PlainH5& file) : mesh_(mesh), file_(file) {
+  MedWriter(const Mesh& mesh, PlainH5& file) : mesh_(mesh), file_(file) {
     name_ = mesh.name.substr(0, kLongestMesh);
     std::replace(name_.begin(), name_.end(), '/', '_');
     if (name_.empty()) name_ = "part";
@@ -190,7 +190,7 @@ class Writer {
 
 void write_med(const Mesh& mesh, const std::filesystem::path& path) {
   PlainH5 file(path);
-  Writer(mesh, file).run();
+  MedWriter(mesh, file).run();
   file.commit();
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kPointElement = 15;  // Gmsh's type
 
-class Writer {
+class MshWriter {
  public:
-  explicit Writer(const Mesh& mesh) : mesh_(mesh) {}
+  explicit MshWriter(const Mesh& mesh) : mesh_(mesh) {}
 
   std::string run() {
     put("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
@@ -109,6 +109,6 @@ class Writer {
 
 }  // namespace
 
-std::string msh_text(const Mesh& mesh) { return Writer(mesh).run(); }
+std::string msh_text(const Mesh& mesh) { return MshWriter(mesh).run(); }
 
 }  // namespace clatter::mesh

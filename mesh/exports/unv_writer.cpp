@@ -70,9 +70,9 @@ std::string real(double value) {
   return text;
 }
 
-class Writer {
+class UnvWriter {
  public:
-  explicit Writer(const Mesh& mesh)
+  explicit UnvWriter(const Mesh& mesh)
       : mesh_(mesh),
         node_numbers_(export_node_numbers(mesh)),
         cell_numbers_(export_cell_numbers(mesh)),
@@ -187,6 +187,6 @@ class Writer {
 
 }  // namespace
 
-std::string unv_text(const Mesh& mesh) { return Writer(mesh).run(); }
+std::string unv_text(const Mesh& mesh) { return UnvWriter(mesh).run(); }
 
 }  // namespace clatter::mesh

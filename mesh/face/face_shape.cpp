@@ -5,7 +5,8 @@
 #include <Eigen/Dense>
 #include <array>
 #include <limits>
-#include <numbers>
+
+#include "core/base/units.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -17,7 +18,6 @@ using Eigen::VectorXd;
 using Points = std::vector<Vector3d>;
 
 constexpr double kSplineTolerance = 1e-5;  // of the extent: accepts exact shapes only
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Points relative to their mean and scaled by their extent, so that the problems have numbers near

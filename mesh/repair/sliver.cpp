@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSweeps = 8;
-constexpr double kFirstStep = 0.25;  // of the mean edge around the node
-constexpr double kWorthwhile = 0.5;  // smallest gain of an edit, degrees
-constexpr double kBlunt = 100.0;     // degrees: above the edges of boxes
+constexpr int kSliverSweeps = 8;
+constexpr double kSliverFirstStep = 0.25;  // of the mean edge around the node
+constexpr double kWorthwhile = 0.5;        // smallest gain of an edit, degrees
+constexpr double kBlunt = 100.0;           // degrees: above the edges of boxes
 
 /// The smallest dihedral angle of some cells, evaluated repeatedly while one of their nodes moves.
 class SmallestAngle {
@@ -71,7 +71,8 @@ struct GraphNode {
 
 // Moves the node to where the smallest angle of `cells`, all around it, is largest; that angle.
 double move_node(CellGraph& graph, int32_t node, const std::vector<TetCorners>& cells) {
-  return search_position(GraphNode{graph, node}, kFirstStep * mean_edge_at(graph, node, cells),
+  return search_position(GraphNode{graph, node},
+                         kSliverFirstStep * mean_edge_at(graph, node, cells),
                          SmallestAngle(graph, cells));
 }
 
@@ -237,7 +238,7 @@ SliverReport lift_slivers(Mesh& mesh, double target_deg) {
   std::vector<size_t> bad = cells_below(graph, target_deg);
   SliverReport report;
   report.before = static_cast<int64_t>(bad.size());
-  for (int i = 0; i < kSweeps && !bad.empty(); ++i) {
+  for (int i = 0; i < kSliverSweeps && !bad.empty(); ++i) {
     const bool changed = sweep(graph, bad, target_deg);
     bad = cells_below(graph, target_deg);
     if (!changed) break;

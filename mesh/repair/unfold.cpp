@@ -12,8 +12,8 @@
 namespace clatter::mesh {
 namespace {
 
-constexpr int kSweeps = 10;
-constexpr double kFirstStep = 0.1;  // of the cell's size: mid-side nodes can move little
+constexpr int kUnfoldSweeps = 10;
+constexpr double kUnfoldFirstStep = 0.1;  // of the cell's size: mid-side nodes can move little
 
 using CellId = std::pair<size_t, Eigen::Index>;  // block, row
 
@@ -61,7 +61,7 @@ class CurvedCells {
     for (Eigen::Index i = block.nodes.cols() - 1; i >= 0 && ratio(id) < target; --i) {
       const int32_t node = block.nodes(id.second, i);
       if (fixed_[static_cast<size_t>(node)]) continue;
-      search_position(Node{mesh_.nodes, node}, kFirstStep * size,
+      search_position(Node{mesh_.nodes, node}, kUnfoldFirstStep * size,
                       [&](double best) { return worst_around(node, best); });
     }
     return ratio(id) > before;
@@ -100,7 +100,7 @@ int64_t unfold_cells(Mesh& mesh, double target) {
   CurvedCells cells(mesh);
   std::vector<CellId> bad = cells.below(target);
   const auto before = static_cast<int64_t>(bad.size());
-  for (int sweep = 0; sweep < kSweeps && !bad.empty(); ++sweep) {
+  for (int sweep = 0; sweep < kUnfoldSweeps && !bad.empty(); ++sweep) {
     bool better = false;
     for (const CellId& id : bad) better = cells.improve(id, target) || better;
     if (!better) break;

@@ -8,12 +8,11 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/gas_cycle.hpp"
 
 namespace clatter::dynamics {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::filesystem::path write(const std::string& name, const std::string& text) {
   const std::filesystem::path path = ::testing::TempDir() + "clatter_" + name + ".csv";

@@ -25,9 +25,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kNarrow = kLanes;    // vectors per subtree product on one thread
-constexpr int kWide = 2 * kLanes;  // the same on all threads
-constexpr Index kColumns = 32;     // result vectors computed at a time
+constexpr int kNarrow = kLanes;       // vectors per subtree product on one thread
+constexpr int kWide = 2 * kLanes;     // the same on all threads
+constexpr Index kAnswerColumns = 32;  // result vectors computed at a time
 
 /// The projection of A on modes of substructures.
 class Multilevel {
@@ -152,16 +152,16 @@ MatrixXd Multilevel::motions(const MatrixXd& q, const VectorXd& nu) const {
   const BlasThreads one(1);
   MatrixXd out(size_, q.cols());
   prefer_large_pages(out.data(), static_cast<size_t>(out.size()) * sizeof(double));
-  RowMatrix x(size_, kColumns);
-  for (Index first = 0; first < q.cols(); first += kColumns) {
-    const Index count = std::min(kColumns, q.cols() - first);
+  RowMatrix x(size_, kAnswerColumns);
+  for (Index first = 0; first < q.cols(); first += kAnswerColumns) {
+    const Index count = std::min(kAnswerColumns, q.cols() - first);
     x.setZero();
     for (size_t k = 0; k < parts_.size(); ++k) {
       const MatrixXd& V = local_[k].vectors;
       x.block(A_.first_index(parts_[k].from), 0, V.rows(), count).noalias() =
           V * q.block(start_[k], first, V.cols(), count);
     }
-    A_.to_displacement(x.data(), kColumns);
+    A_.to_displacement(x.data(), kAnswerColumns);
     out.middleCols(first, count) =
         x.leftCols(count) * nu.segment(first, count).cwiseSqrt().cwiseInverse().asDiagonal();
   }
@@ -213,7 +213,7 @@ VectorXd lowered(const VectorXd& before, const VectorXd& after, double sigma) {
 /// on `modes` modes of substructures with its eigen-solver.
 void require_room(Index size, int requested, Index modes) {
   const auto n = static_cast<double>(size), p = static_cast<double>(modes);
-  const double vectors = n * static_cast<double>(requested + 2 * kColumns);
+  const double vectors = n * static_cast<double>(requested + 2 * kAnswerColumns);
   const double projection = p * (p + std::min(4.0 * p, 4.0 * requested));
   require_memory(fmt::format("AMLS with {} vectors of {} unknowns", requested, size),
                  gib_of_doubles(std::max(vectors, projection)),
@@ -247,8 +247,8 @@ void remove_known(const KnownMotions& known, EigenResult& out) {
   const Index left = out.values.size() - count;
   out.values = VectorXd(out.values.tail(left));
   RowMatrix block;
-  for (Index first = 0; first < left; first += kColumns) {
-    const Index columns = std::min(kColumns, left - first);
+  for (Index first = 0; first < left; first += kAnswerColumns) {
+    const Index columns = std::min(kAnswerColumns, left - first);
     block = out.vectors.middleCols(count + first, columns);
     known.remove(block.data(), static_cast<int>(columns));
     out.vectors.middleCols(first, columns) = block;

@@ -12,6 +12,7 @@
 #include "core/base/h5_file.hpp"
 #include "core/base/large_pages.hpp"
 #include "core/base/threads.hpp"
+#include "core/sparse/dense_product.hpp"
 #include "core/sparse/factor/sweep_kernel.hpp"
 
 namespace clatter::sparse {
@@ -21,8 +22,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr Index kTile = 512;  // rows whose products stay in the cache
-
-int extent(Index value) { return static_cast<int>(value); }
 
 /// body(first row, rows) for tiles of [begin, end).
 template <class Body>
@@ -69,17 +68,17 @@ bool TallBlock::finite() const {
 
 MatrixXd gram(const TallBlock& A, const TallBlock& B) {
   return summed(A.size, A.count, B.count, [&](Index row, Index rows, MatrixXd& sum) {
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, extent(A.count), extent(B.count),
-                extent(rows), 1.0, A.row(row), extent(A.count), B.row(row), extent(B.count), 1.0,
-                sum.data(), extent(A.count));
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, blas_size(A.count), blas_size(B.count),
+                blas_size(rows), 1.0, A.row(row), blas_size(A.count), B.row(row),
+                blas_size(B.count), 1.0, sum.data(), blas_size(A.count));
   });
 }
 
 void transform(TallBlock& A, const MatrixXd& R) {
-  const int b = extent(A.count);
+  const int b = blas_size(A.count);
   on_all_threads(A.size, [&](Index row, Index rows) {
     const Eigen::MatrixXd old = Eigen::Map<const MatrixXd>(A.row(row), A.count, rows);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, b, extent(rows), b, 1.0, R.data(), b,
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, b, blas_size(rows), b, 1.0, R.data(), b,
                 old.data(), b, 0.0, A.row(row), b);
   });
 }
@@ -108,8 +107,8 @@ void KrylovBasis::over_tiles(Index begin, Index end, Index first, Index last, Bo
   for (Index row = begin; row < end; row += kTileRows) {
     for (Index column = first; column < last; column += kTileColumns) {
       fetch(row, column + kTileColumns);
-      body(row, extent(std::min(kTileRows, end - row)), column,
-           extent(std::min(kTileColumns, last - column)));
+      body(row, blas_size(std::min(kTileRows, end - row)), column,
+           blas_size(std::min(kTileColumns, last - column)));
     }
   }
 }
@@ -157,11 +156,11 @@ void KrylovBasis::get(Index first, TallBlock& B) const {
 }
 
 void KrylovBasis::transform(const MatrixXd& S) {
-  const int from = extent(S.rows()), to = extent(S.cols());
+  const int from = blas_size(S.rows()), to = blas_size(S.cols());
   on_all_threads(size_, [&](Index row, Index rows) {
     MatrixXd tile(S.cols(), rows);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, to, extent(rows), from, 1.0, S.data(),
-                from, at(row, 0), extent(room_), 0.0, tile.data(), to);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, to, blas_size(rows), from, 1.0, S.data(),
+                from, at(row, 0), blas_size(room_), 0.0, tile.data(), to);
     for (Index i = 0; i < rows; ++i) std::copy_n(tile.col(i).data(), to, at(row + i, 0));
   });
 }

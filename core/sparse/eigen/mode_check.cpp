@@ -15,11 +15,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kColumns = 32;        // vectors processed at a time
-constexpr double kBackward = 1e-12;   // relative change of entries that explains a residual
-constexpr double kZeroKnown = 0.1;    // of the rounding bound; actual values are far below it
-constexpr double kZeroUnknown = 2.0;  // the same where zeros are recognised only by their values
-constexpr double kResolved = 1e-10;   // of the shift; smaller values are zero to rounding
+constexpr Index kCheckedColumns = 32;  // vectors processed at a time
+constexpr double kBackward = 1e-12;    // relative change of entries that explains a residual
+constexpr double kZeroKnown = 0.1;     // of the rounding bound; actual values are far below it
+constexpr double kZeroUnknown = 2.0;   // the same where zeros are recognised only by their values
+constexpr double kResolved = 1e-10;    // of the shift; smaller values are zero to rounding
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -28,8 +28,8 @@ VectorXd residuals_of(const SymmetricProduct& K, const SymmetricProduct& M, cons
   const Index n = K.size();
   VectorXd out(modes.size());
   RowMatrix x, force, inertia;
-  for (Index first = 0; first < modes.size(); first += kColumns) {
-    const Index count = std::min(kColumns, modes.size() - first);
+  for (Index first = 0; first < modes.size(); first += kCheckedColumns) {
+    const Index count = std::min(kCheckedColumns, modes.size() - first);
     x = modes.vectors.middleCols(first, count);
     force.resize(n, count);
     inertia.resize(n, count);

@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index kColumns = 32;  // vectors processed at a time
-constexpr Index kRows = 2048;   // rows processed at a time
+constexpr Index kBlockColumns = 32;  // vectors processed at a time
+constexpr Index kTileHeight = 2048;  // rows processed at a time
 
 }  // namespace
 
@@ -25,26 +25,26 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
   const Index m = X.cols(), n = X.rows();
   MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
   // Besides X, which may fill half the memory, only two row-major blocks are held.
-  RowMatrix image(n, kColumns), block(n, kColumns);
+  RowMatrix image(n, kBlockColumns), block(n, kBlockColumns);
   const auto project = [&](Index first, MatrixXd& onto) {  // columns of X up to this block
-    const Index count = std::min(kColumns, m - first), end = first + count;
+    const Index count = std::min(kBlockColumns, m - first), end = first + count;
     onto.block(0, first, end, count) =
         transposed_rows_product(X.leftCols(end), image).leftCols(count);
   };
   const auto take_image = [&](Index first) {
-    const Index count = std::min(kColumns, m - first);
-    block.rightCols(kColumns - count).setZero();
+    const Index count = std::min(kBlockColumns, m - first);
+    block.rightCols(kBlockColumns - count).setZero();
     block.leftCols(count) = X.middleCols(first, count);
-    mass_of.multiply(block.data(), image.data(), static_cast<int>(kColumns));
+    mass_of.multiply(block.data(), image.data(), static_cast<int>(kBlockColumns));
   };
-  for (Index first = 0; first < m; first += kColumns) {
-    const Index count = std::min(kColumns, m - first);
+  for (Index first = 0; first < m; first += kBlockColumns) {
+    const Index count = std::min(kBlockColumns, m - first);
     take_image(first);
-    problem.solve(image.data(), block.data(), static_cast<int>(kColumns));
+    problem.solve(image.data(), block.data(), static_cast<int>(kBlockColumns));
     X.middleCols(first, count) = block.leftCols(count);
     project(first, shifted);
   }
-  for (Index first = 0; first < m; first += kColumns) {
+  for (Index first = 0; first < m; first += kBlockColumns) {
     take_image(first);
     project(first, mass);
   }
@@ -55,8 +55,8 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
   const MatrixXd to_modes =
       ritz.vectors.rowwise().reverse() * nu.cwiseSqrt().cwiseInverse().asDiagonal();
   parallel_pieces(n, [&](int64_t begin, int64_t end) {
-    for (int64_t row = begin; row < end; row += kRows) {
-      auto tile = X.middleRows(row, std::min(kRows, end - row));
+    for (int64_t row = begin; row < end; row += kTileHeight) {
+      auto tile = X.middleRows(row, std::min(kTileHeight, end - row));
       tile = (tile * to_modes).eval();
     }
   });

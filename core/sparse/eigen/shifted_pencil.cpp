@@ -20,9 +20,9 @@ constexpr double kRounding = 2e-15;  // |sigma| over the highest eigenvalue: rou
 constexpr double kCloser = 1e-4;  // next shift over the lowest Ritz value, which is an upper bound
 constexpr double kBelow = 1e-2;   // the same when the shift was too small
 constexpr double kFar = 1e5;      // ratio of lowest eigenvalue to a shift that is too small
-constexpr double kZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
-constexpr double kZeroUnknown = 1e-2;  // the same where zeros may not have converged
-constexpr double kLarger = 30.0;       // factor on the shift when factorisation fails
+constexpr double kRitzZeroKnown = 1e-12;   // Ritz value over the shift that counts as zero
+constexpr double kRitzZeroUnknown = 1e-2;  // the same where zeros may not have converged
+constexpr double kLarger = 30.0;           // factor on the shift when factorisation fails
 constexpr int kMoves = 8;
 
 }  // namespace
@@ -139,7 +139,7 @@ bool ShiftedPencil::follow(const Eigen::VectorXd& ritz, const Wanted& wanted) {
   const double size = -sigma();
   double lowest = 0.0;  // above possible zeros
   for (const double value : ritz)
-    if (value > (rigid_complete_ ? kZeroKnown : kZeroUnknown) * size) {
+    if (value > (rigid_complete_ ? kRitzZeroKnown : kRitzZeroUnknown) * size) {
       lowest = value;
       break;
     }

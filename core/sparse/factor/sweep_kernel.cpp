@@ -15,9 +15,9 @@ using Vector = double __attribute__((vector_size(kLanes * sizeof(double)), align
 // Accumulators that fit into registers; two products per cycle with latency four need at least
 // eight.
 #ifdef __AVX512F__
-constexpr int kRows = 12;
+constexpr int kRegisterRows = 12;
 #else
-constexpr int kRows = 6;
+constexpr int kRegisterRows = 6;
 #endif
 
 #define CLATTER_INLINE inline __attribute__((always_inline))
@@ -66,8 +66,9 @@ CLATTER_INLINE void with_count(int count, Body&& body) {
 CLATTER_INLINE void product(const double* A, int64_t stride, int rows, int columns, const Lanes& x,
                             const Lanes& y) {
   int r = 0;
-  for (; r + kRows <= rows; r += kRows) product_rows<kRows>(A + r, stride, columns, x, y.row(r));
-  with_count<kRows - 1>(
+  for (; r + kRegisterRows <= rows; r += kRegisterRows)
+    product_rows<kRegisterRows>(A + r, stride, columns, x, y.row(r));
+  with_count<kRegisterRows - 1>(
       rows - r, [&](auto left) __attribute__((always_inline)) {
         product_rows<left()>(A + r, stride, columns, x, y.row(r));
       });
@@ -76,9 +77,9 @@ CLATTER_INLINE void product(const double* A, int64_t stride, int rows, int colum
 CLATTER_INLINE void transposed(const double* A, int64_t stride, int rows, int columns,
                                const Lanes& y, const Lanes& x) {
   int j = 0;
-  for (; j + kRows <= columns; j += kRows)
-    transposed_rows<kRows>(A + j * stride, stride, rows, y, x.row(j));
-  with_count<kRows - 1>(
+  for (; j + kRegisterRows <= columns; j += kRegisterRows)
+    transposed_rows<kRegisterRows>(A + j * stride, stride, rows, y, x.row(j));
+  with_count<kRegisterRows - 1>(
       columns - j, [&](auto left) __attribute__((always_inline)) {
         transposed_rows<left()>(A + j * stride, stride, rows, y, x.row(j));
       });
@@ -97,8 +98,8 @@ CLATTER_EACH_CPU void subtract_transposed(const double* A, int64_t stride, int r
 }
 
 CLATTER_EACH_CPU void solve_lower(const double* L, int64_t stride, int n, Lanes x) {
-  for (int begin = 0; begin < n; begin += kRows) {
-    const int end = std::min(n, begin + kRows);
+  for (int begin = 0; begin < n; begin += kRegisterRows) {
+    const int end = std::min(n, begin + kRegisterRows);
     for (int j = begin; j < end; ++j) {
       const double* column = L + j * stride;
       const Vector xj = vector_at(x, j) * (1.0 / column[j]);
@@ -110,8 +111,8 @@ CLATTER_EACH_CPU void solve_lower(const double* L, int64_t stride, int n, Lanes 
 }
 
 CLATTER_EACH_CPU void solve_lower_transposed(const double* L, int64_t stride, int n, Lanes x) {
-  for (int begin = (n - 1) / kRows * kRows; begin >= 0; begin -= kRows) {
-    const int end = std::min(n, begin + kRows);
+  for (int begin = (n - 1) / kRegisterRows * kRegisterRows; begin >= 0; begin -= kRegisterRows) {
+    const int end = std::min(n, begin + kRegisterRows);
     transposed(L + begin * stride + end, stride, n - end, end - begin, x.row(end), x.row(begin));
     for (int j = end - 1; j >= begin; --j) {
       const double* column = L + j * stride;

@@ -10,8 +10,8 @@
 namespace clatter::sparse {
 namespace {
 
-constexpr int kColumns = 48;  // of a panel at a time: their part of x stays in the L1 cache
-constexpr int kTile = 96;     // rows: a tile of the panel stays in L1 for all right-hand sides
+constexpr int kPanelColumns = 48;  // of a panel at a time: their part of x stays in the L1 cache
+constexpr int kTile = 96;          // rows: a tile of the panel stays in L1 for all right-hand sides
 
 /// One supernode's part of L and of x.
 struct Block {
@@ -38,8 +38,8 @@ void for_each_tile(int rows, int count, Body&& body) {
 }
 
 void forward_block(const Block& b, const SweepColumns& x, double* work) {
-  for (int begin = 0; begin < b.columns; begin += kColumns) {
-    const int width = std::min(kColumns, b.columns - begin), end = begin + width;
+  for (int begin = 0; begin < b.columns; begin += kPanelColumns) {
+    const int width = std::min(kPanelColumns, b.columns - begin), end = begin + width;
     const double* L = b.panel + begin * b.height;
     double* own = b.x + begin * x.stride;
     for (int lane = 0; lane < x.count; lane += kLanes)
@@ -56,8 +56,9 @@ void forward_block(const Block& b, const SweepColumns& x, double* work) {
 }
 
 void backward_block(const Block& b, const SweepColumns& x, double* work) {
-  for (int begin = (b.columns - 1) / kColumns * kColumns; begin >= 0; begin -= kColumns) {
-    const int width = std::min(kColumns, b.columns - begin), end = begin + width;
+  for (int begin = (b.columns - 1) / kPanelColumns * kPanelColumns; begin >= 0;
+       begin -= kPanelColumns) {
+    const int width = std::min(kPanelColumns, b.columns - begin), end = begin + width;
     const double* L = b.panel + begin * b.height;
     double* own = b.x + begin * x.stride;
     for_each_tile(b.below, x.count, [&](int row, int rows, int lane) {

@@ -30,9 +30,9 @@ FaceCorners turned(std::span<const int32_t> nodes, size_t corners) {
   return out;
 }
 
-class Writer {
+class AbaqusWriter {
  public:
-  Writer(const Mesh& mesh, std::ostream& out) : mesh_(mesh), out_(out) {}
+  AbaqusWriter(const Mesh& mesh, std::ostream& out) : mesh_(mesh), out_(out) {}
 
   void run() {
     number_nodes();
@@ -228,7 +228,7 @@ class Writer {
 
 void write_abaqus(const Mesh& mesh, const std::filesystem::path& path) {
   WholeFile file(path);
-  Writer(mesh, file.stream()).run();
+  AbaqusWriter(mesh, file.stream()).run();
   file.commit();
 }
 

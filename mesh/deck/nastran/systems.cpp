@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <deque>
-#include <numbers>
 
+#include "core/base/units.hpp"
 #include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck::nastran {
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Sine of the smallest angle between the z axis and the point of the xz plane.
 constexpr double kLeastSine = 1e-10;
 

@@ -83,9 +83,9 @@ class Numbers {
   int32_t largest_ = 0, last_cell_ = 0;
 };
 
-class Writer {
+class NastranWriter {
  public:
-  Writer(const Mesh& mesh, std::ostream& out)
+  NastranWriter(const Mesh& mesh, std::ostream& out)
       : mesh_(mesh), out_(out), numbers_(mesh), width_(numbers_.width(mesh.cell_count())) {}
 
   void run() {
@@ -214,7 +214,7 @@ std::string nastran_real(double value, int width) {
   return text;
 }
 
-void write_nastran(const Mesh& mesh, std::ostream& out) { Writer(mesh, out).run(); }
+void write_nastran(const Mesh& mesh, std::ostream& out) { NastranWriter(mesh, out).run(); }
 
 void write_nastran(const Mesh& mesh, const std::filesystem::path& path) {
   WholeFile file(path);

@@ -16,9 +16,9 @@ namespace {
 
 std::vector<double> numbers(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
 
-class Writer {
+class RecipeWriter {
  public:
-  explicit Writer(Deck& deck) : deck_(deck), names_(deck) {}
+  explicit RecipeWriter(Deck& deck) : deck_(deck), names_(deck) {}
 
   std::string write() {
     put("# Read from {}; SI units.\nlength_unit = \"m\"\n",
@@ -233,6 +233,6 @@ class Writer {
 
 }  // namespace
 
-std::string recipe_text(Deck& deck) { return Writer(deck).write(); }
+std::string recipe_text(Deck& deck) { return RecipeWriter(deck).write(); }
 
 }  // namespace clatter::mesh::deck
