@@ -29,7 +29,9 @@ class Config {
   static Config load(const std::filesystem::path& path);
   /// Like load(), but the file may contain `base = "other.toml"`: keys that it does not define are
   /// taken from there, table by table (arrays and values are replaced entirely). Bases may be
-  /// nested. Reads TOML from memory; `origin` is used as the file name in messages.
+  /// nested.
+  static Config load_with_base(const std::filesystem::path& path);
+  /// Reads TOML from memory; `origin` is used as the file name in messages.
   static Config parse(std::string_view text, const std::string& origin);
 
   bool has(std::string_view key) const;

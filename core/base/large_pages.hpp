@@ -8,6 +8,7 @@ namespace clatter {
 
 /// Asks the kernel to back the aligned 2 MiB blocks inside this range by large pages; call it
 /// before first access. No effect on small ranges and where the kernel has no large pages.
+void prefer_large_pages(void* begin, size_t bytes);
 
 /// Returns the complete pages inside this range to the kernel; their content is lost.
 void give_back_pages(void* begin, size_t bytes);

@@ -16,6 +16,7 @@ struct NodalMatrices {
 };
 
 /// Consistent mass, or HRZ lumping: its diagonal scaled to the same total (lump_hrz).
+enum class MassForm { kConsistent, kHrz };
 
 /// Assembles all cells; `materials` has one entry per region of the mesh.
 ///
