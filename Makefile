@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # clatter from a fresh Debian 12: `make demo` and `make check` install what is missing, build, run.
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
@@ -12,7 +13,7 @@ CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=erro
 .NOTPARALLEL:
 .PHONY: help setup setup-demo setup-check configure build build-tests demo check validate install clean
 help:
-	@sed -n 's/^# \{0,1\}//;1,5p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,6p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo

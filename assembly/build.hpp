@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The stage's main call: builds a checked FE model from a mesh and a recipe.
 #include <map>

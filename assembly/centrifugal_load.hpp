@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The load of a part that rotates at constant speed, in the rotating frame.
 #include <Eigen/Core>

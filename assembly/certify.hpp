@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Verifies an assembled model before it is written.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Divides the nodes of a surface into compact groups.
 #include <cstdint>

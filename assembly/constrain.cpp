@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/constrain.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From a recipe's couplings, equations and supports to the transformation and the named sets.
 #include <Eigen/Core>

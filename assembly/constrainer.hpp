@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The steps of constrain() and their shared data. Relations are gathered and checked first
 // (constrainer_relations.cpp), then eliminated (constrain.cpp).

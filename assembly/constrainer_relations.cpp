@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gathers relations: supports, sensors, rigid couplings, equations and couplings onto points.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Which DoF depends on which others, and by which relation. Conflicts are reported, not resolved.
 #include <cstdint>

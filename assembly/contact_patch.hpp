@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A grid of patches on a cylinder surface; each patch is one generalised coordinate.
 #include <Eigen/Core>

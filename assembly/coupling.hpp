@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Generalised coordinates q = C u: the motion of a reference node coupled to a face, the mean
 // displacement of a face.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Numbers (ids) of the DoFs before anything is eliminated: nodes first, then reference points.
 #include <Eigen/Core>

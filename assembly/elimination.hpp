@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Linear constraints by elimination: expresses every displacement by the model's coordinates.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Load vectors of a recipe in the model's coordinates.
 #include <Eigen/Core>

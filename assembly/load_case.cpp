@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/load_case.hpp"
 
 #include <fmt/format.h>

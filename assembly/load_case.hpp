@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Consistent nodal forces of unit load cases, on nodal displacements (3 n_nodes).
 #include <Eigen/Core>

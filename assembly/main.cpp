@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-assembly: from a mesh to sparse mass and stiffness matrices.
 #include <fmt/format.h>
 

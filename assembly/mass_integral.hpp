@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Integrals over the mass of a mesh: integration points shared by mass properties and body forces.
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/mass_properties.hpp"
 
 #include <Eigen/Geometry>

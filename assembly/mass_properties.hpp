@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mass, centre of gravity and inertia, two independent ways.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // What the rows of imported matrices mean: nodes, rigid motions, displacements, sets.
 #include <cstdint>

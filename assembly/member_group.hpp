@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Nodes and points that define a coupling, and their grouping on large faces.
 #include <Eigen/Core>

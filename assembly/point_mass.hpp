@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Point masses with offset and inertia.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Contents of a part's fe.toml. assembly/README.md documents the file; lengths here are in metres.
 #include <Eigen/Core>

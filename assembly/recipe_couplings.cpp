@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // [[point]], [[support]], [[coupling]], [[equation]], [[straight_edges]], [[tie]], [[bolt]].
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // [system], [material], [mass], [damping].
 #include <fmt/format.h>
 #include <fmt/ranges.h>

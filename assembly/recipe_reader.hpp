@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reads a fe.toml. All tables share the mesh, the length unit and the names in use.
 // recipe_model.cpp, recipe_couplings.cpp, recipe_sets.cpp and recipe_loads.cpp each read some

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // [[contact]], [[mean]], [[sensor]], [[nodes]], [[point_mass]].
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rigid couplings (RBE2): nodes and points that follow a reference node as a rigid body.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Springs between nodes and points, or to the ground.
 #include <vector>

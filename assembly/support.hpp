@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Supports as held coordinates, at which a model's reactions act.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Integrals over the surfaces of a mesh, computed once each.
 #include <map>

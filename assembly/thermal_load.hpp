@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Nodal forces of thermal strains.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ties and bolts: nodes of a slave surface that follow a master surface.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // T^T A T for a transformation that is the identity except for a few pivot rows.
 //
 // With u = [u_f; u_p; u_s], f the displacements that remain, p the pivots, s the supported ones,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // assemble_mesh FILE.mesh.h5 [hrz]: assembles K and M of a mesh of steel and prints DoFs, cells,
 // seconds of the pattern, seconds of K and M, and the bytes of both matrices.
 #include <fmt/format.h>

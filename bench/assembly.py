@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """K and M of tet10 blocks of growing size: clatter, numpy with SciPy (all cells at once, triplets
 summed by coo_matrix), and with --calculix CalculiX (*FREQUENCY, SOLVER=MATRIXSTORAGE: it assembles and writes them).
 

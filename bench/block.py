@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The free truck-diesel block at a given size: mesh, matrices, decks for others."""
 import re
 import sys

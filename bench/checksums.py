@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What checksums of an artefact's numbers cost: 500 MB written to and read from HDF5 with different layouts and
 checksums. Prints the table of docs/accuracy.md: seconds of one core (user and system), which a busy machine changes little.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // cholmod_arpack model.fe.h5 count tolerance: the lowest modes [Hz] by CHOLMOD and ARPACK as in
 // their manuals: METIS permutation, supernodal Cholesky of K - sigma M, one right-hand side per
 // solve. This is a straightforward implementation without count, probe and refinement.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Modes and condensation of the free truck-diesel block compared with programs that Debian packages, on the same
 matrices, with the same BLAS setting. Rows (--rows):
 

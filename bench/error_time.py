@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Error against time: the free truck-diesel block condensed with an increasing number of modes, and with its interface reduced.
 
 Rows: Guyan; fixed-interface modes alone (--counts); the same with residual modes (--residual, and the sample's own

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of bench/error_time.py: error against seconds."""
 import sys
 from pathlib import Path

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // factor_cost model.fe.h5 right-hand-sides threads: the cost of one factorisation of K - sigma M in
 // one line: DoFs, entries of L, flops, seconds of analysis, factorisation and solution for a block.
 #include <fmt/format.h>

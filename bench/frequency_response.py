@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frequency response by superposition, and how far two responses are apart. Responses are points x frequencies."""
 import numpy as np
 import scipy.sparse as sparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frequency responses of a full model: its modes to a cut-off, and solves for those beyond."""
 import numpy as np
 import scipy.sparse as sparse

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Time to read decks: a block of n x n x n cubes, six tet10 each (n = 50: a million nodes, 750 000 cells).
 
 Measures seconds of the reader, the peak memory of the process and the size of the mesh. With --peers

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // import_deck FILE: reads a deck (.inp Abaqus, else Nastran) and prints nodes, cells, seconds and
 // the megabytes of the mesh itself.
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Error and savings of a lumped mass: free steel bar of 600 x 40 x 30 mm (tet10), ten lowest elastic modes.
 
 One row per mesh; errors against the consistent mass on the finest mesh, entries of M, seconds of assembly and of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Seconds and peak memory of processes, and the peak rate of the machine."""
 import multiprocessing
 import os

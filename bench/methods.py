@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Accuracy of the condensation methods on a part of samples/truck_diesel (after `make demo`).
 
 First table: coordinates, seconds and the largest frequency error of the elastic modes below a limit, of the free part

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The lowest modes of the free truck-diesel block: clatter-modal, SciPy and CalculiX.
 
 All three use the same tet10 mesh; SciPy uses clatter's matrices. Seconds are wall time of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // modes_below model.fe.h5 threads hz...: the number of modes below each frequency, by the inertia
 // of K - mu M, one per line.
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What accuracy costs in piston slap: step tolerance, film grid and elastic effects against seconds.
 
 Runs samples/truck_diesel/slap.run.toml (its reduced models must exist: make demo) repeatedly, changes one

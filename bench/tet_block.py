@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A block of n x n x n cubes, six tet10 each, as arrays and as decks; n = 30 has 227 000 nodes, n = 50 a million."""
 import itertools
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Thin walls, nearly incompressible materials and jumps of stiffness: solves and seconds of the three eigen-solvers,
 and strips under a tip load against the closed form.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tests that use Python's unittest.
 
 # clatter_python_test(<file without .py> <label> [class ...]) runs the file, or only the given classes;

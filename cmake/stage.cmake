@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Helpers that keep every stage folder's CMakeLists.txt to a few lines.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

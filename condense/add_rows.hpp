@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rows of T for more surfaces and sets of a part that is already condensed.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The Craig-Bampton basis: constraint modes and fixed-interface modes from one factorisation.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The cut-off needed for a requested accuracy of the body's frequencies.
 #include <map>

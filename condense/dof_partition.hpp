@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Partition of a model's DoFs into boundary (retained) and interior ones.
 #include <Eigen/Core>

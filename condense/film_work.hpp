@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effect of an interface reduction on the work of film pressure.
 #include "core/rom/reduced_model.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/frame_inertia.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The inertia invariants of a rotating body, from its nodal masses.
 #include "condense/reduced_basis.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-condense: reduces an assembled part to boundary coordinates and modes.
 //
 // Sample runs:

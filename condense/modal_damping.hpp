@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Modal damping of the `.rom.toml`.
 #include "core/base/config.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/recovery_rows.hpp"
 
 #include "core/base/named.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The rows of the basis for the displacements of the skin and of sets besides the boundary.
 #include <string>

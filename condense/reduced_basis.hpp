@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A reduction basis and the projection of the model's matrices on it.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Basis vectors that represent the truncated fixed-interface modes, and the remaining error.
 #include "condense/reduced_basis.hpp"

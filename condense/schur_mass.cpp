@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/schur_mass.hpp"
 
 #include <cblas.h>

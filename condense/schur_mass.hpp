@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The static mass of a boundary by elimination.
 #include "core/sparse/factor/supernodal_factor.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Faces of any type as quadratic triangles, the only type that recovery and radiation use.
 #include <cstdint>

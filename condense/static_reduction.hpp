@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mass of the static shapes of the interior, without storing the shapes.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The most expensive part of a certificate: comparison with modes of the full model.
 #include "core/fe/fe_model.hpp"

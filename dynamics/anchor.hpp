@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The point of a body at which a joint acts, in the plane of the crank, as a deviation from the
 // ideal motion.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The reduced models of a scene, read once, with their modal bodies.
 #include <deque>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The data that a run needs to resume at the end of a cycle.
 #include <filesystem>

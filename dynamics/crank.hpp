@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Kinematics of the ideal slider-crank with rigid parts and no clearances, at constant speed.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // CSV tables: a header with units, then rows of numbers.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The table of effects: which are simulated, why, and their cost.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Interface of force elements: forces and their tangent at an implicit stage, internal states under
 // the same tableau, power, and reported scalars.

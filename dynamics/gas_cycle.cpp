@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/gas_cycle.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Named scalars of one instant, reported by elements and bodies.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Nonlinear spring-damper between two points in the plane of the crank: pin and rod, rod and crank.
 #include <memory>

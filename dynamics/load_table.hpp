@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Load tables: over the crank angle (periodic) or over time.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-dynamics: runs a scene in the time domain.
 #include <fmt/format.h>
 

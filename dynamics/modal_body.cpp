@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/modal_body.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A body as a set of decoupled oscillators: eta'' + delta eta' + omega^2 eta = phi^T f.
 #include <Eigen/Core>

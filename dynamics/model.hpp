@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The model of a scene: bodies, elements, loads, and reported quantities.
 #include <memory>

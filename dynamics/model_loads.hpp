@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The known forces of a scene: gas, inertia of moving frames, gravity, [[load]].
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Linear springs and dampers between single coordinates and the ground.
 #include "dynamics/element.hpp"

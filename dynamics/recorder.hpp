@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Results of one cycle (or of an entire run): uniform samples, histories, energies, film fields.
 #include <map>

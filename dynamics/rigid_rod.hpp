@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The connecting rod: a rigid body in the plane of the crank.
 #include "dynamics/modal_body.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The file of a run, schema clatter/run/1.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Contents of a scene (stem.run.toml). dynamics/README.md documents the file; values here are SI.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Runs a scene from its start (or a checkpoint) to its end, cycle by cycle.
 #include <atomic>

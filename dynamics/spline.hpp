@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Interpolation of a table, smooth and without overshoot.
 #include <vector>

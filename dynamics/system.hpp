@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The bodies of a scene, their interface coordinates, force elements and loads.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-mesh: from a part's description, or a deck of another program, to a proved mesh.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/first_frequency.hpp"
 
 #include "core/base/plausible.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Warning about an implausible first elastic frequency, a sign of inconsistent units.
 #include "core/modes/analysis.hpp"

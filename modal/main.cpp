@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-modal: modes of a part, with a proof that none is missing; comparison of a reduced model
 // with the full one; static solution of load cases.
 //

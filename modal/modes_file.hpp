@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The modes file of a part, schema "clatter/modes/2":
 //   frequency_hz, eigenvalue [rad2/s2], residual, rounding (m); shapes (m x n x 3, single

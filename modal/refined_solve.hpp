@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Solves A x = b to the accuracy that the entries of A allow, with an error estimate.
 #include <Eigen/Core>

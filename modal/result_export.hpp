@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Export of mode shapes and static results to ParaView.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The file of a static solution, schema "clatter/static/1".
 #include <algorithm>
 

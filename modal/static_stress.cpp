@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses of a static solution as text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Static solution of load cases with reactions.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Results derived from one piece of a run: sensor histories and spectra, mean square normal
 // velocity and radiated power per panel, over lines, third octaves and time.

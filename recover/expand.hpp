@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Expansion of reduced coordinates to the skin, by blocks of columns.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // XDMF3 files beside the field file, for ParaView: small XML texts that refer to data in the HDF5
 // file.

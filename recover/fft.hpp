@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The fast Fourier transform (Eigen's unsupported FFT, which wraps kissfft), used only here.
 #include <Eigen/Core>

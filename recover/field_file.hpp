@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The field file, schema "clatter/field/1". The README documents the complete layout.
 //

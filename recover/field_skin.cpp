@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of the field file with data of the entire skin: frames in time and complex lines.
 #include <cstdint>
 #include <string>

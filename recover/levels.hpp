@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Third octaves, A-weighting and decibels.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Choice of the frequency lines that are written for the entire skin.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-recover: from reduced coordinates to surface velocity, spectra, levels and radiated
 // power.
 #include <fmt/format.h>

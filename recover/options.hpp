@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The user's options. Each default is defined once, here; --help and the stored configuration are
 // generated from it.

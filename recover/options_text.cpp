@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The configuration as text: the chosen options, and the documentation for --help.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

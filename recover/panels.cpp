@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "recover/panels.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Panels: named groups of skin faces, chosen by direction, box and exposure.
 #include <Eigen/Core>

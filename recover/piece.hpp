@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Pieces of a run: the last cycle, windows around an event, and the frames to be written.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "recover/radiated_power.hpp"
 
 #include <algorithm>

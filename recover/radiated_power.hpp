@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mean square normal velocity and equivalent radiated power (ERP) without expansion to the skin:
 //

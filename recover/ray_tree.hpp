@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Ray intersection test by a tree of boxes around flat triangles.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The stage's main function: from a run and its reduced model to a field file.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The part of a run file (clatter/run/1) that recovery needs, and the reduced model of the body.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Sensors: channels of displacement, each a linear combination of the reduced coordinates.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Geometry of a skin of quadratic triangles: areas, normals, weights, and the sparse operators that
 // take nodal velocity vectors to normal velocities.

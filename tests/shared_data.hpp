@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Public test files next to the source tree, not in it.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Intersection of convex polygons in a plane.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Faces of the two sides of a tie, and their flat facets.
 #include <Eigen/Core>

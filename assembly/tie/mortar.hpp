@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Dual mortar projection of a slave surface onto a non-matching master surface.
 //

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """scipy_modes.py COUNT: the lowest modes of block.K.npz, block.M.npz [Hz] by SciPy (ARPACK, SuperLU)."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """slepc_modes.py COUNT TOLERANCE [HZ]: the lowest modes of block.K.npz, block.M.npz [Hz] by SLEPc with MUMPS. With HZ all
 modes below it by spectrum slicing, which counts them by inertia."""
 import glob

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reduced matrices in Matrix Market files (Boisvert, Pozo, Remington 1996).
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reduced parts as input of MBDyn's modal joint.
 #include <filesystem>

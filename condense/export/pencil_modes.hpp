@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Modes of a reduced part, for formats that require them.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Metadata of every artefact: schema, version, configuration, inputs with their hashes, timing. See
 // docs/formats.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // OpenBLAS 0.3.21 does not recognise recent CPUs and falls back to its oldest kernel, five times
 // slower.

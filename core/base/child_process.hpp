@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Runs work that may crash, hang or exhaust memory in a child process: libraries abort, call exit
 // or throw across their own callbacks, which only a separate process survives (hard case N17).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Command-line options common to all executables: --help, --version, --threads, --quiet, --json,
 // --depfile.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The values of a configuration, each checked and recorded; errors give its position.
 #include <fmt/format.h>
 

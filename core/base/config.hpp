@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // TOML input by the rules of design.md section 5: an unknown key is an error that names the nearest
 // known key; every value used, including defaults, can be printed and stored.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sources of a configuration: a file, a file with its bases, a string.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Implementation of config: the document shared by all tables of one file. Included by
 // core/base/config*.cpp only, so that toml++ types stay hidden.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unknown keys, and the key that was probably meant.
 #include <fmt/format.h>
 

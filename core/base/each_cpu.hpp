@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Compiles inner loops for several generations of a processor family; the loader selects the
 // version for the CPU.

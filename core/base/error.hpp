@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Error types with their exit codes, and the error handler around every main.
 #include <functional>

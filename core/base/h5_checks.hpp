@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Checksums in HDF5 files: settings for writing, and the message for a failed read.
 // Included by core/base/h5_*.cpp only.

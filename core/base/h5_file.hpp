@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reads and writes one HDF5 file in terms of vectors and Eigen matrices.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Implementation of h5_file: RAII identifiers and typed access. Included by core/base/h5_*.cpp
 // only, so that HDF5 types stay hidden.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One slab of a three-dimensional dataset, so that mode shapes need not all be in memory.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Output of --json: one JSON object per line on stdout.
 #include <string>

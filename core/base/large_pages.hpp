@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Large arrays in large pages, and reuse of freed memory: first access to 10 GB in pages of 4 KiB
 // costs seconds, on a virtual machine tens of seconds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Output to the user: results on stdout, progress and warnings on stderr.
 #include <functional>

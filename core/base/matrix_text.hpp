@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Symmetric matrices in text files: Matrix Market, and the coordinate lists of Abaqus.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Look-up by name in a map; the error lists the existing names.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Files that are written under a temporary name until they are complete; signals remove them.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/plain_h5.hpp"
 
 #include <fcntl.h>

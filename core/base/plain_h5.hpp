@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // HDF5 files in the layouts of other programs: their types, no filters, no clatter metadata.
 #include <cstdint>

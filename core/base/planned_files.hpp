@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Inputs and outputs of a program, registered before it starts work: no output overwrites an input,
 // and an output that cannot be written is reported at once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Material and part data outside physical ranges, most often because of a wrong unit. Reported with
 // the unit that was probably meant, never refused.

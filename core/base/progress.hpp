@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Progress of work that takes over two seconds: a bar on a terminal, plain lines elsewhere.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // How a program reports the error that ends it: a line on stderr, with --json also an object on
 // stdout.

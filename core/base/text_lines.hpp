@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reads text files of numbers line by line; errors give file and line.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Thread count of clatter's own loops, and the parallel loop.
 #include <cstdint>

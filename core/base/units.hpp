@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The degree; consistent unit systems: decks and matrix files name none, so the user specifies one.
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Binary serialisation between a parent and its child process: same program, same machine, so no
 // stable format is needed.

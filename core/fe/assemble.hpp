@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Assembly of sparse M and K of a mesh on nodal displacements.
 #include <vector>

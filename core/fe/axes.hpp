@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Coordinate systems for directions: [system.NAME] of a part's fe.toml.
 #include <Eigen/Core>

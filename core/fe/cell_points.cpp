@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fe/cell_points.hpp"
 
 #include <Eigen/QR>

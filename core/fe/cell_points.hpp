@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Shape functions of each cell type at its quadrature points, computed once per process.
 #include <Eigen/Core>

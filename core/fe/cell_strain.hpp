@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Strains of a cell's displacement modes: its shape functions and, in a hex8 with them, the three
 // incompatible modes 1 - xi_k^2 (element.hpp).

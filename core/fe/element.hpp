@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Stiffness, consistent mass and thermal forces of an isoparametric cell.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The elastic cells of a model, for stress recovery. In the file:
 //   regions, cells/<b>/nodes with attributes type and region, node_ids, materials/<r> (attributes

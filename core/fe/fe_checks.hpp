@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Errors and checks for FE model files: "file: dataset: found X, expected Y".
 #include <fmt/format.h>

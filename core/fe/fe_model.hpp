@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The assembled model of one part and its file, schema "clatter/fe/2":
 //   M, K (symmetric, lower), T (sparse groups), nodes, rigid, attributes alpha and beta of group

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The data for statics in a model file: supports, points, forces on supports, prescribed
 // displacements, temperatures, cases.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Rigid-body motions left free by the supports, found from geometry before any eigenvalue solve.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Linear elastic materials: isotropic, orthotropic, anisotropic; thermal expansion.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Sparsity pattern of M and K: nodes that share a cell.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Stresses from displacements: sigma = C (eps - alpha dT).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Stiffness of isotropic tetrahedra, the most common cells, with sizes fixed at compile time.
 #include <Eigen/Core>

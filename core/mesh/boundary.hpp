@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The boundary of the solid and integrals over it (hard cases G4, G9).
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Node orders of the cells, their faces and edges, and the node orders of other programs.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // All faces of all cells, sorted so that equal faces are adjacent.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // det J of hexahedra, wedges and pyramids in Bernstein form on a cube.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A finite element mesh of one part: nodes, cells by region, named surfaces and node sets.
 #include <cstdint>

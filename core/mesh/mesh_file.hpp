@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mesh in a file, schema "clatter/mesh/2":
 //   nodes (n x 3) [m], regions, cells/<i>/nodes with attributes type and region,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/mid_side_nodes.hpp"
 
 #include <fmt/format.h>

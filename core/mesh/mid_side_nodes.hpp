@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mid-side nodes of quadratic cells and their edges.
 #include <span>

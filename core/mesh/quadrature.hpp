@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Quadrature on the reference cells and faces of cell.hpp and shape.hpp.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Shape functions of all cells and faces on their reference cells; node orders of cell.hpp.
 //

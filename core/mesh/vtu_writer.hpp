@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mesh output for ParaView and other programs that read VTK XML.
 #include <string>

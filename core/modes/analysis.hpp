@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Modes of an assembled or reduced part, with mode shapes at the nodes.
 #include <functional>

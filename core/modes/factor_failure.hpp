@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Explains to the user why a matrix of a model could not be factorised.
 #include <string>

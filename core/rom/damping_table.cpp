@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rom/damping_table.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The DoF of each row of matrices in text files: written next to exported matrices, read with
 // matrices of other programs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rom/elimination_order.hpp"
 
 #include "core/base/artefact.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The fill-reducing permutation of a factorisation, stored in an artefact for reuse.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Inertia of a reduced body whose frame accelerates and rotates: eq. (9) of the paper.
 #include <Eigen/Core>

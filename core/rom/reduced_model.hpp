@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A condensed elastic body, eq. (13) and (14): output of condense, input of dynamics and recover.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Eigenvalues of dense symmetric matrices by LAPACK, with all BLAS threads.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Products of tall dense matrices through BLAS.
 #include <Eigen/Core>

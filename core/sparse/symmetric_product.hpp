@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parallel products of a sparse symmetric matrix with many columns.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Contact pressure of rough surfaces over the gap, with its tangent and its stored energy.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/film/banded_lu.hpp"
 
 #include <algorithm>

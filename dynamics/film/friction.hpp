@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Axial shear force on the piston, cell by cell, with the coefficients of its exact derivative.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The gap between skirt and liner: cold shape, and its change by displacements of the two bodies.
 //

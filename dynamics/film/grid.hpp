@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The cells on which one pad's film is solved.
 #include <Eigen/Core>

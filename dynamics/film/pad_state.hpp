@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Working memory of one pad of a piston-liner contact; allocated once, only for active effects.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mixed lubricated contact between a piston skirt and its liner as a force element.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // State, power and reports of the piston-liner contact.
 #include <algorithm>
 #include <cmath>

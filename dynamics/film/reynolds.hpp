@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mass-conserving Reynolds equation of one pad.
 #include <Eigen/Core>

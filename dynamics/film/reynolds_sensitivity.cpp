@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact derivatives of the film solution by the gap, by reusing the factor of the last solve.
 #include "dynamics/film/reynolds.hpp"
 

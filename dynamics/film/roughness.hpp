@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // From the gap h to the thicknesses in the Reynolds equation.
 #include <Eigen/Core>

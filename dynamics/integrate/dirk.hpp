@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Diagonally implicit Runge-Kutta steps with error control.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Estimate of each body's velocity error from the local errors of all steps.
 #include <Eigen/Core>

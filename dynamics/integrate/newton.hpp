@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The nonlinear equations of one implicit stage, y = y_pred + S f(y, v).
 #include <Eigen/Core>

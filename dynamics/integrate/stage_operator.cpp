@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrate/stage_operator.hpp"
 
 namespace clatter::dynamics {

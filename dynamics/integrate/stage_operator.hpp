@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The linear part of an implicit stage, per step size.
 #include <Eigen/Core>

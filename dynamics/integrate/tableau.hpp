@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The two integration methods: both of second order, L-stable, with two implicit stages that share
 // one diagonal entry.

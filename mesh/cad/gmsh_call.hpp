@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Private to the files that call Gmsh: converts its exceptions to our errors.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Removal of small faces from a CAD part: fillets, chamfers, shallow grooves, tiny holes and
 // bosses.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Properties of the faces of solids from Gmsh and OpenCASCADE: samples, shapes, curvature.
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The interface to Gmsh with its OpenCASCADE kernel: solids, booleans, faces, the mesh.
 //

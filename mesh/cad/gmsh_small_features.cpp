@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/cad/gmsh_small_features.hpp"
 
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Geometric features that force smaller cells than requested.
 #include <Eigen/Core>

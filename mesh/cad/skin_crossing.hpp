@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Intersecting surface triangles: chords of two curved faces that leave no wall between them. No
 // solid can be meshed inside; the faces are named so that the user knows where to refine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Expansion of a cyclic sector to the full ring.
 #include <Eigen/Core>

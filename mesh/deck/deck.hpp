@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The content of a Nastran or Abaqus/CalculiX deck besides its mesh, in one form for both.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Maps numbers of a deck to rows of a table.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Imports a deck file as a mesh in SI for the next stage.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Directions of a deck's coordinate systems.
 #include <Eigen/Core>

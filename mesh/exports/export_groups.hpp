@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Groups for export formats with face elements: each face and node once, with the groups that
 // contain it, and the external numbers of nodes and cells.

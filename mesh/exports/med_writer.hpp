@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mesh for Salome, Code_Aster, Code_Saturne: a MED file.
 #include <filesystem>

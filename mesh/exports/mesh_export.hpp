@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mesh export to other programs. Each file is written under a temporary name and renamed when
 // complete.

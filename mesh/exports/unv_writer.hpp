@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mesh for programs that read I-DEAS universal files.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/face/face_list.hpp"
 
 #include <fmt/format.h>

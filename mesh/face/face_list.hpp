@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The list of faces of a part, for naming surfaces: a table, JSON, and a file to draw.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The shape of a face: plane, cylinder, cone, sphere, torus or spline, with radius, axis and
 // position, found from points and normals of its underlying surface.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Selection of faces by position, never by number: booleans and imports renumber them (hard case
 // G5).

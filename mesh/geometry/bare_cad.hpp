@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The default part.mesh.toml for a CAD file without a description.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The block of an inline truck diesel with wet liners, from its main dimensions.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parts from STEP, BREP or IGES files.
 #include "mesh/geometry/part_geometry.hpp"

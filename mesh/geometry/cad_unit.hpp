@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The length unit of a CAD file, for the user's information: lengths are converted when the file is
 // read.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The geometry of a part as built or imported: solids by region, surfaces by position.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A truck diesel's aluminium piston from its main dimensions.
 //

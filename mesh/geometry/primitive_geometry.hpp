@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Simple shapes for samples and tests.
 #include "mesh/geometry/part_geometry.hpp"

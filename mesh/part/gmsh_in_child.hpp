@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Gmsh and OpenCASCADE in a child process: both crash on real CAD files and corrupt meshes, by
 // signals, by exit and by throwing across callbacks (hard case N17).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Faces of a part as built or imported, without meshing it.
 #include "core/base/child_process.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Serialisation of a finished mesh (core/base/wire.hpp), sent by the child process that runs gmsh.
 #include "core/base/stopwatch.hpp"

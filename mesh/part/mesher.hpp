@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Meshes a part's geometry and proves the mesh valid.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Partition of a mesh by METIS (Karypis and Kumar, SIAM J. Sci. Comput. 20, 1998).
 #include <cstdint>

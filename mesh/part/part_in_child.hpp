@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A part's geometry and mesh, made by Gmsh in a child process, and again with simpler settings when
 // Gmsh crashes.

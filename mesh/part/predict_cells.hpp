@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Predicts the number of cells of a part from its geometry and the sizes, before meshing.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Checks with the mesh that joining the faces of an assembly left each solid intact.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Quadratic tetrahedra without slivers and without folded cells.
 //

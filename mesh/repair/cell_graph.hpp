@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A linear tetrahedral mesh that can be edited: nodes move, cells come and go.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Pattern search for the best position of one node.
 #include <Eigen/Core>

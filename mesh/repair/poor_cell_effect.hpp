@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The effect of poor cells: an estimate of the stiffness that they add, without the next stages.
 //

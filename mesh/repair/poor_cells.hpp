@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cells below the target quality: where they are, their effect, and when they are refused.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cell quality, and positions of the worst cells.
 #include <Eigen/Core>

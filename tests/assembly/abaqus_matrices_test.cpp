@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Our matrices against those that Abaqus wrote for a beam of C3D10 elements.
 #include <gtest/gtest.h>
 

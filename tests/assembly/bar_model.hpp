@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A bar to couple, hold and load, and dense solves of it.
 #include <gtest/gtest.h>

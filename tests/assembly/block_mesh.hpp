@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Meshes of bricks and rings for tests, without a mesh generator.
 #include <Eigen/Core>

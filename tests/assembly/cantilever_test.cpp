@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A cantilever against beam theory and against CalculiX on the same mesh.
 #include <gtest/gtest.h>
 

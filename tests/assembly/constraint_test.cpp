@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points, rigid and distributing couplings and equations against Lagrange multipliers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Materials from a file, thermal loads and lumped mass of an entire mesh.
 #include "core/fe/material.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Order of convergence with a manufactured solution on the unit cube.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patch tests: fields that the elements can represent come out exactly on distorted meshes.
 #include <gtest/gtest.h>
 

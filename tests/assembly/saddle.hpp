@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reference solution for all couplings: constrained minimisation by Lagrange multipliers, dense.
 #include <Eigen/Core>

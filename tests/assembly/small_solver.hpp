@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Direct solves of small test models by Eigen alone.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // [[spring]]: its contribution to K, the motions that it holds, and cells of rigid bodies.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quadratic cells whose mid-side nodes follow the ends of their edges.
 #include <gtest/gtest.h>
 

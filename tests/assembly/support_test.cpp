@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unattached points, supports in any directions, equations that constrain a rigid motion.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ties of non-matching surfaces.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Meshes of two parts in contact without common nodes.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The response functions of bench/ on two masses and two springs, against the 2 x 2 system solved by hand, and on a chain."""
 import pathlib
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Motions below the absolute tolerance of [accuracy]: dynamics reports the error of its velocities and a remedy."""
 import re
 import unittest

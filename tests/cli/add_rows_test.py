@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Rows of T that are added to a condensed part later, and the stored elimination permutation."""
 import json
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: one clear line, the right exit code, older artefacts untouched."""
 import unittest
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """--blas NAME|auto: selects the OpenBLAS kernel, whatever the environment says."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The certificate of a reduced part: printed, omitted on request, verified by the full model, checked by readers."""
 import hashlib
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reduced parts written for other programs, and matrices of others read."""
 import json
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter-mesh --faces, its picture, and CAD files without a description."""
 import json
 import os

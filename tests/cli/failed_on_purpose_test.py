@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A factorisation, an eigen-solve or a count that fails leaves no file, neither the final nor a temporary one,
 and does not change an older result (hard cases A4, C1, C2; H1)."""
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded before Gmsh (LD_PRELOAD): its mesher fails in the way that CLATTER_TEST_GMSH names;
 // with the prefix "curved-" only where elements follow the curvature, with "frontal-" only with the
 // frontal algorithm. Otherwise the call is passed on to Gmsh.

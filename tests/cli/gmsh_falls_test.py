@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter-mesh when Gmsh crashes, exits, hangs or exhausts memory (hard case N17): one line, exit 3, no file left."""
 import os
 import pathlib

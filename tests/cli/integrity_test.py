@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A flipped bit in a finished artefact: programs that read the number or text refuse it, `clatter info --verify`
 names it; files without checksums are read."""
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A full disk and a killed stage: no partial file under the final name, the older artefact intact."""
 import os
 import pathlib

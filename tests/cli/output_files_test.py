@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Outputs never overwrite inputs, and an output that cannot be written is an error before any work
 (hard cases N18, N11)."""
 import os

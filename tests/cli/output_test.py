@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Output streams of each program: results on stdout, progress and warnings on stderr, one line of JSON instead."""
 import json
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the stages for tests: a small pipeline made once, and checks of a stage's errors."""
 import hashlib
 import os

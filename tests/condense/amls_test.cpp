@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Condensation with fixed-interface modes by multilevel substructuring.
 #include <gtest/gtest.h>
 

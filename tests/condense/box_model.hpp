@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A free elastic box of springs as an assembled model, with sets on its faces; a chain for sums by
 // hand.

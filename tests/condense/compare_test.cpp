@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Comparison of models and the files of modes and reduced models.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Craig-Bampton against hand-computed values, against the full model, and its invariants.
 #include <gtest/gtest.h>
 

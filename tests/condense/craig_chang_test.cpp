@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body's own modes with residual flexibility of the boundary.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The cut-off for a requested accuracy.
 #include "condense/cutoff_search.hpp"
 

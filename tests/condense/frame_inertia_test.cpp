@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of bodies whose frame accelerates and rotates, eq. (9): against the sum over partial
 // masses, Euler's equations, a stretched bar and a whirling mass.
 #include "condense/frame_inertia.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Responses of a reduced body besides its frequencies (hard case B2), its number of rigid motions
 // (B4), and the location of an unconnected part (C1).
 #include <gtest/gtest.h>

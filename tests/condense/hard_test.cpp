@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Failures of reduced bodies in practice (hard cases B3, B4, B5, B8).
 #include <gtest/gtest.h>
 

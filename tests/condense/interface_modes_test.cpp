@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reduction of the boundary: characteristic constraint modes and the work of a film.
 #include "condense/interface_modes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static responses to loads as basis vectors.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options of a .rom.toml besides boundary and modes.
 #include <gtest/gtest.h>
 

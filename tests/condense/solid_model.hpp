@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small solid parts, meshed and assembled in memory.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The streamed static reduction against the shapes themselves.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sample commands of READMEs and documents: found in their text, and checked without running them."""
 import dataclasses
 import fnmatch

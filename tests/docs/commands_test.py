@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sample commands of READMEs and documents.
 
 Each is checked: its program, options, make targets and tests exist. Each in a block of a README is run as written,

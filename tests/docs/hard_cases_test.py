@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """docs/hard-cases.md, the tests named after its cases, and the citations in the sources agree."""
 import re
 import unittest

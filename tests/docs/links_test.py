@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Link targets exist, and so do files that CONTRIBUTING.md and others name without a folder."""
 import re
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """docs/references.bib and the citations in sources, READMEs and documents agree.
 
 What counts as a citation (text unwrapped, of C++ and CMake only comments):

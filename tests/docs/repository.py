@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The files of the repository and the tests in them, for the tests of the documents."""
 import ast
 import pathlib

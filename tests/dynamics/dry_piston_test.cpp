@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rigid piston without contact is a quadrature of known forces.
 #include <gtest/gtest.h>
 

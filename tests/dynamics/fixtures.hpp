@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small bodies and elements for the dynamics tests.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard cases T: time integration with stiff contacts.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard case B1: high frequencies of a reduced body must not limit the step.
 #include <gtest/gtest.h>
 

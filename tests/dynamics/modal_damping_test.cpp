@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal damping by table: the damping of the body's oscillators, and the decay of free vibration.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Complete scenes from TOML to the run file, with synthetic reduced models.
 #include <gtest/gtest.h>
 

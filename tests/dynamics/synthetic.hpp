@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reduced models defined without a mesh: simple bodies with known solutions.
 #include <filesystem>

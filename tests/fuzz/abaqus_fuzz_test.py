@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A minute of libFuzzer over the Abaqus reader."""
 import sys
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the fuzzing target of a reader with clang and runs it for a bounded time."""
 import os
 import pathlib

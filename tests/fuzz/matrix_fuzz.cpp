@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Any text is either a symmetric matrix or an InputError: no crash, no hang, no runaway memory.
 // The result is a lower triangle of finite values.
 #include <sys/mman.h>

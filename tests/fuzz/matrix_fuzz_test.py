@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A minute of libFuzzer over the reader of matrices in text files."""
 import sys
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter-mesh as a process on parts that are difficult to mesh (odd_parts.cpp), with random settings.
 
 Whatever the part and the settings: it ends within its limits with exit code 0, 2, 3 or 4; with 0 it prints the quality of the mesh, otherwise one error line; it leaves no file, no process and nothing on stdout but the requested output.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter-mesh as a process ends properly on every part: a short seeded run, and a long one for `make validate`."""
 import os
 import sys

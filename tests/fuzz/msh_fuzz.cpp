@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Any text is either a Gmsh file or an InputError: no crash, no hang, no runaway memory.
 #include <cstddef>
 #include <cstdint>

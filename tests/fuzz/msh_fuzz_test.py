@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A minute of libFuzzer over the scan of Gmsh files."""
 import sys
 import unittest

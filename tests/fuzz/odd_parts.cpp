@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts that are difficult to mesh, as STEP files: odd_parts KIND SEED FILE. Dimensions are random
 // by the seed, lengths in mm. Without arguments it lists the kinds.
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs a fuzzing target over the files of a folder, without libFuzzer.
 #include <cstddef>
 #include <cstdint>

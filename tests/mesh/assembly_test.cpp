@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Several solids in one CAD file: each is complete in the mesh, whatever OpenCASCADE integrates.
 #include <gmsh.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The unit of a CAD file; the default description for a CAD file alone.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Node orders, validity and quality against cases that can be checked by hand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gmsh in a child process: identical results, errors of the same kind, crashes reported.
 #include <gtest/gtest.h>
 

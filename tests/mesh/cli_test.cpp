@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-mesh from the command line: exit codes, one line on stderr, no files left.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

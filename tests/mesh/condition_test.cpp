@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Flat cells make K ill-conditioned: its largest eigenvalue is about that of its worst cell
 // (Shewchuk, "What is a good linear finite element?", 2002).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes of faces from points and normals: small patches anywhere in space.
 #include <gtest/gtest.h>
 

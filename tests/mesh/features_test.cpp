@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small features of CAD parts: reported, removed on request; a larger size gives fewer cells.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh in files: round trips, and what a reader refuses.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A box as an IGES 5.3 file: six rational B-spline surfaces (type 128) of degree 1, nothing else.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard cases of gmsh and OpenCASCADE (docs/hard-cases.md, section G), on small parts.
 #include <gtest/gtest.h>
 

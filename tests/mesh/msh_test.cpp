@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gmsh files: all cells, both versions, text and binary; what a physical group may say (hard case
 // G4) and what is refused.
 #include <gmsh.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of a mesh by METIS: hard cases M1 to M5.
 #include <gtest/gtest.h>
 

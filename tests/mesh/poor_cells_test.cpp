@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poor cells: true against estimated effect, and when a mesh is refused.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The number of cells is known before meshing to a factor of two, and absurd ones are refused.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What lifts slivers and unfolds curved cells, on meshes that can be drawn by hand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces found by where faces lie.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shape functions, node orders and det J bounds of every cell.
 #include "core/mesh/shape.hpp"
 

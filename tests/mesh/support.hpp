@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small meshes and folders that the tests share.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Universal files as Gmsh's own reader understands them.
 #include <gmsh.h>
 #include <gtest/gtest.h>

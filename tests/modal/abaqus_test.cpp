@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices that Abaqus wrote for a C3D10 beam, in N, mm and t: ten frequencies known.
 #include <gtest/gtest.h>
 

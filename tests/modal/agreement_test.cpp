@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // ARPACK, block Lanczos and AMLS on an elastic solid: the same frequencies, the same motions.
 #include <gtest/gtest.h>
 

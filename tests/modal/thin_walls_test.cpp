@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard cases N15 and N16: sheets, strips, jumps of stiffness and of mass, many bodies, no mass.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

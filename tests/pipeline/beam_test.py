@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """samples/beam through make: results, what is rebuilt, bit-identical repetition."""
 import os
 import pathlib

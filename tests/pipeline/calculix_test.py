@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The beam's frequencies compared with CalculiX on the same exported mesh."""
 import pathlib
 import shutil

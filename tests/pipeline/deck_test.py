@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A deck goes through mesh, assembly and modal by itself; CalculiX solves the same deck."""
 import pathlib
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A finished mesh is exported to every format without meshing again; MED is read back by its own library."""
 import pathlib
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The lines of docs/formats.md that read a sparse matrix work, and its tables list every name in an artefact."""
 import os
 import pathlib

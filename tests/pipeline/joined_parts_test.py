@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A part cut in two, each half condensed to the cut, and rejoined: the modes are those of the uncut part."""
 import itertools
 import pathlib

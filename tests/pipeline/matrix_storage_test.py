@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """K and M of one cell of each type, entry by entry, compared with those that CalculiX writes
 with SOLVER=MATRIXSTORAGE. Differences are due to the quadrature
 only, as an independent implementation (reference_cell.py) with CalculiX's points shows."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Methods of the condensation from TOML to files, compared with SciPy: own modes, load shapes, modal damping."""
 import pathlib
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """An independent implementation of isoparametric cells in numpy, for comparison: shape functions by inverting the
 monomials at the nodes, any quadrature rule. Coordinates of the reference cells as in core/mesh/cell.hpp; nodes
 in the order of Abaqus."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Mode shapes and static results as VTK reads them."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A cube on springs: against a hand calculation, and against CalculiX on the same deck."""
 import pathlib
 import shutil

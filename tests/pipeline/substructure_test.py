@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Guyan's matrix of CalculiX's own deck `substructure`: a cantilever of C3D20R of which 20 nodes are retained.
 
 The installed CalculiX 2.20 does not condense: its *SUBSTRUCTURE GENERATE prints K_bb for this deck, the stiffness

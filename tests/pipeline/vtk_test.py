@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """VTK's cells have positive volumes and outward faces in an exported .vtu of every cell type."""
 import pathlib
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a field file and its XDMF as another program would: resolves every reference, compares every
 shape, and computes the total power again from the complex lines. Exit code 0 when all are consistent."""
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From run to field file and back: the values read equal those written.
 #include <gtest/gtest.h>
 

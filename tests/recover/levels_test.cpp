@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Third octaves, weighting and decibels against published values.
 #include "recover/levels.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quadratic form, ERP and classic radiators.
 #include "recover/radiated_power.hpp"
 

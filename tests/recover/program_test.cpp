@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The program from the command line: exit codes, one-line messages, unchanged older results.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Areas, normals and weights of a skin against hand-computed values.
 #include "recover/skin.hpp"
 

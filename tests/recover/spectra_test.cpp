@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Line spectra: amplitudes, phases, Parseval, tapers; pieces of a run.
 #include "recover/spectra.hpp"
 

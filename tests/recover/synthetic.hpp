@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small skins, reduced models and runs with known solutions.
 #include <Eigen/Core>

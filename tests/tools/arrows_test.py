@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The dependencies of the design hold in #include lines, in CMake, and in the linked programs."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command `clatter`: information, report, pictures, on small synthetic artefacts."""
 import pathlib
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """clatter.mk: what is rebuilt and what is not, with stand-ins for the stages that record each call."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small artefacts with the layout of docs/formats.md and plausible values, for tests of the tools that read them."""
 import pathlib
 

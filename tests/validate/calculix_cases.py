@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The decks of calculix_decks.py: what each shows, its tolerance, and why others are refused."""
 
 PRINTED = 6e-7  # seven digits are printed

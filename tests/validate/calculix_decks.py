@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Decks of package calculix-ccx-test through clatter, against the reference output that comes with them.
 
     tests/validate/calculix_decks.py            prints the table

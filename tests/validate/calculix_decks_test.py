@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every deck of the table in docs/validation.md agrees with its reference within what the table allows."""
 import pathlib
 import tempfile

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Nodal stresses of decks of package calculix-ccx-test compared with those in CalculiX's .frd file.
 
     tests/validate/calculix_stress.py            prints the table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Nodal stresses agree with CalculiX's own on every deck of the table, within what the table allows."""
 import shutil
 import unittest

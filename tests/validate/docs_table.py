@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of docs/validation.md that commands write: each is between <!-- name --> and <!-- end -->."""
 import pathlib
 import tempfile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """HardG2: the spline-skinned engine block of the shared data becomes a valid quadratic mesh.
 
 Its skin is one wavy spline with ridges of 0.9 mm radius and 1.5 mm walls to bolt holes; OpenCASCADE

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """NAFEMS FV52, FV32 and LE10 with clatter's cells: decks of nafems_mesh.py through the executables alone.
 
     tests/validate/nafems.py            prints the tables

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Structured meshes of the NAFEMS benchmarks as Abaqus decks.
 
 A grid of bricks on the unit cube is cut into cells and mapped to the part. Every node has three integers: its indices in

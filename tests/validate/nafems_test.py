@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The main figures of the NAFEMS tables in docs/validation.md."""
 import shutil
 import unittest

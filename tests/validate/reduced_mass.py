@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frequencies of C3D20R with the mass as in CalculiX: the eight points of the stiffness, where clatter is exact."""
 import h5py
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The executables of clatter, one call each."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """samples/truck_diesel as `make demo` runs it: expected results, and its full size. Takes minutes; `make validate`."""
 import pathlib
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One artefact (HDF5 file) as its stage wrote it: attributes, inputs, certificate, timing, effects."""
 import hashlib
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The certificate of a reduced model, grouped, with unit and meaning of each figure."""
 import numpy as np
 

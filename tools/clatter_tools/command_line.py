@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input)."""
 import argparse
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contents of a field file: pieces of a run (a cycle, windows), sensors, panels, the skin."""
 import numpy as np
 

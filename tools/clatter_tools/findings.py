@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of a report, taken from artefacts; "-": not in the file."""
 import pathlib
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scalar histories of a run file over crank angle."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter info`: contents, inputs, certificate and cost of an artefact."""
 import h5py
 

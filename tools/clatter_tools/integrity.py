@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checksums of an artefact: which datasets and texts have one, and whether anything was damaged."""
 import h5py
 

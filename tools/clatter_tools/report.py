@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter report`: results of the runs of a folder, cost of each stage, paths of pictures."""
 import pathlib
 

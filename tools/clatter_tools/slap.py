@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The slap in a sensor's acceleration: its time, height, ringing time and high-frequency content.
 
 Below FROM_HZ a sensor measures the motion of the block on its mounts, which is unrelated to an impact: all figures are of the

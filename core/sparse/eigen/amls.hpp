@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Automated multilevel substructuring: many modes at engineering accuracy from modes of
 // substructures.

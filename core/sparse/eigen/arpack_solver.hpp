@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Implicitly restarted Lanczos by ARPACK, shift-invert mode: the reference eigen-solver.
 #include "core/sparse/eigen/shift_invert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Block Lanczos with thick restart: reads the factor once for a block of vectors, which makes it
 // several times faster than ARPACK for many modes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // All eigenpairs of a small model by dense algebra: the fallback where Lanczos has no subspace
 // (hard case A6), and the reference of the tests.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The eigen-solvers by name, and the options that select one.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The modes of K x = lambda M x by count or by frequency, with a proof that none is missing.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Projects eigenvectors that are known in advance out of an operator.
 #include <Eigen/Core>

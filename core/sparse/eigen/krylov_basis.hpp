@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A tall row-major basis, and the products that block Krylov methods need.
 #include <Eigen/Core>

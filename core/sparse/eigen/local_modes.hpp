@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The modes of a substructure: the largest eigenvalues of its diagonal block of an operator.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Static condensation of massless DoFs where few masses remain.
 #include "core/sparse/eigen/eigen_solver.hpp"

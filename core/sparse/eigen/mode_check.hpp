@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Post-processing of computed modes: residuals, original row order, signs.
 #include "core/sparse/eigen/eigen_solver.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Estimated distribution of eigenvalues, from a few random vectors.
 #include <vector>

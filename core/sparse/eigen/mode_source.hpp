@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The lowest modes of one problem by the requested solver: dense, block Lanczos, ARPACK or AMLS.
 // Completeness is checked by the caller.

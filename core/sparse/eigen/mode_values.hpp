@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Conversion of eigenvalues and frequencies, and a default shift.
 #include "core/base/sparse.hpp"

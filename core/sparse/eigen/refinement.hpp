@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One step of subspace iteration with Rayleigh-Ritz.
 #include "core/sparse/eigen/shift_invert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Input and result of an eigen-solver for K x = lambda M x.
 #include <Eigen/Core>

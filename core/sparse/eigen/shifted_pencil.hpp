@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // K - sigma M, factorised: the operator of all sparse eigen-solvers, and the choice of its shift.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Substructures of a nested dissection: the blocks of unknowns with their own modes in AMLS.
 #include <vector>

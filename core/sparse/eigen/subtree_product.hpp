@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The symmetric shift-invert operator on subtrees of a factor.
 #include <vector>

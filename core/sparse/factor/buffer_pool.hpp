@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reuse of arrays: the kernel clears every new page, which costs more than the arithmetic.
 #include <map>

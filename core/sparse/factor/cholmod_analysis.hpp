@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Supernodes of a sparse factor by CHOLMOD's symbolic analysis.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Counts the eigenvalues below a limit, as proof that no mode was missed.
 #include <cstdint>

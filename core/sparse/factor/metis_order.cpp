@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/factor/metis_order.hpp"
 
 #include <metis.h>

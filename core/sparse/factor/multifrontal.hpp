@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Multifrontal elimination along the supernode tree, with parallel subtrees.
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/factor/mumps_inertia.hpp"
 
 #include <dmumps_c.h>

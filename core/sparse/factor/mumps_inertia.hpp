@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The same count by MUMPS (Amestoy, Duff, L'Excellent and Koster 2001): used where our own pivots
 // are too small, and as reference in tests.

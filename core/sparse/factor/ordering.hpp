@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Fill-reducing permutations, which determine fill, memory and time.
 #include <cstdint>

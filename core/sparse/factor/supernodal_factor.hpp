@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Sparse supernodal Cholesky factorisation with accuracy checks, and solves at BLAS-3 speed.
 #include <Eigen/Core>

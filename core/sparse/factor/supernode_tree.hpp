@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Symbolic structure of a sparse factor: supernodes, their rows, and the elimination tree.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Inner loops of triangular solves with many right-hand sides, in registers: BLAS packs a panel for
 // every product, which costs as much as the product for only some tens of columns.

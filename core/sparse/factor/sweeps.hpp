@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Triangular solves with a supernodal factor for many right-hand sides.
 #include <cstdint>

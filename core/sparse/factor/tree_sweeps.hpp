@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parallel triangular solves: subtrees in parallel, then the top by right-hand sides.
 #include <cstdint>

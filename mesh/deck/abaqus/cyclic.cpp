@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *CYCLIC SYMMETRY MODEL with its *TIE, CYCLIC SYMMETRY.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Element types, their face numbers, and the tables of nodes and elements.
 #include <optional>

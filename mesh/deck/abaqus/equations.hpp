@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Equations as written in a deck, before transformation to the basic axes.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Keyword lines and data lines of a deck.
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // *CLOAD, *DLOAD, *DSLOAD, *TEMPERATURE: the active loads, step by step. A load that a step
 // redefines replaces that of earlier steps (OP=MOD) or all of its kind (OP=NEW); within one step

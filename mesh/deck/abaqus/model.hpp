@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // All nodes and elements of the model in one numbering: parts copied into their instances, deck
 // numbers replaced by rows.

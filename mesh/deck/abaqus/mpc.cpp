@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *MPC, to first order in the displacements.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // First pass: the entire deck into tables and cards.
 #include "mesh/deck/abaqus/scope.hpp"

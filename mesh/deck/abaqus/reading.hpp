@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Shared state of the second pass: the model, the deck being built, and the map of nodes.
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The content of a deck: tables of nodes and elements, sets, and the other keywords as cards. A
 // flat deck is one scope; a deck of parts has one scope per part and one for the assembly.

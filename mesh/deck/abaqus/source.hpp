@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The lines of an Abaqus deck and of its included files, in reading order.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // *BOUNDARY: fixed DoFs and their values, step by step.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Writes a mesh as an input deck of Abaqus and CalculiX.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Physical groups of the elements of a Gmsh file, and which the user ignores.
 #include <map>

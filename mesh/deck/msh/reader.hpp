@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Meshes of Gmsh: MSH 2 and MSH 4, text and binary, through the Gmsh library.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // RBE2, RBE3, MPC and CONM2.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells and nodes: deck numbers become rows; grids without cells are skipped.
 #include <fmt/format.h>
 

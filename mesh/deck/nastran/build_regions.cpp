@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Properties and materials of the cells.
 #include <fmt/format.h>
 

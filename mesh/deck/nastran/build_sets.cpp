@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SET1, and surfaces from comments.
 #include <fmt/format.h>
 

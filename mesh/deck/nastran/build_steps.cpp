@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Subcases: their loads, temperatures, supports.
 #include <fmt/format.h>
 

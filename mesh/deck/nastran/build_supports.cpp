@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SPC, SPC1, SPCADD, permanent constraints of GRID, ASET and BSET: directions are those of each
 // grid's displacement system. Nodes of solids have no rotations; grids without a node index have no
 // DoFs.

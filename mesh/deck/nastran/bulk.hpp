@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The bulk data as written: numbers, units and coordinate systems of the deck.
 #include <array>

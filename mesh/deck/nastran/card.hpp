@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A card of bulk data with all its continuation lines, and access to its fields by type.
 #include <cstdint>

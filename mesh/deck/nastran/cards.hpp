@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cards that are supported, skipped or refused; one function reads each.
 #include "mesh/deck/nastran/bulk.hpp"

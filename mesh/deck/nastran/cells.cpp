@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cards of nodes, coordinate systems and cells.
 #include <fmt/format.h>
 

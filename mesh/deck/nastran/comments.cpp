@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // "$ clatter" comments (writer.hpp): content that Nastran has no card for.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cards of couplings, masses, supports and sets.
 #include <fmt/format.h>
 

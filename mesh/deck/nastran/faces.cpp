@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces of solids from PLOAD4.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One physical line of bulk data split into its fields, and the numbers in them.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Joins physical lines to cards: continuations in every form, INCLUDE, ENDDATA.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cards of loads, temperatures and eigenvalue requests.
 #include <fmt/format.h>
 

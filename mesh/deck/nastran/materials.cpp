@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cards of properties and materials.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells with only some mid-side nodes, as between linear and quadratic cells. Without the mid-side
 // node of an edge the cell's displacement is linear along it, as with a mid-side node whose
 // displacement is the mean of the edge's ends: such a node is added and recorded as hanging.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Builds the Deck from the cards: shared state, and the functions in call order.
 #include "mesh/deck/id_index.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Nastran bulk data decks (MSC, NX, Simcenter) of solids.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Active sets: SPC and MPC sets, their sums (SPCADD, MPCADD) and the selection by a case control.
 #include <fmt/format.h>

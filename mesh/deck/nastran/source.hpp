@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Physical lines of a Nastran deck and of all included files.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The mesh as a Nastran bulk data deck that our reader reads back without loss.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Supports, loads and cases of recipe_text.hpp.
 #include <string>

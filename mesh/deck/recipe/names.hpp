@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Names of nodes for text.hpp: points, and node sets of the mesh that are made on demand.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The content of a deck besides its mesh, as the fe.toml of clatter-assembly.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A child process that aborts, hangs, exhausts memory, exits or throws a non-exception (hard case
 // N17): each is reported, nothing is left over, and results are returned completely.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Flipped bits in a finished file: no reader accepts a wrong number or string, and nothing crashes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices and DoF maps in text files: exact round trips, errors with file and line.
 #include <gtest/gtest.h>
 

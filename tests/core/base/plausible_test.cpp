@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values in a wrong unit are reported with a guess; plausible values give no warning.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Multilevel substructuring against dense spectra and block Lanczos.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eigen-solvers against closed forms and against each other.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factorisations and products against dense algebra.
 #include <gtest/gtest.h>
 

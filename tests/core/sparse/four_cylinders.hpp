@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A block with four equal cylinders in a row, the typical symmetry of engines.
 #include <array>

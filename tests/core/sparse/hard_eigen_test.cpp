@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cases in which ARPACK fails or misleads.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factorisations that must be refused but that other solvers accept.
 #include <gtest/gtest.h>
 

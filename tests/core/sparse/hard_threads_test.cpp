@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reuse of permutations (hard case C7); threads that help or at least do no harm (C8).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Memory limits: what is chosen, spilled or refused.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small models with known or cheaply computed spectra: chains and elastic boxes of springs.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unit tests of the sparse factor: permutation, tree, sweeps, boundary, counts.
 #include <gtest/gtest.h>
 

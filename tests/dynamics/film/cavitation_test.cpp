@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The oscillating squeeze film of Ausas, Jai and Buscaglia 2009: distinguishes conserving solvers
 // from others.
 #include <gtest/gtest.h>

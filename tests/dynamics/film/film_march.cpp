@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "film_march.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Helpers of the film tests: one-dimensional strips, marching in time, a rigid body thrown at a
 // wall.

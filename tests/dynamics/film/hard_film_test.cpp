@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard cases R2, R3, R4 of the film kernel.
 #include <gtest/gtest.h>
 

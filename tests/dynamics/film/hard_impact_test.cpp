@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard case R1: a piston thrown at the wall.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hard case R6: the element's tangent against central differences, in every regime.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Journal bearings: long with the Reynolds condition at rupture, short (Ocvirk).
 #include <gtest/gtest.h>
 

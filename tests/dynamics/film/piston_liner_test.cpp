@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The piston-liner element: resultants, power, content under the tableau, effects.
 #include "dynamics/film/piston_liner.hpp"
 

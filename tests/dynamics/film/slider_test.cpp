@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Steady sliders with known answers; references in the comments.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Squeeze films with known answers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Oil carried along by the wall where the film is cavitated.
 #include <gtest/gtest.h>
 

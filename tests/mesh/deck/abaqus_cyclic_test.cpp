@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *CYCLIC SYMMETRY MODEL: the sector is expanded to the ring.
 #include <gmock/gmock.h>
 

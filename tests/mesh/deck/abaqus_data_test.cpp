@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Public decks (shared/data).
 #include <fstream>
 #include <sstream>

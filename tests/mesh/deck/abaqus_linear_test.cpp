@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CENTRIF, *MPC PLANE and STRAIGHT, constants by temperature.
 #include <gmock/gmock.h>
 

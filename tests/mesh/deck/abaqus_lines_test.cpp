@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files, lines, keywords, numbers.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Materials and the systems of their axes.
 #include <cmath>
 

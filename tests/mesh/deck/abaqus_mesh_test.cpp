@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes, elements, sets, surfaces, sections, instances.
 #include <Eigen/Geometry>
 #include <Eigen/LU>

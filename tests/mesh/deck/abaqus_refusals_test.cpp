@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Truncated decks, and several refusals at once.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *SPRING and *DASHPOT, *MPC MEANROT, steps with the stiffness of loads.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Parts of decks that the Abaqus tests combine.
 #include <gtest/gtest.h>

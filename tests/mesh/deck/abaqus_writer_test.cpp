@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A written deck is read back as the same mesh.
 #include <fmt/format.h>
 

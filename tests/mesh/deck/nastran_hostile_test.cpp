@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hostile decks: each is refused quickly with one clear line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

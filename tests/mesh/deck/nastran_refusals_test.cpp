@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Truncated bulk data, several refusals at once, RFORCE.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks of public projects (shared/data/SOURCES.md). Counts, volumes and positions were computed
 // from the files with NumPy, independently of this reader.
 #include <gmock/gmock.h>

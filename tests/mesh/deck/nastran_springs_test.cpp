@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CELAS1, CELAS2 and PELAS.
 #include <gmock/gmock.h>
 

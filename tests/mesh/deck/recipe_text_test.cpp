@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fe.toml of a deck, read back by clatter-assembly's own reader.
 #include "mesh/deck/recipe/text.hpp"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures from artefacts: one function per picture, one style for all."""
 from . import accelerations, faces, film, piston, quality, radiation, shape, style
 

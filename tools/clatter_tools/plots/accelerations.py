@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Acceleration of liner and block around firing TDC, as in figures 9 and 10 of the paper."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The faces of a part with their numbers, for selecting them."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The oil film between skirt and liner."""
 from . import style
 from ..artefact import BadArtefact

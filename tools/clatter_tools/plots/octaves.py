@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Third-octave spectra as stairs with nominal frequencies below."""
 import numpy as np
 

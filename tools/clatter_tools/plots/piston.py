@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The piston's secondary motion over crank angle."""
 from . import style
 from ..histories import centred, crank_angle, has, history, last_cycle

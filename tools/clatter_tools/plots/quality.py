@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Quality of mesh cells: histograms by cell type, the worst cells with number and position."""
 import numpy as np
 

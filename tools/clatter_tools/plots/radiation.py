@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Equivalent radiated power (ERP) of the skin."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A small z-buffer renderer: triangles to an image, with shading and element edges, by NumPy alone."""
 import numpy as np
 

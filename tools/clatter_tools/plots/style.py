@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The common style: sizes, colours, labels, and saving of pictures."""
 import os
 import pathlib
