@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "assembly/build.hpp"
-#include "assembly/matrix_import.hpp"
+#include "assembly/import/matrix_import.hpp"
+#include "assembly/model/build.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/command_line.hpp"
 #include "core/base/error.hpp"

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
-#include "condense/certificate.hpp"
-#include "condense/cutoff_search.hpp"
-#include "condense/frame_inertia.hpp"
-#include "condense/modal_damping.hpp"
-#include "condense/recovery_rows.hpp"
+#include "condense/basis/cutoff_search.hpp"
+#include "condense/basis/frame_inertia.hpp"
+#include "condense/basis/modal_damping.hpp"
+#include "condense/certify/certificate.hpp"
+#include "condense/rows/recovery_rows.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/free_motions.hpp"
 

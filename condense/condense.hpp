@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "condense/craig_bampton.hpp"
-#include "condense/interface_modes.hpp"
+#include "condense/basis/craig_bampton.hpp"
+#include "condense/interface/interface_modes.hpp"
 #include "core/base/config.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fe/fe_model.hpp"

@@ -14,9 +14,9 @@
 #include <iterator>
 
 #include "condense/add_rows.hpp"
+#include "condense/certify/verify.hpp"
 #include "condense/condense.hpp"
 #include "condense/export/export.hpp"
-#include "condense/verify.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"

@@ -14,8 +14,8 @@
 #include "core/base/planned_files.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/units.hpp"
-#include "dynamics/gas_cycle.hpp"
-#include "dynamics/run_file.hpp"
+#include "dynamics/given/gas_cycle.hpp"
+#include "dynamics/run/run_file.hpp"
 
 namespace {
 

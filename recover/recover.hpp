@@ -8,9 +8,9 @@
 
 #include "core/base/h5_file.hpp"
 #include "core/base/stopwatch.hpp"
-#include "recover/exports.hpp"
-#include "recover/options.hpp"
-#include "recover/run_input.hpp"
+#include "recover/field/exports.hpp"
+#include "recover/options/options.hpp"
+#include "recover/run/run_input.hpp"
 
 namespace clatter::recover {
 

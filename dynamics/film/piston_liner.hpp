@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/element.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/film/reynolds.hpp"
+#include "dynamics/force/element.hpp"
 
 namespace clatter::film {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/system.hpp"
+#include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
 

@@ -11,8 +11,8 @@
 #include "dynamics/integrate/newton.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/statistics.hpp"
+#include "dynamics/integrate/system.hpp"
 #include "dynamics/integrate/tableau.hpp"
-#include "dynamics/system.hpp"
 
 namespace clatter::dynamics {
 

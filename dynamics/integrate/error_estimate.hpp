@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
-#include "dynamics/system.hpp"
+#include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
 

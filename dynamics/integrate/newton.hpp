@@ -8,7 +8,7 @@
 #include "dynamics/integrate/accuracy.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/statistics.hpp"
-#include "dynamics/system.hpp"
+#include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
 

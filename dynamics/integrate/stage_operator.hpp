@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/system.hpp"
+#include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/LU>
 
-#include "assembly/dof_numbers.hpp"
-#include "assembly/member_group.hpp"
-#include "assembly/rigid_coupling.hpp"
+#include "assembly/coupling/dof_numbers.hpp"
+#include "assembly/coupling/member_group.hpp"
+#include "assembly/coupling/rigid_coupling.hpp"
 #include "bar_model.hpp"
 #include "tests/refusal.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/contact_patch.hpp"
+#include "assembly/coupling/contact_patch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "assembly/load_case.hpp"
+#include "assembly/load/load_case.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "small_solver.hpp"

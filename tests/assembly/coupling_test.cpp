@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/coupling.hpp"
+#include "assembly/coupling/coupling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "assembly/elimination.hpp"
+#include "assembly/constraint/elimination.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"

@@ -5,9 +5,9 @@
 #include <Eigen/QR>
 #include <random>
 
-#include "assembly/coupling.hpp"
-#include "assembly/elimination.hpp"
-#include "assembly/mass_properties.hpp"
+#include "assembly/constraint/elimination.hpp"
+#include "assembly/coupling/coupling.hpp"
+#include "assembly/load/mass_properties.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "assembly/coupling.hpp"
-#include "assembly/mass_properties.hpp"
+#include "assembly/coupling/coupling.hpp"
+#include "assembly/load/mass_properties.hpp"
 #include "block_mesh.hpp"
 #include "core/base/threads.hpp"
 #include "core/fe/assemble.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/load_case.hpp"
-#include "assembly/mass_properties.hpp"
+#include "assembly/load/load_case.hpp"
+#include "assembly/load/mass_properties.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"

@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "assembly/thermal_load.hpp"
+#include "assembly/load/thermal_load.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"

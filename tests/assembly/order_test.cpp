@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/mass_integral.hpp"
+#include "assembly/load/mass_integral.hpp"
 #include "block_mesh.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/element.hpp"

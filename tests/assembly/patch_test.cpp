@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "assembly/surface_integral.hpp"
+#include "assembly/surface/surface_integral.hpp"
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"

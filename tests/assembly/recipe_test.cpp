@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "assembly/recipe.hpp"
+#include "assembly/recipe/recipe.hpp"
 
 #include <gtest/gtest.h>
 

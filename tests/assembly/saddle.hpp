@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "assembly/coupling.hpp"
-#include "assembly/rigid_coupling.hpp"
+#include "assembly/coupling/coupling.hpp"
+#include "assembly/coupling/rigid_coupling.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace clatter::assembly::testing {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/build.hpp"
+#include "assembly/model/build.hpp"
 #include "core/base/sparse.hpp"
 #include "core/fe/material.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "assembly/build.hpp"
+#include "assembly/model/build.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/boundary.hpp"
 #include "one_cell.hpp"

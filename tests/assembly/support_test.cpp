@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "assembly/dof_numbers.hpp"
+#include "assembly/coupling/dof_numbers.hpp"
 #include "bar_model.hpp"
 #include "core/fe/axes.hpp"
 #include "tests/refusal.hpp"

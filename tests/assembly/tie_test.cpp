@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "assembly/surface_integral.hpp"
+#include "assembly/surface/surface_integral.hpp"
 #include "assembly/tie/clip.hpp"
 #include "assembly/tie/mortar.hpp"
 #include "block_mesh.hpp"

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "condense/certificate.hpp"
+#include "condense/certify/certificate.hpp"
 #include "condense/condense.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"

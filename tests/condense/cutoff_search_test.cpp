@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cut-off for a requested accuracy.
-#include "condense/cutoff_search.hpp"
+#include "condense/basis/cutoff_search.hpp"
 
 #include <gtest/gtest.h>
 

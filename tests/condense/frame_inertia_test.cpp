@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of bodies whose frame accelerates and rotates, eq. (9): against the sum over partial
 // masses, Euler's equations, a stretched bar and a whirling mass.
-#include "condense/frame_inertia.hpp"
+#include "condense/basis/frame_inertia.hpp"
 
 #include <gtest/gtest.h>
 

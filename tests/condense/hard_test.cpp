@@ -4,7 +4,7 @@
 
 #include <Eigen/SVD>
 
-#include "condense/certificate.hpp"
+#include "condense/certify/certificate.hpp"
 #include "condense/condense.hpp"
 #include "core/base/log.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"

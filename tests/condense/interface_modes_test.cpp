@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reduction of the boundary: characteristic constraint modes and the work of a film.
-#include "condense/interface_modes.hpp"
+#include "condense/interface/interface_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "condense/condense.hpp"
 #include "condense/export/export.hpp"
-#include "condense/film_work.hpp"
+#include "condense/interface/film_work.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/log.hpp"
 #include "core/modes/analysis.hpp"

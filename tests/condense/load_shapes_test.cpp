@@ -5,8 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
+#include "condense/basis/shape_basis.hpp"
 #include "condense/condense.hpp"
-#include "condense/shape_basis.hpp"
 #include "core/base/log.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"

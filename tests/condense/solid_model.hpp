@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "assembly/build.hpp"
+#include "assembly/model/build.hpp"
 #include "block_mesh.hpp"
 #include "core/base/log.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <set>
 
-#include "condense/reduced_basis.hpp"
+#include "condense/basis/reduced_basis.hpp"
 #include "core/base/log.hpp"
 #include "core/base/threads.hpp"
 #include "core/fe/free_motions.hpp"

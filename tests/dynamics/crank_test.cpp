@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "dynamics/crank.hpp"
-#include "dynamics/gas_cycle.hpp"
+#include "dynamics/given/crank.hpp"
+#include "dynamics/given/gas_cycle.hpp"
 
 namespace clatter::dynamics {
 namespace {

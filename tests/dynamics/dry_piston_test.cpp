@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "dynamics/gas_cycle.hpp"
-#include "dynamics/model.hpp"
+#include "dynamics/given/gas_cycle.hpp"
+#include "dynamics/run/model.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/synthetic.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "core/rom/reduced_model.hpp"
-#include "dynamics/element.hpp"
+#include "dynamics/body/modal_body.hpp"
+#include "dynamics/force/element.hpp"
 #include "dynamics/integrate/dirk.hpp"
-#include "dynamics/modal_body.hpp"
-#include "dynamics/system.hpp"
+#include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "dynamics/energy.hpp"
-#include "dynamics/radial_law.hpp"
+#include "dynamics/force/radial_law.hpp"
+#include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 
 namespace clatter::dynamics {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/energy.hpp"
+#include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 
 namespace clatter::dynamics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/joint.hpp"
+#include "dynamics/force/joint.hpp"
 
 #include <gtest/gtest.h>
 

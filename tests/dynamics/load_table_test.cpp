@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/load_table.hpp"
+#include "dynamics/given/load_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "dynamics/gas_cycle.hpp"
+#include "dynamics/given/gas_cycle.hpp"
 
 namespace clatter::dynamics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/modal_body.hpp"
+#include "dynamics/body/modal_body.hpp"
 
 #include <gtest/gtest.h>
 

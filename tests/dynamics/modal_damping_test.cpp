@@ -7,7 +7,7 @@
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
-#include "dynamics/modal_body.hpp"
+#include "dynamics/body/modal_body.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/synthetic.hpp"
 

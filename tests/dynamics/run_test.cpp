@@ -9,8 +9,8 @@
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
-#include "dynamics/gas_cycle.hpp"
-#include "dynamics/run_file.hpp"
+#include "dynamics/given/gas_cycle.hpp"
+#include "dynamics/run/run_file.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Third octaves, weighting and decibels against published values.
-#include "recover/levels.hpp"
+#include "recover/spectrum/levels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quadratic form, ERP and classic radiators.
-#include "recover/radiated_power.hpp"
+#include "recover/skin/radiated_power.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <complex>
 #include <numbers>
 
-#include "recover/expand.hpp"
-#include "recover/triangle6.hpp"
+#include "recover/field/expand.hpp"
+#include "recover/skin/triangle6.hpp"
 #include "synthetic.hpp"
 
 namespace clatter::recover {

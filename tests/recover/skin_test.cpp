@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Areas, normals and weights of a skin against hand-computed values.
-#include "recover/skin.hpp"
+#include "recover/skin/skin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "recover/panels.hpp"
-#include "recover/triangle6.hpp"
+#include "recover/skin/panels.hpp"
+#include "recover/skin/triangle6.hpp"
 #include "synthetic.hpp"
 
 namespace clatter::recover {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Line spectra: amplitudes, phases, Parseval, tapers; pieces of a run.
-#include "recover/spectra.hpp"
+#include "recover/spectrum/spectra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "recover/fft.hpp"
-#include "recover/lines.hpp"
+#include "recover/spectrum/fft.hpp"
+#include "recover/spectrum/lines.hpp"
 
 namespace clatter::recover {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "assembly/recipe.hpp"
+#include "assembly/recipe/recipe.hpp"
 #include "core/base/config.hpp"
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/import.hpp"

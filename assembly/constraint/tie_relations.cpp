@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ties and bolts: nodes of a slave surface that follow a master surface.
+#include <fmt/format.h>
+
+#include "assembly/constraint/constrainer.hpp"
+#include "assembly/tie/mortar.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+constexpr double kDefaultGap = 0.1;  // of the mean slave face size
+constexpr double kNoArm = 1e-10;     // of the mean slave face size: rounding
+constexpr double kNoMotion = 1e-14;  // entries of the rotation's rows that are rounding
+
+/// The part of a slave node's motion due to its distance from the combined masters,
+/// arm = x_j - sum P_jk x_k: the masters' common rotation times the arm. So rigid motions are
+/// followed exactly across gaps and on curved faces.
+std::array<Functional, 3> rotation_rows(const ProjectedNode& row, const Eigen::Vector3d& arm,
+                                        const RowMatrix& nodes, const std::string& where) {
+  std::vector<Member> members;
+  for (const auto& [node, value] : row.on)
+    members.push_back({{3 * node, 3 * node + 1, 3 * node + 2, -1, -1, -1},
+                       nodes.row(node).transpose(),
+                       std::abs(value)});
+  const Coupling turn = distribute(members, Eigen::Vector3d::Zero(), {3, 4, 5}, where);
+  const Eigen::Matrix3d lever = rigid_motion(arm).rightCols<3>();  // theta x arm
+  const std::vector<Functional> theta = turn.nodal_rows();
+  std::array<Functional, 3> rows;
+  for (int d = 0; d < 3; ++d)
+    for (int r = 0; r < 3; ++r)
+      for (size_t k = 0; k < theta[static_cast<size_t>(r)].dofs.size(); ++k) {
+        const double value = lever(d, r) * theta[static_cast<size_t>(r)].values[k];
+        if (std::abs(value) <= kNoMotion) continue;
+        rows[static_cast<size_t>(d)].dofs.push_back(theta[static_cast<size_t>(r)].dofs[k]);
+        rows[static_cast<size_t>(d)].values.push_back(value);
+      }
+  return rows;
+}
+
+void say_result(const TieSpec& spec, const Projection& found, int held) {
+  say(fmt::format(
+      "{}: {} slave nodes tied over {:.1f} % of the slave surface, largest gap {:.3g} m", spec.name,
+      found.tied.size(), 100.0 * found.covered / found.slave_area, found.largest_gap));
+  if (!found.untied.empty())
+    say(fmt::format("{}: {} slave nodes are not tied: no master within {:.3g} m in front of them",
+                    spec.name, found.untied.size(), *spec.distance));
+  if (held > 0)
+    warn(fmt::format("{}: {} slave displacements are held by supports and not tied", spec.name,
+                     held));
+}
+
+}  // namespace
+
+void Constrainer::add_tie(const TieSpec& given, int32_t jump) {
+  TieSpec spec = given;
+  const std::vector<TieFace> slave = tie_faces(mesh_.nodes, mesh_.surface(spec.slave));
+  const std::vector<TieFace> master = tie_faces(mesh_.nodes, mesh_.surface(spec.master));
+  const double size = mean_size(slave);
+  if (!spec.distance) spec.distance = kDefaultGap * size;
+  const Projection found = project(slave, master, *spec.distance);
+  if (found.tied.empty())
+    throw InputError(
+        fmt::format("{}: found no part of {} that faces {} within {:.3g} m, expected "
+                    "some",
+                    spec.where, spec.slave, spec.master, *spec.distance));
+  const int relation = graph_.add_relation(spec.where);
+  int held = 0;
+  for (const ProjectedNode& row : found.tied) {
+    Eigen::Vector3d arm = mesh_.nodes.row(row.node).transpose();
+    for (const auto& [node, value] : row.on) arm -= value * mesh_.nodes.row(node).transpose();
+    std::array<Functional, 3> rows;
+    if (arm.norm() > kNoArm * size) rows = rotation_rows(row, arm, mesh_.nodes, spec.where);
+    for (int d = 0; d < 3; ++d) {
+      const int32_t dof = 3 * row.node + d;
+      if (graph_.is_held(dof)) {
+        ++held;
+        continue;
+      }
+      Functional& on = rows[static_cast<size_t>(d)];
+      for (const auto& [node, value] : row.on) {
+        on.dofs.push_back(3 * node + d);
+        on.values.push_back(value);
+      }
+      if (jump >= 0 && spec.direction(d) != 0.0) {
+        on.dofs.push_back(jump);
+        on.values.push_back(row.jump * spec.direction(d));
+      }
+      depend(dof, std::move(on), relation);
+    }
+  }
+  say_result(spec, found, held);
+}
+
+void Constrainer::gather_ties() {
+  for (const TieSpec& spec : recipe_.ties) {
+    if (!spec.bolt) {
+      add_tie(spec, -1);
+      continue;
+    }
+    const int32_t jump = next_own_++;
+    add_tie(spec, jump);
+    rom::DofSet set;
+    set.kind = "bolt";
+    set.dofs = {jump};
+    set.labels = {spec.name};
+    set.position = surfaces_.at(spec.slave).centroid.transpose();
+    set.direction = spec.direction.transpose();
+    set.is_rotation = {0};
+    out_.sets[spec.name] = std::move(set);
+  }
+}
+
+}  // namespace clatter::assembly

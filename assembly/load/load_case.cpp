@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/load/load_case.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace clatter::assembly {
+
+Eigen::VectorXd pressure_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * n_nodes);
+  for (size_t k = 0; k < surface.nodes.size(); ++k)
+    force.segment<3>(3 * surface.nodes[k]) =
+        -surface.normal.row(static_cast<Eigen::Index>(k)).transpose();
+  return force;
+}
+
+Eigen::VectorXd resultant_load(Eigen::Index n_nodes, const SurfaceIntegrals& surface,
+                               const Eigen::Vector3d& force) {
+  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(3 * n_nodes);
+  for (size_t k = 0; k < surface.nodes.size(); ++k)
+    nodal.segment<3>(3 * surface.nodes[k]) =
+        surface.weight(static_cast<Eigen::Index>(k)) / surface.area * force;
+  return nodal;
+}
+
+Eigen::VectorXd set_load(Eigen::Index n, const rom::DofSet& set, const Eigen::Vector3d& force,
+                         const Eigen::Vector3d& moment, const std::string& where) {
+  if (set.kind == "bolt") {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+    out(set.dofs.at(0)) = set.direction.row(0) * force;
+    return out;
+  }
+  // Nodes are counted per axis, by the DoFs along it, so that the sum along each axis is right.
+  Eigen::Vector3d can_push = Eigen::Vector3d::Zero(), can_turn = Eigen::Vector3d::Zero();
+  for (size_t k = 0; k < set.dofs.size(); ++k) {
+    const Eigen::RowVector3d direction = set.direction.row(static_cast<Eigen::Index>(k));
+    if (direction.cwiseAbs().maxCoeff() < 1.0)
+      throw InputError(fmt::format(
+          "{}: found a set with directions off the axes ({}), expected nodes or a coupling", where,
+          set.kind));
+    (set.is_rotation[k] ? can_turn : can_push) += direction.transpose().cwiseAbs2();
+  }
+  for (int d = 0; d < 3; ++d) {
+    const bool lost =
+        (force(d) != 0.0 && can_push(d) == 0.0) || (moment(d) != 0.0 && can_turn(d) == 0.0);
+    if (lost)
+      throw InputError(fmt::format(
+          "{}: found a load along {}, expected a set with a coordinate along it", where, "xyz"[d]));
+  }
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+  for (size_t k = 0; k < set.dofs.size(); ++k) {
+    const Eigen::Vector3d direction = set.direction.row(static_cast<Eigen::Index>(k)).transpose();
+    const bool turns = set.is_rotation[k] != 0;
+    const Eigen::Vector3d& load = turns ? moment : force;
+    const Eigen::Vector3d& count = turns ? can_turn : can_push;
+    for (int d = 0; d < 3; ++d)
+      if (load(d) != 0.0) out(set.dofs[k]) += direction(d) * load(d) / count(d);
+  }
+  return out;
+}
+
+}  // namespace clatter::assembly

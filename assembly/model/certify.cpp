@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/model/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "assembly/load/mass_properties.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+constexpr double kMassTolerance = 1e-9;   // ten properties, hard case B5
+constexpr double kRigidTolerance = 1e-9;  // rounding leaves 1e-12 at 1e6 DoF
+constexpr double kLargeGrowth = 1e6;      // loses six digits in every pivot displacement
+
+double largest(const Eigen::MatrixXd& values) {
+  return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// |K R| over |K| |R|, column by column: the spurious force of a rigid motion, on the coordinates
+/// or, when supports hold all of them, on the supports.
+double rigid_force(const fe::FeModel& model, const Eigen::MatrixXd& motions) {
+  const fe::FeSupports& supports = model.supports;
+  const Eigen::MatrixXd rigid = model.rigid * motions;
+  const Eigen::MatrixXd held = supports.rigid * motions;
+  const bool all_held = model.size() == 0;
+  Eigen::MatrixXd force = multiply_symmetric(all_held ? supports.K_ss : model.K,  //
+                                             all_held ? held : rigid);
+  if (!all_held && supports.size() > 0) force += supports.K_sq.transpose() * held;
+  const double stiffness =
+      largest(Eigen::VectorXd(all_held ? supports.K_ss.diagonal() : model.K.diagonal()));
+  double worst = 0.0;
+  for (Eigen::Index c = 0; c < rigid.cols(); ++c) {
+    const double motion = std::max(largest(rigid.col(c)), largest(held.col(c)));
+    worst = std::max(worst, largest(force.col(c)) / (stiffness * motion));
+  }
+  return worst;
+}
+
+/// Rigid motions (columns) that no equation constrains.
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& grounded) {
+  if (grounded.rows() == 0) return Eigen::MatrixXd::Identity(6, 6);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(grounded);
+  if (lu.dimensionOfKernel() == 0) return Eigen::MatrixXd(6, 0);
+  return lu.kernel();
+}
+
+void require_below(const std::string& name, const char* what, double found, double limit) {
+  // Written so that NaN fails too.
+  if (found <= limit) return;
+  throw NumericsError(
+      fmt::format("{}: {}: found {:.3g}, expected at most {:.1g}", name, what, found, limit));
+}
+
+}  // namespace
+
+std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
+                                      fe::MassForm mass) {
+  const Elimination& elimination = constrained.elimination;
+  std::map<std::string, double> numbers;
+  numbers["dofs"] = model.size();
+  numbers["dofs_fixed"] = elimination.supports();
+  numbers["dofs_pivot"] = static_cast<double>(elimination.pivots.size());
+  numbers["nonzeros_K"] = static_cast<double>(model.K.nonZeros());
+  numbers["nonzeros_M"] = static_cast<double>(model.M.nonZeros());
+  numbers["nonzeros_T"] = static_cast<double>(model.T.nonZeros());
+  numbers["largest_T_entry"] = elimination.growth;
+  if (elimination.growth > kLargeGrowth)
+    warn(
+        fmt::format("{}: a pivot displacement is {:.3g} times its neighbours: couplings lie close "
+                    "to one another",
+                    model.name, elimination.growth));
+
+  const Eigen::MatrixXd motions = free_motions(constrained.grounded);
+  numbers["rigid_motions_held_by_equations"] = static_cast<double>(6 - motions.cols());
+  if (motions.cols() == 0) return numbers;
+  const Eigen::MatrixXd nodal = constrained.nodal_rigid.topRows(model.T.rows()) * motions;
+  Eigen::MatrixXd recovered = model.T * (model.rigid * motions);
+  if (model.supports.size() > 0) recovered += model.supports.T * (model.supports.rigid * motions);
+  const double recovery = (recovered - nodal).cwiseAbs().maxCoeff() / nodal.cwiseAbs().maxCoeff();
+  numbers["rigid_recovery_error"] = recovery;
+  require_below(model.name, "rigid motions recovered by T, relative error", recovery,
+                kRigidTolerance);
+  numbers["rigid_force_residue"] = rigid_force(model, motions);
+  require_below(model.name, "force of rigid motions, |K R| / |K| |R|",
+                numbers["rigid_force_residue"], kRigidTolerance);
+  // A supported model's M lacks the mass of the held DoFs.
+  if (elimination.supports() > 0 || motions.cols() < 6) return numbers;
+  const MassDifference error = compare(properties_of(model.M, model.rigid), model.mass);
+  numbers["mass_error"] = error.mass;
+  numbers["centre_error"] = error.centre;
+  numbers["inertia_error"] = error.inertia;
+  require_below(model.name, "mass, R^T M R against the sum over the elements", error.mass,
+                kMassTolerance);
+  if (mass == fe::MassForm::kHrz) return numbers;
+  require_below(model.name, "centre of gravity, R^T M R against the sum over the elements",
+                error.centre, kMassTolerance);
+  require_below(model.name, "inertia, R^T M R against the sum over the elements", error.inertia,
+                kMassTolerance);
+  return numbers;
+}
+
+}  // namespace clatter::assembly

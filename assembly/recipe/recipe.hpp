@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Contents of a part's fe.toml. assembly/README.md documents the file; lengths here are in metres.
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assembly/coupling/contact_patch.hpp"
+#include "assembly/coupling/dof_numbers.hpp"
+#include "core/base/config.hpp"
+#include "core/fe/assemble.hpp"
+#include "core/fe/axes.hpp"
+#include "core/fe/material.hpp"
+#include "core/mesh/mesh.hpp"
+
+namespace clatter::assembly {
+
+/// [damping]: D = alpha K + beta M.
+struct DampingSpec {
+  double alpha = 0.0;  // [s]
+  double beta = 0.0;   // [1/s]
+};
+
+/// A surface or a node set of the mesh, or a point.
+struct Selection {
+  std::string surface, node_set, point;  // exactly one is not empty
+  std::string where;                     // for messages: "file:line: table"
+};
+
+/// [[point]]: a reference node with six DoFs of its own.
+struct PointSpec {
+  ReferencePoint point;
+  std::string where;
+};
+
+/// [[support]]: displacements held at zero, or at the values of a [[load]].
+struct SupportSpec {
+  std::string name;
+  Selection selection;
+  std::vector<int> directions = {0, 1, 2};  // of `axes`; 3 ... 5: rotations of a point
+  fe::Axes axes;
+};
+
+/// [[coupling.term]]: nodes and points whose motion defines that of a reference node.
+struct TermSpec {
+  Selection selection;
+  double weight = 1.0;  // of each node; of each m2 on a surface
+  std::vector<int> directions = {0, 1, 2};
+};
+
+/// [[coupling]]: a reference node that follows a face (distributing, RBE3), or that others follow
+/// (rigid, RBE2).
+struct CouplingSpec {
+  std::string name, kind, where;
+  bool rigid = false;
+  std::optional<Eigen::Vector3d> at;  // of its own reference node; absent: the face's centroid
+  std::string on_point;               // or a [[point]] as the reference
+  std::vector<TermSpec> terms;  // rigid: the followers; directions are used only when distributing
+  std::vector<int> directions = {0, 1, 2, 3, 4, 5};  // rigid: of the followers; else: reference
+};
+
+/// [[tie]] and [[bolt]]: a slave surface that follows a master surface.
+struct TieSpec {
+  std::string name, slave, master, where;
+  std::optional<double> distance;  // largest gap [m]; absent: a tenth of the mean slave face size
+  bool bolt = false;               // one relative displacement along `direction` stays free
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector from slave to master
+};
+
+/// [[equation]]: sum coefficient * u = 0; the first term depends on the others.
+struct EquationSpec {
+  struct Term {
+    Selection selection;  // one node, or a point
+    int direction = 0;
+    double coefficient = 1.0;
+  };
+  std::string where;
+  std::vector<Term> terms;
+};
+
+/// [[spring]]: elongation = sum coefficient * u, restoring force = stiffness * elongation.
+struct SpringSpec {
+  std::string name, where;
+  double stiffness = 0.0;  // [N/m]; of rotations [N m/rad]
+  std::vector<EquationSpec::Term> terms;
+};
+
+/// [[straight_edges]]: mid-side nodes that move with the mean of the two ends of their edge.
+struct StraightEdgesSpec {
+  std::string node_set, where;
+};
+
+/// [[contact]]: a grid of patches on a cylinder surface.
+struct ContactSpec {
+  std::string name, surface, where;
+  PatchGridSpec grid;
+};
+
+/// [[mean]]: mean displacement of a face along a direction.
+struct MeanSpec {
+  std::string name, surface, where;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  std::optional<std::pair<double, double>> range;  // along the direction [m]
+};
+
+/// [[sensor]]: the node of a surface nearest to a point; [[nodes]]: a plain node set.
+struct NodeSpec {
+  std::string name, kind;
+  Selection selection;
+  std::optional<Eigen::Vector3d> near;
+};
+
+/// [[point_mass]] on a reference node, a point or plain nodes.
+struct PointMassSpec {
+  std::string on, where;
+  double mass = 0.0;                                  // [kg]
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // of its centre from the node [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre [kg m2]
+};
+
+/// [[load]]: a unit load case.
+struct LoadSpec {
+  enum class Kind {
+    kPressure,
+    kResultant,
+    kForce,
+    kGravity,
+    kCentrifugal,
+    kDisplacement,
+    kNodal,
+    kTemperature
+  };
+  std::string name, unit, where;
+  Kind kind = Kind::kPressure;
+  std::string surface, set;  // set: also the name of a point
+  std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
+  fe::RotationAxis axis;                             // centrifugal: axis of rotation and
+  std::vector<int32_t> rotating;  // rotating regions; empty: all, and point masses
+  Selection selection;            // prescribed displacement:
+  std::vector<int> directions;    // of `axes`
+  fe::Axes axes;
+  double value = 0.0;  // [m] or [rad]; with a field see `field`; else the rise [K]
+};
+
+struct Recipe {
+  std::vector<fe::Material> materials;  // one per region of the mesh
+  fe::MassForm mass = fe::MassForm::kConsistent;
+  DampingSpec damping;
+  std::vector<PointSpec> points;
+  std::vector<SupportSpec> supports;
+  std::vector<CouplingSpec> couplings;
+  std::vector<EquationSpec> equations;
+  std::vector<SpringSpec> springs;
+  std::vector<StraightEdgesSpec> straight_edges;
+  std::vector<TieSpec> ties;  // bolts too
+  std::vector<ContactSpec> contacts;
+  std::vector<MeanSpec> means;
+  std::vector<NodeSpec> nodes;
+  std::vector<PointMassSpec> point_masses;
+  std::vector<LoadSpec> loads;
+  std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads
+};
+
+/// Reads the entire file and checks it against the mesh; InputError with "file:line: key: found
+/// ..., expected ..." for unknown keys, regions, surfaces, sets, duplicate names, values out of
+/// range.
+Recipe read_recipe(const Config& config, const mesh::Mesh& mesh);
+
+}  // namespace clatter::assembly

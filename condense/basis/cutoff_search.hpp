@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The cut-off needed for a requested accuracy of the body's frequencies.
+#include <map>
+#include <string>
+
+#include "condense/basis/craig_bampton.hpp"
+
+namespace clatter::condense {
+
+/// Request and result of the search.
+struct CutOffSearch {
+  double target = 0.0;   // relative frequency error below InteriorModes::accurate_to_hz
+  double reached = 0.0;  // bound of it by cutoff_error_bound
+  int tried = 0;         // how many cut-offs
+};
+
+/// The estimate of residual_modes.hpp uses the static response of the truncated modes, 1 /
+/// lambda_k. At a frequency f below the cut-off f_c their true response is 1 / (lambda_k - lambda),
+/// so the error is at most estimate / (1 - (f / f_c)^2).
+double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
+
+/// A Craig-Bampton basis whose modes below `request.accurate_to_hz` have frequencies within
+/// `request.frequency_error` (> 0) by cutoff_error_bound: the cut-off begins at 1.5 times that
+/// frequency and grows by a quarter, up to 4 times, while residual modes do not reach the target.
+/// Own modes are exact: their cut-off is the frequency itself. Throws NumericsError when no cut-off
+/// reaches the target, otherwise as craig_bampton.
+CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partition,
+                           const PartitionedMatrix& K, const PartitionedMatrix& M,
+                           const StaticPart& statics, const ModeRequest& request, StepClock& clock,
+                           CutOffSearch& search);
+
+/// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
+void record(const CutOffSearch& search, std::map<std::string, double>& certificate);
+/// A line for the user from such a certificate.
+std::string cutoff_line(const std::map<std::string, double>& certificate);
+
+}  // namespace clatter::condense

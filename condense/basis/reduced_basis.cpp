@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/basis/reduced_basis.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/sparse/dense_product.hpp"
+#include "core/sparse/symmetric_product.hpp"
+
+namespace clatter::condense {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii,
+                           SparseMatrix K_ib)
+    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)) {
+  shapes.resize(K_ib_.rows(), 0);
+}
+
+MatrixXd ReducedBasis::interior(const Eigen::Ref<const MatrixXd>& q) const {
+  const MatrixXd load = K_ib_ * q.topRows(boundary());
+  MatrixXd u = -factor_->solve(load);
+  sparse::add_product(1.0, shapes, q.bottomRows(shapes.cols()), u);
+  return u;
+}
+
+MatrixXd ReducedBasis::at_boundary(const Eigen::Ref<const MatrixXd>& f_i,
+                                   const Eigen::Ref<const MatrixXd>& f_b) const {
+  return f_b - factor_->boundary_product(f_i);
+}
+
+MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
+                               const Eigen::Ref<const MatrixXd>& f_b) const {
+  MatrixXd out(size(), f_i.cols());
+  out.topRows(boundary()) = at_boundary(f_i, f_b);
+  out.bottomRows(shapes.cols()) = sparse::transposed_product(shapes, f_i);
+  return out;
+}
+
+ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
+                        const StaticReduction& statics, const ReducedBasis& basis) {
+  constexpr Index kBlock = 64;
+  const sparse::SymmetricProduct stiffness(K.ii), mass(M.ii);
+  const SparseMatrix M_bi = M.ib.transpose();
+  const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;
+  ReducedMatrices out;
+  out.M_rr = out.K_rr = MatrixXd::Zero(r, r);
+  out.M_rr.topLeftCorner(n_b, n_b) = statics.M_bb;
+  out.K_rr.topLeftCorner(n_b, n_b) = statics.K_bb;
+  for (Index first = 0; first < k; first += kBlock) {
+    const Index count = std::min(kBlock, k - first);
+    const auto X = basis.shapes.middleCols(first, count);
+    const auto known = basis.shapes.leftCols(first + count);
+    MatrixXd image = mass * X;
+    out.M_rr.block(0, n_b + first, n_b, count) = basis.at_boundary(image, M_bi * X);
+    out.M_rr.block(n_b, n_b + first, known.cols(), count) =
+        sparse::transposed_product(known, image);
+    image = stiffness * X;
+    out.K_rr.block(n_b, n_b + first, known.cols(), count) =
+        sparse::transposed_product(known, image);
+  }
+  out.M_rr.triangularView<Eigen::StrictlyLower>() = out.M_rr.transpose();
+  out.K_rr.triangularView<Eigen::StrictlyLower>() = out.K_rr.transpose();
+  return out;
+}
+
+Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
+                             const ReducedBasis& basis) {
+  const MatrixXd interior = load(partition.interior), boundary = load(partition.boundary);
+  return basis.project(interior, boundary);
+}
+
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Index protected_count,
+                                     double tolerance) {
+  const Eigen::Index r = M_rr.rows();
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(r, r);  // rows of the kept columns' Cholesky factor
+  std::vector<int> kept;
+  for (Eigen::Index j = 0; j < r; ++j) {
+    const auto rank = static_cast<Eigen::Index>(kept.size());
+    Eigen::VectorXd row = M_rr.col(j)(kept);
+    L.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().solveInPlace(row);
+    const double left = M_rr(j, j) - row.squaredNorm();
+    if (j >= protected_count && left <= tolerance * M_rr(j, j)) continue;
+    L.row(rank).head(rank) = row.transpose();
+    L(rank, rank) = std::sqrt(std::max(left, 1e-300));
+    kept.push_back(static_cast<int>(j));
+  }
+  return kept;
+}
+
+}  // namespace clatter::condense

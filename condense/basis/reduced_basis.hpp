@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A reduction basis and the projection of the model's matrices on it.
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "condense/basis/dof_partition.hpp"
+#include "condense/basis/static_reduction.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
+
+namespace clatter::condense {
+
+/// V = [I 0; Psi X]: constraint modes Psi = -K_ii^{-1} K_ib, which are never stored (n_i x n_b is
+/// the largest matrix of a condensation) but applied through the factor, and shapes X of the
+/// interior.
+class ReducedBasis {
+ public:
+  ReducedBasis() = default;
+  /// @param K_ib n_i x n_b.
+  ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii, SparseMatrix K_ib);
+
+  Eigen::MatrixXd shapes;  // X, n_i x k
+
+  Eigen::Index boundary() const { return K_ib_.cols(); }
+  Eigen::Index size() const { return boundary() + shapes.cols(); }
+  /// Interior rows of V q; q is r x m.
+  Eigen::MatrixXd interior(const Eigen::Ref<const Eigen::MatrixXd>& q) const;
+  /// The first n_b rows of V^T f.
+  Eigen::MatrixXd at_boundary(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
+                              const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
+  /// V^T f for loads f_i (n_i x m) and f_b (n_b x m).
+  Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& f_i,
+                          const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
+
+ private:
+  std::shared_ptr<const sparse::SupernodalFactor> factor_;
+  SparseMatrix K_ib_;
+};
+
+/// The matrices on the basis, eq. (14) of the paper.
+struct ReducedMatrices {
+  Eigen::MatrixXd M_rr, K_rr;  // r x r, symmetric, both triangles
+};
+
+/// V^T A V from the boundary blocks of the static sweep; columns of X are processed in blocks. Psi
+/// and X are orthogonal in K.
+ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
+                        const StaticReduction& statics, const ReducedBasis& basis);
+
+/// V^T f for a load f on all n DoFs of the model.
+Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,
+                             const ReducedBasis& basis);
+
+/// Columns that do not depend on those before them: column j is kept when its remainder after
+/// projection on the kept ones exceeds `tolerance` of its own M-norm squared (hard case B3).
+/// The first `protected_count` columns are always kept. Ascending indices.
+/// @param M_rr r x r, the columns' Gram matrix in the mass inner product.
+std::vector<int> independent_columns(const Eigen::MatrixXd& M_rr, Eigen::Index protected_count,
+                                     double tolerance = 1e-12);
+
+}  // namespace clatter::condense

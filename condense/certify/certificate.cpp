@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/certify/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+
+#include "condense/basis/frame_inertia.hpp"
+#include "core/base/error.hpp"
+#include "core/sparse/dense_eigen.hpp"
+#include "core/sparse/eigen/dense_solver.hpp"
+
+namespace clatter::condense {
+namespace {
+
+constexpr double kMassLimit = 1e-9;    // hard case B5
+constexpr double kRigidLimit = 1e-10;  // hard case B4
+
+Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+  return rigid.transpose() * multiply_symmetric(M, rigid);
+}
+
+double scaled_condition(const Eigen::MatrixXd& M_rr) {
+  const Eigen::VectorXd scale = M_rr.diagonal().cwiseSqrt().cwiseInverse();
+  const sparse::DenseEigen eig = sparse::symmetric_eigen(
+      scale.asDiagonal() * M_rr * scale.asDiagonal(), sparse::EigenParts::kValues);
+  return eig.ok ? eig.values.maxCoeff() / eig.values.minCoeff()
+                : std::numeric_limits<double>::infinity();
+}
+
+/// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
+void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions) {
+  constexpr double kRounding = 1e-15;  // of the highest value: rounding of doubles
+  auto& out = reduced.certificate;
+  const sparse::EigenResult low =
+      sparse::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
+  if (!low.ok()) throw NumericsError("reduced model: " + low.message);
+  const sparse::DenseEigen all =
+      sparse::symmetric_eigen(reduced.K_rr, reduced.M_rr, sparse::EigenParts::kValues);
+  if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
+  const double highest = all.values.maxCoeff();
+  const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
+  out["rigid_modes"] = static_cast<double>(motions.cols() + zeros);
+  out["first_elastic_hz"] =
+      zeros < low.values.size() ? sparse::hz_of_value(low.values[zeros]) : 0.0;
+  out["max_frequency_hz"] = sparse::hz_of_value(highest);
+}
+
+void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
+  auto& out = reduced.certificate;
+  const Eigen::Index n_k = reduced.fixed_interface_hz.size();
+  const Eigen::MatrixXd unit =
+      reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
+  out["residual_modes"] = static_cast<double>(source.residual.hz.size());
+  out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
+  const InteriorModes& interior = source.interior;
+  const Eigen::VectorXd& residuals = interior.residuals;
+  out["eigen_residual_max"] = residuals.size() > 0 ? residuals.maxCoeff() : 0.0;
+  if (interior.frequency_error >= 0.0) out["eigen_frequency_error"] = interior.frequency_error;
+  out["load_shapes"] = interior.load_shapes;
+  out["own_modes"] = interior.own_modes;
+  if (source.residual.estimated) {
+    out["frequency_error_estimate"] = source.residual.error_estimate;
+    out["frequency_error_modes"] = source.residual.modes;
+    // Own modes are exact: the estimate would be meaningless for a body joined to others.
+    if (interior.own_modes == 0) out["frequency_error_joined"] = source.residual.error_before;
+  }
+  const Eigen::Index modes = n_k - source.residual.hz.size() - interior.load_shapes;
+  out["fixed_interface_modes"] = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
+  out["count_proved"] = interior.proof.proved ? 1.0 : 0.0;
+  out["count_below"] = static_cast<double>(interior.proof.below);
+  out["count_limit_hz"] = sparse::hz_of_value(interior.proof.limit);
+  out["cutoff_hz"] = interior.cutoff_hz;
+  out["accurate_to_hz"] = interior.accurate_to_hz;
+}
+
+}  // namespace
+
+rom::MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
+  rom::MassProperties out;
+  out.mass = rigid_mass.topLeftCorner<3, 3>().trace() / 3.0;
+  // Column j is the momentum m e_j x c of a unit rotation about axis j.
+  const Eigen::Matrix3d S = rigid_mass.topRightCorner<3, 3>();
+  out.centre = Eigen::Vector3d(S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0));
+  out.centre *= 0.5 / out.mass;
+  const Eigen::Vector3d& c = out.centre;
+  const Eigen::Matrix3d about_origin = rigid_mass.bottomRightCorner<3, 3>();
+  out.inertia =
+      about_origin - out.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  return out;
+}
+
+MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected) {
+  MassError error;
+  const double moment = expected.inertia.norm();
+  const double gyration = std::sqrt(moment / expected.mass);
+  error.mass = std::abs(found.mass - expected.mass) / expected.mass;
+  error.centre = (found.centre - expected.centre).norm() / gyration;
+  error.inertia = (found.inertia - expected.inertia).norm() / moment;
+  return error;
+}
+
+double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r) {
+  if (r.cols() == 0) return 0.0;
+  const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians have equal weight
+  const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
+  const Eigen::MatrixXd Mr = reduced.M_rr * unit;
+  const Eigen::MatrixXd to_rigid = (unit.transpose() * Mr).ldlt().solve(Mr.transpose());
+  const Eigen::MatrixXd right = reduced.K_rr - (reduced.K_rr * unit) * to_rigid;
+  const Eigen::MatrixXd both = right - to_rigid.transpose() * (unit.transpose() * right);
+  reduced.K_rr = 0.5 * (both + both.transpose());
+  return residue;
+}
+
+void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
+             const ReducedMotions& free, int dropped, bool spectrum) {
+  auto& out = reduced.certificate;
+  const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
+  const rom::MassProperties found = mass_properties_of(reduced_mass);
+  const rom::MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
+  out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, free.q);
+  out["rigid_shape_error"] = source.rigid_error;
+  const bool free_body = free.all_free;  // a held body cannot move rigidly
+  if (free_body) {
+    out["mass_error"] = compare_mass(found, full).largest();
+    out["mass_error_elements"] = compare_mass(found, model.mass).largest();
+  }
+  out["certified"] = spectrum ? 1.0 : 0.0;
+  out["dropped_vectors"] = dropped + source.interior.dropped;
+  out["K_ii_rcond"] = source.factor.rcond;
+  out["K_ii_probe_residual"] = source.factor.probe_residual;
+  if (!reduced.inertia.empty()) out["inertia_invariants_error"] = inertia_error(reduced, free_body);
+  if (spectrum) {
+    out["condition_M_rr"] = scaled_condition(reduced.M_rr);
+    certify_spectrum(reduced, free.q);
+  }
+  certify_modes(reduced, source);
+  if (free_body && !(out["mass_error"] <= kMassLimit)) {
+    throw NumericsError(
+        fmt::format("reduced model: mass properties differ by {:.1e} from the full "
+                    "model's, expected at most {:.0e}",
+                    out["mass_error"], kMassLimit));
+  }
+  if (!reduced.inertia.empty() && !(out["inertia_invariants_error"] <= kMassLimit)) {
+    throw NumericsError(fmt::format(
+        "reduced model: inertia invariants differ by {:.1e} from those of M_rr and the rigid "
+        "motions, expected at most {:.0e}",
+        out["inertia_invariants_error"], kMassLimit));
+  }
+  if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||
+      (spectrum && out["rigid_modes"] != static_cast<double>(free.q.cols()))) {
+    throw NumericsError(fmt::format(
+        "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
+        "{:.0e}",
+        spectrum ? fmt::format("{}", out["rigid_modes"]) : "uncounted",
+        out["rigid_stiffness_residue"], free.q.cols(), kRigidLimit));
+  }
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/rows/recovery_rows.hpp"
+
+#include "core/base/named.hpp"
+#include "core/base/threads.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int32_t>;
+
+/// body(dof, factor) for each DoF that moves point `row / 3` in direction row % 3.
+template <class Body>
+void for_each_dof(const RowSparse& T, const SkinPoint& point, Eigen::Index direction, Body&& body) {
+  for (const auto& [node, weight] : point)
+    for (RowSparse::InnerIterator it(T, 3 * int64_t{node} + direction); it; ++it)
+      body(static_cast<size_t>(it.col()), weight * it.value());
+}
+
+}  // namespace
+
+SkinRecovery::SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
+                           const std::vector<std::string>& surfaces,
+                           const std::vector<std::string>& sets)
+    : model_(model),
+      surfaces_(surfaces),
+      sets_(sets),
+      row_(static_cast<size_t>(model.size()), -1),
+      boundary_(static_cast<size_t>(model.size()), -1) {
+  for (size_t k = 0; k < partition.boundary.size(); ++k)
+    boundary_[static_cast<size_t>(partition.boundary[k])] = static_cast<int32_t>(k);
+  if (!surfaces.empty()) faces_ = skin_faces(model, surfaces);
+  const RowSparse by_row = model.T;
+  std::vector<char> moves(static_cast<size_t>(model.size()), 0);
+  for (const SkinPoint& point : faces_.points)
+    for (Eigen::Index d = 0; d < 3; ++d)
+      for_each_dof(by_row, point, d, [&](size_t dof, double) { moves[dof] = 1; });
+  for (const std::string& name : sets)
+    for (const int32_t dof : find_named(model.sets, model.name + ": rows", "set", name).dofs)
+      moves[static_cast<size_t>(dof)] = 1;
+  for (size_t k = 0; k < partition.interior.size(); ++k) {
+    const auto dof = static_cast<size_t>(partition.interior[k]);
+    if (moves[dof] == 0) continue;
+    row_[dof] = static_cast<int32_t>(unknowns_.size());
+    unknowns_.push_back(static_cast<int32_t>(k));
+  }
+}
+
+rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {
+  rom::Skin skin;
+  if (faces_.points.empty()) return skin;
+  skin.triangles = faces_.triangles;
+  skin.surfaces = surfaces_;
+  const auto n = static_cast<Eigen::Index>(faces_.points.size());
+  skin.nodes = RowMatrix::Zero(n, 3);
+  for (Eigen::Index p = 0; p < n; ++p)
+    for (const auto& [node, weight] : faces_.points[static_cast<size_t>(p)])
+      skin.nodes.row(p) += weight * model_.nodes.row(node);
+  const RowSparse by_row = model_.T;
+  const Eigen::Index n_b = static_rows.cols(), k = shapes.cols();
+  skin.T = RowMatrix::Zero(3 * n, n_b + k);
+  parallel_pieces(skin.T.rows(), [&](int64_t begin, int64_t end) {
+    for (int64_t row = begin; row < end; ++row) {
+      const SkinPoint& point = faces_.points[static_cast<size_t>(row / 3)];
+      for_each_dof(by_row, point, row % 3, [&](size_t dof, double factor) {
+        if (boundary_[dof] >= 0) {
+          skin.T(row, boundary_[dof]) += factor;
+          return;
+        }
+        const auto at = static_cast<size_t>(row_[dof]);
+        skin.T.row(row).head(n_b) += factor * static_rows.row(row_[dof]);
+        skin.T.row(row).tail(k) += factor * shapes.row(unknowns_[at]);
+      });
+    }
+  });
+  return skin;
+}
+
+void SkinRecovery::recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
+                                rom::ReducedModel& reduced) const {
+  const Eigen::Index n_b = static_rows.cols(), r = n_b + shapes.cols();
+  for (const std::string& name : sets_) {
+    rom::DofSet set = model_.sets.at(name);
+    for (int32_t& dof : set.dofs) {
+      const auto at = static_cast<size_t>(dof);
+      if (boundary_[at] >= 0) {
+        dof = boundary_[at];
+        continue;
+      }
+      const Eigen::Index j = reduced.combined.rows();
+      dof = static_cast<int32_t>(r + j);
+      reduced.combined.conservativeResize(j + 1, r);
+      reduced.combined.row(j).head(n_b) = static_rows.row(row_[at]);
+      reduced.combined.row(j).tail(shapes.cols()) =
+          shapes.row(unknowns_[static_cast<size_t>(row_[at])]);
+    }
+    reduced.sets[name] = set;
+    if (const auto grid = model_.grids.find(name); grid != model_.grids.end())
+      reduced.grids[name] = grid->second;
+    reduced.recovered_sets.push_back(name);
+  }
+}
+
+}  // namespace clatter::condense

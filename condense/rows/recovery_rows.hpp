@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The rows of the basis for the displacements of the skin and of sets besides the boundary.
+#include <string>
+#include <vector>
+
+#include "condense/basis/dof_partition.hpp"
+#include "condense/rows/skin_faces.hpp"
+#include "core/rom/reduced_model.hpp"
+
+namespace clatter::condense {
+
+/// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp); a
+/// face in two of them is used once. Holds the rows of the basis that the skin needs.
+class SkinRecovery {
+ public:
+  /// InputError for an unknown surface or set.
+  SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
+               const std::vector<std::string>& surfaces, const std::vector<std::string>& sets);
+  /// Interior DoFs (indices into partition.interior) that move the skin and the sets, ascending.
+  const std::vector<int32_t>& unknowns() const { return unknowns_; }
+  /// The skin with T_skin = T(skin nodes, :) V.
+  /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
+  rom::Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
+  /// Adds the sets to the reduced model, their displacements as rows of `combined`.
+  void recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
+                    rom::ReducedModel& reduced) const;
+
+ private:
+  const fe::FeModel& model_;
+  std::vector<std::string> surfaces_, sets_;
+  SkinFaces faces_;
+  std::vector<int32_t> unknowns_;
+  std::vector<int32_t> row_;       // by DoF of the model: its index in unknowns_, or -1
+  std::vector<int32_t> boundary_;  // by DoF of the model: its coordinate, or -1
+};
+
+}  // namespace clatter::condense

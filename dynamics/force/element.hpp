@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Interface of force elements: forces and their tangent at an implicit stage, internal states under
+// the same tableau, power, and reported scalars.
+#include <Eigen/Core>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/force/history.hpp"
+
+namespace clatter::dynamics {
+
+/// One implicit stage of the integrator: x_i = x_n + sum_{j<i} weights[j] x'_j + kappa x'_i holds
+/// for displacements, velocities and for the internal states of elements alike.
+struct Stage {
+  double time;                  // [s]
+  double kappa;                 // dt * a_ii [s]
+  int index;                    // i; 0 is the starting implicit Euler stage of a run, then 1, 2
+  std::vector<double> weights;  // dt * a_ij, j < index [s]
+};
+
+/// Force on the element's coordinates and its derivative.
+struct Response {
+  Eigen::VectorXd force;    // n_e; works on y: [N] on displacements, [N m] on rotations
+  Eigen::MatrixXd tangent;  // n_e x n_e; df/dy + df/dv / kappa at fixed stage
+};
+
+/// Energy and power of an element.
+struct Power {
+  double stored = 0;  // potential energy [J]
+  double lost = 0;    // dissipated power [W], positive
+  double input = 0;   // power from prescribed motion or supply [W]
+};
+
+/// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.
+class StepRefused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A force between interface coordinates y of the bodies (see system.hpp).
+///
+/// The order of calls in one step: begin_step; for each stage evaluate (as often as Newton needs),
+/// then finish_stage; accept_step at the end, or begin_step again when the step was rejected. The
+/// last evaluate before finish_stage was at the state that is kept.
+class ForceElement {
+ public:
+  virtual ~ForceElement() = default;
+  virtual std::string name() const = 0;
+
+  /// Indices of the element's coordinates in the system's y; n_e of them.
+  const std::vector<int>& coordinates() const { return coordinates_; }
+
+  /// Forces at a trial state. `y`, `v`: n_e displacements and velocities; `response.tangent` is
+  /// computed only if `with_tangent`. Resizes the response. Throws StepRefused.
+  virtual void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                        bool with_tangent, Response& response) = 0;
+
+  /// Before the first stage of a step from `time`; also discards the states of a rejected step.
+  virtual void begin_step(double /*time*/) {}
+  /// The stage converged: stores its internal states and rates.
+  virtual void finish_stage(const Stage&) {}
+  /// The internal state of the last stage becomes the state.
+  virtual void accept_step(double /*time*/) {}
+
+  /// Energy and power at the last finished stage; `y`, `v` are of that stage.
+  virtual Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const = 0;
+  /// Named scalars of the last accepted state.
+  virtual void record(History&) const {}
+  /// Internal state as numbers, for checkpoints; `restore` takes the result of `save`.
+  virtual std::vector<double> save() const { return {}; }
+  virtual void restore(const std::vector<double>& /*state*/) {}
+
+ protected:
+  ForceElement() = default;
+  explicit ForceElement(std::vector<int> coordinates) : coordinates_(std::move(coordinates)) {}
+  std::vector<int> coordinates_;
+};
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/given/crank.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace clatter::dynamics {
+
+SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, double omega)
+    : radius_(radius), rod_length_(rod_length), pin_offset_(pin_offset), omega_(omega) {
+  if (!(radius > 0.0) || !(rod_length > radius + std::abs(pin_offset))) {
+    throw InputError(
+        fmt::format("slider-crank: crank radius {} m, rod {} m, pin offset {} m: expected rod > "
+                    "radius + offset",
+                    radius, rod_length, pin_offset));
+  }
+}
+
+Motion<Eigen::Vector2d> SliderCrank::crank_pin(double time) const {
+  const double theta = angle(time);
+  const double s = std::sin(theta), c = std::cos(theta);
+  const double v = radius_ * omega_, a = v * omega_;
+  return {{-radius_ * s, radius_ * c}, {-v * c, -v * s}, {a * s, -a * c}};
+}
+
+Motion<double> SliderCrank::rod_angle(double time) const {
+  const auto pin = crank_pin(time);
+  const double sine = (pin.position.x() - pin_offset_) / rod_length_;
+  const double sine_1 = pin.velocity.x() / rod_length_;
+  const double sine_2 = pin.acceleration.x() / rod_length_;
+  const double cosine = std::sqrt(1.0 - sine * sine);
+  const double rate = sine_1 / cosine;
+  return {std::asin(sine), rate, (sine_2 + rate * rate * sine) / cosine};
+}
+
+Motion<Eigen::Vector2d> SliderCrank::rod_point(double time, double distance) const {
+  const auto pin = crank_pin(time);
+  const auto phi = rod_angle(time);
+  const Eigen::Vector2d along = rod_direction(phi.position);
+  const Eigen::Vector2d across(-along.y(), along.x());  // d along / d phi
+  const double w = phi.velocity;
+  return {pin.position + distance * along, pin.velocity + distance * w * across,
+          pin.acceleration + distance * (phi.acceleration * across - w * w * along)};
+}
+
+Motion<double> SliderCrank::piston_pin(double time) const {
+  const auto end = rod_point(time, rod_length_);
+  return {end.position.y(), end.velocity.y(), end.acceleration.y()};
+}
+
+Eigen::Vector2d rod_direction(double phi) { return {-std::sin(phi), std::cos(phi)}; }
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/given/load_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/given/csv_table.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+constexpr double kCycle = 4.0 * std::numbers::pi;
+constexpr double kGapFactor = 20.0;
+
+void check_units(const CsvColumns& table, const std::filesystem::path& path,
+                 const std::string& abscissa_unit, const std::string& unit) {
+  const auto refuse = [&](const std::string& name, const std::string& found,
+                          const std::string& expected) {
+    throw InputError(fmt::format("{}:{}: {} is in [{}], expected a unit of [{}]", path.string(),
+                                 table.lines.front() - 1, name, found, expected));
+  };
+  if (table.abscissa_unit != abscissa_unit) {
+    refuse(table.abscissa_name, table.abscissa_unit, abscissa_unit);
+  }
+  if (table.unit != unit) refuse(table.name, table.unit, unit);
+}
+
+double median_step(const CsvColumns& table) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < table.x.size(); ++i) steps.push_back(table.x[i] - table.x[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+void refuse_gaps(const CsvColumns& table, const std::filesystem::path& path, double typical) {
+  for (size_t i = 1; i < table.x.size(); ++i) {
+    const double step = table.x[i] - table.x[i - 1];
+    if (step > kGapFactor * typical) {
+      throw InputError(
+          fmt::format("{}:{}: a gap of {:.6g} deg from {:.6g} to {:.6g} deg, expected steps like "
+                      "the median of {:.6g} deg",
+                      path.string(), table.lines[i], step / kDegree, table.x[i - 1] / kDegree,
+                      table.x[i] / kDegree, typical / kDegree));
+    }
+  }
+}
+
+/// Removes a closing row; rejects a table that is shorter or longer than one cycle.
+void close_cycle(CsvColumns& table, const std::filesystem::path& path, double typical) {
+  const double span = table.x.back() - table.x.front();
+  const auto last_position = fmt::format("{}:{}", path.string(), table.lines.back());
+  constexpr double kSame = 1e-9;
+  if (span > kCycle * (1.0 + kSame)) {
+    throw InputError(fmt::format("{}: the table spans {:.6g} deg, expected one cycle of 720 deg",
+                                 last_position, span / kDegree));
+  }
+  if (span > kCycle * (1.0 - kSame)) {
+    const auto [low, high] = std::minmax_element(table.y.begin(), table.y.end());
+    if (std::abs(table.y.back() - table.y.front()) > 0.01 * (*high - *low)) {
+      throw InputError(fmt::format(
+          "{}: the last row closes the cycle with {:.6g} {}, expected the first row's {:.6g}",
+          last_position, table.y.back(), table.unit, table.y.front()));
+    }
+    table.x.pop_back();
+    table.y.pop_back();
+    table.lines.pop_back();
+    return;
+  }
+  if (kCycle - span > 2.0 * typical) {
+    throw InputError(
+        fmt::format("{}: the table ends {:.6g} deg before the cycle closes (from {:.6g} to {:.6g} "
+                    "deg), expected 720 deg",
+                    last_position, (kCycle - span) / kDegree, table.x.front() / kDegree,
+                    table.x.back() / kDegree));
+  }
+}
+
+}  // namespace
+
+Spline read_cycle_table(const std::filesystem::path& path, const std::string& column,
+                        const std::string& unit, Spline::Kind kind) {
+  CsvColumns table = read_csv(path, column);
+  check_units(table, path, "rad", unit);
+  if (table.x.size() < 4) {
+    throw InputError(fmt::format("{}:{}: found {} rows, expected a complete cycle", path.string(),
+                                 table.lines.back(), table.x.size()));
+  }
+  const double typical = median_step(table);
+  refuse_gaps(table, path, typical);
+  close_cycle(table, path, typical);
+  return Spline(kind, std::move(table.x), std::move(table.y), kCycle);
+}
+
+Spline read_time_table(const std::filesystem::path& path, const std::string& column,
+                       const std::string& unit, Spline::Kind kind, double begin, double end) {
+  CsvColumns table = read_csv(path, column);
+  check_units(table, path, "s", unit);
+  if (table.x.front() > begin || table.x.back() < end) {
+    throw InputError(fmt::format(
+        "{}:{}: the table covers {:.6g} to {:.6g} s, expected {:.6g} to {:.6g} s", path.string(),
+        table.lines.back(), table.x.front(), table.x.back(), begin, end));
+  }
+  return Spline(kind, std::move(table.x), std::move(table.y));
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/given/spline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter::dynamics {
+namespace {
+
+/// Slope at a point between intervals of lengths h and secants s at its left (0) and right (1).
+double harmonic_slope(double h0, double s0, double h1, double s1) {
+  if (s0 * s1 <= 0.0) return 0.0;
+  const double w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
+  return (w0 + w1) / (w0 / s0 + w1 / s1);
+}
+
+}  // namespace
+
+Spline::Spline(Kind kind, std::vector<double> x, std::vector<double> y, double period)
+    : kind_(kind), x_(std::move(x)), y_(std::move(y)), period_(period) {
+  if (period_ > 0.0) {
+    x_.push_back(x_.front() + period_);
+    y_.push_back(y_.front());
+  }
+  const size_t n = x_.size();
+  slope_.assign(n, 0.0);
+  if (kind_ == Kind::kLinear || n < 2) return;
+  const auto h = [&](size_t i) { return x_[i + 1] - x_[i]; };
+  const auto secant = [&](size_t i) { return (y_[i + 1] - y_[i]) / h(i); };
+  for (size_t i = 1; i + 1 < n; ++i) {
+    slope_[i] = harmonic_slope(h(i - 1), secant(i - 1), h(i), secant(i));
+  }
+  if (period_ > 0.0) {
+    slope_.front() = slope_.back() = harmonic_slope(h(n - 2), secant(n - 2), h(0), secant(0));
+  } else {
+    slope_.front() = secant(0);
+    slope_.back() = secant(n - 2);
+  }
+}
+
+double Spline::operator()(double at) const {
+  if (period_ > 0.0) at -= period_ * std::floor((at - x_.front()) / period_);
+  if (at <= x_.front() || x_.size() == 1) return y_.front();
+  if (at >= x_.back()) return y_.back();
+  const auto right = static_cast<size_t>(std::upper_bound(x_.begin(), x_.end(), at) - x_.begin());
+  const size_t i = right - 1;
+  const double h = x_[right] - x_[i], t = (at - x_[i]) / h;
+  if (kind_ == Kind::kLinear) return y_[i] + t * (y_[right] - y_[i]);
+  const double u = 1.0 - t;
+  return y_[i] * u * u * (1.0 + 2.0 * t) + y_[right] * t * t * (3.0 - 2.0 * t) +
+         h * t * u * (slope_[i] * u - slope_[right] * t);
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace clatter::dynamics {
+
+EnergyBalance::EnergyBalance(const System& system, const Tableau& method)
+    : system_(system), method_(method) {
+  term("modal damping");
+  for (const auto& load : system.loads()) load_term_.push_back(term(load.term));
+  for (int e = 0; e < system.elements(); ++e) {
+    lost_term_.push_back(term(system.element(e).name() + " lost"));
+    input_term_.push_back(term(system.element(e).name() + " input"));
+  }
+}
+
+size_t EnergyBalance::term(const std::string& name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found != names_.end()) return static_cast<size_t>(found - names_.begin());
+  names_.push_back(name);
+  return names_.size() - 1;
+}
+
+EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
+  Flow flow;
+  flow.powers.assign(names_.size(), 0.0);
+  flow.kinetic = 0.5 * state.v.dot(system_.inertia().cwiseProduct(state.v));
+  flow.strain = 0.5 * state.eta.dot(system_.omega_squared().cwiseProduct(state.eta));
+  flow.powers[0] = -state.v.dot(system_.damping().cwiseProduct(state.v));
+  for (size_t l = 0; l < system_.loads().size(); ++l) {
+    const Load& load = system_.loads()[l];
+    const auto v = state.v.segment(system_.mode_offset(load.body), load.direction.size());
+    flow.powers[load_term_[l]] += load.value(state.time) * load.direction.dot(v);
+  }
+  for (int e = 0; e < system_.elements(); ++e) {
+    const auto& element = system_.element(e);
+    const auto& at = element.coordinates();
+    const Power power = element.power(gather(state.y, at), gather(state.v_y, at));
+    flow.element += power.stored;
+    flow.powers[lost_term_[static_cast<size_t>(e)]] -= power.lost;
+    flow.powers[input_term_[static_cast<size_t>(e)]] += power.input;
+  }
+  return flow;
+}
+
+void EnergyBalance::stage(int index, const StageState& state) {
+  stages_[index] = flow(state);
+  time_ = state.time;
+  if (index == 0 && !started_) start_from(stages_[0]);
+}
+
+void EnergyBalance::start_from(const Flow& flow) {
+  started_ = true;
+  now_.kinetic = flow.kinetic;
+  now_.strain = flow.strain;
+  now_.element = flow.element;
+  reset();
+}
+
+std::vector<double> EnergyBalance::save() const {
+  std::vector<double> state{stages_[0].kinetic, stages_[0].strain, stages_[0].element};
+  state.insert(state.end(), stages_[0].powers.begin(), stages_[0].powers.end());
+  return state;
+}
+
+void EnergyBalance::restore(const std::vector<double>& state, double time) {
+  if (state.size() != 3 + names_.size()) {
+    throw InputError("energy balance: the saved state belongs to another scene");
+  }
+  stages_[0] = {state[0], state[1], state[2], {state.begin() + 3, state.end()}};
+  time_ = time;
+  start_from(stages_[0]);
+}
+
+void EnergyBalance::reset() {
+  now_.time = time_;
+  now_.lost = now_.input = now_.exchanged = 0.0;
+  for (const auto& name : names_) now_.terms[name] = 0.0;
+  stored_at_start_ = now_.stored();
+}
+
+void EnergyBalance::accept(double dt) {
+  const auto& b = method_.b;
+  for (size_t k = 0; k < names_.size(); ++k) {
+    double work = 0.0;
+    for (int i = 0; i < 3; ++i) work += dt * b[i] * stages_[i].powers[k];
+    now_.terms[names_[k]] += work;
+    const bool loss =
+        k == 0 || std::find(lost_term_.begin(), lost_term_.end(), k) != lost_term_.end();
+    (loss ? now_.lost : now_.input) += loss ? -work : work;
+    now_.exchanged += std::abs(work);
+  }
+  now_.kinetic = stages_[2].kinetic;
+  now_.strain = stages_[2].strain;
+  now_.element = stages_[2].element;
+  now_.time = time_;
+  stages_[0] = stages_[2];
+}
+
+double EnergyBalance::imbalance() const {
+  return now_.stored() - stored_at_start_ - now_.input + now_.lost;
+}
+
+double EnergyBalance::residue() const {
+  return now_.exchanged > 0.0 ? std::abs(imbalance()) / now_.exchanged : 0.0;
+}
+
+}  // namespace clatter::dynamics

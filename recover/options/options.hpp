@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The user's options. Each default is defined once, here; --help and the stored configuration are
+// generated from it.
+#include <string>
+#include <vector>
+
+#include "core/base/config.hpp"
+#include "recover/options/piece.hpp"
+#include "recover/skin/panels.hpp"
+#include "recover/skin/radiated_power.hpp"
+#include "recover/skin/sensors.hpp"
+
+namespace clatter::recover {
+
+/// References of the levels in dB; each is written beside the levels that use it.
+struct LevelReferences {
+  double velocity = 5e-8;      // [m/s] ISO/TS 7849; ISO 1683 has 1e-9, 34 dB apart
+  double acceleration = 1e-6;  // [m/s2] ISO 1683
+  double power = 1e-12;        // [W] ISO 1683
+};
+
+/// The band that spectra, third octaves and totals cover.
+struct SpectrumBand {
+  double from_hz = 20.0;
+  double to_hz = 0.0;  // 0: the limit of the basis
+};
+
+struct WindowRule {
+  std::string name = "ftdc";
+  Span span{-10.0, 60.0};
+  Taper taper = Taper::kTukey;
+};
+
+/// Instants at which the entire skin is written.
+struct FrameRule {
+  bool on = true;
+  Span span{-10.0, 60.0};
+  double step = 1.0;  // [deg], or [s] when the span is in seconds
+  bool displacement = true;
+};
+
+/// Frequencies at which the entire skin is written as complex velocity.
+struct LineRule {
+  std::vector<double> frequencies_hz;  // the nearest lines are taken
+  std::vector<double> orders;          // engine orders: multiples of the speed of the crank
+  int strongest = 6;                   // with neither: the highest peaks of the A-weighted ERP
+};
+
+struct Options {
+  std::string origin = "defaults";  // the file with these options
+  std::string body;                 // empty: "block", or the only reduced body of the run
+  Air air;
+  LevelReferences references;
+  SpectrumBand spectrum;
+  bool cycle = true;  // analyse the last cycle; if requested, a run without one is rejected
+  bool cycle_requested = false;
+  bool windows_requested = false;
+  std::vector<WindowRule> windows{WindowRule{}};
+  bool frames_requested = false;
+  FrameRule frames;
+  LineRule lines;
+  std::vector<SensorRule> sensors;  // empty: every set of kind "sensor"
+  std::vector<PanelRule> panels;    // empty: default_panels()
+};
+
+/// Reads the entire configuration; unknown keys are rejected.
+Options read_options(const Config& config);
+
+/// All options, defaults included, as TOML that read_options() reads back to the same options.
+std::string resolved_text(const Options& options);
+
+/// Documentation of the configuration file with its defaults, for --help.
+std::string options_help();
+
+}  // namespace clatter::recover

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/run/run_input.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/planned_files.hpp"
+#include "core/rom/certificate_warning.hpp"
+
+namespace clatter::recover {
+namespace {
+
+namespace fs = std::filesystem;
+
+RunClock read_clock(const H5File& file) {
+  const std::string origin = file.path().string();
+  RunClock clock;
+  clock.time = file.read_vector("output/time");
+  const Eigen::Index n = clock.time.size();
+  if (n < 4)
+    throw InputError(
+        fmt::format("{}: output/time: found {} samples, expected at least 4", origin, n));
+  clock.step_s = (clock.time[n - 1] - clock.time[0]) / static_cast<double>(n - 1);
+  if (!clock.time.allFinite() || !(clock.step_s > 0.0))
+    throw InputError(origin + ": output/time: expected finite, ascending times");
+  const Eigen::VectorXd steps = clock.time.tail(n - 1) - clock.time.head(n - 1);
+  // Nonuniform sampling would smear every line of a transform; 1e-4 of a step keeps the phase error
+  // at the Nyquist frequency below 0.02 degrees.
+  if ((steps.array() - clock.step_s).abs().maxCoeff() > 1e-4 * clock.step_s)
+    throw InputError(
+        fmt::format("{}: output/time: steps from {:.9g} s to {:.9g} s, expected one step", origin,
+                    steps.minCoeff(), steps.maxCoeff()));
+  if (!file.has("output/crank_angle_deg")) return clock;
+
+  Eigen::VectorXd angle = file.read_vector("output/crank_angle_deg");
+  if (angle.size() != n || !angle.allFinite())
+    throw InputError(
+        fmt::format("{}: output/crank_angle_deg: found {} values, expected {} finite ones", origin,
+                    angle.size(), n));
+  for (Eigen::Index i = 1; i < n; ++i)  // a wrapped angle is unwrapped
+    angle[i] += 720.0 * std::round((angle[i - 1] - angle[i]) / 720.0);
+  if (angle[n - 1] - angle[0] <= 0.0) return clock;  // at rest
+  if ((angle.tail(n - 1) - angle.head(n - 1)).minCoeff() <= 0.0)
+    throw InputError(
+        origin + ": output/crank_angle_deg: found descending values, expected an ascending angle");
+  clock.angle_deg = angle;
+  return clock;
+}
+
+}  // namespace
+
+double RunClock::speed_deg_s() const {
+  if (!has_crank()) return 0.0;
+  const Eigen::Index last = time.size() - 1;
+  return (angle_deg[last] - angle_deg[0]) / (time[last] - time[0]);
+}
+
+RunBody::RunBody(const fs::path& run, const std::string& body)
+    : file_(open_artefact(run, "clatter/run/1")) {
+  pick_body(body);
+  clock_ = read_clock(file_);
+  const std::string group = "bodies/" + name_;
+  rom_sha256_ = file_.get_string(group, "rom_sha256");
+  rom_path_ = file_.get_string(group, "rom");
+  if (rom_path_.is_relative()) rom_path_ = (run.parent_path() / rom_path_).lexically_normal();
+  will_read(rom_path_, fmt::format("{}: {}: rom", run.string(), group));
+  check_shapes();
+}
+
+void RunBody::pick_body(const std::string& requested) {
+  std::vector<std::string> with_rom;
+  for (const std::string& name : file_.list("bodies"))
+    if (file_.has_attribute("bodies/" + name, "rom") && file_.has("bodies/" + name + "/q"))
+      with_rom.push_back(name);
+  const auto is_available = [&](const std::string& name) {
+    return std::find(with_rom.begin(), with_rom.end(), name) != with_rom.end();
+  };
+  if (!requested.empty() && is_available(requested))
+    name_ = requested;
+  else if (requested.empty() && is_available("block"))
+    name_ = "block";
+  else if (requested.empty() && with_rom.size() == 1)
+    name_ = with_rom.front();
+  else
+    throw InputError(
+        fmt::format("{}: bodies: found [{}] with a reduced model, expected {}",
+                    file_.path().string(), fmt::join(with_rom, ", "),
+                    requested.empty() ? "one, or `body` in the configuration" : requested));
+}
+
+void RunBody::check_shapes() const {
+  const int64_t n_t = clock_.time.size();
+  const std::vector<int64_t> q = file_.shape(dataset("q"));
+  for (const char* member : {"q", "v", "a"}) {
+    const std::vector<int64_t> shape = file_.shape(dataset(member));
+    if (shape.size() != 2 || shape[0] != n_t || shape != q)
+      throw InputError(
+          fmt::format("{}: {}: found shape ({}), expected {} rows and as many columns as q",
+                      file_.path().string(), dataset(member), fmt::join(shape, ", "), n_t));
+  }
+}
+
+rom::ReducedModel RunBody::read_model() const {
+  const std::string found = sha256_of_file(rom_path_);
+  if (found != rom_sha256_)
+    throw InputError(fmt::format(
+        "{}: sha256: found {}..., expected {}... as in {}: the run used another reduced model, run "
+        "it again",
+        rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
+  rom::ReducedModel model = rom::read_reduced_model(rom_path_);
+  const std::string doubt = rom::certificate_warning(model);
+  if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
+  const int64_t columns = file_.shape(dataset("q"))[1];
+  if (columns != model.size())
+    throw InputError(fmt::format("{}: {}: found {} columns, expected {} as in {}",
+                                 file_.path().string(), dataset("q"), columns, model.size(),
+                                 rom_path_.string()));
+  if (model.skin.triangles.rows() == 0)
+    throw InputError(rom_path_.string() +
+                     ": skin: found none, expected a skin (condense with one)");
+  return model;
+}
+
+bool RunBody::complete() const {
+  return !file_.has_attribute("/", "complete") || file_.get_int("/", "complete") != 0;
+}
+
+RowMatrix RunBody::samples(const std::string& quantity, int64_t first, int64_t count) const {
+  RowMatrix rows = file_.read_rows(dataset(quantity), first, count);
+  if (!rows.allFinite())
+    throw InputError(fmt::format("{}: {}: found NaN or infinity, expected finite values",
+                                 file_.path().string(), dataset(quantity)));
+  return rows;
+}
+
+}  // namespace clatter::recover

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Panels: named groups of skin faces, chosen by direction, box and exposure.
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recover/skin/skin.hpp"
+
+namespace clatter::recover {
+
+/// Conditions for a face to belong to a panel; all that are set must hold.
+struct PanelRule {
+  std::string name{};
+  std::optional<Eigen::Vector3d> direction{};  // outward normal within `angle_deg` of it
+  double angle_deg = 45.0;
+  std::optional<Eigen::Vector3d> box_min{}, box_max{};  // face centre inside [m]
+  bool exposed = false;  // the ray along the face's normal hits nothing of the body
+  bool may_be_empty = false;
+};
+
+struct Panel {
+  std::string name{};
+  std::vector<int32_t> faces{};  // ascending
+  double area = 0.0;             // [m2]
+};
+
+/// "skin" (all faces), "exposed" (without bores, jackets and crankcase walls that face other
+/// walls), and the exposed faces by side: thrust_side (+y), anti_thrust_side (-y), top (+z), bottom
+/// (-z), end_plus_x, end_minus_x. Sides without a face are omitted.
+std::vector<PanelRule> default_panels();
+
+/// For each face, whether the ray from its centre along its outward normal leaves the body freely.
+/// @param nodes n_s x 3 [m]
+std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& triangles,
+                                const SkinGeometry& geometry);
+
+/// Applies the rules in order. Panels may overlap.
+/// @throws InputError for a rule that selects nothing or a duplicate name
+std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const RowMatrix& nodes,
+                                 const IndexMatrix& triangles, const SkinGeometry& geometry);
+
+}  // namespace clatter::recover

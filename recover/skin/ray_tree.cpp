@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/skin/ray_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clatter::recover {
+namespace {
+
+/// Slab test; the reciprocal is infinite for a ray along the slab.
+bool meets_box(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
+               const Eigen::Vector3d& reciprocal) {
+  double near = 0.0, far = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < 3; ++d) {
+    if (std::isinf(reciprocal[d])) {
+      if (origin[d] < box.min()[d] || origin[d] > box.max()[d]) return false;
+      continue;
+    }
+    const double a = (box.min()[d] - origin[d]) * reciprocal[d];
+    const double b = (box.max()[d] - origin[d]) * reciprocal[d];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far;
+}
+
+/// Moeller and Trumbore (1997).
+bool meets_triangle(const Triangle& corners, const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& direction, double t_min) {
+  const Eigen::Vector3d edge_1 = corners.col(1) - corners.col(0);
+  const Eigen::Vector3d edge_2 = corners.col(2) - corners.col(0);
+  const Eigen::Vector3d p = direction.cross(edge_2);
+  const double determinant = edge_1.dot(p);
+  if (std::abs(determinant) < 1e-12 * edge_1.norm() * edge_2.norm()) return false;
+  const Eigen::Vector3d s = origin - corners.col(0);
+  const double u = s.dot(p) / determinant;
+  if (u < 0.0 || u > 1.0) return false;
+  const Eigen::Vector3d q = s.cross(edge_1);
+  const double v = direction.dot(q) / determinant;
+  if (v < 0.0 || u + v > 1.0) return false;
+  return edge_2.dot(q) / determinant > t_min;
+}
+
+}  // namespace
+
+RayTree::RayTree(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  if (!triangles_.empty()) build(0, static_cast<int>(triangles_.size()));
+}
+
+int RayTree::build(int first, int count) {
+  constexpr int kLeaf = 8;
+  const int index = static_cast<int>(boxes_.size());
+  boxes_.emplace_back();
+  const auto begin = triangles_.begin() + first, end = begin + count;
+  Eigen::AlignedBox3d extent, centres;
+  for (auto it = begin; it != end; ++it) {
+    for (int c = 0; c < 3; ++c) extent.extend(it->col(c));
+    centres.extend(it->rowwise().mean());
+  }
+  boxes_[static_cast<size_t>(index)].extent = extent;
+  if (count <= kLeaf) {
+    boxes_[static_cast<size_t>(index)].first = first;
+    boxes_[static_cast<size_t>(index)].count = count;
+    return index;
+  }
+  Eigen::Index longest;
+  centres.sizes().maxCoeff(&longest);
+  std::nth_element(begin, begin + count / 2, end, [longest](const Triangle& a, const Triangle& b) {
+    return a.row(longest).sum() < b.row(longest).sum();
+  });
+  const int left = build(first, count / 2);
+  const int right = build(first + count / 2, count - count / 2);
+  boxes_[static_cast<size_t>(index)].left = left;
+  boxes_[static_cast<size_t>(index)].right = right;
+  return index;
+}
+
+bool RayTree::hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                   double t_min) const {
+  if (boxes_.empty()) return false;
+  const Eigen::Vector3d reciprocal = direction.cwiseInverse();
+  std::vector<int> open{0};
+  while (!open.empty()) {
+    const Box& box = boxes_[static_cast<size_t>(open.back())];
+    open.pop_back();
+    if (!meets_box(box.extent, origin, reciprocal)) continue;
+    for (int i = box.first; i < box.first + box.count; ++i)
+      if (meets_triangle(triangles_[static_cast<size_t>(i)], origin, direction, t_min)) return true;
+    if (box.left >= 0) open.insert(open.end(), {box.left, box.right});
+  }
+  return false;
+}
+
+}  // namespace clatter::recover

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Results derived from one piece of a run: sensor histories and spectra, mean square normal
+// velocity and radiated power per panel, over lines, third octaves and time.
+#include <string>
+#include <vector>
+
+#include "recover/options/options.hpp"
+#include "recover/options/piece.hpp"
+#include "recover/run/run_input.hpp"
+#include "recover/skin/radiated_power.hpp"
+#include "recover/skin/sensors.hpp"
+#include "recover/spectrum/levels.hpp"
+#include "recover/spectrum/spectra.hpp"
+
+namespace clatter::recover {
+
+/// Radiation of one panel. Mean squares are over time and surface, so RMS^2 [m2/s2].
+struct PanelResult {
+  std::string name{};
+  double area = 0.0;                       // [m2]
+  Eigen::VectorXd mean_square_velocity{};  // per line [m2/s2]
+  Eigen::VectorXd erp{};                   // per line [W]
+  Eigen::VectorXd band_velocity_db{};      // per third octave, re LevelReferences::velocity
+  Eigen::VectorXd band_erp_db{};           // per third octave, re 1 pW
+  Eigen::VectorXd band_erp_dba{};          // the same, each line A-weighted before the sum
+  Eigen::VectorXd instant_mean_square{};   // per sample: surface mean of v_n^2 [m2/s2]
+  double total_erp = 0.0;                  // [W], lines inside the spectrum's band
+  double total_erp_a = 0.0;                // [W], A-weighted
+};
+
+/// Motion of one sensor; rows are samples, lines or bands, columns are channels.
+struct SensorResult {
+  const Sensor* sensor = nullptr;
+  RowMatrix displacement{}, velocity{}, acceleration{};  // samples: [m], [m/s], [m/s2]
+  Eigen::MatrixXcd displacement_lines{}, velocity_lines{}, acceleration_lines{};  // peak amplitudes
+  Eigen::MatrixXd band_acceleration_db{};  // third octaves, re LevelReferences::acceleration
+  Eigen::MatrixXd band_velocity_db{};
+};
+
+struct Analysis {
+  Piece piece{};
+  Eigen::VectorXd time_s{};     // samples, from firing TDC
+  Eigen::VectorXd angle_deg{};  // samples, from firing TDC; empty without a crank
+  double speed_hz = 0.0;        // revolutions of the crank per second, 0 without a crank
+  LineSpectrum velocity{};      // reduced coordinates, n_l x r
+  ThirdOctaves bands{};
+  std::vector<PanelResult> panels{};
+  std::vector<SensorResult> sensors{};
+};
+
+/// Analyses one piece up to `to_hz`, which the caller has checked against the basis.
+Analysis analyse(const RunBody& body, const Piece& piece, const Options& options, double to_hz,
+                 const std::vector<PanelForm>& forms, const std::vector<Sensor>& sensors);
+
+/// Relative difference between the last two cycles: sqrt of the time mean of the surface integral
+/// of (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.
+double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin);
+
+/// Jump between the end and the beginning of a cycle, which a transform treats as one instant:
+/// surface RMS of v_n(end) - v_n(begin) over the cycle's RMS of v_n. Negative when the run ends
+/// before the end of the cycle.
+double cycle_end_jump(const RunBody& body, const Piece& cycle, const PanelForm& skin);
+
+}  // namespace clatter::recover

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/spectrum/lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace clatter::recover {
+namespace {
+
+/// Tolerance for a limit written with rounded digits.
+constexpr double kSlack = 1.0 + 1e-9;
+
+/// The power by which lines are chosen: outward radiation, A-weighted. Without the weighting rigid
+/// motion on the mounts would always dominate.
+Eigen::VectorXd a_weighted_power(const Analysis& analysis) {
+  const PanelResult* panel = &analysis.panels.front();
+  for (const PanelResult& other : analysis.panels)
+    if (other.name == "exposed") panel = &other;
+  return panel->erp.cwiseProduct(analysis.velocity.frequency_hz.unaryExpr(&a_weighting_power));
+}
+
+std::vector<ChosenLine> strongest_peaks(const Eigen::VectorXd& frequency_hz,
+                                        const Eigen::VectorXd& power, double from_hz, int count) {
+  std::vector<ChosenLine> peaks;
+  const Eigen::Index n = power.size();
+  for (Eigen::Index k = 1; k < n; ++k) {
+    const bool rises = power[k] > power[k - 1], falls = k + 1 == n || power[k] >= power[k + 1];
+    if (rises && falls && frequency_hz[k] >= from_hz) peaks.push_back({k, frequency_hz[k]});
+  }
+  std::sort(peaks.begin(), peaks.end(), [&](const ChosenLine& a, const ChosenLine& b) {
+    return power[a.index] != power[b.index] ? power[a.index] > power[b.index] : a.index < b.index;
+  });
+  peaks.resize(std::min(peaks.size(), static_cast<size_t>(count)));
+  return peaks;
+}
+
+}  // namespace
+
+FrequencyLimit frequency_limit(const SpectrumBand& requested, double valid_to_hz, double step_s) {
+  const double nyquist = 0.5 / step_s;
+  FrequencyLimit limit{nyquist, "half the sampling frequency of the run"};
+  if (valid_to_hz > 0.0 && valid_to_hz < nyquist)
+    limit = {valid_to_hz, "as far as the reduced basis holds"};
+  if (requested.to_hz > limit.to_hz * kSlack)
+    throw InputError(fmt::format("spectrum.to_hz: found {:g} Hz, expected at most {:g} Hz, {}",
+                                 requested.to_hz, limit.to_hz, limit.reason));
+  if (requested.to_hz > 0.0 && requested.to_hz < limit.to_hz)
+    limit = {requested.to_hz, "as spectrum.to_hz says"};
+  return limit;
+}
+
+std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& band,
+                                     const Analysis& analysis, const FrequencyLimit& limit) {
+  const Eigen::VectorXd& frequency_hz = analysis.velocity.frequency_hz;
+  if (frequency_hz.size() < 2) return {};
+  if (!rule.orders.empty() && analysis.speed_hz == 0.0)
+    throw InputError(
+        "lines.orders: found orders for a run without a crank angle, expected frequencies_hz");
+  std::vector<double> requested_hz = rule.frequencies_hz;
+  for (double order : rule.orders) requested_hz.push_back(order * analysis.speed_hz);
+
+  std::vector<ChosenLine> lines;
+  for (double f : requested_hz) {
+    if (f > limit.to_hz * kSlack)
+      throw InputError(fmt::format("lines: found {:g} Hz, expected at most {:g} Hz, {}", f,
+                                   limit.to_hz, limit.reason));
+    const Eigen::Index nearest = std::lround(f / analysis.velocity.spacing_hz());
+    lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
+  }
+  if (requested_hz.empty() && !analysis.panels.empty())
+    lines = strongest_peaks(frequency_hz, a_weighted_power(analysis), band.from_hz, rule.strongest);
+  std::sort(lines.begin(), lines.end(),
+            [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
+  const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };
+  lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
+  return lines;
+}
+
+}  // namespace clatter::recover
