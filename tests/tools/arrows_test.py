@@ -47,10 +47,8 @@ def folder_of_library(target):
     """The folder that defines a library target of clatter; None for a third-party one."""
     if target in FOLDER_OF_TARGET:
         return FOLDER_OF_TARGET[target]
-    if target.startswith("mesh_"):
-        return "mesh"
-    return next((folder for folder in LIBRARIES if folder == f"core/{target}"),
-                target if target in STAGES else None)
+    stage = target.split("_")[0]
+    return next((folder for folder in LIBRARIES if folder == f"core/{target}"), stage if stage in STAGES else None)
 
 
 def sources(folder):
@@ -74,6 +72,36 @@ def wrong_includes(folder, text):
     """Errors in the #include lines of `text`, a source of `folder`."""
     included = re.findall(r'^\s*#\s*include\s+["<]((?:core/)?\w+)/', text, re.M)
     return wrong_uses(folder, included)
+
+
+def folder_includes(stage):
+    """{folder: {folder that it includes: the first include line}} inside a stage.
+
+    What lies directly in a parent folder may be used by its subfolders as well: such lines do not count."""
+    edges = {}
+    for p in sources(stage):
+        folder = str(p.parent.relative_to(SOURCE))
+        for path in re.findall(rf'^\s*#\s*include\s+"({stage}/[\w/]+)/\w+\.hpp"', p.read_text(), re.M):
+            if path != folder and not folder.startswith(f"{path}/"):
+                edges.setdefault(folder, {}).setdefault(path, f"{p.relative_to(SOURCE)} includes {path}")
+    return edges
+
+
+def circle(edges):
+    """The include lines of one circle among folders, [] where there is none."""
+    done = set()
+
+    def search(folder, path):
+        for below, line in edges.get(folder, {}).items():
+            lines = [*path, (folder, line)]
+            if below in (started := [name for name, _ in lines]):
+                return [text for _, text in lines[started.index(below):]]
+            if below not in done and (found := search(below, lines)):
+                return found
+        done.add(folder)
+        return []
+
+    return next(filter(None, (search(folder, []) for folder in sorted(edges))), [])
 
 
 def wrong_links(folder, cmake_text):
@@ -109,6 +137,16 @@ class Arrows(unittest.TestCase):
                 with self.subTest(folder=folder, below=name):
                     self.assertNotIn(folder, ALLOWED[name])
                     self.assertLessEqual(ALLOWED[name], below)
+
+    def test_folders_of_a_stage_form_no_circle(self):
+        for stage in STAGES:
+            with self.subTest(stage=stage):
+                self.assertEqual(circle(folder_includes(stage)), [])
+
+    def test_a_circle_is_reported_by_its_include_lines(self):
+        self.assertEqual(circle({"a": {"b": "a1 includes b"}, "b": {"c": "b1 includes c"}, "c": {"b": "c1 includes b"}}),
+                         ["b1 includes c", "c1 includes b"])
+        self.assertEqual(circle({"a": {"b": "", "c": ""}, "b": {"c": ""}}), [])
 
     def test_a_namespace_is_named_after_its_folder(self):
         wrong = []
