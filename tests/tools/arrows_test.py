@@ -157,6 +157,16 @@ class Arrows(unittest.TestCase):
                           for name in re.findall(r"^namespace (clatter[\w:]*) \{$", p.read_text(), re.M) if name != wanted]
         self.assertEqual(wrong, [])
 
+    def test_a_class_is_defined_once(self):
+        """Two classes of one name in one namespace share their inline functions: the linker takes either's."""
+        defined = {}
+        for p in (p for folder in ALLOWED for p in sources(folder) if p.suffix == ".hpp"):
+            for namespace, body in re.findall(r"^namespace ([\w:]+) \{$(.*?)^\}  // namespace", p.read_text(), re.M | re.S):
+                for name in re.findall(r"^(?:struct|class|enum class) (\w+)(?: final)?(?: : [^;{]*)? \{", body, re.M):
+                    defined.setdefault(f"{namespace}::{name}", []).append(str(p.relative_to(SOURCE)))
+        self.assertGreater(len(defined), 200)
+        self.assertEqual({name: files for name, files in defined.items() if len(files) > 1}, {})
+
     def test_paths_in_comments_lead_to_files(self):
         wrong = [f"{p.relative_to(SOURCE)}: names {path}, which does not exist" for folder in ALLOWED for p in sources(folder)
                  for path in re.findall(r"(?<!/)\b((?:core|%s)/[\w/]+\.[ch]pp)" % "|".join(STAGES), p.read_text())
