@@ -2,18 +2,20 @@
 # clatter from a fresh Debian 12: `make demo` and `make check` install what is missing, build, run.
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
-#   make check      every test but the long ones
+#   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
+#   make lint       format, self-contained headers
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
+CONFIGURE_FLAGS ?=
 BUILD := build/$(PRESET)
 BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate install clean
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,6p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
@@ -21,7 +23,7 @@ setup-check: ; @tools/setup build demo check
 
 configure: | setup
 	@mkdir -p build
-	@cmake --preset $(PRESET) -DCMAKE_INSTALL_PREFIX=$(PREFIX) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@cmake --preset $(PRESET) -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CONFIGURE_FLAGS) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 
 build: configure
 	cmake --build $(BUILD) -j$(JOBS) --target stages
@@ -29,8 +31,10 @@ build: configure
 build-tests: configure
 	cmake --build $(BUILD) -j$(JOBS)
 
+# The stages up to the reduced models use all cores; a run in time uses one, so several go on at once.
 demo: setup-demo build
-	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN)
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) models
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS)
 	@tools/clatter report samples/truck_diesel
 
 check: setup-check build-tests
@@ -38,6 +42,19 @@ check: setup-check build-tests
 
 validate: setup-check build-tests
 	@$(CTEST)
+
+# Every file by itself, with the address and undefined behaviour sanitizers and warnings as errors.
+sanitize:
+	@$(MAKE) --no-print-directory check PRESET=dev
+
+# The sources are formatted as .clang-format says.
+format:
+	@tools/setup lint
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
+
+# The same, and every header compiles by itself.
+lint: format configure
+	cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
 
 install: build
 	cmake --install $(BUILD)

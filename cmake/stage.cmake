@@ -34,9 +34,8 @@ if(CLATTER_PRECOMPILE)
 endif()
 
 # Neighbouring sources of a library or a test program are compiled as one file, so that what they
-# instantiate (Eigen, fmt, maps of the standard library) is made once: a third of the time on a fresh
-# machine. Errors keep file and line. Who edits one file over and over is quicker with
-# -DCLATTER_UNITY=OFF; `make check-alone` compiles each file and each header by itself.
+# instantiate (Eigen, fmt, containers) is compiled once. Errors keep file and line. For repeated edits of
+# one file -DCLATTER_UNITY=OFF is faster; `make sanitize` compiles every file by itself.
 option(CLATTER_UNITY "compile neighbouring sources as one file" ON)
 set(CMAKE_UNITY_BUILD ${CLATTER_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)

@@ -8,6 +8,7 @@
 namespace clatter {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+inline constexpr double kMilli = 1e-3, kMicro = 1e-6;
 
 /// A consistent system: forces are mass * length / time^2.
 struct UnitSystem {

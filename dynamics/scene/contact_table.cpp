@@ -8,8 +8,6 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kMilli = 1e-3, kMicro = 1e-6;
-
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& value : values) value *= factor;
   return values;

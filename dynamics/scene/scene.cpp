@@ -14,8 +14,6 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kMilli = 1e-3, kMicro = 1e-6;
-
 Spline::Kind interpolation(const Config& table, std::string_view fallback) {
   const bool linear_first = fallback == "linear";
   const std::string kind = linear_first ? table.choice("interpolation", {"linear", "cubic"})

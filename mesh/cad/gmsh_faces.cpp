@@ -51,7 +51,7 @@ std::vector<double> surface_parameters(int face) {
 }
 
 // Normals are undefined at poles and apexes: those samples are skipped.
-FaceShape shape_of(int face, const FaceFacts& facts, const std::vector<double>& uv) {
+SurfaceShape shape_of(int face, const FaceFacts& facts, const std::vector<double>& uv) {
   std::vector<double> n;
   gmsh::model::getNormal(face, uv, n);
   std::vector<Eigen::Vector3d> points, normals;

@@ -51,12 +51,12 @@ double size_of(const FaceFacts& face) {
   return std::max({1e-300, box.max.cwiseAbs().maxCoeff(), box.min.cwiseAbs().maxCoeff()});
 }
 
-std::string kind_text(const FaceShape& shape) {
+std::string kind_text(const SurfaceShape& shape) {
   return name_of(shape.kind) + (shape.is_spline ? " (spline)" : "") +
          (shape.is_concave ? ", concave" : "");
 }
 
-std::string radius_text(const FaceShape& shape) {
+std::string radius_text(const SurfaceShape& shape) {
   switch (shape.kind) {
     case ShapeKind::kCylinder:
     case ShapeKind::kSphere:
@@ -127,7 +127,7 @@ std::string json_list(const std::vector<std::string>& texts) {
 }
 
 std::string json_of(const FaceList& list, const FaceFacts& face, double margin) {
-  const FaceShape& shape = face.shape;
+  const SurfaceShape& shape = face.shape;
   const BoxFilter box = box_of(face);
   const double size = size_of(face);
   return fmt::format(
@@ -146,7 +146,7 @@ std::string json_of(const FaceList& list, const FaceFacts& face, double margin) 
 }  // namespace
 
 Vector3d position_of(const FaceFacts& face) {
-  const FaceShape& shape = face.shape;
+  const SurfaceShape& shape = face.shape;
   switch (shape.kind) {
     case ShapeKind::kCylinder:
       return shape.point + (face.centre - shape.point).dot(shape.direction) * shape.direction;
@@ -160,7 +160,7 @@ Vector3d position_of(const FaceFacts& face) {
 }
 
 std::vector<std::string> filter_lines(const FaceFacts& face, double margin) {
-  const FaceShape& shape = face.shape;
+  const SurfaceShape& shape = face.shape;
   const double size = size_of(face);
   std::vector<std::string> lines;
   if (shape.kind == ShapeKind::kCylinder)

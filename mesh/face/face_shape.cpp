@@ -57,14 +57,14 @@ VectorXd least_squares(const MatrixXd& A, const VectorXd& b) {
   return A.completeOrthogonalDecomposition().solve(b);
 }
 
-FaceShape fit_plane(const Sample& s) {
-  FaceShape shape{ShapeKind::kPlane};
+SurfaceShape fit_plane(const Sample& s) {
+  SurfaceShape shape{ShapeKind::kPlane};
   shape.direction = mean(s.n).normalized();
   return shape;
 }
 
 // x_i = c + r n_i in the coordinates that `P` keeps.
-void fit_centre(const Sample& s, const Matrix3d& P, FaceShape& shape) {
+void fit_centre(const Sample& s, const Matrix3d& P, SurfaceShape& shape) {
   const auto count = static_cast<Eigen::Index>(s.x.size());
   MatrixXd A(3 * count, 4);
   VectorXd b(3 * count);
@@ -78,22 +78,22 @@ void fit_centre(const Sample& s, const Matrix3d& P, FaceShape& shape) {
   shape.radius = std::abs(found[3]);
 }
 
-FaceShape fit_sphere(const Sample& s) {
-  FaceShape shape{ShapeKind::kSphere};
+SurfaceShape fit_sphere(const Sample& s) {
+  SurfaceShape shape{ShapeKind::kSphere};
   fit_centre(s, Matrix3d::Identity(), shape);
   return shape;
 }
 
-FaceShape fit_cylinder(const Sample& s) {
-  FaceShape shape{ShapeKind::kCylinder};
+SurfaceShape fit_cylinder(const Sample& s) {
+  SurfaceShape shape{ShapeKind::kCylinder};
   const Vector3d axis = least_spread(s.n, Vector3d::Zero());
   shape.direction = axis;
   fit_centre(s, Matrix3d::Identity() - axis * axis.transpose(), shape);
   return shape;
 }
 
-FaceShape fit_cone(const Sample& s) {
-  FaceShape shape{ShapeKind::kCone};
+SurfaceShape fit_cone(const Sample& s) {
+  SurfaceShape shape{ShapeKind::kCone};
   shape.direction = least_spread(s.n, mean(s.n));
   const auto count = static_cast<Eigen::Index>(s.x.size());
   MatrixXd A(count, 3);
@@ -109,8 +109,8 @@ FaceShape fit_cone(const Sample& s) {
   return shape;
 }
 
-FaceShape fit_torus(const Sample& s) {
-  FaceShape shape{ShapeKind::kTorus};
+SurfaceShape fit_torus(const Sample& s) {
+  SurfaceShape shape{ShapeKind::kTorus};
   const auto count = static_cast<Eigen::Index>(s.x.size());
   MatrixXd lines(count, 6);  // a . (x_i x n_i) + m . n_i = 0, m = p x a
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -140,7 +140,7 @@ FaceShape fit_torus(const Sample& s) {
   return shape;
 }
 
-FaceShape fit(ShapeKind kind, const Sample& s) {
+SurfaceShape fit(ShapeKind kind, const Sample& s) {
   switch (kind) {
     case ShapeKind::kPlane:
       return fit_plane(s);
@@ -159,7 +159,7 @@ FaceShape fit(ShapeKind kind, const Sample& s) {
 
 // The axis point nearest to the face, directions with their largest component positive: a unique
 // form of each axis.
-FaceShape in_part(FaceShape shape, const Sample& s) {
+SurfaceShape in_part(SurfaceShape shape, const Sample& s) {
   shape.radius *= s.extent;
   shape.minor_radius *= s.extent;
   const bool along_axis = shape.kind == ShapeKind::kCylinder;
@@ -182,7 +182,7 @@ ShapeKind kind_of(const std::string& cad_kind) {
   return ShapeKind::kOther;
 }
 
-double worst_distance(const FaceShape& shape, const Points& points) {
+double worst_distance(const SurfaceShape& shape, const Points& points) {
   double worst = 0.0;
   for (const Vector3d& x : points) worst = std::max(worst, distance_to(shape, x));
   return worst;
@@ -201,7 +201,7 @@ bool is_round(ShapeKind kind) {
          kind == ShapeKind::kTorus;
 }
 
-FaceShape find_shape(const std::string& cad_kind, const Points& points, const Points& normals) {
+SurfaceShape find_shape(const std::string& cad_kind, const Points& points, const Points& normals) {
   const Sample s = scaled(points, normals);
   const ShapeKind kind = kind_of(cad_kind);
   const bool is_simple = kind <= ShapeKind::kTorus;
@@ -209,7 +209,7 @@ FaceShape find_shape(const std::string& cad_kind, const Points& points, const Po
   if (is_simple) return in_part(fit(kind, s), s);
   for (const ShapeKind simple : {ShapeKind::kPlane, ShapeKind::kCylinder, ShapeKind::kSphere,
                                  ShapeKind::kCone, ShapeKind::kTorus}) {
-    FaceShape shape = in_part(fit(simple, s), s);
+    SurfaceShape shape = in_part(fit(simple, s), s);
     if (shape.kind != simple || !(worst_distance(shape, points) <= kSplineTolerance * s.extent))
       continue;
     shape.is_spline = true;
@@ -218,7 +218,7 @@ FaceShape find_shape(const std::string& cad_kind, const Points& points, const Po
   return {kind};
 }
 
-void orient(FaceShape& shape, const Vector3d& position, const Vector3d& outward) {
+void orient(SurfaceShape& shape, const Vector3d& position, const Vector3d& outward) {
   if (shape.kind == ShapeKind::kPlane && shape.direction.dot(outward) < 0.0)
     shape.direction *= -1.0;
   if (!is_round(shape.kind)) return;
@@ -230,7 +230,7 @@ void orient(FaceShape& shape, const Vector3d& position, const Vector3d& outward)
   shape.is_concave = outward.dot(from) < 0.0;
 }
 
-double distance_to(const FaceShape& shape, const Vector3d& x) {
+double distance_to(const SurfaceShape& shape, const Vector3d& x) {
   const Vector3d from = x - shape.point;
   const double along = from.dot(shape.direction);
   const double across = (from - along * shape.direction).norm();
@@ -252,7 +252,7 @@ double distance_to(const FaceShape& shape, const Vector3d& x) {
   }
 }
 
-std::string describe(const FaceShape& shape, const std::string& unit) {
+std::string describe(const SurfaceShape& shape, const std::string& unit) {
   const std::string name = (shape.is_spline ? "spline " : "") + name_of(shape.kind);
   switch (shape.kind) {
     case ShapeKind::kCylinder:

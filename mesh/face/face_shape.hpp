@@ -14,7 +14,7 @@ enum class ShapeKind { kPlane, kCylinder, kCone, kSphere, kTorus, kRevolved, kSp
 std::string name_of(ShapeKind kind);
 
 /// A surface; members that its kind does not have are zero. Lengths in the part's unit.
-struct FaceShape {
+struct SurfaceShape {
   ShapeKind kind = ShapeKind::kOther;
   bool is_spline = false;       // stored as a spline, though it is of that kind
   bool is_concave = false;      // a bore, an inner fillet; set by orient()
@@ -36,20 +36,20 @@ struct FaceShape {
 ///   cone        n_i . a = const, then n_i . (x_i - apex) = 0
 ///   torus       all lines (x_i, n_i) meet the axis (Pottmann and Wallner, Computational Line
 ///               Geometry, 2001), then a circle in the half-plane of radius and height
-FaceShape find_shape(const std::string& cad_kind, const std::vector<Eigen::Vector3d>& points,
-                     const std::vector<Eigen::Vector3d>& normals);
+SurfaceShape find_shape(const std::string& cad_kind, const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<Eigen::Vector3d>& normals);
 
 /// Cylinder, cone, sphere or torus?
 bool is_round(ShapeKind kind);
 
 /// Points a plane's normal out of the solid and finds whether a curved face is concave, from the
 /// outward normal at one of its points.
-void orient(FaceShape& shape, const Eigen::Vector3d& position, const Eigen::Vector3d& outward);
+void orient(SurfaceShape& shape, const Eigen::Vector3d& position, const Eigen::Vector3d& outward);
 
 /// Distance of x from the surface; infinite where the kind has no formula.
-double distance_to(const FaceShape& shape, const Eigen::Vector3d& x);
+double distance_to(const SurfaceShape& shape, const Eigen::Vector3d& x);
 
 /// "cylinder of radius 46.5 mm", "plane", "torus of radii 20 and 3 mm".
-std::string describe(const FaceShape& shape, const std::string& unit);
+std::string describe(const SurfaceShape& shape, const std::string& unit);
 
 }  // namespace clatter::mesh

@@ -75,7 +75,7 @@ double degrees_between(const Vector3d& a, const Vector3d& b) {
 std::string cylinder_offsets(const FaceFacts& face, const CylinderFilter& wanted,
                              const std::string& unit) {
   constexpr double kShown = 1e-9, kShownDegrees = 1e-4;
-  const FaceShape& shape = face.shape;
+  const SurfaceShape& shape = face.shape;
   std::vector<std::string> parts;
   const double more = shape.radius - wanted.radius;
   if (std::abs(more) > kShown * wanted.radius)

@@ -21,7 +21,7 @@ struct FaceFacts {
   std::string kind;  // "Plane", "Cylinder", "Torus", ...
   double area = 0.0;
   double radius = 0.0;                          // of a cylinder, else 0
-  FaceShape shape;                              // kind, radius and axis as measured
+  SurfaceShape shape;                           // kind, radius and axis as measured
   Eigen::Vector3d centre;                       // centre of the area
   std::vector<Eigen::Vector3d> edge_points;     // samples of the boundary curves
   std::vector<Eigen::Vector3d> surface_points;  // samples of the face's underlying surface

@@ -16,7 +16,7 @@
 
 namespace clatter::mesh {
 
-template <class Archive, SelfOf<FaceShape> Self>
+template <class Archive, SelfOf<SurfaceShape> Self>
 void wire(Archive& archive, Self& s) {
   auto& [kind, is_spline, is_concave, radius, minor_radius, half_angle, direction, point] = s;
   archive(kind, is_spline, is_concave, radius, minor_radius, half_angle, direction, point);

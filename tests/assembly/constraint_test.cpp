@@ -8,14 +8,14 @@
 #include "assembly/coupling/member_group.hpp"
 #include "assembly/coupling/rigid_coupling.hpp"
 #include "bar_model.hpp"
-#include "tests/refusal.hpp"
+#include "tests/constraint_refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 using test::expect_parts;
 
-std::string refusal(const mesh::Mesh& mesh, const std::string& toml) {
+std::string constraint_refusal(const mesh::Mesh& mesh, const std::string& toml) {
   return test::refusal_of([&] { build(mesh, toml); });
 }
 
@@ -235,27 +235,28 @@ TEST(Constraints, ConflictsNameBothSides) {
     return "[[coupling]]\nname = \"" + name + "\"\ntype = \"rigid\"\n" + rest;
   };
   // Two rigid couplings share an edge.
-  expect_parts(
-      refusal(mesh, rigid("one", "surface = \"z1\"\n") + rigid("two", "surface = \"x0\"\n")),
-      {"test.fe.toml:10: coupling two: found node", "makes dependent and which",
-       "test.fe.toml:6: coupling one"});
+  expect_parts(constraint_refusal(
+                   mesh, rigid("one", "surface = \"z1\"\n") + rigid("two", "surface = \"x0\"\n")),
+               {"test.fe.toml:10: coupling two: found node", "makes dependent and which",
+                "test.fe.toml:6: coupling one"});
   // A follower that is supported.
-  expect_parts(refusal(mesh, std::string(kFoot) + rigid("one", "node_set = \"z0\"\n")),
+  expect_parts(constraint_refusal(mesh, std::string(kFoot) + rigid("one", "node_set = \"z0\"\n")),
                {"coupling one", "support foot holds"});
   // A sensor among the followers.
-  expect_parts(refusal(mesh, rigid("one", "surface = \"z1\"\n") +
-                                 "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
-                                 "0.3]\n"),
-               {"coupling one", "sensor s keeps"});
-  // A dependent point that another coupling moves.
   expect_parts(
-      refusal(mesh, points + rigid("one", "point = \"a\"\npoints = [\"b\"]\n") +
-                        "[[coupling]]\nname = \"ride\"\npoint = \"b\"\nsurface = \"z1\"\n"),
-      {"coupling ride", "point b x", "coupling one"});
+      constraint_refusal(mesh, rigid("one", "surface = \"z1\"\n") +
+                                   "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
+                                   "0.3]\n"),
+      {"coupling one", "sensor s keeps"});
+  // A dependent point that another coupling moves.
+  expect_parts(constraint_refusal(
+                   mesh, points + rigid("one", "point = \"a\"\npoints = [\"b\"]\n") +
+                             "[[coupling]]\nname = \"ride\"\npoint = \"b\"\nsurface = \"z1\"\n"),
+               {"coupling ride", "point b x", "coupling one"});
   // A dependent point that is held.
-  expect_parts(refusal(mesh, points + rigid("one", "point = \"a\"\npoints = [\"b\"]\n") +
-                                 rigid("two", "point = \"a\"\nsurface = \"z1\"\n") +
-                                 "[[support]]\npoint = \"b\"\ndirections = [\"rz\"]\n"),
+  expect_parts(constraint_refusal(mesh, points + rigid("one", "point = \"a\"\npoints = [\"b\"]\n") +
+                                            rigid("two", "point = \"a\"\nsurface = \"z1\"\n") +
+                                            "[[support]]\npoint = \"b\"\ndirections = [\"rz\"]\n"),
                {"coupling one", "point b rz", "support support_1"});
 }
 
@@ -264,7 +265,7 @@ TEST(Constraints, CyclesAreToldAllTheWayRound) {
   const std::string points =
       "[[point]]\nname = \"a\"\nat = [0.0, 0.0, 0.4]\n"
       "[[point]]\nname = \"b\"\nat = [0.1, 0.0, 0.4]\n";
-  expect_parts(refusal(mesh, points + R"(
+  expect_parts(constraint_refusal(mesh, points + R"(
 [[coupling]]
 name = "ab"
 type = "rigid"
@@ -279,7 +280,7 @@ points = ["b"]
 surface = "z1"
 )"),
                {"cycle", "point a x", "point b x", "coupling ab", "coupling ba"});
-  expect_parts(refusal(mesh, R"(
+  expect_parts(constraint_refusal(mesh, R"(
 [[equation]]
 terms = [ { node_set = "n0", direction = "x", coefficient = 1.0 },
           { node_set = "n50", direction = "x", coefficient = 1.0 } ]

@@ -15,8 +15,6 @@
 namespace clatter::assembly::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 mesh::Mesh liner(int around = 24, int along = 6) {
   BlockOptions options;
   options.curved = options.wrap_x = true;
@@ -35,7 +33,7 @@ std::string liner_contact(int strips, int rows) {
 
 PatchGridSpec whole_circle(int strips, int rows) {
   PatchGridSpec spec;
-  spec.sectors = {{0.0, 2.0 * kPi, strips}};
+  spec.sectors = {{0.0, 2.0 * std::numbers::pi, strips}};
   spec.axial_edges = Eigen::VectorXd::LinSpaced(rows + 1, 0.0, 0.12);
   return spec;
 }

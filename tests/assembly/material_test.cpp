@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
-#include "tests/refusal.hpp"
+#include "tests/material_refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -23,7 +23,7 @@ fe::Material parse(const std::string& text, const std::map<std::string, fe::Axes
   return material;
 }
 
-std::string refusal(const std::string& text) {
+std::string material_refusal(const std::string& text) {
   return test::refusal_of([&] { parse(text); });
 }
 
@@ -61,15 +61,17 @@ TEST(Material, AnisotropicConstantsAreReadRowByRow) {
 }
 
 TEST(Material, WhatHasNoPositiveEnergyIsRefused) {
-  EXPECT_NE(refusal("E = 1.0\nnu = 0.5\nrho = 1").find("-1 < nu < 0.5"), std::string::npos);
-  EXPECT_NE(refusal("E = -1.0\nnu = 0.3\nrho = 1").find("above 0"), std::string::npos);
-  EXPECT_NE(refusal("E = [1, 1, 1]\nnu = [0.9, 0.9, 0.9]\nG = [1, 1, 1]\nrho = 1")
+  EXPECT_NE(material_refusal("E = 1.0\nnu = 0.5\nrho = 1").find("-1 < nu < 0.5"),
+            std::string::npos);
+  EXPECT_NE(material_refusal("E = -1.0\nnu = 0.3\nrho = 1").find("above 0"), std::string::npos);
+  EXPECT_NE(material_refusal("E = [1, 1, 1]\nnu = [0.9, 0.9, 0.9]\nG = [1, 1, 1]\nrho = 1")
                 .find("without positive elastic energy"),
             std::string::npos);
-  EXPECT_NE(refusal("rho = 1\nC = [1, 2]").find("found 2 numbers, expected 21"), std::string::npos);
-  EXPECT_NE(refusal("E = 1.0\nE_gpa = 1.0\nnu = 0.3\nrho = 1").find("found E as well"),
+  EXPECT_NE(material_refusal("rho = 1\nC = [1, 2]").find("found 2 numbers, expected 21"),
             std::string::npos);
-  EXPECT_NE(refusal("E = 1.0\nnu = 0.3\nrho = 1\nsystem = 'wood'").find("found \"wood\""),
+  EXPECT_NE(material_refusal("E = 1.0\nE_gpa = 1.0\nnu = 0.3\nrho = 1").find("found E as well"),
+            std::string::npos);
+  EXPECT_NE(material_refusal("E = 1.0\nnu = 0.3\nrho = 1\nsystem = 'wood'").find("found \"wood\""),
             std::string::npos);
 }
 

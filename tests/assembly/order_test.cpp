@@ -18,25 +18,26 @@
 namespace clatter::assembly::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const fe::Material kMaterial{1.0, 0.3, 1.0};
 
 /// u = s (1, 1, 1), s = sin(pi x) sin(pi y) sin(pi z).
 double wave(const Eigen::Vector3d& x) {
-  return std::sin(kPi * x(0)) * std::sin(kPi * x(1)) * std::sin(kPi * x(2));
+  return std::sin(std::numbers::pi * x(0)) * std::sin(std::numbers::pi * x(1)) *
+         std::sin(std::numbers::pi * x(2));
 }
 
 /// b = -(lambda + mu) grad div u - mu laplacian u.
 Eigen::Vector3d body_force(const Eigen::Vector3d& x) {
   Eigen::Vector3d s, c, b;
-  for (int d = 0; d < 3; ++d) s(d) = std::sin(kPi * x(d)), c(d) = std::cos(kPi * x(d));
+  for (int d = 0; d < 3; ++d)
+    s(d) = std::sin(std::numbers::pi * x(d)), c(d) = std::cos(std::numbers::pi * x(d));
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     // d/dx_i sum_j ds/dx_j
-    const double grad_div =
-        kPi * kPi * (-s(0) * s(1) * s(2) + c(i) * c(j) * s(k) + c(i) * s(j) * c(k));
+    const double grad_div = std::numbers::pi * std::numbers::pi *
+                            (-s(0) * s(1) * s(2) + c(i) * c(j) * s(k) + c(i) * s(j) * c(k));
     b(i) = -(kMaterial.lambda() + kMaterial.mu()) * grad_div +
-           kMaterial.mu() * 3.0 * kPi * kPi * s.prod();
+           kMaterial.mu() * 3.0 * std::numbers::pi * std::numbers::pi * s.prod();
   }
   return b;
 }
@@ -44,8 +45,9 @@ Eigen::Vector3d body_force(const Eigen::Vector3d& x) {
 /// C eps of u.
 fe::Voigt exact_stress(const Eigen::Vector3d& x) {
   Eigen::Vector3d s, c, slope;
-  for (int d = 0; d < 3; ++d) s(d) = std::sin(kPi * x(d)), c(d) = std::cos(kPi * x(d));
-  for (int d = 0; d < 3; ++d) slope(d) = kPi * c(d) * s((d + 1) % 3) * s((d + 2) % 3);
+  for (int d = 0; d < 3; ++d)
+    s(d) = std::sin(std::numbers::pi * x(d)), c(d) = std::cos(std::numbers::pi * x(d));
+  for (int d = 0; d < 3; ++d) slope(d) = std::numbers::pi * c(d) * s((d + 1) % 3) * s((d + 2) % 3);
   fe::Voigt strain;
   strain << slope(0), slope(1), slope(2), slope(0) + slope(1), slope(1) + slope(2),
       slope(2) + slope(0);

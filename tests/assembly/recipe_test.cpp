@@ -5,12 +5,12 @@
 
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
-#include "tests/refusal.hpp"
+#include "tests/recipe_refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
-constexpr const char* kSteel =
+constexpr const char* kSteelToml =
     "[material.steel]\nregions = [\"body\"]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
 
 Recipe read(const std::string& toml) {
@@ -21,12 +21,12 @@ Recipe read(const std::string& toml) {
 using test::expect_parts;
 
 /// The message of the InputError that the text must raise.
-std::string refusal(const std::string& toml) {
+std::string recipe_refusal(const std::string& toml) {
   return test::refusal_of([&] { read(toml); });
 }
 
 TEST(Recipe, ReadsUnitsByName) {
-  const Recipe recipe = read(std::string("length_unit = \"mm\"\n") + kSteel + R"(
+  const Recipe recipe = read(std::string("length_unit = \"mm\"\n") + kSteelToml + R"(
 [[sensor]]
 name = "s"
 surface = "z1"
@@ -37,33 +37,36 @@ near = [100.0, 200.0, 1000.0]
 }
 
 TEST(Recipe, UnknownNamesListWhatThereIs) {
-  expect_parts(refusal("[material.a]\nregions = [\"bdoy\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
+  expect_parts(recipe_refusal("[material.a]\nregions = [\"bdoy\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
                {"part.fe.toml:", "bdoy", "expected one of: body"});
-  expect_parts(refusal(std::string(kSteel) + "[[support]]\nsurface = \"z9\"\n"),
+  expect_parts(recipe_refusal(std::string(kSteelToml) + "[[support]]\nsurface = \"z9\"\n"),
                {"part.fe.toml:", "z9", "skin, x0, x1, y0, y1, z0, z1"});
-  expect_parts(refusal(std::string(kSteel) + "[[support]]\nnode_set = \"al\"\n"),
+  expect_parts(recipe_refusal(std::string(kSteelToml) + "[[support]]\nnode_set = \"al\"\n"),
                {"al", "expected one of: all"});
-  expect_parts(refusal(std::string(kSteel) + "[[point_mass]]\non = \"pin\"\nmass = 1.0\n"),
-               {"pin", "expected one of"});
-  expect_parts(refusal(std::string(kSteel) + "[[suport]]\nsurface = \"z0\"\n"), {"suport"});
+  expect_parts(
+      recipe_refusal(std::string(kSteelToml) + "[[point_mass]]\non = \"pin\"\nmass = 1.0\n"),
+      {"pin", "expected one of"});
+  expect_parts(recipe_refusal(std::string(kSteelToml) + "[[suport]]\nsurface = \"z0\"\n"),
+               {"suport"});
 }
 
 TEST(Recipe, TemperatureNeedsAMaterialThatExpands) {
-  expect_parts(refusal(std::string(kSteel) +
-                       "[[load]]\nname = \"hot\"\nkind = \"temperature\"\nvalue = 20.0\n"),
+  expect_parts(recipe_refusal(std::string(kSteelToml) +
+                              "[[load]]\nname = \"hot\"\nkind = \"temperature\"\nvalue = 20.0\n"),
                {"part.fe.toml:", "temperature", "no material has an expansion"});
 }
 
 TEST(Recipe, EachRegionNeedsOneMaterial) {
-  expect_parts(refusal("[material]\n"), {"body"});
-  expect_parts(refusal(std::string(kSteel) +
-                       "[material.other]\nregions = [\"body\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
-               {"body", "two materials"});
+  expect_parts(recipe_refusal("[material]\n"), {"body"});
+  expect_parts(
+      recipe_refusal(std::string(kSteelToml) +
+                     "[material.other]\nregions = [\"body\"]\nE = 1.0\nnu = 0.3\nrho = 1.0\n"),
+      {"body", "two materials"});
 }
 
 TEST(Recipe, RefusesMaterialsThatDoNotExist) {
   const auto material = [](const std::string& values) {
-    return refusal("[material.a]\nregions = [\"body\"]\n" + values);
+    return recipe_refusal("[material.a]\nregions = [\"body\"]\n" + values);
   };
   expect_parts(material("E = 2e11\nnu = 0.3\nrho = -7800.0\n"), {"rho", "-7800"});
   expect_parts(material("E = 0.0\nnu = 0.3\nrho = 7800.0\n"), {"E", "0"});
@@ -73,30 +76,34 @@ TEST(Recipe, RefusesMaterialsThatDoNotExist) {
 }
 
 TEST(Recipe, RefusesWhatCannotBe) {
-  const std::string contact = std::string(kSteel) +
+  const std::string contact = std::string(kSteelToml) +
                               "[[contact]]\nname = \"c\"\nsurface = \"y0\"\naxis_point = [0.0, "
                               "0.0, 0.0]\naxis = [0.0, 0.0, 1.0]\nzero_angle = [0.0, 1.0, 0.0]\n";
   const std::string sector =
       "[[contact.sector]]\ncentre_deg = 0.0\nhalf_width_deg = 40.0\nstrips = 3\n";
-  expect_parts(refusal(contact + "axial = [1.0, 0.0]\nrows = 3\n" + sector),
+  expect_parts(recipe_refusal(contact + "axial = [1.0, 0.0]\nrows = 3\n" + sector),
                {"axial", "ascending"});
-  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 0\n" + sector), {"rows"});
-  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n"), {"sector"});
-  expect_parts(refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n" + sector + sector), {"overlap"});
+  expect_parts(recipe_refusal(contact + "axial = [0.0, 1.0]\nrows = 0\n" + sector), {"rows"});
+  expect_parts(recipe_refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n"), {"sector"});
+  expect_parts(recipe_refusal(contact + "axial = [0.0, 1.0]\nrows = 3\n" + sector + sector),
+               {"overlap"});
+  expect_parts(recipe_refusal(std::string(kSteelToml) +
+                              "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\ndofs = 5\n"),
+               {"dofs", "5", "6 or 3"});
   expect_parts(
-      refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\ndofs = 5\n"),
-      {"dofs", "5", "6 or 3"});
-  expect_parts(refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n"
-                                             "[[coupling]]\nname = \"a\"\nsurface = \"z1\"\n"),
-               {"\"a\" twice"});
+      recipe_refusal(std::string(kSteelToml) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n"
+                                               "[[coupling]]\nname = \"a\"\nsurface = \"z1\"\n"),
+      {"\"a\" twice"});
+  expect_parts(recipe_refusal(std::string(kSteelToml) +
+                              "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n[[point_"
+                              "mass]]\non = \"a\"\nmass = 1.0\ninertia = [1.0, 1.0, "
+                              "3.0]\n"),
+               {"inertia"});
   expect_parts(
-      refusal(std::string(kSteel) + "[[coupling]]\nname = \"a\"\nsurface = \"z0\"\n[[point_"
-                                    "mass]]\non = \"a\"\nmass = 1.0\ninertia = [1.0, 1.0, "
-                                    "3.0]\n"),
-      {"inertia"});
-  expect_parts(refusal(std::string(kSteel) + "[[load]]\nname = \"g\"\nkind = \"presure\"\n"),
-               {"presure", "pressure"});
-  expect_parts(refusal(std::string(kSteel) + "[damping]\nratio = 0.01\nat_hz = 0.0\n"), {"at_hz"});
+      recipe_refusal(std::string(kSteelToml) + "[[load]]\nname = \"g\"\nkind = \"presure\"\n"),
+      {"presure", "pressure"});
+  expect_parts(recipe_refusal(std::string(kSteelToml) + "[damping]\nratio = 0.01\nat_hz = 0.0\n"),
+               {"at_hz"});
 }
 
 }  // namespace

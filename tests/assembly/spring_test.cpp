@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "bar_model.hpp"
-#include "tests/refusal.hpp"
+#include "tests/spring_refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 using test::expect_parts;
 
-std::string refusal(const std::string& toml) {
+std::string spring_refusal(const std::string& toml) {
   return test::refusal_of([&] { build(bar(), toml); });
 }
 
@@ -121,21 +121,21 @@ terms = [ { point = "end", direction = "x" },
 
 TEST(Springs, ThatMeanNothingAreRefused) {
   const std::string head = "[[spring]]\nname = \"s\"\nstiffness = 1.0\n";
-  expect_parts(refusal(head), {"terms", "found none"});
-  expect_parts(refusal("[[spring]]\nstiffness = -2.0\n"), {"stiffness", "-2"});
-  expect_parts(refusal(head + "terms = [ { node_set = \"z0\", direction = \"x\" } ]\n"),
+  expect_parts(spring_refusal(head), {"terms", "found none"});
+  expect_parts(spring_refusal("[[spring]]\nstiffness = -2.0\n"), {"stiffness", "-2"});
+  expect_parts(spring_refusal(head + "terms = [ { node_set = \"z0\", direction = \"x\" } ]\n"),
                {"node_set", "expected one"});
-  expect_parts(refusal(head + "terms = [ { node_set = \"n0\", direction = \"rx\" } ]\n"),
+  expect_parts(spring_refusal(head + "terms = [ { node_set = \"n0\", direction = \"rx\" } ]\n"),
                {"direction", "\"rx\""});
-  expect_parts(refusal(head + "terms = [ { node_set = \"n0\", direction = \"x\", "
-                              "coefficient = 0.0 } ]\n"),
+  expect_parts(spring_refusal(head + "terms = [ { node_set = \"n0\", direction = \"x\", "
+                                     "coefficient = 0.0 } ]\n"),
                {"coefficient", "found 0"});
   expect_parts(
-      refusal(head + "length = 1.0\nterms = [ { node_set = \"n0\", direction = \"x\" } ]\n"),
+      spring_refusal(head + "length = 1.0\nterms = [ { node_set = \"n0\", direction = \"x\" } ]\n"),
       {"length"});
-  expect_parts(refusal("[[point]]\nname = \"p\"\nat = [0.0, 0.0, 0.0]\n" + head +
-                       "terms = [ { node_set = \"n0\", direction = \"x\" }, "
-                       "{ point = \"p\", direction = \"rx\" } ]\n"),
+  expect_parts(spring_refusal("[[point]]\nname = \"p\"\nat = [0.0, 0.0, 0.0]\n" + head +
+                              "terms = [ { node_set = \"n0\", direction = \"x\" }, "
+                              "{ point = \"p\", direction = \"rx\" } ]\n"),
                {"direction", "rotation beside a displacement"});
 }
 

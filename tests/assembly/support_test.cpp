@@ -7,14 +7,14 @@
 #include "assembly/coupling/dof_numbers.hpp"
 #include "bar_model.hpp"
 #include "core/fe/axes.hpp"
-#include "tests/refusal.hpp"
+#include "tests/support_refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 using test::expect_parts;
 
-std::string refusal(const mesh::Mesh& mesh, const std::string& toml) {
+std::string support_refusal(const mesh::Mesh& mesh, const std::string& toml) {
   return test::refusal_of([&] { build(mesh, toml); });
 }
 
@@ -30,24 +30,25 @@ directions = "xyz"
                                 .model;
   EXPECT_EQ(model.set("a").dofs.size(), 3u);
   EXPECT_EQ(full(model.K).rows(), 3 * mesh.nodes.rows());
-  expect_parts(refusal(mesh, point), {"point a", "nothing attached"});
+  expect_parts(support_refusal(mesh, point), {"point a", "nothing attached"});
   const std::string loaded = point +
                              "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
                              "\"xyz\"\n[[point_mass]]\non = \"a\"\nmass = 1.0\n";
-  EXPECT_EQ(refusal(mesh, loaded), "accepted");
-  expect_parts(refusal(mesh, loaded + "inertia = [1.0, 1.0, 1.0]\n"),
+  EXPECT_EQ(support_refusal(mesh, loaded), "accepted");
+  expect_parts(support_refusal(mesh, loaded + "inertia = [1.0, 1.0, 1.0]\n"),
                {"point a", "mass on rx", "nothing attached"});
-  expect_parts(refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
-                                     "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
-                                     "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
-               {"load m", "nothing attached"});
+  expect_parts(
+      support_refusal(mesh, point + "[[coupling]]\npoint = \"a\"\nsurface = \"z1\"\ndirections = "
+                                    "\"xyz\"\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = "
+                                    "\"a\"\nmoment = [1.0, 0.0, 0.0]\n"),
+      {"load m", "nothing attached"});
 }
 
 TEST(Points, ASingleFollowerDoesNotHoldItsReferencesRotation) {
   // Rotation about the line from the point to its one follower moves nothing.
-  expect_parts(refusal(bar(),
-                       "[[point]]\nname = \"a\"\nat = [0.0, 0.1, 0.45]\n[[coupling]]\ntype "
-                       "= \"rigid\"\npoint = \"a\"\nnode_set = \"n0\"\n"),
+  expect_parts(support_refusal(bar(),
+                               "[[point]]\nname = \"a\"\nat = [0.0, 0.1, 0.45]\n[[coupling]]\ntype "
+                               "= \"rigid\"\npoint = \"a\"\nnode_set = \"n0\"\n"),
                {"motion of a that moves nothing"});
 }
 

@@ -24,8 +24,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPi = std::numbers::pi;
-
 /// The box with a patch grid "liner": each patch is one node's displacement along y or -y, a 2 x 8
 /// grid on the sides y = 0 and y = 5 of the cells nearest to z = 0.
 fe::FeModel lined_box() {
@@ -35,8 +33,8 @@ fe::FeModel lined_box() {
   rom::ContactGrid grid;
   grid.zero_angle = Eigen::Vector3d::UnitY();
   grid.radius = 0.05;
-  grid.angle = Eigen::Vector2d(0.0, kPi);
-  grid.angle_edges = Eigen::Vector4d(-0.5, 0.5, kPi - 0.5, kPi + 0.5);
+  grid.angle = Eigen::Vector2d(0.0, std::numbers::pi);
+  grid.angle_edges = Eigen::Vector4d(-0.5, 0.5, std::numbers::pi - 0.5, std::numbers::pi + 0.5);
   grid.axial = VectorXd::LinSpaced(8, 0.5, 7.5);
   grid.axial_edges = VectorXd::LinSpaced(9, 0.0, 8.0);
   set.position.resize(16, 3);
@@ -163,7 +161,7 @@ TEST(InterfaceModes, TwoMassesOnTheBoundaryHaveTheirHandComputedMode) {
   const InterfaceReport report =
       reduce_interface(model, InterfaceOptions{{"bc"}, 1}, motions, 1.0, 1.0);
   EXPECT_EQ(report.modes, 1);
-  EXPECT_NEAR(report.cutoff_hz, std::sqrt(4.0) / (2.0 * kPi), 1e-12);
+  EXPECT_NEAR(report.cutoff_hz, std::sqrt(4.0) / (2.0 * std::numbers::pi), 1e-12);
   ASSERT_EQ(model.size(), 2);
   EXPECT_EQ(model.set("a").dofs, (std::vector<int32_t>{0}));
   EXPECT_EQ(model.set("bc").dofs, (std::vector<int32_t>{2, 3}));

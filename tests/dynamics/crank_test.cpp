@@ -11,8 +11,7 @@
 namespace clatter::dynamics {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kOmega = 2000.0 * kPi / 30.0;
+constexpr double kOmega = 2000.0 * std::numbers::pi / 30.0;
 
 TEST(SliderCrank, PinHeightMatchesTheClosedForm) {
   const SliderCrank crank(0.065, 0.21, 0.001, kOmega);
@@ -51,7 +50,7 @@ TEST(SliderCrank, AccelerationAtTopDeadCentre) {
   // - r omega^2 (1 + r / l)
   EXPECT_NEAR(crank.piston_pin(0.0).acceleration, -0.065 * kOmega * kOmega * (1.0 + 0.065 / 0.21),
               1e-9);
-  EXPECT_NEAR(crank.crank_pin(crank.time(0.5 * kPi)).position.x(), -0.065, 1e-15);
+  EXPECT_NEAR(crank.crank_pin(crank.time(0.5 * std::numbers::pi)).position.x(), -0.065, 1e-15);
 }
 
 TEST(SliderCrank, RefusesARodThatDoesNotReach) {
@@ -72,7 +71,8 @@ TEST(MotoredCycle, EnclosesNoWork) {
   double work = 0.0, exchanged = 0.0;
   const int n = 7200;
   for (int i = 0; i < n; ++i) {
-    const double a = -2.0 * kPi + 4.0 * kPi * i / n, b = a + 4.0 * kPi / n;
+    const double a = -2.0 * std::numbers::pi + 4.0 * std::numbers::pi * i / n,
+                 b = a + 4.0 * std::numbers::pi / n;
     const double dW = 0.5 * (motored_pressure(cycle, a) + motored_pressure(cycle, b)) *
                       (cylinder_volume(cycle, b) - cylinder_volume(cycle, a));
     work += dW;

@@ -16,8 +16,6 @@ namespace {
 
 using testing::clamped_bar;
 
-constexpr double kPi = std::numbers::pi;
-
 rom::ReducedModel bar_with_table() {
   rom::ReducedModel bar = clamped_bar(1.0, 100, 10);
   bar.modal_damping.hz = Eigen::Vector2d(1000.0, 5000.0);
@@ -31,7 +29,7 @@ double decrement(const ModalBody& body, int k, double zeta, int periods) {
   System system;
   system.add_body(body);
   const double omega = std::sqrt(body.omega_squared(k));
-  const double period = 2.0 * kPi / (omega * std::sqrt(1.0 - zeta * zeta));
+  const double period = 2.0 * std::numbers::pi / (omega * std::sqrt(1.0 - zeta * zeta));
   StepOptions options;
   options.largest = period / 2000;
   options.first = 1e-7 * period;
@@ -59,9 +57,9 @@ TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
   const ModalBody body = make_modal_body(bar_with_table(), {});
   const rom::DampingTable table = bar_with_table().modal_damping;
   for (const int k : {0, 1, 2}) {
-    const double hz = std::sqrt(body.omega_squared(k)) / (2.0 * kPi);
+    const double hz = std::sqrt(body.omega_squared(k)) / (2.0 * std::numbers::pi);
     const double zeta = table.at(hz);
-    const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
+    const double expected = 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
     // Second order with 2000 steps a period: (2 pi / 2000)^2 = 1e-5 of the motion.
     EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected) << hz;
   }
@@ -74,10 +72,10 @@ TEST(ModalDamping, RayleighAndTableAddUp) {
   const ModalBody body = make_modal_body(bar, {});
   for (const int k : {0, 2}) {
     const double omega = std::sqrt(body.omega_squared(k));
-    const double zeta =
-        bar.modal_damping.at(omega / (2.0 * kPi)) + 0.5 * (bar.alpha * omega + bar.beta / omega);
+    const double zeta = bar.modal_damping.at(omega / (2.0 * std::numbers::pi)) +
+                        0.5 * (bar.alpha * omega + bar.beta / omega);
     EXPECT_NEAR(body.damping(k), 2.0 * zeta * omega, 1e-12 * body.damping(k));
-    const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
+    const double expected = 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
     EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected);
   }
 }

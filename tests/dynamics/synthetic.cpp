@@ -15,7 +15,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-constexpr double kPi = std::numbers::pi;
 
 /// Collects coordinates, each a displacement along (rotation about) a direction at a position.
 struct Assembly {
@@ -34,7 +33,7 @@ struct Assembly {
     direction.push_back(along);
     rotation.push_back(turns ? 1 : 0);
     mass.push_back(m);
-    stiffness.push_back(m * std::pow(2.0 * kPi * hz, 2));
+    stiffness.push_back(m * std::pow(2.0 * std::numbers::pi * hz, 2));
   }
   void node(const std::string& set, const std::string& kind, const Vector3d& at, double m,
             double hz) {
@@ -169,7 +168,7 @@ rom::ReducedModel clamped_bar(double length, int elements, int modes) {
   model.sets["tip"] = {
       "node", {0}, {"tip.x"}, Eigen::RowVector3d(length, 0, 0), Eigen::RowVector3d(1, 0, 0), {0}};
   model.mass.mass = rho * area * length;
-  model.fixed_interface_hz = fixed.eigenvalues().head(modes).cwiseSqrt() / (2.0 * kPi);
+  model.fixed_interface_hz = fixed.eigenvalues().head(modes).cwiseSqrt() / (2.0 * std::numbers::pi);
   model.valid_to_hz = modes > 0 ? 0.5 * model.fixed_interface_hz(modes - 1) : 1.0;
   return model;
 }
@@ -182,23 +181,23 @@ rom::ReducedModel elastic_piston(double radius, int strips, int rows) {
               Vector3d::Unit(axis), true, 5e-4, 6000.0);
   }
   parts.node("crown", "sensor", Vector3d(0.0, 0.0, 0.05), 1.0, 5000.0);
-  const double half = 40.0 * kPi / 180.0;
+  const double half = 40.0 * std::numbers::pi / 180.0;
   auto edges = equal_strips(-half, half, strips);
-  const auto other = equal_strips(kPi - half, kPi + half, strips);
+  const auto other = equal_strips(std::numbers::pi - half, std::numbers::pi + half, strips);
   edges.insert(edges.end(), other.begin(), other.end());
   parts.grid("skirt", radius, edges, VectorXd::LinSpaced(rows + 1, -0.045, 0.025), Vector3d::Zero(),
              0.3 / (2 * strips * rows), 9000.0);
   rom::ReducedModel model = parts.finish("piston");
   model.alpha = 1e-7;
   model.loads["gas"] = VectorXd::Zero(model.size());
-  model.loads["gas"](model.set("crown").dofs[2]) = -kPi * radius * radius;
+  model.loads["gas"](model.set("crown").dofs[2]) = -std::numbers::pi * radius * radius;
   return model;
 }
 
 rom::ReducedModel elastic_block(double radius, int strips, int rows) {
   Assembly parts;
   const Vector3d axis(0.195, 0.0, 0.0);
-  parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * kPi, strips),
+  parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * std::numbers::pi, strips),
              VectorXd::LinSpaced(rows + 1, 0.115, 0.345), axis, 4.0 / (strips * rows), 5000.0);
   parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(0, 0, 0.23),
             Vector3d::UnitZ(), false, 4.0, 4000.0);
@@ -214,7 +213,7 @@ rom::ReducedModel elastic_block(double radius, int strips, int rows) {
   rom::ReducedModel model = parts.finish("block");
   model.alpha = 2e-6;
   model.loads["head_4_gas"] = VectorXd::Zero(model.size());
-  model.loads["head_4_gas"](model.set("head").dofs[2]) = kPi * radius * radius;
+  model.loads["head_4_gas"](model.set("head").dofs[2]) = std::numbers::pi * radius * radius;
   return model;
 }
 

@@ -16,7 +16,7 @@ namespace {
 using testing::Folder;
 using testing::mesh_toml;
 
-const std::string kTube =
+const std::string kChildTube =
     "name = 'tube'\nkind = 'cylinder'\n[cylinder]\nradius = 20\ninner_radius = 16\nlength = 60\n"
     "[mesh]\nelement_size_mm = 9\nelements_per_turn = 12\n";
 
@@ -26,8 +26,8 @@ MadePart make(const std::string& toml, const std::string& cad_extension = "") {
 }
 
 TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
-  const MadePart there = make(kTube, ".brep");
-  const PartMesh here = mesh_toml(kTube).part;
+  const MadePart there = make(kChildTube, ".brep");
+  const PartMesh here = mesh_toml(kChildTube).part;
   EXPECT_EQ(there.part.mesh.name, here.mesh.name);
   EXPECT_EQ(there.part.mesh.nodes, here.mesh.nodes);
   EXPECT_EQ(there.part.mesh.regions, here.mesh.regions);
@@ -51,7 +51,7 @@ TEST(HardN17_GmshInAChild, TheSameBitsAsInThisProcess) {
 TEST(HardN17_GmshInAChild, ErrorsKeepTheirKindAndMessage) {
   EXPECT_THROW(make("name = 'x'\nkind = 'cad'\n[cad]\nsource = 'none.step'\n"), InputError);
   try {
-    make(kTube + "elements_per_trun = 3\n");
+    make(kChildTube + "elements_per_trun = 3\n");
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("elements_per_turn"), std::string::npos);

@@ -30,8 +30,8 @@ struct Patch {
         normals.push_back(turn * n(u, v));
       }
   }
-  FaceShape shape(const std::string& kind) const { return find_shape(kind, points, normals); }
-  double off_axis(const FaceShape& shape, const Vector3d& own) const {
+  SurfaceShape shape(const std::string& kind) const { return find_shape(kind, points, normals); }
+  double off_axis(const SurfaceShape& shape, const Vector3d& own) const {
     return (turn * own + shift - shape.point).cross(shape.direction).norm();
   }
 };
@@ -47,7 +47,7 @@ TEST_P(FaceShapeOfAPatch, CylinderRadiusAndAxis) {
       GetParam(), 20.0,
       [](double u, double v) { return Vector3d(46.5 * round(u) + Vector3d(0, 0, v)); },
       [](double u, double) { return Vector3d(-round(u)); });
-  const FaceShape shape = patch.shape("Cylinder");
+  const SurfaceShape shape = patch.shape("Cylinder");
   EXPECT_EQ(shape.kind, ShapeKind::kCylinder);
   EXPECT_NEAR(shape.radius, 46.5, tolerance);
   EXPECT_NEAR(std::abs(shape.direction.dot(patch.turn.col(2))), 1.0, tolerance);
@@ -66,7 +66,7 @@ TEST_P(FaceShapeOfAPatch, ConeApexAndAngle) {
       [&](double u, double) {
         return Vector3d(std::cos(a) * round(u) - Vector3d(0, 0, std::sin(a)));
       });
-  const FaceShape shape = patch.shape("Cone");
+  const SurfaceShape shape = patch.shape("Cone");
   EXPECT_NEAR(shape.half_angle_deg, 30.0, tolerance);
   EXPECT_LT((shape.point - patch.shift).norm(), tolerance);
   EXPECT_NEAR(std::abs(shape.direction.dot(patch.turn.col(2))), 1.0, tolerance);
@@ -82,7 +82,7 @@ TEST_P(FaceShapeOfAPatch, TorusRadii) {
       [](double u, double v) {
         return Vector3d(std::cos(v) * round(u) + Vector3d(0, 0, std::sin(v)));
       });
-  const FaceShape shape = patch.shape("Torus");
+  const SurfaceShape shape = patch.shape("Torus");
   EXPECT_NEAR(shape.radius, 30.0, tolerance);
   EXPECT_NEAR(shape.minor_radius, 2.0, tolerance);
   EXPECT_LT((shape.point - patch.shift).norm(), tolerance);
@@ -91,7 +91,7 @@ TEST_P(FaceShapeOfAPatch, TorusRadii) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, FaceShapeOfAPatch, ::testing::Values(6.2, 1.5, 0.2, 0.02));
 
-TEST(FaceShape, PlaneAndSphere) {
+TEST(SurfaceShape, PlaneAndSphere) {
   const Patch plane(
       3.0, 2.0, [](double u, double v) { return Vector3d(u, v, 0); },
       [](double, double) { return Vector3d(0, 0, 1); });
@@ -104,13 +104,13 @@ TEST(FaceShape, PlaneAndSphere) {
       [](double u, double v) {
         return Vector3d(std::cos(v) * round(u) + Vector3d(0, 0, std::sin(v)));
       });
-  const FaceShape sphere = ball.shape("Sphere");
+  const SurfaceShape sphere = ball.shape("Sphere");
   EXPECT_NEAR(sphere.radius, 7.0, 1e-11);
   EXPECT_LT((sphere.point - ball.shift).norm(), 1e-11);
 }
 
 // Some programs write all faces as splines: their shape is found from points.
-TEST(FaceShape, ASplineThatIsACylinderIsCalledSoAndAWavyOneIsNot) {
+TEST(SurfaceShape, ASplineThatIsACylinderIsCalledSoAndAWavyOneIsNot) {
   const auto make = [](double wave) {
     return Patch(
                1.0, 30.0,

@@ -25,7 +25,7 @@ void write_file(const std::filesystem::path& path, const Mesh& mesh) {
   file.commit();
 }
 
-std::string refusal(const std::filesystem::path& path) {
+std::string file_refusal(const std::filesystem::path& path) {
   try {
     read_mesh(path);
   } catch (const Error& error) {
@@ -53,7 +53,7 @@ TEST(MeshFile, TruncatedFileIsRefused) {
   const Folder folder;
   write_file(folder / "one.mesh.h5", one_cell());
   std::filesystem::resize_file(folder / "one.mesh.h5", 900);
-  EXPECT_NE(refusal(folder / "one.mesh.h5").find("one.mesh.h5"), std::string::npos);
+  EXPECT_NE(file_refusal(folder / "one.mesh.h5").find("one.mesh.h5"), std::string::npos);
 }
 
 TEST(MeshFile, FoldedCellIsRefusedWithItsPosition) {
@@ -61,7 +61,7 @@ TEST(MeshFile, FoldedCellIsRefusedWithItsPosition) {
   Tet10Nodes x = reference_tet10();
   x(4, 0) = 0.2;
   write_file(folder / "folded.mesh.h5", one_cell(x));
-  EXPECT_NE(refusal(folder / "folded.mesh.h5").find("inverted or folded"), std::string::npos);
+  EXPECT_NE(file_refusal(folder / "folded.mesh.h5").find("inverted or folded"), std::string::npos);
 }
 
 TEST(MeshFile, InvertedCellIsRefused) {
@@ -69,7 +69,7 @@ TEST(MeshFile, InvertedCellIsRefused) {
   Tet10Nodes x = reference_tet10();
   x.col(2) *= -1.0;
   write_file(folder / "inverted.mesh.h5", one_cell(x));
-  EXPECT_NE(refusal(folder / "inverted.mesh.h5").find("cell 0 of block 0"), std::string::npos);
+  EXPECT_NE(file_refusal(folder / "inverted.mesh.h5").find("cell 0 of block 0"), std::string::npos);
 }
 
 TEST(MeshFile, WrongContentsAreRefusedOneByOne) {
@@ -78,8 +78,8 @@ TEST(MeshFile, WrongContentsAreRefusedOneByOne) {
     Mesh mesh = one_cell();
     spoil(mesh);
     write_file(folder / "bad.mesh.h5", mesh);
-    EXPECT_NE(refusal(folder / "bad.mesh.h5").find(expected), std::string::npos)
-        << refusal(folder / "bad.mesh.h5");
+    EXPECT_NE(file_refusal(folder / "bad.mesh.h5").find(expected), std::string::npos)
+        << file_refusal(folder / "bad.mesh.h5");
   };
   refused("found node 10, expected 0 to 9", [](Mesh& m) { m.cells[0].nodes(0, 9) = 10; });
   refused("found region 3", [](Mesh& m) { m.cells[0].region = 3; });

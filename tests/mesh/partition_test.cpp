@@ -34,7 +34,7 @@ Mesh cubes(int n, double shift = 0.0) {
   return mesh;
 }
 
-std::string refusal(const Mesh& mesh, int parts) {
+std::string partition_refusal(const Mesh& mesh, int parts) {
   try {
     partition_cells(mesh, parts);
   } catch (const Error& error) {
@@ -54,7 +54,7 @@ TEST(HardM1, QuadraticTetrahedraThatShareAnEdgeAreNoNeighbours) {
   mesh.cells = {block};
   EXPECT_TRUE(cell_neighbours(mesh).neighbour.empty());
   EXPECT_EQ(cell_neighbours(mesh).bodies(), (std::vector<int32_t>{0, 1}));
-  EXPECT_NE(refusal(mesh, 2).find("found 2 bodies"), std::string::npos);
+  EXPECT_NE(partition_refusal(mesh, 2).find("found 2 bodies"), std::string::npos);
 }
 
 TEST(HardM1, CubesOfASmallMeshAreSeparated) {
@@ -98,8 +98,9 @@ TEST(HardM3, HolesInTheNumberingOfNodesDoNotMatter) {
 }
 
 TEST(HardM3, TooManyPartsAreRefused) {
-  EXPECT_NE(refusal(cubes(2), 9).find("found 9 parts, expected 1 to 8"), std::string::npos);
-  EXPECT_NE(refusal(cubes(2), 0).find("expected 1 to 8"), std::string::npos);
+  EXPECT_NE(partition_refusal(cubes(2), 9).find("found 9 parts, expected 1 to 8"),
+            std::string::npos);
+  EXPECT_NE(partition_refusal(cubes(2), 0).find("expected 1 to 8"), std::string::npos);
   // As many parts as cells: each cell alone, or an error, never an empty part.
   try {
     const Partition all = partition_cells(cubes(2), 8);

@@ -12,7 +12,7 @@ namespace {
 using testing::mesh_toml;
 
 const std::string kBox = "name = 'b'\nkind = 'box'\n[box]\nsize = [60, 20, 10]\n[mesh]\n";
-const std::string kTube =
+const std::string kPredictedTube =
     "name = 't'\nkind = 'cylinder'\n[cylinder]\nradius = 40\ninner_radius = 10\nlength = "
     "40\n[mesh]\n";
 
@@ -22,10 +22,11 @@ TEST(Predict, CellsWithinAFactorOfTwo) {
   const std::vector<std::string> parts = {
       kBox + "element_size_mm = 5\n",
       kBox + "element_size_mm = 3\n",
-      kTube + "element_size_mm = 8\n",
-      kTube + "element_size_mm = 20\nelements_per_turn = 24\n",
-      kTube + "element_size_mm = 12\n[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n",
-      kTube + "element_size_mm = 12\n[[mesh.local]]\nsurface = 'outer'\nfactor = 0.3\n",
+      kPredictedTube + "element_size_mm = 8\n",
+      kPredictedTube + "element_size_mm = 20\nelements_per_turn = 24\n",
+      kPredictedTube +
+          "element_size_mm = 12\n[[mesh.local]]\nsurface = 'inner'\nelements_per_turn = 24\n",
+      kPredictedTube + "element_size_mm = 12\n[[mesh.local]]\nsurface = 'outer'\nfactor = 0.3\n",
       "name = 'thin'\nkind = 'cylinder'\n[cylinder]\nradius = 30\ninner_radius = 29\nlength = 60\n"
       "[mesh]\nelement_size_mm = 6\n"};
   for (const std::string& part : parts) {
@@ -55,8 +56,9 @@ TEST(Predict, ASizeTypedInMetresIsRefusedBeforeMeshing) {
                   "max_cells", "unit is right"});
   expect_refused("length_unit = 'm'\n" + kBox + "element_size_mm = 12\n",
                  {"6e+04 x 2e+04 x 1e+04 mm"});
-  expect_refused(kTube + "element_size_mm = 10\nelements_per_turn = 900\nmax_cells = 1e5\n",
-                 {"elements_per_turn = 900"});
+  expect_refused(
+      kPredictedTube + "element_size_mm = 10\nelements_per_turn = 900\nmax_cells = 1e5\n",
+      {"elements_per_turn = 900"});
 }
 
 TEST(Predict, TheLimitIsASettingAndMustBePositive) {

@@ -55,7 +55,7 @@ TEST(Select, FiltersCombine) {
 // A part of 100 mm: exact is 0.1 um, near 10 um.
 const SelectionScale kScale{100.0, "mm"};
 
-std::string refusal(const std::string& keys) {
+std::string selection_refusal(const std::string& keys) {
   try {
     select_faces({cylinder_face()}, surfaces("[surface.bore]\n" + keys)[0], kScale, "part.toml");
   } catch (const InputError& error) {
@@ -68,16 +68,16 @@ TEST(Select, NothingSelectedNamesTheNearestFacesAndHowFarOffEachIs) {
   const std::string faces = "; the part has 0 planes, cylinders of radius 2 (1), 0 other faces";
   const std::string begin =
       "part.toml: surface 'bore' selects no face; nearest: face 4, cylinder of radius 2 mm, ";
-  EXPECT_EQ(refusal("plane = { normal = [1, 0, 0], height = 3.0 }"),
+  EXPECT_EQ(selection_refusal("plane = { normal = [1, 0, 0], height = 3.0 }"),
             begin + "up to 4 mm off" + faces);
-  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5.3, 0, 0], axis = [0, 0, 1] }"),
+  EXPECT_EQ(selection_refusal("cylinder = { radius = 2, point = [5.3, 0, 0], axis = [0, 0, 1] }"),
             begin + "axis 0.3 mm away" + faces);
-  EXPECT_EQ(refusal("cylinder = { radius = 1.5, point = [5, 0, 0], axis = [0, 0, 1] }"),
+  EXPECT_EQ(selection_refusal("cylinder = { radius = 1.5, point = [5, 0, 0], axis = [0, 0, 1] }"),
             begin + "radius 0.5 mm more" + faces);
-  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 1.5], axis = [0, 1, 0] }"),
+  EXPECT_EQ(selection_refusal("cylinder = { radius = 2, point = [5, 0, 1.5], axis = [0, 1, 0] }"),
             begin + "axis turned by 90 deg" + faces);
-  EXPECT_EQ(refusal("cylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n"
-                    "box = { min = [0, -2, 0], max = [7, 2, 2] }"),
+  EXPECT_EQ(selection_refusal("cylinder = { radius = 2, point = [5, 0, 0], axis = [0, 0, 1] }\n"
+                              "box = { min = [0, -2, 0], max = [7, 2, 2] }"),
             begin + "extends 1 mm out of the box" + faces);
 }
 

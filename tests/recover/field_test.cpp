@@ -16,12 +16,11 @@ namespace {
 
 using namespace testing;
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 constexpr Complex kI{0.0, 1.0};
 
 /// q = (cos w t, sin w t) at engine order `order`, t from angle 0.
 MotionLaw turning(const RunPlan& plan, double order) {
-  const double w = 2 * kPi * order * plan.speed_rpm / 60.0;
+  const double w = 2 * std::numbers::pi * order * plan.speed_rpm / 60.0;
   return [w](double t) {
     const Eigen::Vector2d c(std::cos(w * t), std::sin(w * t)), s(-std::sin(w * t), std::cos(w * t));
     return Motion{c, w * s, -w * w * c};
@@ -68,7 +67,7 @@ TEST(FieldFile, MonopoleInsideTheSkinKeepsItsPowerThroughRunSpectraAndFile) {
   const RunPlan plan{.first_angle_deg = -150.0};  // firing TDC is not at a special sample
   const double order = 12.0;
   Source source;
-  source.w = 2 * kPi * order * plan.speed_rpm / 60.0;
+  source.w = 2 * std::numbers::pi * order * plan.speed_rpm / 60.0;
   double error[2];
   for (int level : {2, 3}) {
     Mesh6 mesh = unit_sphere(level);
@@ -94,8 +93,8 @@ TEST(FieldFile, MonopoleInsideTheSkinKeepsItsPowerThroughRunSpectraAndFile) {
       power += 0.5 * area[f] *
                std::real(source.pressure(Eigen::Vector3d(centre.row(f))) *
                          std::conj(Complex(re[f], im[f])));
-    error[level - 2] =
-        std::abs(power / (2 * kPi * std::norm(source.A) / (source.rho * source.c)) - 1.0);
+    error[level - 2] = std::abs(
+        power / (2 * std::numbers::pi * std::norm(source.A) / (source.rho * source.c)) - 1.0);
     EXPECT_NEAR(file.read_doubles("lines/frequency_hz")[0], 400.0, 1e-9);
     std::filesystem::remove_all(folder);
   }
@@ -110,7 +109,7 @@ TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
   RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 2);
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a + 1, 0) = 1e-6;  // rigid, along y
   const auto folder = fresh_folder("tone");
-  const double order = 24.0, hz = 800.0, w = 2 * kPi * hz;
+  const double order = 24.0, hz = 800.0, w = 2 * std::numbers::pi * hz;
   const auto path = recover_file(
       write_run(folder, model_on(mesh, T, 5000.0), plan, turning(plan, order)),
       "[lines]\nfrequencies_hz = [803]\n[[sensor]]\nset = \"sensor_block\"\n"

@@ -17,7 +17,6 @@ namespace {
 
 using namespace testing;
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 constexpr Complex kI{0.0, 1.0};
 
 TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
@@ -128,7 +127,7 @@ struct Monopole {
     const Complex slope = pressure(x) * (-kI * k - 1.0 / r);
     return (-slope / (kI * k * sound_speed * density) / r) * d.cast<Complex>();
   }
-  double power() const { return 2 * kPi * std::norm(A) / (density * sound_speed); }
+  double power() const { return 2 * std::numbers::pi * std::norm(A) / (density * sound_speed); }
 };
 
 Mesh6 ellipsoid(int level) {

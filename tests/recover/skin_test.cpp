@@ -16,7 +16,6 @@ namespace clatter::recover {
 namespace {
 
 using namespace testing;
-constexpr double kPi = std::numbers::pi;
 
 double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
 
@@ -62,7 +61,7 @@ TEST(Skin, CurvedClosedSkinStillHasVanishingVectorArea) {
   const Mesh6 mesh = unit_sphere(2);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   EXPECT_LT(geometry.closure, 1e-14);  // exact for quadratic faces, rounding only
-  EXPECT_NEAR(geometry.area, 4 * kPi, 1e-3 * 4 * kPi);
+  EXPECT_NEAR(geometry.area, 4 * std::numbers::pi, 1e-3 * 4 * std::numbers::pi);
   // Normals of the sphere are its radii.
   EXPECT_LT((geometry.node_normal - mesh.nodes).rowwise().norm().maxCoeff(), 5e-3);
 }
@@ -72,8 +71,8 @@ TEST(Skin, SphereAreaAndVolumeConvergeWithFourthOrder) {
   for (int level : {1, 2}) {
     const Mesh6 mesh = unit_sphere(level);
     const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
-    area_error[level - 1] = std::abs(geometry.area - 4 * kPi);
-    volume_error[level - 1] = std::abs(geometry.volume - 4 * kPi / 3);
+    area_error[level - 1] = std::abs(geometry.area - 4 * std::numbers::pi);
+    volume_error[level - 1] = std::abs(geometry.volume - 4 * std::numbers::pi / 3);
   }
   // Quadratic faces: error ~ h^4, so a factor near 16; 12 allows for the coarse mesh.
   EXPECT_GT(area_error[0] / area_error[1], 12.0);

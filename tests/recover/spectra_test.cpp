@@ -15,8 +15,6 @@
 namespace clatter::recover {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Piece cycle_piece(int n) {
   return {.name = "cycle", .count = n, .step_s = 0.06 / n, .periodic = true};
 }
@@ -25,7 +23,7 @@ RowMatrix tone(const Piece& piece, double amplitude, double hz, double phase, do
   RowMatrix x(piece.count, 1);
   for (int64_t i = 0; i < piece.count; ++i) {
     const double t = piece.start_s() + static_cast<double>(i) * piece.step_s;
-    x(i, 0) = mean + amplitude * std::cos(2 * kPi * hz * t + phase);
+    x(i, 0) = mean + amplitude * std::cos(2 * std::numbers::pi * hz * t + phase);
   }
   return x;
 }
@@ -37,7 +35,7 @@ TEST(Spectra, TransformEqualsTheDefinition) {
     ASSERT_EQ(X.size(), n / 2 + 1);
     for (int k = 0; k <= n / 2; ++k) {
       std::complex<double> sum = 0.0;
-      for (int i = 0; i < n; ++i) sum += x[i] * std::polar(1.0, -2 * kPi * k * i / n);
+      for (int i = 0; i < n; ++i) sum += x[i] * std::polar(1.0, -2 * std::numbers::pi * k * i / n);
       EXPECT_LT(std::abs(X[k] - sum), 1e-13 * n) << n << " " << k;
     }
   }

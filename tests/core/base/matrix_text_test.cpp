@@ -81,7 +81,7 @@ TEST_F(MatrixTextTest, WhatIsWrongIsNamedWithItsLine) {
 }
 
 /// Two nodes of one set, a rotation, a slanted direction, and a mode.
-rom::ReducedModel small_model() {
+rom::ReducedModel text_model() {
   rom::ReducedModel model;
   model.n_boundary = 5;
   model.M_rr = model.K_rr = Eigen::MatrixXd::Identity(6, 6);
@@ -99,7 +99,7 @@ rom::ReducedModel small_model() {
 }
 
 TEST(DofMapTest, NodesAreSharedByComponentsAtOnePosition) {
-  const std::vector<rom::MappedDof> map = rom::map_of(small_model());
+  const std::vector<rom::MappedDof> map = rom::map_of(text_model());
   ASSERT_EQ(map.size(), 6u);
   const std::vector<std::pair<int, int>> expected{{1, 1}, {1, 2}, {1, 6}, {2, 0}, {3, 1}, {4, 0}};
   for (size_t j = 0; j < 6; ++j)
@@ -109,7 +109,7 @@ TEST(DofMapTest, NodesAreSharedByComponentsAtOnePosition) {
 }
 
 TEST(DofMapTest, TheMapReadsBackToTheLastBit) {
-  const std::vector<rom::MappedDof> map = rom::map_of(small_model());
+  const std::vector<rom::MappedDof> map = rom::map_of(text_model());
   const auto path = std::filesystem::path(::testing::TempDir()) / "round.dofs.tsv";
   rom::write_dof_map(path, map);
   const std::vector<rom::MappedDof> read = rom::read_dof_map(path);

@@ -12,8 +12,6 @@
 namespace clatter::film {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 PadGrid pad() { return PadGrid::uniform(-0.6, 0.6, 9, -0.03, 0.02, 7, 0.05); }
 
 // Patches all around; axis may point down and angles may start anywhere.
@@ -23,10 +21,12 @@ rom::ContactGrid ring(int n_a, int n_z, double low, double high, bool upside_dow
   grid.axis_point = {0.3, 0.0, upside_down ? high : low};
   grid.axis = {0.0, 0.0, upside_down ? -1.0 : 1.0};
   grid.zero_angle = Eigen::Vector3d(0.6, 0.8, 0.0);
-  grid.angle = Eigen::VectorXd::LinSpaced(n_a, kPi / n_a, 2 * kPi - kPi / n_a);
+  grid.angle = Eigen::VectorXd::LinSpaced(n_a, std::numbers::pi / n_a,
+                                          2 * std::numbers::pi - std::numbers::pi / n_a);
   grid.angle_edges.resize(2 * n_a);
   for (int i = 0; i < n_a; ++i)
-    grid.angle_edges.segment<2>(2 * i) << 2 * kPi * i / n_a, 2 * kPi * (i + 1) / n_a;
+    grid.angle_edges.segment<2>(2 * i) << 2 * std::numbers::pi * i / n_a,
+        2 * std::numbers::pi * (i + 1) / n_a;
   grid.axial_edges = Eigen::VectorXd::LinSpaced(n_z + 1, 0.0, high - low);
   grid.axial = 0.5 * (grid.axial_edges.head(n_z) + grid.axial_edges.tail(n_z));
   return grid;
@@ -110,9 +110,10 @@ TEST(PatchMap, PatchesOfTwoSectorsDoNotReachAcrossTheSpaceBetween) {
   rom::ContactGrid grid = ring(8, 4, -0.03, 0.02, false);
   grid.zero_angle = Eigen::Vector3d::UnitY();
   grid.angle.resize(4);
-  grid.angle << -0.3, 0.3, kPi - 0.3, kPi + 0.3;
+  grid.angle << -0.3, 0.3, std::numbers::pi - 0.3, std::numbers::pi + 0.3;
   grid.angle_edges.resize(8);
-  grid.angle_edges << -0.6, 0.0, 0.0, 0.6, kPi - 0.6, kPi, kPi, kPi + 0.6;
+  grid.angle_edges << -0.6, 0.0, 0.0, 0.6, std::numbers::pi - 0.6, std::numbers::pi,
+      std::numbers::pi, std::numbers::pi + 0.6;
   const CylinderStencil stencil(grid.angle, {1, 0, 1, 0}, grid.axial);
   EXPECT_EQ(stencil.at_angle(0.55).first, 1);
   EXPECT_EQ(stencil.at_angle(0.55).weight, 0.0);

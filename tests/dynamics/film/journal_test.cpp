@@ -11,8 +11,6 @@
 namespace clatter::film {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Journal {
   double load, attitude, rupture, peak, residual;
 };
@@ -22,7 +20,7 @@ struct Journal {
 // speed 1.
 Journal solve(double eccentricity, int around, double length, int rows) {
   const PadGrid grid =
-      PadGrid::uniform(0.0, 2.0 * kPi, around, -0.5 * length, 0.5 * length, rows, 1.0);
+      PadGrid::uniform(0.0, 2.0 * std::numbers::pi, around, -0.5 * length, 0.5 * length, rows, 1.0);
   const bool is_long = rows == 1;
   const Edge side = is_long ? Edge::wall() : Edge{};
   Reynolds film(grid, {Edge{}, Edge{}, side, side}, true);
@@ -41,8 +39,9 @@ Journal solve(double eccentricity, int around, double length, int rows) {
       across_line += force * std::sin(grid.angle(i));
       if (film.is_full(grid.cell(i, j))) last_full = std::max(last_full, i);
     }
-  return {std::hypot(along_line, across_line), std::atan2(across_line, along_line) * 180.0 / kPi,
-          grid.angle_edges()[last_full + 1] * 180.0 / kPi, film.pressure().maxCoeff(),
+  return {std::hypot(along_line, across_line),
+          std::atan2(across_line, along_line) * 180.0 / std::numbers::pi,
+          grid.angle_edges()[last_full + 1] * 180.0 / std::numbers::pi, film.pressure().maxCoeff(),
           film.residual()};
 }
 
@@ -87,8 +86,9 @@ TEST(ShortJournal, HardR5_ResidualStaysSmallUpToEccentricity099) {
     const double length = 0.05;
     const Journal journal = solve(eccentricity, 720, length, 32);
     const double q = 1.0 - eccentricity * eccentricity;
-    const double x = eccentricity / (4.0 * q * q) *
-                     std::sqrt(16.0 * eccentricity * eccentricity + kPi * kPi * q);
+    const double x =
+        eccentricity / (4.0 * q * q) *
+        std::sqrt(16.0 * eccentricity * eccentricity + std::numbers::pi * std::numbers::pi * q);
     std::printf("short journal eps=%.2f  X ratio %.4f  residual %.1e\n", eccentricity,
                 journal.load / std::pow(length, 3) / x, journal.residual);
     EXPECT_LT(journal.residual, 1e-10);  // required

@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 // Rounding of sines and of a few products of numbers of size 1.
-constexpr double kRounding = 1e-14;
+constexpr double kCouplingsRounding = 1e-14;
 
 // Grid 9 next to the tetrahedron; cylindrical system 5 about basic z; grid 8 moves in it.
 const std::string kPoints =
@@ -85,8 +85,10 @@ TEST(NastranCouplings, Rbe2InSomeDirectionsOfACylinderGivesEquations) {
   ASSERT_THAT(deck.equations, SizeIs(2));
   for (const Equation& equation : deck.equations) {
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(residual(deck, equation, Vector3d::Unit(k), Vector3d::Zero()), 0, kRounding);
-      EXPECT_NEAR(residual(deck, equation, Vector3d::Zero(), Vector3d::Unit(k)), 0, kRounding);
+      EXPECT_NEAR(residual(deck, equation, Vector3d::Unit(k), Vector3d::Zero()), 0,
+                  kCouplingsRounding);
+      EXPECT_NEAR(residual(deck, equation, Vector3d::Zero(), Vector3d::Unit(k)), 0,
+                  kCouplingsRounding);
     }
     EXPECT_EQ(equation.terms[0].node_index, deck.equations[0].terms[0].node_index);
     EXPECT_EQ(equation.terms[0].coefficient, 1.0);
@@ -102,7 +104,7 @@ TEST(NastranCouplings, Rbe2InSomeDirectionsOfACylinderGivesEquations) {
       if (term.node_index == equation.terms[0].node_index)
         sum += term.coefficient * slide[term.direction];
     }
-    EXPECT_NEAR(sum, 0, kRounding);
+    EXPECT_NEAR(sum, 0, kCouplingsRounding);
   }
 }
 
@@ -155,8 +157,9 @@ TEST(NastranCouplings, Conm2InertiaTurnsWithItsSystem) {
   const Deck local = read_deck(kTet + kPoints + "CONM2,7,9,5,5.,1.,2.,3.,," + inertia);
   Matrix3d axes;
   axes << .6, -.8, 0, .8, .6, 0, 0, 0, 1;
-  EXPECT_LT((local.masses[0].offset - axes * Vector3d(1, 2, 3)).norm(), kRounding);
-  EXPECT_LT((local.masses[0].inertia - axes * tensor * axes.transpose()).norm(), kRounding);
+  EXPECT_LT((local.masses[0].offset - axes * Vector3d(1, 2, 3)).norm(), kCouplingsRounding);
+  EXPECT_LT((local.masses[0].inertia - axes * tensor * axes.transpose()).norm(),
+            kCouplingsRounding);
 
   // CID -1: the centre in basic coordinates.
   const Deck centre = read_deck(kTet + kPoints + "CONM2,7,9,-1,5.,3.,4.,6.\n");
@@ -174,9 +177,9 @@ TEST(NastranCouplings, MpcTermsTurnIntoTheBasicFrame) {
   EXPECT_EQ(terms[0].direction, 0);
   EXPECT_EQ(terms[0].coefficient, 2.0);
   EXPECT_EQ(terms[1].direction, 1);
-  EXPECT_NEAR(terms[1].coefficient, -0.8, kRounding);
+  EXPECT_NEAR(terms[1].coefficient, -0.8, kCouplingsRounding);
   EXPECT_EQ(terms[2].direction, 0);
-  EXPECT_NEAR(terms[2].coefficient, -0.6, kRounding);
+  EXPECT_NEAR(terms[2].coefficient, -0.6, kCouplingsRounding);
   EXPECT_EQ(terms[3].direction, 3);
   EXPECT_EQ(terms[3].coefficient, 0.5);
 }

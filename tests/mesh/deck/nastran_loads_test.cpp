@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-constexpr double kRounding = 1e-14;  // of a few operations on numbers of size 10
+constexpr double kLoadsRounding = 1e-14;  // of a few operations on numbers of size 10
 
 Vector3d total(const Step& step, mesh::deck::NodeIndex node_index, int base = 0) {
   Vector3d sum = Vector3d::Zero();
@@ -35,9 +35,9 @@ TEST(NastranLoads, ForcesAreScaledAndTurned) {
   ASSERT_THAT(deck.steps, SizeIs(1));
   EXPECT_EQ(deck.steps[0].name, "load_3");
   EXPECT_EQ(deck.steps[0].kind, Step::Kind::kNone);
-  EXPECT_LT((total(deck.steps[0], 1) - Vector3d(6, 0, -8)).norm(), kRounding);
+  EXPECT_LT((total(deck.steps[0], 1) - Vector3d(6, 0, -8)).norm(), kLoadsRounding);
   // Grid 3 at (0, 1, 0): r along y, theta along -x.
-  EXPECT_LT((total(deck.steps[0], 2) - Vector3d(-1, 2, 0)).norm(), kRounding);
+  EXPECT_LT((total(deck.steps[0], 2) - Vector3d(-1, 2, 0)).norm(), kLoadsRounding);
 }
 
 TEST(NastranLoads, OnTheAxisTheAngleIsZero) {

@@ -15,7 +15,7 @@ using mesh::deck::System;
 using testing::HasSubstr;
 
 // Rounding of a few operations on numbers of size 10.
-constexpr double kRounding = 1e-14;
+constexpr double kSystemsRounding = 1e-14;
 
 // Position of grid 9, given in `grid`, with `cards` in the deck.
 Vector3d position(const std::string& cards, const std::string& grid) {
@@ -26,24 +26,26 @@ Vector3d position(const std::string& cards, const std::string& grid) {
 TEST(NastranSystems, Cord2rTurnsAndShifts) {
   // Origin (1, 2, 3), z along basic x, x along basic y, so y along basic z.
   const std::string cord = "CORD2R,5,,1.,2.,3.,2.,2.,3.,+\n+,1.,3.,3.\n";
-  EXPECT_LT((position(cord, "GRID,9,5,10.,20.,30.\n") - Vector3d(31, 12, 23)).norm(), kRounding);
+  EXPECT_LT((position(cord, "GRID,9,5,10.,20.,30.\n") - Vector3d(31, 12, 23)).norm(),
+            kSystemsRounding);
 }
 
 TEST(NastranSystems, Cord2cCountsDegreesFromItsXzPlane) {
   const std::string cord = "CORD2C,5,,1.,2.,3.,2.,2.,3.,+\n+,1.,3.,3.\n";
   // r = 2 at 90 degrees: along its y, which is basic z.
-  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,30.\n") - Vector3d(31, 2, 5)).norm(), kRounding);
+  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,30.\n") - Vector3d(31, 2, 5)).norm(),
+            kSystemsRounding);
   EXPECT_LT((position(cord, "GRID,9,5,2.,30.,0.\n") - Vector3d(1, 2 + std::sqrt(3.0), 4)).norm(),
-            kRounding);
+            kSystemsRounding);
 }
 
 TEST(NastranSystems, Cord2sOpensThetaFromItsZAxis) {
   const std::string cord = "CORD2S,5,0,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n";
-  EXPECT_LT((position(cord, "GRID,9,5,2.,0.,77.\n") - Vector3d(0, 0, 2)).norm(), kRounding);
-  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,0.\n") - Vector3d(2, 0, 0)).norm(), kRounding);
-  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,90.\n") - Vector3d(0, 2, 0)).norm(), kRounding);
+  EXPECT_LT((position(cord, "GRID,9,5,2.,0.,77.\n") - Vector3d(0, 0, 2)).norm(), kSystemsRounding);
+  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,0.\n") - Vector3d(2, 0, 0)).norm(), kSystemsRounding);
+  EXPECT_LT((position(cord, "GRID,9,5,2.,90.,90.\n") - Vector3d(0, 2, 0)).norm(), kSystemsRounding);
   EXPECT_LT((position(cord, "GRID,9,5,2.,30.,180.\n") - Vector3d(-1, 0, std::sqrt(3.0))).norm(),
-            kRounding);
+            kSystemsRounding);
 }
 
 TEST(NastranSystems, ReferencesAreFollowedInAnyOrder) {
@@ -52,7 +54,7 @@ TEST(NastranSystems, ReferencesAreFollowedInAnyOrder) {
   const std::string cords = "CORD2R,7,6" + turn + "CORD2R,6,5" + turn + "CORD2R,5,0" + turn;
   // (1, 0) + R (1, 0) + R^2 (1, 0) + R^3 (2, 3)
   const Vector3d expected(1 + 0 - 1 + 3, 0 + 1 + 0 - 2, 4);
-  EXPECT_LT((position(cords, "GRID,9,7,2.,3.,4.\n") - expected).norm(), kRounding);
+  EXPECT_LT((position(cords, "GRID,9,7,2.,3.,4.\n") - expected).norm(), kSystemsRounding);
 }
 
 TEST(NastranSystems, Cord1RefersToGridsThatMayHaveSystemsThemselves) {
@@ -60,12 +62,12 @@ TEST(NastranSystems, Cord1RefersToGridsThatMayHaveSystemsThemselves) {
   const std::string cord = "CORD1R,5,2,3,4\n";
   const double r = std::sqrt(2.0);
   EXPECT_LT((position(cord, "GRID,9,5,0.,0.,1.\n") - Vector3d(1 - 1 / r, 1 / r, 0)).norm(),
-            kRounding);
+            kSystemsRounding);
   // Two systems on one card, the second with grids in the first.
   const std::string two =
       "CORD1C,5,1,4,2,6,21,22,23\nGRID,21,5,1.,90.,0.\nGRID,22,5,1.,90.,1.\nGRID,23,5,2.,90.,0.\n";
   // Origin (0,1,0), z along z, x along y; r = 1 at 0 degrees is one more along y.
-  EXPECT_LT((position(two, "GRID,9,6,1.,0.,0.\n") - Vector3d(0, 2, 0)).norm(), kRounding);
+  EXPECT_LT((position(two, "GRID,9,6,1.,0.,0.\n") - Vector3d(0, 2, 0)).norm(), kSystemsRounding);
 }
 
 TEST(NastranSystems, CyclesAndMissingOnesAreRefused) {

@@ -46,7 +46,7 @@ TEST(RecipeText, WritesMaterialSupportForceAndStep) {
   EXPECT_EQ(parsed.recipe.materials[0].density, 7.8e-9);
   EXPECT_EQ(parsed.recipe.materials[0].integration.hex8, fe::Integration::kFull);
   ASSERT_THAT(parsed.recipe.supports, SizeIs(1));
-  EXPECT_EQ(parsed.recipe.supports[0].place.node_set, "BOT");
+  EXPECT_EQ(parsed.recipe.supports[0].selection.node_set, "BOT");
   EXPECT_THAT(parsed.recipe.supports[0].directions, ElementsAre(0, 1, 2));
   ASSERT_THAT(parsed.recipe.loads, SizeIs(1));
   EXPECT_EQ(parsed.recipe.loads[0].kind, LoadSpec::Kind::kNodal);
@@ -96,7 +96,7 @@ TEST(RecipeText, KeepsARigidBodyOnItsPointAndItsMass) {
       parse(read(kModel + "*RIGID BODY, NSET=TOP, REF NODE=9\n"
                           "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
   ASSERT_THAT(parsed.recipe.points, SizeIs(1));
-  EXPECT_EQ(parsed.recipe.points[0].point.place, Eigen::Vector3d(0.5, 0.5, 2.0));
+  EXPECT_EQ(parsed.recipe.points[0].point.position, Eigen::Vector3d(0.5, 0.5, 2.0));
   ASSERT_THAT(parsed.recipe.couplings, SizeIs(1));
   EXPECT_TRUE(parsed.recipe.couplings[0].rigid);
   EXPECT_EQ(parsed.recipe.couplings[0].on_point, parsed.recipe.points[0].point.name);
