@@ -8,7 +8,7 @@
 #include "assembly/coupling/member_group.hpp"
 #include "assembly/coupling/rigid_coupling.hpp"
 #include "bar_model.hpp"
-#include "tests/constraint_refusal.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

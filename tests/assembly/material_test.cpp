@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
-#include "tests/material_refusal.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

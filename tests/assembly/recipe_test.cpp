@@ -5,7 +5,7 @@
 
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
-#include "tests/recipe_refusal.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

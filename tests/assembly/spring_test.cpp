@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bar_model.hpp"
-#include "tests/spring_refusal.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {

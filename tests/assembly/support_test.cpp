@@ -7,7 +7,7 @@
 #include "assembly/coupling/dof_numbers.hpp"
 #include "bar_model.hpp"
 #include "core/fe/axes.hpp"
-#include "tests/support_refusal.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
