@@ -138,6 +138,7 @@ int run(const Arguments& a, const CommonOptions& common) {
   control.stop = &stop_requested;
   control.checkpoint = [&](const Checkpoint& point) { write_checkpoint(checkpoint, point, mark); };
   control.film_every = scene.film_every;
+  control.label = fmt::format("integrating {}", a.scene.stem().stem().string());
   if (a.resume) control.resume_from = read_checkpoint(checkpoint, mark);
   if (control.resume_from) {
     say(fmt::format("resuming after cycle {}", control.resume_from->cycle));

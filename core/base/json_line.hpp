@@ -10,7 +10,8 @@ namespace clatter {
 /// (key, value) pairs of an object; values are already JSON text.
 using JsonMembers = std::vector<std::pair<std::string, std::string>>;
 
-/// A quoted JSON string; a number as JSON, null when it is not finite.
+/// A quoted JSON string, bytes that are not UTF-8 replaced by U+FFFD; a number as JSON, null when
+/// it is not finite.
 std::string json_text(const std::string& text);
 std::string json_number(double value);
 /// {"key": value, ...} in the given order.

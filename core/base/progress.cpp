@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "core/base/log.hpp"
@@ -18,13 +20,19 @@ constexpr double kTerminalPeriod = 0.25;  // seconds between redraws of the bar
 constexpr double kLinePeriod = 10.0;      // seconds between plain lines
 constexpr int kBarWidth = 24;
 
+// Under `make -j` several programs share the terminal: bars would overwrite each other.
+bool beside_others() {
+  const char* flags = std::getenv("MAKEFLAGS");
+  return flags != nullptr && std::string_view(flags).find("--jobserver") != std::string_view::npos;
+}
+
 }  // namespace
 
 Progress::Progress(std::string label, double total, std::string unit)
     : label_(std::move(label)),
       unit_(std::move(unit)),
       total_(total),
-      terminal_(isatty(STDERR_FILENO) != 0) {}
+      terminal_(isatty(STDERR_FILENO) != 0 && !beside_others()) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) std::fputc('\n', stderr);

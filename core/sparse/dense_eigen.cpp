@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/dense_eigen.hpp"
 
-#include <vector>
+#include <lapack.h>
 
-extern "C" {
-void dsyevd_(const char* job, const char* uplo, const int* n, double* a, const int* lda, double* w,
-             double* work, const int* lwork, int* iwork, const int* liwork, int* info);
-void dsygvd_(const int* type, const char* job, const char* uplo, const int* n, double* a,
-             const int* lda, double* b, const int* ldb, double* w, double* work, const int* lwork,
-             int* iwork, const int* liwork, int* info);
-}
+#include <vector>
 
 namespace clatter::sparse {
 namespace {
@@ -47,8 +41,8 @@ DenseEigen solve(const Eigen::MatrixXd& A, EigenParts parts, Driver&& driver) {
 DenseEigen symmetric_eigen(const Eigen::MatrixXd& A, EigenParts parts) {
   return solve(A, parts, [](char job, int n, DenseEigen& out, int& info) {
     with_workspace([&](double* work, const int* lwork, int* iwork, const int* liwork) {
-      dsyevd_(&job, "L", &n, out.vectors.data(), &n, out.values.data(), work, lwork, iwork, liwork,
-              &info);
+      LAPACK_dsyevd(&job, "L", &n, out.vectors.data(), &n, out.values.data(), work, lwork, iwork,
+                    liwork, &info);
     });
   });
 }
@@ -59,8 +53,8 @@ DenseEigen symmetric_eigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, E
   return solve(A, parts, [&](char job, int n, DenseEigen& out, int& info) {
     const int type = 1;
     with_workspace([&](double* work, const int* lwork, int* iwork, const int* liwork) {
-      dsygvd_(&type, &job, "L", &n, out.vectors.data(), &n, factor.data(), &n, out.values.data(),
-              work, lwork, iwork, liwork, &info);
+      LAPACK_dsygvd(&type, &job, "L", &n, out.vectors.data(), &n, factor.data(), &n,
+                    out.values.data(), work, lwork, iwork, liwork, &info);
     });
   });
 }

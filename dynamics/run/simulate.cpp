@@ -113,7 +113,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
   Checkpoint point = control.resume_from ? *control.resume_from : first_state(scene);
   const int cycles = scene.engine ? scene.time.cycles : 1;
   const double factor = scene.engine ? scene.engine->speed * 180.0 / std::numbers::pi : 1.0;
-  Progress progress("integrating", factor * (scene.time.end - scene.time.begin),
+  Progress progress(control.label, factor * (scene.time.end - scene.time.begin),
                     scene.engine ? "deg" : "s");
   std::map<std::string, double> seconds;
   while (point.cycle < cycles) {

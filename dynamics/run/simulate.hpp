@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "dynamics/run/checkpoint.hpp"
 #include "dynamics/run/model.hpp"
@@ -33,6 +34,7 @@ struct RunControl {
   const std::atomic<bool>* stop = nullptr;            // set by the caller: stop after a step
   std::function<void(const Checkpoint&)> checkpoint;  // after each cycle but the last
   double film_every = 0.0;                            // [s]
+  std::string label = "integrating";                  // of the progress
 };
 
 /// Starts from rest at the ideal position of every body (all deviations zero, so every gap is the

@@ -38,6 +38,8 @@ HEADER_OWNERS = {
     r"hdf5\.h|H5\w*\.h": ["core/base/h5_"],
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
     r"CLI/.*": ["core/base/command_line"],
+    r"nlohmann/.*": ["core/base/json_line"],
+    r"lapack\.h": ["core/sparse/dense_eigen", "core/sparse/factor/front"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")

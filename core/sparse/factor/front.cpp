@@ -2,17 +2,10 @@
 #include "core/sparse/factor/front.hpp"
 
 #include <cblas.h>
+#include <lapack.h>
 
 #include <algorithm>
 #include <cmath>
-
-extern "C" {
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void dsytrf_rk_(const char* uplo, const int* n, double* a, const int* lda, double* e, int* ipiv,
-                double* work, const int* lwork, int* info);
-void dsytrs_3_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda,
-               const double* e, const int* ipiv, double* b, const int* ldb, int* info);
-}
 
 namespace clatter::sparse {
 namespace {
@@ -22,7 +15,7 @@ constexpr int kStripe = 192;  // columns of the update per matrix product
 
 int cholesky(int n, double* a, int stride) {
   int info = 0;
-  dpotrf_("L", &n, a, &stride, &info);
+  LAPACK_dpotrf("L", &n, a, &stride, &info);
   return info;
 }
 
@@ -62,12 +55,12 @@ BlockDiagonal bunch_kaufman(const Front& front) {
   const int n = front.columns, stride = front.height(), query = -1;
   double best = 0.0;
   int info = 0;
-  dsytrf_rk_("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(), &best, &query,
-             &info);
+  LAPACK_dsytrf_rk("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(), &best,
+                   &query, &info);
   const int room = std::max(1, static_cast<int>(best));
   std::vector<double> work(static_cast<size_t>(room));
-  dsytrf_rk_("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(), work.data(),
-             &room, &info);
+  LAPACK_dsytrf_rk("L", &n, front.panel, &stride, d.subdiagonal.data(), d.pivots.data(),
+                   work.data(), &room, &info);
   return d;
 }
 
@@ -114,8 +107,8 @@ double update_indefinite(const Front& front, const BlockDiagonal& d) {
             front.panel[static_cast<size_t>(j) * static_cast<size_t>(h) +
                         static_cast<size_t>(p + begin + c)];
     int info = 0;
-    dsytrs_3_("L", &p, &width, front.panel, &h, d.subdiagonal.data(), d.pivots.data(), x.data(), &p,
-              &info);
+    LAPACK_dsytrs_3("L", &p, &width, front.panel, &h, d.subdiagonal.data(), d.pivots.data(),
+                    x.data(), &p, &info);
     for (size_t k = 0; k < static_cast<size_t>(p) * static_cast<size_t>(width); ++k)
       largest = std::max(largest, std::abs(x[k]));
     double* corner = front.update + static_cast<size_t>(begin) * static_cast<size_t>(q + 1);

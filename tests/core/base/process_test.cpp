@@ -156,7 +156,8 @@ TEST(ErrorPositions, AreParsedFromTheMessage) {
 }
 
 TEST(Json, QuotesAndControlCharactersAreEscaped) {
-  EXPECT_EQ(json_text("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
+  EXPECT_EQ(json_text("a\"b\\c\n"), "\"a\\\"b\\\\c\\n\"");
+  EXPECT_EQ(json_text("\xff.h5"), "\"\xef\xbf\xbd.h5\"");  // a file name that is not UTF-8
   EXPECT_EQ(json_number(std::numeric_limits<double>::quiet_NaN()), "null");
 }
 
