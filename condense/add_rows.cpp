@@ -115,7 +115,7 @@ std::vector<std::string> sets_beside(const rom::ReducedModel& stored,
 }  // namespace
 
 StoredRequest read_request(const std::filesystem::path& rom) {
-  const H5File file = open_artefact(rom, "clatter/rom/1");
+  const H5File file = open_artefact(rom, rom::kRomSchema);
   if (!file.has(kRequest) || !file.has("inputs/sha256"))
     throw InputError(
         fmt::format("{}: {}: found none, expected a part condensed by this version: condense the "

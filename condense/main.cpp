@@ -117,7 +117,7 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
       "differs by {:.1e} from the stored one",
       with_rows.name, with_rows.skin.nodes.rows(), with_rows.recovered_sets.size(), error));
   const std::string resolved = H5File::open(paths.add_rows).get_string("/", "config");
-  write(paths.output, with_rows, {"clatter/rom/1", resolved, {paths.model, paths.add_rows}},
+  write(paths.output, with_rows, {rom::kRomSchema, resolved, {paths.model, paths.add_rows}},
         stored.text, clock);
   write_depfile(common.depfile, paths.output, {paths.model, paths.add_rows});
   if (common.json)
@@ -191,7 +191,7 @@ int run(int argc, char** argv) {
     clock.lap("verification by the full model");
     if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
   }
-  write(paths.output, reduced, {"clatter/rom/1", config.resolved(), {paths.model, paths.config}},
+  write(paths.output, reduced, {rom::kRomSchema, config.resolved(), {paths.model, paths.config}},
         text_of(paths.config), clock);
   write_depfile(line.common().depfile, paths.output, {paths.model, paths.config});
   if (line.common().json) print_summary(paths, reduced, clock);

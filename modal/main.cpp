@@ -76,7 +76,7 @@ int compute(const Arguments& arguments, const CommonOptions& common) {
   modes::PartModes part;
   rom::ReducedModel reduced;
   fe::FeModel full;
-  if (schema == "clatter/rom/1") {
+  if (schema == rom::kRomSchema) {
     reduced = rom::read_reduced_model(input);
     part = modes::analyse(reduced, options);
   } else {

@@ -9,7 +9,6 @@
 namespace clatter::rom {
 namespace {
 
-constexpr const char* kSchema = "clatter/rom/1";
 const std::string kUnits = "SI: m kg s N rad";
 
 /// Reads a matrix; refuses an unexpected shape or values that are not finite.
@@ -213,7 +212,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
 }
 
 ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin) {
-  const H5File file = open_artefact(path, kSchema);
+  const H5File file = open_artefact(path, kRomSchema);
   ReducedModel model;
   model.name = file.get_string("/", "name");
   model.method = file.get_string("/", "method");

@@ -23,6 +23,8 @@
 
 namespace clatter::rom {
 
+inline constexpr const char* kRomSchema = "clatter/rom/1";
+
 /// A named group of DoFs, each with a position and a direction.
 struct DofSet {
   std::string kind;           // "node", "bearing", "mount", "sensor", "contact_grid", "mean"
@@ -100,7 +102,7 @@ struct ReducedModel {
       const std::string& grid_name) const;  // InputError listing the existing names
 };
 
-/// Writes `model` under schema "clatter/rom/1" into an open file (provenance and timing are left to
+/// Writes `model` under kRomSchema into an open file (provenance and timing are left to
 /// the caller's).
 void write_reduced_model(H5File& file, const ReducedModel& model);
 /// Reads and checks shapes, ranges, symmetry, finite values (InputError). `with_skin` false leaves

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/run/run_layout.hpp"
+
 namespace clatter::dynamics {
 namespace {
 
@@ -15,13 +17,13 @@ double degrees(const Model& model, double time) {
 
 void write_clock(H5File& file, const Model& model, const std::string& group,
                  const std::vector<double>& time) {
-  file.write(group + "/time", time);
-  file.set(group + "/time", "unit", "s");
+  file.write(run::path(group, run::kTime), time);
+  file.set(run::path(group, run::kTime), "unit", "s");
   if (!model.crank) return;
   std::vector<double> angle;
   for (const double t : time) angle.push_back(degrees(model, t));
-  file.write(group + "/crank_angle_deg", angle);
-  file.set(group + "/crank_angle_deg", "unit", "deg");
+  file.write(run::path(group, run::kCrankAngle), angle);
+  file.set(run::path(group, run::kCrankAngle), "unit", "deg");
 }
 
 void write_bodies(H5File& file, const LoadedBodies& bodies, const RunResult& result) {
@@ -30,16 +32,16 @@ void write_bodies(H5File& file, const LoadedBodies& bodies, const RunResult& res
   int index = 0;
   for (const auto& body : bodies) {
     const auto at = result.model->system.mode_offset(index++), n = body.modal.modes();
-    const std::string group = "bodies/" + body.spec.name;
+    const std::string group = run::path(run::kBodies, body.spec.name);
     const auto physical = [&](const RowMatrix& modal) -> RowMatrix {
       return modal.topRows(samples.count()).middleCols(at, n) * body.modal.shapes.transpose();
     };
-    file.write(group + "/q", physical(samples.eta()));
-    file.write(group + "/v", physical(samples.v()));
-    file.write(group + "/a", physical(samples.a()));
+    file.write(run::path(group, run::kPosition), physical(samples.eta()));
+    file.write(run::path(group, run::kVelocity), physical(samples.v()));
+    file.write(run::path(group, run::kAcceleration), physical(samples.a()));
     const auto rom = std::filesystem::absolute(body.spec.rom);
-    file.set(group, "rom", rom.lexically_proximate(folder).string());
-    file.set(group, "rom_sha256", body.sha256);
+    file.set(group, run::kRom, rom.lexically_proximate(folder).string());
+    file.set(group, run::kRomHash, body.sha256);
     file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
   }
 }
@@ -124,12 +126,12 @@ void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
                const RunResult& result) {
   const Model& model = *result.model;
   const Recorder& recorder = *result.recorder;
-  write_provenance(file, {"clatter/run/1", scene.resolved, scene.inputs});
+  write_provenance(file, {run::kSchema, scene.resolved, scene.inputs});
   file.set("/", "title", scene.title);
-  file.set("/", "complete", result.complete ? 1 : 0);
+  file.set("/", run::kComplete, result.complete ? 1 : 0);
   std::vector<double> time;
   for (int i = 0; i < recorder.samples().count(); ++i) time.push_back(recorder.samples().time(i));
-  write_clock(file, model, "output", time);
+  write_clock(file, model, run::kOutput, time);
   write_bodies(file, bodies, result);
   write_clock(file, model, "history", recorder.time());
   write_columns(file, "history", recorder.history());

@@ -16,39 +16,40 @@
 namespace clatter::recover {
 namespace {
 
+const std::string kTimes = run::path(run::kOutput, run::kTime);
+const std::string kAngles = run::path(run::kOutput, run::kCrankAngle);
+
 namespace fs = std::filesystem;
 
 RunClock read_clock(const H5File& file) {
   const std::string origin = file.path().string();
   RunClock clock;
-  clock.time = file.read_vector("output/time");
+  clock.time = file.read_vector(kTimes);
   const Eigen::Index n = clock.time.size();
   if (n < 4)
     throw InputError(
-        fmt::format("{}: output/time: found {} samples, expected at least 4", origin, n));
+        fmt::format("{}: {}: found {} samples, expected at least 4", origin, kTimes, n));
   clock.step_s = (clock.time[n - 1] - clock.time[0]) / static_cast<double>(n - 1);
   if (!clock.time.allFinite() || !(clock.step_s > 0.0))
-    throw InputError(origin + ": output/time: expected finite, ascending times");
+    throw InputError(origin + ": " + kTimes + ": expected finite, ascending times");
   const Eigen::VectorXd steps = clock.time.tail(n - 1) - clock.time.head(n - 1);
   // Nonuniform sampling would smear every line of a transform; 1e-4 of a step keeps the phase error
   // at the Nyquist frequency below 0.02 degrees.
   if ((steps.array() - clock.step_s).abs().maxCoeff() > 1e-4 * clock.step_s)
-    throw InputError(
-        fmt::format("{}: output/time: steps from {:.9g} s to {:.9g} s, expected one step", origin,
-                    steps.minCoeff(), steps.maxCoeff()));
-  if (!file.has("output/crank_angle_deg")) return clock;
+    throw InputError(fmt::format("{}: {}: steps from {:.9g} s to {:.9g} s, expected one step",
+                                 origin, kTimes, steps.minCoeff(), steps.maxCoeff()));
+  if (!file.has(kAngles)) return clock;
 
-  Eigen::VectorXd angle = file.read_vector("output/crank_angle_deg");
+  Eigen::VectorXd angle = file.read_vector(kAngles);
   if (angle.size() != n || !angle.allFinite())
-    throw InputError(
-        fmt::format("{}: output/crank_angle_deg: found {} values, expected {} finite ones", origin,
-                    angle.size(), n));
+    throw InputError(fmt::format("{}: {}: found {} values, expected {} finite ones", origin,
+                                 kAngles, angle.size(), n));
   for (Eigen::Index i = 1; i < n; ++i)  // a wrapped angle is unwrapped
     angle[i] += 720.0 * std::round((angle[i - 1] - angle[i]) / 720.0);
   if (angle[n - 1] - angle[0] <= 0.0) return clock;  // at rest
   if ((angle.tail(n - 1) - angle.head(n - 1)).minCoeff() <= 0.0)
-    throw InputError(
-        origin + ": output/crank_angle_deg: found descending values, expected an ascending angle");
+    throw InputError(origin + ": " + kAngles +
+                     ": found descending values, expected an ascending angle");
   clock.angle_deg = angle;
   return clock;
 }
@@ -62,12 +63,12 @@ double RunClock::speed_deg_s() const {
 }
 
 RunBody::RunBody(const fs::path& run, const std::string& body)
-    : file_(open_artefact(run, "clatter/run/1")) {
+    : file_(open_artefact(run, run::kSchema)) {
   pick_body(body);
   clock_ = read_clock(file_);
-  const std::string group = "bodies/" + name_;
-  rom_sha256_ = file_.get_string(group, "rom_sha256");
-  rom_path_ = file_.get_string(group, "rom");
+  const std::string group = run::path(run::kBodies, name_);
+  rom_sha256_ = file_.get_string(group, run::kRomHash);
+  rom_path_ = file_.get_string(group, run::kRom);
   if (rom_path_.is_relative()) rom_path_ = (run.parent_path() / rom_path_).lexically_normal();
   will_read(rom_path_, fmt::format("{}: {}: rom", run.string(), group));
   check_shapes();
@@ -75,8 +76,9 @@ RunBody::RunBody(const fs::path& run, const std::string& body)
 
 void RunBody::pick_body(const std::string& requested) {
   std::vector<std::string> with_rom;
-  for (const std::string& name : file_.list("bodies"))
-    if (file_.has_attribute("bodies/" + name, "rom") && file_.has("bodies/" + name + "/q"))
+  for (const std::string& name : file_.list(run::kBodies))
+    if (const std::string group = run::path(run::kBodies, name);
+        file_.has_attribute(group, run::kRom) && file_.has(run::path(group, run::kPosition)))
       with_rom.push_back(name);
   const auto is_available = [&](const std::string& name) {
     return std::find(with_rom.begin(), with_rom.end(), name) != with_rom.end();
@@ -96,8 +98,8 @@ void RunBody::pick_body(const std::string& requested) {
 
 void RunBody::check_shapes() const {
   const int64_t n_t = clock_.time.size();
-  const std::vector<int64_t> q = file_.shape(dataset("q"));
-  for (const char* member : {"q", "v", "a"}) {
+  const std::vector<int64_t> q = file_.shape(dataset(run::kPosition));
+  for (const char* member : {run::kPosition, run::kVelocity, run::kAcceleration}) {
     const std::vector<int64_t> shape = file_.shape(dataset(member));
     if (shape.size() != 2 || shape[0] != n_t || shape != q)
       throw InputError(
@@ -114,13 +116,13 @@ rom::ReducedModel RunBody::read_model() const {
         "it again",
         rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
   rom::ReducedModel model = rom::read_reduced_model(rom_path_);
-  const std::string doubt = rom::certificate_warning(model);
-  if (!doubt.empty()) warn(fmt::format("{}: {}", rom_path_.string(), doubt));
-  const int64_t columns = file_.shape(dataset("q"))[1];
+  const std::string warning = rom::certificate_warning(model);
+  if (!warning.empty()) warn(fmt::format("{}: {}", rom_path_.string(), warning));
+  const int64_t columns = file_.shape(dataset(run::kPosition))[1];
   if (columns != model.size())
     throw InputError(fmt::format("{}: {}: found {} columns, expected {} as in {}",
-                                 file_.path().string(), dataset("q"), columns, model.size(),
-                                 rom_path_.string()));
+                                 file_.path().string(), dataset(run::kPosition), columns,
+                                 model.size(), rom_path_.string()));
   if (model.skin.triangles.rows() == 0)
     throw InputError(rom_path_.string() +
                      ": skin: found none, expected a skin (condense with one)");
@@ -128,7 +130,7 @@ rom::ReducedModel RunBody::read_model() const {
 }
 
 bool RunBody::complete() const {
-  return !file_.has_attribute("/", "complete") || file_.get_int("/", "complete") != 0;
+  return !file_.has_attribute("/", run::kComplete) || file_.get_int("/", run::kComplete) != 0;
 }
 
 RowMatrix RunBody::samples(const std::string& quantity, int64_t first, int64_t count) const {

@@ -6,6 +6,7 @@
 
 #include "core/base/h5_file.hpp"
 #include "core/rom/reduced_model.hpp"
+#include "core/run/run_layout.hpp"
 
 namespace clatter::recover {
 
@@ -47,7 +48,9 @@ class RunBody {
  private:
   void pick_body(const std::string& requested);
   void check_shapes() const;
-  std::string dataset(const std::string& member) const { return "bodies/" + name_ + "/" + member; }
+  std::string dataset(const std::string& member) const {
+    return run::path(run::path(run::kBodies, name_), member);
+  }
 
   H5File file_;
   std::string name_, rom_sha256_;

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "condense/condense.hpp"
+#include "core/base/artefact.hpp"
 
 int main(int argc, char** argv) {
   if (argc < 5) {
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
 
     auto file = clatter::H5File::create(argv[2]);
     clatter::rom::write_reduced_model(file, reduced);
+    clatter::write_provenance(file, {clatter::rom::kRomSchema, "", {argv[1]}});
     file.commit();  // a sync and a rename: until here the old file is untouched
   } catch (const std::exception& error) {
     std::fprintf(stderr, "condense_part: %s\n", error.what());

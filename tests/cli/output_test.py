@@ -41,7 +41,7 @@ class Output(stages.PipelineTest):
     # (stage, arguments after --json, members of "error" in addition to program and message, words of the message)
     ERRORS = [("mesh", ["none.mesh.toml", "-o", "x.mesh.h5"], {"file": "none.mesh.toml", "exit_code": 2}, "no such file"),
               ("assembly", ["beam.mesh.h5", "-c", "wrong.fe.toml", "-o", "x.fe.h5"],
-               {"file": "wrong.fe.toml", "line": 7, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
+               {"file": "wrong.fe.toml", "line": 8, "place": "material.steel.rhoo", "exit_code": 2}, "did you mean rho?"),
               ("modal", ["beam.mesh.h5", "-o", "x.modes.h5"], {"file": "beam.mesh.h5", "place": "schema", "exit_code": 2},
                "found clatter/mesh/"),
               ("condense", ["beam.fe.h5", "--nonsense"], {"exit_code": 2}, "(see clatter-condense --help)"),

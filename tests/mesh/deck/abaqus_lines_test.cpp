@@ -165,7 +165,7 @@ TEST(AbaqusLines, SixtyNestedFilesAreAccepted) {
     read_abaqus(folder / "0.inp", {});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("63.inp:1: found more than 64 files"),
+    EXPECT_NE(std::string(error.what()).find("63.inp:1: found more than 64 nested files"),
               std::string::npos)
         << error.what();
   }
