@@ -40,7 +40,7 @@ void print_summary(const fs::path& output, const recover::Summary& summary, doub
               {"seconds", json_number(seconds)}});
 }
 
-int run(int argc, char** argv) {
+int recover_run(int argc, char** argv) {
   CommandLine line("clatter-recover", kSummary, epilog());
   fs::path input, settings, output;
   line.positional("run", input, "run file, slap.run.h5");
@@ -77,5 +77,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return clatter::run_guarded("clatter-recover", [&] { return run(argc, argv); });
+  return clatter::run_guarded("clatter-recover", [&] { return recover_run(argc, argv); });
 }
