@@ -2,7 +2,7 @@
 # clatter from a fresh Debian 12: `make demo` and `make check` install what is missing, build, run.
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
-#   make check      every test but the long ones
+#   make check      every test but the long ones make docs      documents and C++ reference: build/docs
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -11,9 +11,9 @@ BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate install clean
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate docs install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,6p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,5p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
@@ -38,6 +38,10 @@ check: setup-check build-tests
 
 validate: setup-check build-tests
 	@$(CTEST)
+
+docs:
+	@tools/setup docs
+	@/usr/bin/python3 -B docs/site/make_site.py
 
 install: build
 	cmake --install $(BUILD)
