@@ -9,7 +9,7 @@ NAVIGATION = {
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("dynamics/film/README.md", "dynamics/film"), ("recover/README.md", "recover")],
-    "Samples": [("samples/beam/README.md", "beam"), ("samples/truck_diesel/README.md", "truck_diesel")],
+    "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"), ("samples/truck_diesel/README.md", "truck_diesel")],
     "Documents": [("docs/design.md", "Design"), ("docs/formats.md", "File formats"), ("docs/accuracy.md", "Accuracy"),
                   ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases")],
     "Development": [("CONTRIBUTING.md", "Contributing"), ("STYLE.md", "Style"), ("CHANGELOG.md", "Changelog"),
