@@ -3,7 +3,7 @@
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
-#   make lint       format, self-contained headers
+#   make docs       the site in build/docs           make lint      format, self-contained headers
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -13,9 +13,9 @@ BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint install clean
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,6p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
@@ -55,6 +55,10 @@ format:
 # The same, and every header compiles by itself.
 lint: format configure
 	cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
+
+docs:
+	@tools/setup docs
+	@/usr/bin/python3 -B docs/site/make_site.py
 
 install: build
 	cmake --install $(BUILD)

@@ -43,9 +43,9 @@ struct PistonLinerOptions {
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
   double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
   double supply_fill = 1.0;   // fill of the oil film entering at top and bottom of the pad, 0 to 1
-  // Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
-  // slides into it at full speed while its film moves at half of that, so the content of the gap is
-  // at most twice this, at the start and at inflow; infinite: only the fills above apply.
+  /// Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
+  /// slides into it at full speed while its film moves at half of that, so the content of the gap
+  /// is at most twice this, at the start and at inflow; infinite: only the fills above apply.
   double oil_thickness = std::numeric_limits<double>::infinity();
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};

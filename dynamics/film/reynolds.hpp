@@ -17,8 +17,8 @@ struct Edge {
   Kind kind = Kind::kPressure;
   double pressure = 0.0;  // [Pa] >= 0, of the oil outside
   double fill = 1.0;      // [1] fill of the oil that is dragged in over this edge, 0 to 1
-  // [m] bound of theta c at inflow. A layer of thickness t on a wall that slides at 2 U_m past the
-  // grid carries 2 t U_m: layer = 2 t.
+  /// [m] bound of theta c at inflow. A layer of thickness t on a wall that slides at 2 U_m past the
+  /// grid carries 2 t U_m: layer = 2 t.
   double layer = std::numeric_limits<double>::infinity();
 
   static Edge wall() { return {Kind::kWall, 0.0, 0.0, 0.0}; }
@@ -55,11 +55,11 @@ struct FilmStage {
       0.0;  // mean wall velocity relative to the grid, along the circumference [m/s]
   double speed_axial = 0.0;  // the same along the axis [m/s]
   bool steady = false;  // true: div q = 0, no storage; kappa and the content before are not used
-  // Bulk modulus of the oil [Pa]: a full cell holds (1 + p / B) s. 0: incompressible. A body of
-  // mass m per area stops on a cell that fills within sqrt(m s / B) instead of instantly.
+  /// Bulk modulus of the oil [Pa]: a full cell holds (1 + p / B) s. 0: incompressible. A body of
+  /// mass m per area stops on a cell that fills within sqrt(m s / B) instead of instantly.
   double bulk_modulus = 0.0;
-  // Fill theta at the start of the step, n: where it varies, a face carries a limited linear
-  // profile instead of the upstream value, second order in the cell size. Null: first order.
+  /// Fill theta at the start of the step, n: where it varies, a face carries a limited linear
+  /// profile instead of the upstream value, second order in the cell size. Null: first order.
   const Eigen::ArrayXd* fill_before = nullptr;
 };
 

@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Link targets exist, and so do files that CONTRIBUTING.md and others name without a folder."""
 import re
+import sys
 import unittest
 
 import repository
 
+sys.path.insert(0, str(repository.SOURCE / "docs/site"))
+from links import slug
+
 # Documents that name files without their folders, so that moves do not touch them.
 BY_NAME = ("CONTRIBUTING.md", "STYLE.md", "docs/design.md")
 WRITTEN = {"fe.toml"}  # by programs, not in the repository
-
-
-def slug(heading):
-    """The anchor that GitHub makes of a heading."""
-    text = re.sub(r"[`*]|\[|\]\([^)]*\)", "", heading.strip().lower())
-    return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
 
 
 def anchors(text):

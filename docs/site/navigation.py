@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The documents of the site in reading order, and the frame of a page."""
+import html
+import posixpath
+
+# Heading: [(document of the repository, or page of the C++ reference; its title)].
+NAVIGATION = {
+    "": [("README.md", "clatter")],
+    "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
+                 ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
+                 ("dynamics/film/README.md", "dynamics/film"), ("recover/README.md", "recover")],
+    "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"), ("samples/truck_diesel/README.md", "truck_diesel")],
+    "Documents": [("docs/design.md", "Design"), ("docs/formats.md", "File formats"), ("docs/accuracy.md", "Accuracy"),
+                  ("docs/validation.md", "Validation"), ("docs/hard-cases.md", "Hard cases")],
+    "Development": [("CONTRIBUTING.md", "Contributing"), ("STYLE.md", "Style"), ("CHANGELOG.md", "Changelog"),
+                    ("core/README.md", "core"), ("bench/README.md", "bench")],
+    "C++ reference": [("api/namespaces.html", "Namespaces"), ("api/annotated.html", "Classes"),
+                      ("api/namespacemembers_func.html", "Functions"), ("api/files.html", "Headers")],
+}
+
+
+def documents():
+    return [path for entries in NAVIGATION.values() for path, _ in entries if path.endswith(".md")]
+
+
+def page_of(path):
+    """The page of a document: index.html for a README."""
+    folder, name = posixpath.split(path)
+    return posixpath.join(folder, "index.html" if name == "README.md" else name.replace(".md", ".html"))
+
+
+def relative(page, target):
+    """The href by which a page leads to a path of the site."""
+    return posixpath.relpath(target, posixpath.dirname(page) or ".")
+
+
+def navigation(page, sections=()):
+    """The list of all pages; `sections`, [(anchor, title)], are those of `page` itself."""
+    lines = ['<nav class="site">']
+    for heading, entries in NAVIGATION.items():
+        lines += [f"<h2>{heading}</h2>"] if heading else []
+        lines.append("<ul>")
+        for path, title in entries:
+            target = page_of(path)
+            here = ' class="here"' if target == page else ""
+            inner = "".join(f'<li><a href="#{anchor}">{html.escape(text)}</a></li>' for anchor, text in sections) if here else ""
+            lines.append(f'<li><a{here} href="{relative(page, target)}">{title}</a>{f"<ul>{inner}</ul>" if inner else ""}</li>')
+        lines.append("</ul>")
+    return "\n".join([*lines, "</nav>"])
+
+
+def framed(page, title, body, sections=()):
+    """A complete page of the site."""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{html.escape(title)}</title>
+<link rel="stylesheet" href="{relative(page, "site.css")}">
+</head>
+<body class="document">
+{navigation(page, sections)}
+<main>
+{body}</main>
+</body>
+</html>
+"""
+
+
+def doxygen_header():
+    """The same frame for Doxygen, which replaces the words with a dollar sign; it closes #top itself."""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>$title</title>
+<link rel="stylesheet" href="$relpath^tabs.css">
+<script src="$relpath^jquery.js"></script>
+<script src="$relpath^dynsections.js"></script>
+$search
+<link rel="stylesheet" href="$relpath^$stylesheet">
+<link rel="stylesheet" href="$relpath^../site.css">
+</head>
+<body class="reference">
+{navigation("api/index.html")}
+<div id="top">
+<div id="search-of-reference">$searchbox</div>
+"""
+
+
+DOXYGEN_FOOTER = "</body>\n</html>\n"
