@@ -4,6 +4,7 @@
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
 #   make docs       the site in build/docs           make lint      format, self-contained headers
+#   make deb        a Debian package in build/
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -13,9 +14,9 @@ BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs install clean
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs deb install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,6p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
@@ -55,6 +56,12 @@ format:
 # The same, and every header compiles by itself.
 lint: format configure
 	cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
+
+# A Debian package in build/, for other machines than this one.
+deb:
+	@tools/setup build deb
+	@$(MAKE) --no-print-directory build PRESET=package PREFIX=/usr
+	cd build/package && cpack -G DEB -B ..
 
 docs:
 	@tools/setup docs
