@@ -42,11 +42,10 @@ int drop_dependent(CraigBampton& source) {
 }
 
 /// The boundary rows of the rigid motions; fixed-interface modes do not contribute.
-Eigen::MatrixXd reduced_rigid(const fe::FeModel& model, const DofPartition& partition,
-                              Eigen::Index size) {
+Eigen::MatrixXd reduced_rigid(const PartitionedModel& part, Eigen::Index size) {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
-  const auto n_b = static_cast<Eigen::Index>(partition.boundary.size());
-  rigid.topRows(n_b) = model.rigid(partition.boundary, Eigen::all);
+  const auto n_b = static_cast<Eigen::Index>(part.dofs.boundary.size());
+  rigid.topRows(n_b) = part.full.rigid(part.dofs.boundary, Eigen::all);
   return rigid;
 }
 
@@ -140,50 +139,46 @@ CondenseOptions read_condense_options(const Config& config) {
 
 rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
                            StepClock& clock) {
-  const DofPartition partition = partition_dofs(model, options.boundary);
-  report_repeated(partition);
-  const PartitionedMatrix K = partition_matrix(model.K, partition);
-  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  const PartitionedModel part = partition_model(model, options.boundary);
+  report_repeated(part.dofs);
   clock.lap("partition");
-  const SkinRecovery skin(model, partition, options.skin, options.rows);
-  const StaticPart statics =
-      static_part(model, partition, K, M, skin.unknowns(), clock, options.order);
+  const SkinRecovery skin(part, options.skin, options.rows);
+  const StaticPart statics = static_part(part, skin.unknowns(), clock, options.order);
   CutOffSearch search;
-  CraigBampton source =
-      options.modes.accurate_to_hz > 0.0
-          ? search_cutoff(model, partition, K, M, statics, options.modes, clock, search)
-          : craig_bampton(model, partition, K, M, statics, options.modes, clock);
+  CraigBampton source = options.modes.accurate_to_hz > 0.0
+                            ? search_cutoff(part, statics, options.modes, clock, search)
+                            : craig_bampton(part, statics, options.modes, clock);
 
   rom::ReducedModel reduced;
   reduced.name = model.name;
   reduced.method = options.method;
-  reduced.n_boundary = static_cast<int>(partition.boundary.size());
+  reduced.n_boundary = static_cast<int>(part.dofs.boundary.size());
   reduced.alpha = model.alpha;
   reduced.beta = model.beta;
   reduced.modal_damping = options.modal_damping;
-  reduced.sets = partition.sets;
-  reduced.grids = partition.grids;
+  reduced.sets = part.dofs.sets;
+  reduced.grids = part.dofs.grids;
   reduced.mass = model.mass;
   const int dropped = drop_dependent(source);
   reduced.M_rr = source.M_rr;
   reduced.K_rr = source.K_rr;
-  reduced.rigid = reduced_rigid(model, partition, reduced.size());
+  reduced.rigid = reduced_rigid(part, reduced.size());
   for (const auto& [name, load] : model.loads) {
-    reduced.loads[name] = project_load(load, partition, source.basis);
+    reduced.loads[name] = project_load(load, part.dofs, source.basis);
   }
   reduced.skin = skin.recover(statics.reduction.rows, source.basis.shapes);
   skin.recover_sets(statics.reduction.rows, source.basis.shapes, reduced);
   reduced.elimination = statics.order;
   clock.lap("loads and skin rows");
   if (options.inertia_invariants) {
-    reduced.inertia = frame_inertia(model, partition, source.basis);
+    reduced.inertia = frame_inertia(part, source.basis);
     clock.lap("inertia invariants");
   }
   reduced.fixed_interface_hz = source.fixed_interface_hz;
   reduced.valid_to_hz = source.interior.cutoff_hz;
   if (search.tried > 0) record(search, reduced.certificate);
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(reduced.size(), statics.free.count());
-  motions.topRows(reduced.n_boundary) = statics.free.q(partition.boundary, Eigen::all);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(reduced.size(), part.free.count());
+  motions.topRows(reduced.n_boundary) = part.free.q(part.dofs.boundary, Eigen::all);
   if (options.interface) {
     const InterfaceReport report =
         reduce_interface(reduced, *options.interface, motions, fe::characteristic_length(model),
@@ -191,7 +186,7 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
     record(report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", report.modes));
   }
-  certify(reduced, model, source, {motions, statics.free.all_free()}, dropped, options.certificate);
+  certify(reduced, model, source, {motions, part.free.all_free()}, dropped, options.certificate);
   clock.lap("certificate");
   return reduced;
 }

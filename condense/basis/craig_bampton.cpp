@@ -12,19 +12,18 @@ namespace clatter::condense {
 namespace {
 
 std::shared_ptr<const sparse::SupernodalFactor> factorise_interior(
-    const fe::FeModel& model, const DofPartition& partition, const PartitionedMatrix& K,
-    const rom::EliminationOrder& order) {
+    const PartitionedModel& part, const rom::EliminationOrder& order) {
   try {
     sparse::FactorOptions options;
-    if (order.fits(K.ii))
+    if (order.fits(part.K.ii))
       options.permutation.assign(order.permutation.begin(), order.permutation.end());
-    return std::make_shared<sparse::SupernodalFactor>(K.ii, K.ib, options);
+    return std::make_shared<sparse::SupernodalFactor>(part.K.ii, part.K.ib, options);
   } catch (const sparse::NotPositiveDefinite& error) {
     const std::string where =
         error.column < 0
             ? std::string{}
-            : ", at " +
-                  fe::describe_dof(model, partition.interior[static_cast<size_t>(error.column)]);
+            : ", at " + fe::describe_dof(part.full,
+                                         part.dofs.interior[static_cast<size_t>(error.column)]);
     throw sparse::NotPositiveDefinite(
         fmt::format("the boundary does not hold the body: K_ii {}{}; add a set to the boundary, or "
                     "look for a part of the mesh that is not connected",
@@ -43,45 +42,39 @@ rom::EliminationOrder order_of(const sparse::SupernodalFactor& factor, const Spa
 
 }  // namespace
 
-StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
-                       const PartitionedMatrix& K, const PartitionedMatrix& M,
-                       const std::vector<int32_t>& kept, StepClock& clock,
-                       const rom::EliminationOrder& order) {
+StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
+                       StepClock& clock, const rom::EliminationOrder& order) {
   StaticPart out;
-  out.free = fe::free_motions(model);
-  check_boundary_holds(model, partition, out.free);
-  out.factor_ii = factorise_interior(model, partition, K, order);
-  out.order = order_of(*out.factor_ii, K.ii);
+  out.factor_ii = factorise_interior(part, order);
+  out.order = order_of(*out.factor_ii, part.K.ii);
   clock.lap(fmt::format("factor of K_ii ({:.3g} entries{})", static_cast<double>(out.order.entries),
                         out.order.method == "given" ? ", stored order" : ""));
-  const Eigen::MatrixXd& motions = out.free.q;
+  const Eigen::MatrixXd& motions = part.free.q;
   out.reduction = reduce_statically(
-      *out.factor_ii, K, M,
-      {motions(partition.boundary, Eigen::all), motions(partition.interior, Eigen::all)}, kept);
-  clock.lap(fmt::format("{} constraint modes", partition.boundary.size()));
+      *out.factor_ii, part.K, part.M,
+      {motions(part.dofs.boundary, Eigen::all), motions(part.dofs.interior, Eigen::all)}, kept);
+  clock.lap(fmt::format("{} constraint modes", part.dofs.boundary.size()));
   return out;
 }
 
-CraigBampton craig_bampton(const fe::FeModel& model, const DofPartition& partition,
-                           const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const StaticPart& statics, const ModeRequest& request,
-                           StepClock& clock) {
+CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& statics,
+                           const ModeRequest& request, StepClock& clock) {
   const sparse::SupernodalFactor& factor = *statics.factor_ii;
   CraigBampton out;
   out.factor = factor.report();
   out.rigid_error = statics.reduction.rigid_error;
-  out.interior = interior_modes(model, partition, K, M, factor, statics.free.q, request, clock);
+  out.interior = interior_modes(part, factor, request, clock);
   out.fixed_interface_hz = out.interior.hz;
-  out.basis = ReducedBasis(statics.factor_ii, K.ib);
+  out.basis = ReducedBasis(statics.factor_ii, part.K.ib);
   out.basis.shapes.swap(out.interior.vectors);
   out.interior.vectors.resize(0, 0);
-  static_cast<ReducedMatrices&>(out) = project(K, M, statics.reduction, out.basis);
+  static_cast<ReducedMatrices&>(out) = project(part.K, part.M, statics.reduction, out.basis);
   clock.lap("reduced matrices");
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   const double target = guyan ? 0.0 : request.frequency_error;
   if (target == 0.0 && !request.estimate_error) return out;
   out.residual =
-      add_residual_modes(out, factor, K, M, statics.free.q(partition.boundary, Eigen::all),
+      add_residual_modes(out, factor, part.K, part.M, part.free.q(part.dofs.boundary, Eigen::all),
                          out.interior.accurate_to_hz, target);
   const Eigen::Index shapes = out.fixed_interface_hz.size();
   out.fixed_interface_hz.conservativeResize(shapes + out.residual.hz.size());

@@ -27,25 +27,20 @@ struct StaticPart {
   std::shared_ptr<const sparse::SupernodalFactor> factor_ii;
   StaticReduction reduction;
   rom::EliminationOrder order;  // of K_ii
-  fe::FreeMotions free;         // of the model
 };
 
 /// Factorises K_ii and reduces statically (Guyan 1965). Steps go to `clock`.
-/// @param K, M blocks of the model's matrices by `partition`.
 /// @param kept interior DoFs whose rows of Psi are requested.
 /// @param order reused when it fits K_ii (hard case C7), instead of computing one.
-/// Throws InputError when the boundary does not hold the body, NumericsError when K_ii is singular.
-StaticPart static_part(const fe::FeModel& model, const DofPartition& partition,
-                       const PartitionedMatrix& K, const PartitionedMatrix& M,
-                       const std::vector<int32_t>& kept, StepClock& clock,
-                       const rom::EliminationOrder& order = {});
+/// Throws NumericsError when K_ii is singular.
+StaticPart static_part(const PartitionedModel& part, const std::vector<int32_t>& kept,
+                       StepClock& clock, const rom::EliminationOrder& order = {});
 
 /// Basis of Craig and Bampton (1968): Psi_ib = -K_ii^{-1} K_ib with the shapes Phi_ik of
 /// interior_modes.hpp. One factorisation of K_ii serves both. Without modes (`request` empty) it is
 /// Guyan's, and the cut-off is the first fixed-interface frequency, above which the basis has no
 /// modes. Throws NumericsError as solve_modes does.
-CraigBampton craig_bampton(const fe::FeModel& model, const DofPartition& partition,
-                           const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const StaticPart& statics, const ModeRequest& request, StepClock& clock);
+CraigBampton craig_bampton(const PartitionedModel& part, const StaticPart& statics,
+                           const ModeRequest& request, StepClock& clock);
 
 }  // namespace clatter::condense

@@ -14,10 +14,8 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz) {
   return estimate / (1.0 - std::pow(hz / cutoff_hz, 2));
 }
 
-CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partition,
-                           const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const StaticPart& statics, const ModeRequest& request, StepClock& clock,
-                           CutOffSearch& search) {
+CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& statics,
+                           const ModeRequest& request, StepClock& clock, CutOffSearch& search) {
   constexpr double kFirst = 1.5, kGrowth = 1.25, kLast = 4.0;  // over the requested frequency
   const double accurate_to_hz = request.accurate_to_hz;
   search.target = request.frequency_error;
@@ -27,7 +25,7 @@ CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partiti
     // Residual modes stop when the bound is met, not only the estimate.
     if (!request.own_modes)
       attempt.frequency_error /= cutoff_error_bound(1.0, accurate_to_hz, attempt.fmax_hz);
-    CraigBampton found = craig_bampton(model, partition, K, M, statics, attempt, clock);
+    CraigBampton found = craig_bampton(part, statics, attempt, clock);
     ++search.tried;
     const double estimate = found.residual.error_estimate;
     search.reached = request.own_modes
@@ -35,11 +33,11 @@ CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partiti
                          : cutoff_error_bound(estimate, accurate_to_hz, attempt.fmax_hz);
     if (search.reached <= search.target) return found;
     if (request.own_modes || attempt.fmax_hz * kGrowth > kLast * accurate_to_hz)
-      throw NumericsError(
-          fmt::format("{}: accurate_to_hz: frequencies up to {:g} Hz are within {:.1e} with a "
-                      "cut-off of {:g} Hz, "
-                      "expected {:.1e}; the factor's rounding may not allow less",
-                      model.name, accurate_to_hz, search.reached, attempt.fmax_hz, search.target));
+      throw NumericsError(fmt::format(
+          "{}: accurate_to_hz: frequencies up to {:g} Hz are within {:.1e} with a "
+          "cut-off of {:g} Hz, "
+          "expected {:.1e}; the factor's rounding may not allow less",
+          part.full.name, accurate_to_hz, search.reached, attempt.fmax_hz, search.target));
     say(fmt::format("cut-off {:g} Hz: error up to {:.1e}, requested {:.1e}; raised",
                     attempt.fmax_hz, search.reached, search.target));
     attempt.fmax_hz *= kGrowth;

@@ -25,10 +25,8 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
 /// frequency and grows by a quarter, up to 4 times, while residual modes do not reach the target.
 /// Own modes are exact: their cut-off is the frequency itself. Throws NumericsError when no cut-off
 /// reaches the target, otherwise as craig_bampton.
-CraigBampton search_cutoff(const fe::FeModel& model, const DofPartition& partition,
-                           const PartitionedMatrix& K, const PartitionedMatrix& M,
-                           const StaticPart& statics, const ModeRequest& request, StepClock& clock,
-                           CutOffSearch& search);
+CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& statics,
+                           const ModeRequest& request, StepClock& clock, CutOffSearch& search);
 
 /// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
 void record(const CutOffSearch& search, std::map<std::string, double>& certificate);

@@ -10,6 +10,36 @@
 #include "core/fe/dof_label.hpp"
 
 namespace clatter::condense {
+namespace {
+
+/// Rejects a boundary that leaves one of the free motions possible.
+void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
+                          const fe::FreeMotions& free) {
+  if (free.count() == 0) return;
+  const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
+  const Eigen::VectorXd& strength = svd.singularValues();
+  const double limit = 1e-6 * strength.maxCoeff();
+  Eigen::Index rank = 0;
+  while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
+  if (rank == free.count()) return;
+  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd motion = free.unit * combination;
+  Eigen::Index most = 0;
+  (free.q * combination).cwiseAbs().maxCoeff(&most);
+  throw InputError(
+      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
+                  "not the {}, largest at {}: "
+                  "add a set that holds it{}",
+                  partition.boundary.size(), rank,
+                  free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
+                  fe::motion_name(motion, fe::characteristic_length(model)),
+                  fe::describe_dof(model, static_cast<int32_t>(most)),
+                  free.bodies > 1 ? ", or join what is not connected" : ""));
+}
+
+}  // namespace
+
 DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names) {
   DofPartition partition;
   std::vector<int32_t> coordinate(static_cast<size_t>(model.size()), -1);
@@ -85,29 +115,13 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   return blocks;
 }
 
-void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
-                          const fe::FreeMotions& free) {
-  if (free.count() == 0) return;
-  const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
-  const Eigen::VectorXd& strength = svd.singularValues();
-  const double limit = 1e-6 * strength.maxCoeff();
-  Eigen::Index rank = 0;
-  while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
-  if (rank == free.count()) return;
-  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
-  const Eigen::VectorXd motion = free.unit * combination;
-  Eigen::Index most = 0;
-  (free.q * combination).cwiseAbs().maxCoeff(&most);
-  throw InputError(
-      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
-                  "not the {}, largest at {}: "
-                  "add a set that holds it{}",
-                  partition.boundary.size(), rank,
-                  free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
-                  fe::motion_name(motion, fe::characteristic_length(model)),
-                  fe::describe_dof(model, static_cast<int32_t>(most)),
-                  free.bodies > 1 ? ", or join what is not connected" : ""));
+PartitionedModel partition_model(const fe::FeModel& model,
+                                 const std::vector<std::string>& boundary) {
+  PartitionedModel part{model, partition_dofs(model, boundary), {}, {}, fe::free_motions(model)};
+  check_boundary_holds(model, part.dofs, part.free);
+  part.K = partition_matrix(model.K, part.dofs);
+  part.M = partition_matrix(model.M, part.dofs);
+  return part;
 }
 
 }  // namespace clatter::condense

@@ -37,8 +37,17 @@ struct PartitionedMatrix {
 /// @param lower n x n, lower triangle.
 PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition& partition);
 
-/// Rejects a boundary that leaves one of the free motions possible: InputError naming the motion.
-void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
-                          const fe::FreeMotions& free);
+/// A model in blocks, constructed once and passed to every step of the reduction.
+struct PartitionedModel {
+  const fe::FeModel& full;
+  DofPartition dofs;
+  PartitionedMatrix K, M;  // [N/m], [kg]
+  fe::FreeMotions free;    // rigid motions that the supports leave free
+};
+
+/// Partitions a model by the named boundary sets. InputError as partition_dofs, and for a boundary
+/// that leaves one of the free motions possible, naming the motion.
+PartitionedModel partition_model(const fe::FeModel& model,
+                                 const std::vector<std::string>& boundary);
 
 }  // namespace clatter::condense

@@ -57,15 +57,15 @@ bool gives_back(const SparseMatrix& m, const fe::FeModel& model) {
 /// Columns of T V, split by direction.
 class NodalColumns {
  public:
-  NodalColumns(const fe::FeModel& model, const DofPartition& partition, const ReducedBasis& basis)
-      : model_(model), partition_(partition), basis_(basis) {}
+  NodalColumns(const PartitionedModel& part, const ReducedBasis& basis)
+      : part_(part), basis_(basis) {}
 
   std::array<MatrixXd, 3> operator()(Index first, Index count) const {
-    MatrixXd q(model_.size(), count);
+    MatrixXd q(part_.full.size(), count);
     const MatrixXd unit = MatrixXd::Identity(basis_.size(), basis_.size()).middleCols(first, count);
-    q(partition_.interior, Eigen::all) = basis_.interior(unit);
-    q(partition_.boundary, Eigen::all) = unit.topRows(basis_.boundary());
-    const MatrixXd u = model_.T * q;
+    q(part_.dofs.interior, Eigen::all) = basis_.interior(unit);
+    q(part_.dofs.boundary, Eigen::all) = unit.topRows(basis_.boundary());
+    const MatrixXd u = part_.full.T * q;
     std::array<MatrixXd, 3> by_direction;
     for (size_t d = 0; d < 3; ++d)
       by_direction[d] =
@@ -74,8 +74,7 @@ class NodalColumns {
   }
 
  private:
-  const fe::FeModel& model_;
-  const DofPartition& partition_;
+  const PartitionedModel& part_;
   const ReducedBasis& basis_;
 };
 
@@ -109,15 +108,14 @@ SparseMatrix nodal_mass(const fe::FeModel& model) {
       model.name));
 }
 
-rom::InertiaInvariants frame_inertia(const fe::FeModel& model, const DofPartition& partition,
-                                     const ReducedBasis& basis) {
+rom::InertiaInvariants frame_inertia(const PartitionedModel& part, const ReducedBasis& basis) {
   constexpr Index kBlock = 256;
-  const SparseMatrix m = nodal_mass(model);
+  const SparseMatrix m = nodal_mass(part.full);
   const sparse::SymmetricProduct mass(m);
-  const MatrixXd x = model.nodes;
+  const MatrixXd x = part.full.nodes;
   const MatrixXd m_x = mass * x;
   const VectorXd m_1 = mass * VectorXd::Ones(x.rows());
-  const NodalColumns columns(model, partition, basis);
+  const NodalColumns columns(part, basis);
   const Index r = basis.size();
   rom::InertiaInvariants out;
   out.place = x.transpose() * m_x;

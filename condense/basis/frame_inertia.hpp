@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The inertia invariants of a rotating body, from its nodal masses.
+#include "condense/basis/dof_partition.hpp"
 #include "condense/basis/reduced_basis.hpp"
 #include "core/rom/inertia_invariants.hpp"
 #include "core/rom/reduced_model.hpp"
@@ -16,8 +17,7 @@ SparseMatrix nodal_mass(const fe::FeModel& model);
 /// The shape integrals of core/rom/inertia_invariants.hpp over the nodes, N = T V: with U_k the
 /// rows of direction k, product_kl = U_k^T m U_l, moment_lk = U_k^T m x_l, first_k = U_k^T m 1.
 /// The basis is processed in blocks of columns. InputError as nodal_mass.
-rom::InertiaInvariants frame_inertia(const fe::FeModel& model, const DofPartition& partition,
-                                     const ReducedBasis& basis);
+rom::InertiaInvariants frame_inertia(const PartitionedModel& part, const ReducedBasis& basis);
 
 /// Largest relative deviation from the values that follow from the rigid motions r and M_rr: sum_k
 /// product_kk = M_rr; for a body whose six motions are free first_k = M_rr r_k, moment_lk -

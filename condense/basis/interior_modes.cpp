@@ -59,10 +59,10 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
   return out;
 }
 
-InteriorModes own_modes(const fe::FeModel& model, const DofPartition& partition,
-                        const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const sparse::SupernodalFactor& factor_ii, const MatrixXd& motions,
+InteriorModes own_modes(const PartitionedModel& part, const sparse::SupernodalFactor& factor_ii,
                         const ModeRequest& request) {
+  const fe::FeModel& model = part.full;
+  const MatrixXd& motions = part.free.q;
   sparse::EigenOptions options = eigen_options(request);
   options.rigid = motions;
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
@@ -75,8 +75,9 @@ InteriorModes own_modes(const fe::FeModel& model, const DofPartition& partition,
   shapes.leftCols(motions.cols()) = motions;
   shapes.rightCols(out.own_modes) = modes.vectors.rightCols(out.own_modes);
   const MatrixXd inertia = sparse::SymmetricProduct(model.M) * shapes;
-  const MatrixXd force = inertia(partition.interior, Eigen::all);
-  ShapeBasis basis = shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), K.ii, M.ii);
+  const MatrixXd force = inertia(part.dofs.interior, Eigen::all);
+  ShapeBasis basis =
+      shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), part.K.ii, part.M.ii);
   if (!basis.dependent.empty())
     warn(fmt::format("{} of {} rigid and own modes depend on the static shapes and were dropped",
                      basis.dependent.size(), force.cols()));
@@ -87,9 +88,10 @@ InteriorModes own_modes(const fe::FeModel& model, const DofPartition& partition,
 }
 
 /// f_i of the named loads, n_i x loads.
-MatrixXd interior_loads(const fe::FeModel& model, const DofPartition& partition,
-                        const std::vector<std::string>& names) {
-  MatrixXd forces(static_cast<Index>(partition.interior.size()), static_cast<Index>(names.size()));
+MatrixXd interior_loads(const PartitionedModel& part, const std::vector<std::string>& names) {
+  const fe::FeModel& model = part.full;
+  const std::vector<int32_t>& interior = part.dofs.interior;
+  MatrixXd forces(static_cast<Index>(interior.size()), static_cast<Index>(names.size()));
   for (Index j = 0; j < forces.cols(); ++j) {
     const std::string& name = names[static_cast<size_t>(j)];
     const Eigen::VectorXd& load =
@@ -99,7 +101,7 @@ MatrixXd interior_loads(const fe::FeModel& model, const DofPartition& partition,
           fmt::format("{}: load_shapes: found \"{}\", which prescribes the displacement "
                       "of a support, expected forces",
                       model.name, name));
-    forces.col(j) = load(partition.interior);
+    forces.col(j) = load(interior);
   }
   return forces;
 }
@@ -124,19 +126,17 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
 
 }  // namespace
 
-InteriorModes interior_modes(const fe::FeModel& model, const DofPartition& partition,
-                             const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const sparse::SupernodalFactor& factor_ii, const MatrixXd& motions,
-                             const ModeRequest& request, StepClock& clock) {
-  const MatrixXd forces = interior_loads(model, partition, request.load_shapes);
-  InteriorModes out = request.own_modes
-                          ? own_modes(model, partition, K, M, factor_ii, motions, request)
-                          : fixed_interface_modes(K, M, factor_ii, request);
+InteriorModes interior_modes(const PartitionedModel& part,
+                             const sparse::SupernodalFactor& factor_ii, const ModeRequest& request,
+                             StepClock& clock) {
+  const MatrixXd forces = interior_loads(part, request.load_shapes);
+  InteriorModes out = request.own_modes ? own_modes(part, factor_ii, request)
+                                        : fixed_interface_modes(part.K, part.M, factor_ii, request);
   if (request.accurate_to_hz > 0.0) out.accurate_to_hz = request.accurate_to_hz;
   clock.lap(fmt::format("{} {} modes", request.own_modes ? out.own_modes : out.vectors.cols(),
                         request.own_modes ? "own" : "fixed-interface"));
   if (forces.cols() == 0) return out;
-  append_load_shapes(forces, K, M, factor_ii, request.load_shapes, out);
+  append_load_shapes(forces, part.K, part.M, factor_ii, request.load_shapes, out);
   clock.lap(fmt::format("{} load shapes", out.load_shapes));
   return out;
 }

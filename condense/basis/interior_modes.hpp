@@ -53,13 +53,10 @@ struct InteriorModes {
 /// Load shapes: K_ii^{-1} f_i, the response with the boundary held, so that static responses to the
 /// load are exact everywhere.
 ///
-/// @param factor_ii of K_ii. @param motions n x m, the free rigid ones, M-orthonormal. InputError
-/// for an unknown load and one that prescribes displacements; NumericsError as solve_modes. Dropped
-/// shapes are reported by name. Steps go to `clock`.
-InteriorModes interior_modes(const fe::FeModel& model, const DofPartition& partition,
-                             const PartitionedMatrix& K, const PartitionedMatrix& M,
-                             const sparse::SupernodalFactor& factor_ii,
-                             const Eigen::MatrixXd& motions, const ModeRequest& request,
+/// @param factor_ii of K_ii. InputError for an unknown load and one that prescribes displacements;
+/// NumericsError as solve_modes. Dropped shapes are reported by name. Steps go to `clock`.
+InteriorModes interior_modes(const PartitionedModel& part,
+                             const sparse::SupernodalFactor& factor_ii, const ModeRequest& request,
                              StepClock& clock);
 
 }  // namespace clatter::condense

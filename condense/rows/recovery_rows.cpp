@@ -19,14 +19,15 @@ void for_each_dof(const RowSparse& T, const SkinPoint& point, Eigen::Index direc
 
 }  // namespace
 
-SkinRecovery::SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
-                           const std::vector<std::string>& surfaces,
+SkinRecovery::SkinRecovery(const PartitionedModel& part, const std::vector<std::string>& surfaces,
                            const std::vector<std::string>& sets)
-    : model_(model),
+    : model_(part.full),
       surfaces_(surfaces),
       sets_(sets),
-      row_(static_cast<size_t>(model.size()), -1),
-      boundary_(static_cast<size_t>(model.size()), -1) {
+      row_(static_cast<size_t>(model_.size()), -1),
+      boundary_(static_cast<size_t>(model_.size()), -1) {
+  const fe::FeModel& model = part.full;
+  const DofPartition& partition = part.dofs;
   for (size_t k = 0; k < partition.boundary.size(); ++k)
     boundary_[static_cast<size_t>(partition.boundary[k])] = static_cast<int32_t>(k);
   if (!surfaces.empty()) faces_ = skin_faces(model, surfaces);

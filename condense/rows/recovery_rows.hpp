@@ -15,9 +15,9 @@ namespace clatter::condense {
 class SkinRecovery {
  public:
   /// InputError for an unknown surface or set.
-  SkinRecovery(const fe::FeModel& model, const DofPartition& partition,
-               const std::vector<std::string>& surfaces, const std::vector<std::string>& sets);
-  /// Interior DoFs (indices into partition.interior) that move the skin and the sets, ascending.
+  SkinRecovery(const PartitionedModel& part, const std::vector<std::string>& surfaces,
+               const std::vector<std::string>& sets);
+  /// Interior DoFs (indices into part.dofs.interior) that move the skin and the sets, ascending.
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.

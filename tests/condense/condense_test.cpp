@@ -44,15 +44,12 @@ sparse::EigenResult reduced_modes(const rom::ReducedModel& reduced) {
 TEST(CraigBamptonTest, TheFourMassChainHasItsHandComputedMatrices) {
   // K = tridiag(-1, 2, -1) with last entry 1, M = diag(2, 2, 2, 1), boundary = last mass.
   const fe::FeModel model = test::held_chain();
-  const DofPartition partition = partition_dofs(model, {"end"});
-  const PartitionedMatrix K = partition_matrix(model.K, partition);
-  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  const PartitionedModel part = partition_model(model, {"end"});
   ModeRequest request;
   request.count = 3;
   set_quiet(true);
   StepClock clock;
-  const CraigBampton result = craig_bampton(
-      model, partition, K, M, static_part(model, partition, K, M, {}, clock), request, clock);
+  const CraigBampton result = craig_bampton(part, static_part(part, {}, clock), request, clock);
   const MatrixXd &K_rr = result.K_rr, &M_rr = result.M_rr;
   const double eps = 1e-12;  // a few rounding errors of numbers of order one
   const Eigen::Vector4d expected(0.25, 1.0 - 1.0 / std::sqrt(2.0), 1.0, 1.0 + 1.0 / std::sqrt(2.0));

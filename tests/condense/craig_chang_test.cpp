@@ -59,17 +59,14 @@ TEST(CraigChang, TheChainKeepsItsHandComputedFrequencies) {
   // Four masses 2, 2, 2, 1 on unit springs, the first held to the ground: -x_(j-1) + 2 x_j -
   // x_(j+1) = 2 lambda x_j with a free end has lambda = 1 - cos((2 k - 1) pi / 8).
   const fe::FeModel model = test::held_chain();
-  const DofPartition partition = partition_dofs(model, {"end"});
+  const PartitionedModel part = partition_model(model, {"end"});
   ModeRequest request;
   request.count = 2;
   request.own_modes = true;
   request.frequency_error = 0.0;
   set_quiet(true);
   StepClock clock;
-  const PartitionedMatrix K = partition_matrix(model.K, partition);
-  const PartitionedMatrix M = partition_matrix(model.M, partition);
-  const CraigBampton found = craig_bampton(
-      model, partition, K, M, static_part(model, partition, K, M, {}, clock), request, clock);
+  const CraigBampton found = craig_bampton(part, static_part(part, {}, clock), request, clock);
   ASSERT_EQ(found.M_rr.rows(), 3);
   const VectorXd values = spectrum(found.K_rr, found.M_rr);
   EXPECT_NEAR(values[0], 1.0 - std::cos(M_PI / 8.0), 1e-13);

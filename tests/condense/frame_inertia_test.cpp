@@ -48,19 +48,16 @@ VectorXd random_vector(Eigen::Index size, double scale, unsigned seed) {
 
 /// The basis of `reduce`, all DoFs in the model's order.
 MatrixXd full_basis(const fe::FeModel& model, const std::vector<std::string>& boundary, int count) {
-  const DofPartition partition = partition_dofs(model, boundary);
-  const PartitionedMatrix K = partition_matrix(model.K, partition);
-  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  const PartitionedModel part = partition_model(model, boundary);
   ModeRequest request;
   request.count = count;
   request.frequency_error = 0.0;
   StepClock clock;
-  const CraigBampton source = craig_bampton(
-      model, partition, K, M, static_part(model, partition, K, M, {}, clock), request, clock);
+  const CraigBampton source = craig_bampton(part, static_part(part, {}, clock), request, clock);
   MatrixXd V(model.size(), source.basis.size());
   const MatrixXd unit = MatrixXd::Identity(source.basis.size(), source.basis.size());
-  V(partition.interior, Eigen::all) = source.basis.interior(unit);
-  V(partition.boundary, Eigen::all) = unit.topRows(source.basis.boundary());
+  V(part.dofs.interior, Eigen::all) = source.basis.interior(unit);
+  V(part.dofs.boundary, Eigen::all) = unit.topRows(source.basis.boundary());
   return V;
 }
 

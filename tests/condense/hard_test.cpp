@@ -38,21 +38,19 @@ TEST(HardB3, ARepeatedInterfaceDofGetsOneCoordinate) {
 
 TEST(HardB3, ADuplicatedModeIsDroppedAndTheAnswerStays) {
   const auto model = box_model();
-  const DofPartition partition = partition_dofs(model, {"left", "right"});
-  const PartitionedMatrix K = partition_matrix(model.K, partition);
-  const PartitionedMatrix M = partition_matrix(model.M, partition);
+  const PartitionedModel part = partition_model(model, {"left", "right"});
   ModeRequest request;
   request.count = 10;
   set_quiet(true);
   StepClock clock;
-  const StaticPart statics = static_part(model, partition, K, M, {}, clock);
-  CraigBampton source = craig_bampton(model, partition, K, M, statics, request, clock);
-  const ReducedMatrices once = project(K, M, statics.reduction, source.basis);
+  const StaticPart statics = static_part(part, {}, clock);
+  CraigBampton source = craig_bampton(part, statics, request, clock);
+  const ReducedMatrices once = project(part.K, part.M, statics.reduction, source.basis);
   MatrixXd& shapes = source.basis.shapes;
   const Eigen::Index r = source.basis.size(), k = shapes.cols();
   shapes.conservativeResize(Eigen::NoChange, k + 1);
   shapes.col(k) = 3.0 * shapes.col(k - 4) - shapes.col(2);
-  const ReducedMatrices twice = project(K, M, statics.reduction, source.basis);
+  const ReducedMatrices twice = project(part.K, part.M, statics.reduction, source.basis);
   const std::vector<int> kept = independent_columns(twice.M_rr, source.basis.boundary());
   ASSERT_EQ(static_cast<Eigen::Index>(kept.size()), r);
   EXPECT_EQ(kept.back(), r - 1);
