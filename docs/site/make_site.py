@@ -45,10 +45,10 @@ def make_reference():
     write("header.html", navigation.doxygen_header())
     write("footer.html", navigation.DOXYGEN_FOOTER)
     if subprocess.run(["doxygen", "docs/site/Doxyfile"], cwd=SOURCE, check=False).returncode:
-        sys.exit("make docs: Doxygen warns about the headers; a word that it takes for a command or tag belongs in `backticks`")
+        sys.exit("make docs: Doxygen warns about the headers; a word that it takes for a command belongs in `backticks`")
     remove_empty_summaries()
     tags = xml.etree.ElementTree.parse(SITE / "api.tag").getroot()
-    for name in ("header.html", "footer.html", "api.tag"):
+    for name in ("header.html", "footer.html", "api.tag", "api/index.html"):  # the last one is empty
         (SITE / name).unlink()
     return {file.findtext("path") + file.findtext("name"): "api/" + file.findtext("filename")
             for file in tags.findall("compound[@kind='file']")}
@@ -63,7 +63,8 @@ def make_documents(translated):
         shutil.copyfile(SOURCE / path, SITE / path)
     for path in translated.sources:
         text = html.escape((SOURCE / path).read_text(encoding="utf-8"))
-        write(path + ".html", navigation.framed(path + ".html", path, f"<h1>{path}</h1>\n<pre class=\"source\">{text}</pre>\n"))
+        page = path + ".html"
+        write(page, navigation.framed(page, path, f"<h1>{path}</h1>\n<pre>{text}</pre>\n"))
 
 
 def main():

@@ -43,8 +43,9 @@ def navigation(page, sections=()):
         for path, title in entries:
             target = page_of(path)
             here = ' class="here"' if target == page else ""
-            inner = "".join(f'<li><a href="#{anchor}">{html.escape(text)}</a></li>' for anchor, text in sections) if here else ""
-            lines.append(f'<li><a{here} href="{relative(page, target)}">{title}</a>{f"<ul>{inner}</ul>" if inner else ""}</li>')
+            inner = "".join(f'<li><a href="#{anchor}">{html.escape(text)}</a></li>' for anchor, text in sections)
+            inner = f"<ul>{inner}</ul>" if here and inner else ""
+            lines.append(f'<li><a{here} href="{relative(page, target)}">{title}</a>{inner}</li>')
         lines.append("</ul>")
     return "\n".join([*lines, "</nav>"])
 

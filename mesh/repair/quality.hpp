@@ -68,8 +68,8 @@ double smallest_angle_of(CellType type, const CellNodes& x);
 /// 3 r_in / r_circum.
 double radius_ratio(const Eigen::Matrix<double, 4, 3>& corners);
 
-/// Writes group `quality`: per measure the histogram, that of each cell type (`by_type/<name>`),
-/// the worst cell, and the worst cells (worst_cells: labels, worst_values, worst_places).
+/// Writes group `quality`: per measure the histogram, that of each cell type (by_type/<name>), the
+/// worst cell, and the worst cells (worst_cells: labels, worst_values, worst_places).
 void write_quality(H5File& file, const QualityReport& report);
 
 }  // namespace clatter::mesh

@@ -5,8 +5,8 @@ import unittest
 import repository
 
 LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
-COMMENTED = (".cpp", ".hpp", ".py", ".cmake", ".mk", ".toml", ".yml", ".yaml", ".cff", ".in")
-NAMED = {"CMakeLists.txt", "Makefile", "setup", "clatter", "compare", "packages.txt", ".clang-format", ".clang-tidy"}
+COMMENTED = (".cpp", ".hpp", ".py", ".cmake", ".mk", ".toml", ".yml", ".yaml", ".cff", ".in", ".awk", ".css")
+NAMED = {"CMakeLists.txt", "Makefile", "Doxyfile", "setup", "clatter", "compare", "packages.txt", ".clang-format", ".clang-tidy"}
 
 
 def lacks_line(path):

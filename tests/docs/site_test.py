@@ -124,10 +124,14 @@ class HeaderFilter(unittest.TestCase):
     def test_comments_of_files_members_and_formulas_reach_doxygen_and_lines_keep_their_numbers(self):
         self.assertEqual(
             self.filtered("// SPDX\n#pragma once\n// Masses:\n//   m = rho V.\n#include <a>\n\n/// Law\n///   F = k <x>\n/// holds.\n"
-                          "struct A {\n  double m = 1;  // [kg],\n                 // of all\n  int n;\n};\n"),
-            "// SPDX\n/// @file\n/// Masses: @verbatim\n///   m = rho V. @endverbatim\n#include <a>\n\n/// Law @verbatim\n"
-            "///   F = k <x>\n/// @endverbatim holds.\nstruct A {\n  double m = 1;  ///< [kg],\n                 ///< of all\n"
+                          "struct A {\n  double m = 1;  // [kg] < 2,\n                 // of all\n  int n;\n};\n"),
+            "// SPDX\n/// @file\n/// Masses: @code{.unparsed}\n///   m = rho V. @endcode\n#include <a>\n\n/// Law @code{.unparsed}\n"
+            "///   F = k <x>\n/// @endcode holds.\nstruct A {\n  double m = 1;  ///< [kg] \\< 2,\n                 ///< of all\n"
             "  int n;\n};\n")
+
+    def test_angle_brackets_and_dashes_are_text_except_in_backticks_and_quotes(self):
+        self.assertEqual(self.filtered("/// <name> with --json, `<name> --json` \"<a>\": a < b.\nint a;  \nint b = c--;\n"),
+                         "/// \\<name> with \\--json, `<name> --json` \"<a>\": a \\< b.\nint a;  \nint b = c--;\n")
 
     def test_continuations_of_a_list_are_no_formulas(self):
         text = "/// Sum.\n/// @param x  n x 1,\n///           in N\n/// - item\n///   goes on\n"
