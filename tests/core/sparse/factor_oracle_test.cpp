@@ -64,7 +64,7 @@ struct SimplicialFactor {
   Eigen::VectorXd D;
 };
 
-SimplicialFactor cholmod_factor(const Eigen::MatrixXd& B) {
+SimplicialFactor simplicial_factor(const Eigen::MatrixXd& B) {
   cholmod_common common;
   cholmod_start(&common);
   common.supernodal = CHOLMOD_SIMPLICIAL;
@@ -109,7 +109,7 @@ TEST_P(FactorOracle, EveryEntryIsThatOfDenseCholeskyAndOfCholmod) {
   const Eigen::MatrixXd reference = B.llt().matrixL();
   EXPECT_LT((L - reference).cwiseAbs().maxCoeff(), 1e-14 * size);
 
-  const SimplicialFactor cholmod = cholmod_factor(B);
+  const SimplicialFactor cholmod = simplicial_factor(B);
   const Eigen::VectorXd D = L.diagonal().array().square();
   EXPECT_LT((D - cholmod.D).cwiseAbs().maxCoeff(), 1e-14 * cholmod.D.maxCoeff());
   const Eigen::MatrixXd unit = L * L.diagonal().cwiseInverse().asDiagonal();
