@@ -231,6 +231,50 @@ lubrication = "none"
   EXPECT_LT(worst, 1e-2 * q.col(2).cwiseAbs().maxCoeff());
 }
 
+TEST_F(Runs, AFilmBetweenElasticBodiesClosesTheEnergyBalanceAndDeformsTheLiner) {
+  testing::write_rom(folder_ / "soft.rom.h5", testing::elastic_piston(0.0535, 4, 6));
+  const Scene described = scene(R"(
+[time]
+cycles = 1
+[piston]
+rom = "soft.rom.h5"
+model = "elastic"
+pin = "pin"
+skirt = "skirt"
+gas_load = "gas"
+mode_limit_hz = 8000.0
+[block]
+model = "elastic"
+liner = "liner_4"
+liner_axial = "liner_4_axial"
+bearings = ["main_4", "main_5"]
+gas_load = "head_4_gas"
+mode_limit_hz = 8000.0
+[[mount]]
+sets = ["mounts"]
+stiffness_n_m = [1e5, 1e5, 2e5]
+damping_n_s_m = [1e3, 1e3, 2e3]
+)");
+  const LoadedBodies bodies = load_bodies(described);
+  const RunResult result = simulate(described, bodies, {});
+  EXPECT_TRUE(result.complete) << result.failure;
+  EXPECT_GT(result.energy_exchanged, 1.0);
+  EXPECT_LT(result.energy_residue, 1e-3);
+  H5File file = H5File::create(folder_ / "film.run.h5");
+  write_run(file, described, bodies, result);
+  file.commit();
+  const H5File back = open_artefact(folder_ / "film.run.h5", "clatter/run/1");
+  // The film's pressure dents the liner beside its rigid-body motion: patches move apart.
+  const RowMatrix q = back.read_rows("bodies/block/q");
+  const std::vector<int32_t>& patches = bodies[1].model.set("liner_4").dofs;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < q.rows(); ++i)
+    for (const int32_t patch : patches)
+      largest = std::max(largest, std::abs(q(i, patch) - q(i, patches.front())));
+  EXPECT_GT(largest, 1e-8);
+  EXPECT_LT(largest, 1e-3);
+}
+
 TEST_F(Runs, ASceneWithoutEngineRunsABodyUnderALoad) {
   std::ofstream(folder_ / "bar.run.toml") << R"(
 [time]
