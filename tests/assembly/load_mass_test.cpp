@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "small_solver.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -106,7 +107,8 @@ axis = [0.0, 0.0, 1.0]
   const Eigen::Vector3d force(3.15, 0.3, 0.0), centre(0.05, 0.1, 0.5), turn(-0.005, 0.006, 0.0);
   EXPECT_LT((resultant.head(3) - force).norm(), 1e-13);
   EXPECT_LT((resultant.tail(3) - (centre.cross(force) - turn)).norm(), 1e-13);
-  EXPECT_THROW(build(bar(), text + "regions = [\"bodies\"]\n"), InputError);
+  test::expect_parts(test::refusal_of([&] { build(bar(), text + "regions = [\"bodies\"]\n"); }),
+                     {"test.fe.toml:", "regions: found \"bodies\", expected one of: body"});
 }
 
 TEST(LoadCase, GravityIsTheWeightOfElementsAndPointMasses) {
@@ -153,11 +155,14 @@ moment = [0.0, 0.0, 4.0]
 }
 
 TEST(LoadCase, AMomentOnPlainNodesIsRefused) {
-  EXPECT_THROW(build(bar(),
-                     "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
-                     "0.4]\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = \"s\"\nmoment = "
-                     "[1.0, 0.0, 0.0]\n"),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        build(bar(),
+              "[[sensor]]\nname = \"s\"\nsurface = \"z1\"\nnear = [0.0, 0.0, "
+              "0.4]\n[[load]]\nname = \"m\"\nkind = \"force\"\nset = \"s\"\nmoment = "
+              "[1.0, 0.0, 0.0]\n");
+      }),
+      {"test.fe.toml:", "load m: found a load along x, expected a set with a coordinate along it"});
 }
 
 TEST(PointMass, EntersTheDiagonalOfItsReferenceNodeOnly) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/force/joint.hpp"
+#include "tests/random_matrix.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +19,7 @@ Joint pin_joint(double exponent) {
                std::make_unique<RodAnchor>(std::vector<int>{4, 5, 6}, kCrank, 0.14), law);
 }
 
-Eigen::VectorXd some(double scale, unsigned seed) {
-  std::srand(seed);
-  return scale * Eigen::VectorXd::Random(7);
-}
+Eigen::VectorXd some(double scale, unsigned seed) { return scale * test::random_vector(7, seed); }
 
 TEST(RadialLaw, IsSmoothAndItsEnergyIsItsIntegral) {
   for (const double exponent : {1.0, 1.5, 2.0}) {
