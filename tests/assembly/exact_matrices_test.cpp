@@ -34,10 +34,11 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
 
 Polynomial derivative(const Polynomial& a, size_t k) {
   Polynomial out;
-  for (auto [p, x] : a) {
+  for (const auto& [p, x] : a) {
     if (p[k] == 0) continue;
-    x *= p[k]--;
-    out[p] += x;
+    Exponents lower = p;
+    --lower[k];
+    out[lower] += x * p[k];
   }
   return out;
 }
@@ -101,7 +102,7 @@ DensePencil exact_matrices(const mesh::Mesh& mesh, const fe::Material& material)
         const Eigen::Matrix3d S = gradient * slopes[a][b] * gradient.transpose();
         const Eigen::Matrix3d k = material.lambda() * S + material.mu() * S.transpose() +
                                   material.mu() * S.trace() * Eigen::Matrix3d::Identity();
-        const double m = material.rho * products(static_cast<int>(a), static_cast<int>(b));
+        const double m = material.density * products(static_cast<int>(a), static_cast<int>(b));
         out.K.block<3, 3>(3 * cell[a], 3 * cell[b]) += volume * k;
         out.M.block<3, 3>(3 * cell[a], 3 * cell[b]) += volume * m * Eigen::Matrix3d::Identity();
       }

@@ -62,7 +62,7 @@ TEST(ModalDamping, FreeVibrationOfEachModeDiesAwayByItsTableRow) {
     const double zeta = table.at(hz);
     const double expected = 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
     // Second order with 2000 steps a period: (2 pi / 2000)^2 = 1e-5 of the motion.
-    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected) << hz;
+    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-5 * expected) << hz;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(ModalDamping, RayleighAndTableAddUp) {
                         0.5 * (bar.alpha * omega + bar.beta / omega);
     EXPECT_NEAR(body.damping(k), 2.0 * zeta * omega, 1e-12 * body.damping(k));
     const double expected = 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
-    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-4 * expected);
+    EXPECT_NEAR(decrement(body, k, zeta, 5), expected, 1e-5 * expected);
   }
 }
 

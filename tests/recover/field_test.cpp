@@ -204,7 +204,7 @@ TEST(FieldFile, CertificateShowsAMotionThatDoesNotRepeatAndWhatLiesAboveTheSpect
               1e-9);
   const double leaked = file.get_double("certificate", "mean_square_share_above_spectra");
   EXPECT_GT(leaked, 1e-5);
-  EXPECT_LT(leaked, 0.1);
+  EXPECT_LT(leaked, 0.02);
   std::filesystem::remove_all(folder);
 }
 

@@ -75,10 +75,10 @@ TEST(Spectra, TapersKeepAmplitudesOfTonesAndPowerOfNoise) {
     piece.periodic = false;
     piece.taper = taper;
     const LineSpectrum s = line_spectrum(piece, tone(piece, 2.0, 200 / 0.06, 0.3, 5.0), 1e9);
-    // 1e-3: side lobes of the tone's negative frequency; none on a line for hann and flat top.
-    EXPECT_LT(std::abs(s.amplitude(200, 0) - std::polar(2.0, 0.3)), 2e-3) << name_of(taper);
+    // Side lobes of the tone's negative frequency: 2e-10 at most.
+    EXPECT_LT(std::abs(s.amplitude(200, 0) - std::polar(2.0, 0.3)), 2e-9) << name_of(taper);
     EXPECT_LT(std::abs(s.amplitude(0, 0)), 1e-12);
-    EXPECT_NEAR(s.power_factor.dot(s.amplitude.col(0).cwiseAbs2()), 2.0, 0.01) << name_of(taper);
+    EXPECT_NEAR(s.power_factor.dot(s.amplitude.col(0).cwiseAbs2()), 2.0, 4e-9) << name_of(taper);
   }
 }
 

@@ -59,7 +59,7 @@ TEST(Config, NotANumberIsRefused) {
   EXPECT_EQ(message("a"), "s:1: a: found nan, expected a finite number");
   EXPECT_EQ(message("b"), "s:2: b: found true, expected a finite number");
   EXPECT_EQ(message("c"), "s:3: c: found '1', expected a finite number");
-  EXPECT_EQ(message("missing"), "s: missing: found nothing, expected a finite number");
+  EXPECT_EQ(message("missing"), "s:1: missing: found nothing, expected a finite number");
 }
 
 TEST(Config, BrokenTomlNamesLineAndColumn) {

@@ -300,9 +300,9 @@ class NastranTree : public testing::Test {
     std::string text = "SOL 101\nCEND\n";
     for (int i = 1; i <= 6; ++i) text += fmt::format("SUBCASE {}\nLOAD = {}\n", i, 50 + i);
     text += "BEGIN BULK\n";
-    for (const std::string& name : {"materials.blk", "grids.blk"})
+    for (const char* name : {"materials.blk", "grids.blk"})
       text += fmt::format("INCLUDE '{}{}{}'\n", bulk, slash, name);
-    for (const std::string& folder : {"rigid/rbe2", "masses/conm2", "panels/all"}) {
+    for (const char* folder : {"rigid/rbe2", "masses/conm2", "panels/all"}) {
       std::string path = folder;
       path.replace(path.find('/'), 1, slash);
       text += fmt::format("INCLUDE '{}{}{}.blk'\n", bulk, slash, path);
