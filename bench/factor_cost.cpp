@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
   const auto model = clatter::fe::read_fe_model(argv[1]);
   const clatter::SparseMatrix A = model.K + std::pow(2.0 * std::numbers::pi * 100.0, 2) * model.M;
   const clatter::sparse::SupernodalFactor factor(A);
-  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), std::atoi(argv[2]));
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Ones(A.rows(), std::atoi(argv[2]));
   const clatter::Stopwatch clock;
   const Eigen::MatrixXd x = factor.solve(b);
   const double seconds = clock.seconds();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Error messages of bad input.
+// Messages of the errors that rejected input and failed computations end with.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace clatter::test {
 
-/// The message of the InputError that `action` ends with; "accepted" if it does not.
-template <class Action>
+/// The message of the error of type `Expected` that `action` ends with; "accepted" if it does not.
+/// Errors of other types fail the test.
+template <class Expected = InputError, class Action>
 std::string refusal_of(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const Expected& error) {
     return error.what();
   }
   return "accepted";

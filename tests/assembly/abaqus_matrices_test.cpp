@@ -11,7 +11,6 @@
 #include "core/fe/assemble.hpp"
 #include "mesh/deck/abaqus/reader.hpp"
 #include "small_solver.hpp"
-#include "tests/shared_data.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -45,14 +44,13 @@ double worst_difference(const SparseMatrix& ours, const Entries& theirs,
   return worst / largest;
 }
 
+const std::filesystem::path kFolder = CLATTER_SHARED_DATA "/abaqus_beam";
 const fe::Material kAbaqusSteel{208000.0, 0.3, 7.85e-9};  // N, mm, t
 
 class AbaqusBeam : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::filesystem::path folder = test::shared_data("abaqus_beam");
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no reference data at " << folder;
-    mesh_ = mesh::deck::read_abaqus(folder / "abq_beam.inp", {}).mesh;
+    mesh_ = mesh::deck::read_abaqus(kFolder / "abq_beam.inp", {}).mesh;
     ASSERT_EQ(mesh_.nodes.rows(), 518);
     ASSERT_EQ(mesh_.cells[0].nodes.rows(), 233);
     for (int32_t n = 0; n < 518; ++n)  // so that rows are Abaqus' rows
@@ -70,12 +68,12 @@ class AbaqusBeam : public ::testing::Test {
 
 TEST_F(AbaqusBeam, StiffnessAgreesEntryByEntry) {
   // Abaqus also uses four points; its cells are straight to seven digits of the coordinates.
-  const Entries theirs = read_entries(test::shared_data("abaqus_beam") / "STIF1_coord_style.mtx");
+  const Entries theirs = read_entries(kFolder / "STIF1_coord_style.mtx");
   EXPECT_LT(worst_difference(matrices_.K, theirs, held_), 1e-6);
 }
 
 TEST_F(AbaqusBeam, MassAgreesEntryByEntry) {
-  const Entries theirs = read_entries(test::shared_data("abaqus_beam") / "MASS1_coord_style.mtx");
+  const Entries theirs = read_entries(kFolder / "MASS1_coord_style.mtx");
   EXPECT_LT(worst_difference(matrices_.M, theirs, std::vector<bool>(held_.size(), false)), 1e-6);
 }
 

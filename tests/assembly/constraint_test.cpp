@@ -85,7 +85,10 @@ TEST(DistributingCoupling, OfWeightedNodesByHand) {
   const Coupling centre = distribute(members, {3.0, 0.0, 0.0}, {2}, "test");
   EXPECT_NEAR(centre.rows[0].values[0], 0.25, 1e-14);  // weights at the weighted centre
   EXPECT_NEAR(centre.rows[0].values[1], 0.75, 1e-14);
-  EXPECT_THROW(distribute(members, {0.0, 0.0, 0.0}, {3}, "test"), InputError);
+  expect_parts(test::refusal_of([&] {
+                 distribute(members, {0.0, 0.0, 0.0}, {3}, "test");
+               }),
+               {"test: found nodes that do not define rx of the reference", "on a line"});
 }
 
 TEST(DistributingCoupling, CountsRotationsOfPointsByTheirExtent) {

@@ -11,6 +11,7 @@
 #include "block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "small_solver.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -136,7 +137,9 @@ TEST(ContactPatch, APatchWithoutNodesIsRefusedAndNamed) {
 TEST(ContactPatch, ASurfaceThatIsNoCylinderIsRefused) {
   const mesh::Mesh mesh = block_mesh({4, 4, 4}, brick({0.1, 0.1, 0.1}));
   const SurfaceIntegrals s = integrate_surface(mesh.nodes, mesh.surface("y0"));
-  EXPECT_THROW(contact_patches("p", mesh.nodes, s, whole_circle(4, 2), "test"), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { contact_patches("p", mesh.nodes, s, whole_circle(4, 2), "test"); }),
+      {"test: found a node", "m from the axis, expected a cylinder about it (mean radius"});
 }
 
 }  // namespace

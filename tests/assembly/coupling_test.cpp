@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"
 #include "small_solver.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -101,9 +102,12 @@ TEST_P(DistributingCouplingOn, ReproducesRigidMotionsAndTransposesToResultants) 
 TEST(DistributingCoupling, RefusesALine) {
   Square line;
   line.nodes.col(1) *= 1e-12;
-  EXPECT_THROW(distributing_coupling("l", "node", line.nodes,
-                                     integrate_surface(line.nodes, line.triangles), {}, 6, "test"),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        distributing_coupling("l", "node", line.nodes,
+                              integrate_surface(line.nodes, line.triangles), {}, 6, "test");
+      }),
+      {"test: found nodes that do not define rx of the reference", "expected a face with area"});
 }
 
 TEST(MeanDisplacement, IsTheAreaWeightedMean) {
@@ -114,9 +118,11 @@ TEST(MeanDisplacement, IsTheAreaWeightedMean) {
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
     u(3 * a + 2) = mesh.nodes(a, 0) * mesh.nodes(a, 0);  // mean of x^2 over 0..3 is 3
   EXPECT_NEAR((dense_rows(mean, u.size()) * u)(0), 3.0, 1e-13);
-  EXPECT_THROW(
-      mean_displacement("m", mesh.nodes, s, Eigen::Vector3d::UnitZ(), std::pair{5.0, 6.0}, "test"),
-      InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       mean_displacement("m", mesh.nodes, s, Eigen::Vector3d::UnitZ(),
+                                         std::pair{5.0, 6.0}, "test");
+                     }),
+                     {"test: found no node of the surface in the range, expected some"});
 }
 
 constexpr const char* kTwoCouplings = R"(
@@ -223,10 +229,15 @@ direction = [0.0, 0.0, 1.0]
 }
 
 TEST(Elimination, RefusesACouplingWhoseNodesAreAllHeld) {
-  EXPECT_THROW(build(small_ring(),
-                     "[[support]]\nsurface = \"z1\"\n[[coupling]]\nname = \"top\"\nsurface = "
-                     "\"z1\"\n"),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        build(small_ring(),
+              "[[support]]\nsurface = \"z1\"\n[[coupling]]\nname = \"top\"\nsurface = "
+              "\"z1\"\n");
+      }),
+      {"test.fe.toml:",
+       "coupling top: found rows that supports, sensors or other couplings already determine",
+       "expected 6 independent coordinates"});
 }
 
 TEST(Elimination, SensorsOnACoupledFaceStayPlainDisplacements) {

@@ -9,6 +9,7 @@
 #include "core/mesh/boundary.hpp"
 #include "one_cell.hpp"
 #include "small_solver.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
@@ -101,15 +102,22 @@ TEST(StraightEdgesOfAMesh, JoinAQuadraticCellToALinearOne) {
 
 TEST(StraightEdgesOfAMesh, AreNotForgotten) {
   mesh::Mesh mesh = cube_under_pyramid();
-  EXPECT_THROW(build(mesh, ""), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { build(mesh, ""); }),
+      {"test.fe.toml",
+       "straight_edges: found none, the mesh has the node set \"hanging_mid_side_nodes\"",
+       "expected [[straight_edges]] with node_set = \"hanging_mid_side_nodes\""});
   mesh.node_sets[mesh::kHangingMidSideNodes] = {0};  // a corner
-  EXPECT_THROW(build(mesh, kStraight), InputError);
+  test::expect_parts(test::refusal_of([&] { build(mesh, kStraight); }),
+                     {"straight edges hanging_mid_side_nodes: node 0 is not a mid-side node"});
 }
 
 TEST(StraightEdgesOfAMesh, AreWhatLetsALinearFaceMeetAQuadraticOne) {
   mesh::Mesh mesh = cube_under_pyramid();
   mesh.node_sets.clear();
-  EXPECT_THROW(mesh::boundary_faces(mesh), InputError);
+  test::expect_parts(test::refusal_of([&] { mesh::boundary_faces(mesh); }),
+                     {"mesh 'one': ", "(pyramid13)", "(hex8)", "share the face with corners",
+                      "but not its mid-side nodes, expected the same nodes on both sides"});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // hand.
 #include "core/fe/fe_model.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/random_matrix.hpp"
 
 namespace clatter::test {
 
@@ -40,7 +41,7 @@ inline fe::FeModel held_chain() {
                               {2, 1, -1.0},
                               {3, 2, -1.0}});
   model.M = diagonal(Eigen::Vector4d(2.0, 2.0, 2.0, 1.0));
-  model.nodes = RowMatrix::Random(4, 3);
+  model.nodes = test::random_matrix<RowMatrix>(4, 3);
   model.rigid = Eigen::MatrixXd::Zero(4, 6);
   model.rigid.col(0).setOnes();  // not free: the chain is held
   model.sets["end"].dofs = {3};

@@ -13,6 +13,7 @@
 #include "modal/modes_file.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter {
 namespace {
@@ -134,7 +135,10 @@ TEST(Compare, StrangersAreRefused) {
   rom::ReducedModel reduced = reduce(model, 6000.0);
   reduced.sets.clear();
   reduced.skin.nodes.array() += 100.0;
-  EXPECT_THROW(modes::compare(model, reduced, {0.0, 10}), InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       modes::compare(model, reduced, {0.0, 10});
+                     }),
+                     {"box and box: found no node or set in both, expected the same part"});
 }
 
 TEST(Analyse, AClampedBoxHasNoRigidModesAndZerosWhereItIsHeld) {
@@ -147,7 +151,8 @@ TEST(Analyse, AClampedBoxHasNoRigidModesAndZerosWhereItIsHeld) {
   for (const int dof : model.sets.at("left").dofs)
     EXPECT_EQ(part.modes.vectors.row(dof).norm(), 0.0);
   options.fixed = {"lfet"};
-  EXPECT_THROW(modes::analyse(model, options), InputError);
+  test::expect_parts(test::refusal_of([&] { modes::analyse(model, options); }),
+                     {"box: set: found \"lfet\", expected one of: ", "left"});
 }
 
 TEST_F(InFolder, ModesFileGivesBackItsTable) {

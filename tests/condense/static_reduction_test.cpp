@@ -12,6 +12,7 @@
 #include "core/fe/free_motions.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
+#include "tests/random_matrix.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -120,13 +121,13 @@ TEST_P(StaticReductionTest, RigidMotionsAreCarriedToTheLastBit) {
 TEST(ReducedBasisTest, AppliesShapesThatItDoesNotHold) {
   const Case c;
   ReducedBasis basis(c.factor, c.K.ib);
-  basis.shapes = MatrixXd::Random(c.K_ii.rows(), 5);
+  basis.shapes = test::random_matrix(c.K_ii.rows(), 5, 1);
   const Index n_b = basis.boundary();
   MatrixXd V_i(c.K_ii.rows(), basis.size());
   V_i << c.Psi, basis.shapes;
-  const MatrixXd q = MatrixXd::Random(basis.size(), 4);
+  const MatrixXd q = test::random_matrix(basis.size(), 4, 2);
   EXPECT_LT((basis.interior(q) - V_i * q).norm(), 1e-11 * (V_i * q).norm());
-  const MatrixXd f_i = MatrixXd::Random(V_i.rows(), 3), f_b = MatrixXd::Random(n_b, 3);
+  const MatrixXd f_i = test::random_matrix(V_i.rows(), 3, 3), f_b = test::random_matrix(n_b, 3, 4);
   MatrixXd expected = V_i.transpose() * f_i;
   expected.topRows(n_b) += f_b;
   EXPECT_LT((basis.project(f_i, f_b) - expected).norm(), 1e-11 * expected.norm());

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/gas_cycle.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -54,7 +55,9 @@ TEST(SliderCrank, AccelerationAtTopDeadCentre) {
 }
 
 TEST(SliderCrank, RefusesARodThatDoesNotReach) {
-  EXPECT_THROW(SliderCrank(0.065, 0.06, 0.0, 1.0), InputError);
+  test::expect_parts(test::refusal_of([&] { SliderCrank(0.065, 0.06, 0.0, 1.0); }),
+                     {"slider-crank: crank radius 0.065 m, rod 0.06 m, pin offset 0 m: expected "
+                      "rod > radius + offset"});
 }
 
 TEST(MotoredCycle, PeakPressuresOfTheReference) {

@@ -69,6 +69,7 @@ TEST(HardT1_UndampedStiffContact, EnergyNeverRisesOverTenThousandImpacts) {
     ASSERT_LE(total, start * (1.0 + 1e-6 * static_cast<double>(impacts + 1))) << impacts;
   }
   // L-stability costs some energy, but the ball must still bounce after so many impacts.
+  printf("T1 %.9g\n", 1 - (energy.now().stored() - 50.0 * method.state().y(y)) / start);
   EXPECT_GT(energy.now().stored() - 50.0 * method.state().y(y), 0.2 * start);
 }
 
@@ -132,8 +133,8 @@ TEST(HardT5_BouncingBall, ComesToRestOnTheWall) {
   Dirk method(system, options);
   method.start(0.0, vector(-drop), vector(0.0));
   while (method.state().time < 5.0) method.step(5.0);
-  EXPECT_NEAR(method.state().y(y), weight / k, 0.1 * weight / k);
-  EXPECT_LT(std::abs(method.state().v_y(y)), 1e-3);
+  EXPECT_NEAR(method.state().y(y), weight / k, 1e-12 * weight / k);  // rounding
+  EXPECT_LT(std::abs(method.state().v_y(y)), 1e-15);
   EXPECT_LT(method.statistics().accepted, 30000);
 }
 
@@ -165,7 +166,7 @@ TEST(HardT8_HalvingTheStep, ConvergesPenetrationAndLoss) {
   // Errors shrink by about four a halving; the 1.5-power contact is C1, so a factor of two is safe.
   EXPECT_LT(std::abs(depth[2] - depth[1]), 0.5 * std::abs(depth[1] - depth[0]) + 1e-5 * depth[2]);
   EXPECT_LT(std::abs(lost[2] - lost[1]), 0.5 * std::abs(lost[1] - lost[0]) + 1e-6 * lost[2]);
-  EXPECT_NEAR(depth[1], depth[2], 0.01 * depth[2]);
+  EXPECT_NEAR(depth[1], depth[2], 4e-4 * depth[2]);  // 4e-5 is reached
 }
 
 TEST(HardT9_FreeRun, EnergyDoesNotRiseInTenSeconds) {
@@ -186,7 +187,7 @@ TEST(HardT9_FreeRun, EnergyDoesNotRiseInTenSeconds) {
     ASSERT_LE(energy.now().stored(), last + 1e-12 * start);
     last = energy.now().stored();
   }
-  EXPECT_GT(last, 0.5 * start);  // and the integrator does not damp the motion either
+  EXPECT_GT(last, 0.85 * start);  // and the integrator hardly damps 320 periods
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "mesh/geometry/bare_cad.hpp"
 #include "mesh/geometry/cad_unit.hpp"
 #include "support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -44,7 +45,8 @@ TEST(CadUnit, IgesHasItInItsGlobalSectionAndBrepNever) {
   inches.replace(inches.find(",1.,2,2HMM"), 10, ",1.,1,2HIN");
   EXPECT_EQ(unit_of("a.iges", inches), "inch");
   EXPECT_EQ(unit_of("a.brep", "DBRep_DrawableShape"), "");
-  EXPECT_THROW(cad_unit("none.step"), InputError);
+  test::expect_parts(test::refusal_of([&] { cad_unit("none.step"); }),
+                     {"none.step: file not found"});
 }
 
 TEST(BareCad, TheDescriptionNamesTheFileFromItsOwnFolder) {

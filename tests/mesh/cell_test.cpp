@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "mesh/repair/quality.hpp"
 #include "support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -39,7 +40,8 @@ TEST(Cell, MidSideNodesOfFacesLieBetweenTheirCorners) {
 
 TEST(Cell, UnknownNameIsRefusedWithTheKnownOnes) {
   EXPECT_EQ(cell_type_named("tet10", "f"), CellType::kTet10);
-  EXPECT_THROW(cell_type_named("hex99", "f"), InputError);
+  test::expect_parts(test::refusal_of([&] { cell_type_named("hex99", "f"); }),
+                     {"f: found cell type 'hex99', expected one of: tet4, ", "hex8"});
 }
 
 TEST(Boundary, OneCellIsClosedOutwardAndEnclosesASixth) {

@@ -10,6 +10,7 @@
 #include "core/mesh/mesh_file.hpp"
 #include "mesh/exports/mesh_export.hpp"
 #include "support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -129,8 +130,12 @@ TEST(MeshExport, HardG3_AbaqusMidSideNodesLieOnAbaqusEdges) {
 
 TEST(MeshExport, UnknownExtensionAndMissingFolderAreRefused) {
   const Folder folder;
-  EXPECT_THROW(export_mesh(one_cell(), folder / "one.obj"), InputError);
-  EXPECT_THROW(export_mesh(one_cell(), folder / "none/one.vtu"), FileError);
+  test::expect_parts(test::refusal_of([&] { export_mesh(one_cell(), folder / "one.obj"); }),
+                     {"one.obj: found extension '.obj', expected .vtu, .msh, .med, .unv, .inp, "
+                      ".bdf, .nas or .dat"});
+  test::expect_parts(
+      test::refusal_of<FileError>([&] { export_mesh(one_cell(), folder / "none/one.vtu"); }),
+      {"none/one.vtu: cannot be written (folder missing or disk full?)"});
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "mesh/repair/unfold.hpp"
 #include "mesh_toml.hpp"
 #include "support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -43,17 +44,21 @@ constexpr const char* kOneCylinder =
 
 TEST(Gmsh, HardG1_AThrownStringBecomesAClatterError) {
   GmshSession session("g1");
-  EXPECT_THROW(session.import_cad("/nowhere/part.step", "mm"), InputError);
-  EXPECT_THROW(session.volume({4711}), NumericsError);
+  test::expect_parts(test::refusal_of([&] { session.import_cad("/nowhere/part.step", "mm"); }),
+                     {"/nowhere/part.step: file not found"});
+  test::expect_parts(test::refusal_of<NumericsError>([&] { session.volume({4711}); }),
+                     {"volume: ", "4711"});
   const Folder folder;
   std::ofstream(folder / "no.step") << "this is no STEP file\n";
-  EXPECT_THROW(session.import_cad(folder / "no.step", "mm"), InputError);
+  test::expect_parts(test::refusal_of([&] { session.import_cad(folder / "no.step", "mm"); }),
+                     {"no.step: Could not read file"});
 }
 
 TEST(Gmsh, OneSessionAtATimeAndTheNextAfterIt) {
   {
     GmshSession session("first");
-    EXPECT_THROW(GmshSession("second"), std::logic_error);
+    test::expect_parts(test::refusal_of<std::logic_error>([&] { GmshSession("second"); }),
+                       {"a Gmsh session is already open; Gmsh has one global state"});
   }
   EXPECT_NO_THROW(GmshSession("third"));
 }
@@ -195,7 +200,12 @@ TEST(Gmsh, HardG6_UnitsOfAStepFileAreKeptAndGuarded) {
                                 "expected_box = [0.06, 0.02, 0.01]\n" + size);
   EXPECT_NEAR(in_mm.volume("solid"), 12e-6, 1e-17);  // flat faces: rounding only
   EXPECT_NEAR(in_m.volume("solid"), 12e-6, 1e-17);
-  EXPECT_THROW(mesh_toml(head + source + "expected_box = [2.36, 0.79, 0.39]\n" + size), InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       mesh_toml(head + source + "expected_box = [2.36, 0.79, 0.39]\n" + size);
+                     }),
+                     {"part.toml:",
+                      "cad.expected_box: found a part of 60 x 20 x 10 mm, expected 2.36 x 0.79 x "
+                      "0.39: is the file in another unit?"});
 }
 
 // Gmsh reads IGES and does not write it: the file has six separate bilinear patches, in
@@ -213,7 +223,12 @@ TEST(Gmsh, HardG6_UnitsOfAnIgesFileAreKeptAndGuardedAndItsFacesSewn) {
   const Meshed in_m = mesh_toml(head + "length_unit = 'm'\n" + source +
                                 "expected_box = [0.06, 0.02, 0.01]\n" + size);
   EXPECT_NEAR(in_m.volume("solid") / 12e-6, 1.0, 1e-9);
-  EXPECT_THROW(mesh_toml(head + source + "expected_box = [0.06, 0.02, 0.01]\n" + size), InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       mesh_toml(head + source + "expected_box = [0.06, 0.02, 0.01]\n" + size);
+                     }),
+                     {"part.toml:",
+                      "cad.expected_box: found a part of 60 x 20 x 10 mm, expected 0.06 x 0.02 x "
+                      "0.01: is the file in another unit?"});
 }
 
 TEST(Gmsh, HardG7_TwoRunsGiveTheSameBits) {
@@ -272,8 +287,11 @@ TEST(Mesher, LocalSizeRefinesItsSurface) {
   const Meshed plain = mesh_toml(kBeam), finer = mesh_toml(kBeam + local);
   EXPECT_GT(static_cast<double>(finer.part.mesh.surface("x_min").face_count()),
             1.5 * static_cast<double>(plain.part.mesh.surface("x_min").face_count()));
-  EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_mni'\nfactor = 0.4\n")),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_mni'\nfactor = 0.4\n"));
+      }),
+      {"part.toml: mesh.local: surface 'x_mni' not found, expected one of: ", "x_min"});
 }
 
 constexpr const char* kTube =
@@ -316,8 +334,12 @@ TEST(Mesher, GrowthIsTheRateOfCoarseningAwayFromASurface) {
 }
 
 TEST(Mesher, ALocalSizeWithoutEffectIsRefused) {
-  EXPECT_THROW(mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_min'\ngrowth = 0.2\n")),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        mesh_toml(kBeam + std::string("[[mesh.local]]\nsurface = 'x_min'\ngrowth = 0.2\n"));
+      }),
+      {"part.toml:",
+       "mesh.local[0].factor: found neither factor nor elements_per_turn, expected one of them"});
 }
 
 TEST(Mesher, ImpossibleDimensionsAreRefusedByName) {

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "mesh/face/select.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -113,14 +114,28 @@ TEST(Select, ATrueFaceKeepsANearOneOutAndTheUsersToleranceTakesBoth) {
   const auto narrow = surfaces(
       "[surface.s]\ntolerance = 1e-4\ncylinder = { radius = 2, point = "
       "[5.005, 0, 0], axis = [0, 0, 1] }");
-  EXPECT_THROW(select_faces({cylinder_face()}, narrow[0], kScale, "t"), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { select_faces({cylinder_face()}, narrow[0], kScale, "t"); }),
+      {"t: surface 's' selects no face; nearest: face 4, cylinder of radius 2 mm, axis 0.005 mm "
+       "away; "});
 }
 
 TEST(Select, WrongTablesAreRefused) {
-  EXPECT_THROW(surfaces("[surface.s]\n"), InputError);
-  EXPECT_THROW(surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }"), InputError);
-  EXPECT_THROW(surfaces("[surface.s]\nplain = { normal = [0, 0, 1], height = 1 }"), InputError);
-  EXPECT_THROW(surfaces("[surface.skin]\nplane = { normal = [0, 0, 1], height = 1 }"), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { surfaces("[surface.s]\n"); }),
+      {"part.toml:1: surface.s: found no filter, expected cylinder, plane, box or outside"});
+  test::expect_parts(
+      test::refusal_of(
+          [&] { surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }"); }),
+      {"part.toml:2: surface.s.plane.normal: found a zero vector, expected a direction"});
+  test::expect_parts(
+      test::refusal_of(
+          [&] { surfaces("[surface.s]\nplain = { normal = [0, 0, 1], height = 1 }"); }),
+      {"part.toml:1: surface.s: found no filter, expected cylinder, plane, box or outside"});
+  test::expect_parts(
+      test::refusal_of(
+          [&] { surfaces("[surface.skin]\nplane = { normal = [0, 0, 1], height = 1 }"); }),
+      {"part.toml:1: surface.skin: the name 'skin' is reserved for the entire boundary"});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "mesh/cad/gmsh_session.hpp"
 #include "mesh/exports/unv_writer.hpp"
 #include "support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -101,10 +102,13 @@ TEST(Unv, NodeSetsAndFacesInTwoSurfacesAreWritten) {
 
 TEST(Unv, PyramidsAndLongNamesAreRefused) {
   Mesh mesh = brick_of(CellType::kPyramid5);
-  EXPECT_THROW(unv_text(mesh), InputError);
+  test::expect_parts(test::refusal_of([&] { unv_text(mesh); }),
+                     {": universal files have no element for pyramid5"});
   mesh = testing::one_cell();
   mesh.node_sets[std::string(41, 'x')] = {0};
-  EXPECT_THROW(unv_text(mesh), InputError);
+  test::expect_parts(test::refusal_of([&] { unv_text(mesh); }),
+                     {"mesh 'one': the name 'xxx",
+                      "is not one line of 1 to 40 characters, the limit of universal files"});
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "small_solver.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::modal {
 namespace {
@@ -200,9 +201,12 @@ TEST(Statics, UnknownCasesListWhatThereIs) {
 }
 
 TEST(Statics, APrescribedDirectionMustBeHeld) {
-  EXPECT_THROW(bar("[[support]]\nsurface = \"z0\"\n[[load]]\nname = \"d\"\nkind = "
-                   "\"displacement\"\nsurface = \"z1\"\ndirections = \"z\"\nvalue = 1.0\n"),
-               InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        bar("[[support]]\nsurface = \"z0\"\n[[load]]\nname = \"d\"\nkind = "
+            "\"displacement\"\nsurface = \"z1\"\ndirections = \"z\"\nvalue = 1.0\n");
+      }),
+      {"test.fe.toml:", "load d: found ", ", which no support holds, expected one that does"});
 }
 
 TEST(Statics, AWarmBarGrowsFreelyAndPushesWhenItIsHeld) {
@@ -275,10 +279,15 @@ total = 2000.0
   EXPECT_NE(corner.find("at (0.1000, 0.2000, 0.4000) m, body"), std::string::npos) << corner;
   EXPECT_EQ(corner, said("gauge"));
   for (const char* wrong : {"7", "gaug", "0.1,0.2", "1,2,x", ""})
-    EXPECT_THROW(nodes_at(model, {wrong}), InputError) << wrong;
+    test::expect_parts(
+        test::refusal_of([&] { nodes_at(model, {wrong}); }),
+        {std::string("--stress-at: found \"") + wrong +
+         "\", expected a node number, a position x,y,z in metres, or one of: gauge"});
   model.cells = {};
   EXPECT_TRUE(solve_static(model, {}).cases[0].stress.empty());
-  EXPECT_THROW(nodes_at(model, {"gauge"}), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { nodes_at(model, {"gauge"}); }),
+      {"--stress-at: found a model without cells, expected one of clatter-assembly"});
 }
 
 /// Files of one test in a separate folder.
@@ -378,7 +387,8 @@ TEST_F(StaticFiles, CasesOfLoadsThatAreNotThereAreRefused) {
   write_provenance(file, {fe::kFeSchema, "", {}});
   fe::write_fe_model(file, model_);
   file.commit();
-  EXPECT_THROW(fe::read_fe_model(folder_ / "bad.fe.h5"), InputError);
+  test::expect_parts(test::refusal_of([&] { fe::read_fe_model(folder_ / "bad.fe.h5"); }),
+                     {"bad.fe.h5: cases/both: found load \"gone\", expected a load of the model"});
 }
 
 TEST_F(StaticFiles, SupportsBeyondTheirNamesAreRefused) {
@@ -387,7 +397,8 @@ TEST_F(StaticFiles, SupportsBeyondTheirNamesAreRefused) {
   write_provenance(file, {fe::kFeSchema, "", {}});
   fe::write_fe_model(file, model_);
   file.commit();
-  EXPECT_THROW(fe::read_fe_model(folder_ / "bad.fe.h5"), InputError);
+  test::expect_parts(test::refusal_of([&] { fe::read_fe_model(folder_ / "bad.fe.h5"); }),
+                     {"bad.fe.h5: supports/support: found 17, expected 0 to "});
 }
 
 }  // namespace

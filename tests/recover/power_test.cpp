@@ -11,6 +11,7 @@
 #include "recover/field/expand.hpp"
 #include "recover/skin/triangle6.hpp"
 #include "synthetic.hpp"
+#include "tests/random_matrix.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -43,7 +44,7 @@ TEST(RadiatedPower, QuadraticFormEqualsBruteForceExpansion) {
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
   const auto forms = normal_velocity_forms(skin, geometry, panels);
-  Eigen::MatrixXcd v = Eigen::MatrixXcd::Random(3, r);
+  Eigen::MatrixXcd v = test::random_matrix<Eigen::MatrixXcd>(3, r);
   for (size_t p = 0; p < panels.size(); ++p) {
     const Eigen::VectorXd fast = normal_velocity_integral(forms[p].W, v);
     for (Eigen::Index line = 0; line < v.rows(); ++line) {
@@ -78,7 +79,7 @@ TEST(RadiatedPower, PanelsThatShareFacesSumAsTheirPartsDo) {
 TEST(RadiatedPower, ExpansionInBlocksEqualsTheWholeProduct) {
   const Mesh6 mesh = box({1, 1, 1}, 2);
   const RowMatrix T = random_rows(mesh, 5, 3);
-  const Eigen::MatrixXd reduced = Eigen::MatrixXd::Random(5, 11);
+  const Eigen::MatrixXd reduced = test::random_matrix(5, 11);
   Eigen::MatrixXd whole(T.rows(), 11);
   expand(T, reduced, 4, [&](int64_t first, const Eigen::MatrixXd& u) {
     ASSERT_LE(u.cols(), 4);

@@ -11,6 +11,7 @@
 #include "recover/skin/panels.hpp"
 #include "recover/skin/triangle6.hpp"
 #include "synthetic.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -83,13 +84,15 @@ TEST(Skin, InsideOutIsRefused) {
   Mesh6 mesh = box({1, 1, 1}, 1);
   mesh.triangles.col(1).swap(mesh.triangles.col(2));
   mesh.triangles.col(3).swap(mesh.triangles.col(5));
-  EXPECT_THROW(measure_skin(mesh.nodes, mesh.triangles), InputError);
+  test::expect_parts(test::refusal_of([&] { measure_skin(mesh.nodes, mesh.triangles); }),
+                     {"skin: enclosed volume -1 m3, expected outward triangles"});
 }
 
 TEST(Skin, FaceWithoutAreaIsRefused) {
   Mesh6 mesh = box({1, 1, 1}, 1);
   for (int a = 1; a < 6; ++a) mesh.triangles(0, a) = mesh.triangles(0, 0);
-  EXPECT_THROW(measure_skin(mesh.nodes, mesh.triangles), InputError);
+  test::expect_parts(test::refusal_of([&] { measure_skin(mesh.nodes, mesh.triangles); }),
+                     {"skin: triangle 0: area 0 m2, expected a positive area"});
 }
 
 TEST(Skin, FaceOperatorGivesTheMeanNormalVelocityOfALinearField) {
@@ -127,9 +130,14 @@ TEST(Panels, RuleWithoutAFaceAndNameTwiceAreRefused) {
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   PanelRule nowhere{.name = "nowhere"};
   nowhere.box_min = Eigen::Vector3d(5, 5, 5);
-  EXPECT_THROW(choose_panels({nowhere}, mesh.nodes, mesh.triangles, geometry), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { choose_panels({nowhere}, mesh.nodes, mesh.triangles, geometry); }),
+      {"panel 'nowhere': found no face, expected at least one"});
   const PanelRule all{.name = "all"};
-  EXPECT_THROW(choose_panels({all, all}, mesh.nodes, mesh.triangles, geometry), InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       choose_panels({all, all}, mesh.nodes, mesh.triangles, geometry);
+                     }),
+                     {"panel 'all': found twice, expected different names"});
 }
 
 }  // namespace

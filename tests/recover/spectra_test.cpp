@@ -11,6 +11,8 @@
 #include "core/base/error.hpp"
 #include "recover/spectrum/fft.hpp"
 #include "recover/spectrum/lines.hpp"
+#include "tests/random_matrix.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -30,7 +32,7 @@ RowMatrix tone(const Piece& piece, double amplitude, double hz, double phase, do
 
 TEST(Spectra, TransformEqualsTheDefinition) {
   for (int n : {1, 2, 3, 8, 15, 49, 97}) {  // also odd and prime lengths
-    const Eigen::VectorXd x = Eigen::VectorXd::Random(n);
+    const Eigen::VectorXd x = test::random_vector(n);
     const Eigen::VectorXcd X = real_fft(x);
     ASSERT_EQ(X.size(), n / 2 + 1);
     for (int k = 0; k <= n / 2; ++k) {
@@ -58,7 +60,7 @@ TEST(Spectra, ToneOnALineHasItsAmplitudeAndPhaseWhereverTheSamplesBegin) {
 
 TEST(Spectra, ParsevalHoldsForEvenAndOddLengths) {
   for (int n : {720, 721}) {
-    const RowMatrix x = RowMatrix::Random(n, 3);
+    const RowMatrix x = test::random_matrix<RowMatrix>(n, 3);
     const LineSpectrum s = line_spectrum(cycle_piece(n), x, 1e9);
     for (int c = 0; c < 3; ++c) {
       const double lines = s.power_factor.dot(s.amplitude.col(c).cwiseAbs2());
@@ -73,10 +75,10 @@ TEST(Spectra, TapersKeepAmplitudesOfTonesAndPowerOfNoise) {
     piece.periodic = false;
     piece.taper = taper;
     const LineSpectrum s = line_spectrum(piece, tone(piece, 2.0, 200 / 0.06, 0.3, 5.0), 1e9);
-    // 1e-3: side lobes of the tone's negative frequency; none on a line for hann and flat top.
-    EXPECT_LT(std::abs(s.amplitude(200, 0) - std::polar(2.0, 0.3)), 2e-3) << name_of(taper);
+    // Side lobes of the tone's negative frequency: 2e-10 at most.
+    EXPECT_LT(std::abs(s.amplitude(200, 0) - std::polar(2.0, 0.3)), 2e-9) << name_of(taper);
     EXPECT_LT(std::abs(s.amplitude(0, 0)), 1e-12);
-    EXPECT_NEAR(s.power_factor.dot(s.amplitude.col(0).cwiseAbs2()), 2.0, 0.01) << name_of(taper);
+    EXPECT_NEAR(s.power_factor.dot(s.amplitude.col(0).cwiseAbs2()), 2.0, 4e-9) << name_of(taper);
   }
 }
 
@@ -89,7 +91,8 @@ TEST(Spectra, FlatTopReadsAToneBetweenLinesWithinATenthOfADecibel) {
 }
 
 TEST(Spectra, LinesEndAtTheLimitAskedFor) {
-  const LineSpectrum s = line_spectrum(cycle_piece(720), RowMatrix::Random(720, 1), 1000.0);
+  const LineSpectrum s =
+      line_spectrum(cycle_piece(720), test::random_matrix<RowMatrix>(720, 1), 1000.0);
   EXPECT_NEAR(s.frequency_hz[s.frequency_hz.size() - 1], 1000.0, 1e-9);  // order 30 at 2000 rpm
 }
 
@@ -125,20 +128,36 @@ TEST(Pieces, WindowLiesAboutTheLastFiringTdcThatFits) {
 }
 
 TEST(Pieces, WhatTheRunDoesNotHoldIsRefused) {
-  EXPECT_THROW(last_cycle(steady_clock(720, 500, 0.0), "run"), InputError);
+  test::expect_parts(test::refusal_of([&] { last_cycle(steady_clock(720, 500, 0.0), "run"); }),
+                     {"run: output/time: found 500 samples, expected a complete cycle of 720"});
   RunClock uneven = steady_clock(720, 2000, 0.0);
   uneven.angle_deg *= 0.9993;  // 720.5 steps per cycle
-  EXPECT_THROW(last_cycle(uneven, "run"), InputError);
-  EXPECT_THROW(window(steady_clock(720, 300, 0.0), "w", {-10, 60, false}, Taper::kNone, "run"),
-               InputError);
-  EXPECT_THROW(
-      window(RunClock{uneven.time, {}, uneven.step_s}, "w", {0, 60, false}, Taper::kNone, "run"),
-      InputError);
+  test::expect_parts(test::refusal_of([&] { last_cycle(uneven, "run"); }),
+                     {"run: output/time: found 720.504 steps per cycle, expected an integer (or "
+                      "`cycle = false`)"});
+  test::expect_parts(
+      test::refusal_of([&] {
+        window(steady_clock(720, 300, 0.0), "w", {-10, 60, false}, Taper::kNone, "run");
+      }),
+      {"run: window 'w': found -10 to 60 deg, expected a span inside the run, 0 to 299"});
+  test::expect_parts(
+      test::refusal_of([&] {
+        window(RunClock{uneven.time, {}, uneven.step_s}, "w", {0, 60, false}, Taper::kNone, "run");
+      }),
+      {"run: window 'w': found no crank rotation, expected a span in seconds"});
 }
 
 TEST(Lines, FrequencyAboveWhatTheBasisHoldsIsRefused) {
-  EXPECT_THROW(frequency_limit({20, 5000}, 3000.0, 1e-5), InputError);
-  EXPECT_THROW(frequency_limit({20, 60000}, 0.0, 1e-5), InputError);  // above Nyquist
+  test::expect_parts(test::refusal_of([&] {
+                       frequency_limit({20, 5000}, 3000.0, 1e-5);
+                     }),
+                     {"spectrum.to_hz: found 5000 Hz, expected at most 3000 Hz, as far as the "
+                      "reduced basis holds"});
+  test::expect_parts(test::refusal_of([&] {
+                       frequency_limit({20, 60000}, 0.0, 1e-5);
+                     }),
+                     {"spectrum.to_hz: found 60000 Hz, expected at most 50000 Hz, half the "
+                      "sampling frequency of the run"});
   EXPECT_NEAR(frequency_limit({20, 0}, 3000.0, 1e-5).to_hz, 3000.0, 1e-12);
   EXPECT_NEAR(frequency_limit({20, 2000}, 3000.0, 1e-5).to_hz, 2000.0, 1e-12);
 }

@@ -63,11 +63,11 @@ class TruckDiesel(unittest.TestCase):
 
     def test_energy_is_accounted_for(self):
         for run in (*LUBRICATED, *DRY):
-            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 0.01)
+            self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 1e-5)  # at most 1.1e-6 is reached
 
     def test_lubricated_cycles_repeat(self):
-        for run in LUBRICATED:
-            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], 10e-6)
+        for run, most in zip(LUBRICATED, (4e-6, 10e-6)):  # 0.4 and 1 um are reached
+            self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], most)
 
     def test_the_slap_comes_shortly_after_firing_tdc_and_rings_for_two_milliseconds(self):
         for run in LUBRICATED:

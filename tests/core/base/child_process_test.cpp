@@ -20,8 +20,9 @@
 #include "core/base/child_process.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/base/wire.hpp"
+#include "tests/random_matrix.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter {
 namespace {
@@ -86,20 +87,19 @@ TEST(HardN17_ChildProcess, EveryExceptionIsCaughtAndOurErrorsKeepTheirType) {
   });
   EXPECT_EQ(terminated.signal, SIGABRT);
   EXPECT_NE(terminated.chatter.find("terminate called after throwing"), std::string::npos);
-  EXPECT_THROW(child([]() -> std::string { throw InputError("words"); }), InputError);
-  EXPECT_THROW(child([]() -> std::string { throw NumericsError("words"); }), NumericsError);
-  try {
-    child([]() -> std::string { throw FileError("no room"); });
-    ADD_FAILURE();
-  } catch (const FileError& error) {
-    EXPECT_STREQ(error.what(), "no room");
-  }
+  EXPECT_EQ(test::refusal_of([] { child([]() -> std::string { throw InputError("words"); }); }),
+            "words");
+  EXPECT_EQ(test::refusal_of<NumericsError>(
+                [] { child([]() -> std::string { throw NumericsError("more words"); }); }),
+            "more words");
+  EXPECT_EQ(test::refusal_of<FileError>(
+                [] { child([]() -> std::string { throw FileError("no room"); }); }),
+            "no room");
 }
 
 TEST(HardN17_ChildProcess, AHangEndsAtTheTimeLimit) {
-  const Stopwatch clock;
   ChildLimits limits;
-  limits.seconds = 0.2;
+  limits.seconds = 0.2;  // without effect, CTest's own limit ends the test
   const ChildEnd end = child(
       []() -> std::string {
         for (;;) std::this_thread::sleep_for(1h);
@@ -107,7 +107,6 @@ TEST(HardN17_ChildProcess, AHangEndsAtTheTimeLimit) {
       limits);
   EXPECT_EQ(end.kind, Kind::kTimeLimit);
   EXPECT_EQ(end.describe(limits), "was stopped after 0.2 s (--time-limit)");
-  EXPECT_LT(clock.seconds(), 10.0);  // allows for a loaded machine; 0.23 s on an idle one
 }
 
 TEST(HardN17_ChildProcess, AChildThatExhaustsMemoryIsStoppedAtTheLimit) {
@@ -220,7 +219,7 @@ TEST(HardN17_ChildProcess, NoCoreFileIsWrittenAndTheParentsStateStays) {
 
 TEST(Wire, ValuesComeBackAndBytesThatEndEarlyAreRefused) {
   std::map<std::string, std::vector<double>> map = {{"a", {1.0 / 3.0, -0.0}}, {"", {}}};
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(3, 4);
+  Eigen::MatrixXd matrix = test::random_matrix(3, 4);
   const std::pair<int, std::string> both = {7, "x"};
   WireWriter writer;
   writer(map, matrix, both);
@@ -237,7 +236,9 @@ TEST(Wire, ValuesComeBackAndBytesThatEndEarlyAreRefused) {
   };
   read(bytes);
   for (size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_THROW(read(bytes.substr(0, size)), NumericsError) << size;
+    EXPECT_EQ(test::refusal_of<NumericsError>([&] { read(bytes.substr(0, size)); }),
+              "the result of a child process is truncated")
+        << size;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/base/matrix_text.hpp"
 #include "core/base/whole_file.hpp"
 #include "core/rom/dof_map.hpp"
+#include "tests/random_matrix.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter {
@@ -32,7 +33,7 @@ class MatrixTextTest : public ::testing::Test {
 constexpr const char* kHead = "%%MatrixMarket matrix coordinate real ";
 
 TEST_F(MatrixTextTest, MatrixMarketReadsBackToTheLastBit) {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Random(30, 30);
+  Eigen::MatrixXd A = test::random_matrix(30, 30);
   A = (A * A.transpose() * 1e11 / 3.0).eval();
   A.diagonal().array() += 1e-7;
   A(7, 3) = A(3, 7) = 0.0;

@@ -9,6 +9,7 @@
 #include "core/sparse/eigen/eigen_solver.hpp"
 #include "core/sparse/eigen/mode_check.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::sparse {
 namespace {
@@ -112,15 +113,19 @@ TEST(Eigen, AFrequencyBelowTheFirstModeGivesNone) {
 
 TEST(Eigen, InvalidRequestsAreRefused) {
   const Pencil chain = free_chain(10);
+  const auto refusal = [&](const EigenOptions& request) {
+    return test::refusal_of([&] { solve_modes(chain.K, chain.M, request); });
+  };
+  const std::string one = ", expected exactly one of them to be positive";
   EigenOptions options;
-  EXPECT_THROW(solve_modes(chain.K, chain.M, options), InputError);
+  EXPECT_EQ(refusal(options), "modes: found count = 0 and fmax_hz = 0" + one);
   options.count = 3;
   options.fmax_hz = 100.0;
-  EXPECT_THROW(solve_modes(chain.K, chain.M, options), InputError);
-  EXPECT_THROW(solve_modes(chain.K, chain.M, by_count(11)), InputError);
+  EXPECT_EQ(refusal(options), "modes: found count = 3 and fmax_hz = 100" + one);
+  EXPECT_EQ(refusal(by_count(11)), "modes: found count = 11, expected at most 10 (the unknowns)");
   options.count = 0;
   options.fmax_hz = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(solve_modes(chain.K, chain.M, options), InputError);
+  EXPECT_EQ(refusal(options), "modes: found count = 0 and fmax_hz = nan" + one);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/sparse/factor/supernodal_factor.hpp"
 #include "core/sparse/symmetric_product.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/random_matrix.hpp"
 
 namespace clatter::sparse {
 namespace {
@@ -23,7 +24,7 @@ SparseMatrix held_box(int n) {
 TEST(Factor, SolvesAgreeWithDenseAlgebra) {
   const SparseMatrix A = held_box(4);
   const SparseMatrix full = A.selfadjointView<Eigen::Lower>();
-  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 70);  // more than one block of 64
+  const Eigen::MatrixXd b = test::random_matrix(A.rows(), 70);  // more than one block of 64
   const SupernodalFactor factor(A);
   const Eigen::MatrixXd expected = Eigen::MatrixXd(full).llt().solve(b);
   const double error = (factor.solve(b) - expected).norm() / expected.norm();
@@ -59,7 +60,7 @@ TEST(Factor, UnitsDoNotChangeTheVerdict) {
 TEST(SymmetricProductTest, EqualsTheDenseProductForStridedBlocks) {
   const auto box = spring_box(3, 3, 4);
   const SparseMatrix full = box.K.selfadjointView<Eigen::Lower>();
-  const Eigen::MatrixXd big = Eigen::MatrixXd::Random(box.K.rows() + 7, 13);
+  const Eigen::MatrixXd big = test::random_matrix(box.K.rows() + 7, 13);
   const auto x = big.topRows(box.K.rows());
   const Eigen::MatrixXd expected = Eigen::MatrixXd(full) * x;
   const SymmetricProduct product(box.K);

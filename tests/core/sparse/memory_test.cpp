@@ -10,6 +10,7 @@
 #include "core/sparse/factor/supernodal_factor.hpp"
 #include "core/sparse/symmetric_product.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/random_matrix.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::sparse {
@@ -28,7 +29,9 @@ TEST(MemoryLimit, IsTheMachinesUnlessOneIsSet) {
   const Limited limit(0.25);
   EXPECT_EQ(memory_limit_gib(), 0.25);
   EXPECT_LE(memory_left_gib(), 0.25);
-  EXPECT_THROW(require_memory("a thing", 0.3, "take less"), NumericsError);
+  test::expect_parts(
+      test::refusal_of<NumericsError>([&] { require_memory("a thing", 0.3, "take less"); }),
+      {"a thing needs 307 MiB, ", " of 256 MiB are left: take less"});
   EXPECT_NO_THROW(require_memory("a thing", 0.0, "take less"));
 }
 
@@ -36,7 +39,9 @@ TEST(MemoryLimit, AFactorThatDoesNotFitIsRefusedBeforeItIsMade) {
   const auto box = test::spring_box(9, 9, 9);
   const SparseMatrix A = box.K + 1e6 * box.M;
   const Limited limit(memory_in_use_gib() + 1e-3);  // L needs 7 MB
-  EXPECT_THROW(SupernodalFactor{A}, NumericsError);
+  test::expect_parts(test::refusal_of<NumericsError>([&] { SupernodalFactor{A}; }),
+                     {"the factor of 2187 unknowns needs",
+                      "are left: use a coarser mesh or raise the limit (--memory-limit)"});
 }
 
 TEST(MemoryLimit, AmlsWhoseVectorsDoNotFitIsRefusedBeforeItTakesThem) {
@@ -110,7 +115,7 @@ TEST(KrylovBasisTest, ProductsAreThoseOfDenseMatricesInMemoryAndOnDisk) {
   const Eigen::Index n = 3001, b = 16,
                      room = 13 * b;  // more than one tile in each direction, and a remainder
   TallBlock block(n, b);
-  const MatrixXd S = MatrixXd::Random(room, 5);
+  const MatrixXd S = test::random_matrix(room, 5);
   MatrixXd V(n, room), H[2];
   for (const Storage storage : {Storage::kMemory, Storage::kDisk}) {
     KrylovBasis basis(n, room, storage);

@@ -17,6 +17,7 @@
 #include "core/sparse/factor/sweep_kernel.hpp"
 #include "core/sparse/factor/tree_schedule.hpp"
 #include "tests/core/sparse/spring_models.hpp"
+#include "tests/random_matrix.hpp"
 
 namespace clatter::sparse {
 namespace {
@@ -104,9 +105,11 @@ TEST(TreeSchedule, SubtreesAndTopAreAllSupernodesOnce) {
 TEST(SweepKernel, EqualsDenseAlgebraForEverySizeOfBlock) {
   for (const int n : {1, 2, 5, 6, 7, 11, 12, 13, 23, 25, 47, 48}) {
     const int below = n + 3;
-    const MatrixXd A = MatrixXd::Random(n + below, n) + 3.0 * MatrixXd::Identity(n + below, n);
+    const MatrixXd A =
+        test::random_matrix(n + below, n, 1) + 3.0 * MatrixXd::Identity(n + below, n);
     const MatrixXd L = A.topRows(n).triangularView<Eigen::Lower>();
-    RowMatrix x = RowMatrix::Random(n, kLanes), y = RowMatrix::Random(below, kLanes);
+    RowMatrix x = test::random_matrix<RowMatrix>(n, kLanes, 2),
+              y = test::random_matrix<RowMatrix>(below, kLanes, 3);
     const RowMatrix x0 = x, y0 = y;
     const Lanes at_x{x.data(), kLanes}, at_y{y.data(), kLanes};
     solve_lower(A.data(), A.rows(), n, at_x);
@@ -127,7 +130,7 @@ TEST(SweepKernel, EqualsDenseAlgebraForEverySizeOfBlock) {
 TEST(SupernodalFactorTest, AnyNumberOfRightHandSidesHasTheSameAnswer) {
   const SparseMatrix A = held_box(7, 6, 5);
   const SupernodalFactor factor(A);
-  const MatrixXd b = MatrixXd::Random(A.rows(), 300);  // more than two sweeps
+  const MatrixXd b = test::random_matrix(A.rows(), 300);  // more than two sweeps
   const MatrixXd all = factor.solve(b);
   EXPECT_LT((full(A) * all - b).norm(), 1e-11 * b.norm());
   for (const Index count : {1, 2, 7, 8, 9, 130})
@@ -138,7 +141,7 @@ TEST(SupernodalFactorTest, AnyNumberOfRightHandSidesHasTheSameAnswer) {
 
 TEST(SupernodalFactorTest, RepeatedRunsHaveTheSameBits) {
   const SparseMatrix A = held_box(12, 9, 9);  // large enough for subtrees on two threads
-  const MatrixXd b = MatrixXd::Random(A.rows(), 16);
+  const MatrixXd b = test::random_matrix(A.rows(), 16);
   set_thread_count(2);
   const MatrixXd once = SupernodalFactor(A).solve(b);
   const MatrixXd again = SupernodalFactor(A).solve(b);
@@ -158,7 +161,7 @@ void for_thread_counts(std::initializer_list<int> counts, Body&& body) {
 
 TEST(SupernodalFactorTest, SubtreesOfTheThreadsAndTheTopSolveTogether) {
   const SparseMatrix A = held_box(12, 9, 9);
-  const MatrixXd b = MatrixXd::Random(A.rows(), 24), exact = full(A).llt().solve(b);
+  const MatrixXd b = test::random_matrix(A.rows(), 24), exact = full(A).llt().solve(b);
   for_thread_counts({1, 2, 3, 5}, [&](int threads) {
     const SupernodalFactor factor(A);
     const TreeSchedule plan = schedule(factor.tree(), threads);
@@ -175,7 +178,7 @@ TEST(SupernodalFactorTest, LoadsComeToTheBoundaryByTheForwardSweepAlone) {
   const Index n_b = 25, n = dense.cols() - n_b;
   const SparseMatrix inside = dense.topLeftCorner(n, n).sparseView();
   const SparseMatrix coupling = dense.topRightCorner(n, n_b).sparseView();
-  const MatrixXd f = MatrixXd::Random(n, 130);
+  const MatrixXd f = test::random_matrix(n, 130);
   const MatrixXd expected =
       dense.topRightCorner(n, n_b).transpose() * dense.topLeftCorner(n, n).llt().solve(f);
   for_thread_counts({1, 2, 3}, [&](int threads) {
@@ -197,7 +200,7 @@ TEST(SupernodalFactorTest, TheBoundaryComesWithTheElimination) {
   const MatrixXd expected =
       MatrixXd(coupling).transpose() * dense.topLeftCorner(n, n).llt().solve(MatrixXd(coupling));
   EXPECT_LT((factor.boundary_part() - expected).norm(), 1e-12 * expected.norm());
-  const MatrixXd b = MatrixXd::Random(n, 3);  // the boundary rows are not part of the solves
+  const MatrixXd b = test::random_matrix(n, 3);  // the boundary rows are not part of the solves
   EXPECT_LT((dense.topLeftCorner(n, n) * factor.solve(b) - b).norm(), 1e-11 * b.norm());
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/film/asperity.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::film {
 namespace {
@@ -62,7 +63,11 @@ TEST(Asperity, EndsWhereTheFitEndsAndRefusesNonsense) {
   const Asperity law({AsperityOptions::Law::kFit, 1e-3, 53.3e9, 0.5e-6});
   EXPECT_EQ(law.at(2.0e-6).pressure, 0.0);
   EXPECT_GT(law.at(1.99e-6).pressure, 0.0);
-  EXPECT_THROW(Asperity({AsperityOptions::Law::kFit, 1e-3, -1.0, 0.5e-6}), InputError);
+  test::expect_parts(
+      test::refusal_of([&] {
+        Asperity({AsperityOptions::Law::kFit, 1e-3, -1.0, 0.5e-6});
+      }),
+      {"asperity: found factor 0.001, modulus -1 Pa, roughness 5e-07 m, expected all > 0"});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "dynamics/film/flow_factors.hpp"
 #include "dynamics/film/roughness.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::film {
 namespace {
@@ -23,8 +24,10 @@ TEST(FlowFactors, HandValues) {
   EXPECT_NEAR(pressure_flow_factor(2.0, 3.0).value, 1.0 + 0.225 / std::pow(2.0, 1.5), 1e-15);
   EXPECT_NEAR(shear_flow_factor(1.0, 1.0).value, 1.899 * std::exp(-0.87), 1e-12);
   EXPECT_NEAR(shear_flow_factor(6.0, 1.0).value, 1.126 * std::exp(-1.5), 1e-12);
-  EXPECT_THROW(pressure_flow_factor(1.0, 2.0), InputError);
-  EXPECT_THROW(shear_flow_factor(1.0, 9.0), InputError);
+  test::expect_parts(test::refusal_of([&] { pressure_flow_factor(1.0, 2.0); }),
+                     {"peklenik: no ", " for 2, expected one of ", "0.3333, 1, 3, 6, 9"});
+  test::expect_parts(test::refusal_of([&] { shear_flow_factor(1.0, 9.0); }),
+                     {"peklenik: no ", " for 9, expected one of 0.3333, 1, 3, 6"});
 }
 
 TEST(FlowFactors, TendToOneAndZeroForThickFilms) {
@@ -97,7 +100,10 @@ TEST(RoughFilm, SmoothWallsLeaveTheGapAlone) {
   rough.thicknesses(Eigen::ArrayXd::Constant(2, 3e-6), film);
   EXPECT_EQ(film.content[0], 3e-6);
   EXPECT_EQ(film.carry[1], 3e-6);
-  EXPECT_THROW(RoughFilm({0.0, 0.0, 1.0, true}), InputError);
+  test::expect_parts(test::refusal_of([&] {
+                       RoughFilm({0.0, 0.0, 1.0, true});
+                     }),
+                     {"flow_factors: both walls are smooth, expected a roughness > 0"});
 }
 
 }  // namespace

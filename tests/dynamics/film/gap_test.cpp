@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/film/gap.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::film {
 namespace {
@@ -154,13 +155,19 @@ TEST(SkirtShape, TableIsReadLinearlyAndMustAscend) {
     EXPECT_NEAR(relief[pad().cell(4, j)], z < 0 ? -1e-3 * z : 0.5e-3 * z, 1e-15);
   }
   shape.table_height[1] = -0.04;
-  EXPECT_THROW(skirt_relief(shape, pad()), InputError);
+  test::expect_parts(
+      test::refusal_of([&] { skirt_relief(shape, pad()); }),
+      {"skirt profile: height 1 is -0.04 m after -0.03 m, expected ascending heights"});
 }
 
 TEST(PadGrid, RefusesEdgesThatDoNotAscend) {
-  EXPECT_THROW(PadGrid::uniform(0.0, 1.0, 0, 0.0, 1.0, 3, 1.0), InputError);
-  EXPECT_THROW(PadGrid::uniform(0.0, -1.0, 3, 0.0, 1.0, 3, 1.0), InputError);
-  EXPECT_THROW(PadGrid::uniform(0.0, 1.0, 3, 0.0, 1.0, 3, 1.0, true), InputError);
+  test::expect_parts(test::refusal_of([&] { PadGrid::uniform(0.0, 1.0, 0, 0.0, 1.0, 3, 1.0); }),
+                     {"film grid: found 0 x 3 cells, expected at least 1 x 1"});
+  test::expect_parts(test::refusal_of([&] { PadGrid::uniform(0.0, -1.0, 3, 0.0, 1.0, 3, 1.0); }),
+                     {"film grid: ", "edge 1 is -0.33", ", expected more than 0"});
+  test::expect_parts(
+      test::refusal_of([&] { PadGrid::uniform(0.0, 1.0, 3, 0.0, 1.0, 3, 1.0, true); }),
+      {"film grid: periodic span: found 1 rad, expected 2 pi"});
 }
 
 TEST(PadGrid, AreasSumToThePad) { EXPECT_NEAR(pad().area().sum(), 1.2 * 0.05 * 0.05, 1e-15); }

@@ -12,6 +12,7 @@
 #include "mesh/deck/abaqus/writer.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
 #include "tests/mesh/support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -118,16 +119,22 @@ TEST(AbaqusWriter, WhatADeckCannotHoldIsRefused) {
   const mesh::testing::Folder folder;
   Mesh mesh = mesh::testing::one_cell();
   mesh.node_sets["TIP"] = {0};
-  EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);  // tip and TIP
+  const auto refusal = [&] {
+    return test::refusal_of([&] { write_abaqus(mesh, folder / "x.inp"); });
+  };
+  EXPECT_EQ(refusal(), "mesh 'one': the names 'TIP' and 'tip' are the same to Abaqus");
   mesh = mesh::testing::one_cell();
   mesh.cells[0].type = CellType::kPyramid13;
-  EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);
+  EXPECT_EQ(refusal(), "mesh 'one': Abaqus has no element for pyramid13");
   mesh = mesh::testing::one_cell();
   std::swap(mesh.surfaces["skin"].faces[0].nodes(0, 0), mesh.surfaces["skin"].faces[0].nodes(0, 1));
-  EXPECT_THROW(write_abaqus(mesh, folder / "x.inp"), InputError);  // points inwards
+  test::expect_parts(refusal(), {"mesh 'one': surface skin: the face of nodes ",
+                                 "is not an outward face of a cell"});
   EXPECT_FALSE(std::filesystem::exists(folder / "x.inp"));
   EXPECT_FALSE(std::filesystem::exists(folder / "x.inp.part"));
-  EXPECT_THROW(write_abaqus(mesh::testing::one_cell(), folder / "none/x.inp"), FileError);
+  test::expect_parts(test::refusal_of<FileError>(
+                         [&] { write_abaqus(mesh::testing::one_cell(), folder / "none/x.inp"); }),
+                     {"none/x.inp: cannot be written (folder missing or disk full?)"});
 }
 
 }  // namespace

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hostile decks: each is refused quickly with one clear line.
+// Hostile decks: each is read or refused with one clear line. CTest's limit of time is low: none
+// may cost more than its text.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 #include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::test {
 namespace {
@@ -17,26 +18,14 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Limit in seconds that no small deck exceeds, also under sanitizers on a busy machine.
-constexpr double kPatience = 20.0;
-
-class NastranHostile : public testing::Test {
- protected:
-  void TearDown() override {
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
-    EXPECT_LT(taken.count(), kPatience);
-  }
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-TEST_F(NastranHostile, HugeRangesCostNothing) {
+TEST(NastranHostile, HugeRangesCostNothing) {
   EXPECT_EQ(read_deck(kTet + "SPC1,1,3,1,THRU,2000000000\n").supports.size(), 1u);
   std::string many = kTet + "GRID,2147483647,,0.,0.,0.\n";
   for (int i = 0; i < 20000; ++i) many += "SPC1,1,3,1,THRU,2147483647\n";
   EXPECT_EQ(read_deck(many).supports.size(), 1u);
 }
 
-TEST_F(NastranHostile, ListsThatMultiplyAreRefused) {
+TEST(NastranHostile, ListsThatMultiplyAreRefused) {
   std::string deck = kTet;
   for (int i = 10; i < 20000; ++i) deck += fmt::format("GRID,{}\n", i);
   deck += "RBE2,1,10,123,11,THRU,19999\n";
@@ -44,7 +33,7 @@ TEST_F(NastranHostile, ListsThatMultiplyAreRefused) {
   EXPECT_THAT(refusal(deck), HasSubstr("repeat the same grids too often"));
 }
 
-TEST_F(NastranHostile, NumbersThatOverflowAreRefused) {
+TEST(NastranHostile, NumbersThatOverflowAreRefused) {
   EXPECT_THAT(refusal("GRID,1,,1.+400,0.,0.\n"), HasSubstr("found '1.+400', expected a number"));
   EXPECT_THAT(refusal("GRID,99999999999,,1.,0.,0.\n"), HasSubstr("found '99999999999'"));
   const std::string far = "CORD2R,5,0,1.+308,1.+308,1.+308,1.,0.,0.,+\n+,0.,1.,0.\n";
@@ -58,7 +47,7 @@ TEST_F(NastranHostile, NumbersThatOverflowAreRefused) {
       HasSubstr("too large"));
 }
 
-TEST_F(NastranHostile, LongLinesAreRefusedAndLongCommentsPassed) {
+TEST(NastranHostile, LongLinesAreRefusedAndLongCommentsPassed) {
   const std::string ten_megabytes(10'000'000, 'x');
   EXPECT_THAT(refusal(kTet + ten_megabytes + "\n"),
               StartsWith("t.bdf:8: found a line of more than 65536"));
@@ -69,13 +58,14 @@ TEST_F(NastranHostile, LongLinesAreRefusedAndLongCommentsPassed) {
     if (comment) {
       EXPECT_EQ(mesh::deck::read_nastran(file).mesh.cell_count(), 1);
     } else {
-      EXPECT_THROW(mesh::deck::read_nastran(file), InputError);
+      test::expect_parts(test::refusal_of([&] { mesh::deck::read_nastran(file); }),
+                         {":8: found a line of more than 65536"});
     }
   }
   std::filesystem::remove(file);
 }
 
-TEST_F(NastranHostile, LongChainsOfSystemsNeedNoStack) {
+TEST(NastranHostile, LongChainsOfSystemsNeedNoStack) {
   constexpr int kSystems = 100000;
   std::string chain = kTet, ring = kTet;
   for (int i = 1; i <= kSystems; ++i) {  // each one higher than the one before
@@ -88,7 +78,7 @@ TEST_F(NastranHostile, LongChainsOfSystemsNeedNoStack) {
   EXPECT_EQ(refusal(ring), "t.bdf:8: coordinate system 1 refers to itself through others");
 }
 
-TEST_F(NastranHostile, ManyPropertiesSubcasesAndPendingCardsTakeLinearTime) {
+TEST(NastranHostile, ManyPropertiesSubcasesAndPendingCardsTakeLinearTime) {
   std::string cells = kTet.substr(kTet.find("GRID,1"), kTet.find("CTETRA") - kTet.find("GRID,1"));
   std::string cases = "CEND\nLOAD=1\n", waiting = kTet;
   for (int i = 1; i < 20000; ++i) {
@@ -104,7 +94,7 @@ TEST_F(NastranHostile, ManyPropertiesSubcasesAndPendingCardsTakeLinearTime) {
   EXPECT_THAT(refusal(forces), HasSubstr("grids too often"));
 }
 
-TEST_F(NastranHostile, UnprintableBytesAreShownAsQuestionMarks) {
+TEST(NastranHostile, UnprintableBytesAreShownAsQuestionMarks) {
   std::string bytes;
   for (int i = 0; i < 256; ++i) bytes += static_cast<char>(i);
   const std::string message = refusal(bytes);
@@ -114,13 +104,13 @@ TEST_F(NastranHostile, UnprintableBytesAreShownAsQuestionMarks) {
   EXPECT_THAT(refusal(std::string("\0\0\0", 3)), StartsWith("t.bdf:1: found '?"));
 }
 
-TEST_F(NastranHostile, EmptyDecksAreEmpty) {
+TEST(NastranHostile, EmptyDecksAreEmpty) {
   for (const char* text : {"", "\n", "$", "ENDDATA", "\xef\xbb\xbf", "BEGIN BULK", "\r\n\t\n"}) {
     EXPECT_EQ(read_deck(text).mesh.cell_count(), 0) << text;
   }
 }
 
-TEST_F(NastranHostile, CardsCutAnywhereAreReadOrRefused) {
+TEST(NastranHostile, CardsCutAnywhereAreReadOrRefused) {
   const std::string deck =
       "SOL 101\nCEND\nLOAD=1\nSPC=2\nBEGIN BULK\n" + kTet +
       "CORD2C,5,0,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\nGRID,9,5,1.,90.,0.,5,3\nRBE2,7,9,13,1,THRU,3\n"

@@ -14,6 +14,7 @@
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/recipe/names.hpp"
 #include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {
@@ -150,7 +151,9 @@ TEST_F(DeckFile, WithAnInvertedCellIsRefusedByItsNumber) {
 TEST_F(DeckFile, OfAnotherKindOrAbsentIsRefusedByName) {
   EXPECT_THAT([&] { read_deck(folder_ / "a.unv", {}, {}); },
               ThrowsMessage<InputError>(HasSubstr("found extension '.unv'")));
-  EXPECT_THROW(read_deck(folder_ / "absent.inp", {}, {}), FileError);
+  test::expect_parts(
+      test::refusal_of<FileError>([&] { read_deck(folder_ / "absent.inp", {}, {}); }),
+      {"absent.inp: cannot be opened"});
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// HardG2: a block whose skin is one wavy spline, with ridges of 1 mm radius and walls of 1.5 mm to
+// bolt holes, becomes a valid quadratic mesh or is refused with the faces to blame.
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh_toml.hpp"
+#include "support.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+using std::numbers::pi;
+using testing::Folder;
+using testing::mesh_toml;
+
+constexpr double kHeight = 20.0, kBore = 18.0, kBolt = 2.5, kBolts = 29.0;  // mm
+
+/// The block as BREP in `file`; returns its volume [mm3], of the area within 400 000 chords.
+double write_wavy_block(const std::string& file) {
+  namespace occ = gmsh::model::occ;
+  GmshSession session("wavy");
+  constexpr int kPoints = 360;
+  std::vector<int> points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2.0 * pi * i / kPoints, radius = 34.2 + 1.2 * std::cos(30.0 * angle);
+    points.push_back(occ::addPoint(radius * std::cos(angle), radius * std::sin(angle), 0.0));
+  }
+  points.push_back(points.front());
+  const int outline = occ::addSpline(points);
+  occ::synchronize();
+  std::vector<double> from, to, along, at;
+  gmsh::model::getParametrizationBounds(1, outline, from, to);
+  constexpr int kChords = 400000;
+  for (int i = 0; i <= kChords; ++i) along.push_back(from[0] + (to[0] - from[0]) * i / kChords);
+  gmsh::model::getValue(1, outline, along, at);
+  double twice_area = 0.0;
+  for (size_t i = 0; i + 5 < at.size(); i += 3)
+    twice_area += at[i] * at[i + 4] - at[i + 3] * at[i + 1];
+  gmsh::vectorpair extruded;
+  occ::extrude({{2, occ::addPlaneSurface({occ::addCurveLoop({outline})})}}, 0.0, 0.0, kHeight,
+               extruded);
+  Solids block, holes;
+  for (const auto& [dim, tag] : extruded)
+    if (dim == 3) block.push_back(tag);
+  holes.push_back(session.cylinder({0, 0, -1}, {0, 0, kHeight + 2}, kBore));
+  for (int i = 0; i < 6; ++i) {
+    const double angle = 2.0 * pi * (i + 0.5) / 6.0 + pi / 30.0;
+    holes.push_back(session.cylinder({kBolts * std::cos(angle), kBolts * std::sin(angle), -1},
+                                     {0, 0, kHeight + 2}, kBolt));
+  }
+  occ::synchronize();
+  gmsh::vectorpair out;
+  std::vector<gmsh::vectorpair> map;
+  gmsh::vectorpair tools;
+  for (const Solid hole : holes) tools.emplace_back(3, hole);
+  // Not by session.cut(), which trusts OpenCASCADE's integral over the spline.
+  occ::cut({{3, block.at(0)}}, tools, out, map);
+  occ::synchronize();
+  gmsh::write(file);
+  return kHeight * (0.5 * std::abs(twice_area) - pi * kBore * kBore - 6.0 * pi * kBolt * kBolt);
+}
+
+std::string block_toml(const std::string& file, double size) {
+  return fmt::format(
+      "name = 'block'\nkind = 'cad'\n[cad]\nsource = '{}'\n[mesh]\nelement_size_mm = {}\n", file,
+      size);
+}
+
+TEST(HardG2SplineSkin, MeshesIntoCellsProvedValid) {
+  const Folder folder;
+  const std::string file = (folder / "block.brep").string();
+  const double volume = 1e-9 * write_wavy_block(file);
+  const Meshed m = mesh_toml(block_toml(file, 4.0));
+  const auto& proof = m.part.certificate;
+  for (const auto& [name, value] : proof) printf("    %s %.6g\n", name.c_str(), value);
+  printf("    volume %.9g\n", proof.at("volume_m3") / volume - 1.0);
+  EXPECT_GT(proof.at("min_scaled_jacobian"), 0.05);
+  EXPECT_GE(proof.at("min_dihedral_deg"), 8.0);
+  EXPECT_NEAR(proof.at("volume_m3") / volume, 1.0, 1e-3);
+  EXPECT_LT(proof.at("largest_distance_off_geometry_m"), 1e-4);
+}
+
+TEST(HardG2SplineSkin, IsRefusedWithTheFacesToBlameWhereTheMeshCannotFollowIt) {
+  const Folder folder;
+  const std::string file = (folder / "block.brep").string();
+  write_wavy_block(file);
+  test::expect_parts(test::refusal_of<NumericsError>([&] { mesh_toml(block_toml(file, 60.0)); }),
+                     {"face 1 and face ", " at ("});
+}
+
+}  // namespace
+}  // namespace clatter::mesh
