@@ -18,6 +18,7 @@ namespace {
 using std::numbers::pi;
 using testing::Folder;
 using testing::mesh_toml;
+using testing::Meshed;
 
 constexpr double kHeight = 20.0, kBore = 18.0, kBolt = 2.5, kBolts = 29.0;  // mm
 
