@@ -68,9 +68,8 @@ TEST(HardT1_UndampedStiffContact, EnergyNeverRisesOverTenThousandImpacts) {
     const double total = energy.now().stored() - 50.0 * method.state().y(y);
     ASSERT_LE(total, start * (1.0 + 1e-6 * static_cast<double>(impacts + 1))) << impacts;
   }
-  // L-stability costs some energy, but the ball must still bounce after so many impacts.
-  printf("T1 %.9g\n", 1 - (energy.now().stored() - 50.0 * method.state().y(y)) / start);
-  EXPECT_GT(energy.now().stored() - 50.0 * method.state().y(y), 0.2 * start);
+  // L-stability costs some energy: 5e-5 of it after so many impacts.
+  EXPECT_GT(energy.now().stored() - 50.0 * method.state().y(y), (1.0 - 5e-4) * start);
 }
 
 TEST(HardT3_NewtonFailure, IsRejectedAndCounted) {

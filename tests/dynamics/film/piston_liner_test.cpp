@@ -2,6 +2,7 @@
 // The piston-liner element: resultants, power, content under the tableau, effects.
 #include "dynamics/film/piston_liner.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
