@@ -229,7 +229,7 @@ TEST(BadInput, ABoundaryThatDoesNotHoldTheBodyIsRefusedWithTheMotion) {
   }
 }
 
-TEST(BadInput, ALoosePartIsNamedByItsPlace) {
+TEST(BadInput, AnUnconnectedPartIsNamedByItsPosition) {
   auto model = box_model(4, 3, 3);
   const int n = model.size();
   // A second, free body.
@@ -257,13 +257,13 @@ TEST(BadInput, ALoosePartIsNamedByItsPlace) {
   }
 }
 
-TEST(BadInput, SenselessOptionsAreRefused) {
+TEST(BadInput, InvalidOptionsAreRefused) {
   const auto parse = [](const std::string& text) {
     return read_condense_options(Config::parse(text, "box.rom.toml"));
   };
   EXPECT_NO_THROW(parse("boundary = [\"left\"]\nfmax_hz = 1000.0\n"));
   test::expect_parts(test::refusal_of([&] { parse("boundary = [\"left\"]\n"); }),
-                     {"box.rom.toml: fmax_hz: found none of fmax_hz, count and accurate_to_hz, "
+                     {"box.rom.toml:1: fmax_hz: found none of fmax_hz, count and accurate_to_hz, "
                       "expected one of them"});
   test::expect_parts(test::refusal_of([&] { parse("boundary = [\"left\"]\nfmax_hz = -5.0\n"); }),
                      {"box.rom.toml:2: fmax_hz: found -5.0, expected a number above 0"});
