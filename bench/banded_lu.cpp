@@ -6,13 +6,13 @@
 #include <lapack.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <vector>
 
+#include "bench/median.hpp"
 #include "dynamics/film/banded_lu.hpp"
 
 namespace {
@@ -55,21 +55,6 @@ struct FilmMatrix {
   }
 };
 
-/// Median of `repeats` runs [us].
-template <class Run>
-double median_us(int repeats, Run&& run) {
-  std::vector<double> times;
-  for (int r = 0; r < repeats; ++r) {
-    const auto begin = std::chrono::steady_clock::now();
-    run();
-    times.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-            .count());
-  }
-  std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-  return times[static_cast<size_t>(repeats / 2)];
-}
-
 void compare(int rows, int band, int repeats) {
   constexpr int kRight = 40;
   const FilmMatrix A(rows, band);
@@ -79,7 +64,7 @@ void compare(int rows, int band, int repeats) {
   BandedLu own(n, band);
   std::vector<double> own_x(static_cast<size_t>(n) * kRight, 1.0),
       own_y(static_cast<size_t>(n), 1.0);
-  const double own_us = median_us(repeats, [&] {
+  const double own_us = median_us(repeats, 0, [&] {
     own.set_zero();
     A.fill([&](int i, int j, double a) { own.at(i, j) = a; });
     if (!own.factor()) std::abort();
@@ -93,7 +78,7 @@ void compare(int rows, int band, int repeats) {
       y(static_cast<size_t>(n));
   std::vector<double> x(static_cast<size_t>(n) * kRight);
   std::vector<int> pivots(static_cast<size_t>(n));
-  const double lapack_us = median_us(repeats, [&] {
+  const double lapack_us = median_us(repeats, 0, [&] {
     std::fill(ab.begin(), ab.end(), 0.0);
     A.fill([&](int i, int j, double a) {
       ab[static_cast<size_t>(j) * static_cast<size_t>(lead) +

@@ -6,33 +6,12 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 #include <vector>
 
+#include "bench/median.hpp"
 #include "core/base/threads.hpp"
-
-namespace {
-
-/// Median of `repeats` runs [us], each after a pause [us].
-template <class Run>
-double median_us(int repeats, int pause_us, Run&& run) {
-  std::vector<double> times;
-  for (int r = 0; r < repeats; ++r) {
-    if (pause_us > 0) std::this_thread::sleep_for(std::chrono::microseconds(pause_us));
-    const auto begin = std::chrono::steady_clock::now();
-    run();
-    times.push_back(
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-            .count());
-  }
-  std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-  return times[static_cast<size_t>(repeats / 2)];
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 201;

@@ -19,6 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// An elastic block on its mounts for one cycle.
+constexpr const char* kElasticBlock = R"(
+[time]
+cycles = 1
+[block]
+model = "elastic"
+liner = "liner_4"
+liner_axial = "liner_4_axial"
+bearings = ["main_4", "main_5"]
+gas_load = "head_4_gas"
+mode_limit_hz = 8000.0
+[[mount]]
+sets = ["mounts"]
+stiffness_n_m = [1e5, 1e5, 2e5]
+damping_n_s_m = [1e3, 1e3, 2e3]
+)";
+
 /// A folder with the models, the gas table and the scene that the tests change.
 class Runs : public ::testing::Test {
  protected:
@@ -180,23 +197,7 @@ TEST_F(Runs, WhatIsOffIsNotThere) {
 }
 
 TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
-  const Scene described = scene(R"(
-[time]
-cycles = 1
-[block]
-model = "elastic"
-liner = "liner_4"
-liner_axial = "liner_4_axial"
-bearings = ["main_4", "main_5"]
-gas_load = "head_4_gas"
-mode_limit_hz = 8000.0
-[[mount]]
-sets = ["mounts"]
-stiffness_n_m = [1e5, 1e5, 2e5]
-damping_n_s_m = [1e3, 1e3, 2e3]
-[contact]
-lubrication = "none"
-)");
+  const Scene described = scene(kElasticBlock + std::string("[contact]\nlubrication = \"none\"\n"));
   const LoadedBodies bodies = load_bodies(described);
   const RunResult result = simulate(described, bodies, {});
   H5File file = H5File::create(folder_ / "slap.run.h5");
@@ -234,9 +235,7 @@ lubrication = "none"
 
 TEST_F(Runs, AFilmBetweenElasticBodiesClosesTheEnergyBalanceAndDeformsTheLiner) {
   testing::write_rom(folder_ / "soft.rom.h5", testing::elastic_piston(0.0535, 4, 6));
-  const Scene described = scene(R"(
-[time]
-cycles = 1
+  const Scene described = scene(kElasticBlock + std::string(R"(
 [piston]
 rom = "soft.rom.h5"
 model = "elastic"
@@ -244,18 +243,7 @@ pin = "pin"
 skirt = "skirt"
 gas_load = "gas"
 mode_limit_hz = 8000.0
-[block]
-model = "elastic"
-liner = "liner_4"
-liner_axial = "liner_4_axial"
-bearings = ["main_4", "main_5"]
-gas_load = "head_4_gas"
-mode_limit_hz = 8000.0
-[[mount]]
-sets = ["mounts"]
-stiffness_n_m = [1e5, 1e5, 2e5]
-damping_n_s_m = [1e3, 1e3, 2e3]
-)");
+)"));
   const LoadedBodies bodies = load_bodies(described);
   const RunResult result = simulate(described, bodies, {});
   EXPECT_TRUE(result.complete) << result.failure;
