@@ -179,7 +179,8 @@ TEST(AbaqusMesh, SetsThatCannotBeAreRefused) {
     deep += "*NSET, NSET=S" + std::to_string(i) + "\nS" + std::to_string(i - 1) + "\n";
   }
   EXPECT_EQ(read(deep).mesh.node_sets.size(), 103u);  // resolved from below
-  EXPECT_NE(refusal(deep + "*BOUNDARY\nS99, 1\n").find("more than 64 nested sets"), std::string::npos);
+  EXPECT_NE(refusal(deep + "*BOUNDARY\nS99, 1\n").find("more than 64 nested sets"),
+            std::string::npos);
 }
 
 TEST(AbaqusMesh, NumbersWithTwoMeaningsAreRefused) {
