@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // HardG2: a block whose skin is one wavy spline, with ridges of 1 mm radius and walls of 1.5 mm to
-// bolt holes, becomes a valid quadratic mesh or is refused with the faces to blame.
+// bolt holes, becomes a valid quadratic mesh.
 #include <fmt/format.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 
 #include "mesh_toml.hpp"
 #include "support.hpp"
-#include "tests/refusal.hpp"
 
 namespace clatter::mesh {
 namespace {
@@ -20,7 +19,8 @@ using testing::Folder;
 using testing::mesh_toml;
 using testing::Meshed;
 
-constexpr double kHeight = 20.0, kBore = 18.0, kBolt = 2.5, kBolts = 29.0;  // mm
+constexpr double kHeight = 20.0, kBore = 18.0, kBolt = 2.5, kValleys = 33.0,
+                 kWall = 1.5;  // mm
 
 /// The block as BREP in `file`; returns its volume [mm3], of the area within 400 000 chords.
 double write_wavy_block(const std::string& file) {
@@ -29,7 +29,8 @@ double write_wavy_block(const std::string& file) {
   constexpr int kPoints = 360;
   std::vector<int> points;
   for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2.0 * pi * i / kPoints, radius = 34.2 + 1.2 * std::cos(30.0 * angle);
+    const double angle = 2.0 * pi * i / kPoints,
+                 radius = kValleys + 1.2 * (1.0 + std::cos(30.0 * angle));
     points.push_back(occ::addPoint(radius * std::cos(angle), radius * std::sin(angle), 0.0));
   }
   points.push_back(points.front());
@@ -51,8 +52,8 @@ double write_wavy_block(const std::string& file) {
     if (dim == 3) block.push_back(tag);
   holes.push_back(session.cylinder({0, 0, -1}, {0, 0, kHeight + 2}, kBore));
   for (int i = 0; i < 6; ++i) {
-    const double angle = 2.0 * pi * (i + 0.5) / 6.0 + pi / 30.0;
-    holes.push_back(session.cylinder({kBolts * std::cos(angle), kBolts * std::sin(angle), -1},
+    const double angle = 2.0 * pi * (i + 0.5) / 6.0, radius = kValleys - kWall - kBolt;
+    holes.push_back(session.cylinder({radius * std::cos(angle), radius * std::sin(angle), -1},
                                      {0, 0, kHeight + 2}, kBolt));
   }
   occ::synchronize();
@@ -79,20 +80,13 @@ TEST(HardG2SplineSkin, MeshesIntoCellsProvedValid) {
   const double volume = 1e-9 * write_wavy_block(file);
   const Meshed m = mesh_toml(block_toml(file, 4.0));
   const auto& proof = m.part.certificate;
-  for (const auto& [name, value] : proof) printf("    %s %.6g\n", name.c_str(), value);
-  printf("    volume %.9g\n", proof.at("volume_m3") / volume - 1.0);
+  EXPECT_GT(proof.at("invalid_cells_before_repair"), 0.0);
   EXPECT_GT(proof.at("min_scaled_jacobian"), 0.05);
   EXPECT_GE(proof.at("min_dihedral_deg"), 8.0);
-  EXPECT_NEAR(proof.at("volume_m3") / volume, 1.0, 1e-3);
+  EXPECT_NEAR(proof.at("volume_m3") / volume, 1.0, 3e-4);  // chords of 4 mm
   EXPECT_LT(proof.at("largest_distance_off_geometry_m"), 1e-4);
-}
-
-TEST(HardG2SplineSkin, IsRefusedWithTheFacesToBlameWhereTheMeshCannotFollowIt) {
-  const Folder folder;
-  const std::string file = (folder / "block.brep").string();
-  write_wavy_block(file);
-  test::expect_parts(test::refusal_of<NumericsError>([&] { mesh_toml(block_toml(file, 60.0)); }),
-                     {"face 1 and face ", " at ("});
+  // OpenCASCADE's integral over the spline is far off: the mesher uses a finer skin.
+  EXPECT_GT(std::abs(proof.at("occ_volume_m3") / volume - 1.0), 0.01);
 }
 
 }  // namespace
