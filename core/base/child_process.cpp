@@ -210,7 +210,8 @@ double resident_gib(pid_t process) {
 // A running child and its output.
 class Child {
  public:
-  Child(pid_t process, const ChildLimits& limits) : process_(process), limits_(limits) {}
+  Child(pid_t process, const ChildLimits& limits, const SharedText& step)
+      : process_(process), limits_(limits), step_(step) {}
   ~Child() { stop(); }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -226,6 +227,7 @@ class Child {
       if (watched[0].revents != 0 && !take_bytes(frames)) break;
       watched[0].revents = watched[1].revents = 0;
       if (over_limit()) return;
+      break_silence();
     }
     drain_chatter(chatter);
   }
@@ -264,6 +266,15 @@ class Child {
     return end_.kind != ChildEnd::Kind::kDone && !finished_;
   }
 
+  void break_silence() {
+    if (!limits_.doing || silence_.seconds() < patience_) return;
+    ChildEnd so_far = end_;
+    so_far.step = step_.str();
+    so_far.chatter.erase(0, so_far.chatter.rfind(kStepMark) + 1);
+    say(fmt::format("{}, {:.3g} min so far", limits_.doing(so_far), clock_.seconds() / 60.0));
+    patience_ *= 2.0;
+  }
+
   bool drain_chatter(int from) {
     std::array<char, 4096> bytes;
     ssize_t count = 0;
@@ -296,6 +307,8 @@ class Child {
   }
 
   void take_frame(Frame kind, std::string text) {
+    silence_ = Stopwatch();
+    patience_ = limits_.patience;
     if (kind == Frame::kSay) return say(text);
     if (kind == Frame::kWarn) return warn(text);
     finished_ = true;
@@ -310,7 +323,9 @@ class Child {
 
   pid_t process_;
   ChildLimits limits_;
-  Stopwatch clock_;
+  const SharedText& step_;
+  Stopwatch clock_, silence_;
+  double patience_ = limits_.patience;  // of silence until the next news [s]
   ChildEnd end_;
   std::string pending_, error_;
   bool finished_ = false, stopped_for_memory_ = false;
@@ -363,7 +378,7 @@ ChildEnd run_in_child(const ChildLimits& requested, const std::function<std::str
   }
   frames.write.close();
   chatter.write.close();
-  Child child(process, limits);
+  Child child(process, limits, step);
   child.follow(frames.read.get(), chatter.read.get());
   ChildEnd end = child.finish();
   if (caught_signal != 0) end_by_signal(watch, limits);

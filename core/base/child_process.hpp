@@ -13,13 +13,6 @@
 
 namespace clatter {
 
-/// Limits of the child.
-struct ChildLimits {
-  double seconds = 0.0;           // of wall time; 0: no limit
-  double memory_gib = 0.0;        // resident; 0: memory_limit_gib()
-  std::filesystem::path scratch;  // folder removed when a signal ends the parent; may be empty
-};
-
 /// How a child ended.
 struct ChildEnd {
   enum class Kind {
@@ -39,7 +32,18 @@ struct ChildEnd {
 
   bool done() const { return kind == Kind::kDone; }
   /// "crashed (signal 11, Segmentation fault)", "was stopped after 30 s (--time-limit)", ...
-  std::string describe(const ChildLimits& limits) const;
+  std::string describe(const struct ChildLimits& limits) const;
+};
+
+/// Limits of the child, and the news of it while it works.
+struct ChildLimits {
+  double seconds = 3600.0;        // of wall time; 0: no limit
+  double memory_gib = 0.0;        // resident; 0: memory_limit_gib()
+  std::filesystem::path scratch;  // folder removed when a signal ends the parent; may be empty
+  /// What the child is doing, from its state so far (`step` and `chatter`): said after 1, 2, 4, ...
+  /// times `patience` without a line of its own; empty: nothing is said.
+  std::function<std::string(const ChildEnd&)> doing{};
+  double patience = 60.0;  // [s]
 };
 
 /// Runs `body` in a child process and waits for it.

@@ -62,7 +62,7 @@ struct Skin {
   RowMatrix nodes;        // n_s x 3 [m]
   IndexMatrix triangles;  // n_f x 6, quadratic triangles, outward orientation, Gmsh order
   RowMatrix T;            // 3 n_s x r, row 3 a + d: node a, direction d
-  std::vector<std::string> surfaces;  // of the FE model, merged into this skin
+  std::vector<std::string> surfaces{};  // of the FE model, merged into this skin
 };
 
 struct ReducedModel {

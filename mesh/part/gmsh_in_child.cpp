@@ -59,8 +59,15 @@ std::string describe_end(const ChildEnd& end, const ChildLimits& limits) {
                      words.empty() ? "" : fmt::format(" (last output: {})", words));
 }
 
+ChildLimits with_news(ChildLimits limits) {
+  limits.doing = [](const ChildEnd& so_far) {
+    return fmt::format("mesh: still at: {}", last_step(so_far));
+  };
+  return limits;
+}
+
 MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimits& limits) {
-  const ChildEnd end = run_in_child(limits, [&] {
+  const ChildEnd end = run_in_child(with_news(limits), [&] {
     GmshSession session("msh");
     return to_wire(session.import_msh(path));
   });

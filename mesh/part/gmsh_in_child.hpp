@@ -18,6 +18,9 @@ std::string last_step(const ChildEnd& end);
 /// of stderr.
 std::string describe_end(const ChildEnd& end, const ChildLimits& limits);
 
+/// The same limits, with news of Gmsh's work: "mesh: still at: Optimizing mesh ..., 2 min so far".
+ChildLimits with_news(ChildLimits limits);
+
 /// Reads an MSH file with Gmsh in a child process. InputError for errors and crashes of Gmsh;
 /// NumericsError when a limit ended it.
 MshContents read_msh_contents(const std::filesystem::path& path, const ChildLimits& limits);

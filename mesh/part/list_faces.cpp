@@ -113,7 +113,8 @@ ListedFaces list_faces(const Config& config, const std::string& where, bool tria
 ListedFaces list_faces_in_child(const Config& config, const std::string& where, bool triangles,
                                 const ChildLimits& limits) {
   const auto attempt = [&](bool with_triangles) {
-    return run_in_child(limits, [&] { return to_wire(list_faces(config, where, with_triangles)); });
+    return run_in_child(with_news(limits),
+                        [&] { return to_wire(list_faces(config, where, with_triangles)); });
   };
   ChildEnd end = attempt(triangles);
   const bool fell = !end.done() && end.kind != ChildEnd::Kind::kTimeLimit &&

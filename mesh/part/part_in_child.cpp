@@ -135,7 +135,7 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   MeshSettings requested = read_mesh_settings(*job.config);
   if (job.element_size > 0.0) requested.element_size = job.element_size;
   std::optional<ScratchFolder> scratch;
-  ChildLimits mine = limits;
+  ChildLimits mine = with_news(limits);
   if (!job.cad_extension.empty()) mine.scratch = scratch.emplace().path();
   const auto attempt = [&](const MeshSettings& settings) {
     return run_in_child(mine, [&] { return to_wire(make_part(job, settings, mine.scratch)); });

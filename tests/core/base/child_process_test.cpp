@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -107,6 +108,27 @@ TEST(HardN17_ChildProcess, AHangEndsAtTheTimeLimit) {
       limits);
   EXPECT_EQ(end.kind, Kind::kTimeLimit);
   EXPECT_EQ(end.describe(limits), "was stopped after 0.2 s (--time-limit)");
+}
+
+TEST(HardN17_ChildProcess, SilenceIsBrokenByNewsOfTheStep) {
+  ChildLimits limits;
+  limits.patience = 0.2;
+  limits.doing = [](const ChildEnd& so_far) { return "at " + so_far.step + so_far.chatter; };
+  ::testing::internal::CaptureStderr();
+  const ChildEnd end = child(
+      []() -> std::string {
+        say("a line of ours");
+        enter_step("a long one");
+        std::printf(": 7 of 9\n");
+        std::fflush(stdout);
+        std::this_thread::sleep_for(1s);
+        return "done";
+      },
+      limits);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_LT(said.find("a line of ours"), said.find("at a long one: 7 of 9\n, 0.0")) << said;
+  EXPECT_LE(std::count(said.begin(), said.end(), ','), 6) << said;  // after .2, .4, .8 s
+  EXPECT_EQ(end.result, "done");
 }
 
 TEST(HardN17_ChildProcess, AChildThatExhaustsMemoryIsStoppedAtTheLimit) {
