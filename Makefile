@@ -27,10 +27,10 @@ configure: | setup
 	@cmake --preset $(PRESET) -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CONFIGURE_FLAGS) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 
 build: configure
-	cmake --build $(BUILD) -j$(JOBS) --target stages
+	@tools/time_left cmake --build $(BUILD) -j$(JOBS) --target stages
 
 build-tests: configure
-	cmake --build $(BUILD) -j$(JOBS)
+	@tools/time_left cmake --build $(BUILD) -j$(JOBS)
 
 # The stages up to the reduced models use all cores; a run in time uses one, so several go on at once.
 demo: setup-demo build
@@ -55,7 +55,7 @@ format:
 
 # The same, and every header compiles by itself.
 lint: format configure
-	cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
+	@tools/time_left cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
 
 # A Debian package in build/, for other machines than this one.
 deb:

@@ -15,3 +15,8 @@ target_compile_options(clatter_each_header PRIVATE -fsyntax-only)
 target_include_directories(clatter_each_header SYSTEM PRIVATE ${HDF5_INCLUDE_DIRS} ${CHOLMOD_INCLUDE}
   ${METIS_INCLUDE} ${MUMPS_INCLUDE} ${GMSH_INCLUDE_DIR} ${OCCT_INCLUDE_DIR})
 target_link_libraries(clatter_each_header PRIVATE clatter::modes clatter::mesh_cad)
+if(CLATTER_TESTS)
+  add_test(NAME EachHeader.CompilesByItself
+           COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target clatter_each_header)
+  set_tests_properties(EachHeader.CompilesByItself PROPERTIES LABELS "long;unit" TIMEOUT 3600)
+endif()
