@@ -61,7 +61,9 @@ CertificateNumbers read_certificate_numbers(const H5File& file) {
 std::string certificate_row(const std::string& name, const std::string& unit,
                             const std::string& meaning) {
   if (name.starts_with('<')) return "";
-  return fmt::format("| `{}` | {}{}| {} |\n", name, unit, unit.empty() ? "" : " ", meaning);
+  std::string text;
+  for (const char letter : meaning) text += letter == '|' ? std::string("\\|") : std::string{letter};
+  return fmt::format("| `{}` | {}{}| {} |\n", name, unit, unit.empty() ? "" : " ", text);
 }
 
 }  // namespace clatter

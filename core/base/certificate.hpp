@@ -70,7 +70,7 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers);
 /// All attributes of the group; none when it is absent. InputError for one that is no number.
 CertificateNumbers read_certificate_numbers(const H5File& file);
 
-/// A row of the table in docs/formats.md; "" for the family "<other>".
+/// A row of the table in docs/formats.md, with | escaped; "" for the family "<other>".
 std::string certificate_row(const std::string& name, const std::string& unit,
                             const std::string& meaning);
 
