@@ -62,7 +62,8 @@ std::string certificate_row(const std::string& name, const std::string& unit,
                             const std::string& meaning) {
   if (name.starts_with('<')) return "";
   std::string text;
-  for (const char letter : meaning) text += letter == '|' ? std::string("\\|") : std::string{letter};
+  for (const char letter : meaning)
+    text += letter == '|' ? std::string("\\|") : std::string{letter};
   return fmt::format("| `{}` | {}{}| {} |\n", name, unit, unit.empty() ? "" : " ", text);
 }
 

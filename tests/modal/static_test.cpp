@@ -12,6 +12,7 @@
 #include "block_mesh.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
+#include "modal/certificates.hpp"
 #include "small_solver.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
