@@ -32,8 +32,8 @@ using CertificateNumbers = std::map<std::string, double>;
 template <class C>
 struct CertificateField {
   /// The attribute's name. A family ends with a name in angle brackets: its numbers are named by
-  /// what replaces it, "block" for periodicity_block of "periodicity_<body>", and a family
-  /// "<other>" holds all names that no other field has. Families are last in the list.
+  /// what replaces it, "block" for periodicity_block of `periodicity_<body>`, and a family
+  /// `<other>` holds all names that no other field has. Families are last in the list.
   const char* name;
   std::variant<double C::*, std::optional<double> C::*, CertificateNumbers C::*> member;
   const char* unit;     // "" for counts, ratios, and 0 or 1
@@ -70,7 +70,7 @@ void write_certificate_numbers(H5File& file, const CertificateNumbers& numbers);
 /// All attributes of the group; none when it is absent. InputError for one that is no number.
 CertificateNumbers read_certificate_numbers(const H5File& file);
 
-/// A row of the table in docs/formats.md, with | escaped; "" for the family "<other>".
+/// A row of the table in docs/formats.md, with | escaped; "" for the family `<other>`.
 std::string certificate_row(const std::string& name, const std::string& unit,
                             const std::string& meaning);
 

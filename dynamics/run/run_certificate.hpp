@@ -20,7 +20,8 @@ struct CycleDifference {
 };
 
 /// The certificate of a run. fields() has the unit and meaning of each member, which are named as
-/// in the file; those of CycleDifference are named periodicity_lateral, _tilt and _<body>.
+/// in the file; those of CycleDifference are named periodicity_lateral,
+/// periodicity_tilt and `periodicity_<body>`.
 struct RunCertificate : CycleDifference {
   double energy_residue = 0.0, energy_exchanged = 0.0;
   double complete = 0.0, cycles = 0.0, steps_accepted = 0.0, steps_rejected = 0.0;
