@@ -172,7 +172,7 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
   out.grids = std::move(fresh.grids);
   out.recovered_sets = std::move(fresh.recovered_sets);
   out.elimination = std::move(fresh.elimination);
-  out.certificate["rows_added_error"] = error;
+  out.certificate.rows_added_error = error;
   return out;
 }
 

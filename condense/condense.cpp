@@ -64,11 +64,11 @@ void check_one_request(const Config& config, const CondenseOptions& options) {
 }
 
 /// Whether modes are missing, and their accuracy.
-std::string describe_modes(const std::map<std::string, double>& c) {
-  const bool proved = c.at("count_proved") > 0.0, counted = c.at("count_below") >= 0.0;
-  const bool amls = c.contains("eigen_frequency_error");
+std::string describe_modes(const rom::ReducedCertificate& c) {
+  const bool proved = c.count_proved.value() > 0.0, counted = c.count_below.value() >= 0.0;
+  const bool amls = c.eigen_frequency_error.has_value();
   const std::string count = fmt::format("inertia counts {:.0f} below {:.1f} Hz",
-                                        c.at("count_below"), c.at("count_limit_hz"));
+                                        c.count_below.value(), c.count_limit_hz.value());
   std::string text = "their number is not proved";
   if (proved) {
     text = fmt::format("none is missing ({})", count);
@@ -78,25 +78,25 @@ std::string describe_modes(const std::map<std::string, double>& c) {
     text +=
         amls ? " (prove_count = false, or no gap wider than the errors)" : " (prove_count = false)";
   }
-  text += fmt::format("; largest residual {:.1e}", c.at("eigen_residual_max"));
+  text += fmt::format("; largest residual {:.1e}", c.eigen_residual_max.value());
   if (amls)
     text += fmt::format("; frequencies from above, largest error about {:.1e}",
-                        c.at("eigen_frequency_error"));
+                        c.eigen_frequency_error.value());
   return text;
 }
 
-std::string describe_spectrum(const std::map<std::string, double>& c) {
-  if (c.at("certified") == 0.0) {
+std::string describe_spectrum(const rom::ReducedCertificate& c) {
+  if (c.certified == 0.0) {
     return fmt::format(
         "not certified: rigid modes, spectrum and condition not checked; stiffness "
         "residue {:.1e}",
-        c.at("rigid_stiffness_residue"));
+        c.rigid_stiffness_residue.value());
   }
   return fmt::format(
       "{:.0f} rigid modes, stiffness residue {:.1e}; first elastic mode {:.1f} Hz, "
       "highest frequency {:.4g} Hz; condition of M_rr {:.1e}",
-      c.at("rigid_modes"), c.at("rigid_stiffness_residue"), c.at("first_elastic_hz"),
-      c.at("max_frequency_hz"), c.at("condition_M_rr"));
+      c.rigid_modes.value(), c.rigid_stiffness_residue.value(), c.first_elastic_hz.value(),
+      c.max_frequency_hz.value(), c.condition_M_rr.value());
 }
 
 }  // namespace
@@ -192,35 +192,35 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
 }
 
 std::vector<std::string> describe(const rom::ReducedModel& reduced) {
-  const auto& c = reduced.certificate;
+  const rom::ReducedCertificate& c = reduced.certificate;
   const Eigen::Index n_k = reduced.fixed_interface_hz.size();
   const Eigen::Index n_z = reduced.size() - reduced.n_boundary - n_k;
   std::vector<std::string> lines;
   const bool own = reduced.method == "craig-chang";
-  const std::string loads = c.at("load_shapes") > 0.0
-                                ? fmt::format(" + {:.0f} load shapes", c.at("load_shapes"))
+  const std::string loads = c.load_shapes.value() > 0.0
+                                ? fmt::format(" + {:.0f} load shapes", c.load_shapes.value())
                                 : std::string{};
-  const double shapes = static_cast<double>(n_k) - c.at("residual_modes") - c.at("load_shapes");
+  const double shapes = static_cast<double>(n_k) - c.residual_modes.value() - c.load_shapes.value();
   const std::string interface = n_z > 0 ? fmt::format(" + {} interface modes", n_z) : std::string{};
   lines.push_back(fmt::format(
       "{}: {} boundary coordinates{} + {:.0f} {}{} + {:.0f} residual modes = {} ({})", reduced.name,
       reduced.n_boundary, interface, shapes, own ? "shapes of own modes" : "fixed-interface modes",
-      loads, c.at("residual_modes"), reduced.size(), reduced.method));
+      loads, c.residual_modes.value(), reduced.size(), reduced.method));
   const std::string accuracy =
-      c.contains("frequency_error_estimate")
+      c.frequency_error_estimate
           ? fmt::format("frequencies up to {:.0f} Hz within {:.2g} % (estimated)",
-                        c.at("accurate_to_hz"), 100.0 * c.at("frequency_error_estimate"))
+                        c.accurate_to_hz.value(), 100.0 * c.frequency_error_estimate.value())
           : std::string("errors not estimated (--no-certificate, frequency_error = 0)");
-  lines.push_back(fmt::format("basis holds modes to {:.0f} Hz; {}", c.at("cutoff_hz"), accuracy));
-  if (c.contains("cutoffs_tried")) lines.push_back(cutoff_line(c));
+  lines.push_back(fmt::format("basis holds modes to {:.0f} Hz; {}", c.cutoff_hz.value(), accuracy));
+  if (c.cutoffs_tried) lines.push_back(cutoff_line(c));
   if (n_k > 0)
     lines.push_back((own ? "own modes: " : "fixed-interface modes: ") + describe_modes(c));
-  if (c.contains("interface_modes")) lines.push_back(interface_line(c));
+  if (c.interface_modes) lines.push_back(interface_line(c));
   lines.push_back(describe_spectrum(c));
-  if (c.contains("mass_error")) {
+  if (c.mass_error) {
     lines.push_back(
         fmt::format("mass {:.6g} kg, ten mass properties within {:.1e} of the full model",
-                    reduced.mass.mass, c.at("mass_error")));
+                    reduced.mass.mass, c.mass_error.value()));
   }
   if (!reduced.modal_damping.empty()) {
     const rom::DampingTable& table = reduced.modal_damping;

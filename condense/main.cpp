@@ -54,15 +54,14 @@ std::string text_of(const std::filesystem::path& path) {
 
 void print_summary(const Paths& paths, const rom::ReducedModel& reduced, const StepClock& clock) {
   const auto& c = reduced.certificate;
-  const auto rigid = c.find("rigid_modes");
   print_json({{"output", json_text(paths.output.string())},
               {"method", json_text(reduced.method)},
               {"boundary", json_number(reduced.n_boundary)},
               {"size", json_number(reduced.size())},
               {"valid_to_hz", json_number(reduced.valid_to_hz)},
-              {"count_proved", json_number(c.at("count_proved"))},
-              {"rigid_modes", json_number(rigid == c.end() ? std::nan("") : rigid->second)},
-              {"certified", json_number(c.at("certified"))},
+              {"count_proved", json_number(c.count_proved.value())},
+              {"rigid_modes", json_number(c.rigid_modes.value_or(std::nan("")))},
+              {"certified", json_number(c.certified.value())},
               {"seconds", json_number(clock.total_seconds())}});
 }
 
@@ -111,7 +110,7 @@ int add_rows(const Paths& paths, const condense::RowRequest& request, const Comm
   fe::require_unknowns(model, "a reduction");
   clock.lap(fmt::format("read {} DoF", model.size()));
   const rom::ReducedModel with_rows = condense::add_rows(model, reduced, options, request, clock);
-  const double error = with_rows.certificate.at("rows_added_error");
+  const double error = with_rows.certificate.rows_added_error.value();
   print_result(fmt::format(
       "{}: {} skin nodes, {} sets besides the boundary; the basis solved for again "
       "differs by {:.1e} from the stored one",

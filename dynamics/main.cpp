@@ -114,8 +114,7 @@ void print_summary(const RunResult& result, const Arguments& a, double seconds) 
       "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
       "{:.2f}; {:.2f} in total",
       s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
-  for (const auto& [name, value] : result.periodicity)
-    print_result(fmt::format("{}: {:.3g}", name, value));
+  for (const std::string& text : periodicity_lines(result.periodicity)) print_result(text);
   print_result(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
                            result.energy_exchanged));
   say(fmt::format("{} written", a.output.string()));

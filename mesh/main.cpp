@@ -89,7 +89,7 @@ struct Arguments {
 struct Outcome {
   Mesh mesh;
   QualityReport quality;
-  std::map<std::string, double> certificate;
+  MeshCertificate certificate;
   Provenance provenance;
   std::string recipe;       // fe.toml of a deck
   std::string cad;          // of the geometry, if requested
@@ -99,24 +99,24 @@ struct Outcome {
 void report(const Outcome& result) {
   const auto& c = result.certificate;
   const Measure& angle = result.quality.min_dihedral_deg;
-  print_result(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom",
-                           c.at("cells"), c.at("nodes"), c.at("dofs")));
+  print_result(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom", c.cells,
+                           c.nodes, c.dofs));
   for (size_t r = 0; r < result.mesh.regions.size(); ++r) {
     print_result(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
                              cell_volume(result.mesh, static_cast<int32_t>(r))));
   }
-  if (c.contains("volume_against_cad"))
-    print_result(fmt::format("mesh: volume against CAD {:+.2e}", c.at("volume_against_cad")));
+  if (c.volume_against_cad)
+    print_result(fmt::format("mesh: volume against CAD {:+.2e}", *c.volume_against_cad));
   print_result(fmt::format("mesh: volume against the surface integral {:.1e}",
-                           c.at("volume_against_surface_integral")));
-  print_result(fmt::format(
-      "mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
-      "m, scaled Jacobian {:.3f} in cell {}",
-      angle.worst, angle.label, angle.position.x(), angle.position.y(), angle.position.z(),
-      c.at("min_scaled_jacobian"), result.quality.scaled_jacobian.label));
-  if (c.contains("invalid_cells_before_repair"))
+                           c.volume_against_surface_integral));
+  print_result(
+      fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
+                  "m, scaled Jacobian {:.3f} in cell {}",
+                  angle.worst, angle.label, angle.position.x(), angle.position.y(),
+                  angle.position.z(), c.min_scaled_jacobian, result.quality.scaled_jacobian.label));
+  if (c.invalid_cells_before_repair)
     print_result(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
-                             c.at("invalid_cells_before_repair")));
+                             *c.invalid_cells_before_repair));
 }
 
 /// Geometry meshed by gmsh.
@@ -274,13 +274,12 @@ int run(const Arguments& a, const CommonOptions& common) {
   for (const auto& path : a.exports) export_mesh(result.mesh, path);
   write_depfile(common.depfile, a.output, result.provenance.inputs);
   if (common.json) {
-    const auto predicted = result.certificate.find("predicted_cells");
+    const auto& c = result.certificate;
     print_json({{"output", json_text(a.output.string())},
-                {"cells", json_number(result.certificate.at("cells"))},
-                {"predicted_cells",
-                 predicted == result.certificate.end() ? "null" : json_number(predicted->second)},
-                {"dofs", json_number(result.certificate.at("dofs"))},
-                {"min_dihedral_deg", json_number(result.certificate.at("min_dihedral_deg"))},
+                {"cells", json_number(c.cells)},
+                {"predicted_cells", c.predicted_cells ? json_number(*c.predicted_cells) : "null"},
+                {"dofs", json_number(c.dofs)},
+                {"min_dihedral_deg", json_number(c.min_dihedral_deg)},
                 {"seconds", json_number(clock.total_seconds())}});
   }
   return 0;

@@ -6,26 +6,27 @@
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "modal/certificates.hpp"
 
 namespace clatter::modal {
 namespace {
 
 void write_proof(H5File& file, const sparse::ModeSet& modes) {
-  std::map<std::string, double> certificate;
-  certificate["count_proved"] = modes.proof.proved ? 1.0 : 0.0;
-  certificate["count_below"] = static_cast<double>(modes.proof.below);
-  certificate["count_limit_hz"] = sparse::hz_of_value(modes.proof.limit);
-  certificate["residual_max"] = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
-  if (modes.errors.size() > 0) certificate["frequency_error_estimate"] = modes.errors.maxCoeff();
-  certificate["rigid_modes"] = modes.rigid;
-  certificate["shift"] = modes.sigma;
-  certificate["solves"] = static_cast<double>(modes.solves);
-  certificate["factors"] = modes.factors;
-  certificate["retries"] = modes.retries;
-  certificate["massless_unknowns"] = static_cast<double>(modes.massless);
-  if (modes.size() > 0) certificate["frequency_rounding_max"] = modes.rounding.maxCoeff();
-  certificate["factor_entries"] = static_cast<double>(modes.factor.entries);
-  certificate["factor_rcond"] = modes.factor.rcond;
+  ModesCertificate certificate;
+  certificate.count_proved = modes.proof.proved ? 1.0 : 0.0;
+  certificate.count_below = static_cast<double>(modes.proof.below);
+  certificate.count_limit_hz = sparse::hz_of_value(modes.proof.limit);
+  certificate.residual_max = modes.size() > 0 ? modes.residuals.maxCoeff() : 0.0;
+  if (modes.errors.size() > 0) certificate.frequency_error_estimate = modes.errors.maxCoeff();
+  certificate.rigid_modes = modes.rigid;
+  certificate.shift = modes.sigma;
+  certificate.solves = static_cast<double>(modes.solves);
+  certificate.factors = modes.factors;
+  certificate.retries = modes.retries;
+  certificate.massless_unknowns = static_cast<double>(modes.massless);
+  if (modes.size() > 0) certificate.frequency_rounding_max = modes.rounding.maxCoeff();
+  certificate.factor_entries = static_cast<double>(modes.factor.entries);
+  certificate.factor_rcond = modes.factor.rcond;
   write_certificate(file, certificate);
 }
 

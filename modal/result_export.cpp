@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"

@@ -5,6 +5,7 @@
 #include "core/base/artefact.hpp"
 #include "core/fe/fe_statics_file.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "modal/certificates.hpp"
 #include "modal/statics.hpp"
 
 namespace clatter::modal {
@@ -56,12 +57,13 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
     forward = std::max(forward, one.forward_error);
     balance = std::max(balance, one.balance);
   }
-  write_certificate(file, {{"cases", static_cast<double>(solution.cases.size())},
-                           {"backward_error_max", backward},
-                           {"forward_error_max", forward},
-                           {"balance_max", balance},
-                           {"factor_entries", static_cast<double>(solution.factor.entries)},
-                           {"factor_rcond", solution.factor.rcond}});
+  write_certificate(
+      file, StaticCertificate{.cases = static_cast<double>(solution.cases.size()),
+                              .backward_error_max = backward,
+                              .forward_error_max = forward,
+                              .balance_max = balance,
+                              .factor_entries = static_cast<double>(solution.factor.entries),
+                              .factor_rcond = solution.factor.rcond});
 }
 
 }  // namespace clatter::modal

@@ -80,17 +80,17 @@ double share_above_limit(const Analysis& analysis) {
   return all > 0.0 ? std::max(1.0 - skin.mean_square_velocity.sum() / all, 0.0) : 0.0;
 }
 
-std::map<std::string, double> certify(const RunBody& body, const Analysis& analysis,
-                                      const SkinGeometry& geometry, const PanelForm& skin) {
-  std::map<std::string, double> certificate{{"skin_area_m2", geometry.area},
-                                            {"skin_closure", geometry.closure},
-                                            {"run_complete", body.complete() ? 1.0 : 0.0}};
+FieldCertificate certify(const RunBody& body, const Analysis& analysis,
+                         const SkinGeometry& geometry, const PanelForm& skin) {
+  FieldCertificate certificate{.skin_area_m2 = geometry.area,
+                               .skin_closure = geometry.closure,
+                               .run_complete = body.complete() ? 1.0 : 0.0};
   if (!analysis.piece.periodic) return certificate;
-  certificate["mean_square_share_above_spectra"] = share_above_limit(analysis);
+  certificate.mean_square_share_above_spectra = share_above_limit(analysis);
   const double drift = cycle_to_cycle_difference(body, analysis.piece, skin);
   const double jump = cycle_end_jump(body, analysis.piece, skin);
-  if (drift >= 0.0) certificate["cycle_to_cycle_velocity_difference"] = drift;
-  if (jump >= 0.0) certificate["cycle_end_velocity_jump"] = jump;
+  if (drift >= 0.0) certificate.cycle_to_cycle_velocity_difference = drift;
+  if (jump >= 0.0) certificate.cycle_end_velocity_jump = jump;
   return certificate;
 }
 
@@ -189,7 +189,7 @@ std::string summary_text(const Summary& summary) {
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,
         result.acceleration.size() > 0 ? result.acceleration.cwiseAbs().maxCoeff() : 0.0);
-  for (const auto& [name, value] : summary.certificate)
+  for (const auto& [name, value] : certificate_numbers(summary.certificate))
     text += fmt::format("{} = {:.4g}\n", name, value);
   text += fmt::format("{} frames of the skin, {} complex lines", summary.frames.size(),
                       summary.line_hz.size());

@@ -2,13 +2,13 @@
 #pragma once
 // The stage's main function: from a run and its reduced model to a field file.
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/base/h5_file.hpp"
 #include "core/base/stopwatch.hpp"
 #include "recover/field/exports.hpp"
+#include "recover/field/field_certificate.hpp"
 #include "recover/options/options.hpp"
 #include "recover/run/run_input.hpp"
 
@@ -24,7 +24,7 @@ struct Summary {
   std::vector<double> line_hz{};
   FrequencyLimit limit{};
   int64_t n_nodes = 0, n_faces = 0;
-  std::map<std::string, double> certificate{};
+  FieldCertificate certificate{};
 };
 
 /// Recovers everything requested by `options` and writes it to `file` (conventions, skin, panels,

@@ -130,8 +130,9 @@ BuiltModel import_matrices(const MatrixFiles& files, const mesh::Mesh* mesh) {
   model.sets = sets_of(layout, coordinate);
   if (mesh) model.surfaces = mesh->surfaces;
   const auto held = static_cast<double>(coordinate.size() - kept.size());
-  built.certificate = {{"dofs", size}, {"held_dofs", held}};
-  if (held == 0.0) built.certificate["rigid_force_residue"] = rigid_residue(K, rigid);
+  built.certificate.dofs = size;
+  built.certificate.held_dofs = held;
+  if (held == 0.0) built.certificate.rigid_force_residue = rigid_residue(K, rigid);
   return built;
 }
 

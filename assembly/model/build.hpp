@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The stage's main call: builds a checked FE model from a mesh and a recipe.
-#include <map>
-#include <string>
-
+#include "assembly/model/fe_certificate.hpp"
 #include "assembly/recipe/recipe.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fe/fe_model.hpp"
@@ -13,9 +11,7 @@ namespace clatter::assembly {
 
 struct BuiltModel {
   fe::FeModel model;
-  /// dofs, pivots, fixed displacements; errors of mass, centre, inertia against the sum over the
-  /// elements; residual of K on rigid motions; error of T on rigid motions; largest entry of T.
-  std::map<std::string, double> certificate;
+  FeCertificate certificate;
 };
 
 /// Assembles, constrains, loads and verifies a model; `clock` records one lap per step. InputError

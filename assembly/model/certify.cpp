@@ -58,17 +58,16 @@ void require_below(const std::string& name, const char* what, double found, doub
 
 }  // namespace
 
-std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
-                                      fe::MassForm mass) {
+FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, fe::MassForm mass) {
   const Elimination& elimination = constrained.elimination;
-  std::map<std::string, double> numbers;
-  numbers["dofs"] = model.size();
-  numbers["dofs_fixed"] = elimination.supports();
-  numbers["dofs_pivot"] = static_cast<double>(elimination.pivots.size());
-  numbers["nonzeros_K"] = static_cast<double>(model.K.nonZeros());
-  numbers["nonzeros_M"] = static_cast<double>(model.M.nonZeros());
-  numbers["nonzeros_T"] = static_cast<double>(model.T.nonZeros());
-  numbers["largest_T_entry"] = elimination.growth;
+  FeCertificate numbers;
+  numbers.dofs = model.size();
+  numbers.dofs_fixed = elimination.supports();
+  numbers.dofs_pivot = static_cast<double>(elimination.pivots.size());
+  numbers.nonzeros_K = static_cast<double>(model.K.nonZeros());
+  numbers.nonzeros_M = static_cast<double>(model.M.nonZeros());
+  numbers.nonzeros_T = static_cast<double>(model.T.nonZeros());
+  numbers.largest_T_entry = elimination.growth;
   if (elimination.growth > kLargeGrowth)
     warn(
         fmt::format("{}: a pivot displacement is {:.3g} times its neighbours: couplings lie close "
@@ -76,24 +75,24 @@ std::map<std::string, double> certify(const fe::FeModel& model, const Constraine
                     model.name, elimination.growth));
 
   const Eigen::MatrixXd motions = free_motions(constrained.grounded);
-  numbers["rigid_motions_held_by_equations"] = static_cast<double>(6 - motions.cols());
+  numbers.rigid_motions_held_by_equations = static_cast<double>(6 - motions.cols());
   if (motions.cols() == 0) return numbers;
   const Eigen::MatrixXd nodal = constrained.nodal_rigid.topRows(model.T.rows()) * motions;
   Eigen::MatrixXd recovered = model.T * (model.rigid * motions);
   if (model.supports.size() > 0) recovered += model.supports.T * (model.supports.rigid * motions);
   const double recovery = (recovered - nodal).cwiseAbs().maxCoeff() / nodal.cwiseAbs().maxCoeff();
-  numbers["rigid_recovery_error"] = recovery;
+  numbers.rigid_recovery_error = recovery;
   require_below(model.name, "rigid motions recovered by T, relative error", recovery,
                 kRigidTolerance);
-  numbers["rigid_force_residue"] = rigid_force(model, motions);
-  require_below(model.name, "force of rigid motions, |K R| / |K| |R|",
-                numbers["rigid_force_residue"], kRigidTolerance);
+  numbers.rigid_force_residue = rigid_force(model, motions);
+  require_below(model.name, "force of rigid motions, |K R| / |K| |R|", *numbers.rigid_force_residue,
+                kRigidTolerance);
   // A supported model's M lacks the mass of the held DoFs.
   if (elimination.supports() > 0 || motions.cols() < 6) return numbers;
   const MassDifference error = compare(properties_of(model.M, model.rigid), model.mass);
-  numbers["mass_error"] = error.mass;
-  numbers["centre_error"] = error.centre;
-  numbers["inertia_error"] = error.inertia;
+  numbers.mass_error = error.mass;
+  numbers.centre_error = error.centre;
+  numbers.inertia_error = error.inertia;
   require_below(model.name, "mass, R^T M R against the sum over the elements", error.mass,
                 kMassTolerance);
   if (mass == fe::MassForm::kHrz) return numbers;

@@ -2,10 +2,9 @@
 #pragma once
 // Verifies an assembled model before it is written.
 #include <Eigen/Core>
-#include <map>
-#include <string>
 
 #include "assembly/constraint/constrain.hpp"
+#include "assembly/model/fe_certificate.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/fe_model.hpp"
 
@@ -18,7 +17,6 @@ namespace clatter::assembly {
 /// NumericsError when mass, centre or inertia differ by more than 1e-9 (hard case B5), or when
 /// rigid motions cause forces or are not recovered to 1e-9.
 /// A lumped mass preserves only the total: centre and inertia are measured, not required.
-std::map<std::string, double> certify(const fe::FeModel& model, const Constrained& constrained,
-                                      fe::MassForm mass);
+FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, fe::MassForm mass);
 
 }  // namespace clatter::assembly

@@ -45,20 +45,19 @@ CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& stati
   }
 }
 
-void record(const CutOffSearch& search, std::map<std::string, double>& certificate) {
-  certificate["frequency_error_target"] = search.target;
-  certificate["frequency_error_bound"] = search.reached;
-  certificate["cutoffs_tried"] = search.tried;
+void record(const CutOffSearch& search, rom::ReducedCertificate& certificate) {
+  certificate.frequency_error_target = search.target;
+  certificate.frequency_error_bound = search.reached;
+  certificate.cutoffs_tried = search.tried;
 }
 
-std::string cutoff_line(const std::map<std::string, double>& certificate) {
-  const auto at = [&](const char* name) { return certificate.at(name); };
+std::string cutoff_line(const rom::ReducedCertificate& c) {
   return fmt::format(
       "chose a cut-off of {:g} Hz, {:.3g} times {:g} Hz, after {:.0f} tried: frequencies below "
       "are within {:.2g} %, requested {:.2g} %",
-      at("cutoff_hz"), at("cutoff_hz") / at("accurate_to_hz"), at("accurate_to_hz"),
-      at("cutoffs_tried"), 100.0 * at("frequency_error_bound"),
-      100.0 * at("frequency_error_target"));
+      c.cutoff_hz.value(), c.cutoff_hz.value() / c.accurate_to_hz.value(), c.accurate_to_hz.value(),
+      c.cutoffs_tried.value(), 100.0 * c.frequency_error_bound.value(),
+      100.0 * c.frequency_error_target.value());
 }
 
 }  // namespace clatter::condense

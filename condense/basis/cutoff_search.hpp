@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The cut-off needed for a requested accuracy of the body's frequencies.
-#include <map>
 #include <string>
 
 #include "condense/basis/craig_bampton.hpp"
+#include "core/rom/reduced_certificate.hpp"
 
 namespace clatter::condense {
 
@@ -29,8 +29,8 @@ CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& stati
                            const ModeRequest& request, StepClock& clock, CutOffSearch& search);
 
 /// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
-void record(const CutOffSearch& search, std::map<std::string, double>& certificate);
+void record(const CutOffSearch& search, rom::ReducedCertificate& certificate);
 /// A line for the user from such a certificate.
-std::string cutoff_line(const std::map<std::string, double>& certificate);
+std::string cutoff_line(const rom::ReducedCertificate& certificate);
 
 }  // namespace clatter::condense

@@ -33,7 +33,7 @@ double scaled_condition(const Eigen::MatrixXd& M_rr) {
 /// Rigid count, first elastic and highest frequency of (K_rr, M_rr).
 void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions) {
   constexpr double kRounding = 1e-15;  // of the highest value: rounding of doubles
-  auto& out = reduced.certificate;
+  rom::ReducedCertificate& out = reduced.certificate;
   const sparse::EigenResult low =
       sparse::solve_dense(reduced.K_rr, reduced.M_rr, motions, std::nullopt);
   if (!low.ok()) throw NumericsError("reduced model: " + low.message);
@@ -42,38 +42,37 @@ void certify_spectrum(rom::ReducedModel& reduced, const Eigen::MatrixXd& motions
   if (!all.ok) throw NumericsError("reduced model: M_rr is not positive definite");
   const double highest = all.values.maxCoeff();
   const Eigen::Index zeros = (low.values.array() <= kRounding * highest).count();
-  out["rigid_modes"] = static_cast<double>(motions.cols() + zeros);
-  out["first_elastic_hz"] =
-      zeros < low.values.size() ? sparse::hz_of_value(low.values[zeros]) : 0.0;
-  out["max_frequency_hz"] = sparse::hz_of_value(highest);
+  out.rigid_modes = static_cast<double>(motions.cols() + zeros);
+  out.first_elastic_hz = zeros < low.values.size() ? sparse::hz_of_value(low.values[zeros]) : 0.0;
+  out.max_frequency_hz = sparse::hz_of_value(highest);
 }
 
 void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
-  auto& out = reduced.certificate;
+  rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::Index n_k = reduced.fixed_interface_hz.size();
   const Eigen::MatrixXd unit =
       reduced.M_rr.bottomRightCorner(n_k, n_k) - Eigen::MatrixXd::Identity(n_k, n_k);
-  out["residual_modes"] = static_cast<double>(source.residual.hz.size());
-  out["modal_mass_error"] = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
+  out.residual_modes = static_cast<double>(source.residual.hz.size());
+  out.modal_mass_error = n_k > 0 ? unit.cwiseAbs().maxCoeff() : 0.0;
   const InteriorModes& interior = source.interior;
   const Eigen::VectorXd& residuals = interior.residuals;
-  out["eigen_residual_max"] = residuals.size() > 0 ? residuals.maxCoeff() : 0.0;
-  if (interior.frequency_error >= 0.0) out["eigen_frequency_error"] = interior.frequency_error;
-  out["load_shapes"] = interior.load_shapes;
-  out["own_modes"] = interior.own_modes;
+  out.eigen_residual_max = residuals.size() > 0 ? residuals.maxCoeff() : 0.0;
+  if (interior.frequency_error >= 0.0) out.eigen_frequency_error = interior.frequency_error;
+  out.load_shapes = interior.load_shapes;
+  out.own_modes = interior.own_modes;
   if (source.residual.estimated) {
-    out["frequency_error_estimate"] = source.residual.error_estimate;
-    out["frequency_error_modes"] = source.residual.modes;
+    out.frequency_error_estimate = source.residual.error_estimate;
+    out.frequency_error_modes = source.residual.modes;
     // Own modes are exact: the estimate would be meaningless for a body joined to others.
-    if (interior.own_modes == 0) out["frequency_error_joined"] = source.residual.error_before;
+    if (interior.own_modes == 0) out.frequency_error_joined = source.residual.error_before;
   }
   const Eigen::Index modes = n_k - source.residual.hz.size() - interior.load_shapes;
-  out["fixed_interface_modes"] = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
-  out["count_proved"] = interior.proof.proved ? 1.0 : 0.0;
-  out["count_below"] = static_cast<double>(interior.proof.below);
-  out["count_limit_hz"] = sparse::hz_of_value(interior.proof.limit);
-  out["cutoff_hz"] = interior.cutoff_hz;
-  out["accurate_to_hz"] = interior.accurate_to_hz;
+  out.fixed_interface_modes = reduced.method == "craig-chang" ? 0.0 : static_cast<double>(modes);
+  out.count_proved = interior.proof.proved ? 1.0 : 0.0;
+  out.count_below = static_cast<double>(interior.proof.below);
+  out.count_limit_hz = sparse::hz_of_value(interior.proof.limit);
+  out.cutoff_hz = interior.cutoff_hz;
+  out.accurate_to_hz = interior.accurate_to_hz;
 }
 
 }  // namespace
@@ -116,46 +115,46 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
 
 void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum) {
-  auto& out = reduced.certificate;
+  rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
   const rom::MassProperties found = mass_properties_of(reduced_mass);
   const rom::MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
-  out["rigid_stiffness_residue"] = clear_rigid_stiffness(reduced, free.q);
-  out["rigid_shape_error"] = source.rigid_error;
+  out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, free.q);
+  out.rigid_shape_error = source.rigid_error;
   const bool free_body = free.all_free;  // a held body cannot move rigidly
   if (free_body) {
-    out["mass_error"] = compare_mass(found, full).largest();
-    out["mass_error_elements"] = compare_mass(found, model.mass).largest();
+    out.mass_error = compare_mass(found, full).largest();
+    out.mass_error_elements = compare_mass(found, model.mass).largest();
   }
-  out["certified"] = spectrum ? 1.0 : 0.0;
-  out["dropped_vectors"] = dropped + source.interior.dropped;
-  out["K_ii_rcond"] = source.factor.rcond;
-  out["K_ii_probe_residual"] = source.factor.probe_residual;
-  if (!reduced.inertia.empty()) out["inertia_invariants_error"] = inertia_error(reduced, free_body);
+  out.certified = spectrum ? 1.0 : 0.0;
+  out.dropped_vectors = dropped + source.interior.dropped;
+  out.K_ii_rcond = source.factor.rcond;
+  out.K_ii_probe_residual = source.factor.probe_residual;
+  if (!reduced.inertia.empty()) out.inertia_invariants_error = inertia_error(reduced, free_body);
   if (spectrum) {
-    out["condition_M_rr"] = scaled_condition(reduced.M_rr);
+    out.condition_M_rr = scaled_condition(reduced.M_rr);
     certify_spectrum(reduced, free.q);
   }
   certify_modes(reduced, source);
-  if (free_body && !(out["mass_error"] <= kMassLimit)) {
+  if (free_body && !(*out.mass_error <= kMassLimit)) {
     throw NumericsError(
         fmt::format("reduced model: mass properties differ by {:.1e} from the full "
                     "model's, expected at most {:.0e}",
-                    out["mass_error"], kMassLimit));
+                    *out.mass_error, kMassLimit));
   }
-  if (!reduced.inertia.empty() && !(out["inertia_invariants_error"] <= kMassLimit)) {
+  if (!reduced.inertia.empty() && !(*out.inertia_invariants_error <= kMassLimit)) {
     throw NumericsError(fmt::format(
         "reduced model: inertia invariants differ by {:.1e} from those of M_rr and the rigid "
         "motions, expected at most {:.0e}",
-        out["inertia_invariants_error"], kMassLimit));
+        *out.inertia_invariants_error, kMassLimit));
   }
-  if (!(out["rigid_stiffness_residue"] <= kRigidLimit) ||
-      (spectrum && out["rigid_modes"] != static_cast<double>(free.q.cols()))) {
+  if (!(*out.rigid_stiffness_residue <= kRigidLimit) ||
+      (spectrum && out.rigid_modes != static_cast<double>(free.q.cols()))) {
     throw NumericsError(fmt::format(
         "reduced model: {} rigid modes with stiffness residue {:.1e}, expected {} and at most "
         "{:.0e}",
-        spectrum ? fmt::format("{}", out["rigid_modes"]) : "uncounted",
-        out["rigid_stiffness_residue"], free.q.cols(), kRigidLimit));
+        spectrum ? fmt::format("{}", *out.rigid_modes) : "uncounted", *out.rigid_stiffness_residue,
+        free.q.cols(), kRigidLimit));
   }
 }
 

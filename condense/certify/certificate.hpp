@@ -34,23 +34,15 @@ struct ReducedMotions {
   bool all_free = false;  // all six of each body
 };
 
-/// Fills `reduced.certificate`: certified, 1 with the spectrum of (K_rr, M_rr), 0 when that costly
-/// part is omitted (`spectrum` false: no rigid_modes, first_elastic_hz, max_frequency_hz,
-/// condition_M_rr);
-/// rigid_stiffness_residue of clear_rigid_stiffness, which it calls; rigid_modes, the free motions
-/// and other zero eigenvalues of (K_rr, M_rr), to rounding; first_elastic_hz, the lowest other one;
-/// for a free body mass_error (against r^T M r of the FE matrices) and mass_error_elements (against
-/// the sum over the elements); condition_M_rr of M_rr with unit diagonal; max_frequency_hz;
-/// eigen_residual_max; eigen_frequency_error, the largest estimated relative error of a mode's
-/// frequency (AMLS only); modal_mass_error; count_proved, count_below and count_limit_hz;
-/// fixed_interface_modes, own_modes, load_shapes; cutoff_hz, accurate_to_hz (half of it, with own
-/// modes all of it) and frequency_error_estimate, the largest estimated relative error of the
-/// body's own modes below accurate_to_hz, frequency_error_joined, the same without the residual
-/// modes, which help the body's own modes alone: the accuracy of a body joined to others (absent
-/// with own modes), and frequency_error_modes, the number of modes in both estimates;
-/// residual_modes; inertia_invariants_error of frame_inertia.hpp when the model has them;
-/// rigid_shape_error of the plain solve; dropped_vectors; K_ii_rcond, K_ii_probe_residual. Throws
-/// NumericsError when the reduction did not preserve the rigid motions or the mass.
+/// Fills `reduced.certificate` (core/rom/reduced_certificate.hpp) except for what record(),
+/// verify() and add_rows() add; rigid_stiffness_residue by clear_rigid_stiffness, which it calls.
+/// `spectrum` false omits the costly part, the spectrum of (K_rr, M_rr): no rigid_modes,
+/// first_elastic_hz, max_frequency_hz, condition_M_rr. Only a free body has mass_error and
+/// mass_error_elements, only a model with inertia invariants inertia_invariants_error
+/// (frame_inertia.hpp), only AMLS eigen_frequency_error. accurate_to_hz is half of cutoff_hz, with
+/// own modes all of it; residual modes help the body's own modes alone, so that
+/// frequency_error_joined is the accuracy of a body joined to others (absent with own modes).
+/// Throws NumericsError when the reduction did not preserve the rigid motions or the mass.
 void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A second reduction: boundary coordinates as characteristic constraint modes.
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +46,8 @@ InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOption
                                  Eigen::MatrixXd& motions, double length, double limit_hz);
 
 /// interface_coordinates, _modes, _cutoff_hz, _frequency_error, _film_work_error of a certificate.
-void record(const InterfaceReport& report, std::map<std::string, double>& certificate);
+void record(const InterfaceReport& report, rom::ReducedCertificate& certificate);
 /// A line for the user from such a certificate.
-std::string interface_line(const std::map<std::string, double>& certificate);
+std::string interface_line(const rom::ReducedCertificate& certificate);
 
 }  // namespace clatter::condense

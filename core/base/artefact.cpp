@@ -85,19 +85,6 @@ void write_timing(H5File& file, const StepClock& clock) {
   file.set("timing", "peak_gib", *std::max_element(peak.begin(), peak.end()));
 }
 
-void write_certificate(H5File& file, const std::map<std::string, double>& certificate) {
-  for (const auto& [name, value] : certificate) file.set("certificate", name, value);
-}
-
-std::map<std::string, double> read_certificate(const H5File& file) {
-  std::map<std::string, double> certificate;
-  if (!file.has("certificate")) return certificate;
-  for (const auto& name : file.attributes("certificate")) {
-    certificate[name] = file.get_double("certificate", name);
-  }
-  return certificate;
-}
-
 H5File open_artefact(const std::filesystem::path& path, const std::string& schema) {
   H5File file = H5File::open(path);
   const std::string found =

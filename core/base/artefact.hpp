@@ -4,7 +4,6 @@
 // docs/formats.md.
 #include <filesystem>
 #include <initializer_list>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,11 +32,6 @@ void write_provenance(H5File& file, const Provenance& provenance);
 
 /// Writes group `timing`: seconds and peak memory per step, and totals.
 void write_timing(H5File& file, const StepClock& clock);
-
-/// Writes numbers as attributes of group `certificate`.
-void write_certificate(H5File& file, const std::map<std::string, double>& certificate);
-/// Reads the certificate; empty when the group is absent.
-std::map<std::string, double> read_certificate(const H5File& file);
 
 /// Opens an artefact and checks its schema: InputError "file: schema: found X, expected Y".
 H5File open_artefact(const std::filesystem::path& path, const std::string& schema);

@@ -3,8 +3,8 @@
 // Binary serialisation between a parent and its child process: same program, same machine, so no
 // stable format is needed.
 //
-// Numbers, texts, vectors, maps, pairs and Eigen matrices are built in. A struct S needs, found by
-// argument-dependent look-up,
+// Numbers, texts, vectors, maps, pairs, optional values and Eigen matrices are built in. A struct S
+// needs, found by argument-dependent look-up,
 //   template <class Archive, class Self> requires same_as<remove_const_t<Self>, S>
 //   void wire(Archive& archive, Self& s) { auto& [a, b] = s; archive(a, b); }
 // whose binding fails to compile when S gets another member.
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -63,6 +64,11 @@ class WireWriter {
   template <class A, class B>
   void put(const std::pair<A, B>& both) {
     (*this)(both.first, both.second);
+  }
+  template <class T>
+  void put(const std::optional<T>& value) {
+    put(static_cast<char>(value.has_value()));
+    if (value) put(*value);
   }
   template <class S, int R, int C, int O, int MR, int MC>
   void put(const Eigen::Matrix<S, R, C, O, MR, MC>& matrix) {
@@ -132,6 +138,13 @@ class WireReader {
   template <class A, class B>
   void get(std::pair<A, B>& both) {
     (*this)(both.first, both.second);
+  }
+  template <class T>
+  void get(std::optional<T>& value) {
+    char present = 0;
+    get(present);
+    value.reset();
+    if (present != 0) get(value.emplace());
   }
   template <class S, int R, int C, int O, int MR, int MC>
   void get(Eigen::Matrix<S, R, C, O, MR, MC>& matrix) {

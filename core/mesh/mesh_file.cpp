@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/validity.hpp"

@@ -122,10 +122,9 @@ ModesOptions request(const CompareOptions& options, const rom::ReducedModel& red
   ModesOptions modes;
   modes.count = options.count;
   if (options.count > 0) return modes;
-  const auto claimed = reduced.certificate.find("accurate_to_hz");
-  const bool stated = claimed != reduced.certificate.end() && claimed->second > 0.0;
+  const double stated = reduced.certificate.accurate_to_hz.value_or(0.0);
   modes.fmax_hz =
-      options.fmax_hz > 0.0 ? options.fmax_hz : (stated ? claimed->second : reduced.valid_to_hz);
+      options.fmax_hz > 0.0 ? options.fmax_hz : (stated > 0.0 ? stated : reduced.valid_to_hz);
   return modes;
 }
 
@@ -193,8 +192,7 @@ Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
   Comparison out;
   out.rigid_full = a.modes.rigid;
   out.rigid_reduced = b.modes.rigid;
-  if (const auto at = reduced.certificate.find("accurate_to_hz"); at != reduced.certificate.end())
-    out.accurate_to_hz = at->second;
+  out.accurate_to_hz = reduced.certificate.accurate_to_hz.value_or(0.0);
   if (out.rigid_full != out.rigid_reduced) {
     throw NumericsError(fmt::format("{}: the full model has {} rigid modes, the reduced one {}",
                                     full.name, out.rigid_full, out.rigid_reduced));

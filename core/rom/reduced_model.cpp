@@ -237,7 +237,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   model.inertia = read_inertia_invariants(file, model.M_rr);
   model.mass = read_mass_properties(file);
   if (with_skin && file.has("skin")) model.skin = read_skin(file, size);
-  model.certificate = read_certificate(file);
+  model.certificate = read_certificate<ReducedCertificate>(file);
   if (model.n_boundary < 0 || model.n_boundary > size) {
     throw InputError(fmt::format("{}: n_boundary: found {}, expected 0 to {}", path.string(),
                                  model.n_boundary, size));

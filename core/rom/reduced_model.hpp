@@ -20,6 +20,7 @@
 #include "core/rom/damping_table.hpp"
 #include "core/rom/elimination_order.hpp"
 #include "core/rom/inertia_invariants.hpp"
+#include "core/rom/reduced_certificate.hpp"
 
 namespace clatter::rom {
 
@@ -90,7 +91,7 @@ struct ReducedModel {
   Eigen::MatrixXd combined;
   std::vector<std::string> recovered_sets;  // sets that were never coordinates
   EliminationOrder elimination;             // of K_ii; read_reduced_model leaves it empty
-  std::map<std::string, double> certificate;
+  ReducedCertificate certificate;
 
   int size() const { return static_cast<int>(M_rr.rows()); }
   /// Number of coordinates plus rows of `combined`: the range of DofSet::dofs.

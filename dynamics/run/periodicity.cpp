@@ -6,10 +6,9 @@
 
 namespace clatter::dynamics {
 
-std::map<std::string, double> cycle_difference(const Model& model, const UniformSamples& now,
-                                               const RowMatrix& eta_before,
-                                               const RowMatrix& v_before) {
-  std::map<std::string, double> result;
+CycleDifference cycle_difference(const Model& model, const UniformSamples& now,
+                                 const RowMatrix& eta_before, const RowMatrix& v_before) {
+  CycleDifference result;
   if (v_before.rows() != now.v().rows() || now.count() != now.v().rows()) return result;
   const auto& bodies = model.system.bodies();
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
@@ -17,7 +16,7 @@ std::map<std::string, double> cycle_difference(const Model& model, const Uniform
     const double all = now.v().middleCols(at, n).squaredNorm();
     const double difference =
         (now.v().middleCols(at, n) - v_before.middleCols(at, n)).squaredNorm();
-    result["periodicity_" + bodies[static_cast<size_t>(b)].name] =
+    result.velocity[bodies[static_cast<size_t>(b)].name] =
         all > 0.0 ? std::sqrt(difference / all) : 0.0;
   }
   if (model.pin_y < 0) return result;
@@ -28,8 +27,8 @@ std::map<std::string, double> cycle_difference(const Model& model, const Uniform
         model.secondary_motion(now.time(i), model.system.interface(change));
     largest = largest.cwiseMax(motion.cwiseAbs());
   }
-  result["periodicity_lateral"] = largest.x();
-  result["periodicity_tilt"] = largest.y();
+  result.lateral = largest.x();
+  result.tilt = largest.y();
   return result;
 }
 

@@ -109,15 +109,15 @@ void write_statistics(H5File& file, const StepStatistics& s) {
 
 }  // namespace
 
-std::map<std::string, double> run_certificate(const RunResult& result) {
-  std::map<std::string, double> numbers = result.periodicity;
-  numbers["energy_residue"] = result.energy_residue;
-  numbers["energy_exchanged"] = result.energy_exchanged;
-  numbers["complete"] = result.complete ? 1.0 : 0.0;
-  numbers["cycles"] = result.cycles;
+RunCertificate run_certificate(const RunResult& result) {
+  RunCertificate numbers{result.periodicity};
+  numbers.energy_residue = result.energy_residue;
+  numbers.energy_exchanged = result.energy_exchanged;
+  numbers.complete = result.complete ? 1.0 : 0.0;
+  numbers.cycles = result.cycles;
   const StepStatistics& s = result.statistics;
-  numbers["steps_accepted"] = static_cast<double>(s.accepted);
-  numbers["steps_rejected"] =
+  numbers.steps_accepted = static_cast<double>(s.accepted);
+  numbers.steps_rejected =
       static_cast<double>(s.rejected_error + s.rejected_newton + s.rejected_refused);
   return numbers;
 }

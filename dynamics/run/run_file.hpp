@@ -22,7 +22,7 @@ namespace clatter::dynamics {
 void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
                const RunResult& result);
 
-/// The certificate's values: energy_residue, periodicity, steps, rejections.
-std::map<std::string, double> run_certificate(const RunResult& result);
+/// The certificate of a run.
+RunCertificate run_certificate(const RunResult& result);
 
 }  // namespace clatter::dynamics

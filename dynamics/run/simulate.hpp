@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "dynamics/run/checkpoint.hpp"
 #include "dynamics/run/model.hpp"
 #include "dynamics/run/recorder.hpp"
+#include "dynamics/run/run_certificate.hpp"
 
 namespace clatter::dynamics {
 
@@ -20,12 +20,12 @@ struct RunResult {
   std::unique_ptr<Model> model;  // of the last cycle; its effects have the cost
   std::unique_ptr<Recorder> recorder;
   StepStatistics statistics;
-  int cycles = 0;                 // completed; 1 for a scene without an engine
-  bool complete = false;          // false: interrupted inside a cycle
-  std::string failure;            // why the integration failed; empty: it did not
-  double energy_residue = 0.0;    // of the reported cycle
-  double energy_exchanged = 0.0;  // [J]
-  std::map<std::string, double> periodicity;
+  int cycles = 0;                     // completed; 1 for a scene without an engine
+  bool complete = false;              // false: interrupted inside a cycle
+  std::string failure;                // why the integration failed; empty: it did not
+  double energy_residue = 0.0;        // of the reported cycle
+  double energy_exchanged = 0.0;      // [J]
+  CycleDifference periodicity;        // of the reported cycle
   std::vector<std::string> warnings;  // of accuracy_warnings(), in the reported cycle
 };
 

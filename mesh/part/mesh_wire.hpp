@@ -50,6 +50,12 @@ void wire(Archive& archive, Self& s) {
   archive(min_dihedral, max_dihedral, ratio, jacobian);
 }
 
+template <class Archive, SelfOf<MeshCertificate> Self>
+void wire(Archive& archive, Self& s) {
+  for (const auto& field : MeshCertificate::fields())
+    field.visit(s, [&](auto& value) { archive(value); });
+}
+
 template <class Archive, SelfOf<PartMesh> Self>
 void wire(Archive& archive, Self& s) {
   auto& [mesh, quality, certificate] = s;

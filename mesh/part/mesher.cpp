@@ -149,11 +149,11 @@ double cad_volume_of(const GmshSession& session, const PartGeometry& part) {
 // a fixed number of points on splines of any length, and has large errors on wavy ones.
 void certify_volume(GmshSession& session, const PartGeometry& part, const RawMesh& raw,
                     const BoundaryFaces& boundary, const SizeSettings& sizes,
-                    double metres_per_unit, std::map<std::string, double>& certificate) {
+                    double metres_per_unit, MeshCertificate& certificate) {
   const double cubed = metres_per_unit * metres_per_unit * metres_per_unit;
-  const double volume = certificate.at("volume_m3");
+  const double volume = certificate.volume_m3;
   double cad_volume = cubed * cad_volume_of(session, part);
-  certificate["occ_volume_m3"] = cad_volume;
+  certificate.occ_volume_m3 = cad_volume;
   if (std::abs(volume / cad_volume - 1.0) > kVolumeTolerance) {
     const double integrated = cubed * volume_of_finer_skin(session, raw, boundary, sizes);
     if (std::abs(volume / integrated - 1.0) > kVolumeTolerance)
@@ -167,8 +167,8 @@ void certify_volume(GmshSession& session, const PartGeometry& part, const RawMes
                     cad_volume, integrated));
     cad_volume = integrated;
   }
-  certificate["cad_volume_m3"] = cad_volume;
-  certificate["volume_against_cad"] = volume / cad_volume - 1.0;
+  certificate.cad_volume_m3 = cad_volume;
+  certificate.volume_against_cad = volume / cad_volume - 1.0;
 }
 
 }  // namespace
@@ -238,13 +238,13 @@ PartMesh mesh_part(GmshSession& session, const PartGeometry& part, const MeshSet
   result.certificate = certify_mesh(mesh, result.quality);
   check_solid_volumes(part, mesh, metres_per_unit, where);
   certify_volume(session, part, raw, boundary, sizes, metres_per_unit, result.certificate);
-  result.certificate["predicted_cells"] = predicted;
-  result.certificate["invalid_cells_before_repair"] = static_cast<double>(repair.invalid_before);
-  result.certificate["min_scaled_jacobian_before_repair"] = repair.min_ratio_before;
-  result.certificate["optimiser_repair"] = repair.optimised ? 1.0 : 0.0;
-  result.certificate["elastic_repair"] = repair.elastic ? 1.0 : 0.0;
-  result.certificate["nodes_off_geometry"] = static_cast<double>(repair.pulled);
-  result.certificate["largest_distance_off_geometry_m"] = repair.largest_pull;
+  result.certificate.predicted_cells = predicted;
+  result.certificate.invalid_cells_before_repair = static_cast<double>(repair.invalid_before);
+  result.certificate.min_scaled_jacobian_before_repair = repair.min_ratio_before;
+  result.certificate.optimiser_repair = repair.optimised ? 1.0 : 0.0;
+  result.certificate.elastic_repair = repair.elastic ? 1.0 : 0.0;
+  result.certificate.nodes_off_geometry = static_cast<double>(repair.pulled);
+  result.certificate.largest_distance_off_geometry_m = repair.largest_pull;
   return result;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Meshes a part's geometry and proves the mesh valid.
-#include <map>
 #include <string>
 
 #include "core/mesh/mesh.hpp"
 #include "mesh/geometry/part_geometry.hpp"
+#include "mesh/repair/mesh_certificate.hpp"
 #include "mesh/repair/poor_cells.hpp"
 #include "mesh/repair/quality.hpp"
 
@@ -38,7 +38,7 @@ QualityLimits aims_of(const MeshSettings& settings);
 struct PartMesh {
   Mesh mesh;
   QualityReport quality;
-  std::map<std::string, double> certificate;
+  MeshCertificate certificate;
 };
 
 /// Meshes the part with quadratic tetrahedra, removes slivers, unfolds and proves the curved cells,

@@ -142,7 +142,7 @@ MadePart make_part_in_child(const PartJob& job, const ChildLimits& limits) {
   };
   const auto made_of = [&](const ChildEnd& end, double simpler) {
     auto made = from_wire<MadePart>(end.result);
-    made.part.certificate["simpler_setting"] = simpler;
+    made.part.certificate.simpler_setting = simpler;
     return made;
   };
 

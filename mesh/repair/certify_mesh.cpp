@@ -15,7 +15,7 @@ constexpr double kClosedTolerance = 1e-10;  // relative; rounding of some 1e5 su
 
 }  // namespace
 
-std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport& quality) {
+MeshCertificate certify_mesh(const Mesh& mesh, const QualityReport& quality) {
   const Surface& skin = mesh.surface("skin");
   const SurfaceIntegrals closed = integrate(mesh, skin);
   const double volume = cell_volume(mesh);
@@ -29,19 +29,19 @@ std::map<std::string, double> certify_mesh(const Mesh& mesh, const QualityReport
         "thin",
         against_surface, open, inward));
   }
-  return {{"cells", static_cast<double>(mesh.cell_count())},
-          {"nodes", static_cast<double>(mesh.nodes.rows())},
-          {"dofs", 3.0 * static_cast<double>(mesh.nodes.rows())},
-          {"volume_m3", volume},
-          {"volume_against_surface_integral", against_surface},
-          {"closed_surface_residue", open},
-          {"inward_normals", inward},
-          {"skin_area_m2", closed.area},
-          {"invalid_cells", 0.0},
-          {"min_scaled_jacobian", quality.scaled_jacobian.worst},
-          {"min_dihedral_deg", quality.min_dihedral_deg.worst},
-          {"max_dihedral_deg", quality.max_dihedral_deg.worst},
-          {"min_radius_ratio", quality.radius_ratio.worst}};
+  return {.cells = static_cast<double>(mesh.cell_count()),
+          .nodes = static_cast<double>(mesh.nodes.rows()),
+          .dofs = 3.0 * static_cast<double>(mesh.nodes.rows()),
+          .volume_m3 = volume,
+          .volume_against_surface_integral = against_surface,
+          .closed_surface_residue = open,
+          .inward_normals = inward,
+          .skin_area_m2 = closed.area,
+          .invalid_cells = 0.0,
+          .min_scaled_jacobian = quality.scaled_jacobian.worst,
+          .min_dihedral_deg = quality.min_dihedral_deg.worst,
+          .max_dihedral_deg = quality.max_dihedral_deg.worst,
+          .min_radius_ratio = quality.radius_ratio.worst};
 }
 
 }  // namespace clatter::mesh

@@ -97,11 +97,11 @@ std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const Q
                      effect_text(poor));
 }
 
-void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certificate) {
-  certificate["poor_cells"] = static_cast<double>(poor.cells);
-  certificate["poor_cells_below_floor"] = static_cast<double>(poor.below_floor);
-  certificate["poor_cells_volume_share"] = poor.volume_share;
-  certificate["poor_cells_frequency_effect"] = poor.frequency_effect;
+void note_poor_cells(const PoorCells& poor, MeshCertificate& certificate) {
+  certificate.poor_cells = static_cast<double>(poor.cells);
+  certificate.poor_cells_below_floor = static_cast<double>(poor.below_floor);
+  certificate.poor_cells_volume_share = poor.volume_share;
+  certificate.poor_cells_frequency_effect = poor.frequency_effect;
 }
 
 void check_poor_cells(const PoorCells& poor, const Mesh& mesh, const QualityLimits& aims,

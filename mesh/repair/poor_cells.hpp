@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Cells below the target quality: where they are, their effect, and when they are refused.
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/mesh/mesh.hpp"
+#include "mesh/repair/mesh_certificate.hpp"
 #include "mesh/repair/quality.hpp"
 
 namespace clatter::mesh {
@@ -49,7 +49,7 @@ std::string describe_poor_cells(const PoorCells& poor, const Mesh& mesh, const Q
 
 /// For the certificate: poor_cells, poor_cells_below_floor, poor_cells_volume_share,
 /// poor_cells_frequency_effect.
-void note_poor_cells(const PoorCells& poor, std::map<std::string, double>& certificate);
+void note_poor_cells(const PoorCells& poor, MeshCertificate& certificate);
 
 /// Warns of poor cells. NumericsError when some are below kQualityFloor and `accept` is false;
 /// gives their positions and the remedies.

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "assembly/model/fe_certificate.hpp"
 #include "block_mesh.hpp"
 #include "core/base/artefact.hpp"
 #include "core/fe/fe_model.hpp"
@@ -70,7 +71,7 @@ TEST_F(AssemblyCommand, WritesAModelWithCertificateInputsAndTiming) {
   const fe::FeModel model = fe::read_fe_model(folder_ / "part.fe.h5");
   EXPECT_NEAR(model.mass.mass, 7800.0 * 0.002, 1e-10);
   const H5File file = H5File::open(folder_ / "part.fe.h5");
-  EXPECT_LT(read_certificate(file).at("mass_error"), 1e-9);
+  EXPECT_LT(read_certificate<FeCertificate>(file).mass_error.value(), 1e-9);
   EXPECT_TRUE(file.has("timing"));
   EXPECT_TRUE(file.has("inputs"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "part.d"));

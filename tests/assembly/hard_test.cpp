@@ -153,10 +153,10 @@ mesh::Mesh shifted_ring() {
 /// Ten mass properties are right, nothing of the mesh and the masses `added` [kg] is lost, and M is
 /// definite although some masses have no or little rotary inertia.
 void expect_mass_kept(const BuiltModel& built, const mesh::Mesh& mesh, double added) {
-  EXPECT_LT(built.certificate.at("mass_error"), 1e-9);
-  EXPECT_LT(built.certificate.at("centre_error"), 1e-9);
-  EXPECT_LT(built.certificate.at("inertia_error"), 1e-9);
-  EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
+  EXPECT_LT(built.certificate.mass_error.value(), 1e-9);
+  EXPECT_LT(built.certificate.centre_error.value(), 1e-9);
+  EXPECT_LT(built.certificate.inertia_error.value(), 1e-9);
+  EXPECT_LT(built.certificate.rigid_force_residue.value(), 1e-10);
   const double of_mesh = integrate_mass(mesh, materials_of(mesh)).mass;
   EXPECT_NEAR(built.model.mass.mass, of_mesh + added, 1e-12);
   EXPECT_EQ(full(built.model.M).llt().info(), Eigen::Success);

@@ -122,10 +122,10 @@ slave = "a_y1"
 master = "b_y0"
 distance = 0.002
 )");
-  EXPECT_LT(built.certificate.at("rigid_recovery_error"), 1e-11);
-  EXPECT_LT(built.certificate.at("rigid_force_residue"), 1e-10);
-  EXPECT_LT(built.certificate.at("mass_error"), 1e-9);
-  EXPECT_LT(built.certificate.at("inertia_error"), 1e-9);
+  EXPECT_LT(built.certificate.rigid_recovery_error.value(), 1e-11);
+  EXPECT_LT(built.certificate.rigid_force_residue.value(), 1e-10);
+  EXPECT_LT(built.certificate.mass_error.value(), 1e-9);
+  EXPECT_LT(built.certificate.inertia_error.value(), 1e-9);
   EXPECT_EQ(full(built.model.M).llt().info(), Eigen::Success);
   // One body: six rigid motions and no more.
   const Eigen::VectorXd hz = free_hz(built.model, 8);

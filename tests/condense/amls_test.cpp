@@ -59,20 +59,20 @@ TEST(CondenseByAmls, FrequenciesAreThoseOfBlockLanczosFromAbove) {
   const double accuracy = options.modes.accuracy = 2e-3;
   const rom::ReducedModel amls = reduce(options);
   const auto& c = amls.certificate;
-  ASSERT_TRUE(c.contains("eigen_frequency_error"));  // AMLS was used
-  EXPECT_FALSE(exact.certificate.contains("eigen_frequency_error"));
-  EXPECT_LE(c.at("eigen_frequency_error"), accuracy);
+  ASSERT_TRUE(c.eigen_frequency_error.has_value());  // AMLS was used
+  EXPECT_FALSE(exact.certificate.eigen_frequency_error.has_value());
+  EXPECT_LE(c.eigen_frequency_error.value(), accuracy);
 
   const VectorXd interior =
       (amls.fixed_interface_hz - exact.fixed_interface_hz).cwiseQuotient(exact.fixed_interface_hz);
   EXPECT_GT(interior.minCoeff(), -1e-9);  // negative only by rounding
   EXPECT_LT(interior.maxCoeff(), accuracy);
   EXPECT_GT(interior.maxCoeff(), 1e-8);  // the error is not trivial
-  EXPECT_GT(c.at("eigen_residual_max"), 10.0 * exact.certificate.at("eigen_residual_max"));
+  EXPECT_GT(c.eigen_residual_max.value(), 10.0 * exact.certificate.eigen_residual_max.value());
 
-  const VectorXd body = elastic_hz(amls, c.at("cutoff_hz"));
+  const VectorXd body = elastic_hz(amls, c.cutoff_hz.value());
   ASSERT_GT(body.size(), 10);
-  const VectorXd other = elastic_hz(exact, 2.0 * c.at("cutoff_hz")).head(body.size());
+  const VectorXd other = elastic_hz(exact, 2.0 * c.cutoff_hz.value()).head(body.size());
   sparse::EigenOptions all;
   all.count = kRigid + static_cast<int>(body.size());
   const VectorXd full =
@@ -88,7 +88,7 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   CondenseOptions options = by(EigenMethod::kAmls, 40);
   options.modes.accuracy = 0.1;
   const rom::ReducedModel counted = reduce(options);
-  EXPECT_LE(counted.certificate.at("cutoff_hz"), counted.fixed_interface_hz[39]);
+  EXPECT_LE(counted.certificate.cutoff_hz.value(), counted.fixed_interface_hz[39]);
   const VectorXd rough = counted.fixed_interface_hz;
   Index worst = 0;  // the mode with the largest error, separated from the next
   for (Index j = 0; j < 39; ++j)
@@ -98,9 +98,9 @@ TEST(CondenseByAmls, ACutOffWithinTheErrorOfAFrequencyIsNotSaidToBeProved) {
   options.modes.fmax_hz = exact[worst] + 0.02 * (rough[worst] - exact[worst]);
   const rom::ReducedModel reduced = reduce(options);
   const auto& c = reduced.certificate;
-  EXPECT_EQ(c.at("count_proved"), 0.0);
-  EXPECT_EQ(c.at("count_below"), static_cast<double>(worst + 1));
-  EXPECT_EQ(c.at("fixed_interface_modes"), static_cast<double>(worst + 1));
+  EXPECT_EQ(c.count_proved.value(), 0.0);
+  EXPECT_EQ(c.count_below.value(), static_cast<double>(worst + 1));
+  EXPECT_EQ(c.fixed_interface_modes.value(), static_cast<double>(worst + 1));
   std::string text;
   for (const std::string& line : describe(reduced)) text += line + "\n";
   EXPECT_NE(text.find("number is not proved"), std::string::npos) << text;

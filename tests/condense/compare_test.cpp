@@ -71,7 +71,7 @@ TEST(Compare, ByDefaultGoesAsFarAsTheModelClaims) {
   const rom::ReducedModel reduced = reduce(model, 9000.0);
   const modes::Comparison result = modes::compare(model, reduced, {});
   modes::ModesOptions claimed;
-  claimed.fmax_hz = reduced.certificate.at("accurate_to_hz");
+  claimed.fmax_hz = reduced.certificate.accurate_to_hz.value();
   EXPECT_EQ(static_cast<int>(result.modes.size()), modes::analyse(model, claimed).modes.size() - 6);
   EXPECT_TRUE(result.without_stated_error().modes.empty());
 }
@@ -182,7 +182,7 @@ TEST_F(InFolder, CommandsReduceAndCompareAModel) {
   const rom::ReducedModel reduced = rom::read_reduced_model(rom);
   EXPECT_EQ(reduced.method, "craig-bampton");
   EXPECT_EQ(reduced.valid_to_hz, 9000.0);
-  EXPECT_EQ(reduced.certificate.at("rigid_modes"), 6.0);
+  EXPECT_EQ(reduced.certificate.rigid_modes.value(), 6.0);
   ASSERT_EQ(call("clatter-modal --compare " + fe + " " + rom), 0) << log();
   EXPECT_NE(log().find("MAC"), std::string::npos) << log();
   EXPECT_EQ(call("clatter-modal --compare " + fe + " " + rom + " --fmax-hz 100"), 3) << log();

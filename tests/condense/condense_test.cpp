@@ -38,7 +38,7 @@ rom::ReducedModel reduce(const fe::FeModel& model, const CondenseOptions& option
 
 /// Free modes of the reduced model, with a shift below the first elastic one.
 sparse::EigenResult reduced_modes(const rom::ReducedModel& reduced) {
-  const double first = reduced.certificate.at("first_elastic_hz");
+  const double first = reduced.certificate.first_elastic_hz.value();
   return sparse::solve_dense(reduced.K_rr, reduced.M_rr, -0.1 * sparse::value_of_hz(first));
 }
 
@@ -100,11 +100,11 @@ TEST(CraigBamptonTest, ResidualModesRemoveTheErrorThatTheEstimateNames) {
     double largest = 0.0;
     for (Eigen::Index j = 6; sparse::hz_of_value(full[j]) < 0.5 * options.modes.fmax_hz; ++j)
       largest = std::max(largest, std::sqrt(small[j] / full[j]) - 1.0);
-    const double estimate = reduced.certificate.at("frequency_error_estimate");
+    const double estimate = reduced.certificate.frequency_error_estimate.value();
     // First order in the error, for modes up to half of the cut-off: (f / f_cut)^2 = 1/4 is left.
     EXPECT_NEAR(estimate, largest, 0.4 * largest + 1e-9) << target;
     (target == 0.0 ? without : with) = largest;
-    EXPECT_EQ(reduced.certificate.at("residual_modes") > 0.0, target > 0.0);
+    EXPECT_EQ(reduced.certificate.residual_modes.value() > 0.0, target > 0.0);
   }
   EXPECT_LT(with, 1.4e-5);
   EXPECT_GT(without, 10.0 * with);
@@ -200,9 +200,9 @@ TEST(CertificateTest, MassPropertiesOfARigidMassMatrixAreItsOwn) {
 TEST(CertificateTest, SaysWhetherTheCountWasProved) {
   const auto model = box_model();
   CondenseOptions options = options_for({"left", "right"}, 10);
-  EXPECT_EQ(reduce(model, options).certificate.at("count_proved"), 1.0);
+  EXPECT_EQ(reduce(model, options).certificate.count_proved.value(), 1.0);
   options.modes.prove_count = false;
-  EXPECT_EQ(reduce(model, options).certificate.at("count_proved"), 0.0);
+  EXPECT_EQ(reduce(model, options).certificate.count_proved.value(), 0.0);
 }
 
 TEST(BadInput, UnknownSetsAndSurfacesNameThosePresent) {

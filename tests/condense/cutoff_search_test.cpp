@@ -54,12 +54,12 @@ TEST(CutOffSearchTest, EveryModeBelowTheWantedFrequencyMeetsTheTarget) {
       for (Eigen::Index j = 6; j < 30; ++j)
         EXPECT_LT(std::sqrt(found[j] / full[j]) - 1.0, target) << method << " mode " << j;
       const auto& c = reduced.certificate;
-      EXPECT_EQ(c.at("accurate_to_hz"), wanted_hz);
-      EXPECT_EQ(c.at("frequency_error_target"), target);
-      EXPECT_LE(c.at("frequency_error_bound"), target);
-      EXPECT_GE(c.at("cutoffs_tried"), 1.0);
+      EXPECT_EQ(c.accurate_to_hz.value(), wanted_hz);
+      EXPECT_EQ(c.frequency_error_target.value(), target);
+      EXPECT_LE(c.frequency_error_bound.value(), target);
+      EXPECT_GE(c.cutoffs_tried.value(), 1.0);
       const double first = method == "craig-chang" ? wanted_hz : 1.5 * wanted_hz;
-      EXPECT_NEAR(c.at("cutoff_hz"), first * std::pow(1.25, c.at("cutoffs_tried") - 1.0),
+      EXPECT_NEAR(c.cutoff_hz.value(), first * std::pow(1.25, c.cutoffs_tried.value() - 1.0),
                   1e-9 * first);
     }
 }

@@ -73,7 +73,7 @@ TEST(LoadShapes, MakeTheStaticAnswerExactAtEverySkinNode) {
   const auto model = pushed_box();
   for (const std::string method : {"craig-bampton", "guyan", "craig-chang"}) {
     const rom::ReducedModel with = reduce(model, {"left", "right"}, {"push", "pull"}, method);
-    EXPECT_EQ(with.certificate.at("load_shapes"), 2.0);
+    EXPECT_EQ(with.certificate.load_shapes.value(), 2.0);
     EXPECT_LT(skin_error(model, with, "push"), 1e-9) << method;
     EXPECT_LT(skin_error(model, with, "pull"), 1e-9) << method;
   }
@@ -120,8 +120,8 @@ TEST(LoadShapes, ThatDependOnOthersAreDroppedAndCounted) {
   model.loads["at_boundary"] = at_boundary;
   const rom::ReducedModel reduced =
       reduce(model, {"left", "right"}, {"push", "at_boundary", "pull", "twice"}, "craig-bampton");
-  EXPECT_EQ(reduced.certificate.at("load_shapes"), 2.0);
-  EXPECT_EQ(reduced.certificate.at("dropped_vectors"), 2.0);
+  EXPECT_EQ(reduced.certificate.load_shapes.value(), 2.0);
+  EXPECT_EQ(reduced.certificate.dropped_vectors.value(), 2.0);
   EXPECT_LT(skin_error(model, reduced, "twice"), 1e-9);
 }
 

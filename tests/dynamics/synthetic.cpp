@@ -78,7 +78,7 @@ struct Assembly {
     model.mass.inertia = G.bottomRightCorner(3, 3);
     model.valid_to_hz = 3000.0;
     model.fixed_interface_hz.resize(0);
-    model.certificate["rigid_body_residue"] = 0.0;
+    model.certificate.rigid_stiffness_residue = 0.0;
     return model;
   }
 

@@ -68,8 +68,8 @@ TEST(Features, HardG2_CrossingBoresAreUnfoldedByHighOrderWhereNoFinerCellsAreAll
   settings.element_size = 8e-3;
   settings.refine_passes = 0;
   const PartMesh made = mesh_part(session, part, settings, 1e-3, "gallery", "gallery");
-  EXPECT_EQ(made.certificate.at("optimiser_repair"), 1.0);
-  EXPECT_GT(made.certificate.at("min_scaled_jacobian"), kQualityFloor.scaled_jacobian);
+  EXPECT_EQ(made.certificate.optimiser_repair.value(), 1.0);
+  EXPECT_GT(made.certificate.min_scaled_jacobian, kQualityFloor.scaled_jacobian);
 }
 
 TEST(Features, ASizeAboveATenthOfTheDiagonalIsReported) {

@@ -111,7 +111,7 @@ TEST(Gmsh, HardG2_FoldedCellsInAThinCurvedWallAreFoundAndRepaired) {
   EXPECT_TRUE(check_validity(as_mesh()).invalid.empty());
 
   const PartMesh whole = mesh_part(session, part, coarse(20, 0), 1e-3, "g2", "g2");
-  EXPECT_GT(whole.certificate.at("min_scaled_jacobian"), 0.0);
+  EXPECT_GT(whole.certificate.min_scaled_jacobian, 0.0);
 }
 
 TEST(Gmsh, HardG3_MidSideNodesOfAStraightBoxLieInTheMiddle) {
@@ -131,8 +131,8 @@ TEST(Gmsh, HardG4_NoSolidIsLostBetweenCadAndMesh) {
   const double liner = pi * (0.0605 * 0.0605 - 0.0535 * 0.0535) * 0.230;
   // Quadratic facets of 22.5 degrees are off by about 1e-4 of a wall's thickness squared.
   EXPECT_NEAR(m.volume("liner") / liner, 1.0, 1e-4);
-  EXPECT_NEAR(m.volume("block") + m.volume("liner"), m.part.certificate.at("cad_volume_m3"),
-              1e-4 * m.part.certificate.at("cad_volume_m3"));
+  EXPECT_NEAR(m.volume("block") + m.volume("liner"), m.part.certificate.cad_volume_m3.value(),
+              1e-4 * m.part.certificate.cad_volume_m3.value());
   for (const char* name : {"liner_1_bore", "head_1", "bearing_1", "bearing_2", "mount_1", "mount_4",
                            "pan_flange", "deck", "outer", "skin"}) {
     EXPECT_GT(m.part.mesh.surface(name).face_count(), 0) << name;
@@ -253,9 +253,9 @@ TEST(Gmsh, HardG8_SmallestDihedralAngleIsAtLeastEightDegrees) {
 
 TEST(Gmsh, HardG9_SurfaceIntegralGivesTheVolumeAndNormalsPointOut) {
   const auto c = mesh_toml(kOneCylinder).part.certificate;
-  EXPECT_LT(c.at("volume_against_surface_integral"), 1e-12);  // rounding of 1e4 sums
-  EXPECT_LT(c.at("closed_surface_residue"), 1e-12);
-  EXPECT_EQ(c.at("inward_normals"), 0.0);
+  EXPECT_LT(c.volume_against_surface_integral, 1e-12);  // rounding of 1e4 sums
+  EXPECT_LT(c.closed_surface_residue, 1e-12);
+  EXPECT_EQ(c.inward_normals, 0.0);
 }
 
 // gmsh_call.hpp refuses to compile against another major version or one before 4.8; what runs is

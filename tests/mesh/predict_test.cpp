@@ -31,7 +31,7 @@ TEST(Predict, CellsWithinAFactorOfTwo) {
       "[mesh]\nelement_size_mm = 6\n"};
   for (const std::string& part : parts) {
     const auto certificate = mesh_toml(part).part.certificate;
-    const double ratio = certificate.at("predicted_cells") / certificate.at("cells");
+    const double ratio = certificate.predicted_cells.value() / certificate.cells;
     EXPECT_GT(ratio, 0.5) << part;
     EXPECT_LT(ratio, 2.0) << part;
   }

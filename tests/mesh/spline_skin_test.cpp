@@ -80,13 +80,13 @@ TEST(HardG2SplineSkin, MeshesIntoCellsProvedValid) {
   const double volume = 1e-9 * write_wavy_block(file);
   const Meshed m = mesh_toml(block_toml(file, 4.0));
   const auto& proof = m.part.certificate;
-  EXPECT_GT(proof.at("invalid_cells_before_repair"), 0.0);
-  EXPECT_GT(proof.at("min_scaled_jacobian"), 0.05);
-  EXPECT_GE(proof.at("min_dihedral_deg"), 8.0);
-  EXPECT_NEAR(proof.at("volume_m3") / volume, 1.0, 3e-4);  // chords of 4 mm
-  EXPECT_LT(proof.at("largest_distance_off_geometry_m"), 1e-4);
+  EXPECT_GT(proof.invalid_cells_before_repair.value(), 0.0);
+  EXPECT_GT(proof.min_scaled_jacobian, 0.05);
+  EXPECT_GE(proof.min_dihedral_deg, 8.0);
+  EXPECT_NEAR(proof.volume_m3 / volume, 1.0, 3e-4);  // chords of 4 mm
+  EXPECT_LT(proof.largest_distance_off_geometry_m.value(), 1e-4);
   // OpenCASCADE's integral over the spline is far off: the mesher uses a finer skin.
-  EXPECT_GT(std::abs(proof.at("occ_volume_m3") / volume - 1.0), 0.01);
+  EXPECT_GT(std::abs(proof.occ_volume_m3.value() / volume - 1.0), 0.01);
 }
 
 }  // namespace

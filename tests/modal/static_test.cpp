@@ -12,6 +12,7 @@
 #include "block_mesh.hpp"
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
+#include "modal/certificates.hpp"
 #include "small_solver.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
@@ -375,7 +376,7 @@ TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {
   EXPECT_LT((u.row(7).transpose() - want.displacement.segment<3>(21)).norm(), 1e-15);
   EXPECT_LT((file.read_matrix("cases/both/support_sums") - want.support_sums).norm(),
             1e-9 * want.support_sums.norm());
-  EXPECT_LT(read_certificate(file).at("balance_max"), 1e-9);
+  EXPECT_LT(read_certificate<StaticCertificate>(file).balance_max, 1e-9);
   EXPECT_EQ(run("bar.fe.h5 --static --case nothing -o other.static.h5"), 2);
   EXPECT_EQ(run("bar.fe.h5 --static"), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "other.static.h5"));

@@ -29,12 +29,10 @@ class Document:
         every = sections["Common content"]
         self.attributes = set(words(own)) | set(words(every))
         self.paths, self.certificate = set(), set()
-        tables = own.split("| `certificate` | |\n|---|---|\n")
+        tables = own.split("| `certificate` | unit | content |\n|---|---|---|\n")
         self.read(tables[0] + "".join(table.partition("\n\n")[2] for table in tables[1:]))
         for table in tables[1:]:
-            self.certificate |= set(words(table.partition("\n\n")[0]))
-        if "| `certificate` |" in tables[0]:
-            self.certificate |= set(words(re.search(r"\| `certificate` .*", tables[0])[0]))
+            self.certificate |= {words(row)[0] for row in table.partition("\n\n")[0].splitlines()}
         self.read(every)
 
     def read(self, text):

@@ -159,10 +159,11 @@ TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
   EXPECT_EQ(time.size(), file.list("frames/velocity").size());
   EXPECT_EQ(file.get_string("analysis/cycle/panels/skin/erp", "unit"), "W");
   EXPECT_NE(file.get_string("/", "phase").find("exp(+i 2 pi f t)"), std::string::npos);
-  EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), 0.0, 1e-9);
-  EXPECT_NEAR(file.get_double("certificate", "cycle_end_velocity_jump"), 0.0, 1e-9);
-  EXPECT_EQ(file.get_double("certificate", "run_complete"), 1.0);
-  EXPECT_NEAR(file.get_double("certificate", "mean_square_share_above_spectra"), 0.0, 1e-9);
+  const auto proved = read_certificate<FieldCertificate>(file);
+  EXPECT_NEAR(proved.cycle_to_cycle_velocity_difference.value(), 0.0, 1e-9);
+  EXPECT_NEAR(proved.cycle_end_velocity_jump.value(), 0.0, 1e-9);
+  EXPECT_EQ(proved.run_complete, 1.0);
+  EXPECT_NEAR(proved.mean_square_share_above_spectra.value(), 0.0, 1e-9);
   std::filesystem::remove_all(folder);
 }
 
@@ -199,10 +200,10 @@ TEST(FieldFile, CertificateShowsAMotionThatDoesNotRepeatAndWhatLiesAboveTheSpect
   const H5File file = open_artefact(recover_file(run, "[spectrum]\nto_hz = 1000\n"), kFieldSchema);
   // v has constant magnitude w and rotates by a quarter over a cycle (0.25 of 2 pi): |jump| =
   // sqrt(2) w.
-  EXPECT_NEAR(file.get_double("certificate", "cycle_end_velocity_jump"), std::sqrt(2.0), 1e-9);
-  EXPECT_NEAR(file.get_double("certificate", "cycle_to_cycle_velocity_difference"), std::sqrt(2.0),
-              1e-9);
-  const double leaked = file.get_double("certificate", "mean_square_share_above_spectra");
+  const auto proved = read_certificate<FieldCertificate>(file);
+  EXPECT_NEAR(proved.cycle_end_velocity_jump.value(), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(proved.cycle_to_cycle_velocity_difference.value(), std::sqrt(2.0), 1e-9);
+  const double leaked = proved.mean_square_share_above_spectra.value();
   EXPECT_GT(leaked, 1e-5);
   EXPECT_LT(leaked, 0.02);
   std::filesystem::remove_all(folder);

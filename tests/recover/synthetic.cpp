@@ -143,7 +143,7 @@ rom::ReducedModel model_on(const Mesh6& mesh, const RowMatrix& T, double valid_t
   model.rigid = Eigen::MatrixXd::Zero(r, 6);
   model.mass.mass = 1.0;
   model.valid_to_hz = valid_to_hz;
-  model.certificate["certified"] = 1.0;
+  model.certificate.certified = 1.0;
   model.skin = {mesh.nodes, mesh.triangles, T};
   rom::DofSet sensor;
   sensor.kind = "sensor";

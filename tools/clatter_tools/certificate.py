@@ -4,7 +4,7 @@ import numpy as np
 
 from . import artefact
 
-# (group, rows of (key, format, meaning))
+# (group, rows of (key, format with unit, meaning)); units and meanings are those of the table in docs/formats.md.
 GROUPS = [
     ("rigid motions and mass", [
         ("rigid_modes", "{:.0f}", "zero modes, as many as the body has free motions"),
@@ -35,8 +35,8 @@ GROUPS = [
         ("frequency_error_modes", "{:.0f}", "own elastic modes used for both estimates"),
         ("frequency_error_target", "{:.2e}", "requested accuracy"),
         ("frequency_error_bound", "{:.2e}", "bound for the chosen cut-off"),
-        ("rows_added_error", "{:.1e}", "rows added later: difference of the recomputed basis"),
         ("cutoffs_tried", "{:.0f}", "cut-offs tried to find it"),
+        ("rows_added_error", "{:.1e}", "rows added later: difference of the recomputed basis"),
         ("verified_to_hz", "{:.1f} Hz", "compared with modes of the full model up to here"),
         ("verified_modes", "{:.0f}", "elastic modes compared"),
         ("verified_frequency_error", "{:.2e}", "largest relative error of a frequency found"),

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -242,18 +243,22 @@ TEST(HardN17_ChildProcess, NoCoreFileIsWrittenAndTheParentsStateStays) {
 TEST(Wire, ValuesComeBackAndBytesThatEndEarlyAreRefused) {
   std::map<std::string, std::vector<double>> map = {{"a", {1.0 / 3.0, -0.0}}, {"", {}}};
   Eigen::MatrixXd matrix = test::random_matrix(3, 4);
+  const std::optional<double> some = 1.0 / 3.0, none;
   const std::pair<int, std::string> both = {7, "x"};
   WireWriter writer;
-  writer(map, matrix, both);
+  writer(map, matrix, some, none, both);
   const std::string bytes = writer.take();
   const auto read = [&](const std::string& from) {
     std::map<std::string, std::vector<double>> map_again;
     Eigen::MatrixXd matrix_again;
+    std::optional<double> some_again, none_again = 1.0;
     std::pair<int, std::string> both_again;
     WireReader reader(from);
-    reader(map_again, matrix_again, both_again);
+    reader(map_again, matrix_again, some_again, none_again, both_again);
     EXPECT_EQ(map, map_again);
     EXPECT_EQ(matrix, matrix_again);
+    EXPECT_EQ(some, some_again);
+    EXPECT_EQ(none, none_again);
     EXPECT_EQ(both, both_again);
   };
   read(bytes);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/model/fe_certificate.hpp"
+
+namespace clatter::assembly {
+
+const std::vector<CertificateField<FeCertificate>>& FeCertificate::fields() {
+  using C = FeCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"dofs", &C::dofs, "", "number of DoFs, n"},
+      {"dofs_fixed", &C::dofs_fixed, "", "coordinates held by supports"},
+      {"dofs_pivot", &C::dofs_pivot, "", "coordinates eliminated by couplings"},
+      {"held_dofs", &C::held_dofs, "", "rows of an imported matrix held by 1e30"},
+      {"nonzeros_K", &C::nonzeros_K, "", "stored entries of K"},
+      {"nonzeros_M", &C::nonzeros_M, "", "stored entries of M"},
+      {"nonzeros_T", &C::nonzeros_T, "", "stored entries of T"},
+      {"largest_T_entry", &C::largest_T_entry, "",
+       "largest entry of T between displacements; a large one: couplings lie close to one another"},
+      {"rigid_motions_held_by_equations", &C::rigid_motions_held_by_equations, "",
+       "rigid motions constrained by equations"},
+      {"rigid_recovery_error", &C::rigid_recovery_error, "",
+       "error of T for the other rigid motions R, relative"},
+      {"rigid_force_residue", &C::rigid_force_residue, "",
+       "|K R| / (|K| |R|) of them; up to 1e-9 is accepted in an assembled model"},
+      {"mass_error", &C::mass_error, "",
+       "mass of a free part, R^T M R against the sum over the elements, relative"},
+      {"centre_error", &C::centre_error, "",
+       "the same of the centre of mass, over the radius of gyration"},
+      {"inertia_error", &C::inertia_error, "", "the same of the inertia, over its trace"}};
+  return list;
+}
+
+}  // namespace clatter::assembly

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/rom/reduced_certificate.hpp"
+
+namespace clatter::rom {
+
+const std::vector<CertificateField<ReducedCertificate>>& ReducedCertificate::fields() {
+  using C = ReducedCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"certified", &C::certified, "", "0: condensed with --no-certificate"},
+      {"rigid_modes", &C::rigid_modes, "", "zero modes, as many as the body has free motions"},
+      {"rigid_stiffness_residue", &C::rigid_stiffness_residue, "",
+       "|K_rr r| / (|K_rr| |r|) of a rigid motion r; up to 1e-10 is accepted"},
+      {"rigid_shape_error", &C::rigid_shape_error, "",
+       "rigid motions by the constraint modes, before they were restored"},
+      {"mass_error", &C::mass_error, "",
+       "ten mass properties against the full matrices; up to 1e-9 is accepted"},
+      {"mass_error_elements", &C::mass_error_elements, "",
+       "the same against the sum over the elements"},
+      {"inertia_invariants_error", &C::inertia_invariants_error, "",
+       "inertia invariants against M_rr and the rigid motions"},
+      {"fixed_interface_modes", &C::fixed_interface_modes, "", "modes with the boundary held"},
+      {"own_modes", &C::own_modes, "", "modes of the body itself"},
+      {"load_shapes", &C::load_shapes, "", "static shapes of load cases"},
+      {"residual_modes", &C::residual_modes, "", "vectors that represent the truncated modes"},
+      {"eigen_residual_max", &C::eigen_residual_max, "", "largest residual of a mode"},
+      {"eigen_frequency_error", &C::eigen_frequency_error, "",
+       "largest estimated relative error of its frequency, by AMLS"},
+      {"modal_mass_error", &C::modal_mass_error, "", "modal masses against 1"},
+      {"dropped_vectors", &C::dropped_vectors, "", "dependent vectors removed"},
+      {"count_proved", &C::count_proved, "", "no mode is missing, by the inertia count below"},
+      {"count_below", &C::count_below, "", "modes below the limit by inertia"},
+      {"count_limit_hz", &C::count_limit_hz, "Hz", "the limit of the count"},
+      {"cutoff_hz", &C::cutoff_hz, "Hz", "all modes up to here are in the basis"},
+      {"accurate_to_hz", &C::accurate_to_hz, "Hz", "the errors below hold up to here"},
+      {"frequency_error_estimate", &C::frequency_error_estimate, "",
+       "largest estimated relative error of the body's own frequencies"},
+      {"frequency_error_joined", &C::frequency_error_joined, "",
+       "the same without residual modes: for a body joined to others"},
+      {"frequency_error_modes", &C::frequency_error_modes, "",
+       "own elastic modes used for both estimates"},
+      {"frequency_error_target", &C::frequency_error_target, "", "requested accuracy"},
+      {"frequency_error_bound", &C::frequency_error_bound, "", "bound for the chosen cut-off"},
+      {"cutoffs_tried", &C::cutoffs_tried, "", "cut-offs tried to find it"},
+      {"rows_added_error", &C::rows_added_error, "",
+       "rows added later: difference of the recomputed basis"},
+      {"verified_to_hz", &C::verified_to_hz, "Hz",
+       "compared with modes of the full model up to here"},
+      {"verified_modes", &C::verified_modes, "", "elastic modes compared"},
+      {"verified_frequency_error", &C::verified_frequency_error, "",
+       "largest relative error of a frequency found"},
+      {"verified_mac", &C::verified_mac, "", "smallest MAC found"},
+      {"interface_coordinates", &C::interface_coordinates, "",
+       "boundary coordinates before they were reduced"},
+      {"interface_modes", &C::interface_modes, "", "characteristic constraint modes kept"},
+      {"interface_cutoff_hz", &C::interface_cutoff_hz, "Hz",
+       "the lowest omitted one; 0: none omitted, or weighted by area"},
+      {"interface_frequency_error", &C::interface_frequency_error, "",
+       "largest frequency error due to this reduction"},
+      {"interface_film_work_error", &C::interface_film_work_error, "",
+       "error of the work of a film's pressure"},
+      {"condition_M_rr", &C::condition_M_rr, "", "condition of M_rr with unit diagonal"},
+      {"first_elastic_hz", &C::first_elastic_hz, "Hz", "first elastic mode of (K_rr, M_rr)"},
+      {"max_frequency_hz", &C::max_frequency_hz, "Hz",
+       "highest mode: an explicit step must resolve it"},
+      {"K_ii_rcond", &C::K_ii_rcond, "", "ratio of the pivots of K_ii"},
+      {"K_ii_probe_residual", &C::K_ii_probe_residual, "", "residual of a random solve with K_ii"},
+      {"<other>", &C::other, "", "numbers of another version"}};
+  return list;
+}
+
+}  // namespace clatter::rom

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/run_certificate.hpp"
+
+#include <fmt/format.h>
+
+namespace clatter::dynamics {
+
+const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
+  using C = RunCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"energy_residue", &C::energy_residue, "", "largest imbalance over the energy exchanged"},
+      {"energy_exchanged", &C::energy_exchanged, "J", "that energy"},
+      {"complete", &C::complete, "", "1: it ran to the end"},
+      {"cycles", &C::cycles, "", "completed cycles; 1 for a scene without an engine"},
+      {"steps_accepted", &C::steps_accepted, "", "accepted steps"},
+      {"steps_rejected", &C::steps_rejected, "", "steps that were rejected and repeated"},
+      {"periodicity_lateral", &C::lateral, "m",
+       "largest difference of the piston's lateral position between the last two cycles; absent "
+       "after one cycle, as are the next two"},
+      {"periodicity_tilt", &C::tilt, "rad", "the same of its tilt"},
+      {"periodicity_<body>", &C::velocity, "", "relative difference of the body's velocities"}};
+  return list;
+}
+
+std::vector<std::string> periodicity_lines(const CycleDifference& difference) {
+  std::vector<std::string> lines;
+  for (const auto& [name, value] : certificate_numbers(RunCertificate{difference}))
+    if (name.starts_with("periodicity_")) lines.push_back(fmt::format("{}: {:.3g}", name, value));
+  return lines;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modal/certificates.hpp"
+
+namespace clatter::modal {
+
+const std::vector<CertificateField<ModesCertificate>>& ModesCertificate::fields() {
+  using C = ModesCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"count_proved", &C::count_proved, "",
+       "1: the modes below the limit are as many as the inertia of K - sigma M says; by AMLS only "
+       "where the errors leave it unambiguous"},
+      {"count_below", &C::count_below, "", "modes below the limit by inertia"},
+      {"count_limit_hz", &C::count_limit_hz, "Hz", "the limit of the count"},
+      {"residual_max", &C::residual_max, "", "largest relative residual of a mode"},
+      {"frequency_rounding_max", &C::frequency_rounding_max, "", "largest of `rounding`"},
+      {"frequency_error_estimate", &C::frequency_error_estimate, "",
+       "by AMLS: largest estimated relative error of a frequency"},
+      {"rigid_modes", &C::rigid_modes, "", "modes of zero stiffness"},
+      {"massless_unknowns", &C::massless_unknowns, "", "infinite eigenvalues"},
+      {"shift", &C::shift, "rad2/s2", "shift of the eigen-solver"},
+      {"solves", &C::solves, "", "solves with the factor"},
+      {"factors", &C::factors, "", "factorisations"},
+      {"retries", &C::retries, "", "further tries of the eigen-solver"},
+      {"factor_entries", &C::factor_entries, "", "entries of the factor"},
+      {"factor_rcond", &C::factor_rcond, "", "smallest over largest pivot of the factor"}};
+  return list;
+}
+
+const std::vector<CertificateField<StaticCertificate>>& StaticCertificate::fields() {
+  using C = StaticCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"cases", &C::cases, "", "number of cases"},
+      {"backward_error_max", &C::backward_error_max, "", "largest backward error of a case"},
+      {"forward_error_max", &C::forward_error_max, "",
+       "largest estimated forward error of a case, relative"},
+      {"balance_max", &C::balance_max, "",
+       "largest sum of applied forces and reactions, over the forces that cancel"},
+      {"factor_entries", &C::factor_entries, "", "entries of the factor"},
+      {"factor_rcond", &C::factor_rcond, "", "smallest over largest pivot of the factor"}};
+  return list;
+}
+
+}  // namespace clatter::modal

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/field/field_certificate.hpp"
+
+namespace clatter::recover {
+
+const std::vector<CertificateField<FieldCertificate>>& FieldCertificate::fields() {
+  using C = FieldCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"skin_area_m2", &C::skin_area_m2, "m2", "area of the skin"},
+      {"skin_closure", &C::skin_closure, "",
+       "length of the integral of n dS over the area: 0 for a closed skin"},
+      {"run_complete", &C::run_complete, "", "1: the run is complete"},
+      {"mean_square_share_above_spectra", &C::mean_square_share_above_spectra, "",
+       "of a cycle: share of the mean square velocity above the last line"},
+      {"cycle_to_cycle_velocity_difference", &C::cycle_to_cycle_velocity_difference, "",
+       "of the last two cycles, relative; absent without two"},
+      {"cycle_end_velocity_jump", &C::cycle_end_velocity_jump, "",
+       "RMS of v_n at the end less v_n at the beginning of the cycle, over the RMS of v_n in the "
+       "cycle"}};
+  return list;
+}
+
+}  // namespace clatter::recover

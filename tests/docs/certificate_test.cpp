@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Certificates of all stages: their lists of fields are complete, come back from files, and are the
+// tables of docs/formats.md.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "assembly/model/fe_certificate.hpp"
+#include "core/rom/reduced_certificate.hpp"
+#include "dynamics/run/run_certificate.hpp"
+#include "mesh/repair/mesh_certificate.hpp"
+#include "modal/certificates.hpp"
+#include "recover/field/field_certificate.hpp"
+#include "tests/paths.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter {
+namespace {
+
+/// Calls check.operator()<C>(kind) for the certificate of each kind of artefact.
+template <class Check>
+void for_each_certificate(const Check& check) {
+  check.template operator()<mesh::MeshCertificate>("mesh");
+  check.template operator()<assembly::FeCertificate>("fe");
+  check.template operator()<modal::ModesCertificate>("modes");
+  check.template operator()<modal::StaticCertificate>("static");
+  check.template operator()<rom::ReducedCertificate>("rom");
+  check.template operator()<dynamics::RunCertificate>("run");
+  check.template operator()<recover::FieldCertificate>("field");
+}
+
+/// A certificate with another number in each field; optional ones and families only every `step`.
+template <class C>
+C filled(int step) {
+  C certificate;
+  int i = 0;
+  for (const CertificateField<C>& field : C::fields())
+    field.visit(certificate, [&]<class T>(T& value) {
+      const double number = ++i + 1.0 / 3.0;
+      if constexpr (std::is_same_v<T, double>)
+        value = number;
+      else if (i % step != 0)
+        return;
+      else if constexpr (std::is_same_v<T, CertificateNumbers>)
+        value = {{"block", number}, {"liner_2", -number}};
+      else
+        value = number;
+    });
+  return certificate;
+}
+
+class Certificates : public ::testing::Test {
+ protected:
+  Certificates() {
+    std::string name = (std::filesystem::temp_directory_path() / "clatter_certificate_XXXXXX");
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Certificates() override { std::filesystem::remove_all(folder_); }
+
+  H5File written(const CertificateNumbers& numbers) const {
+    H5File file = H5File::create(folder_ / "a.h5");
+    file.set("/", "schema", "clatter/test/1");
+    write_certificate_numbers(file, numbers);
+    file.commit();
+    return H5File::open(folder_ / "a.h5");
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Certificates, FieldsNameEveryMemberOnce) {
+  for_each_certificate([]<class C>(const char* kind) {
+    C certificate;
+    std::set<const void*> members;
+    std::set<std::string> names;
+    size_t bytes = 0;
+    for (const CertificateField<C>& field : C::fields()) {
+      names.insert(field.name);
+      field.visit(certificate, [&](auto& value) {
+        members.insert(&value);
+        bytes += sizeof value;
+      });
+    }
+    EXPECT_EQ(names.size(), C::fields().size()) << kind;
+    EXPECT_EQ(members.size(), C::fields().size()) << kind;
+    EXPECT_EQ(bytes, sizeof(C)) << kind << ": a member is in no field";
+  });
+}
+
+TEST_F(Certificates, ComeBackWithTheNumbersThatArePresent) {
+  for_each_certificate([&]<class C>(const char* kind) {
+    for (const int step : {1, 2, 3, 1000}) {  // 1000: no optional number
+      const C certificate = filled<C>(step);
+      const H5File file = written(certificate_numbers(certificate));
+      EXPECT_EQ(read_certificate<C>(file), certificate) << kind << ", every " << step;
+      if (certificate_numbers(certificate).empty()) continue;
+      for (const std::string& name : file.attributes("certificate"))
+        EXPECT_EQ(certificate_numbers(certificate).count(name), 1u) << name;
+    }
+  });
+}
+
+TEST_F(Certificates, AbsentNumbersAreNotWritten) {
+  mesh::MeshCertificate certificate;
+  certificate.poor_cells = 0.0;
+  const CertificateNumbers numbers = certificate_numbers(certificate);
+  EXPECT_EQ(numbers.at("poor_cells"), 0.0);
+  EXPECT_EQ(numbers.count("cells"), 1u);
+  EXPECT_EQ(numbers.count("cad_volume_m3"), 0u);
+  EXPECT_TRUE(certificate_numbers(rom::ReducedCertificate{}).empty());
+}
+
+TEST_F(Certificates, AFamilyHoldsTheNamesThatNoOtherFieldHas) {
+  const H5File file = written({{"energy_residue", 1.0},
+                               {"energy_exchanged", 2.0},
+                               {"complete", 1.0},
+                               {"cycles", 3.0},
+                               {"steps_accepted", 4.0},
+                               {"steps_rejected", 5.0},
+                               {"periodicity_tilt", 6.0},
+                               {"periodicity_block", 7.0},
+                               {"of_a_later_version", 8.0}});
+  const auto found = read_certificate<dynamics::RunCertificate>(file);
+  EXPECT_EQ(found.tilt, 6.0);
+  EXPECT_FALSE(found.lateral.has_value());
+  EXPECT_EQ(found.velocity, (CertificateNumbers{{"block", 7.0}}));
+  EXPECT_EQ(dynamics::periodicity_lines(found),
+            (std::vector<std::string>{"periodicity_block: 7", "periodicity_tilt: 6"}));
+  EXPECT_TRUE(dynamics::periodicity_lines({}).empty());
+}
+
+TEST_F(Certificates, AReducedModelKeepsNumbersOfAnotherVersion) {
+  const CertificateNumbers numbers{{"mass_error", 1e-12}, {"of_a_later_version", 8.0}};
+  const auto found = read_certificate<rom::ReducedCertificate>(written(numbers));
+  EXPECT_EQ(found.mass_error, 1e-12);
+  EXPECT_EQ(certificate_numbers(found), numbers);
+}
+
+TEST_F(Certificates, ANumberOfEveryFileThatIsAbsentIsReported) {
+  const H5File file = written({{"cells", 12.0}});
+  test::expect_parts(test::refusal_of([&] { read_certificate<mesh::MeshCertificate>(file); }),
+                     {"a.h5: certificate: found no nodes, expected a number"});
+}
+
+/// The table `certificate` in the section of this kind of artefact in docs/formats.md.
+std::string documented(const std::string& kind) {
+  std::stringstream text;
+  text << std::ifstream(CLATTER_SOURCE_DIR "/docs/formats.md").rdbuf();
+  const std::string all = text.str();
+  const size_t section = all.find("\n## `." + kind + ".h5`");
+  const size_t table = all.find("| `certificate` |", section);
+  const size_t next = all.find("\n## ", section + 1);
+  if (table >= next) return "none";
+  const size_t end = all.find("\n\n", table);
+  return end == std::string::npos ? all.substr(table) : all.substr(table, end + 1 - table);
+}
+
+// Where this fails, the table to put into the document is the expected text.
+TEST_F(Certificates, TablesInTheDocumentAreThoseOfTheFields) {
+  for_each_certificate([]<class C>(const char* kind) {
+    EXPECT_EQ(documented(kind), certificate_table<C>()) << kind;
+  });
+  EXPECT_EQ(documented("faces"), "none");
+}
+
+}  // namespace
+}  // namespace clatter
