@@ -102,7 +102,7 @@ def strips(folder, build):
     rows = []
     for length, t, n in ((100, 2, 10), (300, 1, 30), (1000, 2, 100), (1000, 1, 100), (3000, 1, 300)):
         model = assembled(folder, build, f"strip{length}_{t}", deck((length, 20, t), (n, 1, 1), nu=0.0, tip=1.0))
-        done = subprocess.run([build / "clatter-modal", model, "--static", "--case", "step_1", "--json", "-o",
+        done = subprocess.run([build / "clatter-modal", "statics", model, "--case", "step_1", "--json", "-o",
                                "out.static.h5"], cwd=folder, capture_output=True, text=True)
         exact = length**3 / (3 * 2.1e5 * 20 * t**3 / 12) / 1e3
         if done.returncode != 0:

@@ -176,4 +176,18 @@ rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& st
   return out;
 }
 
+std::string describe_added_rows(const rom::ReducedModel& with_rows) {
+  return fmt::format(
+      "{}: {} skin nodes, {} sets besides the boundary; the basis solved for again "
+      "differs by {:.1e} from the stored one",
+      with_rows.name, with_rows.skin.nodes.rows(), with_rows.recovered_sets.size(),
+      with_rows.certificate.rows_added_error.value());
+}
+
+JsonMembers json_of_added_rows(const rom::ReducedModel& with_rows) {
+  return {{"skin_nodes", json_number(static_cast<double>(with_rows.skin.nodes.rows()))},
+          {"recovered_sets", json_number(static_cast<double>(with_rows.recovered_sets.size()))},
+          {"rows_added_error", json_number(with_rows.certificate.rows_added_error.value())}};
+}
+
 }  // namespace clatter::condense

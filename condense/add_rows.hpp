@@ -39,6 +39,11 @@ struct RowRequest {
 rom::ReducedModel add_rows(const fe::FeModel& model, const rom::ReducedModel& stored,
                            CondenseOptions options, const RowRequest& request, StepClock& clock);
 
+/// A line for the user on the result of add_rows(), and its members for --json: skin_nodes,
+/// recovered_sets, rows_added_error.
+std::string describe_added_rows(const rom::ReducedModel& with_rows);
+JsonMembers json_of_added_rows(const rom::ReducedModel& with_rows);
+
 /// Rotates the modal coordinates of `fresh` into those of `stored`, only among neighbours of equal
 /// stiffness (1e-6), so that mass coupling, loads and common rows agree best (Schoenemann 1966,
 /// orthogonal Procrustes). Returns the largest remaining difference in M_rr, K_rr, loads and rows,

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "condense/basis/cutoff_search.hpp"
 #include "condense/basis/frame_inertia.hpp"
@@ -230,6 +231,17 @@ std::vector<std::string> describe(const rom::ReducedModel& reduced) {
                     reduced.alpha > 0.0 || reduced.beta > 0.0 ? "; alpha and beta add to it" : ""));
   }
   return lines;
+}
+
+JsonMembers json_of(const rom::ReducedModel& reduced) {
+  const auto& c = reduced.certificate;
+  return {{"method", json_text(reduced.method)},
+          {"boundary", json_number(reduced.n_boundary)},
+          {"size", json_number(reduced.size())},
+          {"valid_to_hz", json_number(reduced.valid_to_hz)},
+          {"count_proved", json_number(c.count_proved.value())},
+          {"rigid_modes", json_number(c.rigid_modes.value_or(std::nan("")))},
+          {"certified", json_number(c.certified.value())}};
 }
 
 }  // namespace clatter::condense

@@ -7,6 +7,7 @@
 #include "condense/basis/craig_bampton.hpp"
 #include "condense/interface/interface_modes.hpp"
 #include "core/base/config.hpp"
+#include "core/base/json_line.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fe/fe_model.hpp"
 #include "core/rom/damping_table.hpp"
@@ -39,5 +40,9 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
 
 /// Lines for the user on the contents of the reduced model and what was verified.
 std::vector<std::string> describe(const rom::ReducedModel& reduced);
+
+/// For --json: method, boundary, size, valid_to_hz, count_proved, rigid_modes (null where they were
+/// not counted), certified.
+JsonMembers json_of(const rom::ReducedModel& reduced);
 
 }  // namespace clatter::condense

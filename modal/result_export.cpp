@@ -140,15 +140,6 @@ void write_series(const Results& results, mesh::Mesh& drawn, const Path& path) {
 
 }  // namespace
 
-bool is_results(const Path& path) {
-  try {
-    const std::string schema = H5File::open(path).get_string("/", "schema");
-    return schema == kModesSchema || schema == kStaticSchema;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 void check_result_exports(const std::vector<Path>& exports) {
   for (const Path& path : exports)
     if (path.extension() != ".vtu" && path.extension() != ".pvd")
@@ -160,7 +151,12 @@ void export_results(const Path& results, const Path& cells, const std::vector<Pa
   if (exports.empty()) return;
   check_result_exports(exports);
   const H5File file = H5File::open(results);
-  const bool modes = file.get_string("/", "schema") == kModesSchema;
+  const std::string schema =
+      file.has_attribute("/", "schema") ? file.get_string("/", "schema") : "no schema";
+  const bool modes = schema == kModesSchema;
+  if (!modes && schema != kStaticSchema)
+    throw InputError(fmt::format("{}: schema: found {}, expected results ({} or {})",
+                                 results.string(), schema, kModesSchema, kStaticSchema));
   mesh::Mesh drawn = drawn_mesh(file, cells);
   const Results all = modes ? modes_of(file) : cases_of(file);
   for (const Path& path : exports)

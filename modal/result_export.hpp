@@ -6,9 +6,6 @@
 
 namespace clatter::modal {
 
-/// Whether the schema is that of results (.modes.h5, .static.h5). False if unreadable.
-bool is_results(const std::filesystem::path& path);
-
 /// InputError for an extension that export_results() does not support; call before the work.
 void check_result_exports(const std::vector<std::filesystem::path>& exports);
 
@@ -20,8 +17,8 @@ void check_result_exports(const std::vector<std::filesystem::path>& exports);
 ///  .pvd  a series: one .vtu per mode or case in the same folder, with point data "displacement"
 ///        (and "stress", "von Mises"), time = number of the mode or case; holds one at a time
 /// Cells, regions and node numbers come from `cells` (.fe.h5 or .mesh.h5); without it the surface
-/// "skin" is used. InputError for other extensions and for cells of other nodes; FileError on disk
-/// errors.
+/// "skin" is used. InputError for other extensions, for a file that holds no results and for cells
+/// of other nodes; FileError on disk errors.
 void export_results(const std::filesystem::path& results, const std::filesystem::path& cells,
                     const std::vector<std::filesystem::path>& exports);
 

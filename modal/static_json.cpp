@@ -6,8 +6,6 @@
 
 #include <cmath>
 
-#include "core/base/json_line.hpp"
-
 namespace clatter::modal {
 namespace {
 
@@ -25,7 +23,7 @@ std::string supports_of(const fe::FeModel& model, const StaticCase& solved) {
 
 }  // namespace
 
-std::string json_of(const fe::FeModel& model, const StaticSolution& solution) {
+JsonMembers json_of(const fe::FeModel& model, const StaticSolution& solution) {
   std::vector<std::string> cases;
   for (const StaticCase& one : solution.cases) {
     double largest = 0.0;
@@ -40,7 +38,8 @@ std::string json_of(const fe::FeModel& model, const StaticSolution& solution) {
                     json_number(one.backward_error), json_number(one.forward_error),
                     json_number(one.balance), json_number(stress), supports_of(model, one)));
   }
-  return fmt::format("[{}]", fmt::join(cases, ", "));
+  return {{"cases", json_number(static_cast<double>(solution.cases.size()))},
+          {"results", fmt::format("[{}]", fmt::join(cases, ", "))}};
 }
 
 }  // namespace clatter::modal

@@ -165,6 +165,16 @@ void write_exports(const std::filesystem::path& field_file, const Summary& summa
         line_series(field_file, summary.n_nodes, summary.n_faces, summary.line_hz));
 }
 
+JsonMembers json_of(const Summary& summary) {
+  const PanelResult& skin = summary.analyses.front().panels.front();
+  return {{"faces", json_number(static_cast<double>(summary.n_faces))},
+          {"frames", json_number(static_cast<double>(summary.frames.size()))},
+          {"lines", json_number(static_cast<double>(summary.line_hz.size()))},
+          {"erp_w", json_number(skin.total_erp)},
+          {"erp_db", json_number(level_db(skin.total_erp, 1e-12))},
+          {"spectra_to_hz", json_number(summary.limit.to_hz)}};
+}
+
 std::string summary_text(const Summary& summary) {
   const Analysis& analysis = summary.analyses.front();
   const LevelReferences& ref = summary.options.references;

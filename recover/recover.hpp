@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/h5_file.hpp"
+#include "core/base/json_line.hpp"
 #include "core/base/stopwatch.hpp"
 #include "recover/field/exports.hpp"
 #include "recover/field/field_certificate.hpp"
@@ -36,6 +37,9 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
 /// Writes the XDMF files of the committed field file; removes those of an older run that are no
 /// longer valid.
 void write_exports(const std::filesystem::path& field_file, const Summary& summary);
+
+/// For --json: faces, frames, lines, erp_w, erp_db (re 1 pW), spectra_to_hz.
+JsonMembers json_of(const Summary& summary);
 
 /// The text that is printed at the end: panels with levels, sensors with peaks.
 std::string summary_text(const Summary& summary);

@@ -57,11 +57,11 @@ clatter_recover := $(call clatter_program,recover)
 
 # Accuracy of a reduced model's lowest modes: frequency errors and MAC.
 %.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
-	$(clatter_modal) --compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
+	$(clatter_modal) compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
 	mv $@.part $@
 
 # A reduced part for other programs. Matrix Market has three files: the target is a list of them.
-clatter_export = $(clatter_condense) $< --export $@ $(CLATTER_FLAGS)
+clatter_export = $(clatter_condense) export $< $@ $(CLATTER_FLAGS)
 
 %.inp: %.rom.h5 $(clatter_condense)
 	$(clatter_export)

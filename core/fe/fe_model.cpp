@@ -73,7 +73,7 @@ void require_unknowns(const FeModel& model, const std::string& what) {
   if (model.size() > 0) return;
   throw InputError(
       fmt::format("{}: found all {} DoFs supported ({}), expected free DoFs for {}; "
-                  "clatter-modal --static gives their reactions",
+                  "clatter-modal statics gives their reactions",
                   model.name, model.supports.size(), fmt::join(model.supports.names, ", "), what));
 }
 

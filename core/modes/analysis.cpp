@@ -217,4 +217,12 @@ std::vector<std::string> describe(const PartModes& part) {
   return lines;
 }
 
+JsonMembers json_of(const PartModes& part) {
+  const Eigen::VectorXd hz = part.modes.frequencies_hz();
+  return {{"modes", json_number(part.modes.size())},
+          {"frequency_hz", fmt::format("[{}]", fmt::join(hz.data(), hz.data() + hz.size(), ", "))},
+          {"rigid", json_number(part.modes.rigid)},
+          {"count_proved", json_number(part.modes.proof.proved ? 1.0 : 0.0)}};
+}
+
 }  // namespace clatter::modes

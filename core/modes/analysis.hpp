@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "core/base/json_line.hpp"
 #include "core/fe/fe_model.hpp"
 #include "core/rom/reduced_model.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
@@ -54,5 +55,8 @@ SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<in
 
 /// "mode  frequency [Hz]  residual" as lines, followed by the completeness proof.
 std::vector<std::string> describe(const PartModes& part);
+
+/// For --json: modes (their number), frequency_hz, rigid, count_proved (0 or 1).
+JsonMembers json_of(const PartModes& part);
 
 }  // namespace clatter::modes

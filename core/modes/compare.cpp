@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
-#include "core/base/json_line.hpp"
 #include "core/modes/analysis.hpp"
 
 namespace clatter::modes {
@@ -240,15 +239,24 @@ std::vector<std::string> table_of(const Comparison& comparison) {
   return lines;
 }
 
-std::string json_of(const Comparison& comparison) {
-  std::string text = "[";
+JsonMembers json_of(const Comparison& comparison) {
+  std::string modes = "[";
   for (const ComparedMode& mode : comparison.modes) {
-    if (text.size() > 1) text += ", ";
-    text += fmt::format("{{\"full_hz\": {}, \"reduced_hz\": {}, \"error\": {}, \"mac\": {}}}",
-                        json_number(mode.full_hz), json_number(mode.reduced_hz),
-                        json_number(mode.error), json_number(mode.mac));
+    if (modes.size() > 1) modes += ", ";
+    modes += fmt::format("{{\"full_hz\": {}, \"reduced_hz\": {}, \"error\": {}, \"mac\": {}}}",
+                         json_number(mode.full_hz), json_number(mode.reduced_hz),
+                         json_number(mode.error), json_number(mode.mac));
   }
-  return text + "]";
+  const Comparison stated = comparison.with_stated_error();
+  const bool none = stated.modes.empty();
+  return {{"modes", modes + "]"},
+          {"rigid", json_number(comparison.rigid_full)},
+          {"largest_error", json_number(comparison.largest_error())},
+          {"smallest_mac", json_number(comparison.smallest_mac())},
+          {"accurate_to_hz", json_number(comparison.accurate_to_hz)},
+          {"modes_up_to_it", json_number(static_cast<double>(stated.modes.size()))},
+          {"largest_error_up_to_it", json_number(none ? std::nan("") : stated.largest_error())},
+          {"smallest_mac_up_to_it", json_number(none ? std::nan("") : stated.smallest_mac())}};
 }
 
 }  // namespace clatter::modes

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/json_line.hpp"
 #include "core/fe/fe_model.hpp"
 #include "core/rom/reduced_model.hpp"
 
@@ -57,8 +58,12 @@ Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
                    const CompareOptions& options);
 
 /// The comparison as an aligned table; the last line summarises the modes up to accurate_to_hz, a
-/// line before it those above. json_of(): the modes as a JSON array of objects.
+/// line before it those above.
 std::vector<std::string> table_of(const Comparison& comparison);
-std::string json_of(const Comparison& comparison);
+
+/// For --json: modes (full_hz, reduced_hz, error, mac of each), rigid, largest_error, smallest_mac,
+/// accurate_to_hz, and the figures of the modes up to it: modes_up_to_it, largest_error_up_to_it,
+/// smallest_mac_up_to_it (null without such modes).
+JsonMembers json_of(const Comparison& comparison);
 
 }  // namespace clatter::modes

@@ -122,11 +122,14 @@ RunCertificate run_certificate(const RunResult& result) {
   return numbers;
 }
 
+Provenance provenance_of(const Scene& scene) {
+  return {run::kSchema, scene.resolved, scene.inputs};
+}
+
 void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
                const RunResult& result) {
   const Model& model = *result.model;
   const Recorder& recorder = *result.recorder;
-  write_provenance(file, {run::kSchema, scene.resolved, scene.inputs});
   file.set("/", "title", scene.title);
   file.set("/", run::kComplete, result.complete ? 1 : 0);
   std::vector<double> time;

@@ -18,9 +18,13 @@ namespace clatter::dynamics {
 ///   film/time, film/crank_angle_deg, film/<pad>/angle_deg, axial, gap, pressure, fill,
 ///     contact_pressure                             instants x angle x axial, single precision
 ///   effects/..., statistics (attributes), certificate (attributes)
-/// Root attribute `complete`: 0 when the run was interrupted inside its last cycle.
+/// Root attribute `complete`: 0 when the run was interrupted inside its last cycle. Provenance and
+/// timing are left to the caller.
 void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
                const RunResult& result);
+
+/// Schema, resolved configuration and inputs of a run.
+Provenance provenance_of(const Scene& scene);
 
 /// The certificate of a run.
 RunCertificate run_certificate(const RunResult& result);

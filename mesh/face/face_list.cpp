@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/base/json_line.hpp"
-
 namespace clatter::mesh {
 namespace {
 
@@ -203,11 +201,13 @@ std::vector<std::string> table_of(const FaceList& list) {
   return lines;
 }
 
-std::string json_of(const FaceList& list) {
+JsonMembers json_of(const FaceList& list) {
   const double margin = kNearSelection * size_of_part(list.faces);
   std::vector<std::string> objects;
   for (const FaceFacts& face : list.faces) objects.push_back(json_of(list, face, margin));
-  return fmt::format("[{}]", fmt::join(objects, ", "));
+  return {{"name", json_text(list.name)},
+          {"unit", json_text(list.unit)},
+          {"faces", fmt::format("[{}]", fmt::join(objects, ", "))}};
 }
 
 void orient_faces(FaceList& list, const FaceTriangles& drawn) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/h5_file.hpp"
+#include "core/base/json_line.hpp"
 #include "mesh/face/select.hpp"
 
 namespace clatter::mesh {
@@ -33,9 +34,9 @@ std::vector<std::string> filter_lines(const FaceFacts& face, double margin);
 /// surfaces; the header line gives names and units.
 std::vector<std::string> table_of(const FaceList& list);
 
-/// A JSON list, one object per face: number, kind, spline, concave, radius, minor_radius,
-/// half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
-std::string json_of(const FaceList& list);
+/// For --json: name, unit, and faces, one object per face: number, kind, spline, concave, radius,
+/// minor_radius, half_angle_deg, direction, place, centre, area, box, surfaces, toml (its filters).
+JsonMembers json_of(const FaceList& list);
 
 /// Triangles to draw: rows of `nodes`, and the face that each lies on.
 struct FaceTriangles {

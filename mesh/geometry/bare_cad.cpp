@@ -37,7 +37,7 @@ std::string cad_description(const std::filesystem::path& source,
   if (element_size_mm > 0.0)
     text += fmt::format(
         "\n[mesh]\nelement_size_mm = {}\n\n"
-        "# [surface.NAME]             # `clatter-mesh --faces` lists the faces\n"
+        "# [surface.NAME]             # `clatter-mesh faces` lists the faces\n"
         "# cylinder = {{ radius = 10, point = [0, 0, 0], axis = [0, 0, 1] }}\n",
         element_size_mm);
   return text;

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "condense/condense.hpp"
-#include "core/base/artefact.hpp"
+#include "core/base/write_artefact.hpp"
 
 int main(int argc, char** argv) {
   if (argc < 5) {
@@ -23,10 +23,10 @@ int main(int argc, char** argv) {
     const auto reduced = clatter::condense::condense(model, options, clock);
     for (const std::string& line : clatter::condense::describe(reduced)) std::puts(line.c_str());
 
-    auto file = clatter::H5File::create(argv[2]);
-    clatter::rom::write_reduced_model(file, reduced);
-    clatter::write_provenance(file, {clatter::rom::kRomSchema, "", {argv[1]}});
-    file.commit();  // a sync and a rename: until here the old file is untouched
+    // The old file is untouched until the new one is complete.
+    clatter::write_artefact(
+        argv[2], {clatter::rom::kRomSchema, "", {argv[1]}}, clock, {},
+        [&](clatter::H5File& file) { clatter::rom::write_reduced_model(file, reduced); });
   } catch (const std::exception& error) {
     std::fprintf(stderr, "condense_part: %s\n", error.what());
     return 2;

@@ -34,7 +34,7 @@ class RowsTest(stages.PipelineTest):
         return self.run_stage("condense", "beam.fe.h5", "-c", request.name, "-o", output)
 
     def add(self, *arguments, source="beam.rom.h5", output="more.rom.h5"):
-        return self.run_stage("condense", "beam.fe.h5", "--add-rows", source, *arguments, "-o", output)
+        return self.run_stage("condense", "add-rows", "beam.fe.h5", "--of", source, *arguments, "-o", output)
 
     def assert_same_rows(self, found, expected):
         with h5py.File(self.folder / found) as a, h5py.File(self.folder / expected) as b:
@@ -90,7 +90,7 @@ class AddRows(RowsTest):
         self.add("--set", "sensor_side")
         (self.folder / "more.rom.h5").replace(self.folder / "beam.rom.h5")
         self.run_stage("dynamics", "step.run.toml", "-o", "step.run.h5")
-        self.run_stage("condense", "beam.rom.h5", "--export", "part.mtx")
+        self.run_stage("condense", "export", "beam.rom.h5", "part.mtx")
 
     def test_another_model_is_refused(self):
         self.edit("beam.fe.toml", "7850.0", "7800.0")
@@ -99,13 +99,13 @@ class AddRows(RowsTest):
 
     def refuse(self, arguments, **options):
         self.assert_refused(
-            "condense", ["beam.fe.h5", "--add-rows", "beam.rom.h5", *arguments, "-o", "more.rom.h5"], **options)
+            "condense", ["add-rows", "beam.fe.h5", "--of", "beam.rom.h5", *arguments, "-o", "more.rom.h5"], **options)
 
     def test_unknown_names_and_wrong_command_lines_are_refused(self):
         self.refuse(["--surface", "roof"], says=["roof", "y_max"])
         self.refuse(["--set", "nowhere"], says=["nowhere", "sensor_side"])
         self.refuse([], says=["--surface"])
-        self.assert_refused("condense", ["beam.fe.h5", "--set", "sensor_side", "-o", "x.rom.h5"], says=["--add-rows"])
+        self.assert_refused("condense", ["beam.fe.h5", "--set", "sensor_side", "-o", "x.rom.h5"], says=["--config is required"])
         self.edit("beam.rom.toml", "method", 'rows = ["tip"]\nmethod')
         self.assert_refused("condense", says=["rows", "tip", "boundary"])
 

@@ -75,7 +75,7 @@ class Certificate(stages.PipelineTest):
 
     def test_verification_stores_what_the_comparison_with_the_full_model_finds(self):
         found = self.condense("--verify", "3000")
-        done = stages.run_stage("modal", "--compare", "beam.fe.h5", "beam.rom.h5", "--fmax-hz", "3000", "--json",
+        done = stages.run_stage("modal", "compare", "beam.fe.h5", "beam.rom.h5", "--fmax-hz", "3000", "--json",
                                 "--quiet", folder=self.folder)
         compared = json.loads(done.stdout)
         self.assertEqual(found["verified_to_hz"], 3000.0)

@@ -32,7 +32,7 @@ class Exported(stages.PipelineTest):
 
     def export(self, name):
         """The files that the export of the beam's reduced part to `name` wrote."""
-        return json.loads(self.run_stage("condense", "beam.rom.h5", "--export", name, "--json"))["files"]
+        return json.loads(self.run_stage("condense", "export", "beam.rom.h5", name, "--json"))["files"]
 
     def release(self):
         """The beam without its support, with enough modes for CalculiX to find ten."""
@@ -329,10 +329,10 @@ class MatricesOfOthers(Exported):
         np.testing.assert_allclose(frequencies["other"], frequencies["held"], rtol=1e-8)
 
     def test_a_wrong_export_is_refused(self):
-        self.assert_refused("condense", ["beam.rom.h5", "--export", "part.docx"], says=["part.docx", ".mtx"])
-        self.assert_refused("condense", ["beam.fe.h5", "--export", "part.mtx"], says=["beam.fe.h5", "schema"])
-        self.assert_refused("condense", ["beam.rom.h5", "-c", "beam.rom.toml", "--export", "part.mtx"], says=["-c"])
-        self.assert_refused("condense", ["beam.fe.h5", "-c", "beam.rom.toml"], says=["-o"])
+        self.assert_refused("condense", ["export", "beam.rom.h5", "part.docx"], says=["part.docx", ".mtx"])
+        self.assert_refused("condense", ["export", "beam.fe.h5", "part.mtx"], says=["beam.fe.h5", "schema"])
+        self.assert_refused("condense", ["export", "beam.rom.h5"], says=["output is required", "clatter-condense export --help"])
+        self.assert_refused("condense", ["beam.fe.h5", "-c", "beam.rom.toml"], says=["--output is required"])
 
 
 class MakeRules(Exported):
@@ -360,7 +360,7 @@ class MakeRules(Exported):
         self.make("beam.mtx")
         self.assertIn("up to date", self.make("beam.mtx"))
         self.edit("beam.rom.toml", "4000.0", "3000.0")
-        self.assertIn("--export beam.mtx", self.make("beam.mtx"))
+        self.assertIn("export beam.rom.h5 beam.mtx", self.make("beam.mtx"))
 
 
 if __name__ == "__main__":

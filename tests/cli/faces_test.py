@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""clatter-mesh --faces, its picture, and CAD files without a description."""
+"""clatter-mesh faces, its picture, and CAD files without a description."""
 import json
 import os
 import pathlib
@@ -62,12 +62,12 @@ class OfATube(unittest.TestCase):
 
 class Faces(OfATube):
     def test_the_table_and_the_json_say_what_each_face_is(self):
-        done = self.mesh("--faces", "tube.step")
+        done = self.mesh("faces", "tube.step")
         head, *rows = done.stdout.splitlines()
         self.assertRegex(head, r"face +kind +radius \[mm\] +axis or normal +place \[mm\] +area \[mm2\]")
         self.assertEqual(len(rows), 4)
         self.assertIn("tube.step: written in mm", done.stderr)
-        done = self.mesh("--faces", "tube.step", "--json")
+        done = self.mesh("faces", "tube.step", "--json")
         self.assertEqual(len(done.stdout.splitlines()), 1)
         self.assertIn("place [mm]", done.stderr)  # the table is still there to read
         faces = json.loads(done.stdout)["faces"]
@@ -82,18 +82,18 @@ class Faces(OfATube):
                 self.assertEqual(face["direction"], [0, 0, 1 if face["place"][2] > 50 else -1])
 
     def test_the_filters_of_a_face_select_that_face(self):
-        faces = json.loads(self.mesh("--faces", "tube.step", "--json", "--quiet").stdout)["faces"]
+        faces = json.loads(self.mesh("faces", "tube.step", "--json", "--quiet").stdout)["faces"]
         tables = "".join(f"[surface.face_{face['number']}]\n{face['toml']}\n" for face in faces)
         (self.folder / "named.mesh.toml").write_text(
             f'name = "t"\nkind = "cad"\n[cad]\nsource = "tube.step"\n{tables}')
-        named = json.loads(self.mesh("--faces", "named.mesh.toml", "--json", "--quiet").stdout)["faces"]
+        named = json.loads(self.mesh("faces", "named.mesh.toml", "--json", "--quiet").stdout)["faces"]
         for face in named:
             self.assertEqual(face["surfaces"], [f"face_{face['number']}"])
 
     def test_a_surface_that_selects_nothing_is_reported_and_the_faces_are_listed(self):
         (self.folder / "t.mesh.toml").write_text(
             TUBE + "[surface.bore]\ncylinder = { radius = 46, point = [0, 0, 0], axis = [0, 0, 1] }\n")
-        done = self.mesh("--faces", "t.mesh.toml")
+        done = self.mesh("faces", "t.mesh.toml")
         self.assertIn("nearest: face ", done.stderr)
         self.assertIn("cylinder of radius 46.5 mm, radius 0.5 mm more", done.stderr)
         self.assertEqual(len(done.stdout.splitlines()), 5)
@@ -102,21 +102,21 @@ class Faces(OfATube):
         (self.folder / "inch.mesh.toml").write_text(TUBE.replace('kind', 'length_unit = "in"\nkind', 1)
                                                     .replace("53.5", "2").replace("46.5", "1").replace("100", "3"))
         self.mesh("inch.mesh.toml", "-o", "inch.mesh.h5", "--write-step", "inch.step")
-        faces = json.loads(self.mesh("--faces", "inch.step", "--json", "--quiet").stdout)["faces"]
+        faces = json.loads(self.mesh("faces", "inch.step", "--json", "--quiet").stdout)["faces"]
         self.assertEqual(sorted({round(face["radius"], 6) for face in faces}), [0, 25.4, 50.8])
-        done = self.mesh("--faces", "inch.mesh.toml")
+        done = self.mesh("faces", "inch.mesh.toml")
         self.assertIn("radius [in]", done.stdout)
 
     def test_a_mesh_has_no_faces_to_list(self):
         (self.folder / "x.inp").write_text("*NODE\n1, 0, 0, 0\n")
-        self.assertIn("expected CAD", self.mesh("--faces", "x.inp", code=2).stderr)
+        self.assertIn("expected CAD", self.mesh("faces", "x.inp", code=2).stderr)
 
     def test_they_are_drawn(self):
         def plot(*arguments):
             return subprocess.run([sys.executable, stages.SOURCE / "tools/clatter", "plot", "faces", *arguments],
                                   cwd=self.folder, text=True, capture_output=True,
                                   env={**os.environ, "CLATTER_BIN": str(stages.BIN)})
-        done = plot("tube.step", "-o", "b.png")  # through clatter-mesh --faces
+        done = plot("tube.step", "-o", "b.png")  # through clatter-mesh faces
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "b.png").read_bytes()[:4], b"\x89PNG")
         self.assertGreater((self.folder / "b.png").stat().st_size, 20000)
@@ -135,7 +135,7 @@ class Faces(OfATube):
         np.testing.assert_array_equal(bright, light)
 
     def test_each_face_has_its_number_where_it_is_seen(self):
-        self.mesh("--faces", "tube.step", "-o", "tube.faces.h5")
+        self.mesh("faces", "tube.step", "-o", "tube.faces.h5")
         from clatter_tools.artefact import open_artefact
         from clatter_tools.plots import faces
         file = open_artefact(self.folder / "tube.faces.h5", "faces")

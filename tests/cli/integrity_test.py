@@ -87,8 +87,8 @@ class FlippedBits(stages.PipelineTest):
         """Headers, indices, names and attributes included: no flip makes the HDF5 library crash."""
         draw, refused = random.Random(8), 0
         for source, (stage, arguments) in {
-                "beam.mesh.h5": ("mesh", ["beam.mesh.h5", "--export", "out.inp"]),
-                "beam.rom.h5": ("condense", ["beam.rom.h5", "--export", "out.inp"])}.items():
+                "beam.mesh.h5": ("mesh", ["export", "beam.mesh.h5", "out.inp"]),
+                "beam.rom.h5": ("condense", ["export", "beam.rom.h5", "out.inp"])}.items():
             path, output = self.folder / source, self.folder / "out.inp"
             good = path.read_bytes()
             stages.run_stage(stage, *arguments, folder=self.folder)
@@ -119,7 +119,7 @@ class FlippedBits(stages.PipelineTest):
 
     def test_verification_names_the_dataset_in_every_kind_of_artefact(self):
         draw = random.Random(6)
-        stages.run_stage("modal", "beam.fe.h5", "--static", "-o", "beam.static.h5", folder=self.folder)
+        stages.run_stage("modal", "statics", "beam.fe.h5", "-o", "beam.static.h5", folder=self.folder)
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(file=path.name):
                 done = self.verify(path)

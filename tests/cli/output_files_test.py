@@ -77,12 +77,12 @@ class HardN18OutputEqualsInput(OutputTest):
         self.refuse("mesh", ["beam.mesh.toml", "-o", "a.h5", "--export", "b.vtu", "--export", "./b.vtu"], ["are the same file"])
 
     def test_the_reduced_part_of_add_rows_and_of_exports(self):
-        self.refuse("condense", ["beam.fe.h5", "--add-rows", "beam.rom.h5", "--set", "sensor_tip", "-o", "beam.rom.h5"],
+        self.refuse("condense", ["add-rows", "beam.fe.h5", "--of", "beam.rom.h5", "--set", "sensor_tip", "-o", "beam.rom.h5"],
                     ["would overwrite the input beam.rom.h5"])
         for output, written in (("a.mtx", "a.K.mtx"), ("a.mtx", "a.dofs.tsv"), ("a.inp", "a.M.txt"), ("a.fem", "a.fem")):
             os.link(self.folder / "beam.rom.h5", self.folder / written)
             with self.subTest(written=written):
-                self.refuse("condense", ["beam.rom.h5", "--export", output], [f"{written} would overwrite the input"])
+                self.refuse("condense", ["export", "beam.rom.h5", output], [f"{written} would overwrite the input"])
             (self.folder / written).unlink()
 
     def test_files_that_a_run_leaves_beside_its_output(self):
@@ -122,7 +122,7 @@ class HardN18InputsNamedInFiles(OutputTest):
             self.refuse_named("mesh", [top, "--units", "m-kg-s"], part, "command line", "--export")
 
     def test_matrices_of_other_programs(self):
-        stages.run_stage("condense", "beam.rom.h5", "--export", "b.mtx", folder=self.folder)
+        stages.run_stage("condense", "export", "beam.rom.h5", "b.mtx", folder=self.folder)
         (self.folder / "m.toml").write_text('[matrices]\nK = "b.K.mtx"\nM = "b.M.mtx"\ndofs = "b.dofs.tsv"\n')
         for line, name, key in ((2, "b.K.mtx", "K"), (3, "b.M.mtx", "M"), (4, "b.dofs.tsv", "dofs")):
             self.refuse_named("assembly", ["-c", "m.toml"], name, f"m.toml:{line}: {key}", "-o")
@@ -188,13 +188,10 @@ class HardN11OutputPlaces(OutputTest):
             with self.subTest(stage=stage):
                 self.refuse(stage, self.with_output(stage, "-o", output, ["absent.file"]), [beside, "is a folder"], code=4)
         (self.folder / "x.K.mtx").mkdir()
-        self.refuse("condense", ["absent.file", "--export", "x.mtx"], ["x.K.mtx", "is a folder"], code=4)
-
-    def test_the_table_of_a_motored_cycle(self):
-        self.refuse("dynamics", ["--write-motored-cycle", "nowhere/cycle.csv"], ["nowhere/cycle.csv"], code=4)
+        self.refuse("condense", ["export", "absent.file", "x.mtx"], ["x.K.mtx", "is a folder"], code=4)
 
     def test_an_export_of_unknown_kind(self):
-        self.refuse("condense", ["absent.file", "--export", "x.foo"], ["x.foo", ".mtx"])
+        self.refuse("condense", ["export", "absent.file", "x.foo"], ["x.foo", ".mtx"])
 
 
 if __name__ == "__main__":

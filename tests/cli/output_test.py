@@ -88,5 +88,59 @@ class Output(stages.PipelineTest):
         self.assertIn("one system of units", self.run_stage("modal").stderr)
 
 
+class Commands(stages.PipelineTest):
+    """`clatter-modal statics ...`: what a program does besides its usual job."""
+    COMMANDS = {"mesh": ["faces", "export"], "modal": ["statics", "compare", "export"], "condense": ["export", "add-rows"]}
+    # Options that became commands: (stage, arguments, words of the error).
+    OLD = [("mesh", ["--faces", "beam.step"], "--faces is now a command: clatter-mesh faces PART"),
+           ("modal", ["beam.fe.h5", "--static", "-o", "x.static.h5"], "--static is now a command: clatter-modal statics MODEL"),
+           ("modal", ["--compare", "beam.fe.h5", "beam.rom.h5"], "--compare is now a command: clatter-modal compare FULL REDUCED"),
+           ("condense", ["beam.rom.h5", "--export", "x.mtx"], "--export is now a command: clatter-condense export REDUCED FILE"),
+           ("condense", ["beam.fe.h5", "--add-rows", "beam.rom.h5", "--set", "sensor_tip", "-o", "x.rom.h5"],
+            "--add-rows is now a command: clatter-condense add-rows MODEL --of REDUCED"),
+           ("dynamics", ["--write-motored-cycle", "x.csv"], "--write-motored-cycle is now a command: clatter motored-cycle")]
+
+    def test_each_has_a_help_of_its_own_that_the_program_lists(self):
+        for stage in stages.STAGES:
+            program = stages.run_stage(stage, "--help", folder=self.folder).stdout
+            self.assertEqual("Commands (each has --help):" in program, stage in self.COMMANDS)
+            for name in self.COMMANDS.get(stage, []):
+                with self.subTest(stage=stage, command=name):
+                    self.assertRegex(program, rf"\n  {name} ")
+                    own = stages.run_stage(stage, name, "--help", folder=self.folder)
+                    self.assertEqual(own.returncode, 0, own.stderr)
+                    self.assertIn(f"Usage: clatter-{stage} {name} ", own.stdout)
+                    for text in ("--threads", "--quiet", "--json", "--depfile", f"clatter-{stage} {name} "):
+                        self.assertIn(text, own.stdout)
+
+    def test_an_option_that_is_a_command_now_is_named(self):
+        for stage, arguments, says in self.OLD:
+            with self.subTest(stage=stage, arguments=arguments):
+                self.assert_refused(stage, arguments, says=[says])
+
+    def test_a_command_refuses_the_options_of_the_others(self):
+        self.assert_refused("modal", ["statics", "beam.fe.h5", "--count", "3", "-o", "x.static.h5"],
+                            says=["--count", "clatter-modal statics --help"])
+        self.assert_refused("condense", ["add-rows", "beam.fe.h5", "--set", "sensor_tip", "-o", "x.rom.h5"],
+                            says=["--of is required", "clatter-condense add-rows --help"])
+
+    def test_a_file_may_have_the_name_of_a_command(self):
+        for name in ("compare", "statics"):
+            (self.folder / name).write_bytes((self.folder / "beam.fe.h5").read_bytes())
+        self.assertEqual(stages.run_stage("modal", "./compare", "--count", 8, "-o", "export", folder=self.folder).returncode, 0)
+        done = stages.run_stage("modal", "statics", "statics", "-o", "x.static.h5", "--depfile", "x.d", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "x.d").read_text(), "x.static.h5: statics\nstatics:\n")
+
+    def test_exports_name_the_files_and_what_they_were_made_from(self):
+        for stage, source, files in (("mesh", "beam.mesh.h5", ["a.vtu", "a.med"]), ("modal", "beam.modes.h5", ["b.vtu"]),
+                                     ("condense", "beam.rom.h5", ["c.pch", "c.fem"])):
+            with self.subTest(stage=stage):
+                done = stages.run_stage(stage, "export", source, *files, "--json", "--depfile", "e.d", folder=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(json.loads(done.stdout), {"files": files})
+                self.assertEqual((self.folder / "e.d").read_text(), f"{files[0]}: {source}\n{source}:\n")
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

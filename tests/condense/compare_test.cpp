@@ -183,9 +183,9 @@ TEST_F(InFolder, CommandsReduceAndCompareAModel) {
   EXPECT_EQ(reduced.method, "craig-bampton");
   EXPECT_EQ(reduced.valid_to_hz, 9000.0);
   EXPECT_EQ(reduced.certificate.rigid_modes.value(), 6.0);
-  ASSERT_EQ(call("clatter-modal --compare " + fe + " " + rom), 0) << log();
+  ASSERT_EQ(call("clatter-modal compare " + fe + " " + rom), 0) << log();
   EXPECT_NE(log().find("MAC"), std::string::npos) << log();
-  EXPECT_EQ(call("clatter-modal --compare " + fe + " " + rom + " --fmax-hz 100"), 3) << log();
+  EXPECT_EQ(call("clatter-modal compare " + fe + " " + rom + " --fmax-hz 100"), 3) << log();
   EXPECT_NE(log().find("error: box: nothing was compared"), std::string::npos) << log();
   const std::string modes = (folder_ / "box.modes.h5").string();
   ASSERT_EQ(call("clatter-modal " + fe + " --count 8 -o " + modes), 0) << log();

@@ -82,12 +82,18 @@ def all_commands():
 
 
 @functools.cache
-def help_of(program):
-    """Output of `clatter-mesh --help`; None if it is not built."""
+def help_of(program, *command):
+    """Output of `clatter-mesh --help` or `clatter-mesh faces --help`; None if it is not built."""
     path = BIN / program
     if not path.exists():
         return None
-    return subprocess.run([path, "--help"], capture_output=True, text=True, timeout=60).stdout
+    return subprocess.run([path, *command, "--help"], capture_output=True, text=True, timeout=60).stdout
+
+
+def commands_of(program):
+    """The commands that the help of a stage's program lists."""
+    listed = re.search(r"^Commands \(.*\):\n((?:  .*\n)+)", help_of(program) or "", re.M)
+    return re.findall(r"^  ([\w-]+)", listed[1], re.M) if listed else []
 
 
 @functools.cache
@@ -117,7 +123,8 @@ def look_at_stage(words):
         return [f"no program {words[0]}"]
     if text is None:
         return []
-    return unknown_options(words[1:], text)
+    command = words[1:2] if words[1:2] and words[1] in commands_of(words[0]) else []
+    return unknown_options(words[1:], help_of(words[0], *command))
 
 
 def look_at_tool(words):
@@ -125,7 +132,7 @@ def look_at_tool(words):
     if len(words) < 2:
         return []
     text = command_line.parser().format_help()
-    if not re.search(rf"^    {words[1]} ", text, re.M):
+    if not re.search(rf"^    {words[1]}(?: |$)", text, re.M):
         return [f"no command clatter {words[1]}"]
     return unknown_options(words[2:], help_of_tool(words[1]))
 

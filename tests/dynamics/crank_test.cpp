@@ -6,7 +6,6 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/given/crank.hpp"
-#include "dynamics/given/gas_cycle.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::dynamics {
@@ -58,31 +57,6 @@ TEST(SliderCrank, RefusesARodThatDoesNotReach) {
   test::expect_parts(test::refusal_of([&] { SliderCrank(0.065, 0.06, 0.0, 1.0); }),
                      {"slider-crank: crank radius 0.065 m, rod 0.06 m, pin offset 0 m: expected "
                       "rod > radius + offset"});
-}
-
-TEST(MotoredCycle, PeakPressuresOfTheReference) {
-  // reference/tribology.md: ratio 17, 1 bar: 39.8 / 44.5 / 48.5 bar, printed to 0.1 bar.
-  MotoredCycle cycle;
-  for (const auto& [n, bar] : {std::pair{1.30, 39.8}, {1.34, 44.5}, {1.37, 48.5}}) {
-    cycle.exponent = n;
-    EXPECT_NEAR(motored_pressure(cycle, 0.0) * 1e-5, bar, 0.06);
-  }
-}
-
-TEST(MotoredCycle, EnclosesNoWork) {
-  MotoredCycle cycle;
-  double work = 0.0, exchanged = 0.0;
-  const int n = 7200;
-  for (int i = 0; i < n; ++i) {
-    const double a = -2.0 * std::numbers::pi + 4.0 * std::numbers::pi * i / n,
-                 b = a + 4.0 * std::numbers::pi / n;
-    const double dW = 0.5 * (motored_pressure(cycle, a) + motored_pressure(cycle, b)) *
-                      (cylinder_volume(cycle, b) - cylinder_volume(cycle, a));
-    work += dW;
-    exchanged += std::abs(dW);
-  }
-  // Symmetric path and trapezoidal sums: only rounding is left.
-  EXPECT_LT(std::abs(work), 1e-12 * exchanged);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "dynamics/given/gas_cycle.hpp"
 #include "dynamics/run/model.hpp"
 #include "tests/dynamics/fixtures.hpp"
+#include "tests/dynamics/motored_cycle.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics {
@@ -64,7 +64,7 @@ TEST(RigidDryPiston, CrossesItsClearanceUnderARisingForceAsTabulated) {
 class ConstrainedPiston {
  public:
   ConstrainedPiston(const EngineSpec& engine, double piston_mass, double area,
-                    const MotoredCycle& cycle, double ambient)
+                    const testing::MotoredCycle& cycle, double ambient)
       : engine_(engine),
         crank_(0.5 * engine.stroke, engine.rod.length, 0.0, engine.speed),
         mass_(piston_mass),
@@ -87,7 +87,7 @@ class ConstrainedPiston {
             ((1.0 - a) * y2c - tau * ((1.0 - a) * z2c + a * (z2c + tau * y2c - tau1 * s1)));
     coefficient += rod.inertia / (r * r);
     rest += rod.inertia / r * (-y2c / r + s1 * s1 * s / (r * r * r));
-    const double force = -area_ * (motored_pressure(cycle_, crank_.angle(t)) - ambient_);
+    const double force = -area_ * (testing::motored_pressure(cycle_, crank_.angle(t)) - ambient_);
     return (-tau * force - rest) / coefficient;
   }
 
@@ -111,7 +111,7 @@ class ConstrainedPiston {
   EngineSpec engine_;
   SliderCrank crank_;
   double mass_, area_;
-  MotoredCycle cycle_;
+  testing::MotoredCycle cycle_;
   double ambient_;
 };
 
@@ -123,10 +123,10 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   piston.name = "piston";
   piston.elastic = false;
   scene.piston = piston;
-  const MotoredCycle cycle;
+  const testing::MotoredCycle cycle;
   GasSpec gas;
   gas.table = ::testing::TempDir() + "clatter_dry_piston.csv";
-  write_motored_cycle(gas.table, cycle, std::numbers::pi / 720.0);
+  testing::write_motored_cycle(gas.table, cycle, std::numbers::pi / 720.0);
   scene.gas = gas;
   // Nearly rigid joints without clearance: 40 kN press 1e11 N/m by 0.4 um.
   scene.small_end = scene.big_end = RadialLaw{0.0, 0.0, 1e11, 1.0, 3e5};

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "dynamics/given/gas_cycle.hpp"
+#include "tests/dynamics/motored_cycle.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -91,11 +91,11 @@ TEST(Spline, MonotoneCubicKeepsExtremaAndReproducesALine) {
 
 TEST(MotoredTable, WrittenAndReadBackHasThePressureOfTheFormula) {
   const std::filesystem::path path = ::testing::TempDir() + "clatter_motored.csv";
-  MotoredCycle cycle;
-  write_motored_cycle(path, cycle, kDegree);
+  testing::MotoredCycle cycle;
+  testing::write_motored_cycle(path, cycle, kDegree);
   const Spline p = read_cycle_table(path, "", "Pa", Spline::Kind::kMonotoneCubic);
   for (double angle = -350.0; angle < 350.0; angle += 3.3) {
-    const double exact = motored_pressure(cycle, angle * kDegree);
+    const double exact = testing::motored_pressure(cycle, angle * kDegree);
     EXPECT_NEAR(p(angle * kDegree), exact, 2e-4 * 44.5e5) << angle;  // 1 deg rows
   }
 }

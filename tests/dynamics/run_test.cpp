@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
-#include "dynamics/given/gas_cycle.hpp"
+#include "core/base/write_artefact.hpp"
 #include "dynamics/run/run_file.hpp"
+#include "tests/dynamics/motored_cycle.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics {
@@ -47,7 +47,7 @@ class Runs : public ::testing::Test {
     testing::write_rom(folder_ / "piston.rom.h5", testing::rigid_piston(1.9, 4e-3, 8.992e-3));
     testing::write_rom(folder_ / "block.rom.h5", testing::elastic_block(0.0535, 8, 6));
     testing::write_rom(folder_ / "bar.rom.h5", testing::clamped_bar(1.0, 100, 10));
-    write_motored_cycle(folder_ / "motored.csv", {}, 0.0174532925199432957);
+    testing::write_motored_cycle(folder_ / "motored.csv", {}, 0.0174532925199432957);
     std::ofstream(folder_ / "slap.run.toml") << R"(
 [engine]
 speed_rpm = 2000.0
@@ -134,9 +134,8 @@ TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
   control.stop = &stop;
   const RunResult result = simulate(described, bodies, control);
   EXPECT_FALSE(result.complete);
-  H5File file = H5File::create(folder_ / "stopped.run.h5");
-  write_run(file, described, bodies, result);
-  file.commit();
+  write_artefact(folder_ / "stopped.run.h5", provenance_of(described), {}, {},
+                 [&](H5File& file) { write_run(file, described, bodies, result); });
   const H5File back = open_artefact(folder_ / "stopped.run.h5", "clatter/run/1");
   EXPECT_EQ(back.get_int("/", "complete"), 0);
   EXPECT_EQ(back.read_doubles("output/time").size(), 1U);
@@ -200,9 +199,8 @@ TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
   const Scene described = scene(kElasticBlock + std::string("[contact]\nlubrication = \"none\"\n"));
   const LoadedBodies bodies = load_bodies(described);
   const RunResult result = simulate(described, bodies, {});
-  H5File file = H5File::create(folder_ / "slap.run.h5");
-  write_run(file, described, bodies, result);
-  file.commit();
+  write_artefact(folder_ / "slap.run.h5", provenance_of(described), {}, {},
+                 [&](H5File& file) { write_run(file, described, bodies, result); });
   const H5File back = open_artefact(folder_ / "slap.run.h5", "clatter/run/1");
   const auto time = back.read_vector("output/time");
   const auto n_t = time.size();
@@ -249,9 +247,8 @@ mode_limit_hz = 8000.0
   EXPECT_TRUE(result.complete) << result.failure;
   EXPECT_GT(result.energy_exchanged, 1.0);
   EXPECT_LT(result.energy_residue, 1.5e-5);  // 1.4e-6
-  H5File file = H5File::create(folder_ / "film.run.h5");
-  write_run(file, described, bodies, result);
-  file.commit();
+  write_artefact(folder_ / "film.run.h5", provenance_of(described), {}, {},
+                 [&](H5File& file) { write_run(file, described, bodies, result); });
   const H5File back = open_artefact(folder_ / "film.run.h5", "clatter/run/1");
   // The film's pressure deforms the liner: what is left without the rigid-body motion.
   const rom::ReducedModel& block = bodies[1].model;

@@ -355,9 +355,9 @@ TEST_F(StaticFiles, TheModelReadFromItsFileGivesTheSameSolution) {
 }
 
 TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAnInvalidPosition) {
-  EXPECT_EQ(run("bar.fe.h5 --static --stress-at nowhere -o bar.static.h5"), 2);
+  EXPECT_EQ(run("statics bar.fe.h5 --stress-at nowhere -o bar.static.h5"), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bar.static.h5"));
-  ASSERT_EQ(run("bar.fe.h5 --static --case both --stress-at 1 -o bar.static.h5"), 0);
+  ASSERT_EQ(run("statics bar.fe.h5 --case both --stress-at 1 -o bar.static.h5"), 0);
   const StaticCase want = solve_static(model_, {"both"}).cases[0];
   const H5File file = open_artefact(folder_ / "bar.static.h5", kStaticSchema);
   EXPECT_EQ(file.read_ints("stress_nodes/body"), want.stress[0].nodes);
@@ -367,7 +367,7 @@ TEST_F(StaticFiles, TheCommandWritesStressesAndRefusesAnInvalidPosition) {
 }
 
 TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {
-  ASSERT_EQ(run("bar.fe.h5 --static --case both --case push -o bar.static.h5"), 0);
+  ASSERT_EQ(run("statics bar.fe.h5 --case both --case push -o bar.static.h5"), 0);
   const H5File file = open_artefact(folder_ / "bar.static.h5", kStaticSchema);
   EXPECT_EQ(file.list("cases"), (std::vector<std::string>{"both", "push"}));
   const StaticCase want = solve_static(model_, {"both"}).cases[0];
@@ -377,8 +377,8 @@ TEST_F(StaticFiles, TheCommandWritesDisplacementsAndReactionsOfTheNamedCases) {
   EXPECT_LT((file.read_matrix("cases/both/support_sums") - want.support_sums).norm(),
             1e-9 * want.support_sums.norm());
   EXPECT_LT(read_certificate<StaticCertificate>(file).balance_max, 1e-9);
-  EXPECT_EQ(run("bar.fe.h5 --static --case nothing -o other.static.h5"), 2);
-  EXPECT_EQ(run("bar.fe.h5 --static"), 2);
+  EXPECT_EQ(run("statics bar.fe.h5 --case nothing -o other.static.h5"), 2);
+  EXPECT_EQ(run("statics bar.fe.h5"), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "other.static.h5"));
 }
 

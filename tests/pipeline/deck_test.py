@@ -100,7 +100,7 @@ class Deck(unittest.TestCase):
         for stage, arguments in (
                 ("mesh", ["beam.inp", "--units", "mm-t-s", "-o", "beam.mesh.h5", "--recipe", "beam.fe.toml"]),
                 ("assembly", ["beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5"]),
-                ("modal", ["beam.fe.h5", "--static", "-o", "beam.static.h5"]),
+                ("modal", ["statics", "beam.fe.h5", "-o", "beam.static.h5"]),
                 ("modal", ["beam.fe.h5", "--count", "6", "-o", "beam.modes.h5"])):
             done = stages.run_stage(stage, *arguments, folder=cls.folder)
             if done.returncode:
@@ -197,7 +197,7 @@ class WhollyHeld(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{stage}: {done.returncode} {done.stderr}")
 
     def test_reactions_are_those_of_uniaxial_strain_and_of_heat_without_expansion(self):
-        done = stages.run_stage("modal", "cube.fe.h5", "--static", "-o", "cube.static.h5", folder=self.folder)
+        done = stages.run_stage("modal", "statics", "cube.fe.h5", "-o", "cube.static.h5", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         modulus, nu = 210e9, 0.3
         across = modulus / ((1 + nu) * (1 - 2 * nu)) * 1e-3  # stress is this times 1 - nu along x, nu across
@@ -222,7 +222,7 @@ class WhollyHeld(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
             self.assertIn("all 24 DoFs supported (support_1", done.stderr)
-            self.assertIn("--static", done.stderr)
+            self.assertIn("clatter-modal statics", done.stderr)
 
 
 class Rotating(unittest.TestCase):
@@ -243,7 +243,7 @@ class Rotating(unittest.TestCase):
         for stage, arguments in (
                 ("mesh", ["bar.inp", "--units", "mm-t-s", "-o", "bar.mesh.h5", "--recipe", "bar.fe.toml"]),
                 ("assembly", ["bar.mesh.h5", "-c", "bar.fe.toml", "-o", "bar.fe.h5"]),
-                ("modal", ["bar.fe.h5", "--static", "--case", "step_1", "-o", "bar.static.h5"])):
+                ("modal", ["statics", "bar.fe.h5", "--case", "step_1", "-o", "bar.static.h5"])):
             done = stages.run_stage(stage, *arguments, folder=cls.folder)
             if done.returncode:
                 raise AssertionError(f"{stage}: {done.stderr}")

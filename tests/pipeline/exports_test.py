@@ -52,8 +52,7 @@ class Exports(unittest.TestCase):
         (cls.folder / "cells.bdf").write_text(deck())
         cls.mesh("cells.bdf", "--units", "m-kg-s", "-o", "cells.mesh.h5", "--export", "first.vtu", "--export", "first.bdf")
         (cls.folder / "cells.bdf").unlink()
-        cls.mesh("cells.mesh.h5", *[word for kind in ("vtu", "med", "bdf", "msh", "nas")
-                                    for word in ("--export", f"cells.{kind}")])
+        cls.mesh("export", "cells.mesh.h5", *[f"cells.{kind}" for kind in ("vtu", "med", "bdf", "msh", "nas")])
 
     @classmethod
     def mesh(cls, *arguments, code=0):
@@ -68,10 +67,12 @@ class Exports(unittest.TestCase):
         self.assertGreater((self.folder / "cells.msh").stat().st_size, 1000)
 
     def test_no_output_and_no_export_is_refused(self):
-        self.assertIn("--export", self.mesh("cells.mesh.h5", code=2).stderr)
-        self.assertIn("--export", self.mesh("cells.mesh.h5", "-o", "x.mesh.h5", "--export", "y.vtu", code=2).stderr)
-        self.assertIn(".med, .unv", self.mesh("cells.mesh.h5", "--export", "y.docx", code=2).stderr)
-        self.assertIn("pyramid", self.mesh("cells.mesh.h5", "--export", "y.unv", code=2).stderr)
+        self.assertIn("--output is required", self.mesh("cells.mesh.h5", code=2).stderr)
+        self.assertIn("output is required", self.mesh("export", "cells.mesh.h5", code=2).stderr)
+        self.assertIn("`clatter-mesh export cells.mesh.h5 FILE`",
+                      self.mesh("cells.mesh.h5", "-o", "x.mesh.h5", "--export", "y.vtu", code=2).stderr)
+        self.assertIn(".med, .unv", self.mesh("export", "cells.mesh.h5", "y.docx", code=2).stderr)
+        self.assertIn("pyramid", self.mesh("export", "cells.mesh.h5", "y.unv", code=2).stderr)
         self.assertFalse(list(self.folder.glob("y.*")))
 
     @unittest.skipIf(shutil.which("mdump") is None, "mdump (package libmed-tools) is not installed")

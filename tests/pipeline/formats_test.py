@@ -124,8 +124,8 @@ class Formats(stages.PipelineTest):
             self.assertFalse(document.says(path), path)
 
     def test_every_name_in_an_artefact_is_in_the_document(self):
-        stages.run_stage("modal", "beam.fe.h5", "--static", "-o", "beam.static.h5", folder=self.folder)
-        stages.run_stage("mesh", "--faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
+        stages.run_stage("modal", "statics", "beam.fe.h5", "-o", "beam.static.h5", folder=self.folder)
+        stages.run_stage("mesh", "faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
         kinds = set()
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(artefact=path.name):

@@ -35,9 +35,9 @@ class ResultExport(stages.PipelineTest):
 
     def test_shapes_of_a_run_and_of_its_file_are_the_same(self):
         self.modal("beam.fe.h5", "--count", 9, "-o", "b.modes.h5", "--export", "run.vtu")
-        self.modal("b.modes.h5", "beam.fe.h5", "--export", "fe.vtu")
-        self.modal("b.modes.h5", "beam.mesh.h5", "--export", "mesh.vtu")
-        self.modal("b.modes.h5", "--export", "skin.vtu")
+        self.modal("export", "b.modes.h5", "fe.vtu", "--cells", "beam.fe.h5")
+        self.modal("export", "b.modes.h5", "mesh.vtu", "--cells", "beam.mesh.h5")
+        self.modal("export", "b.modes.h5", "skin.vtu")
         self.assertEqual((self.folder / "run.vtu").read_bytes(), (self.folder / "fe.vtu").read_bytes())
         with h5py.File(self.folder / "b.modes.h5") as modes, h5py.File(self.folder / "beam.mesh.h5") as mesh:
             cells = sum(len(block["nodes"]) for block in mesh["cells"].values())
@@ -62,7 +62,7 @@ class ResultExport(stages.PipelineTest):
                 np.testing.assert_array_equal(points["displacement"], shape.astype(float))
 
     def test_statics_have_displacement_and_stress(self):
-        self.modal("beam.fe.h5", "--static", "--case", "tip_force", "-o", "h.static.h5", "--export", "h.vtu")
+        self.modal("statics", "beam.fe.h5", "--case", "tip_force", "-o", "h.static.h5", "--export", "h.vtu")
         points = arrays(grid_of(self.folder / "h.vtu").GetPointData())
         with h5py.File(self.folder / "h.static.h5") as file:
             case = file["cases/tip_force"]
@@ -81,8 +81,9 @@ class ResultExport(stages.PipelineTest):
         self.assertFalse((self.folder / "n.modes.h5").exists())
         stages.run_stage("mesh", "beam.mesh.toml", "-o", "other.mesh.h5", "--element-size-mm", 30, folder=self.folder)
         self.modal("beam.fe.h5", "--count", 4, "-o", "b.modes.h5")
-        done = self.modal("b.modes.h5", "other.mesh.h5", "--export", "n.vtu", code=2)
+        done = self.modal("export", "b.modes.h5", "n.vtu", "--cells", "other.mesh.h5", code=2)
         self.assertIn("its nodes are not those of", done.stderr)
+        self.assertIn("found clatter/fe/2, expected results", self.modal("export", "beam.fe.h5", "n.vtu", code=2).stderr)
         self.assertFalse((self.folder / "n.vtu").exists())
 
     def test_results_are_on_stdout_and_progress_on_stderr(self):

@@ -92,7 +92,7 @@ class Springs(unittest.TestCase):
         for stage, arguments in (
                 ("mesh", ["cube.inp", "--units", "mm-t-s", "-o", "cube.mesh.h5", "--recipe", "cube.fe.toml"]),
                 ("assembly", ["cube.mesh.h5", "-c", "cube.fe.toml", "-o", "cube.fe.h5"]),
-                ("modal", ["cube.fe.h5", "--static", "-o", "cube.static.h5"]),
+                ("modal", ["statics", "cube.fe.h5", "-o", "cube.static.h5"]),
                 ("modal", ["cube.fe.h5", "--count", "6", "-o", "cube.modes.h5"])):
             done = stages.run_stage(stage, *arguments, folder=cls.folder)
             if done.returncode:

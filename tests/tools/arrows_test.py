@@ -185,6 +185,16 @@ class Arrows(unittest.TestCase):
         self.assertRegex(wrong_links("dynamics", "LINKS clatter::base clatter::condense")[0], "condense, which is a stage")
         self.assertRegex(wrong_links("recover", "LINKS clatter::fe")[0], "recover uses core/fe, but may use only: ")
 
+    def test_artefacts_are_finished_in_one_place(self):
+        wrong = [f"{p.relative_to(SOURCE)}: calls {name}, expected write_artefact() or finish_exports()"
+                 for folder in ALLOWED for p in sources(folder) if p.stem not in ("artefact", "write_artefact")
+                 for name in re.findall(r"\b(write_provenance|write_timing|write_depfile)\(", p.read_text())]
+        self.assertEqual(wrong, [])
+
+    def test_mains_are_short(self):
+        lengths = {stage: len((SOURCE / stage / "main.cpp").read_text().splitlines()) for stage in STAGES}
+        self.assertEqual({stage: n for stage, n in lengths.items() if n > 80}, {})
+
     def test_a_third_party_header_is_included_only_by_files_with_its_prefix(self):
         for header, owners in HEADER_OWNERS.items():
             users = [str(p.relative_to(SOURCE)) for folder in ALLOWED for p in sources(folder)

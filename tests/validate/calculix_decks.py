@@ -171,7 +171,7 @@ def compare_ring(theirs, folder):
 
 
 def compare_displacements(theirs, folder):
-    run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
+    run("modal", "statics", "a.fe.h5", "--case", "step_1", "-o", "a.static.h5", folder=folder)
     row_of = row_of_node(folder)
     with h5py.File(folder / "a.static.h5") as file:
         ours = file["cases/step_1/displacement"][()].reshape(-1, 3)

@@ -55,7 +55,7 @@ def compare(name, folder):
     subprocess.run(["ccx", "deck"], cwd=folder, capture_output=True, timeout=300, check=True)
     theirs = printed_stress(folder / "deck.frd")
     assemble("deck.inp", folder)
-    run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
+    run("modal", "statics", "a.fe.h5", "--case", "step_1", "-o", "a.static.h5", folder=folder)
     row_of = row_of_node(folder)
     with h5py.File(folder / "a.static.h5") as file:
         (region,) = file["stress_nodes"]  # one material: CalculiX averages over all cells

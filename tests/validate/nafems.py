@@ -80,7 +80,7 @@ def fv32(kind, bricks):
 
 def stress_at(folder, position):
     """xx yy zz xy yz zx [Pa] at the node nearest to a position."""
-    run("modal", "a.fe.h5", "--static", "--case", "step_1", "-o", "a.static.h5", folder=folder)
+    run("modal", "statics", "a.fe.h5", "--case", "step_1", "-o", "a.static.h5", folder=folder)
     with h5py.File(folder / "a.static.h5") as file:
         (region,) = file["stress_nodes"]
         nodes = file["nodes"][()][file["stress_nodes"][region][()]]

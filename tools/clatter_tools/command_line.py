@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input)."""
+"""The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input, 4 file or disk error)."""
 import argparse
 import os
 import subprocess
 import sys
 
-from . import info, report
+from . import info, motored_cycle, report
 from .artefact import BadArtefact
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -28,6 +28,8 @@ def parser():
     one.add_argument("kind", help="kind of picture; 'list' names them")
     one.add_argument("files", nargs="*", metavar="file.h5")
     one.add_argument("-o", "--output", help="PNG file; default: kind.png")
+    one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
+    motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     return top
 
@@ -64,11 +66,16 @@ def main(arguments, rules):
             report.print_report(options.folder)
         elif options.command == "plot":
             return plot(options.kind, options.files, options.output)
+        elif options.command == "motored-cycle":
+            motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":
             print(rules)
     except BadArtefact as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 2
+    except motored_cycle.CannotWrite as error:
+        print(f"clatter: error: {error}", file=sys.stderr)
+        return 4
     except BrokenPipeError:
         return 0
     except (OSError, RuntimeError, KeyError) as error:

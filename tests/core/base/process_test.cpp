@@ -14,11 +14,13 @@
 #include "core/base/error.hpp"
 #include "core/base/h5_file.hpp"
 #include "core/base/json_line.hpp"
+#include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/refusal.hpp"
 #include "core/base/threads.hpp"
 #include "core/base/whole_file.hpp"
+#include "core/base/write_artefact.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter {
@@ -118,12 +120,97 @@ TEST(RunGuarded, HardG1_AThrownStringIsCaught) {
   EXPECT_EQ(run_guarded("t", []() -> int { throw std::string("gmsh says no"); }), 3);
 }
 
+/// A program with a usual job and a command, both of which note what they were called with.
+struct Program {
+  CommandLine line{"t", "summary", ""};
+  std::filesystem::path model, solved;
+  int count = 0;
+  std::string called;
+
+  Program() {
+    line.positional("model", model, "model");
+    line.option("--count", count, "count");
+    line.moved("--static", "t statics MODEL");
+    line.action([this](const CommonOptions&) { called = "usual " + model.string(); });
+    CommandLine& statics = line.command("statics", "summary", "");
+    statics.positional("model", solved, "model");
+    statics.action([this](const CommonOptions& common) {
+      called = "statics " + solved.string() + (common.json ? " json" : "");
+    });
+  }
+  /// The exit code.
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "t");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    ::testing::internal::CaptureStderr();
+    const int code = line.run(static_cast<int>(arguments.size()), argv.data());
+    said = ::testing::internal::GetCapturedStderr();
+    set_json(false);
+    return code;
+  }
+  std::string said;
+};
+
 TEST(CommandLine, AWrongOptionEndsWithTwo) {
-  CommandLine line("t", "summary", "");
-  std::string program = "t", wrong = "--nonsense";
-  char* argv[] = {program.data(), wrong.data(), nullptr};
-  EXPECT_FALSE(line.parse(2, argv));
-  EXPECT_EQ(line.exit_code(), 2);
+  Program program;
+  EXPECT_EQ(program.run({"--nonsense"}), 2);
+  EXPECT_EQ(program.called, "");
+}
+
+TEST(CommandLine, TheFirstArgumentChoosesTheCommand) {
+  EXPECT_EQ(Program().run({}), 2);
+  Program usual;
+  EXPECT_EQ(usual.run({"x.h5", "--count", "3"}), 0);
+  EXPECT_EQ(usual.called, "usual x.h5");
+  Program file;
+  EXPECT_EQ(file.run({"./statics"}), 0);
+  EXPECT_EQ(file.called, "usual ./statics");
+  Program command;
+  EXPECT_EQ(command.run({"statics", "statics", "--json"}), 0);
+  EXPECT_EQ(command.called, "statics statics json");
+}
+
+TEST(CommandLine, ACommandHasOptionsOfItsOwn) {
+  Program program;
+  EXPECT_EQ(program.run({"statics", "x.h5", "--count", "3"}), 2);
+  EXPECT_NE(program.said.find("(see t statics --help)"), std::string::npos) << program.said;
+  Program later;
+  EXPECT_EQ(later.run({"x.h5", "statics"}), 2);  // a second file, not a command
+  EXPECT_EQ(later.called, "");
+}
+
+TEST(CommandLine, AnOptionThatBecameACommandIsNamed) {
+  Program program;
+  EXPECT_EQ(program.run({"x.h5", "--static"}), 2);
+  EXPECT_EQ(program.said, "t: error: --static is now a command: t statics MODEL (see t --help)\n");
+}
+
+TEST(WriteArtefact, HasProvenanceAndTimingAndKeepsTheOlderFileOnAnError) {
+  const auto folder = std::filesystem::temp_directory_path() / "clatter_write_artefact_test";
+  std::filesystem::create_directories(folder);
+  const auto output = folder / "a.h5", input = folder / "a.toml";
+  write_whole_file(input, "x = 1\n");
+  StepClock clock;
+  clock.lap("step");
+  CommonOptions common;
+  common.depfile = folder / "a.d";
+  write_artefact(output, {"clatter/test/1", "x = 1\n", {input}}, clock, common,
+                 [](H5File& file) { file.write("x", std::vector<double>{1.0}); });
+  EXPECT_THROW(write_artefact(output, {"clatter/test/1", "", {}}, clock, {},
+                              [](H5File&) { throw NumericsError("not converged"); }),
+               NumericsError);
+  EXPECT_FALSE(exists(folder / "a.h5.part"));
+  const H5File file = open_artefact(output, "clatter/test/1");
+  EXPECT_EQ(file.read_doubles("x"), std::vector<double>{1.0});
+  EXPECT_EQ(file.get_string("/", "config"), "x = 1\n");
+  EXPECT_EQ(file.read_strings("inputs/sha256"), std::vector<std::string>{sha256_of_file(input)});
+  EXPECT_EQ(file.read_strings("timing/step"), std::vector<std::string>{"step"});
+  std::stringstream text;
+  text << std::ifstream(common.depfile).rdbuf();
+  EXPECT_EQ(text.str(), output.string() + ": " + input.string() + "\n" + input.string() + ":\n");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CommandLine, TheDepfileNamesEachInputTwice) {

@@ -37,7 +37,7 @@ def listed(part, folder):
     if program is None:
         raise BadArtefact(f"{part}: clatter-mesh, which lists its faces, is not in PATH (or CLATTER_BIN)")
     output = pathlib.Path(folder) / "part.faces.h5"
-    done = subprocess.run([program, "--faces", str(part), "-o", str(output), "--quiet"], text=True,
+    done = subprocess.run([program, "faces", str(part), "-o", str(output), "--quiet"], text=True,
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     if done.returncode:
         raise BadArtefact(done.stderr.strip().splitlines()[-1].partition("error: ")[2] or done.stderr.strip())

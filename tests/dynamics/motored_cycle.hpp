@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The pressure of a motored engine.
+// The pressure of a motored engine for the tests, as `clatter motored-cycle` writes it.
 #include <filesystem>
-#include <vector>
 
-#include "dynamics/given/crank.hpp"
-
-namespace clatter::dynamics {
+namespace clatter::dynamics::testing {
 
 /// A motored cycle: polytropic between intake valve closing and exhaust valve opening with the same
-/// exponent both ways, constant outside. With closing and opening at equal volumes the loop
-/// encloses no work, which makes it an exact test of an energy balance.
+/// exponent both ways, constant outside.
 struct MotoredCycle {
   double bore = 0.107;        // [m]
   double stroke = 0.130;      // [m]
@@ -22,13 +18,10 @@ struct MotoredCycle {
   double valves_closed_half = 3.14159265358979323846;  // closed for |theta| below this [rad]
 };
 
-/// Volume above the piston at crank angle theta [rad], [m3].
-double cylinder_volume(const MotoredCycle& cycle, double theta);
-
 /// Absolute pressure p = p_IVC (V_IVC / V)^n at crank angle theta [rad], 0 = firing TDC, [Pa].
 double motored_pressure(const MotoredCycle& cycle, double theta);
 
 /// Writes "crank_angle [deg], pressure [bar]" over -360..360 deg every `step` rad.
 void write_motored_cycle(const std::filesystem::path& path, const MotoredCycle& cycle, double step);
 
-}  // namespace clatter::dynamics
+}  // namespace clatter::dynamics::testing

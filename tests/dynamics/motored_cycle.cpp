@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/given/gas_cycle.hpp"
+#include "tests/dynamics/motored_cycle.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/base/whole_file.hpp"
+#include "dynamics/given/crank.hpp"
 
-namespace clatter::dynamics {
+namespace clatter::dynamics::testing {
 namespace {
 
 SliderCrank mechanism(const MotoredCycle& cycle) {
@@ -32,14 +32,15 @@ double lowest(const MotoredCycle& cycle) {
   return std::sqrt(reach * reach - cycle.pin_offset * cycle.pin_offset);
 }
 
-}  // namespace
-
+/// Volume above the piston at crank angle theta [rad], [m3].
 double cylinder_volume(const MotoredCycle& cycle, double theta) {
   const double area = 0.25 * std::numbers::pi * cycle.bore * cycle.bore;
   const double top = highest(cycle);
   const double swept = area * (top - lowest(cycle));
   return swept / (cycle.compression_ratio - 1.0) + area * (top - pin_height(cycle, theta));
 }
+
+}  // namespace
 
 double motored_pressure(const MotoredCycle& cycle, double theta) {
   const double turn = 4.0 * std::numbers::pi;
@@ -52,8 +53,7 @@ double motored_pressure(const MotoredCycle& cycle, double theta) {
 
 void write_motored_cycle(const std::filesystem::path& path, const MotoredCycle& cycle,
                          double step) {
-  WholeFile file(path);
-  std::ostream& stream = file.stream();
+  std::ofstream stream(path);
   stream << fmt::format(
       "# motored cycle: bore {:.6g} mm, stroke {:.6g} mm, rod {:.6g} mm, pin offset {:.6g} mm, "
       "ratio "
@@ -69,7 +69,6 @@ void write_motored_cycle(const std::filesystem::path& path, const MotoredCycle& 
     stream << fmt::format("{:.10g}, {:.12g}\n", theta / kDegree,
                           motored_pressure(cycle, theta) * 1e-5);
   }
-  file.commit();
 }
 
-}  // namespace clatter::dynamics
+}  // namespace clatter::dynamics::testing

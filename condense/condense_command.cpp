@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/condense_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "condense/add_rows.hpp"
+#include "condense/certify/verify.hpp"
+#include "condense/condense.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/write_artefact.hpp"
+
+namespace clatter::condense {
+namespace {
+
+struct CondenseArguments {
+  std::filesystem::path model, config, output;
+  bool uncertified = false;
+  double verify_hz = std::nan("");  // not a number: no verification
+};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void condense_part(const CondenseArguments& a, const CommonOptions& common) {
+  if (a.verify_hz < 0.0)
+    throw InputError(
+        fmt::format("command line: --verify: found {}, expected 0 or more", a.verify_hz));
+  StepClock clock;
+  const Config config = Config::load(a.config);
+  CondenseOptions options = read_condense_options(config);
+  if (a.uncertified)
+    options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
+  options.order = rom::read_elimination_order(a.output);
+  const fe::FeModel model = fe::read_fe_model(a.model);
+  fe::require_unknowns(model, "a reduction");
+  clock.lap(fmt::format("read {} DoF", model.size()));
+  rom::ReducedModel reduced = condense(model, options, clock);
+  for (const std::string& text : describe(reduced)) print_result(text);
+  if (!std::isnan(a.verify_hz)) {
+    const modes::Comparison compared = verify(reduced, model, a.verify_hz);
+    clock.lap("verification by the full model");
+    if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
+  }
+  write_artefact(a.output, {rom::kRomSchema, config.resolved(), {a.model, a.config}}, clock, common,
+                 [&](H5File& file) {
+                   rom::write_reduced_model(file, reduced);
+                   write_request(file, text_of(a.config));
+                 });
+  print_json_result(a.output, json_of(reduced), clock, common);
+}
+
+}  // namespace
+
+void declare_condense(CommandLine& line) {
+  const auto a = std::make_shared<CondenseArguments>();
+  line.positional("model", a->model, "assembled part (.fe.h5)");
+  line.option("-c,--config", a->config, "what to retain (.rom.toml)", true);
+  line.output("-o,--output", a->output, "reduced model (.rom.h5)", true);
+  line.flag("--no-certificate", a->uncertified,
+            "omit costly checks: the count of modes, the spectrum and condition of the reduced "
+            "matrices; the file records this");
+  line.option("--verify", a->verify_hz,
+              "compare with modes of the full model up to this frequency [Hz] and put the largest "
+              "error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
+  line.blas();
+  line.memory_limit();
+  line.action([a](const CommonOptions& common) { condense_part(*a, common); });
+}
+
+}  // namespace clatter::condense

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// How every program finishes its outputs: provenance, timing, the final name, make's dependencies
+// and the line of --json.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/artefact.hpp"
+#include "core/base/command_line.hpp"
+#include "core/base/json_line.hpp"
+
+namespace clatter {
+
+/// Writes an artefact: what `content` writes, `provenance` and the steps of `clock`, in a file that
+/// gets its name when it is complete; then the dependency file of `common`. An exception of
+/// `content` leaves an older artefact unchanged. FileError when a file cannot be written.
+void write_artefact(const std::filesystem::path& output, const Provenance& provenance,
+                    const StepClock& clock, const CommonOptions& common,
+                    const std::function<void(H5File&)>& content);
+
+/// The results of a stage for --json, in one line: {"output": ..., `members`, "seconds": ...};
+/// no effect without --json.
+void print_json_result(const std::filesystem::path& output, const JsonMembers& members,
+                       const StepClock& clock, const CommonOptions& common);
+
+/// Files in formats of other programs, and what they were made from.
+struct ExportedFiles {
+  std::string what;                           // for the user: "block: 395 coordinates"
+  std::filesystem::path target;               // as requested, for make
+  std::vector<std::filesystem::path> files;   // written; a format may have several
+  std::vector<std::filesystem::path> inputs;  // read
+};
+
+/// Finishes a command that only exports: the dependency file, the line "what to files", and with
+/// --json {"files": [...]}.
+void finish_exports(const ExportedFiles& exported, const CommonOptions& common);
+
+/// Writes "target: input input ..." for make. No effect when `depfile` is empty.
+void write_depfile(const std::filesystem::path& depfile, const std::filesystem::path& target,
+                   const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace clatter

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/base/planned_files.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+constexpr const char *kFailed = ".failed.h5", *kInterrupted = ".interrupted.h5";
+
+std::filesystem::path beside(const std::filesystem::path& output, const char* ending) {
+  return std::filesystem::path(output).replace_extension(ending);
+}
+
+}  // namespace
+
+void plan_run_files(const std::filesystem::path& output) {
+  will_write("--output", checkpoint_path(output));
+  for (const char* ending : {kFailed, kInterrupted}) will_write("--output", beside(output, ending));
+}
+
+bool is_finished(const RunResult& result) { return result.failure.empty() && result.complete; }
+
+std::filesystem::path written_file(const std::filesystem::path& output, const RunResult& result) {
+  if (!result.failure.empty()) return beside(output, kFailed);
+  return result.complete ? output : beside(output, kInterrupted);
+}
+
+void require_finished(const RunResult& result, const std::filesystem::path& output) {
+  const std::string written = written_file(output, result).string();
+  if (!result.failure.empty())
+    throw NumericsError(
+        fmt::format("{}; the results up to there are in {}", result.failure, written));
+  if (!result.complete)
+    throw NumericsError(fmt::format(
+        "{}: interrupted after {} complete cycles, the results so far are in {}; continue "
+        "with --resume",
+        output.string(), result.cycles, written));
+}
+
+void remove_unfinished(const std::filesystem::path& output) {
+  std::filesystem::remove(checkpoint_path(output));
+  std::filesystem::remove(beside(output, kInterrupted));
+}
+
+std::vector<std::string> describe(const RunResult& result, double seconds) {
+  std::vector<std::string> lines{"effects (seconds of their elements):"};
+  for (const auto& row : result.model->effects.lines(true)) lines.push_back(row);
+  const StepStatistics& s = result.statistics;
+  lines.push_back(fmt::format(
+      "steps: {} accepted, {} rejected by error, {} by Newton, {} refused; {:.3g} to {:.3g} "
+      "s; {} evaluations, {} factorisations",
+      s.accepted, s.rejected_error, s.rejected_newton, s.rejected_refused, s.smallest_step,
+      s.largest_step, s.evaluations, s.factorizations));
+  for (const auto& [reason, count] : s.refusals)
+    lines.push_back(fmt::format("  refused {}x: {}", count, reason));
+  lines.push_back(fmt::format(
+      "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
+      "{:.2f}; {:.2f} in total",
+      s.total_seconds, s.element_seconds, s.factor_seconds, s.operator_seconds, seconds));
+  for (const std::string& text : periodicity_lines(result.periodicity)) lines.push_back(text);
+  lines.push_back(fmt::format("energy residue: {:.2e} of {:.4g} J exchanged", result.energy_residue,
+                              result.energy_exchanged));
+  return lines;
+}
+
+JsonMembers json_of(const RunResult& result) {
+  return {{"steps", json_number(static_cast<double>(result.statistics.accepted))},
+          {"energy_residue", json_number(result.energy_residue)}};
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The end of a run: its files, complete or not, and what the user reads.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/json_line.hpp"
+#include "dynamics/run/simulate.hpp"
+
+namespace clatter::dynamics {
+
+/// Registers the files that a run may leave beside its output (core/base/planned_files.hpp):
+/// checkpoint, stem.run.failed.h5, stem.run.interrupted.h5.
+void plan_run_files(const std::filesystem::path& output);
+
+/// Whether the run reached its end.
+bool is_finished(const RunResult& result);
+
+/// The path of the results: only a finished run gets the requested name, which make and recover
+/// treat as finished.
+std::filesystem::path written_file(const std::filesystem::path& output, const RunResult& result);
+
+/// NumericsError when the run failed or was interrupted, with the path of the results so far.
+void require_finished(const RunResult& result, const std::filesystem::path& output);
+
+/// Removes the checkpoint and the file of an interruption, after a finished run.
+void remove_unfinished(const std::filesystem::path& output);
+
+/// Summary lines for the user: effects, steps, seconds, periodicity, energy residue.
+/// @param seconds of the entire program
+std::vector<std::string> describe(const RunResult& result, double seconds);
+
+/// For --json: steps, energy_residue.
+JsonMembers json_of(const RunResult& result);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/make_mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/plausible.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/mesh_file.hpp"
+#include "mesh/cad_alone.hpp"
+#include "mesh/deck/import.hpp"
+#include "mesh/deck/msh/reader.hpp"
+#include "mesh/deck/recipe/text.hpp"
+#include "mesh/geometry/bare_cad.hpp"
+#include "mesh/geometry/cad_unit.hpp"
+#include "mesh/part/mesher.hpp"
+#include "mesh/part/part_in_child.hpp"
+#include "mesh/repair/certify_mesh.hpp"
+#include "mesh/repair/poor_cells.hpp"
+
+namespace clatter::mesh {
+namespace {
+
+/// Geometry meshed by gmsh.
+NewMesh mesh_geometry(const MeshRequest& a, const Config& config, const std::string& name,
+                      StepClock& clock) {
+  const std::string extension = a.step.empty() ? "" : cad_extension(a.step);
+  MadePart made = make_part_in_child(
+      {&config, name, a.input.string(), extension, 1e-3 * a.element_size_mm}, a.limits);
+  clock.adopt(made.steps);
+  const MeshSettings settings = read_mesh_settings(config);
+  const QualityLimits aims = aims_of(settings);
+  const LengthUnit unit = read_length_unit(config);
+  const PoorCells poor = find_poor_cells(made.part.mesh, made.part.quality, aims);
+  note_poor_cells(poor, made.part.certificate);
+  check_poor_cells(poor, made.part.mesh, aims, {unit.name, unit.metres},
+                   settings.accept_poor_cells || a.accept_poor_cells);
+  NewMesh out{std::move(made.part.mesh),
+              std::move(made.part.quality),
+              std::move(made.part.certificate),
+              {kMeshSchema, std::move(made.config), {a.input}},
+              {},
+              std::move(made.cad),
+              {}};
+  if (a.element_size_mm > 0.0)
+    out.provenance.config += fmt::format("--element-size-mm = {}\n", a.element_size_mm);
+  if (config.text("kind") == "cad")
+    out.provenance.inputs.push_back(config.table("cad").path("source"));
+  return out;
+}
+
+/// A deck with its own cells.
+NewMesh read_mesh_of_deck(const std::filesystem::path& source, const UnitSystem& units,
+                          const std::vector<std::string>& ignore, const std::string& name,
+                          const ChildLimits& limits, StepClock& clock) {
+  deck::Deck found = is_msh(source) ? read_msh(source, units, {ignore}, limits)
+                                    : deck::read_deck(source, units, {ignore});
+  clock.lap("read");
+  for (const auto& [card, count] : found.ignored)
+    say(fmt::format("{}: ignored {} ({} times)", source.string(), card, count));
+  found.mesh.name = name;
+  NewMesh out;
+  out.recipe = deck::recipe_text(found);
+  out.mesh = std::move(found.mesh);
+  check_structure(out.mesh, source.string());
+  out.quality = measure_quality(out.mesh);
+  const PoorCells poor = find_poor_cells(out.mesh, out.quality);
+  out.certificate = certify_mesh(out.mesh, out.quality);
+  note_poor_cells(poor, out.certificate);
+  check_poor_cells(poor, out.mesh, kQualityAims,
+                   {units.name.substr(0, units.name.find('-')), units.length},
+                   true);  // a mesh of the user is never refused for quality
+  const std::string config = fmt::format("source = \"{}\"\nunits = \"{}\"\nignore = [{}]\n",
+                                         source.string(), units.name, fmt::join(ignore, ", "));
+  out.provenance = {kMeshSchema, config, {}};
+  for (const std::string& file : found.files) out.provenance.inputs.emplace_back(file);
+  clock.lap("mesh");
+  return out;
+}
+
+/// A CAD file alone: meshed like the description that is written next to the mesh.
+NewMesh mesh_bare_cad(const MeshRequest& a, StepClock& clock) {
+  const std::filesystem::path description = description_beside(a.output);
+  const double size =
+      a.element_size_mm > 0.0 ? a.element_size_mm : default_element_size_mm(a.input, a.limits);
+  if (a.element_size_mm == 0.0)
+    say(fmt::format(
+        "mesh: element size {} mm, from the part's volume (--element-size-mm overrides it)", size));
+  const Config config = config_of_cad(a.input, size);
+  NewMesh out = mesh_geometry(a, config, config.text("name"), clock);
+  out.provenance.inputs = {a.input};
+  out.description = cad_description(a.input, description, size);
+  return out;
+}
+
+NewMesh make_any_mesh(const MeshRequest& a, StepClock& clock) {
+  if (is_cad(a.input)) return mesh_bare_cad(a, clock);
+  if (deck::is_deck(a.input) || is_msh(a.input)) {
+    if (a.units.empty())
+      throw InputError(fmt::format("{}: found no --units, expected one (decks have no units)",
+                                   a.input.string()));
+    return read_mesh_of_deck(a.input, unit_system_named(a.units, "--units"), a.ignore,
+                             a.input.stem().string(), a.limits, clock);
+  }
+  const Config config = Config::load(a.input);
+  const std::string name = config.text("name");
+  if (config.text("kind") != "deck") return mesh_geometry(a, config, name, clock);
+  const Config table = config.table("deck");
+  const std::filesystem::path source = table.path("source");
+  const auto units = unit_system_named(table.text("units"), table.where() + ": units");
+  const std::vector<std::string> ignore = table.texts_or("ignore", {});
+  config.finish();
+  NewMesh out = read_mesh_of_deck(source, units, ignore, name, a.limits, clock);
+  out.provenance.config = config.resolved();
+  out.provenance.inputs.push_back(a.input);
+  return out;
+}
+
+}  // namespace
+
+NewMesh make_mesh(const MeshRequest& request, StepClock& clock) {
+  NewMesh made = make_any_mesh(request, clock);
+  const RowMatrix& nodes = made.mesh.nodes;
+  warn_implausible(
+      request.input.string(),
+      {length_warning((nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).maxCoeff())});
+  return made;
+}
+
+std::vector<std::string> describe(const NewMesh& result) {
+  std::vector<std::string> lines;
+  const auto& c = result.certificate;
+  const Measure& angle = result.quality.min_dihedral_deg;
+  lines.push_back(fmt::format("mesh: {:.0f} cells, {:.0f} nodes, {:.0f} degrees of freedom",
+                              c.cells, c.nodes, c.dofs));
+  for (size_t r = 0; r < result.mesh.regions.size(); ++r) {
+    lines.push_back(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
+                                cell_volume(result.mesh, static_cast<int32_t>(r))));
+  }
+  if (c.volume_against_cad)
+    lines.push_back(fmt::format("mesh: volume against CAD {:+.2e}", *c.volume_against_cad));
+  lines.push_back(fmt::format("mesh: volume against the surface integral {:.1e}",
+                              c.volume_against_surface_integral));
+  lines.push_back(
+      fmt::format("mesh: smallest dihedral angle {:.1f} deg in cell {} at ({:.4f}, {:.4f}, {:.4f}) "
+                  "m, scaled Jacobian {:.3f} in cell {}",
+                  angle.worst, angle.label, angle.position.x(), angle.position.y(),
+                  angle.position.z(), c.min_scaled_jacobian, result.quality.scaled_jacobian.label));
+  if (c.invalid_cells_before_repair)
+    lines.push_back(fmt::format("mesh: folded cells before repair: {:.0f}, now 0",
+                                *c.invalid_cells_before_repair));
+  return lines;
+}
+
+JsonMembers json_of(const NewMesh& made) {
+  const auto& c = made.certificate;
+  return {{"cells", json_number(c.cells)},
+          {"predicted_cells", c.predicted_cells ? json_number(*c.predicted_cells) : "null"},
+          {"dofs", json_number(c.dofs)},
+          {"min_dihedral_deg", json_number(c.min_dihedral_deg)}};
+}
+
+}  // namespace clatter::mesh

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pressure table of a motored engine, as CSV for [gas] of a scene."""
+import dataclasses
+import math
+import os
+import pathlib
+
+from .artefact import BadArtefact
+
+DEGREE = math.pi / 180.0
+
+
+class CannotWrite(Exception):
+    """A file or disk error: one line for the user."""
+
+
+@dataclasses.dataclass
+class MotoredCycle:
+    """Polytropic between intake valve closing and exhaust valve opening with the same exponent both ways, constant
+    outside: with closing and opening at equal volumes the loop encloses no work. Defaults: the sample's truck diesel."""
+    bore: float = 0.107         # [m]
+    stroke: float = 0.130       # [m]
+    rod: float = 0.210          # [m]
+    pin_offset: float = 0.0     # [m]
+    compression_ratio: float = 17.0
+    exponent: float = 1.34      # n
+    intake: float = 1e5         # absolute pressure at valve closing [Pa]
+    closed: float = math.pi     # valves closed for |theta| below this [rad]
+
+    def check(self):
+        radius = 0.5 * self.stroke
+        if not radius > 0.0 or not self.rod > radius + abs(self.pin_offset):
+            raise BadArtefact(f"slider-crank: crank radius {radius:g} m, rod {self.rod:g} m, pin offset {self.pin_offset:g} m: "
+                              "expected rod > radius + offset")
+        if not self.compression_ratio > 1.0:
+            raise BadArtefact(f"--compression-ratio: found {self.compression_ratio:g}, expected more than 1")
+
+    def pin_height(self, theta):
+        """Height of the piston pin above the crank axis [m]."""
+        radius = 0.5 * self.stroke
+        tilt = math.asin((-radius * math.sin(theta) - self.pin_offset) / self.rod)
+        return radius * math.cos(theta) + self.rod * math.cos(tilt)
+
+    def volume(self, theta):
+        """Volume above the piston [m3]; at its dead centres rod and crank are collinear."""
+        area = 0.25 * math.pi * self.bore * self.bore
+        longest, shortest = self.rod + 0.5 * self.stroke, self.rod - 0.5 * self.stroke
+        top = math.sqrt(longest * longest - self.pin_offset * self.pin_offset)
+        bottom = math.sqrt(shortest * shortest - self.pin_offset * self.pin_offset)
+        swept = area * (top - bottom)
+        return swept / (self.compression_ratio - 1.0) + area * (top - self.pin_height(theta))
+
+    def pressure(self, theta):
+        """p = p_IVC (V_IVC / V)^n at crank angle theta [rad], 0 = firing TDC; absolute [Pa]."""
+        cycles = theta / (4.0 * math.pi)
+        wrapped = theta - 4.0 * math.pi * math.copysign(math.floor(abs(cycles) + 0.5), cycles)
+        if abs(wrapped) >= self.closed:
+            return self.intake
+        return self.intake * (self.volume(self.closed) / self.volume(wrapped)) ** self.exponent
+
+
+def table(cycle, step):
+    """"crank_angle [deg], pressure [bar]" over -360 to 360 deg every `step` [rad], with a heading."""
+    lines = [f"# motored cycle: bore {cycle.bore * 1e3:.6g} mm, stroke {cycle.stroke * 1e3:.6g} mm, rod {cycle.rod * 1e3:.6g} mm, "
+             f"pin offset {cycle.pin_offset * 1e3:.6g} mm, ratio {cycle.compression_ratio:.6g}, n = {cycle.exponent:.6g}, "
+             f"intake {cycle.intake * 1e-5:.6g} bar",
+             f"# p = p_IVC (V_IVC / V)^n, valves closed from {-cycle.closed / DEGREE:.6g} to {cycle.closed / DEGREE:.6g} deg; "
+             "0 deg = firing TDC; absolute pressure",
+             "crank_angle [deg], pressure [bar]"]
+    rows = math.floor(4.0 * math.pi / step + 0.5)
+    for i in range(rows + 1):
+        theta = -2.0 * math.pi + 4.0 * math.pi * i / rows
+        lines.append(f"{theta / DEGREE:.10g}, {cycle.pressure(theta) * 1e-5:.12g}")
+    return "\n".join(lines) + "\n"
+
+
+def add_arguments(command):
+    """Declares the options of `clatter motored-cycle`."""
+    command.add_argument("output", metavar="out.csv")
+    for name, default, text in (("bore-mm", 107.0, "bore [mm]"), ("stroke-mm", 130.0, "stroke [mm]"),
+                                ("rod-mm", 210.0, "rod length [mm]"), ("pin-offset-mm", 0.0, "pin offset [mm]"),
+                                ("compression-ratio", 17.0, "compression ratio"), ("exponent", 1.34, "polytropic exponent"),
+                                ("intake-bar", 1.0, "absolute pressure at valve closing [bar]"),
+                                ("closed-deg", 180.0, "valves closed within +- this of firing TDC [deg]"),
+                                ("step-deg", 1.0, "rows every so many degrees of crank angle")):
+        command.add_argument(f"--{name}", type=float, default=default, metavar="X", help=f"{text}; default {default:g}")
+
+
+def write_motored_cycle(options):
+    """Writes the table that the options describe, complete or not at all; prints the peak pressure."""
+    if not 0.0 < options.step_deg <= 720.0:
+        raise BadArtefact(f"--step-deg: found {options.step_deg:g}, expected more than 0, at most 720")
+    cycle = MotoredCycle(1e-3 * options.bore_mm, 1e-3 * options.stroke_mm, 1e-3 * options.rod_mm, 1e-3 * options.pin_offset_mm,
+                         options.compression_ratio, options.exponent, 1e5 * options.intake_bar, DEGREE * options.closed_deg)
+    cycle.check()
+    text, part = table(cycle, DEGREE * options.step_deg), f"{options.output}.part"
+    try:
+        with open(part, "w", encoding="ascii") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, options.output)
+    except OSError as error:
+        pathlib.Path(part).unlink(missing_ok=True)
+        raise CannotWrite(f"{options.output}: cannot be written: {error.strerror}") from error
+    print(f"{options.output}: peak {1e-5 * cycle.pressure(0.0):.2f} bar")
