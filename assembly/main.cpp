@@ -105,8 +105,9 @@ clatter::assembly::BuiltModel make_model(const std::filesystem::path& mesh_path,
   }
   if (const auto files = assembly::read_matrix_files(config)) {
     if (mesh.has_value() != files->dofs.empty())
-      throw InputError(fmt::format("{}: [matrices]: found {}, expected a mesh or dofs",
-                                   config.where(), mesh ? "a mesh and dofs" : "neither"));
+      throw InputError(fmt::format("{}: [matrices]: found {}, expected one of the two",
+                                   config.where(),
+                                   mesh ? "a mesh and dofs" : "neither a mesh nor dofs"));
     inputs.insert(inputs.end(), {files->K, files->M});
     if (!files->dofs.empty()) inputs.push_back(files->dofs);
     assembly::BuiltModel built = assembly::import_matrices(*files, mesh ? &*mesh : nullptr);
