@@ -39,8 +39,9 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
   }
   if (const auto files = read_matrix_files(config)) {
     if (mesh.has_value() != files->dofs.empty())
-      throw InputError(fmt::format("{}: [matrices]: found {}, expected a mesh or dofs",
-                                   config.where(), mesh ? "a mesh and dofs" : "neither"));
+      throw InputError(fmt::format("{}: [matrices]: found {}, expected one of the two",
+                                   config.where(),
+                                   mesh ? "a mesh and dofs" : "neither a mesh nor dofs"));
     inputs.insert(inputs.end(), {files->K, files->M});
     if (!files->dofs.empty()) inputs.push_back(files->dofs);
     BuiltModel built = import_matrices(*files, mesh ? &*mesh : nullptr);

@@ -42,12 +42,22 @@ int drop_dependent(CraigBampton& source) {
   return dropped;
 }
 
-/// The boundary rows of the rigid motions; fixed-interface modes do not contribute.
-Eigen::MatrixXd reduced_rigid(const PartitionedModel& part, Eigen::Index size) {
-  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
+/// Rigid motions (n x m) in `size` reduced coordinates: their boundary rows; fixed-interface modes
+/// do not contribute.
+Eigen::MatrixXd boundary_rows(const PartitionedModel& part, const Eigen::MatrixXd& motions,
+                              Eigen::Index size) {
+  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(size, motions.cols());
   const auto n_b = static_cast<Eigen::Index>(part.dofs.boundary.size());
-  rigid.topRows(n_b) = part.full.rigid(part.dofs.boundary, Eigen::all);
-  return rigid;
+  reduced.topRows(n_b) = motions(part.dofs.boundary, Eigen::all);
+  return reduced;
+}
+
+std::map<std::string, Eigen::VectorXd> reduced_loads(const fe::FeModel& model,
+                                                     const DofPartition& dofs,
+                                                     const ReducedBasis& basis) {
+  std::map<std::string, Eigen::VectorXd> loads;
+  for (const auto& [name, load] : model.loads) loads[name] = project_load(load, dofs, basis);
+  return loads;
 }
 
 /// Exactly one of fmax_hz, count and accurate_to_hz sets the number of modes; none with Guyan.
@@ -143,49 +153,57 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
   const PartitionedModel part = partition_model(model, options.boundary);
   report_repeated(part.dofs);
   clock.lap("partition");
-  const SkinRecovery skin(part, options.skin, options.rows);
-  const StaticPart statics = static_part(part, skin.unknowns(), clock, options.order);
-  CutOffSearch search;
-  CraigBampton source = options.modes.accurate_to_hz > 0.0
-                            ? search_cutoff(part, statics, options.modes, clock, search)
-                            : craig_bampton(part, statics, options.modes, clock);
-
-  rom::ReducedModel reduced;
-  reduced.name = model.name;
-  reduced.method = options.method;
-  reduced.n_boundary = static_cast<int>(part.dofs.boundary.size());
-  reduced.alpha = model.alpha;
-  reduced.beta = model.beta;
-  reduced.modal_damping = options.modal_damping;
-  reduced.sets = part.dofs.sets;
-  reduced.grids = part.dofs.grids;
-  reduced.mass = model.mass;
+  const SkinRecovery recovery(part, options.skin, options.rows);
+  const StaticPart statics = static_part(part, recovery.unknowns(), clock, options.order);
+  SearchedBasis found = options.modes.accurate_to_hz > 0.0
+                            ? search_cutoff(part, statics, options.modes, clock)
+                            : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
+  CraigBampton& source = found.basis;
   const int dropped = drop_dependent(source);
-  reduced.M_rr = source.M_rr;
-  reduced.K_rr = source.K_rr;
-  reduced.rigid = reduced_rigid(part, reduced.size());
-  for (const auto& [name, load] : model.loads) {
-    reduced.loads[name] = project_load(load, part.dofs, source.basis);
-  }
-  reduced.skin = skin.recover(statics.reduction.rows, source.basis.shapes);
-  skin.recover_sets(statics.reduction.rows, source.basis.shapes, reduced);
-  reduced.elimination = statics.order;
+
+  std::map<std::string, Eigen::VectorXd> loads = reduced_loads(model, part.dofs, source.basis);
+  const RowMatrix& static_rows = statics.reduction.rows;
+  rom::Skin skin = recovery.recover(static_rows, source.basis.shapes);
+  RecoveredSets rows = recovery.recover_sets(static_rows, source.basis.shapes);
+  rows.sets.insert(part.dofs.sets.begin(), part.dofs.sets.end());
+  rows.grids.insert(part.dofs.grids.begin(), part.dofs.grids.end());
   clock.lap("loads and skin rows");
+  rom::InertiaInvariants inertia;
   if (options.inertia_invariants) {
-    reduced.inertia = frame_inertia(part, source.basis);
+    inertia = frame_inertia(part, source.basis);
     clock.lap("inertia invariants");
   }
-  reduced.fixed_interface_hz = source.fixed_interface_hz;
-  reduced.valid_to_hz = source.interior.cutoff_hz;
-  if (search.tried > 0) record(search, reduced.certificate);
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(reduced.size(), part.free.count());
-  motions.topRows(reduced.n_boundary) = part.free.q(part.dofs.boundary, Eigen::all);
+  rom::ReducedModel reduced{.name = model.name,
+                            .method = options.method,
+                            .n_boundary = static_cast<int>(part.dofs.boundary.size()),
+                            .M_rr = source.M_rr,
+                            .K_rr = source.K_rr,
+                            .alpha = model.alpha,
+                            .beta = model.beta,
+                            .modal_damping = options.modal_damping,
+                            .rigid = boundary_rows(part, model.rigid, source.M_rr.rows()),
+                            .sets = std::move(rows.sets),
+                            .grids = std::move(rows.grids),
+                            .loads = std::move(loads),
+                            .mass = model.mass,
+                            .fixed_interface_hz = source.fixed_interface_hz,
+                            .valid_to_hz = source.interior.cutoff_hz,
+                            .skin = std::move(skin),
+                            .inertia = std::move(inertia),
+                            .combined = std::move(rows.combined),
+                            .recovered_sets = std::move(rows.names),
+                            .elimination = statics.order,
+                            .certificate = {}};
+  if (found.search.tried > 0) record(found.search, reduced.certificate);
+  Eigen::MatrixXd motions = boundary_rows(part, part.free.q, reduced.size());
   if (options.interface) {
-    const InterfaceReport report =
+    ReducedInterface interface =
         reduce_interface(reduced, *options.interface, motions, fe::characteristic_length(model),
                          source.interior.accurate_to_hz);
-    record(report, reduced.certificate);
-    clock.lap(fmt::format("{} interface modes", report.modes));
+    reduced = std::move(interface.model);
+    motions = std::move(interface.motions);
+    record(interface.report, reduced.certificate);
+    clock.lap(fmt::format("{} interface modes", interface.report.modes));
   }
   certify(reduced, model, source, {motions, part.free.all_free()}, dropped, options.certificate);
   clock.lap("certificate");

@@ -106,16 +106,19 @@ class Eliminator {
   std::vector<int32_t> touched_;
 };
 
-/// Stiffness blocks of the supports: with s, the equations are K q + K_sq^T s = f and
-/// K_sq q + K_ss s = f_s + reactions.
-struct SupportBlocks {
-  SparseMatrix sq;  // n_s x n
-  SparseMatrix ss;  // n_s x n_s, lower triangle
+/// A symmetric matrix A on all DoFs in the model's coordinates. Of a stiffness, the equations are
+/// K_qq q + K_sq^T s = f and K_sq q + K_ss s = f_s + reactions.
+struct CoordinateBlocks {
+  SparseMatrix qq;  // T^T A T, n x n, lower triangle
+  SparseMatrix sq;  // T_s^T A T, n_s x n
+  SparseMatrix ss;  // T_s^T A T_s, n_s x n_s, lower triangle
 };
 
-/// Replaces symmetric A (lower triangle, on the first A.cols() DoFs) by T^T A T (lower triangle);
-/// fills the blocks of the supported coordinates when `supports` is given.
-void transform(SparseMatrix& lower, const Elimination& elimination,
-               SupportBlocks* supports = nullptr);
+/// T^T A T (lower triangle) of symmetric A (`lower`, on the first A.cols() DoFs). A's memory is
+/// used for the result: `lower` is left empty.
+SparseMatrix transform(SparseMatrix&& lower, const Elimination& elimination);
+
+/// The same with the blocks of the supported coordinates.
+CoordinateBlocks transform_with_supports(SparseMatrix&& lower, const Elimination& elimination);
 
 }  // namespace clatter::assembly

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ties and bolts: nodes of a slave surface that follow a master surface.
+#include "assembly/constraint/tie_relations.hpp"
+
 #include <fmt/format.h>
 
-#include "assembly/constraint/constrainer.hpp"
+#include <array>
+
+#include "assembly/coupling/coupling.hpp"
+#include "assembly/coupling/member_group.hpp"
 #include "assembly/tie/mortar.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -12,6 +16,7 @@ namespace {
 
 constexpr double kDefaultGap = 0.1;  // of the mean slave face size
 constexpr double kNoArm = 1e-10;     // of the mean slave face size: rounding
+constexpr int32_t kNoBolt = -1;
 constexpr double kNoMotion = 1e-14;  // entries of the rotation's rows that are rounding
 
 /// The part of a slave node's motion due to its distance from the combined masters,
@@ -51,12 +56,22 @@ void say_result(const TieSpec& spec, const Projection& found, int held) {
                      held));
 }
 
-}  // namespace
+rom::DofSet bolt_set(const TieSpec& spec, int32_t shortening, const Eigen::Vector3d& centroid) {
+  return {.kind = "bolt",
+          .dofs = {shortening},
+          .labels = {spec.name},
+          .position = centroid.transpose(),
+          .direction = spec.direction.transpose(),
+          .is_rotation = {0}};
+}
 
-void Constrainer::add_tie(const TieSpec& given, int32_t jump) {
+/// The dependences of one tie; `shortening` is the id of a bolt's, or kNoBolt.
+std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t shortening,
+                            ConstraintGraph& graph) {
+  const mesh::Mesh& mesh = part.mesh;
   TieSpec spec = given;
-  const std::vector<TieFace> slave = tie_faces(mesh_.nodes, mesh_.surface(spec.slave));
-  const std::vector<TieFace> master = tie_faces(mesh_.nodes, mesh_.surface(spec.master));
+  const std::vector<TieFace> slave = tie_faces(mesh.nodes, mesh.surface(spec.slave));
+  const std::vector<TieFace> master = tie_faces(mesh.nodes, mesh.surface(spec.master));
   const double size = mean_size(slave);
   if (!spec.distance) spec.distance = kDefaultGap * size;
   const Projection found = project(slave, master, *spec.distance);
@@ -65,16 +80,17 @@ void Constrainer::add_tie(const TieSpec& given, int32_t jump) {
         fmt::format("{}: found no part of {} that faces {} within {:.3g} m, expected "
                     "some",
                     spec.where, spec.slave, spec.master, *spec.distance));
-  const int relation = graph_.add_relation(spec.where);
+  const int relation = graph.add_relation(spec.where);
+  std::vector<Dependence> dependences;
   int held = 0;
   for (const ProjectedNode& row : found.tied) {
-    Eigen::Vector3d arm = mesh_.nodes.row(row.node).transpose();
-    for (const auto& [node, value] : row.on) arm -= value * mesh_.nodes.row(node).transpose();
+    Eigen::Vector3d arm = mesh.nodes.row(row.node).transpose();
+    for (const auto& [node, value] : row.on) arm -= value * mesh.nodes.row(node).transpose();
     std::array<Functional, 3> rows;
-    if (arm.norm() > kNoArm * size) rows = rotation_rows(row, arm, mesh_.nodes, spec.where);
+    if (arm.norm() > kNoArm * size) rows = rotation_rows(row, arm, mesh.nodes, spec.where);
     for (int d = 0; d < 3; ++d) {
       const int32_t dof = 3 * row.node + d;
-      if (graph_.is_held(dof)) {
+      if (graph.is_held(dof)) {
         ++held;
         continue;
       }
@@ -83,33 +99,31 @@ void Constrainer::add_tie(const TieSpec& given, int32_t jump) {
         on.dofs.push_back(3 * node + d);
         on.values.push_back(value);
       }
-      if (jump >= 0 && spec.direction(d) != 0.0) {
-        on.dofs.push_back(jump);
+      if (shortening != kNoBolt && spec.direction(d) != 0.0) {
+        on.dofs.push_back(shortening);
         on.values.push_back(row.jump * spec.direction(d));
       }
-      depend(dof, std::move(on), relation);
+      graph.depend(dof, on.dofs, relation);
+      dependences.push_back({dof, std::move(on)});
     }
   }
   say_result(spec, found, held);
+  return dependences;
 }
 
-void Constrainer::gather_ties() {
-  for (const TieSpec& spec : recipe_.ties) {
-    if (!spec.bolt) {
-      add_tie(spec, -1);
-      continue;
-    }
-    const int32_t jump = next_own_++;
-    add_tie(spec, jump);
-    rom::DofSet set;
-    set.kind = "bolt";
-    set.dofs = {jump};
-    set.labels = {spec.name};
-    set.position = surfaces_.at(spec.slave).centroid.transpose();
-    set.direction = spec.direction.transpose();
-    set.is_rotation = {0};
-    out_.sets[spec.name] = std::move(set);
+}  // namespace
+
+TieRelations gather_ties(const PartData& part, int32_t first_id, ConstraintGraph& graph) {
+  TieRelations ties;
+  for (const TieSpec& spec : part.recipe.ties) {
+    const int32_t shortening =
+        spec.bolt ? first_id + static_cast<int32_t>(ties.bolts.size()) : kNoBolt;
+    for (Dependence& one : tie(part, spec, shortening, graph))
+      ties.dependences.push_back(std::move(one));
+    if (spec.bolt)
+      ties.bolts[spec.name] = bolt_set(spec, shortening, part.surfaces.at(spec.slave).centroid);
   }
+  return ties;
 }
 
 }  // namespace clatter::assembly

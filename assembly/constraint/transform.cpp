@@ -7,6 +7,7 @@
 //   sq:  A_sf + A_sp P + P_s^T (A_pf + A_pp P)
 //   ss:  A_ss + Y + Y^T,  Y = P_s^T (A_ps + 1/2 A_pp P_s).
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "assembly/constraint/elimination.hpp"
@@ -75,7 +76,7 @@ struct Sorter {
 };
 
 /// Renumbering preserves the order, so the kept entries are compacted in place.
-Split split(SparseMatrix& lower, const Elimination& elimination, bool with_supports) {
+Split split(SparseMatrix&& lower, const Elimination& elimination, bool with_supports) {
   Sorter sorter(elimination, with_supports);
   Split parts;
   parts.storage.swap(lower);  // Eigen 3.4 copies on std::move
@@ -119,17 +120,22 @@ SparseMatrix change_by_pivots(const Split& parts, const SparseMatrix& P) {
   return lower_of_sum(SparseMatrix(P.transpose()) * right);
 }
 
-SupportBlocks support_blocks(const Split& parts, const Elimination& elimination) {
+/// T_s^T A T.
+SparseMatrix support_rows(const Split& parts, const Elimination& elimination) {
   const SparseMatrix& P = elimination.pivot_rows;
+  const SparseMatrix P_st = elimination.pivot_rows_s.transpose();
+  SparseMatrix sq = parts.A_sf + SparseMatrix(parts.A_sp * P);
+  sq += SparseMatrix(P_st * SparseMatrix(parts.A_pf + SparseMatrix(parts.A_pp * P)));
+  return sq;
+}
+
+/// T_s^T A T_s, lower triangle.
+SparseMatrix support_block(const Split& parts, const Elimination& elimination) {
   const SparseMatrix& P_s = elimination.pivot_rows_s;
   const SparseMatrix P_st = P_s.transpose();
-  SupportBlocks blocks;
-  blocks.sq = parts.A_sf + SparseMatrix(parts.A_sp * P);
-  blocks.sq += SparseMatrix(P_st * SparseMatrix(parts.A_pf + SparseMatrix(parts.A_pp * P)));
   const SparseMatrix right =
       SparseMatrix(parts.A_sp.transpose()) + SparseMatrix(0.5 * (parts.A_pp * P_s));
-  blocks.ss = parts.A_ss + lower_of_sum(P_st * right);
-  return blocks;
+  return parts.A_ss + lower_of_sum(P_st * right);
 }
 
 /// Calls visit(row, value) for the union of two sorted columns, equal rows added.
@@ -166,15 +172,26 @@ SparseMatrix sum_of(const A& a, const B& b) {
   return sum;
 }
 
+/// T^T A T.
+SparseMatrix remaining_block(const Split& parts, const Elimination& elimination) {
+  return sum_of(parts.kept(), change_by_pivots(parts, elimination.pivot_rows));
+}
+
 }  // namespace
 
-void transform(SparseMatrix& lower, const Elimination& elimination, SupportBlocks* supports) {
+SparseMatrix transform(SparseMatrix&& lower, const Elimination& elimination) {
   const bool same = elimination.size() == lower.cols() && elimination.pivots.empty();
-  if (same && supports == nullptr) return;
-  const Split parts = split(lower, elimination, supports != nullptr);
-  if (supports != nullptr) *supports = support_blocks(parts, elimination);
-  SparseMatrix result = sum_of(parts.kept(), change_by_pivots(parts, elimination.pivot_rows));
-  lower.swap(result);
+  if (!same) return remaining_block(split(std::move(lower), elimination, false), elimination);
+  SparseMatrix unchanged;
+  unchanged.swap(lower);
+  return unchanged;
+}
+
+CoordinateBlocks transform_with_supports(SparseMatrix&& lower, const Elimination& elimination) {
+  const Split parts = split(std::move(lower), elimination, true);
+  return {.qq = remaining_block(parts, elimination),
+          .sq = support_rows(parts, elimination),
+          .ss = support_block(parts, elimination)};
 }
 
 }  // namespace clatter::assembly

@@ -9,7 +9,7 @@ SparseMatrix lower_of(const SparseMatrix& full) { return full.triangularView<Eig
 }  // namespace
 
 void add_springs(const std::vector<SpringSpec>& springs, const std::vector<Functional>& elongations,
-                 const Elimination& elimination, SparseMatrix& K, SupportBlocks& supports) {
+                 const Elimination& elimination, CoordinateBlocks& K) {
   if (springs.empty()) return;
   const auto n = static_cast<Eigen::Index>(springs.size());
   std::vector<Eigen::Triplet<double, int32_t>> entries;
@@ -24,12 +24,12 @@ void add_springs(const std::vector<SpringSpec>& springs, const std::vector<Funct
   C.setFromTriplets(entries.begin(), entries.end());
   const SparseMatrix t = C * elimination.T;
   const SparseMatrix force = stiffness.asDiagonal() * t;  // of the springs, n_springs x n
-  K += lower_of(SparseMatrix(t.transpose()) * force);
+  K.qq += lower_of(SparseMatrix(t.transpose()) * force);
   if (elimination.supports() == 0) return;
   const SparseMatrix t_s = C * elimination.T_s;
   const SparseMatrix force_s = stiffness.asDiagonal() * t_s;
-  supports.sq += SparseMatrix(t_s.transpose()) * force;
-  supports.ss += lower_of(SparseMatrix(t_s.transpose()) * force_s);
+  K.sq += SparseMatrix(t_s.transpose()) * force;
+  K.ss += lower_of(SparseMatrix(t_s.transpose()) * force_s);
 }
 
 }  // namespace clatter::assembly

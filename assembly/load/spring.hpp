@@ -8,14 +8,14 @@
 
 namespace clatter::assembly {
 
-/// Adds the springs to a stiffness matrix after elimination of the constraints. The elongation of
-/// spring i is
+/// Adds the springs to a stiffness after elimination of the constraints. The elongation of spring i
+/// is
 ///   e_i = c_i^T u = t_i^T q + t_s,i^T s   with t_i = T^T c_i, t_s,i = T_s^T c_i,
 /// and its energy k_i e_i^2 / 2 adds k_i t_i t_i^T to K, k_i t_s,i t_i^T to K_sq and
 /// k_i t_s,i t_s,i^T to K_ss.
 /// @param springs, elongations the same order; c_i on ids of nodes and points.
-/// @param K n x n, lower triangle [N/m]. @param supports blocks of the n_s supported coordinates.
+/// @param K [N/m].
 void add_springs(const std::vector<SpringSpec>& springs, const std::vector<Functional>& elongations,
-                 const Elimination& elimination, SparseMatrix& K, SupportBlocks& supports);
+                 const Elimination& elimination, CoordinateBlocks& K);
 
 }  // namespace clatter::assembly

@@ -1,223 +1,209 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "assembly/model/build.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 #include "assembly/constraint/constrain.hpp"
-#include "assembly/load/load_builder.hpp"
+#include "assembly/load/load_vectors.hpp"
 #include "assembly/load/mass_properties.hpp"
 #include "assembly/load/point_mass.hpp"
 #include "assembly/load/spring.hpp"
 #include "assembly/model/certify.hpp"
-#include "core/base/error.hpp"
-#include "core/base/log.hpp"
+#include "assembly/model/check.hpp"
+#include "core/base/named.hpp"
 #include "core/fe/assemble.hpp"
 
 namespace clatter::assembly {
 namespace {
 
-constexpr double kNoStiffness = 1e-13;  // of the largest diagonal entry of K: rounding
-constexpr double kNoMass = 1e-13;       // least eigenvalue of a reference's scaled mass block
+/// The contents of a matrix without a copy: Eigen 3.4 copies on std::move.
+SparseMatrix taken(SparseMatrix& from) {
+  SparseMatrix to;
+  to.swap(from);
+  return to;
+}
 
-/// Builds the model step by step; the members are the data that the steps share.
-class Builder {
- public:
-  Builder(const mesh::Mesh& mesh, const Recipe& recipe, BuiltModel& out)
-      : mesh_(mesh), recipe_(recipe), out_(out), surfaces_(mesh), numbers_(mesh.nodes, points_) {
-    for (const PointSpec& spec : recipe.points) points_.push_back(spec.point);
+std::vector<ReferencePoint> reference_points(const Recipe& recipe) {
+  std::vector<ReferencePoint> points;
+  for (const PointSpec& spec : recipe.points) points.push_back(spec.point);
+  return points;
+}
+
+/// The first `nodal` rows of a transformation: those of the nodes.
+SparseMatrix nodal_rows(const SparseMatrix& T, Eigen::Index nodal) {
+  const SparseMatrix t = T.transpose();
+  return SparseMatrix(t.leftCols(nodal)).transpose();
+}
+
+/// Picks the rows 6 p + d of the points' DoFs: 6 n_points x n_dofs.
+SparseMatrix point_rows(const DofNumbers& numbers) {
+  const auto count = static_cast<int32_t>(numbers.points().size());
+  std::vector<Eigen::Triplet<double, int32_t>> pick;
+  for (int32_t p = 0; p < count; ++p)
+    for (int d = 0; d < 6; ++d) pick.emplace_back(6 * p + d, numbers.of_point(p, d), 1.0);
+  SparseMatrix P(6 * count, numbers.count());
+  P.setFromTriplets(pick.begin(), pick.end());
+  return P;
+}
+
+/// The points with their rows of the transformations.
+fe::FePoints points_of(const DofNumbers& numbers, const Elimination& elimination) {
+  if (numbers.points().empty()) return {};
+  const SparseMatrix P = point_rows(numbers);
+  fe::FePoints points{.names = {},
+                      .position = RowMatrix(numbers.points().size(), 3),
+                      .T = P * elimination.T,
+                      .T_s = P * elimination.T_s};
+  for (const ReferencePoint& point : numbers.points()) {
+    points.position.row(static_cast<Eigen::Index>(points.names.size())) =
+        point.position.transpose();
+    points.names.push_back(point.name);
   }
+  return points;
+}
 
-  void run(StepClock& clock);
-
- private:
-  Eigen::MatrixXd momentum(const SparseMatrix& M) const;
-  void take_coordinates();
-  void take_supports(SupportBlocks& blocks);
-  void add_point_masses();
-  void check_points() const;
-  void check_stiffness() const;
-
-  const mesh::Mesh& mesh_;
-  const Recipe& recipe_;
-  BuiltModel& out_;
-  SurfaceCache surfaces_;
-  std::vector<ReferencePoint> points_;
-  DofNumbers numbers_;
-  Constrained constrained_;
-};
-
-/// M times unit accelerations, when a load needs it.
-Eigen::MatrixXd Builder::momentum(const SparseMatrix& M) const {
-  for (const LoadSpec& load : recipe_.loads)
+/// M times unit accelerations, 3 n_nodes x 3, when a load needs it.
+Eigen::MatrixXd momentum_of(const SparseMatrix& M, const Recipe& recipe) {
+  for (const LoadSpec& load : recipe.loads)
     if (load.kind == LoadSpec::Kind::kGravity)
-      return multiply_symmetric(M, Eigen::Matrix3d::Identity().replicate(mesh_.nodes.rows(), 1));
+      return multiply_symmetric(M, Eigen::Matrix3d::Identity().replicate(M.rows() / 3, 1));
   return {};
 }
 
-/// The rows of T of nodes and points.
-void Builder::take_coordinates() {
-  fe::FeModel& model = out_.model;
-  const Elimination& e = constrained_.elimination;
-  model.sets = constrained_.sets;
-  model.grids = constrained_.grids;
-  model.rigid = constrained_.rigid;
-  const Eigen::Index nodal = numbers_.nodal();
-  const SparseMatrix t = e.T.transpose(), t_s = e.T_s.transpose();
-  model.T = SparseMatrix(t.leftCols(nodal)).transpose();
-  model.supports.T = SparseMatrix(t_s.leftCols(nodal)).transpose();
-  if (points_.empty()) return;
-  fe::FePoints& points = model.points;
-  const auto count = static_cast<Eigen::Index>(points_.size());
-  points.position.resize(count, 3);
-  std::vector<Eigen::Triplet<double, int32_t>> pick;  // 6 p + d of the DoFs
-  for (size_t p = 0; p < points_.size(); ++p) {
-    points.names.push_back(points_[p].name);
-    points.position.row(static_cast<Eigen::Index>(p)) = points_[p].position.transpose();
-    for (int d = 0; d < 6; ++d)
-      pick.emplace_back(static_cast<int32_t>(6 * p) + d,
-                        numbers_.of_point(static_cast<int32_t>(p), d), 1.0);
-  }
-  SparseMatrix P(6 * count, numbers_.count());
-  P.setFromTriplets(pick.begin(), pick.end());
-  points.T = P * e.T;
-  points.T_s = P * e.T_s;
-}
-
-void Builder::take_supports(SupportBlocks& blocks) {
-  fe::FeSupports& supports = out_.model.supports;
-  supports.K_sq.swap(blocks.sq);
-  supports.K_ss.swap(blocks.ss);
-  supports.rigid = constrained_.rigid_s;
-  for (const SupportSpec& spec : recipe_.supports) supports.names.push_back(spec.name);
-  const auto n = static_cast<Eigen::Index>(constrained_.held.size());
-  supports.set.kind = "support";
-  supports.set.position.resize(n, 3);
-  supports.set.direction.resize(n, 3);
+/// Labels, positions and directions of the supported coordinates.
+rom::DofSet support_set(const std::vector<HeldDof>& held, const DofNumbers& numbers) {
+  rom::DofSet set;
+  set.kind = "support";
+  const auto n = static_cast<Eigen::Index>(held.size());
+  set.position.resize(n, 3);
+  set.direction.resize(n, 3);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const HeldDof& held = constrained_.held[static_cast<size_t>(k)];
-    supports.support.push_back(held.support);
-    supports.set.dofs.push_back(static_cast<int32_t>(k));
-    supports.set.labels.push_back(held.label);
-    supports.set.position.row(k) = numbers_.position(held.owner).transpose();
-    supports.set.direction.row(k) = held.direction.transpose();
-    supports.set.is_rotation.push_back(held.is_rotation ? 1 : 0);
+    const HeldDof& one = held[static_cast<size_t>(k)];
+    set.dofs.push_back(static_cast<int32_t>(k));
+    set.labels.push_back(one.label);
+    set.position.row(k) = numbers.position(one.owner).transpose();
+    set.direction.row(k) = one.direction.transpose();
+    set.is_rotation.push_back(one.is_rotation ? 1 : 0);
   }
+  return set;
 }
 
-/// On points through their rows of T, on sets directly: these are coordinates of the model.
-void Builder::add_point_masses() {
-  fe::FeModel& model = out_.model;
-  MassMoments moments = integrate_mass(mesh_, recipe_.materials);
-  for (const PointMassSpec& spec : recipe_.point_masses) {
-    const auto point =
-        std::find_if(points_.begin(), points_.end(),
-                     [&](const ReferencePoint& other) { return other.name == spec.on; });
-    if (point == points_.end()) {
-      const rom::DofSet& set = model.set(spec.on);
-      add_to_set(model.M, spec, set);
-      add_moments(moments, spec, set);
+/// The supported coordinates. @param K its blocks sq and ss are taken.
+fe::FeSupports supports_of(const PartData& part, const Constrained& constrained,
+                           CoordinateBlocks& K) {
+  std::vector<std::string> names;
+  for (const SupportSpec& spec : part.recipe.supports) names.push_back(spec.name);
+  std::vector<int32_t> support;
+  for (const HeldDof& held : constrained.held) support.push_back(held.support);
+  return {.names = std::move(names),
+          .support = std::move(support),
+          .set = support_set(constrained.held, part.numbers),
+          .T = nodal_rows(constrained.elimination.T_s, part.numbers.nodal()),
+          .K_sq = taken(K.sq),
+          .K_ss = taken(K.ss),
+          .rigid = constrained.rigid_s};
+}
+
+/// Index of the point that a [[point_mass]] is on, or -1 for one on a set.
+Eigen::Index point_of(const DofNumbers& numbers, const PointMassSpec& spec) {
+  const std::vector<ReferencePoint>& points = numbers.points();
+  const auto found = std::find_if(points.begin(), points.end(), [&](const ReferencePoint& other) {
+    return other.name == spec.on;
+  });
+  return found == points.end() ? -1 : found - points.begin();
+}
+
+/// M with the point masses: on points through their rows of T, on sets directly, since these are
+/// coordinates of the model.
+/// @param M of the cells, n x n, lower triangle; left empty.
+SparseMatrix with_point_masses(SparseMatrix&& M, const PartData& part,
+                               const Constrained& constrained, const fe::FePoints& points) {
+  SparseMatrix sum = taken(M);
+  for (const PointMassSpec& spec : part.recipe.point_masses) {
+    const Eigen::Index point = point_of(part.numbers, spec);
+    if (point < 0) {
+      add_to_set(sum, spec, find_named(constrained.sets, part.mesh.name, "set", spec.on));
     } else {
-      add_to_point(model.M, spec, model.points.T, 6 * (point - points_.begin()));
-      add_point(moments, spec.mass, point->position + spec.offset, spec.inertia);
+      add_to_point(sum, spec, points.T, 6 * point);
     }
   }
-  model.M.makeCompressed();
-  model.mass = properties_of(moments);
+  sum.makeCompressed();
+  return sum;
 }
 
-/// A rigid body without elastic attachment moves freely: K is zero there, exactly so where its
-/// cells belong to it alone. Otherwise elimination leaves rounding of either sign instead of
-/// stiffness.
-void Builder::check_stiffness() const {
-  const fe::FeModel& model = out_.model;
-  if (model.size() == 0) return;
-  const Eigen::VectorXd diagonal = model.K.diagonal();
-  const double length =
-      (model.nodes.colwise().maxCoeff() - model.nodes.colwise().minCoeff()).norm();
-  for (const auto& [name, set] : model.sets) {
-    if (!has_rotations(set)) continue;
-    for (size_t k = 0; k < set.dofs.size(); ++k) {
-      const double unit = set.is_rotation[k] != 0 ? length * length : 1.0;
-      const double stiffness = diagonal(set.dofs[k]);
-      if (stiffness == 0.0 || stiffness > kNoStiffness * unit * diagonal.maxCoeff()) continue;
-      throw InputError(fmt::format(
-          "{}: found no stiffness against {}: {} moves a rigid body without elastic attachment, "
-          "expected supports of it or a coupling to deformable cells",
-          mesh_.name, set.labels[k], name));
+/// Of the cells and point masses.
+rom::MassProperties mass_of(const PartData& part, const Constrained& constrained) {
+  MassMoments moments = integrate_mass(part.mesh, part.recipe.materials);
+  for (const PointMassSpec& spec : part.recipe.point_masses) {
+    const Eigen::Index point = point_of(part.numbers, spec);
+    if (point < 0) {
+      add_moments(moments, spec, constrained.sets.at(spec.on));
+    } else {
+      const Eigen::Vector3d& position = part.numbers.points()[static_cast<size_t>(point)].position;
+      add_point(moments, spec.mass, position + spec.offset, spec.inertia);
     }
   }
-}
-
-/// A reference node with a motion that moves nothing would make M singular. DoFs that only springs
-/// hold have no mass: modal analysis excludes such coordinates.
-void Builder::check_points() const {
-  for (const auto& [name, set] : out_.model.sets) {
-    if (!has_rotations(set)) continue;
-    std::vector<int32_t> dofs = set.dofs;
-    std::erase_if(dofs, [&](int32_t dof) { return out_.model.M.coeff(dof, dof) == 0.0; });
-    const auto n = static_cast<Eigen::Index>(dofs.size());
-    if (n == 0) continue;
-    Eigen::MatrixXd block(n, n);
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b <= a; ++b) {
-        const int32_t i = dofs[static_cast<size_t>(a)], j = dofs[static_cast<size_t>(b)];
-        block(a, b) = block(b, a) = out_.model.M.coeff(std::max(i, j), std::min(i, j));
-      }
-    const Eigen::VectorXd scale = block.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        scale.asDiagonal() * block * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()(0) > kNoMass))
-      throw InputError(fmt::format(
-          "{}: found a motion of {} that moves nothing (the coupled nodes lie on a line or at "
-          "a point), expected supports for its rotations or a wider coupling",
-          mesh_.name, name));
-  }
-}
-
-void Builder::run(StepClock& clock) {
-  fe::FeModel& model = out_.model;
-  model.name = mesh_.name;
-  model.nodes = mesh_.nodes;
-  model.alpha = recipe_.damping.alpha;
-  model.beta = recipe_.damping.beta;
-  model.surfaces = mesh_.surfaces;
-  model.cells = {mesh_.regions, recipe_.materials, mesh_.cells, mesh_.node_ids};
-
-  constrained_ = constrain(mesh_, recipe_, numbers_, surfaces_);
-  take_coordinates();
-  clock.lap("couplings");
-  const fe::NodePattern pattern = fe::node_pattern(mesh_);
-  clock.lap("pattern");
-  fe::NodalMatrices matrices =
-      fe::assemble(mesh_, recipe_.materials, pattern, recipe_.mass, constrained_.rigid_of_node);
-  clock.lap("assemble");
-  const Eigen::MatrixXd body_force = momentum(matrices.M);
-  SupportBlocks blocks;
-  transform(matrices.K, constrained_.elimination, &blocks);
-  transform(matrices.M, constrained_.elimination);
-  add_springs(recipe_.springs, constrained_.springs, constrained_.elimination, matrices.K, blocks);
-  // Swapped, since Eigen 3.4 copies on std::move.
-  model.K.swap(matrices.K);
-  model.M.swap(matrices.M);
-  take_supports(blocks);
-  clock.lap("transform");
-  add_point_masses();
-  check_points();
-  check_stiffness();
-  LoadBuilder(mesh_, recipe_, numbers_, constrained_, surfaces_, body_force).build(model);
-  clock.lap("masses and loads");
-  out_.certificate = certify(model, constrained_, recipe_.mass);
-  clock.lap("certificate");
+  return properties_of(moments);
 }
 
 }  // namespace
 
 BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepClock& clock) {
-  BuiltModel built;
-  Builder(mesh, recipe, built).run(clock);
+  const std::vector<ReferencePoint> references = reference_points(recipe);
+  const DofNumbers numbers(mesh.nodes, references);
+  SurfaceCache surfaces(mesh);
+  const PartData part{mesh, recipe, numbers, surfaces};
+
+  const Constrained constrained = constrain(part);
+  const Elimination& elimination = constrained.elimination;
+  SparseMatrix T = nodal_rows(elimination.T, numbers.nodal());
+  fe::FePoints points = points_of(numbers, elimination);
+  clock.lap("couplings");
+  const fe::NodePattern pattern = fe::node_pattern(mesh);
+  clock.lap("pattern");
+  fe::NodalMatrices nodal =
+      fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
+  clock.lap("assemble");
+  const Eigen::MatrixXd momentum = momentum_of(nodal.M, recipe);
+  CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
+  SparseMatrix M_cells = transform(std::move(nodal.M), elimination);
+  add_springs(recipe.springs, constrained.springs, elimination, K);
+  clock.lap("transform");
+  SparseMatrix M = with_point_masses(std::move(M_cells), part, constrained, points);
+  const rom::MassProperties mass = mass_of(part, constrained);
+  check_references(mesh.name, constrained.sets, M);
+  check_stiffness(mesh, constrained.sets, K.qq);
+  LoadVectors loads = load_vectors(part, constrained, momentum);
+  clock.lap("masses and loads");
+
+  BuiltModel built{
+      .model = {.name = mesh.name,
+                .M = taken(M),
+                .K = taken(K.qq),
+                .T = taken(T),
+                .nodes = mesh.nodes,
+                .rigid = constrained.rigid,
+                .supports = supports_of(part, constrained, K),
+                .points = {points.names, points.position, taken(points.T), taken(points.T_s)},
+                .alpha = recipe.damping.alpha,
+                .beta = recipe.damping.beta,
+                .sets = constrained.sets,
+                .grids = constrained.grids,
+                .loads = std::move(loads.forces),
+                .support_loads = std::move(loads.support_forces),
+                .prescribed = std::move(loads.prescribed),
+                .temperature_rise = std::move(loads.temperature_rise),
+                .cases = recipe.cases,
+                .surfaces = mesh.surfaces,
+                .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.node_ids},
+                .mass = mass,
+                .load_units = std::move(loads.units)},
+      .certificate = {}};
+  built.certificate = certify(built.model, constrained, recipe.mass);
+  clock.lap("certificate");
   return built;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
@@ -14,11 +15,11 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz) {
   return estimate / (1.0 - std::pow(hz / cutoff_hz, 2));
 }
 
-CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& statics,
-                           const ModeRequest& request, StepClock& clock, CutOffSearch& search) {
+SearchedBasis search_cutoff(const PartitionedModel& part, const StaticPart& statics,
+                            const ModeRequest& request, StepClock& clock) {
   constexpr double kFirst = 1.5, kGrowth = 1.25, kLast = 4.0;  // over the requested frequency
   const double accurate_to_hz = request.accurate_to_hz;
-  search.target = request.frequency_error;
+  CutOffSearch search{.target = request.frequency_error};
   ModeRequest attempt = request;
   attempt.fmax_hz = request.own_modes ? accurate_to_hz : kFirst * accurate_to_hz;
   while (true) {
@@ -31,7 +32,7 @@ CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& stati
     search.reached = request.own_modes
                          ? estimate
                          : cutoff_error_bound(estimate, accurate_to_hz, attempt.fmax_hz);
-    if (search.reached <= search.target) return found;
+    if (search.reached <= search.target) return {std::move(found), search};
     if (request.own_modes || attempt.fmax_hz * kGrowth > kLast * accurate_to_hz)
       throw NumericsError(fmt::format(
           "{}: accurate_to_hz: frequencies up to {:g} Hz are within {:.1e} with a "

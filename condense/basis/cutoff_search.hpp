@@ -15,6 +15,12 @@ struct CutOffSearch {
   int tried = 0;         // how many cut-offs
 };
 
+/// A basis with the search that found its cut-off.
+struct SearchedBasis {
+  CraigBampton basis;
+  CutOffSearch search;
+};
+
 /// The estimate of residual_modes.hpp uses the static response of the truncated modes, 1 /
 /// lambda_k. At a frequency f below the cut-off f_c their true response is 1 / (lambda_k - lambda),
 /// so the error is at most estimate / (1 - (f / f_c)^2).
@@ -25,8 +31,8 @@ double cutoff_error_bound(double estimate, double hz, double cutoff_hz);
 /// frequency and grows by a quarter, up to 4 times, while residual modes do not reach the target.
 /// Own modes are exact: their cut-off is the frequency itself. Throws NumericsError when no cut-off
 /// reaches the target, otherwise as craig_bampton.
-CraigBampton search_cutoff(const PartitionedModel& part, const StaticPart& statics,
-                           const ModeRequest& request, StepClock& clock, CutOffSearch& search);
+SearchedBasis search_cutoff(const PartitionedModel& part, const StaticPart& statics,
+                            const ModeRequest& request, StepClock& clock);
 
 /// frequency_error_target, frequency_error_bound and cutoffs_tried of a certificate.
 void record(const CutOffSearch& search, rom::ReducedCertificate& certificate);

@@ -225,8 +225,8 @@ std::optional<InterfaceOptions> read_interface_options(const Config& config,
   return options;
 }
 
-InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOptions& options,
-                                 MatrixXd& motions, double length, double limit_hz) {
+ReducedInterface reduce_interface(const rom::ReducedModel& model, const InterfaceOptions& options,
+                                  const MatrixXd& motions, double length, double limit_hz) {
   const Split split = split_boundary(model, options.sets);
   const MatrixXd rigid_R = motions(split.stay, Eigen::all);
   const MatrixXd rigid_S = motions(split.become, Eigen::all);
@@ -248,7 +248,7 @@ InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOption
   }
   const MatrixXd W = transformation(model, split, Psi_SR, shapes.Phi);
   rom::ReducedModel reduced = transformed(model, split, W);
-  const MatrixXd after = carried(model, split, W, motions);
+  MatrixXd after = carried(model, split, W, motions);
   InterfaceReport report;
   report.coordinates = static_cast<int>(split.become.size());
   report.modes = static_cast<int>(shapes.Phi.cols());
@@ -256,9 +256,7 @@ InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOption
   report.frequency_error = frequency_error(model, motions, reduced, after, limit_hz);
   report.pressure_work_error = film_work_error(model, motions, reduced, after, options);
   if (report.cutoff_hz > 0.0) reduced.valid_to_hz = std::min(reduced.valid_to_hz, report.cutoff_hz);
-  model = std::move(reduced);
-  motions = after;
-  return report;
+  return {std::move(reduced), std::move(after), report};
 }
 
 }  // namespace clatter::condense

@@ -32,6 +32,13 @@ struct InterfaceReport {
   double pressure_work_error = 0;  // largest relative one (film_work.hpp); without a grid 0
 };
 
+/// A model in the coordinates of interface modes.
+struct ReducedInterface {
+  rom::ReducedModel model;
+  Eigen::MatrixXd motions;  // r x m, the free rigid motions
+  InterfaceReport report;
+};
+
 /// Replaces q by q = W z: of the boundary coordinates b = [R S], S those of the named sets,
 ///   q_S = Psi_SR q_R + Phi_S z,   K_SS Phi_S = N Phi_S Lambda,   Psi_SR = -K_SS^{-1} K_SR
 /// (Castanier, Tan and Pierre 2001; K_bb and M_bb of a Craig-Bampton model are Guyan's), N = M_SS,
@@ -39,11 +46,11 @@ struct InterfaceReport {
 /// entire boundary named, R is empty and the free rigid motions are kept with the elastic modes.
 /// All parts of the model are transformed; sets in S move to ReducedModel::combined; z comes after
 /// q_R, n_boundary counts q_R only. valid_to_hz falls to the cut-off of the modes.
-/// @param motions r x m, the free rigid motions; on return in the new coordinates; limit_hz up to
-/// where frequencies are compared before and after; length [m] the body's size.
+/// @param motions r x m, the free rigid motions; limit_hz up to where frequencies are compared
+/// before and after; length [m] the body's size.
 /// InputError when q_R does not hold the body, and for areas of sets that are no contact grids.
-InterfaceReport reduce_interface(rom::ReducedModel& model, const InterfaceOptions& options,
-                                 Eigen::MatrixXd& motions, double length, double limit_hz);
+ReducedInterface reduce_interface(const rom::ReducedModel& model, const InterfaceOptions& options,
+                                  const Eigen::MatrixXd& motions, double length, double limit_hz);
 
 /// interface_coordinates, _modes, _cutoff_hz, _frequency_error, _film_work_error of a certificate.
 void record(const InterfaceReport& report, rom::ReducedCertificate& certificate);

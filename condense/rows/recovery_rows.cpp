@@ -77,8 +77,10 @@ rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::Matri
   return skin;
 }
 
-void SkinRecovery::recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
-                                rom::ReducedModel& reduced) const {
+RecoveredSets SkinRecovery::recover_sets(const RowMatrix& static_rows,
+                                         const Eigen::MatrixXd& shapes) const {
+  RecoveredSets recovered;
+  Eigen::MatrixXd& combined = recovered.combined;
   const Eigen::Index n_b = static_rows.cols(), r = n_b + shapes.cols();
   for (const std::string& name : sets_) {
     rom::DofSet set = model_.sets.at(name);
@@ -88,18 +90,18 @@ void SkinRecovery::recover_sets(const RowMatrix& static_rows, const Eigen::Matri
         dof = boundary_[at];
         continue;
       }
-      const Eigen::Index j = reduced.combined.rows();
+      const Eigen::Index j = combined.rows();
       dof = static_cast<int32_t>(r + j);
-      reduced.combined.conservativeResize(j + 1, r);
-      reduced.combined.row(j).head(n_b) = static_rows.row(row_[at]);
-      reduced.combined.row(j).tail(shapes.cols()) =
-          shapes.row(unknowns_[static_cast<size_t>(row_[at])]);
+      combined.conservativeResize(j + 1, r);
+      combined.row(j).head(n_b) = static_rows.row(row_[at]);
+      combined.row(j).tail(shapes.cols()) = shapes.row(unknowns_[static_cast<size_t>(row_[at])]);
     }
-    reduced.sets[name] = set;
+    recovered.sets[name] = set;
     if (const auto grid = model_.grids.find(name); grid != model_.grids.end())
-      reduced.grids[name] = grid->second;
-    reduced.recovered_sets.push_back(name);
+      recovered.grids[name] = grid->second;
+    recovered.names.push_back(name);
   }
+  return recovered;
 }
 
 }  // namespace clatter::condense

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The rows of the basis for the displacements of the skin and of sets besides the boundary.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,14 @@
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::condense {
+
+/// Sets besides the boundary, as ReducedModel holds them.
+struct RecoveredSets {
+  std::vector<std::string> names;
+  std::map<std::string, rom::DofSet> sets;  // DoFs are boundary coordinates, or r + row of combined
+  std::map<std::string, rom::ContactGrid> grids;
+  Eigen::MatrixXd combined;  // c x r
+};
 
 /// Joins the named surfaces of the model into one skin of quadratic triangles (skin_faces.hpp); a
 /// face in two of them is used once. Holds the rows of the basis that the skin needs.
@@ -22,9 +31,8 @@ class SkinRecovery {
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
   rom::Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
-  /// Adds the sets to the reduced model, their displacements as rows of `combined`.
-  void recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes,
-                    rom::ReducedModel& reduced) const;
+  /// The sets with their displacements.
+  RecoveredSets recover_sets(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;
 
  private:
   const fe::FeModel& model_;

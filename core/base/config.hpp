@@ -71,6 +71,8 @@ class Config {
 
   /// Refuses every key of the file that was never read. Call after all tables were read.
   void finish() const;
+  /// Refuses every key of this table that was never read, before a message that it would explain.
+  void finish_table() const;
   /// Every value that was read, defaults included, as TOML-like lines "table.key = value".
   std::string resolved() const;
   /// "file:line: key: message" as an InputError.
@@ -82,6 +84,7 @@ class Config {
   struct Document;
   struct Node;
   Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node);
+  void refuse_unknown(const Node& node) const;
   std::shared_ptr<Document> document_;
   std::shared_ptr<Node> node_;
 };

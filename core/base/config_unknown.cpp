@@ -73,14 +73,18 @@ void find_unknown(const toml::table& table, const std::string& prefix, const Req
 
 }  // namespace
 
-void Config::finish() const {
+void Config::refuse_unknown(const Node& node) const {
   Unknown unknown;
-  find_unknown(document_->root, "", document_->requested, document_->known, unknown);
+  find_unknown(*node.table, node.prefix, document_->requested, document_->known, unknown);
   if (unknown.node == nullptr) return;
   const std::string close = nearest(unknown.key, document_->requested[unknown.table]);
   throw InputError(fmt::format(
       "{}: {}{}: unknown key{}", position_in_file(document_->origin, unknown.node), unknown.prefix,
       unknown.key, close.empty() ? "" : fmt::format(", did you mean {}?", close)));
 }
+
+void Config::finish() const { refuse_unknown({&document_->root, ""}); }
+
+void Config::finish_table() const { refuse_unknown(*node_); }
 
 }  // namespace clatter

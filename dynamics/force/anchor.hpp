@@ -49,7 +49,7 @@ class NodesAnchor : public Anchor {
 /// phi the ideal angle, u the rod's direction. The rotation of the ideal rod is prescribed motion.
 class RodAnchor : public Anchor {
  public:
-  /// `coordinates`: y indices of the rod's (dy, dz, dphi). The crank must outlive the anchor.
+  /// `coordinates`: y indices of the rod's (dy, dz, dphi).
   RodAnchor(std::vector<int> coordinates, const SliderCrank& crank, double arm);
   AnchorState state(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   Eigen::MatrixXd curvature(double time, const Eigen::VectorXd& y,

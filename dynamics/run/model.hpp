@@ -13,22 +13,16 @@
 #include "dynamics/integrate/dirk.hpp"
 #include "dynamics/integrate/system.hpp"
 #include "dynamics/run/bodies.hpp"
+#include "dynamics/run/model_elements.hpp"
 #include "dynamics/scene/effects.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace clatter::dynamics {
 
-/// Position of the liner as a rigid motion fitted to its patches.
-struct LinerFit {
-  std::vector<int> coordinates;  // y indices of the patches
-  Eigen::MatrixXd rigid_motion;  // 2 x patches: (y at the crank axis, rotation about x)
-};
-
 struct Model {
   System system;
   std::optional<SliderCrank> crank;
   std::optional<Spline> gas;  // absolute pressure over the crank angle [Pa]
-  double ambient = 0.0;       // [Pa]
   EffectTable effects;
   const film::PistonLiner* contact = nullptr;  // owned by `system`
   int pin_y = -1, pin_rx = -1;                 // y indices
@@ -43,6 +37,6 @@ struct Model {
 
 /// Builds a new model from the data read; cheap compared with load_bodies. InputError for names
 /// that are not in a reduced model and for inconsistent geometry.
-std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& bodies);
+std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded);
 
 }  // namespace clatter::dynamics

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/base/error.hpp"
 #include "dynamics/given/load_table.hpp"
@@ -22,37 +23,44 @@ TimeFunction ramped(const TimeSpec& time, TimeFunction value) {
   };
 }
 
-void add_gas(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index, Model& model) {
-  if (!scene.gas) return;
-  model.gas = read_cycle_table(scene.gas->table, scene.gas->column, "Pa", scene.gas->interpolation);
-  model.ambient = scene.gas->ambient;
-  const auto pressure = ramped(scene.time, [&model](double t) {
-    return (*model.gas)(model.crank->angle(t)) - model.ambient;
+/// Modal force of gravity or of an accelerated frame per unit acceleration: -M r.
+Eigen::VectorXd frame_force(const System& system, int body, int direction) {
+  return -system.bodies()[static_cast<size_t>(body)].rigid.col(direction);
+}
+
+std::vector<Load> gas_loads(const SceneBodies& bodies, const SliderCrank& crank,
+                            const Spline& gas) {
+  const Scene& scene = bodies.scene;
+  const auto pressure = ramped(scene.time, [crank, gas, ambient = scene.gas->ambient](double t) {
+    return gas(crank.angle(t)) - ambient;
   });
+  std::vector<Load> loads;
   const auto add = [&](const std::string& body, const std::string& load) {
-    if (load.empty() || index.find(body) == index.end()) return;
-    const LoadedBody& loaded = *find_body(bodies, body);
+    if (load.empty() || bodies.index.find(body) == bodies.index.end()) return;
+    const LoadedBody& loaded = *find_body(bodies.loaded, body);
     const Eigen::VectorXd modal = loaded.modal.shapes.transpose() * unit_load(loaded.model, load);
-    model.system.add_load({"gas on " + body, index.at(body), modal, pressure});
+    loads.push_back({"gas on " + body, bodies.index.at(body), modal, pressure});
   };
   add("piston", scene.piston->gas_load);
   if (scene.block) add("block", scene.block->gas_load);
+  return loads;
 }
 
 /// -M r a(t) for the accelerated frames of piston (translation, eq. (10)) and rod.
-void add_frame_inertia(const Scene& scene, const BodyIndex& index, Model& model) {
-  const SliderCrank& crank = *model.crank;
-  const auto add = [&](const std::string& body, int direction, TimeFunction acceleration) {
-    const int b = index.at(body);
-    const Eigen::VectorXd modal =
-        -model.system.bodies()[static_cast<size_t>(b)].rigid.col(direction);
-    model.system.add_load({"inertia frame", b, modal, ramped(scene.time, std::move(acceleration))});
+std::vector<Load> frame_inertia(const SceneBodies& bodies, const System& system,
+                                const SliderCrank& crank) {
+  const auto load = [&](const std::string& body, int direction, TimeFunction acceleration) {
+    const int b = bodies.index.at(body);
+    return Load{"inertia frame", b, frame_force(system, b, direction),
+                ramped(bodies.scene.time, std::move(acceleration))};
   };
-  add("piston", 2, [&crank](double t) { return crank.piston_pin(t).acceleration; });
-  const double centre = scene.engine->rod.centre;
-  add("rod", 1, [&crank, centre](double t) { return crank.rod_point(t, centre).acceleration.x(); });
-  add("rod", 2, [&crank, centre](double t) { return crank.rod_point(t, centre).acceleration.y(); });
-  add("rod", 3, [&crank](double t) { return crank.rod_angle(t).acceleration; });
+  const double centre = bodies.scene.engine->rod.centre;
+  return {load("piston", 2, [crank](double t) { return crank.piston_pin(t).acceleration; }),
+          load("rod", 1,
+               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.x(); }),
+          load("rod", 2,
+               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.y(); }),
+          load("rod", 3, [crank](double t) { return crank.rod_angle(t).acceleration; })};
 }
 
 /// Inertia loads of the ideal mechanism on the engine: forces (y, z) and moment about x at the
@@ -70,13 +78,13 @@ Eigen::Vector3d mechanism_inertia(const EngineSpec& engine, const SliderCrank& c
 }
 
 /// Forces of the other cylinders that cancel this one's inertia on the block's rigid modes.
-void add_balance(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
-                 Model& model) {
-  const auto block = index.find("block");
-  if (!scene.engine->balanced || block == index.end()) return;
-  const LoadedBody& body = *find_body(bodies, "block");
+std::vector<Load> balance(const SceneBodies& bodies, const SliderCrank& crank) {
+  const Scene& scene = bodies.scene;
+  const auto block = bodies.index.find("block");
+  if (!scene.engine->balanced || block == bodies.index.end()) return {};
+  const LoadedBody& body = *find_body(bodies.loaded, "block");
   const int n = body.modal.rigid_modes;
-  if (n != 6) return;  // a held block needs no balance
+  if (n != 6) return {};  // a held block needs no balance
   const double x = body.model.grids.empty() || !scene.contact
                        ? 0.0
                        : body.model.grid(scene.block->liner).axis_point.x();
@@ -90,23 +98,26 @@ void add_balance(const Scene& scene, const LoadedBodies& bodies, const BodyIndex
   wrench(3, 2) = 1.0;
   const Eigen::MatrixXd on_modes =
       body.modal.rigid.topRows(6).transpose().partialPivLu().solve(wrench);
-  const double piston_mass = find_body(bodies, "piston")->model.mass.mass;
+  const double piston_mass = find_body(bodies.loaded, "piston")->model.mass.mass;
+  std::vector<Load> loads;
   for (int k = 0; k < 3; ++k) {
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(body.modal.modes());
     direction.head(6) = on_modes.col(k);
-    model.system.add_load({"balance of the other cylinders", block->second, direction,
-                           ramped(scene.time, [engine = *scene.engine, &crank = *model.crank,
-                                               piston_mass, k](double t) {
-                             return mechanism_inertia(engine, crank, piston_mass, t)(k);
-                           })});
+    loads.push_back({"balance of the other cylinders", block->second, direction,
+                     ramped(scene.time, [engine = *scene.engine, crank, piston_mass, k](double t) {
+                       return mechanism_inertia(engine, crank, piston_mass, t)(k);
+                     })});
   }
+  return loads;
 }
 
-TimeFunction load_value(const Scene& scene, const LoadSpec& load, const Model& model) {
+/// The value of a [[load]] over time, without the ramp of the start.
+TimeFunction load_value(const Scene& scene, const LoadSpec& load,
+                        const std::optional<SliderCrank>& crank) {
   if (load.table.empty()) return [value = load.scale](double) { return value; };
-  if (model.crank) {
+  if (crank) {
     const auto table = read_cycle_table(load.table, load.column, load.unit, load.interpolation);
-    return [table, scale = load.scale, &crank = *model.crank](double t) {
+    return [table, scale = load.scale, crank = *crank](double t) {
       return scale * table(crank.angle(t));
     };
   }
@@ -115,12 +126,11 @@ TimeFunction load_value(const Scene& scene, const LoadSpec& load, const Model& m
   return [table, scale = load.scale](double t) { return scale * table(t); };
 }
 
-void add_named_loads(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
-                     Model& model) {
-  int number = 0;
+std::vector<Load> named_loads(const SceneBodies& bodies, const std::optional<SliderCrank>& crank) {
+  const Scene& scene = bodies.scene;
+  std::vector<Load> loads;
   for (const auto& load : scene.loads) {
-    ++number;
-    const LoadedBody* body = find_body(bodies, load.body);
+    const LoadedBody* body = find_body(bodies.loaded, load.body);
     if (body == nullptr) {
       throw InputError(
           fmt::format("{}: load.body: no body \"{}\" in the scene", load.where, load.body));
@@ -132,28 +142,40 @@ void add_named_loads(const Scene& scene, const LoadedBodies& bodies, const BodyI
       const int dof = set_dof(body->model, load.set, load.component % 3, load.component >= 3);
       modal = body->modal.row_of(dof).transpose();
     }
-    model.system.add_load({fmt::format("load {} on {}", number, load.body), index.at(load.body),
-                           modal, ramped(scene.time, load_value(scene, load, model))});
+    loads.push_back({fmt::format("load {} on {}", loads.size() + 1, load.body),
+                     bodies.index.at(load.body), modal,
+                     ramped(scene.time, load_value(scene, load, crank))});
   }
+  return loads;
 }
 
 }  // namespace
 
-void add_loads(const Scene& scene, const LoadedBodies& bodies, const BodyIndex& index,
-               Model& model) {
-  if (model.crank) {
-    add_gas(scene, bodies, index, model);
-    add_frame_inertia(scene, index, model);
-    add_balance(scene, bodies, index, model);
+std::optional<Spline> gas_pressure(const Scene& scene) {
+  if (!scene.gas) return std::nullopt;
+  return read_cycle_table(scene.gas->table, scene.gas->column, "Pa", scene.gas->interpolation);
+}
+
+std::vector<Load> loads_of(const SceneBodies& bodies, const System& system,
+                           const std::optional<SliderCrank>& crank,
+                           const std::optional<Spline>& gas) {
+  const Scene& scene = bodies.scene;
+  std::vector<Load> all;
+  const auto append = [&](std::vector<Load> loads) {
+    for (Load& load : loads) all.push_back(std::move(load));
+  };
+  if (crank) {
+    if (gas) append(gas_loads(bodies, *crank, *gas));
+    append(frame_inertia(bodies, system, *crank));
+    append(balance(bodies, *crank));
   }
   if (scene.gravity > 0.0) {
-    for (const auto& [name, b] : index) {
-      const Eigen::VectorXd modal = -model.system.bodies()[static_cast<size_t>(b)].rigid.col(2);
-      model.system.add_load(
-          {"gravity", b, modal, ramped(scene.time, [g = scene.gravity](double) { return g; })});
-    }
+    for (const auto& [name, b] : bodies.index)
+      all.push_back({"gravity", b, frame_force(system, b, 2),
+                     ramped(scene.time, [g = scene.gravity](double) { return g; })});
   }
-  add_named_loads(scene, bodies, index, model);
+  append(named_loads(bodies, crank));
+  return all;
 }
 
 }  // namespace clatter::dynamics

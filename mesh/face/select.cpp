@@ -159,6 +159,7 @@ SurfaceFilter read_filter(const Config& table, const std::string& name) {
   if (const auto b = table.find_table("box")) filter.box = read_box(*b);
   if (const auto b = table.find_table("outside")) filter.outside.push_back(read_box(*b));
   if (!filter.cylinder && !filter.plane && !filter.box && filter.outside.empty()) {
+    table.finish_table();  // a misspelled filter
     throw InputError(
         fmt::format("{}: surface.{}: found no filter, expected cylinder, plane, box or outside",
                     table.where(), name));

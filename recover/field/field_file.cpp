@@ -123,7 +123,7 @@ void write_conventions(H5File& file, const Options& options, const FrequencyLimi
 void write_skin_geometry(H5File& file, const rom::Skin& skin, const SkinGeometry& geometry) {
   put(file, "skin/nodes", skin.nodes, "m", "coordinates");
   put(file, "skin/triangles", skin.triangles, "1",
-      "quadratic triangles: 3 corners, then the middles of edges 01, 12, 20; outward");
+      "quadratic triangles: 3 corners, then the mid-side nodes of edges 01, 12, 20; outward");
   put(file, "skin/face_area", geometry.face_area, "m2", "area of each triangle");
   put(file, "skin/face_normal", geometry.face_normal, "1", "mean outward unit normal");
   put(file, "skin/face_centre", geometry.face_centre, "m", "centre of each triangle");

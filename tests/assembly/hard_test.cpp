@@ -56,8 +56,7 @@ TEST(AssemblyHard, HardE3_InPlaceTransformEqualsTheDenseProductOfCopies) {
   ASSERT_EQ(elimination.size(), 37);  // 40 less 3 fixed; 3 coordinates replace 3 pivots
   const Eigen::MatrixXd T = elimination.T;
   const Eigen::MatrixXd want = T.transpose() * full(model.A) * T;
-  SparseMatrix got = model.A;
-  transform(got, elimination);
+  const SparseMatrix got = transform(SparseMatrix(model.A), elimination);
   EXPECT_LT((full(got) - want).cwiseAbs().maxCoeff(), 1e-12 * want.cwiseAbs().maxCoeff());
   // And it is a lower triangle with ascending rows.
   for (Eigen::Index c = 0; c < got.cols(); ++c) {
@@ -108,16 +107,14 @@ TEST(AssemblyHard, HardE3_SupportedBlocksEqualTheDenseProductsOfCopies) {
   Eigen::MatrixXd T(40, e.size() + e.supports());
   T << Eigen::MatrixXd(e.T), Eigen::MatrixXd(e.T_s);
   const Eigen::MatrixXd want = T.transpose() * full(model.A) * T;
-  SparseMatrix got = model.A;
-  SupportBlocks blocks;
-  transform(got, e, &blocks);
+  const CoordinateBlocks got = transform_with_supports(SparseMatrix(model.A), e);
   const Eigen::Index n = e.size(), n_s = e.supports();
   ASSERT_EQ(n_s, 4);
   const double tolerance = 1e-12 * want.cwiseAbs().maxCoeff();
-  EXPECT_LT((full(got) - want.topLeftCorner(n, n)).cwiseAbs().maxCoeff(), tolerance);
-  EXPECT_LT((Eigen::MatrixXd(blocks.sq) - want.bottomLeftCorner(n_s, n)).cwiseAbs().maxCoeff(),
+  EXPECT_LT((full(got.qq) - want.topLeftCorner(n, n)).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT((Eigen::MatrixXd(got.sq) - want.bottomLeftCorner(n_s, n)).cwiseAbs().maxCoeff(),
             tolerance);
-  EXPECT_LT((full(blocks.ss) - want.bottomRightCorner(n_s, n_s)).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT((full(got.ss) - want.bottomRightCorner(n_s, n_s)).cwiseAbs().maxCoeff(), tolerance);
 }
 
 TEST(AssemblyHard, HardE4_AMatrixBeyond32BitIndicesIsRefusedBeforeMemoryIsTaken) {

@@ -128,10 +128,10 @@ TEST(Select, WrongTablesAreRefused) {
       test::refusal_of(
           [&] { surfaces("[surface.s]\nplane = { normal = [0, 0, 0], height = 1 }"); }),
       {"part.toml:2: surface.s.plane.normal: found a zero vector, expected a direction"});
-  test::expect_parts(
-      test::refusal_of(
-          [&] { surfaces("[surface.s]\nplain = { normal = [0, 0, 1], height = 1 }"); }),
-      {"part.toml:1: surface.s: found no filter, expected cylinder, plane, box or outside"});
+  test::expect_parts(test::refusal_of([&] {
+                       surfaces("[surface.s]\nplain = { normal = [0, 0, 1], height = 1 }");
+                     }),
+                     {"part.toml:2: surface.s.plain: unknown key, did you mean plane?"});
   test::expect_parts(
       test::refusal_of(
           [&] { surfaces("[surface.skin]\nplane = { normal = [0, 0, 1], height = 1 }"); }),

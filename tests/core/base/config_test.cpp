@@ -37,6 +37,15 @@ TEST(Config, AnUnknownKeyNamesTheNearestKnownOne) {
             "scene.toml:2: oil.viscosty: unknown key, did you mean viscosity?");
 }
 
+TEST(Config, ATableRefusesItsOwnUnknownKeysAlone) {
+  const Config config = Config::parse("other = 1\n[oil]\nviscosty = 1\n[water]\n", "scene.toml");
+  const Config oil = config.table("oil");
+  oil.number_or("viscosity", 0.01);
+  EXPECT_EQ(message_of([&] { oil.finish_table(); }),
+            "scene.toml:3: oil.viscosty: unknown key, did you mean viscosity?");
+  EXPECT_NO_THROW(config.table("water").finish_table());
+}
+
 TEST(Config, AnUnknownTableIsAnUnknownKey) {
   const Config config = Config::parse("[[load]]\nset = \"tip\"\nforse = 3\n", "s");
   for (const auto& load : config.tables("load")) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/constraint/dof_sets.hpp"
+
+#include <fmt/format.h>
+
+#include "assembly/constraint/coupling_members.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+/// Three displacements of each node, as ids.
+rom::DofSet node_set(const NodeSpec& spec, const std::vector<int32_t>& nodes,
+                     const RowMatrix& coordinates) {
+  rom::DofSet set;
+  set.kind = spec.kind;
+  const auto rows = 3 * static_cast<Eigen::Index>(nodes.size());
+  set.position.resize(rows, 3);
+  set.direction = Eigen::Matrix3d::Identity().replicate(static_cast<Eigen::Index>(nodes.size()), 1);
+  set.is_rotation.assign(static_cast<size_t>(rows), 0);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const int32_t node = nodes[static_cast<size_t>(r / 3)];
+    set.dofs.push_back(static_cast<int32_t>(3 * node + r % 3));
+    set.position.row(r) = coordinates.row(node);
+    const char axis = "xyz"[r % 3];
+    set.labels.push_back(nodes.size() == 1 ? fmt::format("{}.{}", spec.name, axis)
+                                           : fmt::format("{}[{}].{}", spec.name, r / 3, axis));
+  }
+  return set;
+}
+
+/// Six DoFs of a reference node or point, as ids.
+rom::DofSet six_dofs(const std::string& name, const std::string& kind,
+                     const ReferenceDofs& reference) {
+  rom::DofSet set = reference_set(name, kind, reference.position, {0, 1, 2, 3, 4, 5});
+  set.dofs.assign(reference.ids.begin(), reference.ids.end());
+  return set;
+}
+
+/// The same set with coordinates instead of ids, without ids that are no coordinates.
+rom::DofSet numbered(rom::DofSet set, const std::vector<int32_t>& reduced_of) {
+  std::vector<Eigen::Index> rows;
+  for (size_t k = 0; k < set.dofs.size(); ++k) {
+    const int32_t reduced = reduced_of[static_cast<size_t>(set.dofs[k])];
+    if (reduced < 0) continue;
+    const size_t to = rows.size();
+    rows.push_back(static_cast<Eigen::Index>(k));
+    set.dofs[to] = reduced;
+    set.labels[to] = set.labels[k];
+    set.is_rotation[to] = set.is_rotation[k];
+  }
+  set.dofs.resize(rows.size());
+  set.labels.resize(rows.size());
+  set.is_rotation.resize(rows.size());
+  set.position = set.position(rows, Eigen::all).eval();
+  set.direction = set.direction(rows, Eigen::all).eval();
+  return set;
+}
+
+}  // namespace
+
+std::map<std::string, rom::DofSet> sets_of_coordinates(
+    const PartData& part, const Relations& relations,
+    const std::map<std::string, rom::DofSet>& generalised, const Elimination& elimination) {
+  std::map<std::string, rom::DofSet> by_id = generalised;
+  by_id.insert(relations.bolts.begin(), relations.bolts.end());
+  for (const CouplingSpec& spec : part.recipe.couplings)
+    if (spec.rigid && spec.on_point.empty())
+      by_id[spec.name] = six_dofs(spec.name, spec.kind, relations.references.at(spec.name));
+  for (size_t s = 0; s < part.recipe.nodes.size(); ++s) {
+    const NodeSpec& spec = part.recipe.nodes[s];
+    by_id[spec.name] = node_set(spec, relations.kept_nodes[s], part.mesh.nodes);
+  }
+  for (size_t p = 0; p < part.recipe.points.size(); ++p) {
+    const std::string& name = part.recipe.points[p].point.name;
+    by_id[name] = six_dofs(name, "node", point_dofs(part.numbers, static_cast<int32_t>(p)));
+  }
+  std::map<std::string, rom::DofSet> sets;
+  for (auto& [name, set] : by_id) {
+    rom::DofSet found = numbered(std::move(set), elimination.reduced_of);
+    if (!found.dofs.empty()) sets[name] = std::move(found);
+  }
+  return sets;
+}
+
+}  // namespace clatter::assembly

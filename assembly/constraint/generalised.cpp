@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "assembly/constraint/generalised.hpp"
+
+#include <fmt/format.h>
+
+#include "assembly/constraint/coupling_members.hpp"
+#include "assembly/coupling/contact_patch.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+
+namespace clatter::assembly {
+namespace {
+
+/// The motions of new coordinates that are functionals of nodes' and points' DoFs.
+void append_motions(const std::vector<Functional>& functionals, const Eigen::MatrixXd& nodal_rigid,
+                    Motions& motions) {
+  for (const Functional& functional : functionals) {
+    Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(6);
+    for (size_t k = 0; k < functional.dofs.size(); ++k)
+      motion += functional.values[k] * nodal_rigid.row(functional.dofs[k]);
+    motions.push_back(motion);
+  }
+}
+
+/// DoFs of sensors, node sets and points: they stay coordinates.
+std::vector<int32_t> kept_dofs(const PartData& part, const Relations& relations) {
+  std::vector<int32_t> kept;
+  for (const std::vector<int32_t>& nodes : relations.kept_nodes)
+    for (const int32_t node : nodes)
+      for (int d = 0; d < 3; ++d) kept.push_back(3 * node + d);
+  for (size_t p = 0; p < part.numbers.points().size(); ++p)
+    for (const int32_t id : point_dofs(part.numbers, static_cast<int32_t>(p)).ids)
+      kept.push_back(id);
+  return kept;
+}
+
+}  // namespace
+
+HeldById aligned_supports(const std::vector<HeldGroup>& supports, const DofNumbers& numbers) {
+  HeldById by_id;
+  for (const HeldGroup& group : supports)
+    for (const HeldDof& held : group.held)
+      if (group.along_axes) by_id[held_functional(held, numbers).dofs[0]] = held;
+  return by_id;
+}
+
+Eliminator eliminate_dependences(const PartData& part, const Relations& relations,
+                                 const HeldById& aligned) {
+  std::vector<int32_t> fixed;
+  for (const auto& [id, held] : aligned) fixed.push_back(id);
+  const DofNumbers& numbers = part.numbers;
+  Eliminator eliminator(numbers.count(), fixed, kept_dofs(part, relations));
+  for (size_t p = 0; p < numbers.points().size(); ++p)  // displacements of points on nodes
+    for (int d = 0; d < 3 && numbers.points()[p].node >= 0; ++d)
+      eliminator.drop(static_cast<int32_t>(numbers.nodal() + 6 * static_cast<int64_t>(p)) + d);
+  eliminator.add_coordinates(6 * static_cast<int>(relations.references.size()));
+  eliminator.add_coordinates(static_cast<int>(relations.bolts.size()));
+  for (const Dependence& one : relations.dependences) eliminator.depend(one.dof, one.on);
+  return eliminator;
+}
+
+Motions own_motions(const PartData& part, const Relations& relations) {
+  Motions motions;
+  for (const CouplingSpec& spec : part.recipe.couplings) {  // in the order of their ids
+    if (!spec.rigid || !spec.on_point.empty()) continue;
+    const Eigen::Vector3d& position = relations.references.at(spec.name).position;
+    Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
+    motion.topRows<3>() = rigid_motion(position);
+    for (int d = 0; d < 6; ++d) motions.emplace_back(motion.row(d));
+  }
+  motions.resize(motions.size() + relations.bolts.size(), Eigen::RowVectorXd::Zero(6));
+  return motions;
+}
+
+ObliqueSupports hold_oblique(const PartData& part, const std::vector<HeldGroup>& supports,
+                             Owners owners, const Eigen::MatrixXd& nodal_rigid,
+                             Eliminator& eliminator) {
+  ObliqueSupports oblique;
+  for (const HeldGroup& group : supports) {
+    if (group.along_axes || group.held[0].owner.is_point() != (owners == Owners::kPoints)) continue;
+    std::vector<Functional> rows;
+    for (const HeldDof& held : group.held) rows.push_back(held_functional(held, part.numbers));
+    const SupportSpec& spec = part.recipe.supports[static_cast<size_t>(group.held[0].support)];
+    const int32_t first = eliminator.hold(rows, spec.selection.where + ": " + group.held[0].label);
+    for (size_t k = 0; k < group.held.size(); ++k)
+      oblique.held[first + static_cast<int32_t>(k)] = group.held[k];
+    append_motions(rows, nodal_rigid, oblique.motions);
+  }
+  return oblique;
+}
+
+Motions couple_onto_points(const PartData& part, const std::vector<OntoPoint>& couplings,
+                           const Eigen::MatrixXd& nodal_rigid, Eliminator& eliminator) {
+  Motions motions;
+  for (const OntoPoint& onto : couplings) {
+    append_motions(onto.coupling.means, nodal_rigid, motions);
+    if (eliminator.add_onto(onto.coupling, onto.ids, onto.where)) continue;
+    const std::vector<Functional> rows = onto.coupling.nodal_rows();
+    for (size_t k = 0; k < rows.size(); ++k) {
+      if (eliminator.is_held(onto.ids[k]))
+        throw InputError(
+            fmt::format("{}: found {} held by a support although other couplings already determine "
+                        "it, expected one of them",
+                        onto.where, part.numbers.name(onto.ids[k], part.mesh.node_ids)));
+      eliminator.depend(onto.ids[k], rows[k]);
+    }
+  }
+  return motions;
+}
+
+GeneralisedSets couple_faces(const PartData& part, const Eigen::MatrixXd& nodal_rigid,
+                             Eliminator& eliminator) {
+  const Recipe& recipe = part.recipe;
+  GeneralisedSets all;
+  const auto add = [&](const std::string& name, const Coupling& coupling,
+                       const std::string& where) {
+    const int32_t first = eliminator.add(coupling, where);
+    rom::DofSet set = coupling.set;
+    for (size_t k = 0; k < coupling.rows.size(); ++k)
+      set.dofs.push_back(first + static_cast<int32_t>(k));
+    append_motions(coupling.means, nodal_rigid, all.motions);
+    append_motions(coupling.nodal_rows(), nodal_rigid, all.motions);
+    all.sets[name] = std::move(set);
+  };
+  for (const CouplingSpec& spec : recipe.couplings) {
+    if (spec.rigid || !spec.on_point.empty()) continue;
+    const std::vector<Member> coupled = coupling_members(part, spec);
+    const Eigen::Vector3d at = reference_position(spec, coupled);
+    Coupling coupling = distribute(coupled, at, spec.directions, spec.where);
+    coupling.set = reference_set(spec.name, spec.kind, at, spec.directions);
+    add(spec.name, coupling, spec.where);
+  }
+  for (const ContactSpec& spec : recipe.contacts) {
+    const PatchCoupling patches = contact_patches(
+        spec.name, part.mesh.nodes, part.surfaces.at(spec.surface), spec.grid, spec.where);
+    add(spec.name, patches.coupling, spec.where);
+    all.grids[spec.name] = patches.grid;
+    say(fmt::format("{}: {} strips x {} rows on radius {:.5f} m, {} to {} nodes per patch",
+                    spec.name, patches.grid.angle.size(), patches.grid.axial.size(),
+                    patches.grid.radius, patches.nodes_per_patch.minCoeff(),
+                    patches.nodes_per_patch.maxCoeff()));
+  }
+  for (const MeanSpec& spec : recipe.means)
+    add(spec.name,
+        mean_displacement(spec.name, part.mesh.nodes, part.surfaces.at(spec.surface),
+                          spec.direction, spec.range, spec.where),
+        spec.where);
+  return all;
+}
+
+}  // namespace clatter::assembly

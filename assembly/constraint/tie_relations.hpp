@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Ties and bolts: nodes of a slave surface that follow a master surface.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assembly/constraint/constraint_graph.hpp"
+#include "assembly/constraint/part_data.hpp"
+#include "assembly/coupling/rigid_coupling.hpp"
+#include "core/rom/reduced_model.hpp"
+
+namespace clatter::assembly {
+
+/// The relations of all ties and bolts.
+struct TieRelations {
+  std::vector<Dependence> dependences;
+  std::map<std::string, rom::DofSet> bolts;  // the shortening of each; its DoF is an id
+};
+
+/// Projects each slave surface and adds its dependences to the graph. Displacements that a support
+/// holds are not tied. InputError when nothing is tied and for conflicts with relations in `graph`.
+/// @param first_id of the bolts' shortenings.
+TieRelations gather_ties(const PartData& part, int32_t first_id, ConstraintGraph& graph);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Load vectors of a recipe in the model's coordinates.
+#include <Eigen/Core>
+#include <map>
+#include <string>
+
+#include "assembly/constraint/constrain.hpp"
+#include "assembly/constraint/part_data.hpp"
+
+namespace clatter::assembly {
+
+/// The unit load cases of a recipe, by name.
+struct LoadVectors {
+  std::map<std::string, Eigen::VectorXd> forces;            // n, on the coordinates q
+  std::map<std::string, Eigen::VectorXd> support_forces;    // n_s, on s; empty without supports
+  std::map<std::string, Eigen::VectorXd> prescribed;        // n_s: s of prescribed displacements
+  std::map<std::string, Eigen::VectorXd> temperature_rise;  // n_nodes [K], of temperature loads
+  std::map<std::string, std::string> units;                 // "gas" -> "Pa": unit of the load
+};
+
+/// Builds all loads and prints the resultant of each. InputError for a load on a direction that
+/// the model lacks.
+/// @param momentum 3 n_nodes x 3: M times unit accelerations of all nodes; empty when no load needs
+/// it.
+LoadVectors load_vectors(const PartData& part, const Constrained& constrained,
+                         const Eigen::MatrixXd& momentum);
+
+}  // namespace clatter::assembly

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/model_elements.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "dynamics/force/joint.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+/// An end of the rod at `arm` from its centre of mass.
+std::unique_ptr<RodAnchor> rod_end(const SceneBodies& bodies, const SliderCrank& crank, double arm,
+                                   System& system) {
+  const int rod = bodies.index.at("rod");
+  const std::vector<int> y{system.coordinate(rod, 0), system.coordinate(rod, 1),
+                           system.coordinate(rod, 2)};
+  return std::make_unique<RodAnchor>(y, crank, arm);
+}
+
+/// A contact grid with the y indices of its patches.
+struct GridOfBody {
+  film::ElasticSurface surface;
+  std::vector<int> coordinates;
+};
+
+GridOfBody grid_of(const SceneBodies& bodies, const std::string& body, const std::string& grid,
+                   System& system) {
+  const LoadedBody& loaded = *find_body(bodies.loaded, body);
+  const rom::DofSet& set = loaded.model.set(grid);
+  GridOfBody found{{loaded.model.grid(grid), {}}, {}};
+  found.surface.rigid.resize(static_cast<Eigen::Index>(set.dofs.size()), 6);
+  for (size_t i = 0; i < set.dofs.size(); ++i) {
+    found.surface.rigid.row(static_cast<Eigen::Index>(i)) =
+        loaded.model.row_of(set.dofs[i]) * loaded.model.rigid;
+    found.coordinates.push_back(system.coordinate(bodies.index.at(body), set.dofs[i]));
+  }
+  return found;
+}
+
+/// Radial means depend only on x, y and the tilts; a least squares fit of the four gives (y, rx).
+LinerFit fit_of(const GridOfBody& liner) {
+  const Eigen::MatrixXd& rigid = liner.surface.rigid;
+  Eigen::MatrixXd seen(rigid.rows(), 4);
+  seen << rigid.leftCols<2>(), rigid.col(3), rigid.col(4);
+  const Eigen::MatrixXd inverse = seen.completeOrthogonalDecomposition().pseudoInverse();
+  Eigen::MatrixXd rows(2, inverse.cols());
+  rows << inverse.row(1), inverse.row(2);
+  return {liner.coordinates, rows};
+}
+
+void check_axes(const Scene& scene, const film::PistonLinerBodies& bodies) {
+  if (!bodies.piston || !bodies.liner) return;
+  const double skirt = bodies.piston->grid.axis_point.y() + scene.engine->pin_offset;
+  const double bore = bodies.liner->grid.axis_point.y();
+  if (std::abs(skirt - bore) > 1e-6) {
+    throw InputError(
+        fmt::format("{}: engine.pin_offset_mm: skirt axis at y = {:.4g} mm in the piston plus "
+                    "pin offset {:.4g} "
+                    "mm, expected the bore's axis at {:.4g} mm",
+                    scene.file.string(), 1e3 * bodies.piston->grid.axis_point.y(),
+                    1e3 * scene.engine->pin_offset, 1e3 * bore));
+  }
+}
+
+/// Springs to the ground at the nodes of a mount.
+std::vector<GroundSpring> springs_of(const SceneBodies& bodies, const MountSpec& mount,
+                                     System& system) {
+  std::vector<GroundSpring> springs;
+  for (const auto& set : mount.sets) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<size_t>(axis);
+      if (mount.stiffness[a] == 0.0 && mount.damping[a] == 0.0) continue;
+      springs.push_back(
+          {bodies.y(system, mount.body, set, axis, false), mount.stiffness[a], mount.damping[a]});
+    }
+  }
+  return springs;
+}
+
+}  // namespace
+
+PinNode pin_node(const SceneBodies& bodies, System& system) {
+  const std::string& set = bodies.scene.piston->pin;
+  PinNode pin{};
+  for (size_t d = 0; d < 6; ++d)
+    pin[d] = bodies.y(system, "piston", set, static_cast<int>(d % 3), d >= 3);
+  return pin;
+}
+
+std::unique_ptr<ForceElement> pin_joint(const SceneBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, System& system) {
+  const std::vector<std::pair<int, int>> piston{{pin[1], pin[2]}};
+  return std::make_unique<Joint>(
+      "pin", std::make_unique<NodesAnchor>(piston),
+      rod_end(bodies, crank, bodies.scene.engine->rod.small_arm(), system), bodies.scene.small_end);
+}
+
+std::unique_ptr<ForceElement> crank_joint(const SceneBodies& bodies, const SliderCrank& crank,
+                                          System& system) {
+  const Scene& scene = bodies.scene;
+  auto rod = rod_end(bodies, crank, scene.engine->rod.big_arm(), system);
+  std::vector<std::pair<int, int>> bearings;
+  if (bodies.block() != nullptr) {
+    for (const auto& set : scene.block->bearings) {
+      const int stroke = bodies.y(system, "block", set, 2, false);
+      const int lateral = bodies.y(system, "block", set, 1, false);
+      bearings.emplace_back(lateral, stroke);
+    }
+  }
+  return std::make_unique<Joint>("crank_pin", std::move(rod),
+                                 std::make_unique<NodesAnchor>(bearings), scene.big_end);
+}
+
+std::unique_ptr<ForceElement> pin_guide(const GuideSpec& guide, const PinNode& pin) {
+  return std::make_unique<Mount>(
+      "pin_guide", std::vector<GroundSpring>{{pin[0], guide.axial_stiffness, guide.axial_damping},
+                                             {pin[4], guide.tilt_stiffness, guide.tilt_damping},
+                                             {pin[5], guide.tilt_stiffness, guide.tilt_damping}});
+}
+
+LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, const PinNode& pin,
+                           System& system) {
+  const Scene& scene = bodies.scene;
+  film::PistonLinerBodies surfaces;
+  std::optional<LinerFit> fit;
+  std::vector<int> coordinates;
+  const auto append = [&](const auto& more) {
+    coordinates.insert(coordinates.end(), more.begin(), more.end());
+  };
+  if (scene.piston->elastic) {
+    const GridOfBody skirt = grid_of(bodies, "piston", scene.piston->skirt, system);
+    surfaces.piston = skirt.surface;
+    append(skirt.coordinates);
+  }
+  if (bodies.block() != nullptr) {
+    const GridOfBody liner = grid_of(bodies, "block", scene.block->liner, system);
+    surfaces.liner = liner.surface;
+    fit = fit_of(liner);
+    append(liner.coordinates);
+  }
+  append(pin);
+  if (bodies.block() != nullptr && !scene.block->liner_axial.empty()) {
+    surfaces.liner_axial = true;
+    coordinates.push_back(bodies.y(system, "block", scene.block->liner_axial, 2, false));
+  }
+  surfaces.stroke = [crank](double time) {
+    const auto motion = crank.piston_pin(time);
+    return film::StrokeState{motion.position, motion.velocity};
+  };
+  check_axes(scene, surfaces);
+  return {std::make_unique<film::PistonLiner>(*scene.contact, surfaces, coordinates), fit};
+}
+
+std::vector<std::unique_ptr<ForceElement>> mounts_of(const SceneBodies& bodies, System& system) {
+  const Scene& scene = bodies.scene;
+  std::vector<std::unique_ptr<ForceElement>> mounts;
+  for (const MountSpec& mount : scene.mounts) {
+    if (mount.body == "block" && scene.block && !scene.block->elastic) continue;  // not simulated
+    if (find_body(bodies.loaded, mount.body) == nullptr) {
+      throw InputError(
+          fmt::format("{}: mount.body: no body \"{}\" in the scene", mount.where, mount.body));
+    }
+    mounts.push_back(std::make_unique<Mount>(fmt::format("mount {}", mounts.size() + 1),
+                                             springs_of(bodies, mount, system)));
+  }
+  return mounts;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The forces between the bodies of a scene and to the ground.
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dynamics/film/piston_liner.hpp"
+#include "dynamics/force/mount.hpp"
+#include "dynamics/given/crank.hpp"
+#include "dynamics/run/scene_bodies.hpp"
+
+namespace clatter::dynamics {
+
+/// y indices of the pin's node in the piston: x, y, z, rx, ry, rz.
+using PinNode = std::array<int, 6>;
+
+/// Position of the liner as a rigid motion fitted to its patches.
+struct LinerFit {
+  std::vector<int> coordinates;  // y indices of the patches
+  Eigen::MatrixXd rigid_motion;  // 2 x patches: (y at the crank axis, rotation about x)
+};
+
+/// Piston and liner.
+struct LinerContact {
+  std::unique_ptr<film::PistonLiner> element;
+  std::optional<LinerFit> liner;  // of an elastic block
+};
+
+// Each function requests the coordinates that its element needs, in the order in which they are to
+// be numbered, and returns the element. InputError for sets that a body lacks.
+
+PinNode pin_node(const SceneBodies& bodies, System& system);
+std::unique_ptr<ForceElement> pin_joint(const SceneBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, System& system);
+std::unique_ptr<ForceElement> crank_joint(const SceneBodies& bodies, const SliderCrank& crank,
+                                          System& system);
+std::unique_ptr<ForceElement> pin_guide(const GuideSpec& guide, const PinNode& pin);
+/// InputError when the axes of skirt and bore differ.
+LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, const PinNode& pin,
+                           System& system);
+/// One per [[mount]], without those of a block that is not simulated. InputError for a body that is
+/// not in the scene.
+std::vector<std::unique_ptr<ForceElement>> mounts_of(const SceneBodies& bodies, System& system);
+
+}  // namespace clatter::dynamics
