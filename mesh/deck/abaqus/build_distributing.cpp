@@ -3,25 +3,25 @@
 
 #include <algorithm>
 
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-const PointElement& coupling_element(Reading* reading, size_t use, const Card& card) {
-  const std::string& set = card.keyword().required("ELSET", reading->source);
-  const auto& elements = reading->sets->elements(use, set, card.spot());
-  const int32_t n_cells = reading->model->cells();
+const PointElement& coupling_element(Model& model, size_t use, const Card& card) {
+  const std::string& set = card.keyword().required("ELSET", model.source);
+  const auto& elements = model.sets.elements(use, set, card.origin());
+  const int32_t n_cells = model.numbering.cells();
   if (elements.size() != 1 || elements.front() < n_cells) {
-    reading->source.fail(card.spot(), fmt::format("*DISTRIBUTING COUPLING: expected one element "
-                                                  "DCOUP3D in {}",
-                                                  set));
+    model.source.fail(card.origin(), fmt::format("*DISTRIBUTING COUPLING: expected one element "
+                                                 "DCOUP3D in {}",
+                                                 set));
   }
-  return reading->model->points()[static_cast<size_t>(elements.front() - n_cells)];
+  return model.numbering.points()[static_cast<size_t>(elements.front() - n_cells)];
 }
 
 // CalculiX: the reference's displacement is the weighted mean, regardless of the lever arm.
-void add_mean_equations(Reading* reading, const Distributing& distributing) {
+void add_mean_equations(Model& model, const Distributing& distributing) {
   double sum = 0.0;
   for (const auto& term : distributing.terms) {
     sum += term.weight * static_cast<double>(term.node_indices.size());
@@ -35,7 +35,7 @@ void add_mean_equations(Reading* reading, const Distributing& distributing) {
         equation.terms.push_back({node_index, k, -term.weight / sum});
       }
     }
-    reading->deck->equations.push_back(std::move(equation));
+    model.deck.equations.push_back(std::move(equation));
   }
 }
 
@@ -59,48 +59,49 @@ double lever(const Deck& deck, const Distributing& distributing, const Eigen::Ve
 }
 
 // Element DCOUP3D: its node is the reference; lines "nodes, weight".
-void read_distributing_coupling(Reading* reading, size_t use, const Card& card) {
-  card.keyword().allow({"ELSET"}, reading->source, reading->ignore);
-  const PointElement& element = coupling_element(reading, use, card);
+void read_distributing_coupling(Model& model, size_t use, const Card& card) {
+  card.keyword().allow({"ELSET"}, model.source, model.ignore);
+  const PointElement& element = coupling_element(model, use, card);
   Distributing distributing;
-  distributing.name = fmt::format("distributing_{}", reading->deck->distributing.size() + 1);
-  distributing.where = reading->source.where(card.spot());
-  distributing.reference = reading->node_map->of(element.node);
+  distributing.name = fmt::format("distributing_{}", model.deck.distributing.size() + 1);
+  distributing.where = model.source.where(card.origin());
+  distributing.reference = model.node_map.require(element.node);
   double sum = 0.0;
   for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, reading->source);
+    const Fields fields = card.line(i, model.source);
     fields.at_most(2, "nodes, weight");
     Distributing::Term term;
-    term.weight = fields.number_or(1, 1.0, "weight");
+    term.weight = fields.number_or(1, "weight", 1.0);
     if (!(term.weight > 0.0)) fields.fail("expected a weight above 0");
-    for (const int32_t row : reading->sets->nodes_at(fields, 0, use)) {
-      if (reading->node_map->mesh_node(row) != NodeMap::kNone) {
-        term.node_indices.push_back(reading->node_map->mesh_node(row));
+    for (const int32_t row : model.sets.nodes_at(fields, 0, use)) {
+      if (model.node_map.mesh_node(row) != NodeMap::kNone) {
+        term.node_indices.push_back(model.node_map.mesh_node(row));
       }
     }
     sum += term.weight * static_cast<double>(term.node_indices.size());
     distributing.terms.push_back(std::move(term));
   }
-  if (!(sum > 0.0)) reading->source.fail(card.spot(), "expected nodes of solids");
+  if (!(sum > 0.0)) model.source.fail(card.origin(), "expected nodes of solids");
   // One thousandth of the radius: coordinates may have few digits.
-  if (lever(*reading->deck, distributing, reading->model->at(element.node)) <= 1e-3) {
-    reading->deck->distributing.push_back(std::move(distributing));
-  } else if (reading->ignore->skips("MOMENT")) {
-    add_mean_equations(reading, distributing);
+  if (lever(model.deck, distributing, model.numbering.at(element.node)) <= 1e-3) {
+    model.deck.distributing.push_back(std::move(distributing));
+  } else if (model.ignore.skips("MOMENT")) {
+    add_mean_equations(model, distributing);
   } else {
-    reading->source.fail(
-        card.spot(), fmt::format("node {} of *DISTRIBUTING COUPLING is not at the weighted centre: "
-                                 "Abaqus balances the moment of its force, CalculiX does not; "
-                                 "ignore = [\"MOMENT\"] reads it as CalculiX does",
-                                 reading->model->node_ids()[static_cast<size_t>(element.node)]));
+    model.source.fail(
+        card.origin(),
+        fmt::format("node {} of *DISTRIBUTING COUPLING is not at the weighted centre: "
+                    "Abaqus balances the moment of its force, CalculiX does not; "
+                    "ignore = [\"MOMENT\"] reads it as CalculiX does",
+                    model.numbering.node_ids()[static_cast<size_t>(element.node)]));
   }
 }
 
 }  // namespace
 
-void read_distributing(Reading* reading) {
-  for_each_card(*reading, {"DISTRIBUTINGCOUPLING"}, [&](size_t use, const Card& card) {
-    read_distributing_coupling(reading, use, card);
+void build_distributing(Model& model) {
+  for_each_card(model, {"DISTRIBUTINGCOUPLING"}, [&](size_t use, const Card& card) {
+    read_distributing_coupling(model, use, card);
   });
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/deck/abaqus/equations.hpp"
+#include "mesh/deck/abaqus/build_equations.hpp"
 #include "mesh/deck/system_axes.hpp"
 
 namespace clatter::mesh::deck::abaqus {
@@ -14,17 +14,17 @@ namespace {
 // Three fields per term, over several lines; the number of terms comes first.
 class EquationLines {
  public:
-  EquationLines(Reading* reading, size_t use, const Card& card)
-      : reading_(*reading), use_(use), card_(card) {}
+  EquationLines(Model& model, size_t use, const Card& card)
+      : model_(model), use_(use), card_(card) {}
 
   std::vector<RawEquation> run() {
     std::vector<RawEquation> equations;
     while (line_ < card_.size()) {
-      const Fields head = card_.line(line_++, reading_.source);
+      const Fields head = card_.line(line_++, model_.source);
       head.at_most(1, "number of terms");
       const int32_t count = head.integer(0, "number of terms", 1, 1 << 24);
       equations.emplace_back();
-      equations.back().spot = head.spot();
+      equations.back().origin = head.origin();
       read_terms(count, &equations.back());
     }
     return equations;
@@ -35,10 +35,10 @@ class EquationLines {
     int32_t missing = count;
     while (missing > 0) {
       if (line_ == card_.size()) {
-        reading_.source.fail(equation->spot,
-                             fmt::format("found {} terms, expected {}", count - missing, count));
+        model_.source.fail(equation->origin,
+                           fmt::format("found {} terms, expected {}", count - missing, count));
       }
-      const Fields fields = card_.line(line_++, reading_.source);
+      const Fields fields = card_.line(line_++, model_.source);
       if (fields.size() % 3 != 0 || fields.size() / 3 > static_cast<size_t>(missing)) {
         fields.fail(
             fmt::format("found {} fields, expected node, DoF, coefficient "
@@ -46,14 +46,14 @@ class EquationLines {
                         fields.size(), missing));
       }
       for (size_t i = 0; i < fields.size(); i += 3, --missing) {
-        equation->terms.push_back({reading_.sets->node_at(fields, i, use_),
+        equation->terms.push_back({model_.sets.node_at(fields, i, use_),
                                    fields.integer(i + 1, "DoF", 1, 6) - 1,
                                    fields.number(i + 2, "coefficient")});
       }
     }
   }
 
-  Reading& reading_;
+  Model& model_;
   size_t use_;
   const Card& card_;
   size_t line_ = 0;
@@ -97,26 +97,26 @@ class BasicTerms {
   std::map<std::pair<NodeIndex, int>, double> terms_;
 };
 
-BasicTerms basic_terms(Reading* reading, const RawEquation& equation) {
+BasicTerms basic_terms(Model& model, const RawEquation& equation) {
   BasicTerms out;
-  NodeMap& node_map = *reading->node_map;
+  NodeMap& node_map = model.node_map;
   for (const Term& term : equation.terms) {
     const NodeIndex rotated = node_map.rotation_of(term.row);
-    const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.of(term.row) : rotated;
+    const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.require(term.row) : rotated;
     const int direction = rotated == NodeMap::kNone ? term.direction : term.direction + 3;
     if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
-      reading->source.fail(
-          equation.spot,
+      model.source.fail(
+          equation.origin,
           fmt::format("found rotation {} of node {}, which has no rotations", term.direction + 1,
-                      reading->model->node_ids()[static_cast<size_t>(term.row)]));
+                      model.numbering.node_ids()[static_cast<size_t>(term.row)]));
     }
-    const std::string& system = node_map.system(term.row);
+    const std::string& system = node_map.displacement_system(term.row);
     if (system.empty()) {
       out.add(node_index, direction, term.coefficient);
       continue;
     }
     const Eigen::Matrix3d axes =
-        axes_at(reading->deck->systems.at(system), reading->model->at(term.row));
+        axes_at(model.deck.systems.at(system), model.numbering.at(term.row));
     for (int k = 0; k < 3; ++k) {
       out.add(node_index, 3 * (direction / 3) + k, term.coefficient * axes(k, direction % 3));
     }
@@ -126,8 +126,8 @@ BasicTerms basic_terms(Reading* reading, const RawEquation& equation) {
 
 // Equations whose dependent node has transformed axes couple its directions: they are solved for as
 // many basic directions as there are equations, so that each has its own dependent.
-void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
-                    NodeIndex node_index, std::vector<BasicTerms> rows) {
+void solve_for_node(Model& model, const std::vector<RawEquation>& equations, NodeIndex node_index,
+                    std::vector<BasicTerms> rows) {
   std::array<bool, 3> taken{};
   std::vector<int> pivots;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -140,7 +140,7 @@ void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
       }
     }
     if (pivot < 0) {
-      reading->source.fail(equations[i].spot, "the equation repeats others of its first node");
+      model.source.fail(equations[i].origin, "the equation repeats others of its first node");
     }
     taken[static_cast<size_t>(pivot)] = true;
     pivots.push_back(pivot);
@@ -150,66 +150,65 @@ void solve_for_node(Reading* reading, const std::vector<RawEquation>& equations,
     }
   }
   for (size_t i = 0; i < rows.size(); ++i) {
-    reading->deck->equations.push_back(
-        rows[i].equation(node_index, pivots[i], reading->source.where(equations[i].spot)));
+    model.deck.equations.push_back(
+        rows[i].equation(node_index, pivots[i], model.source.where(equations[i].origin)));
   }
 }
 
-void add_equations(Reading* reading, const std::vector<RawEquation>& equations) {
+void add_equations(Model& model, const std::vector<RawEquation>& equations) {
   std::map<NodeIndex, std::pair<std::vector<RawEquation>, std::vector<BasicTerms>>> turned;
   const auto add = [&](const RawEquation& equation) {
-    const BasicTerms terms = basic_terms(reading, equation);
+    const BasicTerms terms = basic_terms(model, equation);
     const Term& first = equation.terms.front();
-    const NodeIndex rotated = reading->node_map->rotation_of(first.row);
+    const NodeIndex rotated = model.node_map.rotation_of(first.row);
     const NodeIndex node_index =
-        rotated == NodeMap::kNone ? reading->node_map->of(first.row) : rotated;
+        rotated == NodeMap::kNone ? model.node_map.require(first.row) : rotated;
     const int direction = rotated == NodeMap::kNone ? first.direction : first.direction + 3;
-    const bool turned_node = !reading->node_map->system(first.row).empty();
+    const bool turned_node = !model.node_map.displacement_system(first.row).empty();
     if (first.coefficient == 0.0 ||
         (!turned_node && terms.coefficient(node_index, direction) == 0.0)) {
-      reading->source.fail(equation.spot, "the first coefficient is 0, expected another value");
+      model.source.fail(equation.origin, "the first coefficient is 0, expected another value");
     }
     if (!turned_node) {
-      reading->deck->equations.push_back(
-          terms.equation(node_index, direction, reading->source.where(equation.spot)));
+      model.deck.equations.push_back(
+          terms.equation(node_index, direction, model.source.where(equation.origin)));
     } else if (rotated != NodeMap::kNone || first.direction > 2) {
-      reading->source.fail(equation.spot,
-                           "rotations in transformed axes cannot be the first term, expected "
-                           "another order");
+      model.source.fail(equation.origin,
+                        "rotations in transformed axes cannot be the first term, expected "
+                        "another order");
     } else {
       turned[node_index].first.push_back(equation);
       turned[node_index].second.push_back(terms);
     }
   };
   for (const RawEquation& equation : equations) {
-    reading->refusals->attempt([&] { add(equation); });
+    model.refusals.attempt([&] { add(equation); });
   }
   for (const auto& [node_index, group] : turned) {
-    reading->refusals->attempt(
-        [&] { solve_for_node(reading, group.first, node_index, group.second); });
+    model.refusals.attempt([&] { solve_for_node(model, group.first, node_index, group.second); });
   }
 }
 
 }  // namespace
 
-void read_equations(Reading* reading) {
+void build_equations(Model& model) {
   std::vector<RawEquation> equations;
-  for_each_card(*reading, {"EQUATION", "MPC"}, [&](size_t use, const Card& card) {
-    card.keyword().allow({}, reading->source, reading->ignore);
+  for_each_card(model, {"EQUATION", "MPC"}, [&](size_t use, const Card& card) {
+    card.keyword().allow({}, model.source, model.ignore);
     if (card.keyword().key == "EQUATION") {
-      const auto more = EquationLines(reading, use, card).run();
+      const auto more = EquationLines(model, use, card).run();
       equations.insert(equations.end(), more.begin(), more.end());
       return;
     }
     for (size_t i = 0; i < card.size();) {
       MpcLines lines;
       do {
-        lines.push_back(card.line(i++, reading->source));
-      } while (i < card.size() && card.line(i, reading->source).text(0) == "0");
-      reading->refusals->attempt([&] { add_mpc(reading, use, lines, &equations); });
+        lines.push_back(card.line(i++, model.source));
+      } while (i < card.size() && card.line(i, model.source).text(0) == "0");
+      model.refusals.attempt([&] { add_mpc(model, use, lines, &equations); });
     }
   });
-  add_equations(reading, equations);
+  add_equations(model, equations);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

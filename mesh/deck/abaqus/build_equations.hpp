@@ -3,7 +3,7 @@
 // Equations as written in a deck, before transformation to the basic axes.
 #include <vector>
 
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -16,7 +16,7 @@ struct Term {
 
 /// Its first term depends on the others.
 struct RawEquation {
-  Spot spot = 0;
+  Origin origin = 0;
   std::vector<Term> terms;
 };
 
@@ -24,7 +24,6 @@ struct RawEquation {
 using MpcLines = std::vector<Fields>;
 
 /// Adds the equations of one *MPC, or a rigid body for BEAM; InputError for unsupported types.
-void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
-             std::vector<RawEquation>* equations);
+void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>* equations);
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -5,21 +5,21 @@
 #include <optional>
 #include <string_view>
 
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // The uniform initial temperature of all nodes; none if the deck has none or several.
-std::optional<double> initial_temperature(const Reading& reading) {
+std::optional<double> initial_temperature(const Model& model) {
   std::optional<double> found;
   bool one = true;
-  for (const Card& card : reading.model->uses()[reading.model->main_use()].scope->cards) {
+  for (const Card& card : model.numbering.uses()[model.numbering.main_use()].scope->cards) {
     if (card.keyword().key != "INITIALCONDITIONS" ||
         card.keyword().choice("TYPE", "") != "TEMPERATURE")
       continue;
     for (size_t i = 0; i < card.size(); ++i) {
-      const auto value = to_number(card.line(i, reading.source).text(1));
+      const auto value = to_number(card.line(i, model.source).text(1));
       one = one && value && (!found || *found == *value);
       if (value) found = value;
     }
@@ -27,8 +27,8 @@ std::optional<double> initial_temperature(const Reading& reading) {
   return one ? found : std::nullopt;
 }
 
-const Card* first_card(const Reading& reading, std::string_view key) {
-  for (const Card& card : reading.model->uses()[reading.model->main_use()].scope->cards) {
+const Card* first_card(const Model& model, std::string_view key) {
+  for (const Card& card : model.numbering.uses()[model.numbering.main_use()].scope->cards) {
     if (card.keyword().key == key) return &card;
   }
   return nullptr;
@@ -51,42 +51,41 @@ std::vector<double> interpolated(const Rows& rows, double temperature) {
 }
 
 // Temperature-dependent constants are evaluated at the initial temperature if no step changes it.
-std::vector<double> at_initial_temperature(const Reading& reading, const Card& card,
-                                           const Rows& rows) {
+std::vector<double> at_initial_temperature(Model& model, const Card& card, const Rows& rows) {
   for (size_t i = 1; i < rows.size(); ++i) {
     if (!(rows[i].first > rows[i - 1].first)) {
-      reading.source.fail(card.spot(),
-                          fmt::format("{}: found temperature {} after {}, expected "
-                                      "ascending ones",
-                                      card.keyword().name, rows[i].first, rows[i - 1].first));
+      model.source.fail(card.origin(),
+                        fmt::format("{}: found temperature {} after {}, expected "
+                                    "ascending ones",
+                                    card.keyword().name, rows[i].first, rows[i - 1].first));
     }
   }
-  const auto temperature = initial_temperature(reading);
+  const auto temperature = initial_temperature(model);
   if (!temperature) {
-    reading.source.fail(card.spot(),
-                        fmt::format("{}: constants that depend on the temperature need one initial "
-                                    "temperature of all nodes (*INITIAL CONDITIONS), found none",
-                                    card.keyword().name));
+    model.source.fail(card.origin(),
+                      fmt::format("{}: constants that depend on the temperature need one initial "
+                                  "temperature of all nodes (*INITIAL CONDITIONS), found none",
+                                  card.keyword().name));
   }
-  if (const Card* heat = first_card(reading, "TEMPERATURE")) {
-    reading.source.fail(
-        card.spot(),
+  if (const Card* heat = first_card(model, "TEMPERATURE")) {
+    model.source.fail(
+        card.origin(),
         fmt::format("{}: constants that depend on the temperature are not supported in steps that "
                     "change it ({}), expected one set",
-                    card.keyword().name, reading.source.where(heat->spot())));
+                    card.keyword().name, model.source.where(heat->origin())));
   }
-  reading.deck->notes.push_back(fmt::format("{}: {} is taken at the initial temperature {}",
-                                            reading.source.where(card.spot()), card.keyword().name,
-                                            *temperature));
+  model.deck.notes.push_back(fmt::format("{}: {} is taken at the initial temperature {}",
+                                         model.source.where(card.origin()), card.keyword().name,
+                                         *temperature));
   return interpolated(rows, *temperature);
 }
 
 // `count` numbers, eight per line, then optionally their temperature; more sets of lines for other
 // temperatures.
-std::vector<double> constants_of(const Reading& reading, const Card& card, size_t count) {
+std::vector<double> constants_of(Model& model, const Card& card, size_t count) {
   const size_t lines = (count + 7) / 8;
   if (card.size() == 0 || card.size() % lines != 0) {
-    reading.source.fail(card.spot(), fmt::format("{}: found {} data lines, expected {}",
+    model.source.fail(card.origin(), fmt::format("{}: found {} data lines, expected {}",
                                                  card.keyword().name, card.size(), lines));
   }
   Rows rows;
@@ -94,16 +93,16 @@ std::vector<double> constants_of(const Reading& reading, const Card& card, size_
     std::vector<double> values;
     double temperature = 0.0;
     for (size_t i = 0; i < lines; ++i) {
-      const Fields fields = card.line(begin + i, reading.source);
+      const Fields fields = card.line(begin + i, model.source);
       const size_t wanted = std::min<size_t>(8, count - 8 * i);
       for (size_t k = 0; k < wanted; ++k) values.push_back(fields.number(k, "material constant"));
-      temperature = fields.number_or(wanted, 0.0, "temperature");
+      temperature = fields.number_or(wanted, "temperature", 0.0);
     }
     rows.emplace_back(temperature, std::move(values));
   }
   const bool same = std::all_of(rows.begin(), rows.end(),
                                 [&](const auto& row) { return row.second == rows.front().second; });
-  return same ? rows.front().second : at_initial_temperature(reading, card, rows);
+  return same ? rows.front().second : at_initial_temperature(model, card, rows);
 }
 
 // Abaqus' upper triangle is by columns with stresses 11 22 33 12 13 23; ours by rows with 11 22 33
@@ -135,83 +134,82 @@ std::vector<double> orthotropic_columns(const std::vector<double>& d) {
   return columns;
 }
 
-void read_elastic(Reading* reading, const Card& card, Material* material) {
+void read_elastic(Model& model, const Card& card, Material* material) {
   const Keyword& keyword = card.keyword();
-  keyword.allow({"TYPE"}, reading->source, reading->ignore);
+  keyword.allow({"TYPE"}, model.source, model.ignore);
   const std::string type = keyword.choice("TYPE", "ISOTROPIC");
   using Kind = Material::Kind;
   if (type == "ISO" || type == "ISOTROPIC") {
     material->kind = Kind::kIsotropic;
-    material->constants = constants_of(*reading, card, 2);
+    material->constants = constants_of(model, card, 2);
   } else if (type == "ENGINEERINGCONSTANTS") {
     material->kind = Kind::kOrthotropic;
-    material->constants = constants_of(*reading, card, 9);
+    material->constants = constants_of(model, card, 9);
   } else if (type == "ORTHO" || type == "ORTHOTROPIC") {
     material->kind = Kind::kAnisotropic;
-    material->constants = upper_triangle(orthotropic_columns(constants_of(*reading, card, 9)));
+    material->constants = upper_triangle(orthotropic_columns(constants_of(model, card, 9)));
   } else if (type == "ANISO" || type == "ANISOTROPIC") {
     material->kind = Kind::kAnisotropic;
-    material->constants = upper_triangle(constants_of(*reading, card, 21));
+    material->constants = upper_triangle(constants_of(model, card, 21));
   } else {
-    reading->source.fail(card.spot(), fmt::format("*ELASTIC: found TYPE={}, expected ISOTROPIC, "
-                                                  "ENGINEERING CONSTANTS, ORTHOTROPIC or "
-                                                  "ANISOTROPIC",
-                                                  *keyword.find("TYPE")));
+    model.source.fail(card.origin(), fmt::format("*ELASTIC: found TYPE={}, expected ISOTROPIC, "
+                                                 "ENGINEERING CONSTANTS, ORTHOTROPIC or "
+                                                 "ANISOTROPIC",
+                                                 *keyword.find("TYPE")));
   }
 }
 
 // ZERO does not matter: strains are constant * (temperature - initial temperature).
-void read_expansion(Reading* reading, const Card& card, Material* material) {
+void read_expansion(Model& model, const Card& card, Material* material) {
   const Keyword& keyword = card.keyword();
-  keyword.allow({"TYPE", "ZERO"}, reading->source, reading->ignore);
+  keyword.allow({"TYPE", "ZERO"}, model.source, model.ignore);
   const std::string type = keyword.choice("TYPE", "ISO");
   if (type == "ISO" || type == "ISOTROPIC") {
-    material->expansion = constants_of(*reading, card, 1);
+    material->expansion = constants_of(model, card, 1);
   } else if (type == "ORTHO" || type == "ORTHOTROPIC") {
-    material->expansion = constants_of(*reading, card, 3);
+    material->expansion = constants_of(model, card, 3);
   } else {
-    reading->source.fail(
-        card.spot(),
-        fmt::format("*EXPANSION: found TYPE={}, expected ISO or ORTHO", *keyword.find("TYPE")));
+    model.source.fail(card.origin(), fmt::format("*EXPANSION: found TYPE={}, expected ISO or ORTHO",
+                                                 *keyword.find("TYPE")));
   }
 }
 
 // *ELASTIC, *DENSITY or *EXPANSION of `material`, none if *MATERIAL itself was refused. A material
 // with a refused part is dropped.
-void read_part(Reading* reading, const Card& card, Material* material) {
+void read_part(Model& model, const Card& card, Material* material) {
   if (material == nullptr) throw FollowUp();
   const Keyword& keyword = card.keyword();
   try {
-    if (keyword.key == "ELASTIC") return read_elastic(reading, card, material);
-    if (keyword.key == "EXPANSION") return read_expansion(reading, card, material);
-    keyword.allow({}, reading->source, reading->ignore);
-    material->density = constants_of(*reading, card, 1).front();
+    if (keyword.key == "ELASTIC") return read_elastic(model, card, material);
+    if (keyword.key == "EXPANSION") return read_expansion(model, card, material);
+    keyword.allow({}, model.source, model.ignore);
+    material->density = constants_of(model, card, 1).front();
   } catch (const InputError&) {
-    reading->refusals->lose(folded(material->name));
+    model.refusals.lose(folded(material->name));
     throw;
   }
 }
 
 }  // namespace
 
-void read_materials(Reading* reading) {
+void build_materials(Model& model) {
   Material* material = nullptr;
   for_each_card(
-      *reading, {"MATERIAL", "ELASTIC", "DENSITY", "EXPANSION"}, [&](size_t use, const Card& card) {
+      model, {"MATERIAL", "ELASTIC", "DENSITY", "EXPANSION"}, [&](size_t use, const Card& card) {
         const Keyword& keyword = card.keyword();
-        if (keyword.key != "MATERIAL") return read_part(reading, card, material);
+        if (keyword.key != "MATERIAL") return read_part(model, card, material);
         material = nullptr;
-        if (use != reading->model->main_use()) {
-          reading->source.fail(card.spot(), "found *MATERIAL inside a part, expected it outside");
+        if (use != model.numbering.main_use()) {
+          model.source.fail(card.origin(), "found *MATERIAL inside a part, expected it outside");
         }
-        keyword.allow({"NAME"}, reading->source, reading->ignore);
-        const std::string& name = keyword.required("NAME", reading->source);
-        if (!reading->material_names.emplace(folded(name), name).second) {
-          reading->source.fail(card.spot(), fmt::format("found a second material {}", name));
+        keyword.allow({"NAME"}, model.source, model.ignore);
+        const std::string& name = keyword.required("NAME", model.source);
+        if (!model.material_names.emplace(folded(name), name).second) {
+          model.source.fail(card.origin(), fmt::format("found a second material {}", name));
         }
-        material = &reading->deck->materials[name];
+        material = &model.deck.materials[name];
         material->name = name;
-        material->where = reading->source.where(card.spot());
+        material->where = model.source.where(card.origin());
       });
 }
 

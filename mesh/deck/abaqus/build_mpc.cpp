@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/deck/abaqus/equations.hpp"
+#include "mesh/deck/abaqus/build_equations.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // Rows of the nodes of a *MPC, after its type; zeros are skipped.
-std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& lines) {
+std::vector<int32_t> mpc_rows(Model& model, size_t use, const MpcLines& lines) {
   std::vector<int32_t> rows;
-  std::vector<bool> known(static_cast<size_t>(reading->model->nodes()), false);
+  std::vector<bool> known(static_cast<size_t>(model.numbering.nodes()), false);
   for (const Fields& fields : lines) {
     for (size_t i = 1; i < fields.size(); ++i) {
-      if (fields.empty(i) || fields.text(i) == "0") continue;
-      for (const int32_t row : reading->sets->nodes_at(fields, i, use)) {
+      if (fields.blank(i) || fields.text(i) == "0") continue;
+      for (const int32_t row : model.sets.nodes_at(fields, i, use)) {
         if (!known[static_cast<size_t>(row)]) rows.push_back(row);
         known[static_cast<size_t>(row)] = true;
       }
@@ -25,19 +25,19 @@ std::vector<int32_t> mpc_rows(Reading* reading, size_t use, const MpcLines& line
   }
   const Fields& fields = lines.front();
   for (const int32_t row : rows) {
-    if (!reading->node_map->system(row).empty()) {
+    if (!model.node_map.displacement_system(row).empty()) {
       fields.fail(fmt::format("*MPC {}: node {} has *TRANSFORM, which is not supported here",
                               fields.text(0),
-                              reading->model->node_ids()[static_cast<size_t>(row)]));
+                              model.numbering.node_ids()[static_cast<size_t>(row)]));
     }
   }
   return rows;
 }
 
 // weights . (u_row - sum share u_of) = 0, its largest weight first.
-RawEquation follow(Spot spot, int32_t row, const Eigen::Vector3d& weights,
+RawEquation follow(Origin origin, int32_t row, const Eigen::Vector3d& weights,
                    const std::vector<std::pair<int32_t, double>>& shares) {
-  RawEquation out{spot, {}};
+  RawEquation out{origin, {}};
   Eigen::Index first = 0;
   weights.cwiseAbs().maxCoeff(&first);
   for (int i = 0; i < 3; ++i) {
@@ -55,14 +55,14 @@ constexpr double kInLine =
 // PLANE: the nodes stay in the plane of the first three. To first order in u, with
 // x_p = (1 - s - t) x_a + s x_b + t x_c and the normal n: n . (u_p - (1 - s - t) u_a - s u_b - t
 // u_c) = 0.
-void add_plane(Reading* reading, size_t use, const MpcLines& lines,
+void add_plane(Model& model, size_t use, const MpcLines& lines,
                std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
-  const std::vector<int32_t> rows = mpc_rows(reading, use, lines);
+  const std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 4) {
     fields.fail(fmt::format("*MPC PLANE: found {} nodes, expected 4 or more", rows.size()));
   }
-  const auto at = [&](size_t i) { return reading->model->at(rows[i]); };
+  const auto at = [&](size_t i) { return model.numbering.at(rows[i]); };
   // For a set, three well-spread nodes: the first, the farthest, the farthest from both.
   size_t b = 1, c = 0;
   for (size_t i = 2; i < rows.size(); ++i) {
@@ -82,24 +82,24 @@ void add_plane(Reading* reading, size_t use, const MpcLines& lines,
     const Eigen::Vector3d r = at(i) - at(0);
     if (std::abs(n.dot(r)) > kInLine * e.norm()) {
       fields.fail(fmt::format("*MPC PLANE: node {} is not in the plane of the others",
-                              reading->model->node_ids()[static_cast<size_t>(rows[i])]));
+                              model.numbering.node_ids()[static_cast<size_t>(rows[i])]));
     }
     const double s = r.cross(g).dot(n) / normal.norm(), t = e.cross(r).dot(n) / normal.norm();
     equations->push_back(
-        follow(fields.spot(), rows[i], n, {{rows[0], 1.0 - s - t}, {rows[b], s}, {rows[c], t}}));
+        follow(fields.origin(), rows[i], n, {{rows[0], 1.0 - s - t}, {rows[b], s}, {rows[c], t}}));
   }
 }
 
 // STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, the
 // components normal to the line are u_p = (1 - s) u_a + s u_b: two equations.
-void add_straight(Reading* reading, size_t use, const MpcLines& lines,
+void add_straight(Model& model, size_t use, const MpcLines& lines,
                   std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
-  const std::vector<int32_t> rows = mpc_rows(reading, use, lines);
+  const std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 3) {
     fields.fail(fmt::format("*MPC STRAIGHT: found {} nodes, expected 3 or more", rows.size()));
   }
-  const auto at = [&](size_t i) { return reading->model->at(rows[i]); };
+  const auto at = [&](size_t i) { return model.numbering.at(rows[i]); };
   size_t b = 1;
   for (size_t i = 2; i < rows.size(); ++i) {
     if ((at(i) - at(0)).norm() > (at(b) - at(0)).norm()) b = i;
@@ -114,14 +114,14 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
     const double s = r.dot(e) / e.squaredNorm();
     if ((r - s * e).norm() > kInLine * e.norm()) {
       fields.fail(fmt::format("*MPC STRAIGHT: node {} is not on the line of the others",
-                              reading->model->node_ids()[static_cast<size_t>(rows[i])]));
+                              model.numbering.node_ids()[static_cast<size_t>(rows[i])]));
     }
     for (int k = 0; k < 3; ++k) {
       if (k == along) continue;
       Eigen::Vector3d square = Eigen::Vector3d::Unit(k);
       square[along] = -e[k] / e[along];
       RawEquation equation =
-          follow(fields.spot(), rows[i], square, {{rows[0], 1.0 - s}, {rows[b], s}});
+          follow(fields.origin(), rows[i], square, {{rows[0], 1.0 - s}, {rows[b], s}});
       // Direction k is the dependent; the other equation has the other one.
       const auto own =
           std::find_if(equation.terms.begin(), equation.terms.end(),
@@ -136,10 +136,10 @@ void add_straight(Reading* reading, size_t use, const MpcLines& lines,
 // are the direction of the axis (Dhondt, CalculiX manual, "Mean rotation MPC"). To first order,
 // with the arms p_i from the nodes' centre, normal to the axis a, and m nodes,
 //   theta = 1/m sum a . (p_i x (u_i - u_mean)) / |p_i|^2.
-void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
+void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
                        std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
-  std::vector<int32_t> rows = mpc_rows(reading, use, lines);
+  std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 3) {
     fields.fail(
         fmt::format("*MPC MEANROT: found {} nodes, expected two or more and the one that "
@@ -148,9 +148,9 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
   }
   const int32_t pilot = rows.back();
   rows.pop_back();
-  NodeMap& node_map = *reading->node_map;
-  const Eigen::Vector3d axis = reading->model->at(pilot);
-  const int32_t id = reading->model->node_ids()[static_cast<size_t>(pilot)];
+  NodeMap& node_map = model.node_map;
+  const Eigen::Vector3d axis = model.numbering.at(pilot);
+  const int32_t id = model.numbering.node_ids()[static_cast<size_t>(pilot)];
   if (node_map.mesh_node(pilot) != NodeMap::kNone || !(axis.norm() > 0.0)) {
     fields.fail(
         fmt::format("*MPC MEANROT: found node {}, expected one of its own whose coordinates "
@@ -160,20 +160,20 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
   const Eigen::Vector3d a = axis.normalized();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const int32_t row : rows)
-    centre += reading->model->at(row) / static_cast<double>(rows.size());
+    centre += model.numbering.at(row) / static_cast<double>(rows.size());
   std::vector<Eigen::Vector3d> weights;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const int32_t row : rows) {
-    const Eigen::Vector3d arm = reading->model->at(row) - centre;
+    const Eigen::Vector3d arm = model.numbering.at(row) - centre;
     const Eigen::Vector3d p = arm - arm.dot(a) * a;
     if (!(p.norm() > kInLine * arm.norm())) {
       fields.fail(fmt::format("*MPC MEANROT: node {} lies on the axis through the nodes' centre",
-                              reading->model->node_ids()[static_cast<size_t>(row)]));
+                              model.numbering.node_ids()[static_cast<size_t>(row)]));
     }
     weights.push_back(a.cross(p) / (p.squaredNorm() * static_cast<double>(rows.size())));
     mean += weights.back() / static_cast<double>(rows.size());
   }
-  RawEquation equation{fields.spot(), {}};
+  RawEquation equation{fields.origin(), {}};
   for (size_t i = 0; i < rows.size(); ++i) {
     const Eigen::Vector3d weight = weights[i] - mean;
     for (int k = 0; k < 3; ++k) {
@@ -186,7 +186,7 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
                                   [](const Term& one, const Term& other) {
                                     return std::abs(one.coefficient) < std::abs(other.coefficient);
                                   }));
-  node_map.set_rotation_node(pilot, node_map.of(pilot));
+  node_map.set_rotation_node(pilot, node_map.require(pilot));
   equation.terms.push_back({pilot, 0, -1.0});
   equations->push_back(std::move(equation));
 }
@@ -194,13 +194,12 @@ void add_mean_rotation(Reading* reading, size_t use, const MpcLines& lines,
 }  // namespace
 
 // PIN and TIE: equal translations. BEAM: a rigid rod from the first to the second node.
-void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
-             std::vector<RawEquation>* equations) {
+void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>* equations) {
   const Fields& fields = lines.front();
   const std::string type = folded(fields.text(0));
-  if (type == "PLANE") return add_plane(reading, use, lines, equations);
-  if (type == "STRAIGHT") return add_straight(reading, use, lines, equations);
-  if (type == "MEANROT") return add_mean_rotation(reading, use, lines, equations);
+  if (type == "PLANE") return add_plane(model, use, lines, equations);
+  if (type == "STRAIGHT") return add_straight(model, use, lines, equations);
+  if (type == "MEANROT") return add_mean_rotation(model, use, lines, equations);
   if (type != "PIN" && type != "TIE" && type != "BEAM") {
     fields.fail(
         fmt::format("*MPC of type {} is not supported, expected PIN, TIE, BEAM, PLANE, "
@@ -209,25 +208,26 @@ void add_mpc(Reading* reading, size_t use, const MpcLines& lines,
   }
   fields.at_most(3, "type and two nodes");
   if (lines.size() > 1) lines[1].fail(fmt::format("expected one line of *MPC {}", type));
-  const int32_t a = reading->sets->node_at(fields, 1, use);
-  const int32_t b = reading->sets->node_at(fields, 2, use);
-  NodeMap& node_map = *reading->node_map;
+  const int32_t a = model.sets.node_at(fields, 1, use);
+  const int32_t b = model.sets.node_at(fields, 2, use);
+  NodeMap& node_map = model.node_map;
   if (type == "BEAM") {
     Rigid rigid;
-    rigid.name = fmt::format("beam_{}", reading->deck->rigid.size() + 1);
-    rigid.where = reading->source.where(fields.spot());
+    rigid.name = fmt::format("beam_{}", model.deck.rigid.size() + 1);
+    rigid.where = model.source.where(fields.origin());
     const bool in_mesh = node_map.mesh_node(b) != NodeMap::kNone;
-    rigid.reference = in_mesh ? node_map.point_upon(b) : node_map.of(b);
-    node_map.of(a);
+    rigid.reference = in_mesh ? node_map.point_upon(b) : node_map.require(b);
+    node_map.require(a);
     std::vector<int32_t> rows = {a};
     if (in_mesh) rows.push_back(b);
-    reading->dependents.emplace_back(reading->deck->rigid.size(), std::move(rows));
-    reading->deck->rigid.push_back(std::move(rigid));
+    model.dependents.emplace_back(model.deck.rigid.size(), std::move(rows));
+    model.deck.rigid.push_back(std::move(rigid));
     return;
   }
-  const bool rotations = node_map.is_point(node_map.of(a)) && node_map.is_point(node_map.of(b));
+  const bool rotations =
+      node_map.is_point(node_map.require(a)) && node_map.is_point(node_map.require(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
-    equations->push_back({fields.spot(), {{a, k, 1.0}, {b, k, -1.0}}});
+    equations->push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
@@ -46,7 +46,7 @@ Eigen::Matrix3d axes_about(const Fields& fields, const Eigen::Vector3d& axis) {
 System system_of(const Fields& fields, System::Kind kind, bool with_origin) {
   System system;
   system.kind = kind;
-  system.where = fields.source().where(fields.spot());
+  system.where = fields.source().where(fields.origin());
   const Eigen::Vector3d a = point_at(fields, 0), b = point_at(fields, 3);
   if (kind == System::Kind::kCylindrical) {
     fields.at_most(6, "two points of the axis");
@@ -63,7 +63,7 @@ System system_of(const Fields& fields, System::Kind kind, bool with_origin) {
 // The second line of *ORIENTATION: a local axis and the angle about it in degrees.
 void turn(const Fields& fields, System* system) {
   const int axis = fields.integer(0, "local axis", 1, 3);
-  const double angle = fields.number_or(1, 0.0, "angle in degrees") * std::numbers::pi / 180.0;
+  const double angle = fields.number_or(1, "angle in degrees", 0.0) * std::numbers::pi / 180.0;
   fields.at_most(2, "local axis and angle");
   if (angle == 0.0) return;
   if (system->kind != System::Kind::kRectangular) {
@@ -83,62 +83,62 @@ System::Kind kind_of(const Card& card, const Source& source, std::string_view pa
                      const std::string& type) {
   if (type == "R" || type == "RECTANGULAR") return System::Kind::kRectangular;
   if (type == "C" || type == "CYLINDRICAL") return System::Kind::kCylindrical;
-  source.fail(card.spot(), fmt::format("{}: found {}={}, expected rectangular or cylindrical",
-                                       card.keyword().name, parameter, type));
+  source.fail(card.origin(), fmt::format("{}: found {}={}, expected rectangular or cylindrical",
+                                         card.keyword().name, parameter, type));
 }
 
 }  // namespace
 
-void read_orientations(Reading* reading) {
-  for_each_card(*reading, {"ORIENTATION"}, [&](size_t use, const Card& card) {
+void build_systems(Model& model) {
+  for_each_card(model, {"ORIENTATION"}, [&](size_t use, const Card& card) {
     const Keyword& keyword = card.keyword();
-    keyword.allow({"NAME", "SYSTEM", "DEFINITION"}, reading->source, reading->ignore);
+    keyword.allow({"NAME", "SYSTEM", "DEFINITION"}, model.source, model.ignore);
     if (keyword.choice("DEFINITION", "COORDINATES") != "COORDINATES" || card.size() == 0 ||
         card.size() > 2) {
-      reading->source.fail(card.spot(),
-                           "*ORIENTATION: expected DEFINITION=COORDINATES and one or "
-                           "two data lines");
+      model.source.fail(card.origin(),
+                        "*ORIENTATION: expected DEFINITION=COORDINATES and one or "
+                        "two data lines");
     }
     const System::Kind kind =
-        kind_of(card, reading->source, "SYSTEM", keyword.choice("SYSTEM", "RECTANGULAR"));
-    System system = system_of(card.line(0, reading->source), kind, true);
-    if (card.size() == 2) turn(card.line(1, reading->source), &system);
-    move(reading->model->uses()[use], &system);
-    system.name = reading->model->public_name(use, keyword.required("NAME", reading->source));
-    const bool is_new = reading->system_names.emplace(folded(system.name), system.name).second;
-    if (!is_new || !reading->deck->systems.emplace(system.name, system).second) {
-      reading->source.fail(card.spot(), fmt::format("found a second orientation {}", system.name));
+        kind_of(card, model.source, "SYSTEM", keyword.choice("SYSTEM", "RECTANGULAR"));
+    System system = system_of(card.line(0, model.source), kind, true);
+    if (card.size() == 2) turn(card.line(1, model.source), &system);
+    move(model.numbering.uses()[use], &system);
+    system.name = model.numbering.public_name(use, keyword.required("NAME", model.source));
+    const bool is_new = model.system_names.emplace(folded(system.name), system.name).second;
+    if (!is_new || !model.deck.systems.emplace(system.name, system).second) {
+      model.source.fail(card.origin(), fmt::format("found a second orientation {}", system.name));
     }
   });
 }
 
-std::string system_named(const Reading& reading, size_t use, const std::string& name, Spot spot) {
-  for (const std::string& wanted : {reading.model->public_name(use, name), name}) {
-    const auto known = reading.system_names.find(folded(wanted));
-    if (known != reading.system_names.end()) return known->second;
+std::string system_named(const Model& model, size_t use, const std::string& name, Origin origin) {
+  for (const std::string& wanted : {model.numbering.public_name(use, name), name}) {
+    const auto known = model.system_names.find(folded(wanted));
+    if (known != model.system_names.end()) return known->second;
   }
-  if (reading.refusals->has_lost(folded(name))) throw FollowUp();
-  reading.source.fail(spot, fmt::format("there is no orientation '{}'", name));
+  if (model.refusals.has_lost(folded(name))) throw FollowUp();
+  model.source.fail(origin, fmt::format("found no orientation {}", shown(name)));
 }
 
-void read_transforms(Reading* reading) {
+void build_transforms(Model& model) {
   int count = 0;
-  for_each_card(*reading, {"TRANSFORM"}, [&](size_t use, const Card& card) {
+  for_each_card(model, {"TRANSFORM"}, [&](size_t use, const Card& card) {
     const Keyword& keyword = card.keyword();
-    keyword.allow({"NSET", "TYPE"}, reading->source, reading->ignore);
+    keyword.allow({"NSET", "TYPE"}, model.source, model.ignore);
     if (card.size() != 1) {
-      reading->source.fail(
-          card.spot(), fmt::format("*TRANSFORM: found {} data lines, expected one", card.size()));
+      model.source.fail(card.origin(),
+                        fmt::format("*TRANSFORM: found {} data lines, expected one", card.size()));
     }
-    const System::Kind kind = kind_of(card, reading->source, "TYPE", keyword.choice("TYPE", "R"));
-    System system = system_of(card.line(0, reading->source), kind, false);
-    move(reading->model->uses()[use], &system);
+    const System::Kind kind = kind_of(card, model.source, "TYPE", keyword.choice("TYPE", "R"));
+    System system = system_of(card.line(0, model.source), kind, false);
+    move(model.numbering.uses()[use], &system);
     do {
       system.name = fmt::format("transform_{}", ++count);
-    } while (reading->deck->systems.contains(system.name));
-    reading->deck->systems[system.name] = system;
-    const std::string& set = keyword.required("NSET", reading->source);
-    reading->node_map->set_system(reading->sets->nodes(use, set, card.spot()), system.name);
+    } while (model.deck.systems.contains(system.name));
+    model.deck.systems[system.name] = system;
+    const std::string& set = keyword.required("NSET", model.source);
+    model.node_map.set_displacement_system(model.sets.nodes(use, set, card.origin()), system.name);
   });
 }
 

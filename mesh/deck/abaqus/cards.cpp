@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/deck/abaqus/keywords.hpp"
+#include "mesh/deck/abaqus/cards.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Element types, their face numbers, and the tables of nodes and elements.
+// Element types and their face numbers.
 #include <optional>
-#include <string>
 #include <string_view>
 
-#include "mesh/deck/abaqus/scope.hpp"
-#include "mesh/deck/refusals.hpp"
+#include "core/mesh/cell.hpp"
+#include "mesh/deck/deck.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -30,11 +29,5 @@ std::optional<SolidType> solid_type(std::string_view name);
 int face_of_number(CellType type, int number);
 /// The inverse: 1, 2, ...
 int number_of_face(CellType type, int face);
-
-/// Reads the data lines of *NODE or *ELEMENT into `scope` and returns what follows them. InputError
-/// for the first wrong line.
-Lines::Kind read_nodes(Lines* lines, Scope* scope, Ignore* ignore);
-/// An unsupported element type is refused and then skipped like one that the user ignores.
-Lines::Kind read_elements(Lines* lines, Scope* scope, Ignore* ignore, Refusals* refusals);
 
 }  // namespace clatter::mesh::deck::abaqus

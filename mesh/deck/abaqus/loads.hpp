@@ -16,7 +16,7 @@ namespace clatter::mesh::deck::abaqus {
 
 class Loads {
  public:
-  explicit Loads(Reading* reading) : reading_(reading) {}
+  explicit Loads(Model& model) : model_(&model) {}
 
   void read_forces(size_t use, const Card& card, StepNumber step);         // *CLOAD
   void read_element_loads(size_t use, const Card& card, StepNumber step);  // *DLOAD
@@ -37,7 +37,7 @@ class Loads {
   struct Gravity {
     std::vector<bool> covered;  // by cell
     StepNumber step = 0;
-    Spot spot = 0;
+    Origin origin = 0;
   };
   using Vector = std::array<double, 3>;
   // One line of CENTRIF: the same axis and cells again replace it.
@@ -45,7 +45,7 @@ class Loads {
     Step::Rotation what;
     std::vector<bool> covered;  // by cell
     StepNumber step = 0;
-    Spot spot = 0;
+    Origin origin = 0;
   };
 
   double begin(const Card& card);
@@ -58,7 +58,7 @@ class Loads {
   void list_temperature(Step* out, StepNumber step);
   std::vector<double> initial_field() const;
 
-  Reading* reading_;
+  Model* model_;
   std::map<std::pair<NodeIndex, int>, Value> forces_;
   std::map<CellFaceId, Value> faces_;
   std::map<std::string, Value> surfaces_;

@@ -9,15 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "mesh/deck/abaqus/scope.hpp"
+#include "mesh/deck/abaqus/raw_deck.hpp"
 #include "mesh/deck/id_index.hpp"
 
 namespace clatter::mesh::deck::abaqus {
-
-/// Numbers first, first + step, ... up to last.
-struct IdRange {
-  int32_t first, last, step;
-};
 
 /// One use of a scope. Its elements are numbered: cells in the order of its tables, then points,
 /// then those that the user ignores.
@@ -39,16 +34,16 @@ struct FlatTable {
   Formulation formulation = Formulation::kDefault;
   int32_t first = 0;  // number of its first cell among all
   std::vector<int32_t> ids, nodes;
-  std::vector<Spot> spots;
+  std::vector<Origin> origins;
 };
 
-class Model {
+class Numbering {
  public:
   /// Consumes the tables of the deck; cards and sets stay. InputError for numbers with two
   /// meanings, for missing nodes and for instances of unknown parts.
-  Model(RawDeck deck, const Source& source);
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
+  Numbering(RawDeck deck, const Source& source);
+  Numbering(const Numbering&) = delete;
+  Numbering& operator=(const Numbering&) = delete;
 
   const Source& source() const { return source_; }
   /// Instances in the order of the deck, then the flat deck or the assembly.
@@ -83,11 +78,11 @@ class Model {
   static constexpr int32_t kIgnored = -2;
 
  private:
-  void add_use(Scope* scope, const InstanceLine* line, int32_t index);
-  void add_nodes(Scope* scope, Use* use);
-  void add_cells(Scope* scope, Use* use);
+  void add_use(Scope& scope, const InstanceLine* line, int32_t index);
+  void add_nodes(Scope& scope, Use* use);
+  void add_cells(Scope& scope, Use* use);
   void index_scope(const Scope& scope);
-  int32_t row_of(const Use& use, int32_t id, Spot spot) const;
+  int32_t row_of(const Use& use, int32_t id, Origin origin) const;
   int32_t element_at(const Use& use, int32_t local) const;
 
   const Source& source_;

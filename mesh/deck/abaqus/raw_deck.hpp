@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/deck/abaqus/lines.hpp"
+#include "mesh/deck/abaqus/card.hpp"
 #include "mesh/deck/deck.hpp"
+#include "mesh/deck/id_index.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -18,7 +19,7 @@ namespace clatter::mesh::deck::abaqus {
 struct NodeTable {
   std::vector<int32_t> ids;
   std::vector<double> xyz;
-  std::vector<Spot> spots;
+  std::vector<Origin> origins;
 };
 
 /// Elements of one type name; `nodes` are deck numbers in Abaqus' order.
@@ -27,7 +28,7 @@ struct CellTable {
   CellType type = CellType::kTet4;
   Formulation formulation = Formulation::kDefault;
   std::vector<int32_t> ids;
-  std::vector<Spot> spots;
+  std::vector<Origin> origins;
   std::vector<int32_t> nodes;
 };
 
@@ -37,24 +38,20 @@ struct PointElement {
   int32_t id = 0;
   int32_t node = 0;    // number in the deck
   int32_t second = 0;  // the same; 0: none
-  Spot spot = 0;
+  Origin origin = 0;
 };
 
 /// The part of a set from one keyword.
 struct SetChunk {
-  struct Range {
-    int32_t first, last, step;
-    Spot spot;
-  };
-  Spot spot = 0;
+  Origin origin = 0;
   std::string instance;  // of the numbers; empty: the scope's own
   std::vector<int32_t> ids;
-  std::vector<std::pair<size_t, Spot>> id_lines;  // first of `ids` on a line, line
-  std::vector<Range> ranges;
-  std::vector<std::pair<std::string, Spot>> names;  // other sets
-  std::vector<std::string> elements_of;             // *NSET, ELSET=: nodes of those elements
-  int32_t table = 0;                                // of cells, for rows
-  int32_t row_begin = 0, row_end = 0;               // rows of the table that *NODE or *ELEMENT read
+  std::vector<std::pair<size_t, Origin>> id_lines;  // first of `ids` on a line, line
+  std::vector<IdRange> ranges;
+  std::vector<std::pair<std::string, Origin>> names;  // other sets
+  std::vector<std::string> elements_of;               // *NSET, ELSET=: nodes of those elements
+  int32_t table = 0;                                  // of cells, for rows
+  int32_t row_begin = 0, row_end = 0;  // rows of the table that *NODE or *ELEMENT read
 };
 
 struct IdSet {
@@ -67,7 +64,7 @@ using IdSets = std::map<std::string, IdSet>;
 
 struct Scope {
   std::string name;
-  Spot spot = 0;
+  Origin origin = 0;
   NodeTable nodes;
   std::vector<CellTable> cells;
   std::vector<PointElement> points;
@@ -79,7 +76,7 @@ struct Scope {
 /// A positioned part: x -> rotation * x + shift.
 struct InstanceLine {
   std::string name, part;
-  Spot spot = 0;
+  Origin origin = 0;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
@@ -92,6 +89,6 @@ struct RawDeck {
 };
 
 /// The chunk that a new keyword adds to; creates the set if needed.
-SetChunk& new_chunk(IdSets* sets, const std::string& name, Spot spot);
+SetChunk& new_chunk(IdSets& sets, const std::string& name, Origin origin);
 
 }  // namespace clatter::mesh::deck::abaqus

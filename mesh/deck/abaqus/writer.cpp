@@ -11,8 +11,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole_file.hpp"
-#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/cells.hpp"
 #include "mesh/deck/abaqus/lines.hpp"
+#include "mesh/deck/abaqus/number.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -113,7 +114,7 @@ class AbaqusWriter {
         throw InputError(fmt::format("mesh '{}': the name '{}' cannot be written to an Abaqus deck",
                                      mesh_.name, name));
       }
-      const auto [at, is_new] = known.emplace(abaqus::folded(name), name);
+      const auto [at, is_new] = known.emplace(folded(name), name);
       if (!is_new) {
         throw InputError(fmt::format("mesh '{}': the names '{}' and '{}' are the same to Abaqus",
                                      mesh_.name, at->second, name));

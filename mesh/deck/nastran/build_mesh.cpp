@@ -12,7 +12,7 @@ namespace {
 void check_cell_numbers(Model& model) {
   std::vector<int32_t> ids;
   std::vector<Origin> origins;
-  for (const RawBlock& block : model.bulk.blocks) {
+  for (const RawBlock& block : model.raw.blocks) {
     ids.insert(ids.end(), block.ids.begin(), block.ids.end());
     origins.insert(origins.end(), block.origins.begin(), block.origins.end());
   }
@@ -27,7 +27,7 @@ void check_cell_numbers(Model& model) {
 
 // GRID numbers of the cells become rows of the GRID table.
 void find_rows(Model& model) {
-  for (RawBlock& block : model.bulk.blocks) {
+  for (RawBlock& block : model.raw.blocks) {
     const auto per_cell = static_cast<size_t>(traits(block.type).nodes);
     for (size_t i = 0; i < block.nodes.size(); ++i) {
       if (block.nodes[i] == 0) {
@@ -53,20 +53,20 @@ void build_mesh(Model& model) {
   check_cell_numbers(model);
   std::vector<int32_t> properties;  // of the regions, ascending
   std::set<int32_t> found;
-  for (const RawBlock& block : model.bulk.blocks) found.insert(block.property);
+  for (const RawBlock& block : model.raw.blocks) found.insert(block.property);
   properties.assign(found.begin(), found.end());
   build_regions(model, properties);
   find_rows(model);
   complete_cells(model);
 
-  Grids& grids = model.bulk.grids;
+  Grids& grids = model.raw.grids;
   Mesh& mesh = model.deck.mesh;
   for (size_t row = 0; row < grids.size(); ++row) {
     if (model.index_of_row[row] < 0) continue;
     model.index_of_row[row] = model.node_count++;
     model.row_of_index_.push_back(static_cast<int32_t>(row));
   }
-  for (RawBlock& block : model.bulk.blocks) {
+  for (RawBlock& block : model.raw.blocks) {
     CellBlock cells;
     cells.type = block.type;
     const auto at = std::lower_bound(properties.begin(), properties.end(), block.property);

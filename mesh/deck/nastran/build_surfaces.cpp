@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces of solids from PLOAD4.
+// Surfaces from comments, and faces of PLOAD4.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "mesh/deck/nastran/model.hpp"
 
@@ -31,7 +32,32 @@ bool is_meant(const CellTraits& cell, const CellFace& face, int g1, int g34) {
   return second >= 0 && g1 < 4 && g34 < 4;
 }
 
+void add_surface(Model& model, const RawDeck::NamedSurface& raw) {
+  SurfaceBuilder surface;
+  std::array<int32_t, kMaxFaceNodes> face{};
+  for (size_t i = 0; i < raw.types.size(); ++i) {
+    const auto nodes = static_cast<size_t>(traits(raw.types[i]).nodes);
+    for (size_t k = 0; k < nodes; ++k) {
+      const int32_t grid = raw.nodes[kMaxFaceNodes * i + k];
+      face[k] = model.find(grid, raw.origin);
+      if (face[k] >= 0 && !model.is_point(face[k])) continue;
+      model.source.fail(raw.origin, fmt::format("surface {}: node {} belongs to no solid",
+                                                shown(raw.name), grid));
+    }
+    surface.add(raw.types[i], face);
+  }
+  if (!model.deck.mesh.surfaces.emplace(raw.name, surface.finish()).second) {
+    model.source.fail(raw.origin, fmt::format("found a second surface {}", shown(raw.name)));
+  }
+}
+
 }  // namespace
+
+void build_surfaces(Model& model) {
+  for (const auto& surface : model.raw.surfaces) {
+    model.refusals.attempt([&] { add_surface(model, surface); });
+  }
+}
 
 void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface) {
   const auto refuse = [&](const std::string& message) {

@@ -40,7 +40,7 @@ class Completer {
   }
 
   int32_t add(size_t a, size_t b) {
-    Grids& grids = model_.bulk.grids;
+    Grids& grids = model_.raw.grids;
     if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
     if (next_ == std::numeric_limits<int32_t>::max())
       model_.source.fail(grids.origins[a], "found no free number above the largest GRID");
@@ -64,7 +64,7 @@ class Completer {
 
 void complete_cells(Model& model) {
   Completer completer(model);
-  for (RawBlock& block : model.bulk.blocks) completer.complete(block);
+  for (RawBlock& block : model.raw.blocks) completer.complete(block);
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -203,7 +203,7 @@ struct SetSum {
   IdList sets;
 };
 
-struct Bulk {
+struct RawDeck {
   Control control;
   std::vector<std::string> notes;  // Deck::notes
   GridDefaults defaults;

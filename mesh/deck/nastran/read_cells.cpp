@@ -35,8 +35,8 @@ System::Kind kind_of(const Card& card) {
   }
 }
 
-void add_system(const Card& card, Bulk& bulk, int32_t id, const RawSystem& system) {
-  if (!bulk.systems.emplace(id, system).second) {
+void add_system(const Card& card, RawDeck& raw, int32_t id, const RawSystem& system) {
+  if (!raw.systems.emplace(id, system).second) {
     card.fail(0, fmt::format("found a second coordinate system {}", id));
   }
 }
@@ -64,51 +64,51 @@ CellType type_of(const Card& card) {
                                        [&](const Family& f) { return f.card == card.name(); });
   const auto corners = static_cast<size_t>(traits(family.linear).nodes);
   const auto all = static_cast<size_t>(traits(family.quadratic).nodes);
-  card.expect_end(kFirstNode + all);
+  card.at_most(kFirstNode + all);
   for (size_t i = corners; i < all; ++i)
     if (has_node(card, kFirstNode + i)) return family.quadratic;
   return family.linear;
 }
 
-RawBlock& block_of(Bulk& bulk, CellType type, int32_t property) {
-  if (!bulk.blocks.empty() && bulk.blocks.back().type == type &&
-      bulk.blocks.back().property == property) {
-    return bulk.blocks.back();
+RawBlock& block_of(RawDeck& raw, CellType type, int32_t property) {
+  if (!raw.blocks.empty() && raw.blocks.back().type == type &&
+      raw.blocks.back().property == property) {
+    return raw.blocks.back();
   }
-  const auto [at, fresh] = bulk.block_index.emplace(std::pair(type, property), bulk.blocks.size());
+  const auto [at, fresh] = raw.block_index.emplace(std::pair(type, property), raw.blocks.size());
   if (fresh) {
-    bulk.blocks.emplace_back();
-    bulk.blocks.back().type = type;
-    bulk.blocks.back().property = property;
+    raw.blocks.emplace_back();
+    raw.blocks.back().type = type;
+    raw.blocks.back().property = property;
   }
-  return bulk.blocks[at->second];
+  return raw.blocks[at->second];
 }
 
 // Sixteen columns hold at least this many digits of a coordinate.
 constexpr double kColumnPrecision = 1e-10;
 
 // Full coordinates from a comment, if the card has the same in fewer digits.
-void take_exact(Bulk& bulk, int32_t id, std::array<double, 3>& at) {
-  if (bulk.exact.empty()) return;
-  const auto found = bulk.exact.find(id);
-  if (found == bulk.exact.end()) return;
+void take_exact(RawDeck& raw, int32_t id, std::array<double, 3>& at) {
+  if (raw.exact.empty()) return;
+  const auto found = raw.exact.find(id);
+  if (found == raw.exact.end()) return;
   for (size_t k = 0; k < 3; ++k) {
     const double exact = found->second[k];
     if (std::abs(exact - at[k]) <= kColumnPrecision * std::abs(exact)) at[k] = exact;
   }
-  bulk.exact.erase(found);
+  raw.exact.erase(found);
 }
 
 }  // namespace
 
-void read_grid(const Card& card, Bulk& bulk) {
-  Grids& grids = bulk.grids;
+void read_grid(const Card& card, RawDeck& raw) {
+  Grids& grids = raw.grids;
   const size_t row = grids.size();
   grids.ids.push_back(card.id(0, "ID"));
   grids.origins.push_back(card.origin());
   std::array<double, 3> at{};
-  for (size_t k = 0; k < 3; ++k) at[k] = card.real_or(2 + k, "coordinate", 0.0);
-  take_exact(bulk, grids.ids.back(), at);
+  for (size_t k = 0; k < 3; ++k) at[k] = card.number_or(2 + k, "coordinate", 0.0);
+  take_exact(raw, grids.ids.back(), at);
   grids.at.push_back(at);
   const auto system = [&](size_t i, const char* what) {
     if (card.blank(i)) return kBlank;
@@ -125,16 +125,16 @@ void read_grid(const Card& card, Bulk& bulk) {
   if (card.integer_or(7, "SEID", 0) != 0) card.fail(7, "superelements are not supported");
 }
 
-void read_grdset(const Card& card, Bulk& bulk) {
-  if (bulk.has_defaults) card.fail(0, "found a second one");
-  bulk.has_defaults = true;
-  bulk.defaults.cp = card.blank(1) ? 0 : system_number(card, 1, "CP");
-  bulk.defaults.cd = card.blank(5) ? 0 : system_number(card, 5, "CD");
-  bulk.defaults.held = card.blank(6) ? DofMask{0} : card.components_or_none(6, "PS");
+void read_grdset(const Card& card, RawDeck& raw) {
+  if (raw.has_defaults) card.fail(0, "found a second one");
+  raw.has_defaults = true;
+  raw.defaults.cp = card.blank(1) ? 0 : system_number(card, 1, "CP");
+  raw.defaults.cd = card.blank(5) ? 0 : system_number(card, 5, "CD");
+  raw.defaults.held = card.blank(6) ? DofMask{0} : card.components_or_none(6, "PS");
   if (card.integer_or(7, "SEID", 0) != 0) card.fail(7, "superelements are not supported");
 }
 
-void read_cord1(const Card& card, Bulk& bulk) {
+void read_cord1(const Card& card, RawDeck& raw) {
   for (const size_t first : {size_t{0}, size_t{4}}) {
     if (first > 0 && card.blank_from(first)) break;
     RawSystem system;
@@ -143,25 +143,25 @@ void read_cord1(const Card& card, Bulk& bulk) {
     system.by_grids = true;
     const int32_t id = card.id(first, "CID");
     for (size_t k = 0; k < 3; ++k) system.grids[k] = card.id(first + 1 + k, "G");
-    add_system(card, bulk, id, system);
+    add_system(card, raw, id, system);
   }
 }
 
-void read_cord2(const Card& card, Bulk& bulk) {
+void read_cord2(const Card& card, RawDeck& raw) {
   RawSystem system;
   system.kind = kind_of(card);
   system.origin = card.origin();
   const int32_t id = card.id(0, "CID");
   system.reference = card.blank(1) ? 0 : system_number(card, 1, "RID");
-  for (size_t k = 0; k < 9; ++k) system.points[k] = card.real_or(2 + k, "A, B or C", 0.0);
-  card.expect_end(11);
-  add_system(card, bulk, id, system);
+  for (size_t k = 0; k < 9; ++k) system.points[k] = card.number_or(2 + k, "A, B or C", 0.0);
+  card.at_most(11);
+  add_system(card, raw, id, system);
 }
 
-void read_cell(const Card& card, Bulk& bulk) {
+void read_cell(const Card& card, RawDeck& raw) {
   const int32_t id = card.id(0, "EID");
   const CellType type = type_of(card);
-  RawBlock& block = block_of(bulk, type, card.id_or(1, "PID", id));
+  RawBlock& block = block_of(raw, type, card.id_or(1, "PID", id));
   const CellTraits& cell = traits(type);
   std::array<int32_t, kMaxCellNodes> nodes{};
   for (size_t i = 0; i < cell.to_nastran.size(); ++i) {

@@ -17,7 +17,7 @@ std::string_view take_word(std::string_view& text) {
 
 void read_name(std::string_view text, Origin origin, const Source& source,
                std::map<int32_t, std::string>& names) {
-  const auto number = parse_integer(take_word(text));
+  const auto number = to_integer(take_word(text));
   if (!number || *number < 1 || text.empty()) {
     source.fail(origin, "comment of clatter: expected a number and a name");
   }
@@ -25,12 +25,12 @@ void read_name(std::string_view text, Origin origin, const Source& source,
 }
 
 void read_face(FaceType type, std::string_view text, Origin origin, const Source& source,
-               Bulk::NamedSurface& surface) {
+               RawDeck::NamedSurface& surface) {
   surface.types.push_back(type);
   for (int i = 0; i < kMaxFaceNodes; ++i) {
     surface.nodes.push_back(0);
     if (i >= traits(type).nodes) continue;
-    const auto node = parse_integer(take_word(text));
+    const auto node = to_integer(take_word(text));
     if (!node || *node < 1) {
       source.fail(origin, fmt::format("comment of clatter: expected the {} nodes of a {}",
                                       traits(type).nodes, traits(type).name));
@@ -39,30 +39,30 @@ void read_face(FaceType type, std::string_view text, Origin origin, const Source
   }
 }
 
-void read_exact(std::string_view text, Bulk& bulk) {
-  const auto id = parse_integer(take_word(text));
-  const auto x = parse_real(take_word(text)), y = parse_real(take_word(text)),
-             z = parse_real(take_word(text));
-  if (id && x && y && z) bulk.exact[*id] = {*x, *y, *z};
+void read_exact(std::string_view text, RawDeck& raw) {
+  const auto id = to_integer(take_word(text));
+  const auto x = to_number(take_word(text)), y = to_number(take_word(text)),
+             z = to_number(take_word(text));
+  if (id && x && y && z) raw.exact[*id] = {*x, *y, *z};
 }
 
 }  // namespace
 
-void read_comment(std::string_view text, Origin origin, const Source& source, Bulk& bulk) {
+void read_comment(std::string_view text, Origin origin, const Source& source, RawDeck& raw) {
   const std::string_view word = take_word(text);
   if (word == "region") {
-    read_name(text, origin, source, bulk.region_names);
+    read_name(text, origin, source, raw.region_names);
   } else if (word == "at") {
-    read_exact(text, bulk);
+    read_exact(text, raw);
   } else if (word == "set") {
-    read_name(text, origin, source, bulk.set_names);
+    read_name(text, origin, source, raw.set_names);
   } else if (word == "surface") {
     if (text.empty()) source.fail(origin, "comment of clatter: expected the name of a surface");
-    bulk.surfaces.push_back({std::string(text), origin, {}, {}});
+    raw.surfaces.push_back({std::string(text), origin, {}, {}});
   } else {
-    for (int t = 0; t < kFaceTypes && !bulk.surfaces.empty(); ++t) {
+    for (int t = 0; t < kFaceTypes && !raw.surfaces.empty(); ++t) {
       const auto type = static_cast<FaceType>(t);
-      if (word == traits(type).name) read_face(type, text, origin, source, bulk.surfaces.back());
+      if (word == traits(type).name) read_face(type, text, origin, source, raw.surfaces.back());
     }
   }
 }

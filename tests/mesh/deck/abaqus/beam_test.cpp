@@ -2,7 +2,7 @@
 // A clamped beam of tetrahedra as pre-processors write it: a part, its instance, shells on its
 // skin.
 #include "tests/assembly/block_mesh.hpp"
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 #include "tests/mesh/deck/deck_text.hpp"
 #include "tests/refusal.hpp"
 

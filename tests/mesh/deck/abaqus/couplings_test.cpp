@@ -2,7 +2,7 @@
 // Couplings, rigid bodies, ties, equations, masses.
 #include <cmath>
 
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

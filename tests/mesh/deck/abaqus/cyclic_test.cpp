@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "abaqus_support.hpp"
 #include "core/mesh/boundary.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "mesh/deck/abaqus/reading.hpp"
 #include "mesh/deck/system_axes.hpp"
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

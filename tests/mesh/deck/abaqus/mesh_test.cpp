@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/deck/abaqus/elements.hpp"
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "mesh/deck/abaqus/cells.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -169,10 +169,10 @@ TEST(AbaqusMesh, SetsAreMadeOfNumbersRangesAndOtherSets) {
 }
 
 TEST(AbaqusMesh, SetsThatCannotBeAreRefused) {
-  EXPECT_EQ(refusal(kModel + "*NSET, NSET=A\n1, 2,\n3, 99\n"), "deck.inp:26: there is no node 99");
+  EXPECT_EQ(refusal(kModel + "*NSET, NSET=A\n1, 2,\n3, 99\n"), "deck.inp:26: found no node 99");
   EXPECT_EQ(refusal(kModel + "*NSET, NSET=A\nB\n*NSET, NSET=B\nA\n"),
             "deck.inp:27: node set A holds itself");
-  EXPECT_EQ(refusal(kModel + "*NSET, NSET=A\nC\n"), "deck.inp:25: there is no node set 'C'");
+  EXPECT_EQ(refusal(kModel + "*NSET, NSET=A\nC\n"), "deck.inp:25: found no node set 'C'");
   EXPECT_NE(refusal(kModel + "*NSET, NSET=A, GENERATE\n5, 1\n").find("5 to 1"), std::string::npos);
   std::string deep = kModel + "*NSET, NSET=S0\n1\n";
   for (int i = 1; i < 100; ++i) {
@@ -184,16 +184,14 @@ TEST(AbaqusMesh, SetsThatCannotBeAreRefused) {
 }
 
 TEST(AbaqusMesh, NumbersWithTwoMeaningsAreRefused) {
-  EXPECT_NE(
-      refusal(kModel + "*NODE\n3, 7, 7, 7\n")
-          .find("deck.inp:25: node 3 is defined again with other coordinates; first definition: "
-                "deck.inp:4"),
-      std::string::npos);
+  EXPECT_NE(refusal(kModel + "*NODE\n3, 7, 7, 7\n")
+                .find("deck.inp:25: node 3: found another one with this number at deck.inp:4"),
+            std::string::npos);
   EXPECT_EQ(read(kModel + "*NODE, NSET=AGAIN\n3, 1, 1, 0\n").mesh.node_set("AGAIN").size(), 1u);
   EXPECT_EQ(refusal(kModel + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n"),
-            "deck.inp:25: element 1 is defined twice");
+            "deck.inp:25: element 1: found another one with this number at deck.inp:13");
   EXPECT_EQ(refusal(kModel + "*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 55\n"),
-            "deck.inp:25: there is no node 55");
+            "deck.inp:25: found no node 55");
 }
 
 TEST(AbaqusMesh, HighNumbersTakeNoMemoryOfTheirOwn) {
@@ -306,7 +304,7 @@ TEST(AbaqusParts, MisplacedPartsAreRefused) {
   EXPECT_NE(refusal("*PART, NAME=P\n" + kCube + "*END PART\n").find("expected instances"),
             std::string::npos);
   EXPECT_NE(refusal("*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=X\n*END INSTANCE\n")
-                .find("there is no part 'X'"),
+                .find("found no part 'X'"),
             std::string::npos);
   EXPECT_NE(refusal("*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=X\n*NODE\n1\n*END INSTANCE\n")
                 .find("deck.inp:2: expected *END INSTANCE"),

@@ -2,7 +2,7 @@
 // Truncated decks, and several refusals at once.
 #include <gmock/gmock.h>
 
-#include "abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {
@@ -82,7 +82,7 @@ TEST(AbaqusRefusals, ComeTogetherEachWithItsLine) {
   EXPECT_THAT(said, HasSubstr("6 refusals:"));
   for (const char* one :
        {"deck.inp:24: keyword *CONTACT PAIR is not supported", "deck.inp:27: found '9' in field 3",
-        "deck.inp:28: there is no node set 'NOWHERE'", "deck.inp:29: *STEP with NLGEOM",
+        "deck.inp:28: found no node set 'NOWHERE'", "deck.inp:29: *STEP with NLGEOM",
         "deck.inp:32: load P9 is not supported", "deck.inp:34: found 'x' in field 3"}) {
     EXPECT_THAT(said, HasSubstr(std::string("\n  ") + one)) << said;
   }

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include "abaqus_support.hpp"
 #include "mesh/deck/units.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck::testing {
 namespace {

@@ -2,7 +2,7 @@
 // Supports, loads and steps.
 #include <numeric>
 
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

@@ -29,7 +29,7 @@ inline const std::string kSteel =
 inline const std::string kModel = kCube + kSteel;
 
 inline Deck read(const std::string& text, const std::vector<std::string>& ignore = {}) {
-  return read_abaqus_text(text, "deck.inp", {ignore});
+  return read_abaqus_text("deck.inp", text, {ignore});
 }
 
 /// The message of the InputError; a failure when there is none.

@@ -7,10 +7,10 @@
 #include <random>
 #include <sstream>
 
-#include "mesh/deck/abaqus/elements.hpp"
-#include "mesh/deck/abaqus/fields.hpp"
+#include "mesh/deck/abaqus/cells.hpp"
+#include "mesh/deck/abaqus/number.hpp"
 #include "mesh/deck/abaqus/writer.hpp"
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 #include "tests/mesh/support.hpp"
 #include "tests/refusal.hpp"
 
@@ -93,7 +93,7 @@ TEST(AbaqusWriter, NumbersFitCalculixAndLoseNothingAboveAHundredth) {
     const double x = std::copysign(std::pow(10.0, power(random)) * (1.0 + std::abs(m)), m);
     const std::string text = abaqus_number(x);
     ASSERT_LE(text.size(), 20u) << text;
-    ASSERT_EQ(abaqus::to_number(text), x) << text;
+    ASSERT_EQ(to_number(text), x) << text;
   }
 }
 
@@ -106,7 +106,7 @@ TEST(AbaqusWriter, SmallNumbersLoseAtMostTheDigitsThatDoNotFit) {
     const double x = std::copysign(std::pow(10.0, power(random)) * (1.0 + std::abs(m)), m);
     const std::string text = abaqus_number(x);
     ASSERT_LE(text.size(), 20u) << text;
-    worst = std::max(worst, std::abs(*abaqus::to_number(text) / x - 1.0));
+    worst = std::max(worst, std::abs(*to_number(text) / x - 1.0));
   }
   EXPECT_LE(worst, 5.3e-15);  // half of the fifteenth digit, and the roundings to double
   EXPECT_EQ(abaqus_number(0.0), "0.");

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
 namespace {

@@ -4,48 +4,16 @@
 
 #include <cmath>
 
-#include "mesh/deck/nastran/fields.hpp"
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
 namespace {
 
 using mesh::CellType;
 using mesh::deck::Deck;
-using mesh::deck::nastran::parse_integer;
-using mesh::deck::nastran::parse_real;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-TEST(NastranNumbers, EveryNastranSpellingOfARealIsRead) {
-  EXPECT_EQ(parse_real("1.5"), 1.5);
-  EXPECT_EQ(parse_real(".5"), 0.5);
-  EXPECT_EQ(parse_real("7."), 7.0);
-  EXPECT_EQ(parse_real("+.5"), 0.5);
-  EXPECT_EQ(parse_real("-.5"), -0.5);
-  EXPECT_EQ(parse_real("1.5-3"), 1.5e-3);
-  EXPECT_EQ(parse_real("1.+5"), 1e5);
-  EXPECT_EQ(parse_real("-1.25+12"), -1.25e12);
-  EXPECT_EQ(parse_real("1D3"), 1e3);
-  EXPECT_EQ(parse_real("1.5d-3"), 1.5e-3);
-  EXPECT_EQ(parse_real("1.05E+7"), 1.05e7);
-  EXPECT_EQ(parse_real("70"), 70.0);
-  EXPECT_EQ(parse_real("-2.1854783949-15"), -2.1854783949e-15);
-}
-
-TEST(NastranNumbers, WhatIsNoFiniteNumberIsRefused) {
-  for (const char* text :
-       {"",    ".",   "+",    "-",    "1.5.2", "1..", "e5",    "1e",    "1e+", "1.5-",
-        "nan", "inf", "0x10", "1. 5", "--1",   "+-1", "1e5e5", "1e999", "1,5", "1-2-3"}) {
-    EXPECT_FALSE(parse_real(text).has_value()) << text;
-  }
-  for (const char* text : {"", "1.", "1e3", "a", "+", "2147483648", "1 2", "+-1"}) {
-    EXPECT_FALSE(parse_integer(text).has_value()) << text;
-  }
-  EXPECT_EQ(parse_integer("+17"), 17);
-  EXPECT_EQ(parse_integer("-1"), -1);
-}
 
 // The same cell and nodes in every format.
 struct Form {

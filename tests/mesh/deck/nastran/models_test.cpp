@@ -13,7 +13,7 @@
 #include "core/mesh/boundary.hpp"
 #include "tests/assembly/block_mesh.hpp"
 #include "tests/mesh/deck/deck_text.hpp"
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 
 namespace clatter::test {
 namespace {

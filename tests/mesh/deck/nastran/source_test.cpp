@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::test {

@@ -10,10 +10,11 @@
 #include <random>
 #include <sstream>
 
-#include "mesh/deck/nastran/fields.hpp"
+#include "mesh/deck/field_text.hpp"
+#include "mesh/deck/nastran/number.hpp"
 #include "mesh/exports/mesh_export.hpp"
 #include "tests/assembly/block_mesh.hpp"
-#include "tests/mesh/deck/nastran_support.hpp"
+#include "tests/mesh/deck/nastran/support.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::test {
@@ -21,21 +22,21 @@ namespace {
 
 using mesh::CellType;
 using mesh::Mesh;
-using mesh::deck::nastran_real;
-using mesh::deck::nastran::parse_real;
+using mesh::deck::nastran_number;
+using mesh::deck::to_number;
 using testing::HasSubstr;
 
 TEST(NastranReal, IsShortAndHasAPoint) {
-  EXPECT_EQ(nastran_real(5.0, 16), "5.");
-  EXPECT_EQ(nastran_real(-0.25, 16), "-.25");
-  EXPECT_EQ(nastran_real(0.0, 16), "0.");
-  EXPECT_EQ(nastran_real(-2.5e-7, 16), "-2.5-7");
-  EXPECT_EQ(nastran_real(1e23, 16), "1.+23");
-  EXPECT_EQ(nastran_real(0.1 + 0.2, 16), ".3");
-  EXPECT_EQ(nastran_real(1.0 / 3.0, 8), ".3333333");
-  EXPECT_EQ(nastran_real(-1e5 / 3.0, 8), "-33333.3");
-  EXPECT_EQ(nastran_real(99999999.96, 8), "1.+8");
-  EXPECT_EQ(nastran_real(-2e-7 / 3.0, 8), "-6.667-8");
+  EXPECT_EQ(nastran_number(5.0, 16), "5.");
+  EXPECT_EQ(nastran_number(-0.25, 16), "-.25");
+  EXPECT_EQ(nastran_number(0.0, 16), "0.");
+  EXPECT_EQ(nastran_number(-2.5e-7, 16), "-2.5-7");
+  EXPECT_EQ(nastran_number(1e23, 16), "1.+23");
+  EXPECT_EQ(nastran_number(0.1 + 0.2, 16), ".3");
+  EXPECT_EQ(nastran_number(1.0 / 3.0, 8), ".3333333");
+  EXPECT_EQ(nastran_number(-1e5 / 3.0, 8), "-33333.3");
+  EXPECT_EQ(nastran_number(99999999.96, 8), "1.+8");
+  EXPECT_EQ(nastran_number(-2e-7 / 3.0, 8), "-6.667-8");
 }
 
 TEST(NastranReal, SixteenColumnsLoseNoMoreThanTheyMust) {
@@ -45,9 +46,9 @@ TEST(NastranReal, SixteenColumnsLoseNoMoreThanTheyMust) {
   for (int i = 0; i < 200000; ++i) {
     const int exponent = i % 80 - 40;
     const double value = mantissa(random) * std::pow(10.0, exponent);
-    const std::string text = nastran_real(value, 16);
+    const std::string text = nastran_number(value, 16);
     ASSERT_LE(text.size(), 16u);
-    const auto back = parse_real(text);
+    const auto back = to_number(text);
     ASSERT_TRUE(back.has_value()) << text;
     const double loss = std::abs(*back - value) / std::abs(value);
     worst = std::max(worst, loss);

@@ -13,7 +13,7 @@
 #include "core/mesh/boundary.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/recipe/names.hpp"
-#include "tests/mesh/deck/abaqus_support.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::mesh::deck::testing {
@@ -153,7 +153,7 @@ TEST_F(DeckFile, OfAnotherKindOrAbsentIsRefusedByName) {
               ThrowsMessage<InputError>(HasSubstr("found extension '.unv'")));
   test::expect_parts(
       test::refusal_of<FileError>([&] { read_deck(folder_ / "absent.inp", {}, {}); }),
-      {"absent.inp: cannot be opened"});
+      {"absent.inp: no such file"});
 }
 
 }  // namespace
