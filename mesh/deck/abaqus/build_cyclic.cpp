@@ -28,25 +28,25 @@ bool is_cyclic(const Card& card) {
   return card.keyword().key == "TIE" && card.keyword().has("CYCLICSYMMETRY");
 }
 
-void read_sides(Model& model, size_t use, const Card& tie, CyclicSector* sector) {
+void read_sides(Model& model, size_t use, const Card& tie, CyclicSector& sector) {
   tie.keyword().allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "CYCLICSYMMETRY"}, model.source,
                       model.ignore);
   if (tie.size() != 1) {
     model.source.fail(tie.origin(), "*TIE, CYCLIC SYMMETRY: expected one line: two surfaces");
   }
   const Fields fields = tie.line(0, model.source);
-  sector->one = side(model, use, fields, 0);
-  sector->other = side(model, use, fields, 1);
+  sector.one = side(model, use, fields, 0);
+  sector.other = side(model, use, fields, 1);
 }
 
-void read_model(Model& model, size_t use, const Card& card, CyclicSector* sector) {
+void read_model(Model& model, size_t use, const Card& card, CyclicSector& sector) {
   const Keyword& keyword = card.keyword();
   const Source& source = model.source;
   keyword.allow({"N", "TIE", "ELSET", "NGRAPH", "CHECK"}, source, model.ignore);
-  sector->where = source.where(card.origin());
+  sector.where = source.where(card.origin());
   constexpr int32_t kMostSectors = 10000;
-  sector->count = Fields(keyword.required("N", source), source, card.origin())
-                      .integer(0, "N, the sectors of the ring", 2, kMostSectors);
+  sector.count = Fields(keyword.required("N", source), source, card.origin())
+                     .integer(0, "N, the sectors of the ring", 2, kMostSectors);
   if (keyword.has("ELSET")) {
     const auto& elements = model.sets.elements(use, *keyword.find("ELSET"), card.origin());
     if (static_cast<int32_t>(elements.size()) != model.numbering.cells()) {
@@ -62,11 +62,11 @@ void read_model(Model& model, size_t use, const Card& card, CyclicSector* sector
   fields.at_most(6, "two points of the axis");
   for (size_t k = 0; k < 3; ++k) {
     const auto d = static_cast<Eigen::Index>(k);
-    sector->point[d] = fields.number_or(k, "first point of the axis", 0.0);
-    sector->axis[d] = fields.number_or(3 + k, "second point of the axis", 0.0) - sector->point[d];
+    sector.point[d] = fields.number_or(k, "first point of the axis", 0.0);
+    sector.axis[d] = fields.number_or(3 + k, "second point of the axis", 0.0) - sector.point[d];
   }
-  if (!(sector->axis.norm() > 0.0)) fields.fail("expected two different points of the axis");
-  sector->axis.normalize();
+  if (!(sector.axis.norm() > 0.0)) fields.fail("expected two different points of the axis");
+  sector.axis.normalize();
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ void build_cyclic(Model& model) {
                 [&](size_t use, const Card& card) {
                   if (is_cyclic(card)) {
                     once(tie, card);
-                    read_sides(model, use, card, &sector);
+                    read_sides(model, use, card, sector);
                   } else if (card.keyword().key == "CYCLICSYMMETRYMODEL") {
                     once(ring, card);
-                    read_model(model, use, card, &sector);
+                    read_model(model, use, card, sector);
                   } else if (card.keyword().key != "TIE") {
                     modes = ", of which the deck requests some (" +
                             model.source.where(card.origin()) + ")";

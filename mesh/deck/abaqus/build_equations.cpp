@@ -25,17 +25,17 @@ class EquationLines {
       const int32_t count = head.integer(0, "number of terms", 1, 1 << 24);
       equations.emplace_back();
       equations.back().origin = head.origin();
-      read_terms(count, &equations.back());
+      read_terms(count, equations.back());
     }
     return equations;
   }
 
  private:
-  void read_terms(int32_t count, RawEquation* equation) {
+  void read_terms(int32_t count, RawEquation& equation) {
     int32_t missing = count;
     while (missing > 0) {
       if (line_ == card_.size()) {
-        model_.source.fail(equation->origin,
+        model_.source.fail(equation.origin,
                            fmt::format("found {} terms, expected {}", count - missing, count));
       }
       const Fields fields = card_.line(line_++, model_.source);
@@ -46,9 +46,9 @@ class EquationLines {
                         fields.size(), missing));
       }
       for (size_t i = 0; i < fields.size(); i += 3, --missing) {
-        equation->terms.push_back({model_.sets.node_at(fields, i, use_),
-                                   fields.integer(i + 1, "DoF", 1, 6) - 1,
-                                   fields.number(i + 2, "coefficient")});
+        equation.terms.push_back({model_.sets.node_at(fields, i, use_),
+                                  fields.integer(i + 1, "DoF", 1, 6) - 1,
+                                  fields.number(i + 2, "coefficient")});
       }
     }
   }
@@ -205,7 +205,7 @@ void build_equations(Model& model) {
       do {
         lines.push_back(card.line(i++, model.source));
       } while (i < card.size() && card.line(i, model.source).text(0) == "0");
-      model.refusals.attempt([&] { add_mpc(model, use, lines, &equations); });
+      model.refusals.attempt([&] { add_mpc(model, use, lines, equations); });
     }
   });
   add_equations(model, equations);

@@ -24,6 +24,6 @@ struct RawEquation {
 using MpcLines = std::vector<Fields>;
 
 /// Adds the equations of one *MPC, or a rigid body for BEAM; InputError for unsupported types.
-void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>* equations);
+void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>& equations);
 
 }  // namespace clatter::mesh::deck::abaqus

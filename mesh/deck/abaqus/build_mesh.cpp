@@ -8,7 +8,7 @@ namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // Numbers the nodes that cells use, in the order of the deck, and copies them.
-std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh* mesh) {
+std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
   std::vector<int32_t> node(static_cast<size_t>(numbering.nodes()), NodeMap::kNone);
   for (const FlatTable& table : numbering.tables()) {
     for (const int32_t row : table.nodes) node[static_cast<size_t>(row)] = 0;
@@ -17,12 +17,12 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh* mesh) {
   for (int32_t& n : node) {
     if (n == 0) n = count++;
   }
-  mesh->nodes.resize(count, 3);
-  mesh->node_ids.resize(static_cast<size_t>(count));
+  mesh.nodes.resize(count, 3);
+  mesh.node_ids.resize(static_cast<size_t>(count));
   for (size_t row = 0; row < node.size(); ++row) {
     if (node[row] == NodeMap::kNone) continue;
-    mesh->nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));
-    mesh->node_ids[static_cast<size_t>(node[row])] = numbering.node_ids()[row];
+    mesh.nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));
+    mesh.node_ids[static_cast<size_t>(node[row])] = numbering.node_ids()[row];
   }
   return node;
 }
@@ -31,8 +31,8 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh* mesh) {
 class Blocks {
  public:
   Blocks(const Numbering& numbering, const std::vector<int32_t>& region,
-         const std::vector<int32_t>& node, Mesh* mesh)
-      : numbering_(numbering), region_(region), node_(node), mesh_(*mesh) {}
+         const std::vector<int32_t>& node, Mesh& mesh)
+      : numbering_(numbering), region_(region), node_(node), mesh_(mesh) {}
 
   void run() {
     struct Size {
@@ -57,7 +57,7 @@ class Blocks {
       blocks[at.second] = &block;
     }
     for_each_cell([&](const FlatTable& table, size_t cell, const Key& key) {
-      add(table, cell, blocks[key]);
+      add(table, cell, *blocks[key]);
     });
   }
 
@@ -73,14 +73,14 @@ class Blocks {
     }
   }
 
-  void add(const FlatTable& table, size_t cell, CellBlock* block) const {
+  void add(const FlatTable& table, size_t cell, CellBlock& block) const {
     const std::span<const int> p = traits(table.type).to_abaqus;
-    const auto row = static_cast<Eigen::Index>(block->ids.size());
+    const auto row = static_cast<Eigen::Index>(block.ids.size());
     for (size_t i = 0; i < p.size(); ++i) {
       const int32_t from = table.nodes[cell * p.size() + i];
-      block->nodes(row, p[i]) = node_[static_cast<size_t>(from)];
+      block.nodes(row, p[i]) = node_[static_cast<size_t>(from)];
     }
-    block->ids.push_back(table.ids[cell]);
+    block.ids.push_back(table.ids[cell]);
   }
 
   const Numbering& numbering_;
@@ -100,8 +100,8 @@ void build_mesh(Model& model) {
                     model.source.where(model.source.origin())));
   }
   build_regions(model);
-  std::vector<int32_t> node = take_nodes(model.numbering, &model.deck.mesh);
-  Blocks(model.numbering, model.region_of_cell, node, &model.deck.mesh).run();
+  std::vector<int32_t> node = take_nodes(model.numbering, model.deck.mesh);
+  Blocks(model.numbering, model.region_of_cell, node, model.deck.mesh).run();
   model.node_map.set_mesh_nodes(std::move(node));
 }
 

@@ -56,7 +56,7 @@ constexpr double kInLine =
 // x_p = (1 - s - t) x_a + s x_b + t x_c and the normal n: n . (u_p - (1 - s - t) u_a - s u_b - t
 // u_c) = 0.
 void add_plane(Model& model, size_t use, const MpcLines& lines,
-               std::vector<RawEquation>* equations) {
+               std::vector<RawEquation>& equations) {
   const Fields& fields = lines.front();
   const std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 4) {
@@ -85,7 +85,7 @@ void add_plane(Model& model, size_t use, const MpcLines& lines,
                               model.numbering.node_ids()[static_cast<size_t>(rows[i])]));
     }
     const double s = r.cross(g).dot(n) / normal.norm(), t = e.cross(r).dot(n) / normal.norm();
-    equations->push_back(
+    equations.push_back(
         follow(fields.origin(), rows[i], n, {{rows[0], 1.0 - s - t}, {rows[b], s}, {rows[c], t}}));
   }
 }
@@ -93,7 +93,7 @@ void add_plane(Model& model, size_t use, const MpcLines& lines,
 // STRAIGHT: the nodes stay on the line through the ends. With x_p = (1 - s) x_a + s x_b, the
 // components normal to the line are u_p = (1 - s) u_a + s u_b: two equations.
 void add_straight(Model& model, size_t use, const MpcLines& lines,
-                  std::vector<RawEquation>* equations) {
+                  std::vector<RawEquation>& equations) {
   const Fields& fields = lines.front();
   const std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 3) {
@@ -127,7 +127,7 @@ void add_straight(Model& model, size_t use, const MpcLines& lines,
           std::find_if(equation.terms.begin(), equation.terms.end(),
                        [&](const Term& t) { return t.row == rows[i] && t.direction == k; });
       std::iter_swap(equation.terms.begin(), own);
-      equations->push_back(std::move(equation));
+      equations.push_back(std::move(equation));
     }
   }
 }
@@ -137,7 +137,7 @@ void add_straight(Model& model, size_t use, const MpcLines& lines,
 // with the arms p_i from the nodes' centre, normal to the axis a, and m nodes,
 //   theta = 1/m sum a . (p_i x (u_i - u_mean)) / |p_i|^2.
 void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
-                       std::vector<RawEquation>* equations) {
+                       std::vector<RawEquation>& equations) {
   const Fields& fields = lines.front();
   std::vector<int32_t> rows = mpc_rows(model, use, lines);
   if (rows.size() < 3) {
@@ -188,13 +188,13 @@ void add_mean_rotation(Model& model, size_t use, const MpcLines& lines,
                                   }));
   node_map.set_rotation_node(pilot, node_map.require(pilot));
   equation.terms.push_back({pilot, 0, -1.0});
-  equations->push_back(std::move(equation));
+  equations.push_back(std::move(equation));
 }
 
 }  // namespace
 
 // PIN and TIE: equal translations. BEAM: a rigid rod from the first to the second node.
-void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>* equations) {
+void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEquation>& equations) {
   const Fields& fields = lines.front();
   const std::string type = folded(fields.text(0));
   if (type == "PLANE") return add_plane(model, use, lines, equations);
@@ -227,7 +227,7 @@ void add_mpc(Model& model, size_t use, const MpcLines& lines, std::vector<RawEqu
   const bool rotations =
       node_map.is_point(node_map.require(a)) && node_map.is_point(node_map.require(b));
   for (int k = 0; k < (type == "TIE" && rotations ? 6 : 3); ++k) {
-    equations->push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
+    equations.push_back({fields.origin(), {{a, k, 1.0}, {b, k, -1.0}}});
   }
 }
 

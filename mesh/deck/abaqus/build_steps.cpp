@@ -153,7 +153,7 @@ class Steps {
   // Loads do not change frequencies: a frequency step keeps only its supports.
   void end() {
     step_.supports = held_.list(&base_supports_);
-    if (step_.kind != Step::Kind::kFrequency) loads_.list(&step_, number_);
+    if (step_.kind != Step::Kind::kFrequency) loads_.list(step_, number_);
     const bool moved = std::any_of(step_.supports.begin(), step_.supports.end(),
                                    [](const Support& support) { return support.value != 0.0; });
     const bool general = step_.kind == Step::Kind::kStatic && !perturbation_;

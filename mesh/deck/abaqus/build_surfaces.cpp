@@ -55,7 +55,7 @@ int32_t face_count(const Numbering& numbering, int32_t cell) {
 
 // Faces of all other cells whose nodes are all selected.
 void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
-                    const std::vector<bool>& selected, std::vector<Candidate>* faces) {
+                    const std::vector<bool>& selected, std::vector<Candidate>& faces) {
   const auto is_selected = [&](int32_t row) { return selected[static_cast<size_t>(row)]; };
   for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
     const auto nodes = numbering.nodes_of(cell);
@@ -66,7 +66,7 @@ void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
     for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
       const FaceRows face = face_rows(numbering, {cell, f});
       if (std::all_of(face.begin(), face.end(), is_selected)) {
-        faces->push_back(candidate(face, {cell, f}, false));
+        faces.push_back(candidate(face, {cell, f}, false));
       }
     }
   }
@@ -88,7 +88,7 @@ std::vector<CellFaceId> free_faces(const Numbering& numbering, const std::vector
       for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
     }
   }
-  add_neighbours(numbering, chosen, selected, &all);
+  add_neighbours(numbering, chosen, selected, all);
   std::sort(all.begin(), all.end(),
             [](const Candidate& a, const Candidate& b) { return a.corners < b.corners; });
   std::vector<CellFaceId> faces;
@@ -133,7 +133,7 @@ class SurfaceReader {
                                                     *keyword.find("TYPE")));
     }
     std::vector<CellFaceId> faces;
-    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, model_.source), &faces);
+    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, model_.source), faces);
     // Without faces because the user ignores its elements: not in the mesh.
     const bool none = faces.empty() && card.size() > 0;
     model_.surface_names[key] =
@@ -154,13 +154,13 @@ class SurfaceReader {
   }
 
   // "elements, S3", or "elements": all their faces on the outside of the model.
-  void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>* faces) {
+  void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>& faces) {
     fields.at_most(2, "elements, face");
     std::vector<int32_t> cells = model_.sets.elements_at(fields, 0, use);
     std::erase_if(cells, [&](int32_t element) { return element >= numbering_.cells(); });
     if (fields.blank(1)) {
       const auto found = free_faces(numbering_, cells, [](int32_t) { return true; });
-      faces->insert(faces->end(), found.begin(), found.end());
+      faces.insert(faces.end(), found.begin(), found.end());
       return;
     }
     const std::string face = folded(fields.text(1));
@@ -175,7 +175,7 @@ class SurfaceReader {
         fields.fail(fmt::format("found face {}, which elements {} do not have", face,
                                 numbering_.table_of(cell).name));
       }
-      faces->emplace_back(cell, f);
+      faces.emplace_back(cell, f);
     }
   }
 

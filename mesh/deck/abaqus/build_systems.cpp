@@ -61,22 +61,22 @@ System system_of(const Fields& fields, System::Kind kind, bool with_origin) {
 }
 
 // The second line of *ORIENTATION: a local axis and the angle about it in degrees.
-void turn(const Fields& fields, System* system) {
+void turn(const Fields& fields, System& system) {
   const int axis = fields.integer(0, "local axis", 1, 3);
   const double angle = fields.number_or(1, "angle in degrees", 0.0) * std::numbers::pi / 180.0;
   fields.at_most(2, "local axis and angle");
   if (angle == 0.0) return;
-  if (system->kind != System::Kind::kRectangular) {
+  if (system.kind != System::Kind::kRectangular) {
     fields.fail(
         "found an additional rotation of a cylindrical orientation, which is not supported");
   }
-  const Eigen::Vector3d about = system->axes.col(axis - 1);
-  system->axes = Eigen::AngleAxisd(angle, about).toRotationMatrix() * system->axes;
+  const Eigen::Vector3d about = system.axes.col(axis - 1);
+  system.axes = Eigen::AngleAxisd(angle, about).toRotationMatrix() * system.axes;
 }
 
-void move(const Use& use, System* system) {
-  system->origin = use.rotation * system->origin + use.shift;
-  system->axes = use.rotation * system->axes;
+void move(const Use& use, System& system) {
+  system.origin = use.rotation * system.origin + use.shift;
+  system.axes = use.rotation * system.axes;
 }
 
 System::Kind kind_of(const Card& card, const Source& source, std::string_view parameter,
@@ -102,8 +102,8 @@ void build_systems(Model& model) {
     const System::Kind kind =
         kind_of(card, model.source, "SYSTEM", keyword.choice("SYSTEM", "RECTANGULAR"));
     System system = system_of(card.line(0, model.source), kind, true);
-    if (card.size() == 2) turn(card.line(1, model.source), &system);
-    move(model.numbering.uses()[use], &system);
+    if (card.size() == 2) turn(card.line(1, model.source), system);
+    move(model.numbering.uses()[use], system);
     system.name = model.numbering.public_name(use, keyword.required("NAME", model.source));
     const bool is_new = model.system_names.emplace(folded(system.name), system.name).second;
     if (!is_new || !model.deck.systems.emplace(system.name, system).second) {
@@ -132,7 +132,7 @@ void build_transforms(Model& model) {
     }
     const System::Kind kind = kind_of(card, model.source, "TYPE", keyword.choice("TYPE", "R"));
     System system = system_of(card.line(0, model.source), kind, false);
-    move(model.numbering.uses()[use], &system);
+    move(model.numbering.uses()[use], system);
     do {
       system.name = fmt::format("transform_{}", ++count);
     } while (model.deck.systems.contains(system.name));

@@ -40,7 +40,7 @@ size_t next_comma(std::string_view text) {
   return std::string_view::npos;
 }
 
-void add_parameters(std::string_view text, Keyword* keyword) {
+void add_parameters(std::string_view text, Keyword& keyword) {
   while (!text.empty()) {
     const size_t comma = next_comma(text);
     const std::string_view one = trimmed(text.substr(0, comma));
@@ -48,8 +48,8 @@ void add_parameters(std::string_view text, Keyword* keyword) {
     if (one.empty()) continue;
     const size_t equals = one.find('=');
     const bool flag = equals == std::string_view::npos;
-    keyword->parameters.emplace_back(folded(one.substr(0, equals)),
-                                     flag ? "" : unquoted(one.substr(equals + 1)));
+    keyword.parameters.emplace_back(folded(one.substr(0, equals)),
+                                    flag ? "" : unquoted(one.substr(equals + 1)));
   }
 }
 
@@ -107,7 +107,7 @@ void Lines::read_keyword() {
   keyword_.name = display_name(trimmed(std::string_view(text).substr(0, comma)));
   keyword_.key = folded_keyword(keyword_.name);
   if (comma != std::string::npos) {
-    add_parameters(std::string_view(text).substr(comma + 1), &keyword_);
+    add_parameters(std::string_view(text).substr(comma + 1), keyword_);
   }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 // The first value of a step replaces that of earlier ones, the next ones are added.
 template <class Map, class Key, class Value>
-void put(Map* map, const Key& key, const Value& value) {
-  const auto [at, is_new] = map->emplace(key, value);
+void put(Map& map, const Key& key, const Value& value) {
+  const auto [at, is_new] = map.emplace(key, value);
   if (is_new) return;
   if (at->second.step == value.step) {
     at->second.value += value.value;
@@ -23,8 +23,8 @@ void put(Map* map, const Key& key, const Value& value) {
 }
 
 template <class Map>
-void forget_others(Map* map, StepNumber step) {
-  std::erase_if(*map, [&](const auto& entry) { return entry.second.step != step; });
+void forget_others(Map& map, StepNumber step) {
+  std::erase_if(map, [&](const auto& entry) { return entry.second.step != step; });
 }
 
 bool is_new(const Card& card) { return card.keyword().choice("OP", "MOD") == "NEW"; }
@@ -38,7 +38,7 @@ double Loads::begin(const Card& card) {
 
 void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
-  if (is_new(card)) forget_others(&forces_, step);
+  if (is_new(card)) forget_others(forces_, step);
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, model_->source);
     fields.at_most(3, "nodes, DoF, force");
@@ -54,7 +54,7 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
         fields.fail(fmt::format("found a moment on node {}, which has no rotations", id));
       }
       const int direction = __builtin_ctz(dofs);
-      put(&forces_, std::pair(node_index, direction),
+      put(forces_, std::pair(node_index, direction),
           Value{value, step, &model_->node_map.displacement_system(row)});
     }
   }
@@ -63,8 +63,8 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
 void Loads::read_element_loads(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
   if (is_new(card)) {
-    forget_others(&faces_, step);
-    forget_others(&gravity_, step);
+    forget_others(faces_, step);
+    forget_others(gravity_, step);
     std::erase_if(rotations_, [&](const Rotation& other) { return other.step != step; });
   }
   for (size_t i = 0; i < card.size(); ++i) {
@@ -91,7 +91,7 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
     if (face < 0) {
       fields.fail(fmt::format("found face {}, which elements {} do not have", label, table.name));
     }
-    put(&faces_, CellFaceId(element, face), Value{value, step, nullptr});
+    put(faces_, CellFaceId(element, face), Value{value, step, nullptr});
   }
 }
 
@@ -146,7 +146,7 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
 
 void Loads::read_pressures(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
-  if (is_new(card)) forget_others(&surfaces_, step);
+  if (is_new(card)) forget_others(surfaces_, step);
   for (size_t i = 0; i < card.size(); ++i) {
     const Fields fields = card.line(i, model_->source);
     if (folded(fields.text(1)) != "P") {
@@ -155,7 +155,7 @@ void Loads::read_pressures(size_t use, const Card& card, StepNumber step) {
     fields.at_most(3, "surface, P, pressure");
     const std::string surface =
         surface_named(*model_, use, fields.word(0, "a surface"), fields.origin());
-    put(&surfaces_, surface, Value{factor * fields.number(2, "pressure"), step, nullptr});
+    put(surfaces_, surface, Value{factor * fields.number(2, "pressure"), step, nullptr});
   }
 }
 
@@ -183,10 +183,10 @@ bool Loads::empty() const {
          rotations_.empty() && temperature_.empty();
 }
 
-void Loads::list(Step* out, StepNumber step) {
+void Loads::list(Step& out, StepNumber step) {
   for (const auto& [dof, force] : forces_) {
     if (force.value != 0.0) {
-      out->forces.push_back({dof.first, dof.second, force.value, *force.system});
+      out.forces.push_back({dof.first, dof.second, force.value, *force.system});
     }
   }
   list_pressures(out);
@@ -196,7 +196,7 @@ void Loads::list(Step* out, StepNumber step) {
 }
 
 // Faces with the same pressure are one surface; steps share it.
-void Loads::list_pressures(Step* out) {
+void Loads::list_pressures(Step& out) {
   std::map<double, std::vector<CellFaceId>> by_value;
   for (const auto& [face, load] : faces_) by_value[load.value].push_back(face);
   for (const auto& [value, faces] : by_value) {
@@ -205,14 +205,14 @@ void Loads::list_pressures(Step* out) {
     if (name.empty()) {
       name = add_surface(*model_, fmt::format("dload_{}", made_surfaces_.size()), faces);
     }
-    out->pressures.push_back({name, value});
+    out.pressures.push_back({name, value});
   }
   for (const auto& [surface, load] : surfaces_) {
-    if (load.value != 0.0) out->pressures.push_back({surface, load.value});
+    if (load.value != 0.0) out.pressures.push_back({surface, load.value});
   }
 }
 
-void Loads::list_gravity(Step* out) const {
+void Loads::list_gravity(Step& out) const {
   for (const auto& [vector, gravity] : gravity_) {
     const auto missing = std::find(gravity.covered.begin(), gravity.covered.end(), false);
     if (missing != gravity.covered.end()) {
@@ -220,12 +220,12 @@ void Loads::list_gravity(Step* out) const {
                           "GRAV acts on some elements only, which is not supported, "
                           "expected all");
     }
-    out->acceleration += Eigen::Vector3d(vector.data());
+    out.acceleration += Eigen::Vector3d(vector.data());
   }
 }
 
 // Only entire regions rotate: the rotating part of a section is a region of its own (mesh.cpp).
-void Loads::list_rotations(Step* out) const {
+void Loads::list_rotations(Step& out) const {
   const Mesh& mesh = model_->deck.mesh;
   for (const Rotation& rotation : rotations_) {
     if (rotation.what.omega_squared == 0.0) continue;
@@ -234,8 +234,8 @@ void Loads::list_rotations(Step* out) const {
       const auto region = static_cast<size_t>(model_->region_of_cell[cell]);
       if (rotation.covered[cell]) turning[region] = true;
     }
-    out->rotations.push_back(rotation.what);
-    std::vector<std::string>& names = out->rotations.back().regions;
+    out.rotations.push_back(rotation.what);
+    std::vector<std::string>& names = out.rotations.back().regions;
     for (size_t r = 0; r < turning.size(); ++r) {
       if (turning[r]) names.push_back(mesh.regions[r]);
     }
@@ -244,7 +244,7 @@ void Loads::list_rotations(Step* out) const {
 }
 
 // A uniform initial temperature is the materials' reference; others are subtracted from the field.
-void Loads::list_temperature(Step* out, StepNumber step) {
+void Loads::list_temperature(Step& out, StepNumber step) {
   if (temperature_.empty()) return;
   const std::vector<double> initial = initial_field();
   const bool uniform =
@@ -257,8 +257,8 @@ void Loads::list_temperature(Step* out, StepNumber step) {
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
   }
-  out->temperature = fmt::format("temperature_{}", step);
-  model_->deck.mesh.fields[out->temperature] = std::move(field);
+  out.temperature = fmt::format("temperature_{}", step);
+  model_->deck.mesh.fields[out.temperature] = std::move(field);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -26,7 +26,7 @@ class Loads {
   bool empty() const;
   /// Writes all active loads into `out`, with the surfaces and fields of the mesh that they need.
   /// InputError where gravity acts on some elements only, or CENTRIF on a part of a region.
-  void list(Step* out, StepNumber step);
+  void list(Step& out, StepNumber step);
 
  private:
   struct Value {
@@ -52,10 +52,10 @@ class Loads {
   void add_gravity(size_t use, const Fields& fields, double factor, StepNumber step);
   void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
   void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
-  void list_pressures(Step* out);
-  void list_rotations(Step* out) const;
-  void list_gravity(Step* out) const;
-  void list_temperature(Step* out, StepNumber step);
+  void list_pressures(Step& out);
+  void list_rotations(Step& out) const;
+  void list_gravity(Step& out) const;
+  void list_temperature(Step& out, StepNumber step);
   std::vector<double> initial_field() const;
 
   Model* model_;

@@ -96,16 +96,16 @@ void Numbering::add_use(Scope& scope, const InstanceLine* line, int32_t index) {
     use.shift = line->shift;
     use.rotation = line->rotation;
   }
-  add_nodes(scope, &use);
-  add_cells(scope, &use);
+  add_nodes(scope, use);
+  add_cells(scope, use);
   if (line != nullptr) use_of_[folded(use.name)] = static_cast<int>(uses_.size());
   uses_.push_back(use);
 }
 
-void Numbering::add_nodes(Scope& scope, Use* use) {
-  const bool main = use->name.empty();
+void Numbering::add_nodes(Scope& scope, Use& use) {
+  const bool main = use.name.empty();
   const NodeTable nodes = main ? std::move(scope.nodes) : scope.nodes;
-  use->first_node = static_cast<int32_t>(node_ids_.size());
+  use.first_node = static_cast<int32_t>(node_ids_.size());
   if (nodes.ids.empty()) return;
   const auto [low, high] = std::minmax_element(nodes.ids.begin(), nodes.ids.end());
   const int64_t offset = offset_above(highest_node_, *low, *high);
@@ -113,18 +113,17 @@ void Numbering::add_nodes(Scope& scope, Use* use) {
       static_cast<int64_t>(node_ids_.size() + nodes.ids.size()) > kMostNodes) {
     source_.fail(nodes.origins.front(), "found too many or too high node numbers");
   }
-  use->node_offset = static_cast<int32_t>(offset);
-  highest_node_ = std::max(highest_node_, use->node_offset + *high);
+  use.node_offset = static_cast<int32_t>(offset);
+  highest_node_ = std::max(highest_node_, use.node_offset + *high);
   if (main) node_ids_.reserve(node_ids_.size() + nodes.ids.size());
-  for (const int32_t id : nodes.ids) node_ids_.push_back(id + use->node_offset);
+  for (const int32_t id : nodes.ids) node_ids_.push_back(id + use.node_offset);
   if (main) {
     xyz_.reserve(xyz_.size() + nodes.xyz.size());
     xyz_.insert(xyz_.end(), nodes.xyz.begin(), nodes.xyz.end());
     return;
   }
   for (size_t n = 0; n < nodes.ids.size(); ++n) {
-    const Eigen::Vector3d x =
-        use->rotation * Eigen::Vector3d(nodes.xyz.data() + 3 * n) + use->shift;
+    const Eigen::Vector3d x = use.rotation * Eigen::Vector3d(nodes.xyz.data() + 3 * n) + use.shift;
     xyz_.insert(xyz_.end(), x.data(), x.data() + 3);
   }
 }
@@ -135,10 +134,10 @@ int32_t Numbering::row_of(const Use& use, int32_t id, Origin origin) const {
   return use.first_node + local;
 }
 
-void Numbering::add_cells(Scope& scope, Use* use) {
-  use->first_table = static_cast<int32_t>(tables_.size());
-  use->first_cell = cells_;
-  use->first_point = static_cast<int32_t>(points_.size());
+void Numbering::add_cells(Scope& scope, Use& use) {
+  use.first_table = static_cast<int32_t>(tables_.size());
+  use.first_cell = cells_;
+  use.first_point = static_cast<int32_t>(points_.size());
   int32_t low = std::numeric_limits<int32_t>::max(), high = 0;
   int64_t count = 0;
   for (const CellTable& table : scope.cells) {
@@ -149,11 +148,11 @@ void Numbering::add_cells(Scope& scope, Use* use) {
   if (offset + high > kMost || cells_ + count > kMostCells) {
     source_.fail(scope.origin, "found too many or too high element numbers");
   }
-  use->element_offset = static_cast<int32_t>(offset);
-  use->cells = static_cast<int32_t>(count);
-  highest_element_ = std::max(highest_element_, use->element_offset + high);
+  use.element_offset = static_cast<int32_t>(offset);
+  use.cells = static_cast<int32_t>(count);
+  highest_element_ = std::max(highest_element_, use.element_offset + high);
   for (CellTable& from : scope.cells) {
-    CellTable moved = use->name.empty() ? std::move(from) : from;
+    CellTable moved = use.name.empty() ? std::move(from) : from;
     FlatTable table{moved.name,
                     moved.type,
                     moved.formulation,
@@ -162,16 +161,16 @@ void Numbering::add_cells(Scope& scope, Use* use) {
                     std::move(moved.nodes),
                     std::move(moved.origins)};
     const auto columns = static_cast<size_t>(traits(table.type).nodes);
-    for (int32_t& id : table.ids) id += use->element_offset;
+    for (int32_t& id : table.ids) id += use.element_offset;
     for (size_t i = 0; i < table.nodes.size(); ++i) {
-      table.nodes[i] = row_of(*use, table.nodes[i], table.origins[i / columns]);
+      table.nodes[i] = row_of(use, table.nodes[i], table.origins[i / columns]);
     }
     cells_ += static_cast<int32_t>(table.ids.size());
     tables_.push_back(std::move(table));
   }
   for (PointElement point : scope.points) {
-    point.node = row_of(*use, point.node, point.origin);
-    point.second = point.second == 0 ? -1 : row_of(*use, point.second, point.origin);
+    point.node = row_of(use, point.node, point.origin);
+    point.second = point.second == 0 ? -1 : row_of(use, point.second, point.origin);
     points_.push_back(point);
   }
 }

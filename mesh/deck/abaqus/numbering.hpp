@@ -79,8 +79,8 @@ class Numbering {
 
  private:
   void add_use(Scope& scope, const InstanceLine* line, int32_t index);
-  void add_nodes(Scope& scope, Use* use);
-  void add_cells(Scope& scope, Use* use);
+  void add_nodes(Scope& scope, Use& use);
+  void add_cells(Scope& scope, Use& use);
   void index_scope(const Scope& scope);
   int32_t row_of(const Use& use, int32_t id, Origin origin) const;
   int32_t element_at(const Use& use, int32_t local) const;

@@ -13,12 +13,12 @@ namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // An entry of a set: a number, or the name of another set.
-void add_member(std::string_view field, Origin origin, SetChunk* chunk) {
+void add_member(std::string_view field, Origin origin, SetChunk& chunk) {
   if (field.empty()) return;
   if (const auto id = to_integer(field)) {
-    chunk->ids.push_back(*id);
+    chunk.ids.push_back(*id);
   } else {
-    chunk->names.emplace_back(std::string(field), origin);
+    chunk.names.emplace_back(std::string(field), origin);
   }
 }
 
@@ -252,7 +252,7 @@ class Parser {
       chunk.id_lines.emplace_back(chunk.ids.size(), lines_.origin());
       FieldWalk walk(lines_.data());
       std::string_view field;
-      while (walk.next(&field)) add_member(field, lines_.origin(), &chunk);
+      while (walk.next(&field)) add_member(field, lines_.origin(), chunk);
     }
     return kind;
   }
@@ -311,7 +311,7 @@ class Parser {
     instance.origin = keyword.origin;
     Lines::Kind kind = lines_.next();
     for (int line = 0; kind == Lines::Kind::kData; kind = lines_.next(), ++line) {
-      set_position(Fields(lines_.data(), source_, lines_.origin()), line, &instance);
+      set_position(Fields(lines_.data(), source_, lines_.origin()), line, instance);
     }
     if (kind == Lines::Kind::kEnd || lines_.keyword().key != "ENDINSTANCE") {
       source_.fail(keyword.origin,
@@ -322,10 +322,10 @@ class Parser {
     return no_data(lines_.keyword());
   }
 
-  static void set_position(const Fields& fields, int line, InstanceLine* instance) {
+  static void set_position(const Fields& fields, int line, InstanceLine& instance) {
     if (line == 0) {
       fields.at_most(3, "translation of an instance");
-      for (int k = 0; k < 3; ++k) instance->shift[k] = fields.number_or(k, "translation", 0.0);
+      for (int k = 0; k < 3; ++k) instance.shift[k] = fields.number_or(k, "translation", 0.0);
       return;
     }
     if (line > 1) fields.fail("expected at most two lines of an instance");
@@ -338,8 +338,8 @@ class Parser {
     const double length = (b - a).norm();
     if (!(length > 0.0)) fields.fail("expected two different points of the axis");
     const double angle = fields.number(6, "angle in degrees") * std::numbers::pi / 180.0;
-    instance->rotation = Eigen::AngleAxisd(angle, (b - a) / length).toRotationMatrix();
-    instance->shift = instance->rotation * (instance->shift - a) + a;
+    instance.rotation = Eigen::AngleAxisd(angle, (b - a) / length).toRotationMatrix();
+    instance.shift = instance.rotation * (instance.shift - a) + a;
   }
 
   Lines lines_;

@@ -39,12 +39,12 @@ int32_t id_of(std::string_view field, const Lines& lines, std::string_view what)
   return *id;
 }
 
-void read_node(const Lines& lines, NodeTable* nodes) {
+void read_node(const Lines& lines, NodeTable& nodes) {
   FieldWalk walk(lines.data());
   std::string_view field;
   walk.next(&field);
-  nodes->ids.push_back(id_of(field, lines, "the number of a node"));
-  nodes->origins.push_back(lines.origin());
+  nodes.ids.push_back(id_of(field, lines, "the number of a node"));
+  nodes.origins.push_back(lines.origin());
   for (int k = 0; k < 3; ++k) {
     std::optional<double> x = 0.0;
     if (walk.next(&field) && !field.empty()) x = to_number(field);
@@ -52,7 +52,7 @@ void read_node(const Lines& lines, NodeTable* nodes) {
       lines.source().fail(lines.origin(),
                           fmt::format("found {}, expected a coordinate", shown(field)));
     }
-    nodes->xyz.push_back(*x);
+    nodes.xyz.push_back(*x);
   }
 }
 
@@ -193,7 +193,7 @@ Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore) {
   }
   const auto first = scope.nodes.ids.size();
   Lines::Kind kind = lines.next();
-  for (; kind == Lines::Kind::kData; kind = lines.next()) read_node(lines, &scope.nodes);
+  for (; kind == Lines::Kind::kData; kind = lines.next()) read_node(lines, scope.nodes);
   if (keyword.has("NSET")) {
     const std::string& name = keyword.required("NSET", lines.source());
     SetChunk& chunk = new_chunk(scope.node_sets, name, keyword.origin);

@@ -60,7 +60,7 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin orig
     numbering_.source().fail(origin, fmt::format("found more than {} nested sets", kDeepest));
   }
   std::vector<int32_t> members;
-  for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, &members);
+  for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, members);
   --depth_;
   sort_unique(members);
   members.shrink_to_fit();
@@ -74,7 +74,7 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin orig
   return entry.members;
 }
 
-void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) {
+void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) {
   if (!chunk.instance.empty()) {
     const int instance = numbering_.find_use(chunk.instance);
     if (instance < 0) {
@@ -92,7 +92,7 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
   }
   for (const auto& [name, origin] : chunk.names) {
     const auto other = at(kind, Fields(name, numbering_.source(), origin), 0, use);
-    out->insert(out->end(), other.begin(), other.end());
+    out.insert(out.end(), other.begin(), other.end());
     compact(out);
   }
   for (const std::string& name : chunk.elements_of) {
@@ -100,45 +100,45 @@ void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<i
       if (element >= numbering_.cells()) {
         const PointElement& point =
             numbering_.points()[static_cast<size_t>(element - numbering_.cells())];
-        out->push_back(point.node);
-        if (point.second >= 0) out->push_back(point.second);
+        out.push_back(point.node);
+        if (point.second >= 0) out.push_back(point.second);
         continue;
       }
       const auto rows = numbering_.nodes_of(element);
-      out->insert(out->end(), rows.begin(), rows.end());
+      out.insert(out.end(), rows.begin(), rows.end());
     }
   }
 }
 
 // Repeated ranges take no more memory than a few complete sets, and linear time in their members.
-void Sets::compact(std::vector<int32_t>* out) const {
+void Sets::compact(std::vector<int32_t>& out) const {
   const size_t all = static_cast<size_t>(numbering_.nodes()) +
                      static_cast<size_t>(numbering_.cells()) + numbering_.points().size();
-  if (out->size() <= 4 * all + 4096) return;
+  if (out.size() <= 4 * all + 4096) return;
   std::vector<bool> is_member(all, false);
-  for (const int32_t member : *out) is_member[static_cast<size_t>(member)] = true;
-  out->clear();
+  for (const int32_t member : out) is_member[static_cast<size_t>(member)] = true;
+  out.clear();
   for (size_t member = 0; member < all; ++member) {
-    if (is_member[member]) out->push_back(static_cast<int32_t>(member));
+    if (is_member[member]) out.push_back(static_cast<int32_t>(member));
   }
 }
 
 // Rows of *NODE, NSET= or *ELEMENT, ELSET=. A node that is given twice counts as its first row.
-void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const {
+void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) const {
   const Use& at = numbering_.uses()[use];
   for (int32_t row = chunk.row_begin; row < chunk.row_end; ++row) {
     if (kind == Kind::kElements) {
       const size_t table = static_cast<size_t>(at.first_table + chunk.table);
-      out->push_back(numbering_.tables()[table].first + row);
+      out.push_back(numbering_.tables()[table].first + row);
     } else {
       const int32_t id = numbering_.node_ids()[static_cast<size_t>(at.first_node + row)];
-      out->push_back(numbering_.find_node(use, id - at.node_offset));
+      out.push_back(numbering_.find_node(use, id - at.node_offset));
     }
   }
 }
 
 void Sets::add_numbers(Kind kind, size_t use, const SetChunk& chunk,
-                       std::vector<int32_t>* out) const {
+                       std::vector<int32_t>& out) const {
   size_t line = 0;
   for (size_t i = 0; i < chunk.ids.size(); ++i) {
     while (line + 1 < chunk.id_lines.size() && chunk.id_lines[line + 1].first <= i) ++line;
@@ -148,15 +148,15 @@ void Sets::add_numbers(Kind kind, size_t use, const SetChunk& chunk,
           chunk.id_lines[line].second,
           fmt::format("found no {} {}", kind == Kind::kNodes ? "node" : "element", chunk.ids[i]));
     }
-    if (member >= 0) out->push_back(member);
+    if (member >= 0) out.push_back(member);
   }
 }
 
 // Missing numbers within a range are no error: programs write ranges over gaps.
-void Sets::add_range(Kind kind, size_t use, const IdRange& range, std::vector<int32_t>* out) const {
+void Sets::add_range(Kind kind, size_t use, const IdRange& range, std::vector<int32_t>& out) const {
   const auto found = kind == Kind::kNodes ? numbering_.find_nodes(use, range)
                                           : numbering_.find_elements(use, range);
-  out->insert(out->end(), found.begin(), found.end());
+  out.insert(out.end(), found.begin(), found.end());
 }
 
 std::vector<int32_t> Sets::at(Kind kind, const Fields& fields, size_t i, size_t use) {

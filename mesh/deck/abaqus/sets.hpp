@@ -40,13 +40,13 @@ class Sets {
   Key key_of(size_t use, const std::string& name) const;
   const IdSets& sets_of(Kind kind, size_t use) const;
   const std::vector<int32_t>& resolve(Kind kind, const Key& key, Origin origin);
-  void add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out);
-  void add_numbers(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const;
-  void add_range(Kind kind, size_t use, const IdRange& range, std::vector<int32_t>* out) const;
-  void add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const;
+  void add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out);
+  void add_numbers(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) const;
+  void add_range(Kind kind, size_t use, const IdRange& range, std::vector<int32_t>& out) const;
+  void add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) const;
   int32_t find(Kind kind, size_t use, int32_t id) const;
   std::vector<int32_t> at(Kind kind, const Fields& fields, size_t i, size_t use);
-  void compact(std::vector<int32_t>* out) const;
+  void compact(std::vector<int32_t>& out) const;
 
   const Numbering& numbering_;
   std::map<Key, Entry> done_[2];

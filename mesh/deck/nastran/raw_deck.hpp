@@ -229,7 +229,7 @@ struct RawDeck {
   std::map<int32_t, TemperatureSet> temperatures;
   std::map<int32_t, int32_t> eigen_counts;  // EIGRL, EIGR: number of modes, 0: not given
 
-  // Content of "$ clatter" comments (nastran_writer.hpp).
+  // Content of "$ clatter" comments (writer.hpp).
   std::map<int32_t, std::string> region_names, set_names;
   std::map<int32_t, std::array<double, 3>> exact;  // coordinates of GRIDs still to come
   struct NamedSurface {

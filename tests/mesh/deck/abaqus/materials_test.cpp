@@ -2,7 +2,6 @@
 // Materials and the systems of their axes.
 #include <cmath>
 
-#include "mesh/deck/abaqus/reading.hpp"
 #include "mesh/deck/system_axes.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 

@@ -10,6 +10,7 @@
 #include "mesh/deck/abaqus/cells.hpp"
 #include "mesh/deck/abaqus/number.hpp"
 #include "mesh/deck/abaqus/writer.hpp"
+#include "mesh/deck/field_text.hpp"
 #include "tests/mesh/deck/abaqus/support.hpp"
 #include "tests/mesh/support.hpp"
 #include "tests/refusal.hpp"
