@@ -61,7 +61,7 @@ void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, Node
       const Vector3d& t = rows[i];
       const Vector3d turn = arm.cross(t);
       Equation equation;
-      equation.where = model.where(raw.origin);
+      equation.where = model.source.where(raw.origin);
       add_term(equation.terms, dependent, base + pivots[i], 1.0);
       for (int k = 0; k < 3; ++k) {
         if (k != pivots[i]) add_term(equation.terms, dependent, base + k, t[k]);
@@ -76,7 +76,7 @@ void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, Node
 void add_rigid(Model& model, const RawRigid& raw) {
   Rigid rigid;
   rigid.name = fmt::format("rbe2_{}", raw.id);
-  rigid.where = model.where(raw.origin);
+  rigid.where = model.source.where(raw.origin);
   rigid.reference = model.require(raw.reference, raw.origin);
   rigid.dofs = raw.dofs;
   for (const NodeIndex node_index : model.node_indices(raw.dependents, raw.origin, true)) {
@@ -103,7 +103,7 @@ void add_rigid(Model& model, const RawRigid& raw) {
 void add_distributing(Model& model, const RawDistributing& raw) {
   Distributing rbe3;
   rbe3.name = fmt::format("rbe3_{}", raw.id);
-  rbe3.where = model.where(raw.origin);
+  rbe3.where = model.source.where(raw.origin);
   rbe3.reference = model.require(raw.reference, raw.origin);
   rbe3.dofs = raw.dofs;
   const auto check_frame = [&](NodeIndex node_index, DofMask dofs) {

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 void add_equation(Model& model, const RawEquation& raw) {
   Equation equation;
-  equation.where = model.where(raw.origin);
+  equation.where = model.source.where(raw.origin);
   for (const auto& term : raw.terms) {
     const NodeIndex node_index = model.require(term.grid, raw.origin);
     const int base = term.direction < 3 ? 0 : 3;

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 void add_mass(Model& model, const RawMass& raw) {
   Mass mass;
-  mass.where = model.where(raw.origin);
+  mass.where = model.source.where(raw.origin);
   mass.node_index = model.require(raw.grid, raw.origin);
   const double factor = model.raw.control.mass_factor;
   mass.mass = factor * raw.mass;

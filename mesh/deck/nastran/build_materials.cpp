@@ -53,7 +53,7 @@ std::string use_material(Model& model, int32_t id, Origin origin) {
   }
   material.kind = raw.kind;
   material.name = name;
-  material.where = model.where(raw.origin);
+  material.where = model.source.where(raw.origin);
   material.density = raw.density * model.raw.control.mass_factor;
   material.expansion = raw.expansion;
   material.reference_temperature = raw.reference_temperature;

@@ -22,7 +22,7 @@ void check_cell_numbers(Model& model) {
   const Origin here = origins[static_cast<size_t>(second)];
   model.source.fail(here, fmt::format("cell {}: found another one with this number at {}",
                                       ids[static_cast<size_t>(second)],
-                                      model.where(origins[static_cast<size_t>(first)])));
+                                      model.source.where(origins[static_cast<size_t>(first)])));
 }
 
 // GRID numbers of the cells become rows of the GRID table.

@@ -36,7 +36,7 @@ Formulation formulation_of(const Model& model, const RawSolid& solid, CellType t
 
 Region region_of(Model& model, int32_t property, const RawSolid& solid) {
   Region region;
-  region.where = model.where(solid.origin);
+  region.where = model.source.where(solid.origin);
   region.material = use_material(model, solid.material, solid.origin);
   const auto material = model.raw.materials.find(solid.material);
   const bool isotropic =

@@ -30,7 +30,7 @@ void add_end(Model& model, const RawSpring& raw, const RawSpring::End& end, doub
 
 void add_spring(Model& model, const RawSpring& raw) {
   Spring spring;
-  spring.where = model.where(raw.origin);
+  spring.where = model.source.where(raw.origin);
   spring.stiffness = raw.stiffness;
   if (raw.property > 0) {
     const auto found = model.raw.spring_stiffness.find(raw.property);

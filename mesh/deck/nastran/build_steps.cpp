@@ -48,7 +48,7 @@ class Steps {
   void add_load_step(int32_t load) {
     Step step;
     step.name = fmt::format("load_{}", load);
-    step.where = model_.where(loads_.origin_of(load));
+    step.where = model_.source.where(loads_.origin_of(load));
     loads_.list(step, load, loads_.origin_of(load));
     model_.deck.steps.push_back(std::move(step));
   }
@@ -57,7 +57,7 @@ class Steps {
     const Choice& choice = subcase.choice;
     Step step;
     step.name = fmt::format("subcase_{}", subcase.id);
-    step.where = model_.where(subcase.origin);
+    step.where = model_.source.where(subcase.origin);
     const int32_t solution = raw_.control.solution;
     if (solution == 101) step.kind = Step::Kind::kStatic;
     if (solution == 103) step.kind = Step::Kind::kFrequency;

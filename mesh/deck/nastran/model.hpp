@@ -32,7 +32,6 @@ class Model {
   int32_t displacement_system(NodeIndex node_index) const;
   /// Name of a system, which is added to the Deck; empty for the basic one.
   std::string system_name(int32_t system, Origin origin);
-  std::string where(Origin origin) const { return source.where(origin); }
   /// Counts the effort of nested lists, which could otherwise exhaust the memory.
   void spend(int64_t effort, Origin origin);
 

@@ -55,7 +55,7 @@ void Supports::merge(size_t begin, size_t end) {
     auto [at, fresh] = groups_.try_emplace({system, value, dofs});
     Support& support = at->second;
     if (fresh) {
-      support.where = model_.where(first.origin);
+      support.where = model_.source.where(first.origin);
       support.dofs = dofs;
       support.value = value;
       support.system = model_.system_name(system, first.origin);

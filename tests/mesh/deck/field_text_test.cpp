@@ -47,7 +47,7 @@ TEST(DeckNumbers, WhatIsNoFiniteNumberIsNone) {
 
 TEST(DeckText, IsShownShortAndPrintable) {
   EXPECT_EQ(shown("a b"), "'a b'");
-  EXPECT_EQ(shown("\x01\xff"), "'??'");
+  EXPECT_EQ(shown("a\x01z\xff"), "'a?z?'");
   EXPECT_EQ(shown(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
