@@ -100,7 +100,7 @@ std::vector<CellFaceId> free_faces(const Numbering& numbering, const std::vector
   return faces;
 }
 
-// Key of Reading::surface_names; "instance.name" refers to a surface of the instance.
+// Key of Model::surface_names; "instance.name" refers to a surface of the instance.
 std::string key_of(const Model& model, size_t use, const std::string& name) {
   std::string rest = name;
   for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {

@@ -60,7 +60,7 @@ class Parser {
   }
 
  private:
-  // Runs a model step; goes to the next keyword if it was refused: tables then have gaps, and
+  // Runs one step of the parser; goes to the next keyword if it was refused: tables then have gaps, and
   // references to their nodes and elements are not checked.
   template <class Body>
   Lines::Kind go_on(const Body& body) {

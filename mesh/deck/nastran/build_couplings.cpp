@@ -47,11 +47,11 @@ std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
 // RBE2 in some directions of a displacement system: for each direction t of the dependent d,
 // t . (u_d - u_r - theta_r x (x_d - x_r)) = 0, and for rotations t . (theta_d - theta_r) = 0.
 void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, NodeIndex dependent) {
-  const Matrix3d axes = model.systems.directions(model.displacement_system(dependent),
-                                                 model.position(dependent), raw.origin);
-  const Vector3d arm = model.position(dependent) - model.position(reference);
+  const Matrix3d axes = model.systems.directions(model.node_map.displacement_system(dependent),
+                                                 model.node_map.position(dependent), raw.origin);
+  const Vector3d arm = model.node_map.position(dependent) - model.node_map.position(reference);
   for (const int base : {0, 3}) {
-    if (base == 3 && !model.is_point(dependent)) break;
+    if (base == 3 && !model.node_map.is_point(dependent)) break;
     std::vector<Vector3d> rows;
     for (int k = 0; k < 3; ++k) {
       if (raw.dofs >> (base + k) & 1) rows.push_back(axes.col(k));
@@ -84,10 +84,10 @@ void add_rigid(Model& model, const RawRigid& raw) {
       model.source.fail(raw.origin, fmt::format("RBE2 {}: its reference {} is a dependent, too",
                                                 raw.id, raw.reference));
     }
-    const bool basic = model.displacement_system(node_index) == 0;
-    if (basic || frame_free(raw.dofs, model.is_point(node_index))) {
+    const bool basic = model.node_map.displacement_system(node_index) == 0;
+    if (basic || frame_free(raw.dofs, model.node_map.is_point(node_index))) {
       rigid.dependents.push_back(node_index);
-    } else if (!model.is_point(rigid.reference)) {
+    } else if (!model.node_map.is_point(rigid.reference)) {
       model.source.fail(
           raw.origin,
           fmt::format("RBE2 {}: found some directions of a displacement system (CD) and "
@@ -107,7 +107,7 @@ void add_distributing(Model& model, const RawDistributing& raw) {
   rbe3.reference = model.require(raw.reference, raw.origin);
   rbe3.dofs = raw.dofs;
   const auto check_frame = [&](NodeIndex node_index, DofMask dofs) {
-    if (model.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
+    if (model.node_map.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
     model.source.fail(raw.origin,
                       fmt::format("RBE3 {}: some directions of a displacement system (CD) "
                                   "are not supported, expected 123, 456 or 123456",
@@ -119,7 +119,7 @@ void add_distributing(Model& model, const RawDistributing& raw) {
                             model.node_indices(raw_term.grids, raw.origin, true)};
     for (const NodeIndex node_index : term.node_indices) {
       check_frame(node_index, term.dofs);
-      if (!model.is_point(node_index) && (term.dofs & kRotations) != 0) {
+      if (!model.node_map.is_point(node_index) && (term.dofs & kRotations) != 0) {
         model.source.fail(
             raw.origin,
             fmt::format("RBE3 {}: found rotations of node {} of solids, which has none; "

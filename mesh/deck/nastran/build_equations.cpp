@@ -16,19 +16,20 @@ void add_equation(Model& model, const RawEquation& raw) {
   for (const auto& term : raw.terms) {
     const NodeIndex node_index = model.require(term.grid, raw.origin);
     const int base = term.direction < 3 ? 0 : 3;
-    if (base == 3 && !model.is_point(node_index)) {
+    if (base == 3 && !model.node_map.is_point(node_index)) {
       model.source.fail(raw.origin, fmt::format("MPC: found a rotation of node {} of solids, which "
                                                 "has none",
                                                 term.grid));
     }
-    const int32_t system = model.displacement_system(node_index);
+    const int32_t system = model.node_map.displacement_system(node_index);
     if (system == 0) {
       add_term(equation.terms, node_index, term.direction, term.coefficient);
       continue;
     }
     const Vector3d t =
-        term.coefficient * model.systems.directions(system, model.position(node_index), raw.origin)
-                               .col(term.direction - base);
+        term.coefficient *
+        model.systems.directions(system, model.node_map.position(node_index), raw.origin)
+            .col(term.direction - base);
     Eigen::Index largest = 0;  // first: the first term of an equation is the dependent
     t.cwiseAbs().maxCoeff(&largest);
     add_term(equation.terms, node_index, base + static_cast<int>(largest), t[largest]);

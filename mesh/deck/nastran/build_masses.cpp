@@ -24,11 +24,11 @@ void add_mass(Model& model, const RawMass& raw) {
   // I21, I31, I32 are integrals of products; the tensor has their negatives.
   inertia << i[0], -i[1], -i[3], -i[1], i[2], -i[4], -i[3], -i[4], i[5];
   if (raw.system < 0) {
-    mass.offset = offset - model.position(mass.node_index);
+    mass.offset = offset - model.node_map.position(mass.node_index);
     mass.inertia = factor * inertia;
   } else {
     const Matrix3d axes =
-        model.systems.directions(raw.system, model.position(mass.node_index), raw.origin);
+        model.systems.directions(raw.system, model.node_map.position(mass.node_index), raw.origin);
     mass.offset = axes * offset;
     mass.inertia = factor * axes * inertia * axes.transpose();
   }

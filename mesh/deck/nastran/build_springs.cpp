@@ -11,16 +11,16 @@ void add_end(Model& model, const RawSpring& raw, const RawSpring::End& end, doub
              Spring& spring) {
   const NodeIndex node_index = model.require(end.grid, raw.origin);
   const int base = end.direction < 3 ? 0 : 3;
-  if (base == 3 && !model.is_point(node_index)) {
+  if (base == 3 && !model.node_map.is_point(node_index)) {
     model.source.fail(raw.origin,
                       fmt::format("spring: found a rotation of node {} of solids, which "
                                   "has none",
                                   end.grid));
   }
-  const int32_t system = model.displacement_system(node_index);
+  const int32_t system = model.node_map.displacement_system(node_index);
   Eigen::Vector3d t = Eigen::Vector3d::Unit(end.direction - base);
   if (system != 0) {
-    t = model.systems.directions(system, model.position(node_index), raw.origin)
+    t = model.systems.directions(system, model.node_map.position(node_index), raw.origin)
             .col(end.direction - base);
   }
   for (int k = 0; k < 3; ++k) {

@@ -25,7 +25,7 @@ void build_supports(Model& model) {
   };
   Supports permanent(model, "ps");
   for (size_t row = 0; row < model.raw.grids.held.size(); ++row) {
-    permanent.add_node(model.index_of_row[row], model.raw.grids.held[row], 0.0,
+    permanent.add_node(model.node_map.find(row), model.raw.grids.held[row], 0.0,
                        model.raw.grids.origins[row]);
   }
   append(model.deck.supports, permanent.list());

@@ -40,7 +40,7 @@ void add_surface(Model& model, const RawDeck::NamedSurface& raw) {
     for (size_t k = 0; k < nodes; ++k) {
       const int32_t grid = raw.nodes[kMaxFaceNodes * i + k];
       face[k] = model.find(grid, raw.origin);
-      if (face[k] >= 0 && !model.is_point(face[k])) continue;
+      if (face[k] >= 0 && !model.node_map.is_point(face[k])) continue;
       model.source.fail(raw.origin, fmt::format("surface {}: node {} belongs to no solid",
                                                 shown(raw.name), grid));
     }

@@ -105,13 +105,14 @@ void Loads::list_force(Step& step, const RawForce& raw, double factor) {
     model_.source.fail(
         raw.origin, fmt::format("{}: grid {} belongs to no solid and no coupling", card, raw.grid));
   }
-  if (raw.moment && !model_.is_point(node_index)) {
+  if (raw.moment && !model_.node_map.is_point(node_index)) {
     model_.source.fail(raw.origin,
                        fmt::format("MOMENT: node {} of solids has no rotations", raw.grid));
   }
   const Vector3d force =
-      factor * (model_.systems.directions(raw.system, model_.position(node_index), raw.origin) *
-                vector(raw.vector));
+      factor *
+      (model_.systems.directions(raw.system, model_.node_map.position(node_index), raw.origin) *
+       vector(raw.vector));
   for (int k = 0; k < 3; ++k) {
     if (!std::isfinite(force[k])) {
       model_.source.fail(raw.origin, fmt::format("{}: its numbers are too large", card));
@@ -133,14 +134,15 @@ void Loads::list_temperature(Step& step, int32_t id, Origin origin) {
 }
 
 RowMatrix Loads::temperatures(int32_t id, const TemperatureSet& set) {
-  model_.spend(8 * model_.node_count, set.origin);
+  model_.spend(8 * model_.node_map.node_count(), set.origin);
   const double none = set.has_default ? set.default_value : std::nan("");
-  RowMatrix values = RowMatrix::Constant(model_.node_count, 1, none);
+  RowMatrix values = RowMatrix::Constant(model_.node_map.node_count(), 1, none);
   for (const auto& entry : set.values) {
     const NodeIndex node_index = model_.find(entry.grid, entry.origin);
-    if (node_index >= 0 && !model_.is_point(node_index)) values(node_index, 0) = entry.value;
+    if (node_index >= 0 && !model_.node_map.is_point(node_index))
+      values(node_index, 0) = entry.value;
   }
-  for (NodeIndex node = 0; node < model_.node_count; ++node) {
+  for (NodeIndex node = 0; node < model_.node_map.node_count(); ++node) {
     if (!std::isnan(values(node, 0))) continue;
     model_.source.fail(set.origin,
                        fmt::format("temperature set {}: found no TEMP of node {} and no TEMPD", id,

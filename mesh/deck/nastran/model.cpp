@@ -52,7 +52,7 @@ Model::Model(const Source& deck_source, RawDeck cards, Refusals& all_refusals)
       raw(with_defaults(std::move(cards))),
       grids(grid_index(raw.grids, source)),
       systems(raw, grids, source),
-      index_of_row(raw.grids.size(), -1) {
+      node_map(raw, deck) {
   for (size_t row = 0; row < raw.grids.cp.size(); ++row) {
     Eigen::Map<Eigen::Vector3d> at(raw.grids.at[row].data());
     at = systems.to_basic(raw.grids.cp[row], at, raw.grids.origins[row]);
@@ -65,44 +65,28 @@ size_t Model::row_of(int32_t grid, Origin origin) const {
   return static_cast<size_t>(row);
 }
 
-NodeIndex Model::node_index_of(size_t row, Origin origin, bool make_points) {
-  NodeIndex& node_index = index_of_row[row];
-  if (node_index >= 0 || !make_points) return node_index;
-  spend(16, origin);
-  node_index = node_count + static_cast<NodeIndex>(deck.points.size());
-  const auto& at = raw.grids.at[row];
-  deck.points.push_back({raw.grids.ids[row], {at[0], at[1], at[2]}});
-  row_of_index_.push_back(static_cast<int32_t>(row));
-  return node_index;
+NodeIndex Model::require_row(size_t row, Origin origin) {
+  if (node_map.find(row) == NodeMap::kNone) spend(16, origin);
+  return node_map.require(row);
 }
 
 NodeIndex Model::require(int32_t grid, Origin origin) {
-  return node_index_of(row_of(grid, origin), origin, true);
+  return require_row(row_of(grid, origin), origin);
 }
 
 NodeIndex Model::find(int32_t grid, Origin origin) const {
-  return index_of_row[row_of(grid, origin)];
+  return node_map.find(row_of(grid, origin));
 }
 
 std::vector<NodeIndex> Model::node_indices(const IdList& list, Origin origin, bool make_points) {
   std::vector<NodeIndex> out;
   for_each_grid(list, origin, [&](size_t row) {
-    const NodeIndex node_index = node_index_of(row, origin, make_points);
-    if (node_index < 0) return;
+    const NodeIndex node_index = make_points ? require_row(row, origin) : node_map.find(row);
+    if (node_index == NodeMap::kNone) return;
     spend(16, origin);
     out.push_back(node_index);
   });
   return out;
-}
-
-Eigen::Vector3d Model::position(NodeIndex node_index) const {
-  if (is_point(node_index)) return deck.points[static_cast<size_t>(node_index - node_count)].at;
-  return deck.mesh.nodes.row(node_index).transpose();
-}
-
-int32_t Model::displacement_system(NodeIndex node_index) const {
-  return column_at(raw.grids.cd,
-                   static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]));
 }
 
 std::string Model::system_name(int32_t system, Origin origin) {
@@ -126,7 +110,7 @@ void add_term(std::vector<Equation::Term>& terms, NodeIndex node_index, int dire
 }
 
 void count_unused(Model& model) {
-  const auto unused = std::count(model.index_of_row.begin(), model.index_of_row.end(), -1);
+  const int64_t unused = model.node_map.unused();
   if (unused > 0) model.deck.ignored["GRID (of no solid and no coupling)"] = unused;
 }
 

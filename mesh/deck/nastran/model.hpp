@@ -2,6 +2,7 @@
 #pragma once
 // Builds the Deck from the cards: shared state, and the functions in call order.
 #include "mesh/deck/id_index.hpp"
+#include "mesh/deck/nastran/node_map.hpp"
 #include "mesh/deck/nastran/raw_deck.hpp"
 #include "mesh/deck/nastran/systems.hpp"
 #include "mesh/deck/refusals.hpp"
@@ -25,11 +26,6 @@ class Model {
   /// Calls body(row of the grid) for each grid of the list.
   template <class Body>
   void for_each_grid(const IdList& list, Origin origin, const Body& body);
-  bool is_point(NodeIndex node_index) const { return node_index >= node_count; }
-  /// Position of a mesh node or a point.
-  Eigen::Vector3d position(NodeIndex node_index) const;
-  /// Number of its displacement system, 0: basic.
-  int32_t displacement_system(NodeIndex node_index) const;
   /// Name of a system, which is added to the Deck; empty for the basic one.
   std::string system_name(int32_t system, Origin origin);
   /// Counts the effort of nested lists, which could otherwise exhaust the memory.
@@ -41,24 +37,21 @@ class Model {
   IdIndex grids;  // row of a GRID
   Systems systems;
   Deck deck;
-  std::vector<NodeIndex> index_of_row;
-  std::vector<int32_t> hanging_rows;  // grids that complete_cells() added
-  NodeIndex node_count = 0;
-  IdIndex cells;  // numbered across all blocks of the mesh
+  NodeMap node_map;  // empty until the mesh is built
+  IdIndex cells;     // numbered across all blocks of the mesh
 
  private:
   size_t row_of(int32_t grid, Origin origin) const;
-  NodeIndex node_index_of(size_t row, Origin origin, bool make_points);
+  NodeIndex require_row(size_t row, Origin origin);
 
-  std::vector<int32_t> row_of_index_;
   int64_t effort_ = 0;
-  friend void build_mesh(Model& model);
 };
 
 /// Cells, nodes, regions. Grids without cells get no node index yet.
 void build_mesh(Model& model);
-/// Adds the mid-side nodes that cards omit from a quadratic cell; needs the rows of cells.
-void complete_cells(Model& model);
+/// Adds the mid-side nodes that cards omit from a quadratic cell to the grids and to `mesh_node`
+/// (of each row, NodeMap::kNone or not); needs the rows of cells. Returns their rows.
+std::vector<int32_t> complete_cells(Model& model, std::vector<int32_t>& mesh_node);
 /// PSOLID -> regions of the mesh and of the deck; `properties` are their numbers.
 void build_regions(Model& model, const std::vector<int32_t>& properties);
 /// MAT1, MAT9 -> Deck::materials. Name of the material; empty when the deck has none at all.

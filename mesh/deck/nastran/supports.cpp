@@ -9,13 +9,13 @@ namespace clatter::mesh::deck::nastran {
 
 void Supports::read(const RawHold& hold) {
   model_.for_each_grid(hold.grids, hold.origin, [&](size_t row) {
-    add_node(model_.index_of_row[row], hold.dofs, hold.value, hold.origin);
+    add_node(model_.node_map.find(row), hold.dofs, hold.value, hold.origin);
   });
 }
 
 void Supports::add_node(NodeIndex node_index, DofMask dofs, double value, Origin origin) {
   if (node_index < 0) return;
-  if (!model_.is_point(node_index)) dofs = dofs & kTranslations;
+  if (!model_.node_map.is_point(node_index)) dofs = dofs & kTranslations;
   if (dofs == 0) return;
   model_.spend(16, origin);
   held_.push_back({node_index, dofs, origin, value});
@@ -50,7 +50,7 @@ void Supports::merge(size_t begin, size_t end) {
     dofs = static_cast<DofMask>(dofs | held.dofs);
   }
   const Held& first = held_[begin];
-  const int32_t system = model_.displacement_system(first.node_index);
+  const int32_t system = model_.node_map.displacement_system(first.node_index);
   for (const auto& [value, dofs] : by_value) {
     auto [at, fresh] = groups_.try_emplace({system, value, dofs});
     Support& support = at->second;
