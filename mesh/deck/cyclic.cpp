@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -166,8 +167,8 @@ int64_t size_of(const Deck& deck) {
 
 class Unfolding {
  public:
-  Unfolding(Deck* deck, const CyclicSector& sector)
-      : deck_(*deck), mesh_(deck->mesh), sector_(sector), ring_(mesh_, sector) {}
+  Unfolding(Deck& deck, const CyclicSector& sector)
+      : deck_(deck), mesh_(deck.mesh), sector_(sector), ring_(mesh_, sector) {}
 
   void run() {
     refuse_others();
@@ -227,8 +228,7 @@ class Unfolding {
     std::vector<int32_t> all;
     for (int32_t k = 0; k < sector_.count; ++k)
       for (const int32_t node : nodes) all.push_back(ring_.at(k, node));
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_unique(all);
     return all;
   }
 
@@ -360,11 +360,11 @@ class Unfolding {
 
 }  // namespace
 
-void unfold(Deck* deck, const CyclicSector& sector) {
-  if (!deck->points.empty())
+void unfold(Deck& deck, const CyclicSector& sector) {
+  if (!deck.points.empty())
     throw InputError(fmt::format("{}: found node {}, which belongs to no cell, expected cells only",
-                                 sector.where, deck->points.front().id));
-  const int64_t size = size_of(*deck);
+                                 sector.where, deck.points.front().id));
+  const int64_t size = size_of(deck);
   if (size > kMost / sector.count)
     throw InputError(
         fmt::format("{}: found {} sectors of {} nodes, cells, faces, members of sets and "

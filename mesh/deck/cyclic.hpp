@@ -25,6 +25,6 @@ struct CyclicSector {
 /// InputError beginning with `where` for sides whose nodes do not coincide after rotation (to 1e-4
 /// of the sides' extent), and for what cannot be repeated about the axis: reference points with
 /// their couplings, equations, ties, springs, masses, loads and material axes in other directions.
-void unfold(Deck* deck, const CyclicSector& sector);
+void unfold(Deck& deck, const CyclicSector& sector);
 
 }  // namespace clatter::mesh::deck

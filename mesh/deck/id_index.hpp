@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Maps numbers of a deck to rows of a table.
+// Ranges of numbers of a deck, and the rows of a table that have them.
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace clatter::mesh::deck {
+
+/// Numbers first, first + step, ... up to last.
+struct IdRange {
+  int32_t first = 0, last = 0, step = 1;
+  bool is_range = false;  // members that do not exist are no error
+};
 
 /// A direct table if the numbers are dense, else a sorted list: at most 16 bytes per number and a
 /// quarter of a megabyte.

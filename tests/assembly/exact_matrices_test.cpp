@@ -114,7 +114,7 @@ class BeamOfADeck : public ::testing::Test {
  protected:
   void SetUp() override {
     const mesh::Mesh block = block_mesh({1, 1, 6}, brick({20.0, 20.0, 500.0}));
-    mesh_ = mesh::deck::read_abaqus_text(test::abaqus_beam(block), "beam.inp", {}).mesh;
+    mesh_ = mesh::deck::read_abaqus_text("beam.inp", test::abaqus_beam(block)).mesh;
     ASSERT_EQ(mesh_.nodes, block.nodes);
     ours_ = fe::assemble(mesh_, materials_of(mesh_, kBeamSteel), fe::node_pattern(mesh_));
     exact_ = exact_matrices(mesh_, kBeamSteel);

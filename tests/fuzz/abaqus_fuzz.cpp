@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const clatter::mesh::deck::ReadOptions options{{"NLGEOM", "S3", "*SHELL SECTION", "MOMENT"}};
   try {
-    clatter::mesh::deck::read_abaqus_text(text, "fuzz.inp", options);
+    clatter::mesh::deck::read_abaqus_text("fuzz.inp", text, options);
   } catch (const clatter::InputError&) {
   }
   return 0;

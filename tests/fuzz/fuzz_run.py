@@ -17,15 +17,16 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
 def sources(reader):
     """The reader and its dependencies."""
     if reader == 'msh':
-        return [str(path) for path in (ROOT / 'mesh/msh_scan.cpp', ROOT / 'core/base/error.cpp', HERE / 'msh_fuzz.cpp')]
+        return [str(ROOT / 'mesh/deck/msh/scan.cpp'), str(ROOT / 'core/base/error.cpp'), str(HERE / 'msh_fuzz.cpp')]
     if reader == 'matrix':
         names = ('matrix_text', 'text_lines', 'whole_file', 'error')
         return [str(ROOT / f'core/base/{name}.cpp') for name in names] + [str(HERE / 'matrix_fuzz.cpp')]
-    deck = sorted((ROOT / 'mesh/deck').glob(f'{reader}_*.cpp'))
-    shared = [ROOT / 'mesh/deck/id_index.cpp', ROOT / 'mesh/deck/system_axes.cpp', ROOT / 'core/mesh/cell.cpp',
-              ROOT / 'core/mesh/mesh.cpp', ROOT / 'core/base/error.cpp', ROOT / 'core/base/whole_file.cpp',
-              HERE / f'{reader}_fuzz.cpp']
-    return [str(path) for path in deck + shared if path.exists()]
+    deck = sorted((ROOT / f'mesh/deck/{reader}').glob('*.cpp'))
+    shared = [ROOT / f'mesh/deck/{name}.cpp' for name in ('cyclic', 'field_text', 'id_index', 'ignore', 'line_source',
+                                                          'node_sets', 'refusals', 'system_axes')]
+    core = [ROOT / f'core/{name}.cpp' for name in ('base/error', 'base/planned_files', 'base/whole_file', 'mesh/cell',
+                                                   'mesh/mesh')]
+    return [str(path) for path in [*deck, *shared, *core, HERE / f'{reader}_fuzz.cpp']]
 
 
 def run_fuzzer(test, reader):

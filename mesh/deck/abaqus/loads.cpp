@@ -5,15 +5,15 @@
 
 #include <algorithm>
 
-#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/cells.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // The first value of a step replaces that of earlier ones, the next ones are added.
 template <class Map, class Key, class Value>
-void put(Map* map, const Key& key, const Value& value) {
-  const auto [at, is_new] = map->emplace(key, value);
+void put(Map& map, const Key& key, const Value& value) {
+  const auto [at, is_new] = map.emplace(key, value);
   if (is_new) return;
   if (at->second.step == value.step) {
     at->second.value += value.value;
@@ -23,8 +23,8 @@ void put(Map* map, const Key& key, const Value& value) {
 }
 
 template <class Map>
-void forget_others(Map* map, StepNumber step) {
-  std::erase_if(*map, [&](const auto& entry) { return entry.second.step != step; });
+void forget_others(Map& map, StepNumber step) {
+  std::erase_if(map, [&](const auto& entry) { return entry.second.step != step; });
 }
 
 bool is_new(const Card& card) { return card.keyword().choice("OP", "MOD") == "NEW"; }
@@ -32,22 +32,21 @@ bool is_new(const Card& card) { return card.keyword().choice("OP", "MOD") == "NE
 }  // namespace
 
 double Loads::begin(const Card& card) {
-  card.keyword().allow({"OP", "AMPLITUDE"}, reading_->source, reading_->ignore);
-  return reading_->ignore->skips("AMPLITUDE", 0) ? 1.0 : amplitude_factor(*reading_, card);
+  card.keyword().allow({"OP", "AMPLITUDE"}, model_->source, model_->ignore);
+  return model_->ignore.lists("AMPLITUDE") ? 1.0 : amplitude_factor(*model_, card);
 }
 
 void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
-  if (is_new(card)) forget_others(&forces_, step);
+  if (is_new(card)) forget_others(forces_, step);
   for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, reading_->source);
+    const Fields fields = card.line(i, model_->source);
     fields.at_most(3, "nodes, DoF, force");
     const int32_t dof = fields.integer(1, "DoF", 1, 6);
     const double value = factor * fields.number(2, "force");
-    for (const int32_t row : reading_->sets->nodes_at(fields, 0, use)) {
-      const auto [node_index, dofs] =
-          held_dofs(*reading_, row, static_cast<DofMask>(1 << (dof - 1)));
-      const int32_t id = reading_->model->node_ids()[static_cast<size_t>(row)];
+    for (const int32_t row : model_->sets.nodes_at(fields, 0, use)) {
+      const auto [node_index, dofs] = held_dofs(*model_, row, static_cast<DofMask>(1 << (dof - 1)));
+      const int32_t id = model_->numbering.node_ids()[static_cast<size_t>(row)];
       if (node_index == NodeMap::kNone) {
         fields.fail(fmt::format("found a force on node {}, which belongs to no element", id));
       }
@@ -55,8 +54,8 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
         fields.fail(fmt::format("found a moment on node {}, which has no rotations", id));
       }
       const int direction = __builtin_ctz(dofs);
-      put(&forces_, std::pair(node_index, direction),
-          Value{value, step, &reading_->node_map->system(row)});
+      put(forces_, std::pair(node_index, direction),
+          Value{value, step, &model_->node_map.displacement_system(row)});
     }
   }
 }
@@ -64,13 +63,13 @@ void Loads::read_forces(size_t use, const Card& card, StepNumber step) {
 void Loads::read_element_loads(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
   if (is_new(card)) {
-    forget_others(&faces_, step);
-    forget_others(&gravity_, step);
+    forget_others(faces_, step);
+    forget_others(gravity_, step);
     std::erase_if(rotations_, [&](const Rotation& other) { return other.step != step; });
   }
   for (size_t i = 0; i < card.size(); ++i) {
-    reading_->refusals->attempt(
-        [&] { read_element_load(use, card.line(i, reading_->source), factor, step); });
+    model_->refusals.attempt(
+        [&] { read_element_load(use, card.line(i, model_->source), factor, step); });
   }
 }
 
@@ -85,14 +84,14 @@ void Loads::read_element_load(size_t use, const Fields& fields, double factor, S
   }
   fields.at_most(3, "elements, face, pressure");
   const double value = factor * fields.number(2, "pressure");
-  for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
-    if (element >= reading_->model->cells()) fields.fail("found a pressure on a point");
-    const FlatTable& table = reading_->model->table_of(element);
+  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+    if (element >= model_->numbering.cells()) fields.fail("found a pressure on a point");
+    const FlatTable& table = model_->numbering.table_of(element);
     const int32_t face = face_of_number(table.type, *number);
     if (face < 0) {
       fields.fail(fmt::format("found face {}, which elements {} do not have", label, table.name));
     }
-    put(&faces_, CellFaceId(element, face), Value{value, step, nullptr});
+    put(faces_, CellFaceId(element, face), Value{value, step, nullptr});
   }
 }
 
@@ -102,8 +101,8 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
   Rotation rotation;
   for (size_t k = 0; k < 3; ++k) {
     const auto d = static_cast<int>(k);
-    rotation.what.point[d] = fields.number_or(3 + k, 0.0, "point of the axis");
-    rotation.what.axis[d] = fields.number_or(6 + k, 0.0, "direction of the axis");
+    rotation.what.point[d] = fields.number_or(3 + k, "point of the axis", 0.0);
+    rotation.what.axis[d] = fields.number_or(6 + k, "direction of the axis", 0.0);
   }
   if (!(rotation.what.axis.norm() > 0.0)) fields.fail("expected a direction of the axis");
   rotation.what.axis.normalize();
@@ -112,10 +111,10 @@ void Loads::add_rotation(size_t use, const Fields& fields, double factor, StepNu
     fields.fail(fmt::format("found omega^2 = {}, expected 0 or more", rotation.what.omega_squared));
   }
   rotation.step = step;
-  rotation.spot = fields.spot();
-  rotation.covered.resize(static_cast<size_t>(reading_->model->cells()), false);
-  for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
-    if (element < reading_->model->cells()) rotation.covered[static_cast<size_t>(element)] = true;
+  rotation.origin = fields.origin();
+  rotation.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
+  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+    if (element < model_->numbering.cells()) rotation.covered[static_cast<size_t>(element)] = true;
   }
   // Replaces the value of an earlier step on the same elements.
   std::erase_if(rotations_, [&](const Rotation& other) {
@@ -129,17 +128,17 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
   fields.at_most(6, "elements, GRAV, acceleration, direction");
   Eigen::Vector3d direction;
   for (size_t k = 0; k < 3; ++k) {
-    direction[static_cast<int>(k)] = fields.number_or(3 + k, 0.0, "direction of gravity");
+    direction[static_cast<int>(k)] = fields.number_or(3 + k, "direction of gravity", 0.0);
   }
   if (!(direction.norm() > 0.0)) fields.fail("expected a direction of gravity");
   const Eigen::Vector3d a = factor * fields.number(2, "acceleration") * direction.normalized();
   Gravity& gravity = gravity_[{a[0], a[1], a[2]}];
   if (gravity.step != step) gravity = Gravity();
-  gravity.covered.resize(static_cast<size_t>(reading_->model->cells()), false);
+  gravity.covered.resize(static_cast<size_t>(model_->numbering.cells()), false);
   gravity.step = step;
-  gravity.spot = fields.spot();
-  for (const int32_t element : reading_->sets->elements_at(fields, 0, use)) {
-    if (element < reading_->model->cells()) gravity.covered[static_cast<size_t>(element)] = true;
+  gravity.origin = fields.origin();
+  for (const int32_t element : model_->sets.elements_at(fields, 0, use)) {
+    if (element < model_->numbering.cells()) gravity.covered[static_cast<size_t>(element)] = true;
   }
   // Ends gravity of an earlier step on these elements: there is one field for all of them.
   std::erase_if(gravity_, [&](const auto& entry) { return entry.second.step != step; });
@@ -147,33 +146,33 @@ void Loads::add_gravity(size_t use, const Fields& fields, double factor, StepNum
 
 void Loads::read_pressures(size_t use, const Card& card, StepNumber step) {
   const double factor = begin(card);
-  if (is_new(card)) forget_others(&surfaces_, step);
+  if (is_new(card)) forget_others(surfaces_, step);
   for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, reading_->source);
+    const Fields fields = card.line(i, model_->source);
     if (folded(fields.text(1)) != "P") {
       fields.fail(fmt::format("load {} is not supported, expected P", fields.text(1)));
     }
     fields.at_most(3, "surface, P, pressure");
     const std::string surface =
-        surface_named(reading_, use, fields.word(0, "a surface"), fields.spot());
-    put(&surfaces_, surface, Value{factor * fields.number(2, "pressure"), step, nullptr});
+        surface_named(*model_, use, fields.word(0, "a surface"), fields.origin());
+    put(surfaces_, surface, Value{factor * fields.number(2, "pressure"), step, nullptr});
   }
 }
 
 std::vector<double> Loads::initial_field() const {
-  return reading_->initial.empty()
-             ? std::vector<double>(static_cast<size_t>(reading_->model->nodes()), 0.0)
-             : reading_->initial;
+  return model_->initial.empty()
+             ? std::vector<double>(static_cast<size_t>(model_->numbering.nodes()), 0.0)
+             : model_->initial;
 }
 
 void Loads::read_temperatures(size_t use, const Card& card, StepNumber) {
   const double factor = begin(card);
   if (temperature_.empty() || is_new(card)) temperature_ = initial_field();
   for (size_t i = 0; i < card.size(); ++i) {
-    const Fields fields = card.line(i, reading_->source);
+    const Fields fields = card.line(i, model_->source);
     fields.at_most(2, "nodes, temperature");
     const double value = factor * fields.number(1, "temperature");
-    for (const int32_t row : reading_->sets->nodes_at(fields, 0, use)) {
+    for (const int32_t row : model_->sets.nodes_at(fields, 0, use)) {
       temperature_[static_cast<size_t>(row)] = value;
     }
   }
@@ -184,10 +183,10 @@ bool Loads::empty() const {
          rotations_.empty() && temperature_.empty();
 }
 
-void Loads::list(Step* out, StepNumber step) {
+void Loads::list(Step& out, StepNumber step) {
   for (const auto& [dof, force] : forces_) {
     if (force.value != 0.0) {
-      out->forces.push_back({dof.first, dof.second, force.value, *force.system});
+      out.forces.push_back({dof.first, dof.second, force.value, *force.system});
     }
   }
   list_pressures(out);
@@ -197,46 +196,46 @@ void Loads::list(Step* out, StepNumber step) {
 }
 
 // Faces with the same pressure are one surface; steps share it.
-void Loads::list_pressures(Step* out) {
+void Loads::list_pressures(Step& out) {
   std::map<double, std::vector<CellFaceId>> by_value;
   for (const auto& [face, load] : faces_) by_value[load.value].push_back(face);
   for (const auto& [value, faces] : by_value) {
     if (value == 0.0) continue;
     std::string& name = made_surfaces_[faces];
     if (name.empty()) {
-      name = add_surface(reading_, fmt::format("dload_{}", made_surfaces_.size()), faces);
+      name = add_surface(*model_, fmt::format("dload_{}", made_surfaces_.size()), faces);
     }
-    out->pressures.push_back({name, value});
+    out.pressures.push_back({name, value});
   }
   for (const auto& [surface, load] : surfaces_) {
-    if (load.value != 0.0) out->pressures.push_back({surface, load.value});
+    if (load.value != 0.0) out.pressures.push_back({surface, load.value});
   }
 }
 
-void Loads::list_gravity(Step* out) const {
+void Loads::list_gravity(Step& out) const {
   for (const auto& [vector, gravity] : gravity_) {
     const auto missing = std::find(gravity.covered.begin(), gravity.covered.end(), false);
     if (missing != gravity.covered.end()) {
-      reading_->source.fail(gravity.spot,
-                            "GRAV acts on some elements only, which is not supported, "
-                            "expected all");
+      model_->source.fail(gravity.origin,
+                          "GRAV acts on some elements only, which is not supported, "
+                          "expected all");
     }
-    out->acceleration += Eigen::Vector3d(vector.data());
+    out.acceleration += Eigen::Vector3d(vector.data());
   }
 }
 
 // Only entire regions rotate: the rotating part of a section is a region of its own (mesh.cpp).
-void Loads::list_rotations(Step* out) const {
-  const Mesh& mesh = reading_->deck->mesh;
+void Loads::list_rotations(Step& out) const {
+  const Mesh& mesh = model_->deck.mesh;
   for (const Rotation& rotation : rotations_) {
     if (rotation.what.omega_squared == 0.0) continue;
     std::vector<bool> turning(mesh.regions.size(), false);
     for (size_t cell = 0; cell < rotation.covered.size(); ++cell) {
-      const auto region = static_cast<size_t>(reading_->region_of_cell[cell]);
+      const auto region = static_cast<size_t>(model_->region_of_cell[cell]);
       if (rotation.covered[cell]) turning[region] = true;
     }
-    out->rotations.push_back(rotation.what);
-    std::vector<std::string>& names = out->rotations.back().regions;
+    out.rotations.push_back(rotation.what);
+    std::vector<std::string>& names = out.rotations.back().regions;
     for (size_t r = 0; r < turning.size(); ++r) {
       if (turning[r]) names.push_back(mesh.regions[r]);
     }
@@ -245,21 +244,21 @@ void Loads::list_rotations(Step* out) const {
 }
 
 // A uniform initial temperature is the materials' reference; others are subtracted from the field.
-void Loads::list_temperature(Step* out, StepNumber step) {
+void Loads::list_temperature(Step& out, StepNumber step) {
   if (temperature_.empty()) return;
   const std::vector<double> initial = initial_field();
   const bool uniform =
       std::all_of(initial.begin(), initial.end(), [&](double t) { return t == initial.front(); });
   if (temperature_ == initial) return;
-  RowMatrix field(reading_->deck->mesh.nodes.rows(), 1);
-  for (int32_t row = 0; row < reading_->model->nodes(); ++row) {
-    const int32_t node = reading_->node_map->mesh_node(row);
+  RowMatrix field(model_->deck.mesh.nodes.rows(), 1);
+  for (int32_t row = 0; row < model_->numbering.nodes(); ++row) {
+    const int32_t node = model_->node_map.mesh_node(row);
     if (node == NodeMap::kNone) continue;
     const auto at = static_cast<size_t>(row);
     field(node, 0) = uniform ? temperature_[at] : temperature_[at] - initial[at];
   }
-  out->temperature = fmt::format("temperature_{}", step);
-  reading_->deck->mesh.fields[out->temperature] = std::move(field);
+  out.temperature = fmt::format("temperature_{}", step);
+  model_->deck.mesh.fields[out.temperature] = std::move(field);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -16,7 +16,7 @@ namespace clatter::mesh::deck::abaqus {
 
 class Loads {
  public:
-  explicit Loads(Reading* reading) : reading_(reading) {}
+  explicit Loads(Model& model) : model_(&model) {}
 
   void read_forces(size_t use, const Card& card, StepNumber step);         // *CLOAD
   void read_element_loads(size_t use, const Card& card, StepNumber step);  // *DLOAD
@@ -26,7 +26,7 @@ class Loads {
   bool empty() const;
   /// Writes all active loads into `out`, with the surfaces and fields of the mesh that they need.
   /// InputError where gravity acts on some elements only, or CENTRIF on a part of a region.
-  void list(Step* out, StepNumber step);
+  void list(Step& out, StepNumber step);
 
  private:
   struct Value {
@@ -37,7 +37,7 @@ class Loads {
   struct Gravity {
     std::vector<bool> covered;  // by cell
     StepNumber step = 0;
-    Spot spot = 0;
+    Origin origin = 0;
   };
   using Vector = std::array<double, 3>;
   // One line of CENTRIF: the same axis and cells again replace it.
@@ -45,20 +45,20 @@ class Loads {
     Step::Rotation what;
     std::vector<bool> covered;  // by cell
     StepNumber step = 0;
-    Spot spot = 0;
+    Origin origin = 0;
   };
 
   double begin(const Card& card);
   void add_gravity(size_t use, const Fields& fields, double factor, StepNumber step);
   void read_element_load(size_t use, const Fields& fields, double factor, StepNumber step);
   void add_rotation(size_t use, const Fields& fields, double factor, StepNumber step);
-  void list_pressures(Step* out);
-  void list_rotations(Step* out) const;
-  void list_gravity(Step* out) const;
-  void list_temperature(Step* out, StepNumber step);
+  void list_pressures(Step& out);
+  void list_rotations(Step& out) const;
+  void list_gravity(Step& out) const;
+  void list_temperature(Step& out, StepNumber step);
   std::vector<double> initial_field() const;
 
-  Reading* reading_;
+  Model* model_;
   std::map<std::pair<NodeIndex, int>, Value> forces_;
   std::map<CellFaceId, Value> faces_;
   std::map<std::string, Value> surfaces_;

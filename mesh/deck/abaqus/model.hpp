@@ -1,106 +1,123 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// All nodes and elements of the model in one numbering: parts copied into their instances, deck
-// numbers replaced by rows.
-#include <Eigen/Core>
-#include <functional>
+// Builds the Deck from the cards: shared state, and the functions in call order.
+#include <initializer_list>
 #include <map>
-#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "mesh/deck/abaqus/scope.hpp"
-#include "mesh/deck/id_index.hpp"
+#include "mesh/deck/abaqus/node_map.hpp"
+#include "mesh/deck/abaqus/numbering.hpp"
+#include "mesh/deck/abaqus/sets.hpp"
+#include "mesh/deck/deck.hpp"
+#include "mesh/deck/ignore.hpp"
+#include "mesh/deck/refusals.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
-/// Numbers first, first + step, ... up to last.
-struct IdRange {
-  int32_t first, last, step;
+/// The Deck being built.
+struct Model {
+  /// Numbers all nodes and elements; InputError as Numbering.
+  Model(const Source& deck_source, RawDeck raw, Ignore& ignored, Refusals& all_refusals);
+
+  const Source& source;
+  Ignore& ignore;
+  Refusals& refusals;
+  Deck deck;
+  const Numbering numbering;
+  Sets sets;
+  NodeMap node_map;                                  // empty until the mesh is built
+  std::vector<double> initial;                       // temperature by row; empty: 0 everywhere
+  std::map<std::string, std::string> surface_names;  // "use:FOLDED" -> name in the mesh
+  std::map<std::string, std::vector<int32_t>> node_surfaces;        // the same -> rows
+  std::vector<std::pair<size_t, std::vector<int32_t>>> dependents;  // of Deck::rigid, as rows
+  std::map<std::string, std::string> material_names, system_names;  // folded -> name in the deck
+  std::map<std::string, const Card*> amplitudes;                    // by folded name
+  std::vector<int32_t> region_of_cell;                              // index into Mesh::regions
+  int64_t faces = 0;                                                // of all surfaces
 };
 
-/// One use of a scope. Its elements are numbered: cells in the order of its tables, then points,
-/// then those that the user ignores.
-struct Use {
-  const Scope* scope = nullptr;
-  std::string name;  // of the instance; empty: the flat deck or the assembly
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  int32_t index = 0;  // of node_index_ and element_index_
-  int32_t first_node = 0, first_table = 0, first_cell = 0, first_point = 0;
-  int32_t node_offset = 0, element_offset = 0;  // added to the deck's numbers
-  int32_t cells = 0;                            // of this use
-};
+/// Calls body(use, card) for each card with one of those keys, use by use, in the order of the
+/// deck. A refused card does not stop the others; its NAME is lost.
+template <class Body>
+void for_each_card(const Model& model, std::initializer_list<std::string_view> keys,
+                   const Body& body) {
+  for (size_t use = 0; use < model.numbering.uses().size(); ++use) {
+    for (const Card& card : model.numbering.uses()[use].scope->cards) {
+      for (const std::string_view key : keys) {
+        if (card.keyword().key != key) continue;
+        if (model.refusals.attempt([&] { body(use, card); })) continue;
+        model.refusals.lose(card.keyword().choice("NAME", ""));
+      }
+    }
+  }
+}
 
-/// Cells of one table of one use; `nodes` are rows.
-struct FlatTable {
-  std::string name;
-  CellType type = CellType::kTet4;
-  Formulation formulation = Formulation::kDefault;
-  int32_t first = 0;  // number of its first cell among all
-  std::vector<int32_t> ids, nodes;
-  std::vector<Spot> spots;
-};
+// Each function refuses unsupported input with its line.
 
-class Model {
- public:
-  /// Consumes the tables of the deck; cards and sets stay. InputError for numbers with two
-  /// meanings, for missing nodes and for instances of unknown parts.
-  Model(RawDeck deck, const Source& source);
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
+/// *MATERIAL with *ELASTIC, *DENSITY, *EXPANSION -> Deck::materials.
+void build_materials(Model& model);
+/// *ORIENTATION -> Deck::systems.
+void build_systems(Model& model);
+/// Cells, nodes, regions. Nodes without cells get no node index yet.
+void build_mesh(Model& model);
+/// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell.
+void build_regions(Model& model);
+/// *TRANSFORM -> Deck::systems and NodeMap.
+void build_transforms(Model& model);
+/// *INITIAL CONDITIONS, TYPE=TEMPERATURE -> Model::initial and the materials' reference
+/// temperature.
+void build_initial_temperature(Model& model);
+/// *SURFACE -> Mesh::surfaces and node sets.
+void build_surfaces(Model& model);
+/// *RIGID BODY, *COUPLING: reference nodes get a node index; dependents are kept in
+/// Model::dependents.
+void build_couplings(Model& model);
+/// *DISTRIBUTING COUPLING.
+void build_distributing(Model& model);
+/// *TIE.
+void build_ties(Model& model);
+/// *MASS, *ROTARY INERTIA with their elements.
+void build_masses(Model& model);
+/// The elements of a card's ELSET; InputError for cells and for types that do not begin with
+/// `type`.
+std::vector<PointElement> point_elements(Model& model, size_t use, const Card& card,
+                                         std::string_view type);
+/// *SPRING and *DASHPOT with their elements.
+void build_springs(Model& model);
+/// Dependents of rigid bodies, once all points are known.
+void finish_couplings(Model& model);
+/// *EQUATION and *MPC.
+void build_equations(Model& model);
+/// *BOUNDARY and loads of the model and of the steps.
+void build_steps(Model& model);
+/// *NSET -> Mesh::node_sets and Deck::sets.
+void build_sets(Model& model);
 
-  const Source& source() const { return source_; }
-  /// Instances in the order of the deck, then the flat deck or the assembly.
-  const std::vector<Use>& uses() const { return uses_; }
-  size_t main_use() const { return uses_.size() - 1; }
-  /// Index of an instance by name; -1 if there is none.
-  int find_use(const std::string& name) const;
-  /// The public name of `name` in a use: the same, prefixed with "instance." if there are several
-  /// instances or the assembly has that name too. Characters that HDF5 does not allow become _.
-  std::string public_name(size_t use, const std::string& name) const;
+/// *CYCLIC SYMMETRY MODEL: expands the deck to the full ring (cyclic.hpp).
+void build_cyclic(Model& model);
 
-  int32_t nodes() const { return static_cast<int32_t>(node_ids_.size()); }
-  const std::vector<int32_t>& node_ids() const { return node_ids_; }
-  const std::vector<double>& coordinates() const { return xyz_; }
-  Eigen::Vector3d at(int32_t row) const { return Eigen::Vector3d(xyz_.data() + 3 * int64_t{row}); }
-  /// Row of node `id` of a use; -1 if there is none.
-  int32_t find_node(size_t use, int32_t id) const;
-  std::vector<int32_t> find_nodes(size_t use, const IdRange& range) const;
+/// Name in Deck::systems of an orientation; InputError at `origin` if it is missing.
+std::string system_named(const Model& model, size_t use, const std::string& name, Origin origin);
 
-  int32_t cells() const { return cells_; }
-  const std::vector<FlatTable>& tables() const { return tables_; }
-  const FlatTable& table_of(int32_t cell) const;
-  /// Rows of the nodes of a cell, Abaqus order.
-  std::span<const int32_t> nodes_of(int32_t cell) const;
-  /// Elements of one node or two; `node` is a row, and `second`, or -1. Their numbers follow those
-  /// of the cells.
-  const std::vector<PointElement>& points() const { return points_; }
-  /// Element `id` of a use: a cell, cells() + a point, kIgnored for an ignored one, or -1.
-  int32_t find_element(size_t use, int32_t id) const;
-  /// Without those that the user ignores.
-  std::vector<int32_t> find_elements(size_t use, const IdRange& range) const;
-  static constexpr int32_t kIgnored = -2;
+/// Adds a surface of faces (cell, face of its traits), each once, under an unused name that begins
+/// with `name`; returns the name.
+using CellFaceId = std::pair<int32_t, int32_t>;
+std::string add_surface(Model& model, const std::string& name,
+                        const std::vector<CellFaceId>& faces);
 
- private:
-  void add_use(Scope* scope, const InstanceLine* line, int32_t index);
-  void add_nodes(Scope* scope, Use* use);
-  void add_cells(Scope* scope, Use* use);
-  void index_scope(const Scope& scope);
-  int32_t row_of(const Use& use, int32_t id, Spot spot) const;
-  int32_t element_at(const Use& use, int32_t local) const;
+/// Name in Mesh::surfaces of a *SURFACE. One of TYPE=NODE becomes the outer faces whose nodes all
+/// belong to it; InputError when one of its nodes is in none of them.
+std::string surface_named(Model& model, size_t use, const std::string& name, Origin origin);
+std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
+                             const std::string& name, Origin origin);
+/// Rows of a *SURFACE of TYPE=NODE; null for others.
+const std::vector<int32_t>* node_surface(const Model& model, size_t use, const std::string& name);
 
-  const Source& source_;
-  RawDeck deck_;
-  std::vector<IdIndex> node_index_, element_index_;
-  std::vector<Use> uses_;
-  std::map<std::string, int> use_of_;  // by folded name
-  std::vector<int32_t> node_ids_;
-  std::vector<double> xyz_;
-  std::vector<FlatTable> tables_;
-  std::vector<PointElement> points_;
-  int32_t cells_ = 0;
-  int32_t highest_node_ = 0, highest_element_ = 0;
-};
+/// Mask of the DoFs first to last (1 to 6) in fields i and i + 1; without a last one only the
+/// first.
+DofMask dof_range(const Fields& fields, size_t i);
 
 }  // namespace clatter::mesh::deck::abaqus

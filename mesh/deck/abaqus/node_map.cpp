@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/numbering.hpp"
 
 namespace clatter::mesh::deck::abaqus {
-
-NodeMap::NodeMap(const Model* model, Deck* deck, std::vector<int32_t> mesh_node)
-    : model_(model), deck_(deck), mesh_node_(std::move(mesh_node)) {}
 
 NodeIndex NodeMap::find(int32_t row) const {
   const auto point = point_of_.find(row);
   return point != point_of_.end() ? point->second : mesh_node(row);
 }
 
-NodeIndex NodeMap::of(int32_t row) {
+NodeIndex NodeMap::require(int32_t row) {
   const NodeIndex node_index = find(row);
   return node_index != kNone ? node_index : add_point(row);
 }
 
 bool NodeMap::is_point(NodeIndex node_index) const {
-  return node_index >= static_cast<NodeIndex>(deck_->mesh.nodes.rows());
+  return node_index >= static_cast<NodeIndex>(deck_.mesh.nodes.rows());
 }
 
 NodeIndex NodeMap::add_point(int32_t row) {
   const auto node_index =
-      static_cast<NodeIndex>(deck_->mesh.nodes.rows() + static_cast<int64_t>(deck_->points.size()));
-  deck_->points.push_back({model_->node_ids()[static_cast<size_t>(row)], model_->at(row)});
+      static_cast<NodeIndex>(deck_.mesh.nodes.rows() + static_cast<int64_t>(deck_.points.size()));
+  deck_.points.push_back({numbering_.node_ids()[static_cast<size_t>(row)], numbering_.at(row)});
   point_of_[row] = node_index;
   return node_index;
 }
@@ -38,15 +35,15 @@ NodeIndex NodeMap::rotation_of(int32_t row) const {
   return at != rotation_of_.end() ? at->second : kNone;
 }
 
-void NodeMap::set_system(const std::vector<int32_t>& rows, const std::string& name) {
-  if (system_of_.empty()) system_of_.assign(static_cast<size_t>(model_->nodes()), 0);
+void NodeMap::set_displacement_system(const std::vector<int32_t>& rows, const std::string& name) {
+  if (system_of_.empty()) system_of_.assign(static_cast<size_t>(numbering_.nodes()), 0);
   for (const int32_t row : rows) {
     system_of_[static_cast<size_t>(row)] = static_cast<int32_t>(system_names_.size());
   }
   system_names_.push_back(name);
 }
 
-const std::string& NodeMap::system(int32_t row) const {
+const std::string& NodeMap::displacement_system(int32_t row) const {
   return system_of_.empty()
              ? system_names_.front()
              : system_names_[static_cast<size_t>(system_of_[static_cast<size_t>(row)])];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/deck/abaqus/number.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +8,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <string_view>
-
-#include "mesh/deck/abaqus/writer.hpp"
 
 namespace clatter::mesh::deck {
 namespace {

@@ -6,30 +6,29 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "mesh/deck/abaqus/elements.hpp"
-#include "mesh/deck/abaqus/keywords.hpp"
+#include "mesh/deck/abaqus/cards.hpp"
+#include "mesh/deck/abaqus/read_cells.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
 // An entry of a set: a number, or the name of another set.
-void add_member(std::string_view field, Spot spot, SetChunk* chunk) {
+void add_member(std::string_view field, Origin origin, SetChunk& chunk) {
   if (field.empty()) return;
   if (const auto id = to_integer(field)) {
-    chunk->ids.push_back(*id);
+    chunk.ids.push_back(*id);
   } else {
-    chunk->names.emplace_back(std::string(field), spot);
+    chunk.names.emplace_back(std::string(field), origin);
   }
 }
 
-SetChunk::Range range_of(const Lines& lines) {
-  const Fields fields(lines.data(), lines.source(), lines.spot());
+IdRange range_of(const Lines& lines) {
+  const Fields fields(lines.data(), lines.source(), lines.origin());
   constexpr int32_t kMost = std::numeric_limits<int32_t>::max();
-  SetChunk::Range range{};
-  range.spot = lines.spot();
+  IdRange range;
   range.first = fields.integer(0, "first number", 1, kMost);
-  range.last = fields.empty(1) ? range.first : fields.integer(1, "last number", 1, kMost);
-  range.step = fields.empty(2) ? 1 : fields.integer(2, "step", 1, kMost);
+  range.last = fields.blank(1) ? range.first : fields.integer(1, "last number", 1, kMost);
+  range.step = fields.blank(2) ? 1 : fields.integer(2, "step", 1, kMost);
   fields.at_most(3, "first, last, step");
   if (range.last < range.first) {
     fields.fail(fmt::format("found {} to {}, expected ascending numbers", range.first, range.last));
@@ -39,38 +38,38 @@ SetChunk::Range range_of(const Lines& lines) {
 
 class Parser {
  public:
-  Parser(Source* source, Ignore* ignore, Refusals* refusals)
-      : lines_(source), source_(*source), ignore_(ignore), refusals_(refusals) {}
+  Parser(Source& source, Ignore& ignore, Refusals& refusals)
+      : lines_(source), source_(source), ignore_(ignore), refusals_(refusals) {}
 
   RawDeck run() {
     Lines::Kind kind = go_on([&] { return lines_.next(); });
     while (kind != Lines::Kind::kEnd) {
       if (kind == Lines::Kind::kData) {
         kind = go_on([&]() -> Lines::Kind {
-          source_.fail(lines_.spot(), fmt::format("found '{}', expected a keyword (*...)",
-                                                  lines_.data().substr(0, 40)));
+          source_.fail(lines_.origin(),
+                       fmt::format("found {}, expected a keyword (*...)", shown(lines_.data())));
         });
         continue;
       }
       last_ = lines_.keyword();
       kind = go_on([&] { return read_keyword(); });
     }
-    refusals_->attempt([&] { check_end(); });
-    if (incomplete_) refusals_->raise();
+    refusals_.attempt([&] { check_end(); });
+    if (incomplete_) refusals_.raise();
     return std::move(deck_);
   }
 
  private:
-  // Runs a reading step; goes to the next keyword if it was refused: tables then have gaps, and
+  // Runs one step of the parser; goes to the next keyword if it was refused: tables then have gaps, and
   // references to their nodes and elements are not checked.
   template <class Body>
   Lines::Kind go_on(const Body& body) {
     Lines::Kind kind = Lines::Kind::kEnd;
-    bool done = refusals_->attempt([&] { kind = body(); });
+    bool done = refusals_.attempt([&] { kind = body(); });
     if (done) return kind;
     incomplete_ = true;
     while (!done || kind == Lines::Kind::kData) {
-      done = refusals_->attempt([&] { kind = lines_.next(); });
+      done = refusals_.attempt([&] { kind = lines_.next(); });
     }
     return kind;
   }
@@ -78,7 +77,7 @@ class Parser {
   // A deck truncated at the end of a line has open blocks.
   void check_end() {
     if (scope_ != &deck_.model) {
-      source_.fail(scope_->spot, "found *PART without *END PART, the deck ends before it");
+      source_.fail(scope_->origin, "found *PART without *END PART, the deck ends before it");
     }
     if (assembly_ >= 0) {
       source_.fail(assembly_, "found *ASSEMBLY without *END ASSEMBLY, the deck ends before it");
@@ -96,19 +95,19 @@ class Parser {
       source_.fail(step_, "found *STEP without *END STEP, the deck ends before it");
     }
     if (lines_.open_keyword()) {
-      source_.fail(last_.spot, fmt::format("the deck ends after the comma of {}, expected the "
-                                           "rest of the line",
-                                           last_.name));
+      source_.fail(last_.origin, fmt::format("the deck ends after the comma of {}, expected the "
+                                             "rest of the line",
+                                             last_.name));
     }
     if (lines_.bare_keyword() && needs_data(last_)) {
-      source_.fail(last_.spot,
+      source_.fail(last_.origin,
                    fmt::format("the deck ends with {}, expected its data lines", last_.name));
     }
     if (steps_ > 0 || lines_.marked_end()) return;
     deck_.notes.push_back(fmt::format(
         "{}: the deck ends here, in {}, without a *STEP: read as a model without loads; the "
         "file may be truncated",
-        source_.where(source_.spot()), last_.name.empty() ? "nothing" : last_.name));
+        source_.where(source_.origin()), last_.name.empty() ? "nothing" : last_.name));
   }
 
   static bool needs_data(const Keyword& keyword) {
@@ -128,7 +127,7 @@ class Parser {
 
   Lines::Kind read_keyword() {
     const Keyword& keyword = lines_.keyword();
-    if (ignore_->skips(keyword.name)) return skip_data();
+    if (ignore_.skips(keyword.name)) return skip_data();
     const Role role = role_of(keyword.key);
     if (left_out_ && step_ >= 0) return read_left_out(role);
     const bool frozen = keyword.key == "BOUNDARY" && keyword.has("FIXED");
@@ -141,30 +140,30 @@ class Parser {
     switch (role) {
       case Role::kUnknown:
       case Role::kProcedure:
-        refusals_->add(
+        refusals_.add(
             fmt::format("{}: keyword {} is not supported; ignore = [\"{}\"] skips it "
                         "with its data lines",
-                        source_.where(keyword.spot), keyword.name, keyword.name));
+                        source_.where(keyword.origin), keyword.name, keyword.name));
         return skip_data();
       case Role::kHarmless:
       case Role::kMaterialIdle:
         return skip_data();
       case Role::kNode:
-        return read_nodes(&lines_, scope_, ignore_);
+        return read_nodes(lines_, *scope_, ignore_);
       case Role::kElement:
-        return read_elements(&lines_, scope_, ignore_, refusals_);
+        return read_elements(lines_, *scope_, ignore_, refusals_);
       case Role::kSet:
         return read_set();
       case Role::kStructure:
         return read_structure();
       case Role::kStepBegin:
-        step_ = keyword.spot;
+        step_ = keyword.origin;
         ++steps_;
         cards_before_step_ = scope_->cards.size();
         steps_before_ = linear_steps_;
         if (!left_out_) return read_card();
         deck_.notes.push_back(fmt::format("{}: *STEP is left out: it continues a step that is",
-                                          source_.where(keyword.spot)));
+                                          source_.where(keyword.origin)));
         return skip_data();
       case Role::kStepEnd:
         step_ = -1;
@@ -184,7 +183,7 @@ class Parser {
     deck_.notes.push_back(
         fmt::format("{}: the step with {} is left out: clatter reads linear statics and "
                     "frequencies, here those of the {} before it",
-                    source_.where(keyword.spot), keyword.name,
+                    source_.where(keyword.origin), keyword.name,
                     steps_before_ == 1 ? "step" : fmt::format("{} steps", steps_before_)));
     return skip_data();
   }
@@ -212,7 +211,7 @@ class Parser {
   }
 
   [[noreturn]] void misplaced(const Keyword& keyword, std::string_view expected) const {
-    source_.fail(keyword.spot, fmt::format("found {}, expected it {}", keyword.name, expected));
+    source_.fail(keyword.origin, fmt::format("found {}, expected it {}", keyword.name, expected));
   }
 
   Lines::Kind skip_data() {
@@ -225,7 +224,8 @@ class Parser {
     scope_->cards.emplace_back(lines_.keyword());
     Card& card = scope_->cards.back();
     Lines::Kind kind = lines_.next();
-    for (; kind == Lines::Kind::kData; kind = lines_.next()) card.add(lines_.data(), lines_.spot());
+    for (; kind == Lines::Kind::kData; kind = lines_.next())
+      card.add(lines_.data(), lines_.origin());
     return kind;
   }
 
@@ -237,7 +237,7 @@ class Parser {
                   source_, ignore_);
     IdSets& sets = of_nodes ? scope_->node_sets : scope_->element_sets;
     SetChunk& chunk =
-        new_chunk(&sets, keyword.required(of_nodes ? "NSET" : "ELSET", source_), keyword.spot);
+        new_chunk(sets, keyword.required(of_nodes ? "NSET" : "ELSET", source_), keyword.origin);
     if (const std::string* instance = keyword.find("INSTANCE")) chunk.instance = *instance;
     if (of_nodes && keyword.has("ELSET")) {
       chunk.elements_of.push_back(keyword.required("ELSET", source_));
@@ -249,10 +249,10 @@ class Parser {
         chunk.ranges.push_back(range_of(lines_));
         continue;
       }
-      chunk.id_lines.emplace_back(chunk.ids.size(), lines_.spot());
+      chunk.id_lines.emplace_back(chunk.ids.size(), lines_.origin());
       FieldWalk walk(lines_.data());
       std::string_view field;
-      while (walk.next(&field)) add_member(field, lines_.spot(), &chunk);
+      while (walk.next(&field)) add_member(field, lines_.origin(), chunk);
     }
     return kind;
   }
@@ -268,11 +268,11 @@ class Parser {
     } else if (keyword.key == "INSTANCE") {
       return read_instance(keyword);
     } else if (keyword.key == "ASSEMBLY") {
-      assembly_ = keyword.spot;
+      assembly_ = keyword.origin;
     } else if (keyword.key == "ENDASSEMBLY") {
       assembly_ = -1;
     } else if (keyword.key == "ENDINSTANCE") {
-      if (refusals_->any()) throw FollowUp();
+      if (refusals_.any()) throw FollowUp();
       misplaced(keyword, "after *INSTANCE");
     }
     return no_data(keyword);
@@ -283,10 +283,10 @@ class Parser {
     keyword.allow({"NAME"}, source_, ignore_);
     part_ = Scope();
     part_.name = keyword.required("NAME", source_);
-    part_.spot = keyword.spot;
+    part_.origin = keyword.origin;
     for (const Scope& part : deck_.parts) {
       if (folded(part.name) == folded(part_.name)) {
-        source_.fail(keyword.spot, fmt::format("found a second part {}", part_.name));
+        source_.fail(keyword.origin, fmt::format("found a second part {}", part_.name));
       }
     }
     scope_ = &part_;
@@ -295,8 +295,8 @@ class Parser {
   Lines::Kind no_data(const Keyword& keyword) {
     const Lines::Kind kind = lines_.next();
     if (kind == Lines::Kind::kData) {
-      source_.fail(lines_.spot(), fmt::format("found '{}', expected no data after {}",
-                                              lines_.data().substr(0, 40), keyword.name));
+      source_.fail(lines_.origin(), fmt::format("found {}, expected no data after {}",
+                                                shown(lines_.data()), keyword.name));
     }
     return kind;
   }
@@ -308,13 +308,13 @@ class Parser {
     InstanceLine instance;
     instance.name = keyword.required("NAME", source_);
     instance.part = keyword.required("PART", source_);
-    instance.spot = keyword.spot;
+    instance.origin = keyword.origin;
     Lines::Kind kind = lines_.next();
     for (int line = 0; kind == Lines::Kind::kData; kind = lines_.next(), ++line) {
-      set_position(Fields(lines_.data(), source_, lines_.spot()), line, &instance);
+      set_position(Fields(lines_.data(), source_, lines_.origin()), line, instance);
     }
     if (kind == Lines::Kind::kEnd || lines_.keyword().key != "ENDINSTANCE") {
-      source_.fail(keyword.spot,
+      source_.fail(keyword.origin,
                    "expected *END INSTANCE after the lines of *INSTANCE: additions "
                    "of an instance to its part are not supported");
     }
@@ -322,10 +322,10 @@ class Parser {
     return no_data(lines_.keyword());
   }
 
-  static void set_position(const Fields& fields, int line, InstanceLine* instance) {
+  static void set_position(const Fields& fields, int line, InstanceLine& instance) {
     if (line == 0) {
       fields.at_most(3, "translation of an instance");
-      for (int k = 0; k < 3; ++k) instance->shift[k] = fields.number_or(k, 0.0, "translation");
+      for (int k = 0; k < 3; ++k) instance.shift[k] = fields.number_or(k, "translation", 0.0);
       return;
     }
     if (line > 1) fields.fail("expected at most two lines of an instance");
@@ -338,38 +338,38 @@ class Parser {
     const double length = (b - a).norm();
     if (!(length > 0.0)) fields.fail("expected two different points of the axis");
     const double angle = fields.number(6, "angle in degrees") * std::numbers::pi / 180.0;
-    instance->rotation = Eigen::AngleAxisd(angle, (b - a) / length).toRotationMatrix();
-    instance->shift = instance->rotation * (instance->shift - a) + a;
+    instance.rotation = Eigen::AngleAxisd(angle, (b - a) / length).toRotationMatrix();
+    instance.shift = instance.rotation * (instance.shift - a) + a;
   }
 
   Lines lines_;
   const Source& source_;
-  Ignore* ignore_;
-  Refusals* refusals_;
+  Ignore& ignore_;
+  Refusals& refusals_;
   bool incomplete_ = false;
   Keyword last_;
   int32_t steps_ = 0, linear_steps_ = 0, steps_before_ = 0;
   bool left_out_ = false;
   size_t cards_before_step_ = 0;
-  Spot assembly_ = -1;
+  Origin assembly_ = -1;
   RawDeck deck_;
   Scope part_;
   Scope* scope_ = &deck_.model;
-  Spot step_ = -1;  // of the open step
+  Origin step_ = -1;  // of the open step
   Role parent_ = Role::kUnknown;
 };
 
 }  // namespace
 
-SetChunk& new_chunk(IdSets* sets, const std::string& name, Spot spot) {
-  IdSet& set = (*sets)[folded(name)];
+SetChunk& new_chunk(IdSets& sets, const std::string& name, Origin origin) {
+  IdSet& set = sets[folded(name)];
   if (set.chunks.empty()) set.name = name;
   set.chunks.emplace_back();
-  set.chunks.back().spot = spot;
+  set.chunks.back().origin = origin;
   return set.chunks.back();
 }
 
-RawDeck parse(Source* source, Ignore* ignore, Refusals* refusals) {
+RawDeck parse(Source& source, Ignore& ignore, Refusals& refusals) {
   return Parser(source, ignore, refusals).run();
 }
 

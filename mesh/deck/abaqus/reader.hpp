@@ -55,9 +55,10 @@ namespace clatter::mesh::deck {
 ///   same node or face add up. A *STEP, PERTURBATION has only its own loads.
 ///
 /// InputError for errors in the deck, FileError when it cannot be read.
-Deck read_abaqus(const std::filesystem::path& path, const ReadOptions& options);
+Deck read_abaqus(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same from memory, called `name` in messages; *INCLUDE is refused.
-Deck read_abaqus_text(std::string_view text, const std::string& name, const ReadOptions& options);
+/// The same from text in memory, without includes; `name` is for messages.
+Deck read_abaqus_text(const std::string& name, std::string_view text,
+                      const ReadOptions& options = {});
 
 }  // namespace clatter::mesh::deck

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
@@ -13,43 +13,37 @@ constexpr int kDeepest = 64;
 // A gigabyte of members: small decks can repeat large sets very often.
 constexpr size_t kMostMembers = size_t{1} << 28;
 
-void sort_unique(std::vector<int32_t>* values) {
-  if (!std::is_sorted(values->begin(), values->end())) std::sort(values->begin(), values->end());
-  values->erase(std::unique(values->begin(), values->end()), values->end());
-  values->shrink_to_fit();
-}
-
 }  // namespace
 
 const IdSets& Sets::sets_of(Kind kind, size_t use) const {
-  const Scope& scope = *model_->uses()[use].scope;
+  const Scope& scope = *numbering_.uses()[use].scope;
   return kind == Kind::kNodes ? scope.node_sets : scope.element_sets;
 }
 
 // "instance.name" refers to a set of the instance.
 Sets::Key Sets::key_of(size_t use, const std::string& name) const {
   for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
-    const int instance = model_->find_use(name.substr(0, dot));
+    const int instance = numbering_.find_use(name.substr(0, dot));
     if (instance >= 0) return {static_cast<size_t>(instance), folded(name.substr(dot + 1))};
   }
   return {use, folded(name)};
 }
 
 int32_t Sets::find(Kind kind, size_t use, int32_t id) const {
-  return kind == Kind::kNodes ? model_->find_node(use, id) : model_->find_element(use, id);
+  return kind == Kind::kNodes ? numbering_.find_node(use, id) : numbering_.find_element(use, id);
 }
 
-const std::vector<int32_t>& Sets::nodes(size_t use, const std::string& name, Spot spot) {
+const std::vector<int32_t>& Sets::nodes(size_t use, const std::string& name, Origin origin) {
   const bool here = sets_of(Kind::kNodes, use).contains(folded(name));
-  return resolve(Kind::kNodes, here ? Key{use, folded(name)} : key_of(use, name), spot);
+  return resolve(Kind::kNodes, here ? Key{use, folded(name)} : key_of(use, name), origin);
 }
 
-const std::vector<int32_t>& Sets::elements(size_t use, const std::string& name, Spot spot) {
+const std::vector<int32_t>& Sets::elements(size_t use, const std::string& name, Origin origin) {
   const bool here = sets_of(Kind::kElements, use).contains(folded(name));
-  return resolve(Kind::kElements, here ? Key{use, folded(name)} : key_of(use, name), spot);
+  return resolve(Kind::kElements, here ? Key{use, folded(name)} : key_of(use, name), origin);
 }
 
-const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Spot spot) {
+const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Origin origin) {
   const auto [at, is_new] = done_[static_cast<size_t>(kind)].try_emplace(key);
   Entry& entry = at->second;
   if (entry.done) return entry.members;
@@ -57,111 +51,112 @@ const std::vector<int32_t>& Sets::resolve(Kind kind, const Key& key, Spot spot) 
   const IdSets& sets = sets_of(kind, key.first);
   const auto set = sets.find(key.second);
   if (set == sets.end()) {
-    model_->source().fail(spot, fmt::format("there is no {} '{}'", what, key.second));
+    numbering_.source().fail(origin, fmt::format("found no {} {}", what, shown(key.second)));
   }
   if (!is_new) {
-    model_->source().fail(spot, fmt::format("{} {} holds itself", what, set->second.name));
+    numbering_.source().fail(origin, fmt::format("{} {} holds itself", what, set->second.name));
   }
   if (++depth_ > kDeepest) {
-    model_->source().fail(spot, fmt::format("found more than {} nested sets", kDeepest));
+    numbering_.source().fail(origin, fmt::format("found more than {} nested sets", kDeepest));
   }
   std::vector<int32_t> members;
-  for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, &members);
+  for (const SetChunk& chunk : set->second.chunks) add_chunk(kind, key.first, chunk, members);
   --depth_;
-  sort_unique(&members);
+  sort_unique(members);
+  members.shrink_to_fit();
   members_ += members.size();
   if (members_ > kMostMembers) {
-    model_->source().fail(spot, fmt::format("all sets have more than {} members", kMostMembers));
+    numbering_.source().fail(origin,
+                             fmt::format("all sets have more than {} members", kMostMembers));
   }
   entry.members = std::move(members);
   entry.done = true;
   return entry.members;
 }
 
-void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) {
+void Sets::add_chunk(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) {
   if (!chunk.instance.empty()) {
-    const int instance = model_->find_use(chunk.instance);
+    const int instance = numbering_.find_use(chunk.instance);
     if (instance < 0) {
-      model_->source().fail(chunk.spot, fmt::format("there is no instance '{}'", chunk.instance));
+      numbering_.source().fail(chunk.origin,
+                               fmt::format("found no instance {}", shown(chunk.instance)));
     }
     use = static_cast<size_t>(instance);
   }
   add_rows(kind, use, chunk, out);
   add_numbers(kind, use, chunk, out);
   compact(out);
-  for (const SetChunk::Range& range : chunk.ranges) {
+  for (const IdRange& range : chunk.ranges) {
     add_range(kind, use, range, out);
     compact(out);
   }
-  for (const auto& [name, spot] : chunk.names) {
-    const auto other = at(kind, Fields(name, model_->source(), spot), 0, use);
-    out->insert(out->end(), other.begin(), other.end());
+  for (const auto& [name, origin] : chunk.names) {
+    const auto other = at(kind, Fields(name, numbering_.source(), origin), 0, use);
+    out.insert(out.end(), other.begin(), other.end());
     compact(out);
   }
   for (const std::string& name : chunk.elements_of) {
-    for (const int32_t element : elements(use, name, chunk.spot)) {
-      if (element >= model_->cells()) {
+    for (const int32_t element : elements(use, name, chunk.origin)) {
+      if (element >= numbering_.cells()) {
         const PointElement& point =
-            model_->points()[static_cast<size_t>(element - model_->cells())];
-        out->push_back(point.node);
-        if (point.second >= 0) out->push_back(point.second);
+            numbering_.points()[static_cast<size_t>(element - numbering_.cells())];
+        out.push_back(point.node);
+        if (point.second >= 0) out.push_back(point.second);
         continue;
       }
-      const auto rows = model_->nodes_of(element);
-      out->insert(out->end(), rows.begin(), rows.end());
+      const auto rows = numbering_.nodes_of(element);
+      out.insert(out.end(), rows.begin(), rows.end());
     }
   }
 }
 
 // Repeated ranges take no more memory than a few complete sets, and linear time in their members.
-void Sets::compact(std::vector<int32_t>* out) const {
-  const size_t all = static_cast<size_t>(model_->nodes()) + static_cast<size_t>(model_->cells()) +
-                     model_->points().size();
-  if (out->size() <= 4 * all + 4096) return;
+void Sets::compact(std::vector<int32_t>& out) const {
+  const size_t all = static_cast<size_t>(numbering_.nodes()) +
+                     static_cast<size_t>(numbering_.cells()) + numbering_.points().size();
+  if (out.size() <= 4 * all + 4096) return;
   std::vector<bool> is_member(all, false);
-  for (const int32_t member : *out) is_member[static_cast<size_t>(member)] = true;
-  out->clear();
+  for (const int32_t member : out) is_member[static_cast<size_t>(member)] = true;
+  out.clear();
   for (size_t member = 0; member < all; ++member) {
-    if (is_member[member]) out->push_back(static_cast<int32_t>(member));
+    if (is_member[member]) out.push_back(static_cast<int32_t>(member));
   }
 }
 
 // Rows of *NODE, NSET= or *ELEMENT, ELSET=. A node that is given twice counts as its first row.
-void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>* out) const {
-  const Use& at = model_->uses()[use];
+void Sets::add_rows(Kind kind, size_t use, const SetChunk& chunk, std::vector<int32_t>& out) const {
+  const Use& at = numbering_.uses()[use];
   for (int32_t row = chunk.row_begin; row < chunk.row_end; ++row) {
     if (kind == Kind::kElements) {
       const size_t table = static_cast<size_t>(at.first_table + chunk.table);
-      out->push_back(model_->tables()[table].first + row);
+      out.push_back(numbering_.tables()[table].first + row);
     } else {
-      const int32_t id = model_->node_ids()[static_cast<size_t>(at.first_node + row)];
-      out->push_back(model_->find_node(use, id - at.node_offset));
+      const int32_t id = numbering_.node_ids()[static_cast<size_t>(at.first_node + row)];
+      out.push_back(numbering_.find_node(use, id - at.node_offset));
     }
   }
 }
 
 void Sets::add_numbers(Kind kind, size_t use, const SetChunk& chunk,
-                       std::vector<int32_t>* out) const {
+                       std::vector<int32_t>& out) const {
   size_t line = 0;
   for (size_t i = 0; i < chunk.ids.size(); ++i) {
     while (line + 1 < chunk.id_lines.size() && chunk.id_lines[line + 1].first <= i) ++line;
     const int32_t member = find(kind, use, chunk.ids[i]);
     if (member == -1) {
-      model_->source().fail(chunk.id_lines[line].second,
-                            fmt::format("there is no {} {}",
-                                        kind == Kind::kNodes ? "node" : "element", chunk.ids[i]));
+      numbering_.source().fail(
+          chunk.id_lines[line].second,
+          fmt::format("found no {} {}", kind == Kind::kNodes ? "node" : "element", chunk.ids[i]));
     }
-    if (member >= 0) out->push_back(member);
+    if (member >= 0) out.push_back(member);
   }
 }
 
 // Missing numbers within a range are no error: programs write ranges over gaps.
-void Sets::add_range(Kind kind, size_t use, const SetChunk::Range& range,
-                     std::vector<int32_t>* out) const {
-  const IdRange ids{range.first, range.last, range.step};
-  const auto found =
-      kind == Kind::kNodes ? model_->find_nodes(use, ids) : model_->find_elements(use, ids);
-  out->insert(out->end(), found.begin(), found.end());
+void Sets::add_range(Kind kind, size_t use, const IdRange& range, std::vector<int32_t>& out) const {
+  const auto found = kind == Kind::kNodes ? numbering_.find_nodes(use, range)
+                                          : numbering_.find_elements(use, range);
+  out.insert(out.end(), found.begin(), found.end());
 }
 
 std::vector<int32_t> Sets::at(Kind kind, const Fields& fields, size_t i, size_t use) {
@@ -170,12 +165,12 @@ std::vector<int32_t> Sets::at(Kind kind, const Fields& fields, size_t i, size_t 
   const Key key = key_of(use, text);
   const auto id = to_integer(sets_of(kind, use).contains(folded(text)) ? text : key.second);
   if (!id) {
-    return kind == Kind::kNodes ? nodes(use, text, fields.spot())
-                                : elements(use, text, fields.spot());
+    return kind == Kind::kNodes ? nodes(use, text, fields.origin())
+                                : elements(use, text, fields.origin());
   }
   const int32_t member = find(kind, key.first, *id);
   if (member == -1) {
-    fields.fail(fmt::format("there is no {} {}", kind == Kind::kNodes ? "node" : "element", text));
+    fields.fail(fmt::format("found no {} {}", kind == Kind::kNodes ? "node" : "element", text));
   }
   if (member < 0) return {};
   return {member};
@@ -192,13 +187,14 @@ std::vector<int32_t> Sets::elements_at(const Fields& fields, size_t i, size_t us
 int32_t Sets::node_at(const Fields& fields, size_t i, size_t use) {
   const auto rows = nodes_at(fields, i, use);
   if (rows.size() != 1) {
-    fields.fail(fmt::format("found {} nodes in '{}', expected one", rows.size(), fields.text(i)));
+    fields.fail(
+        fmt::format("found {} nodes in {}, expected one", rows.size(), shown(fields.text(i))));
   }
   return rows.front();
 }
 
-int32_t Sets::node_named(const std::string& text, size_t use, Spot spot) {
-  return node_at(Fields(text, model_->source(), spot), 0, use);
+int32_t Sets::node_named(const std::string& text, size_t use, Origin origin) {
+  return node_at(Fields(text, numbering_.source(), origin), 0, use);
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -23,18 +23,18 @@ constexpr std::array<std::pair<std::string_view, DofMask>, 8> kNamed = {{
 
 }  // namespace
 
-double amplitude_factor(const Reading& reading, const Card& card) {
+double amplitude_factor(const Model& model, const Card& card) {
   const std::string* name = card.keyword().find("AMPLITUDE");
   if (name == nullptr) return 1.0;
-  const auto known = reading.amplitudes.find(folded(*name));
-  if (known == reading.amplitudes.end()) {
-    reading.source.fail(card.spot(), fmt::format("there is no amplitude '{}'", *name));
+  const auto known = model.amplitudes.find(folded(*name));
+  if (known == model.amplitudes.end()) {
+    model.source.fail(card.origin(), fmt::format("found no amplitude {}", shown(*name)));
   }
   const Card* amplitude = known->second;
   std::vector<double> values;
   const bool table = amplitude->keyword().choice("DEFINITION", "TABULAR") == "TABULAR";
   for (size_t i = 0; table && i < amplitude->size(); ++i) {
-    const Fields fields = amplitude->line(i, reading.source);
+    const Fields fields = amplitude->line(i, model.source);
     for (size_t k = 1; k < fields.size(); k += 2) values.push_back(fields.number(k, "amplitude"));
   }
   for (const double value : values) {
@@ -42,45 +42,43 @@ double amplitude_factor(const Reading& reading, const Card& card) {
     if (values.empty()) break;
   }
   if (values.empty()) {
-    reading.source.fail(card.spot(),
-                        fmt::format("amplitude {} changes with time, which is not supported; "
-                                    "ignore = [\"AMPLITUDE\"] uses the values without it",
-                                    *name));
+    model.source.fail(card.origin(),
+                      fmt::format("amplitude {} changes with time, which is not supported; "
+                                  "ignore = [\"AMPLITUDE\"] uses the values without it",
+                                  *name));
   }
   return values.front();
 }
 
-std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask) {
-  const NodeIndex rotated = reading.node_map->rotation_of(row);
+std::pair<NodeIndex, DofMask> held_dofs(const Model& model, int32_t row, DofMask mask) {
+  const NodeIndex rotated = model.node_map.rotation_of(row);
   if (rotated != NodeMap::kNone) {
     return {rotated, static_cast<DofMask>((mask & kTranslations) << 3)};
   }
-  const NodeIndex node_index = reading.node_map->find(row);
-  if (node_index == NodeMap::kNone || reading.node_map->is_point(node_index))
+  const NodeIndex node_index = model.node_map.find(row);
+  if (node_index == NodeMap::kNone || model.node_map.is_point(node_index))
     return {node_index, mask};
   return {node_index, static_cast<DofMask>(mask & kTranslations)};
 }
 
 void Supports::read(size_t use, const Card& card, StepNumber step) {
   const Keyword& keyword = card.keyword();
-  keyword.allow({"OP", "AMPLITUDE", "TYPE"}, reading_->source, reading_->ignore);
+  keyword.allow({"OP", "AMPLITUDE", "TYPE"}, model_->source, model_->ignore);
   if (keyword.choice("TYPE", "DISPLACEMENT") != "DISPLACEMENT") {
-    reading_->source.fail(card.spot(), "*BOUNDARY: expected TYPE=DISPLACEMENT");
+    model_->source.fail(card.origin(), "*BOUNDARY: expected TYPE=DISPLACEMENT");
   }
   if (keyword.choice("OP", "MOD") == "NEW") {
     std::erase_if(held_, [&](const auto& entry) { return entry.second.step != step; });
   }
-  const double factor =
-      reading_->ignore->skips("AMPLITUDE", 0) ? 1.0 : amplitude_factor(*reading_, card);
-  cards_.push_back(reading_->source.where(card.spot()));
+  const double factor = model_->ignore.lists("AMPLITUDE") ? 1.0 : amplitude_factor(*model_, card);
+  cards_.push_back(model_->source.where(card.origin()));
   for (size_t i = 0; i < card.size(); ++i) {
-    reading_->refusals->attempt(
-        [&] { read_line(use, card.line(i, reading_->source), factor, step); });
+    model_->refusals.attempt([&] { read_line(use, card.line(i, model_->source), factor, step); });
   }
 }
 
 void Supports::read_line(size_t use, const Fields& fields, double factor, StepNumber step) {
-  const std::vector<int32_t> rows = reading_->sets->nodes_at(fields, 0, use);
+  const std::vector<int32_t> rows = model_->sets.nodes_at(fields, 0, use);
   const std::string word = folded(fields.text(1));
   DofMask mask = 0;
   double value = 0.0;
@@ -92,24 +90,25 @@ void Supports::read_line(size_t use, const Fields& fields, double factor, StepNu
   } else {
     fields.at_most(4, "nodes, first and last DoF, value");
     mask = dof_range(fields, 1);
-    value = factor * fields.number_or(3, 0.0, "value");
+    value = factor * fields.number_or(3, "value", 0.0);
   }
-  for (const int32_t row : rows) hold(row, mask, value, step, fields.spot());
+  for (const int32_t row : rows) hold(row, mask, value, step, fields.origin());
 }
 
-void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot) {
-  const auto [node_index, dofs] = held_dofs(*reading_, row, mask);
+void Supports::hold(int32_t row, DofMask mask, double value, StepNumber step, Origin origin) {
+  const auto [node_index, dofs] = held_dofs(*model_, row, mask);
   if (node_index == NodeMap::kNone) return;
   for (int k = 0; k < 6; ++k) {
     if ((dofs >> k & 1) == 0) continue;
-    const Held held{value, &reading_->node_map->system(row), step,
+    const Held held{value, &model_->node_map.displacement_system(row), step,
                     static_cast<int32_t>(cards_.size()) - 1};
     const auto [at, is_new] = held_.emplace(std::pair(node_index, k), held);
     if (is_new) continue;
     if (at->second.step == step && at->second.value != value) {
-      reading_->source.fail(spot, fmt::format("node {} is fixed at {} and at {} in direction {}",
-                                              reading_->model->node_ids()[static_cast<size_t>(row)],
-                                              at->second.value, value, k + 1));
+      model_->source.fail(origin,
+                          fmt::format("node {} is fixed at {} and at {} in direction {}",
+                                      model_->numbering.node_ids()[static_cast<size_t>(row)],
+                                      at->second.value, value, k + 1));
     }
     // A repeated value keeps its first line.
     if (at->second.value != value || at->second.step != step) at->second = held;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/deck/abaqus/reading.hpp"
+#include "mesh/deck/abaqus/model.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
@@ -14,15 +14,15 @@ namespace clatter::mesh::deck::abaqus {
 using StepNumber = int32_t;
 
 /// Factor of a card's AMPLITUDE; 1 without one. InputError for an amplitude that is not constant.
-double amplitude_factor(const Reading& reading, const Card& card);
+double amplitude_factor(const Model& model, const Card& card);
 
 /// The DoFs of a node in `mask` (1 to 6 of the deck): its node index, and the mask there. kNone for
 /// a node without stiffness; a mask of 0 for rotations of a node that has none.
-std::pair<NodeIndex, DofMask> held_dofs(const Reading& reading, int32_t row, DofMask mask);
+std::pair<NodeIndex, DofMask> held_dofs(const Model& model, int32_t row, DofMask mask);
 
 class Supports {
  public:
-  explicit Supports(Reading* reading) : reading_(reading) {}
+  explicit Supports(Model& model) : model_(&model) {}
 
   /// One *BOUNDARY. OP=NEW releases supports of other steps. InputError for a DoF with two values
   /// in one step.
@@ -39,9 +39,9 @@ class Supports {
   };
 
   void read_line(size_t use, const Fields& fields, double factor, StepNumber step);
-  void hold(int32_t row, DofMask mask, double value, StepNumber step, Spot spot);
+  void hold(int32_t row, DofMask mask, double value, StepNumber step, Origin origin);
 
-  Reading* reading_;
+  Model* model_;
   std::map<std::pair<NodeIndex, int>, Held> held_;
   std::vector<std::string> cards_;  // their positions in the deck
 };

@@ -11,8 +11,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole_file.hpp"
-#include "mesh/deck/abaqus/elements.hpp"
+#include "mesh/deck/abaqus/cells.hpp"
 #include "mesh/deck/abaqus/lines.hpp"
+#include "mesh/deck/abaqus/number.hpp"
+#include "mesh/deck/field_text.hpp"
+#include "mesh/deck/text_buffer.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -33,15 +36,16 @@ FaceCorners turned(std::span<const int32_t> nodes, size_t corners) {
 
 class AbaqusWriter {
  public:
-  AbaqusWriter(const Mesh& mesh, std::ostream& out) : mesh_(mesh), out_(out) {}
+  AbaqusWriter(const Mesh& mesh, std::ostream& out) : mesh_(mesh), text_(out) {}
 
   void run() {
     number_nodes();
     number_cells();
-    put("*HEADING\n{} (lengths in metres)\n*NODE\n", one_line(mesh_.name));
+    text_.put("*HEADING\n{} (lengths in metres)\n*NODE\n", one_line(mesh_.name));
     for (Eigen::Index n = 0; n < mesh_.nodes.rows(); ++n) {
-      put("{}, {}, {}, {}\n", node_ids_[static_cast<size_t>(n)], abaqus_number(mesh_.nodes(n, 0)),
-          abaqus_number(mesh_.nodes(n, 1)), abaqus_number(mesh_.nodes(n, 2)));
+      text_.put("{}, {}, {}, {}\n", node_ids_[static_cast<size_t>(n)],
+                abaqus_number(mesh_.nodes(n, 0)), abaqus_number(mesh_.nodes(n, 1)),
+                abaqus_number(mesh_.nodes(n, 2)));
     }
     check_names(mesh_.regions);
     for (size_t b = 0; b < mesh_.cells.size(); ++b) write_cells(b);
@@ -54,22 +58,11 @@ class AbaqusWriter {
     check_names(names);
     if (!mesh_.surfaces.empty()) index_faces();
     for (const auto& [name, surface] : mesh_.surfaces) write_surface(name, surface);
-    put("{}\n", abaqus::kEndMark);
-    flush();
+    text_.put("{}\n", abaqus::kEndMark);
+    text_.flush();
   }
 
  private:
-  template <class... Args>
-  void put(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-    if (text_.size() > (size_t{1} << 20)) flush();
-  }
-
-  void flush() {
-    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-    text_.clear();
-  }
-
   static std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.starts_with('*') ? " " + text : text;
@@ -113,7 +106,7 @@ class AbaqusWriter {
         throw InputError(fmt::format("mesh '{}': the name '{}' cannot be written to an Abaqus deck",
                                      mesh_.name, name));
       }
-      const auto [at, is_new] = known.emplace(abaqus::folded(name), name);
+      const auto [at, is_new] = known.emplace(folded(name), name);
       if (!is_new) {
         throw InputError(fmt::format("mesh '{}': the names '{}' and '{}' are the same to Abaqus",
                                      mesh_.name, at->second, name));
@@ -127,7 +120,7 @@ class AbaqusWriter {
 
   // Entry i of n, and its separator.
   void put_entry(int32_t value, size_t i, size_t n) {
-    put("{}{}", value, i + 1 == n ? "\n" : i % kEntries == kEntries - 1 ? ",\n" : ", ");
+    text_.put("{}{}", value, i + 1 == n ? "\n" : i % kEntries == kEntries - 1 ? ",\n" : ", ");
   }
 
   void write_cells(size_t b) {
@@ -138,8 +131,8 @@ class AbaqusWriter {
       throw InputError(
           fmt::format("mesh '{}': Abaqus has no element for {}", mesh_.name, cell.name));
     }
-    put("*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
-        quoted(mesh_.regions[static_cast<size_t>(block.region)]));
+    text_.put("*ELEMENT, TYPE={}, ELSET={}\n", cell.abaqus_name,
+              quoted(mesh_.regions[static_cast<size_t>(block.region)]));
     const std::span<const int> p = cell.to_abaqus;
     for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
       put_entry(cell_ids_[b][static_cast<size_t>(c)], 0, p.size() + 1);
@@ -150,7 +143,7 @@ class AbaqusWriter {
   }
 
   void write_node_set(const std::string& name, const std::vector<int32_t>& nodes) {
-    put("*NSET, NSET={}\n", quoted(name));
+    text_.put("*NSET, NSET={}\n", quoted(name));
     for (size_t i = 0; i < nodes.size(); ++i) {
       put_entry(node_ids_[static_cast<size_t>(nodes[i])], i, nodes.size());
     }
@@ -185,13 +178,13 @@ class AbaqusWriter {
   }
 
   void write_surface(const std::string& name, const Surface& surface) {
-    put("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted(name));
+    text_.put("*SURFACE, NAME={}, TYPE=ELEMENT\n", quoted(name));
     for (const FaceBlock& block : surface.faces) {
       const auto corners = static_cast<size_t>(traits(block.type).corners);
       for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
         const std::span<const int32_t> nodes(block.nodes.data() + f * block.nodes.cols(), corners);
         const Face& face = face_at(nodes, name);
-        put("{}, S{}\n", face.cell, face.number);
+        text_.put("{}, S{}\n", face.cell, face.number);
       }
     }
   }
@@ -218,8 +211,7 @@ class AbaqusWriter {
   }
 
   const Mesh& mesh_;
-  std::ostream& out_;
-  fmt::memory_buffer text_;
+  TextBuffer text_;
   std::vector<int32_t> node_ids_;
   std::vector<std::vector<int32_t>> cell_ids_;
   std::vector<Face> faces_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// RBE2, RBE3, MPC and CONM2.
+// RBE2 and RBE3.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -7,9 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/base/error.hpp"
 #include "mesh/deck/nastran/model.hpp"
-#include "mesh/deck/nastran/sets.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -25,10 +23,6 @@ bool frame_free(DofMask dofs, bool has_rotations) {
     return (dofs & three) == three || (dofs & three) == 0;
   };
   return all_or_none(kTranslations) && (!has_rotations || all_or_none(kRotations));
-}
-
-void add_term(Equation& equation, NodeIndex node_index, int direction, double coefficient) {
-  if (coefficient != 0.0) equation.terms.push_back({node_index, direction, coefficient});
 }
 
 // Transforms rows t so that each has its own pivot column (1 there, 0 in the other rows), by
@@ -53,11 +47,11 @@ std::vector<int> reduce_rows(std::vector<Vector3d>& rows) {
 // RBE2 in some directions of a displacement system: for each direction t of the dependent d,
 // t . (u_d - u_r - theta_r x (x_d - x_r)) = 0, and for rotations t . (theta_d - theta_r) = 0.
 void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, NodeIndex dependent) {
-  const Matrix3d axes = model.systems.directions(model.displacement_system(dependent),
-                                                 model.position(dependent), raw.origin);
-  const Vector3d arm = model.position(dependent) - model.position(reference);
+  const Matrix3d axes = model.systems.directions(model.node_map.displacement_system(dependent),
+                                                 model.node_map.position(dependent), raw.origin);
+  const Vector3d arm = model.node_map.position(dependent) - model.node_map.position(reference);
   for (const int base : {0, 3}) {
-    if (base == 3 && model.is_node(dependent)) break;
+    if (base == 3 && !model.node_map.is_point(dependent)) break;
     std::vector<Vector3d> rows;
     for (int k = 0; k < 3; ++k) {
       if (raw.dofs >> (base + k) & 1) rows.push_back(axes.col(k));
@@ -67,13 +61,13 @@ void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, Node
       const Vector3d& t = rows[i];
       const Vector3d turn = arm.cross(t);
       Equation equation;
-      equation.where = model.where(raw.origin);
-      add_term(equation, dependent, base + pivots[i], 1.0);
+      equation.where = model.source.where(raw.origin);
+      add_term(equation.terms, dependent, base + pivots[i], 1.0);
       for (int k = 0; k < 3; ++k) {
-        if (k != pivots[i]) add_term(equation, dependent, base + k, t[k]);
+        if (k != pivots[i]) add_term(equation.terms, dependent, base + k, t[k]);
       }
-      for (int k = 0; k < 3; ++k) add_term(equation, reference, base + k, -t[k]);
-      for (int k = 0; base == 0 && k < 3; ++k) add_term(equation, reference, 3 + k, -turn[k]);
+      for (int k = 0; k < 3; ++k) add_term(equation.terms, reference, base + k, -t[k]);
+      for (int k = 0; base == 0 && k < 3; ++k) add_term(equation.terms, reference, 3 + k, -turn[k]);
       model.deck.equations.push_back(std::move(equation));
     }
   }
@@ -82,7 +76,7 @@ void add_rigid_rows(Model& model, const RawRigid& raw, NodeIndex reference, Node
 void add_rigid(Model& model, const RawRigid& raw) {
   Rigid rigid;
   rigid.name = fmt::format("rbe2_{}", raw.id);
-  rigid.where = model.where(raw.origin);
+  rigid.where = model.source.where(raw.origin);
   rigid.reference = model.require(raw.reference, raw.origin);
   rigid.dofs = raw.dofs;
   for (const NodeIndex node_index : model.node_indices(raw.dependents, raw.origin, true)) {
@@ -90,10 +84,10 @@ void add_rigid(Model& model, const RawRigid& raw) {
       model.source.fail(raw.origin, fmt::format("RBE2 {}: its reference {} is a dependent, too",
                                                 raw.id, raw.reference));
     }
-    const bool basic = model.displacement_system(node_index) == 0;
-    if (basic || frame_free(raw.dofs, !model.is_node(node_index))) {
+    const bool basic = model.node_map.displacement_system(node_index) == 0;
+    if (basic || frame_free(raw.dofs, model.node_map.is_point(node_index))) {
       rigid.dependents.push_back(node_index);
-    } else if (model.is_node(rigid.reference)) {
+    } else if (!model.node_map.is_point(rigid.reference)) {
       model.source.fail(
           raw.origin,
           fmt::format("RBE2 {}: found some directions of a displacement system (CD) and "
@@ -109,11 +103,11 @@ void add_rigid(Model& model, const RawRigid& raw) {
 void add_distributing(Model& model, const RawDistributing& raw) {
   Distributing rbe3;
   rbe3.name = fmt::format("rbe3_{}", raw.id);
-  rbe3.where = model.where(raw.origin);
+  rbe3.where = model.source.where(raw.origin);
   rbe3.reference = model.require(raw.reference, raw.origin);
   rbe3.dofs = raw.dofs;
   const auto check_frame = [&](NodeIndex node_index, DofMask dofs) {
-    if (model.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
+    if (model.node_map.displacement_system(node_index) == 0 || frame_free(dofs, true)) return;
     model.source.fail(raw.origin,
                       fmt::format("RBE3 {}: some directions of a displacement system (CD) "
                                   "are not supported, expected 123, 456 or 123456",
@@ -125,7 +119,7 @@ void add_distributing(Model& model, const RawDistributing& raw) {
                             model.node_indices(raw_term.grids, raw.origin, true)};
     for (const NodeIndex node_index : term.node_indices) {
       check_frame(node_index, term.dofs);
-      if (model.is_node(node_index) && (term.dofs & kRotations) != 0) {
+      if (!model.node_map.is_point(node_index) && (term.dofs & kRotations) != 0) {
         model.source.fail(
             raw.origin,
             fmt::format("RBE3 {}: found rotations of node {} of solids, which has none; "
@@ -138,101 +132,14 @@ void add_distributing(Model& model, const RawDistributing& raw) {
   model.deck.distributing.push_back(std::move(rbe3));
 }
 
-void add_mass(Model& model, const RawMass& raw) {
-  Mass mass;
-  mass.where = model.where(raw.origin);
-  mass.node_index = model.require(raw.grid, raw.origin);
-  const double factor = model.bulk.control.mass_factor;
-  mass.mass = factor * raw.mass;
-  const Vector3d offset(raw.offset[0], raw.offset[1], raw.offset[2]);
-  const auto& i = raw.inertia;
-  Matrix3d inertia;
-  // I21, I31, I32 are integrals of products; the tensor has their negatives.
-  inertia << i[0], -i[1], -i[3], -i[1], i[2], -i[4], -i[3], -i[4], i[5];
-  if (raw.system < 0) {
-    mass.offset = offset - model.position(mass.node_index);
-    mass.inertia = factor * inertia;
-  } else {
-    const Matrix3d axes =
-        model.systems.directions(raw.system, model.position(mass.node_index), raw.origin);
-    mass.offset = axes * offset;
-    mass.inertia = factor * axes * inertia * axes.transpose();
-  }
-  if (!mass.offset.allFinite() || !mass.inertia.allFinite() || !std::isfinite(mass.mass)) {
-    model.source.fail(raw.origin, "CONM2: its numbers are too large");
-  }
-  model.deck.masses.push_back(mass);
-}
-
-void add_equation(Model& model, const RawEquation& raw) {
-  Equation equation;
-  equation.where = model.where(raw.origin);
-  for (const auto& term : raw.terms) {
-    const NodeIndex node_index = model.require(term.grid, raw.origin);
-    const int base = term.direction < 3 ? 0 : 3;
-    if (base == 3 && model.is_node(node_index)) {
-      model.source.fail(raw.origin, fmt::format("MPC: found a rotation of node {} of solids, which "
-                                                "has none",
-                                                term.grid));
-    }
-    const int32_t system = model.displacement_system(node_index);
-    if (system == 0) {
-      add_term(equation, node_index, term.direction, term.coefficient);
-      continue;
-    }
-    const Vector3d t =
-        term.coefficient * model.systems.directions(system, model.position(node_index), raw.origin)
-                               .col(term.direction - base);
-    Eigen::Index largest = 0;  // first: the first term of an equation is the dependent
-    t.cwiseAbs().maxCoeff(&largest);
-    add_term(equation, node_index, base + static_cast<int>(largest), t[largest]);
-    for (int k = 0; k < 3; ++k) {
-      if (k != largest) add_term(equation, node_index, base + k, t[k]);
-    }
-  }
-  model.deck.equations.push_back(std::move(equation));
-}
-
-// The MPC set of the case control, or the only one.
-int32_t chosen_mpc(const Model& model) {
-  const Bulk& bulk = model.bulk;
-  if (bulk.control.has_cases) {
-    const int32_t first = bulk.control.subcases.front().choice.mpc;
-    for (const Subcase& subcase : bulk.control.subcases) {
-      if (subcase.choice.mpc == first) continue;
-      model.source.fail(
-          subcase.origin,
-          fmt::format("subcase {}: found MPC = {}, expected {} as in the first subcase", subcase.id,
-                      subcase.choice.mpc, first));
-    }
-    return first;
-  }
-  return only_set(model, "MPC", bulk.mpc, bulk.mpc_sums);
-}
-
-void add_chosen_mpc(Model& model) {
-  const int32_t mpc = chosen_mpc(model);
-  if (mpc == 0) return;
-  const Origin origin =
-      model.bulk.control.has_cases ? model.bulk.control.subcases.front().origin : 0;
-  for (const int32_t set :
-       members_of(model, "MPC", mpc, model.bulk.mpc, model.bulk.mpc_sums, origin)) {
-    for (const RawEquation& raw : model.bulk.mpc.at(set)) {
-      model.refusals.attempt([&] { add_equation(model, raw); });
-    }
-  }
-}
-
 }  // namespace
 
 void build_couplings(Model& model) {
   Refusals& refusals = model.refusals;
-  for (const RawRigid& raw : model.bulk.rigid) refusals.attempt([&] { add_rigid(model, raw); });
-  for (const RawDistributing& raw : model.bulk.distributing) {
+  for (const RawRigid& raw : model.raw.rigid) refusals.attempt([&] { add_rigid(model, raw); });
+  for (const RawDistributing& raw : model.raw.distributing) {
     refusals.attempt([&] { add_distributing(model, raw); });
   }
-  for (const RawMass& raw : model.bulk.masses) refusals.attempt([&] { add_mass(model, raw); });
-  refusals.attempt([&] { add_chosen_mpc(model); });
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -12,7 +12,7 @@ namespace {
 void check_cell_numbers(Model& model) {
   std::vector<int32_t> ids;
   std::vector<Origin> origins;
-  for (const RawBlock& block : model.bulk.blocks) {
+  for (const RawBlock& block : model.raw.blocks) {
     ids.insert(ids.end(), block.ids.begin(), block.ids.end());
     origins.insert(origins.end(), block.origins.begin(), block.origins.end());
   }
@@ -22,12 +22,13 @@ void check_cell_numbers(Model& model) {
   const Origin here = origins[static_cast<size_t>(second)];
   model.source.fail(here, fmt::format("cell {}: found another one with this number at {}",
                                       ids[static_cast<size_t>(second)],
-                                      model.where(origins[static_cast<size_t>(first)])));
+                                      model.source.where(origins[static_cast<size_t>(first)])));
 }
 
-// GRID numbers of the cells become rows of the GRID table.
-void find_rows(Model& model) {
-  for (RawBlock& block : model.bulk.blocks) {
+// GRID numbers of the cells become rows of the GRID table. 0 for the rows that cells use.
+std::vector<int32_t> find_rows(Model& model) {
+  std::vector<int32_t> mesh_node(model.raw.grids.size(), NodeMap::kNone);
+  for (RawBlock& block : model.raw.blocks) {
     const auto per_cell = static_cast<size_t>(traits(block.type).nodes);
     for (size_t i = 0; i < block.nodes.size(); ++i) {
       if (block.nodes[i] == 0) {
@@ -41,10 +42,11 @@ void find_rows(Model& model) {
                                                            block.ids[cell], block.nodes[i]));
       }
       block.nodes[i] = row;
-      model.index_of_row[static_cast<size_t>(row)] = 0;
+      mesh_node[static_cast<size_t>(row)] = 0;
     }
     block.origins = {};
   }
+  return mesh_node;
 }
 
 }  // namespace
@@ -53,20 +55,19 @@ void build_mesh(Model& model) {
   check_cell_numbers(model);
   std::vector<int32_t> properties;  // of the regions, ascending
   std::set<int32_t> found;
-  for (const RawBlock& block : model.bulk.blocks) found.insert(block.property);
+  for (const RawBlock& block : model.raw.blocks) found.insert(block.property);
   properties.assign(found.begin(), found.end());
   build_regions(model, properties);
-  find_rows(model);
-  complete_cells(model);
+  std::vector<int32_t> mesh_node = find_rows(model);
+  const std::vector<int32_t> hanging_rows = complete_cells(model, mesh_node);
 
-  Grids& grids = model.bulk.grids;
+  const Grids& grids = model.raw.grids;
   Mesh& mesh = model.deck.mesh;
-  for (size_t row = 0; row < grids.size(); ++row) {
-    if (model.index_of_row[row] < 0) continue;
-    model.index_of_row[row] = model.node_count++;
-    model.row_of_index_.push_back(static_cast<int32_t>(row));
+  int32_t count = 0;
+  for (int32_t& node : mesh_node) {
+    if (node != NodeMap::kNone) node = count++;
   }
-  for (RawBlock& block : model.bulk.blocks) {
+  for (RawBlock& block : model.raw.blocks) {
     CellBlock cells;
     cells.type = block.type;
     const auto at = std::lower_bound(properties.begin(), properties.end(), block.property);
@@ -74,18 +75,20 @@ void build_mesh(Model& model) {
     cells.ids = std::move(block.ids);
     cells.nodes.resize(static_cast<Eigen::Index>(cells.ids.size()), traits(block.type).nodes);
     int32_t* node = cells.nodes.data();
-    block.nodes.drain([&](int32_t row) { *node++ = model.index_of_row[static_cast<size_t>(row)]; });
+    block.nodes.drain([&](int32_t row) { *node++ = mesh_node[static_cast<size_t>(row)]; });
     mesh.cells.push_back(std::move(cells));
   }
-  mesh.nodes.resize(model.node_count, 3);
-  mesh.node_ids.resize(static_cast<size_t>(model.node_count));
-  for (NodeIndex node = 0; node < model.node_count; ++node) {
-    const auto row = static_cast<size_t>(model.row_of_index_[static_cast<size_t>(node)]);
+  mesh.nodes.resize(count, 3);
+  mesh.node_ids.resize(static_cast<size_t>(count));
+  for (size_t row = 0; row < grids.size(); ++row) {
+    const int32_t node = mesh_node[row];
+    if (node == NodeMap::kNone) continue;
     mesh.nodes.row(node) << grids.at[row][0], grids.at[row][1], grids.at[row][2];
     mesh.node_ids[static_cast<size_t>(node)] = grids.ids[row];
   }
-  for (const int32_t row : model.hanging_rows)
-    mesh.node_sets[kHangingMidSideNodes].push_back(model.index_of_row[static_cast<size_t>(row)]);
+  for (const int32_t row : hanging_rows)
+    mesh.node_sets[kHangingMidSideNodes].push_back(mesh_node[static_cast<size_t>(row)]);
+  model.node_map.set_mesh_nodes(std::move(mesh_node));
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -6,14 +6,6 @@
 #include <limits>
 
 namespace clatter::mesh::deck::nastran {
-namespace {
-
-void append_capitals(std::string_view text, std::string& out) {
-  for (char c : text) out += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-}  // namespace
-
 void Card::clear() {
   name_.clear();
   next_.clear();
@@ -61,8 +53,7 @@ void Card::add(const LineFields& line, Origin origin) {
     fields_.push_back({static_cast<uint32_t>(text_.size()), static_cast<uint32_t>(text.size())});
     append_capitals(text, text_);
   }
-  next_.clear();
-  append_capitals(line.next, next_);
+  next_ = capitals(line.next);
 }
 
 std::string_view Card::text(size_t i) const {
@@ -86,24 +77,24 @@ void Card::fail_expected(size_t i, const char* what, const char* expected) const
   fail(i, fmt::format("{}: found {}, expected {}", what, shown(text(i)), expected));
 }
 
-void Card::expect_end(size_t i) const {
-  for (; i < fields_.size(); ++i) {
+void Card::at_most(size_t count) const {
+  for (size_t i = count; i < fields_.size(); ++i) {
     if (!blank(i)) fail(i, fmt::format("found {} after the last field", shown(text(i))));
   }
 }
 
-double Card::real(size_t i, const char* what) const {
-  const auto value = parse_real(text(i));
+double Card::number(size_t i, const char* what) const {
+  const auto value = to_number(text(i));
   if (!value) fail_expected(i, what, "a number");
   return *value;
 }
 
-double Card::real_or(size_t i, const char* what, double fallback) const {
-  return blank(i) ? fallback : real(i, what);
+double Card::number_or(size_t i, const char* what, double fallback) const {
+  return blank(i) ? fallback : number(i, what);
 }
 
 int32_t Card::id(size_t i, const char* what) const {
-  const auto value = parse_integer(text(i));
+  const auto value = to_integer(text(i));
   if (!value || *value < 1) fail_expected(i, what, "an integer from 1 to 2147483647");
   return *value;
 }
@@ -113,7 +104,7 @@ int32_t Card::id_or(size_t i, const char* what, int32_t fallback) const {
 }
 
 int32_t Card::integer(size_t i, const char* what) const {
-  const auto value = parse_integer(text(i));
+  const auto value = to_integer(text(i));
   if (!value) fail_expected(i, what, "an integer");
   return *value;
 }

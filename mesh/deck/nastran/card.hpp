@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "mesh/deck/deck.hpp"
+#include "mesh/deck/field_text.hpp"
+#include "mesh/deck/id_index.hpp"
 #include "mesh/deck/nastran/fields.hpp"
 #include "mesh/deck/nastran/source.hpp"
 
 namespace clatter::mesh::deck::nastran {
 
 /// An integer list of a card: single ones (first = last) and FIRST THRU LAST BY STEP.
-struct IdRange {
-  int32_t first = 0, last = 0, step = 1;
-  bool is_range = false;  // of a THRU: members that do not exist are no error
-};
 using IdList = std::vector<IdRange>;
 
 /// Fields count from 0, field 2 of the first line; each further line brings 8 more (large: 4).
@@ -43,8 +41,8 @@ class Card {
   /// Blank from field i on.
   bool blank_from(size_t i) const;
 
-  double real(size_t i, const char* what) const;
-  double real_or(size_t i, const char* what, double fallback) const;
+  double number(size_t i, const char* what) const;
+  double number_or(size_t i, const char* what, double fallback) const;
   /// 1 or more.
   int32_t id(size_t i, const char* what) const;
   int32_t id_or(size_t i, const char* what, int32_t fallback) const;
@@ -56,14 +54,14 @@ class Card {
   /// Numbers from field i on, skipping blanks, up to a field that is not a number (its index in
   /// `end`).
   IdList ids(size_t i, const char* what, size_t* end = nullptr) const;
-  bool is_integer(size_t i) const { return parse_integer(text(i)).has_value(); }
+  bool is_integer(size_t i) const { return to_integer(text(i)).has_value(); }
   bool is_word(size_t i) const;
 
   /// "deck.bdf:12: GRID: " and the message; the line is that of field i.
   [[noreturn]] void fail(size_t i, const std::string& message) const;
   [[noreturn]] void fail_expected(size_t i, const char* what, const char* expected) const;
-  /// Fails unless field i and all later ones are blank.
-  void expect_end(size_t i) const;
+  /// Fails when field `count` or a later one is not blank.
+  void at_most(size_t count) const;
 
  private:
   struct Line {

@@ -38,12 +38,6 @@ struct Command {
   bool assigned = false;  // there is a =
 };
 
-std::string capitals(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return out;
-}
-
 Command parse_command(std::string_view line) {
   Command out;
   const auto word = [](char c) {
@@ -83,10 +77,10 @@ bool has_option(const Command& command, std::string_view option) {
   return command.options.find(option) != std::string::npos;
 }
 
-class Parser {
+class ControlParser {
  public:
-  Parser(Source& source, Ignored& ignored, Refusals& refusals)
-      : source_(source), ignored_(ignored), refusals_(refusals) {}
+  ControlParser(Source& source, Ignore& ignore, Refusals& refusals)
+      : source_(source), ignore_(ignore), refusals_(refusals) {}
 
   Control run() {
     while (const auto line = source_.next()) {
@@ -149,7 +143,7 @@ class Parser {
 
   void solution(std::string_view value) {
     value = value.substr(0, value.find_first_of(" ,"));
-    if (const auto number = parse_integer(value)) {
+    if (const auto number = to_integer(value)) {
       control_.solution = *number;
     } else if (value == "SESTATIC" || value == "SESTATICS") {
       control_.solution = 101;
@@ -211,7 +205,7 @@ class Parser {
   }
 
   int32_t set_number(const Command& command) {
-    const auto number = parse_integer(command.value);
+    const auto number = to_integer(command.value);
     if (number && *number > 0) return *number;
     source_.fail(source_.origin(), fmt::format("{}: found {}, expected the number of a set",
                                                command.name, shown(command.value)));
@@ -227,7 +221,7 @@ class Parser {
   }
 
   void refuse(const std::string& name, const char* kind) {
-    if (ignored_.skip(name)) return;
+    if (ignore_.skips(name)) return;
     source_.fail(source_.origin(), fmt::format("{} {} is not supported; ignore = [\"{}\"] skips it",
                                                kind, shown(name), name));
   }
@@ -241,7 +235,7 @@ class Parser {
   }
 
   Source& source_;
-  Ignored& ignored_;
+  Ignore& ignore_;
   Refusals& refusals_;
   Part part_ = Part::kUnknown;
   Control control_;
@@ -251,33 +245,14 @@ class Parser {
 
 }  // namespace
 
-Ignored::Ignored(const std::vector<std::string>& names) {
-  for (const std::string& name : names) counts_[capitals(name)] = 0;
-}
-
-bool Ignored::skip(std::string_view name) {
-  const auto at = counts_.find(name);
-  if (at == counts_.end()) return false;
-  ++at->second;
-  return true;
-}
-
-std::map<std::string, int64_t> Ignored::counts() const {
-  std::map<std::string, int64_t> came;
-  for (const auto& [name, count] : counts_) {
-    if (count > 0) came[name] = count;
-  }
-  return came;
-}
-
-Control read_control(Source& source, Ignored& ignored, Refusals& refusals) {
-  return Parser(source, ignored, refusals).run();
+Control read_control(Source& source, Ignore& ignore, Refusals& refusals) {
+  return ControlParser(source, ignore, refusals).run();
 }
 
 void read_parameter(Control& control, std::string_view name, std::string_view value,
                     const Source& source, Origin origin) {
   if (name != "WTMASS") return;
-  const auto factor = parse_real(value);
+  const auto factor = to_number(value);
   if (!factor || !(*factor > 0.0)) {
     source.fail(origin,
                 fmt::format("PARAM WTMASS: found {}, expected a positive number", shown(value)));

@@ -6,10 +6,10 @@
 // other commands that do not change the model are skipped silently (harmless_* in control.cpp);
 // anything else is refused by name unless the user ignores it.
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "mesh/deck/ignore.hpp"
 #include "mesh/deck/nastran/source.hpp"
 #include "mesh/deck/refusals.hpp"
 
@@ -26,20 +26,6 @@ struct Subcase {
   Choice choice;
 };
 
-/// The names that the user ignores, in capitals, with how often each was found.
-class Ignored {
- public:
-  explicit Ignored(const std::vector<std::string>& names);
-  /// True, and counted, when `name` (capitals) is one of them.
-  bool skip(std::string_view name);
-  bool lists(std::string_view name) const { return counts_.find(name) != counts_.end(); }
-  /// Those that were found.
-  std::map<std::string, int64_t> counts() const;
-
- private:
-  std::map<std::string, int64_t, std::less<>> counts_;
-};
-
 struct Control {
   bool has_cases = false;  // there is a case control: it alone selects sets
   int32_t solution = 0;    // SOL; 0: not given
@@ -49,7 +35,7 @@ struct Control {
 };
 
 /// Reads up to and including BEGIN BULK; reads nothing when the deck begins with bulk data.
-Control read_control(Source& source, Ignored& ignored, Refusals& refusals);
+Control read_control(Source& source, Ignore& ignore, Refusals& refusals);
 
 /// Applies a PARAM; parameters other than WTMASS are skipped.
 void read_parameter(Control& control, std::string_view name, std::string_view value,

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 
-#include "mesh/deck/nastran/source.hpp"
+#include "mesh/deck/field_text.hpp"
 
 namespace clatter::mesh::deck::nastran {
 namespace {
@@ -98,12 +95,6 @@ std::string split_free(std::string_view line, LineFields& out) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
-
 std::string_view without_comment(std::string_view line) {
   const void* dollar = line.empty() ? nullptr : std::memchr(line.data(), '$', line.size());
   if (dollar)
@@ -122,45 +113,6 @@ std::string split_line(std::string_view line, LineFields& out) {
   }
   split_fixed(line, out);
   return {};
-}
-
-std::optional<double> parse_real(std::string_view text) {
-  std::array<char, 64> plain;  // in the syntax of std::from_chars
-  if (text.empty() || text.size() + 1 >= plain.size()) return std::nullopt;
-  size_t at = text[0] == '+' ? 1 : 0, n = 0;
-  bool digits = false, exponent = false;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    const bool sign = c == '+' || c == '-';
-    if (is_digit(c) || c == '.') {
-      digits = digits || is_digit(c);
-      plain[n++] = c;
-    } else if (sign && n == 0 && text[0] != '+') {
-      plain[n++] = c;
-    } else if (digits && !exponent && (sign || c == 'e' || c == 'E' || c == 'd' || c == 'D')) {
-      exponent = true;
-      plain[n++] = 'e';
-      const bool signed_next =
-          !sign && at + 1 < text.size() && (text[at + 1] == '+' || text[at + 1] == '-');
-      if (sign || signed_next) plain[n++] = sign ? c : text[++at];
-    } else {
-      return std::nullopt;
-    }
-  }
-  double value = 0.0;
-  const auto [end, trouble] = std::from_chars(plain.data(), plain.data() + n, value);
-  if (trouble != std::errc{} || end != plain.data() + n || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
-std::optional<int32_t> parse_integer(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && is_digit(text[1])) text.remove_prefix(1);
-  int32_t value = 0;
-  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || trouble != std::errc{} || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
 }
 
 }  // namespace clatter::mesh::deck::nastran

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// One physical line of bulk data split into its fields, and the numbers in them.
+// One physical line of bulk data split into its fields.
 //
 //   small   name of 8 columns, 8 data fields of 8, continuation name in columns 73 to 80
 //   large   the same with 4 data fields of 16: the name ends, or a continuation begins, with *
@@ -8,8 +8,6 @@
 //   name is the next line of the card
 //
 // Tabs are blanks up to the next column of eight. Comments ($) end a line.
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,11 +29,5 @@ std::string split_line(std::string_view line, LineFields& out);
 
 /// The line without its comment ($) and trailing blanks.
 std::string_view without_comment(std::string_view line);
-std::string_view trimmed(std::string_view text);
-
-/// A finite real number in Nastran notation (1.5, .5, 1.5-3, 1.+5, 1D3), or an integer.
-std::optional<double> parse_real(std::string_view text);
-/// A 32-bit integer.
-std::optional<int32_t> parse_integer(std::string_view text);
 
 }  // namespace clatter::mesh::deck::nastran

@@ -23,9 +23,9 @@ bool starts_with_word(std::string_view line, std::string_view word) {
   return true;
 }
 
-class Reader {
+class CardReader {
  public:
-  Reader(Source& source, CardSink& sink, Refusals& refusals)
+  CardReader(Source& source, CardSink& sink, Refusals& refusals)
       : source_(source), sink_(sink), refusals_(refusals), current_(source) {}
 
   CardsEnd run() {
@@ -78,9 +78,8 @@ class Reader {
       orphan_ = false;
       return;
     }
-    capitals_ = fields_.head;
-    for (char& c : capitals_) c = c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
-    if (capitals_.empty() || (!current_.empty() && capitals_ == current_.next())) {
+    const std::string name = capitals(fields_.head);
+    if (name.empty() || (!current_.empty() && name == current_.next())) {
       if (current_.empty() && !end_.complete) throw FollowUp();
       if (current_.empty()) {
         source_.fail(origin, "found a continuation line, expected a card before it");
@@ -153,7 +152,6 @@ class Reader {
   Refusals& refusals_;
   CardsEnd end_;
   LineFields fields_;
-  std::string capitals_;
   Card current_;
   size_t most_ = 0;
   bool orphan_ = false;
@@ -164,7 +162,7 @@ class Reader {
 }  // namespace
 
 CardsEnd read_cards(Source& source, CardSink& sink, Refusals& refusals) {
-  return Reader(source, sink, refusals).run();
+  return CardReader(source, sink, refusals).run();
 }
 
 bool follow_include(Source& source, std::string_view line) {
@@ -196,7 +194,7 @@ bool follow_include(Source& source, std::string_view line) {
   if (name.empty() || name.size() > kLongestFileName) {
     source.fail(origin, "INCLUDE: expected the name of a file");
   }
-  source.include(name);
+  source.include(name, source.origin());
   return true;
 }
 

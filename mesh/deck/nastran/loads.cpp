@@ -1,146 +1,154 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cards of loads, temperatures and eigenvalue requests.
+#include "mesh/deck/nastran/loads.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "mesh/deck/nastran/cards.hpp"
+#include <numbers>
 
 namespace clatter::mesh::deck::nastran {
 namespace {
 
-LoadSet& load_set(const Card& card, Bulk& bulk) {
-  const auto [at, fresh] = bulk.loads.try_emplace(card.id(0, "SID"));
-  if (fresh) at->second.origin = card.origin();
-  return at->second;
-}
-
-std::array<double, 3> scaled_vector(const Card& card, size_t scale, size_t first) {
-  const double factor = card.real_or(scale, "scale", 0.0);
-  std::array<double, 3> out{};
-  for (size_t k = 0; k < 3; ++k) out[k] = factor * card.real_or(first + k, "N", 0.0);
-  return out;
-}
-
-int32_t system_number(const Card& card, size_t i) {
-  const int32_t number = card.integer_or(i, "CID", 0);
-  if (number < 0) card.fail_expected(i, "CID", "a coordinate system, 0 or more");
-  return number;
-}
-
-TemperatureSet& temperature_set(const Card& card, size_t i, Bulk& bulk) {
-  const auto [at, fresh] = bulk.temperatures.try_emplace(card.id(i, "SID"));
-  if (fresh) at->second.origin = card.origin();
-  return at->second;
-}
+using Eigen::Vector3d;
 
 }  // namespace
 
-void read_force(const Card& card, Bulk& bulk) {
-  RawForce force;
-  force.origin = card.origin();
-  force.grid = card.id(1, "G");
-  force.system = system_number(card, 2);
-  force.vector = scaled_vector(card, 3, 4);
-  force.moment = card.name() == "MOMENT";
-  card.expect_end(7);
-  load_set(card, bulk).forces.push_back(force);
-}
-
-void read_pload4(const Card& card, Bulk& bulk) {
-  RawPressure pressure;
-  pressure.origin = card.origin();
-  pressure.cell = card.id(1, "EID");
-  pressure.value = card.real(2, "P1");
-  for (size_t i = 3; i < 6; ++i) {
-    if (card.real_or(i, "P", pressure.value) != pressure.value) {
-      card.fail(i,
-                fmt::format("found pressure {}, expected {} at every corner: pressures that vary "
-                            "over a face are not supported",
-                            card.text(i), pressure.value));
+void Loads::build_surfaces() {
+  for (const auto& [id, set] : raw_.loads) {
+    std::map<double, std::string>& names = pressure_names_[id];
+    for (const RawPressure& pressure : set.pressures) names[pressure.value];
+    size_t count = 0;
+    for (auto& [value, name] : names) {
+      name = names.size() == 1 ? fmt::format("pload4_{}", id)
+                               : fmt::format("pload4_{}_{}", id, ++count);
+    }
+    std::map<double, SurfaceBuilder> surfaces;
+    for (const RawPressure& pressure : set.pressures) {
+      add_face(model_, pressure, surfaces[pressure.value]);
+    }
+    for (const auto& [value, surface] : surfaces) {
+      model_.deck.mesh.surfaces[names[value]] = surface.finish();
     }
   }
-  if (card.text(6) == "THRU") card.fail(6, "EID THRU EID is for shells, expected G1");
-  pressure.g1 = card.id(6, "G1");
-  pressure.g34 = card.id_or(7, "G3 or G4", 0);
-  for (size_t i = 9; i < 12; ++i) {
-    if (card.real_or(i, "N", 0.0) != 0.0) card.fail(i, "loads along a vector are not supported");
-  }
-  if (!card.blank(12) && card.text(12) != "SURF") card.fail(12, "SORL: expected SURF");
-  if (!card.blank(13) && card.text(13) != "NORM") card.fail(13, "LDIR: expected NORM");
-  card.expect_end(14);
-  load_set(card, bulk).pressures.push_back(pressure);
 }
 
-void read_grav(const Card& card, Bulk& bulk) {
-  RawGravity gravity;
-  gravity.origin = card.origin();
-  gravity.system = system_number(card, 1);
-  gravity.vector = scaled_vector(card, 2, 3);
-  card.expect_end(7);
-  load_set(card, bulk).gravity.push_back(gravity);
+std::set<int32_t> Loads::top_loads() const {
+  std::set<int32_t> top;
+  for (const auto& [id, set] : raw_.loads) top.insert(id);
+  for (const auto& [id, sum] : raw_.load_sums) {
+    for (const auto& [factor, set] : sum.terms) top.erase(set);
+  }
+  for (const auto& [id, sum] : raw_.load_sums) top.insert(id);
+  return top;
 }
 
-void read_rforce(const Card& card, Bulk& bulk) {
-  RawRotation rotation;
-  rotation.origin = card.origin();
-  rotation.grid = card.id_or(1, "G", 0);
-  rotation.system = system_number(card, 2);
-  rotation.turns = card.real(3, "A");
-  double square = 0.0;
-  for (size_t k = 0; k < 3; ++k) {
-    rotation.axis[k] = card.real_or(4 + k, "R", 0.0);
-    square += rotation.axis[k] * rotation.axis[k];
-  }
-  const double length = std::sqrt(square);
-  if (!(length > 0.0)) card.fail(4, "expected a direction R1 R2 R3 of the axis");
-  for (double& part : rotation.axis) part /= length;
-  rotation.turns *= length;
-  if (card.real_or(8, "RACC", 0.0) != 0.0) {
-    card.fail(8, "RACC: angular acceleration is not supported, expected none");
-  }
-  card.expect_end(9);
-  load_set(card, bulk).rotations.push_back(rotation);
+Origin Loads::origin_of(int32_t load) const {
+  const auto sum = raw_.load_sums.find(load);
+  return sum != raw_.load_sums.end() ? sum->second.origin : raw_.loads.at(load).origin;
 }
 
-void read_load(const Card& card, Bulk& bulk) {
-  LoadSum sum;
-  sum.origin = card.origin();
-  const int32_t set = card.id(0, "SID");
-  const double overall = card.real(1, "S");
-  for (size_t i = 2; i < card.size(); i += 2) {
-    if (card.blank(i) && card.blank(i + 1)) continue;
-    sum.terms.emplace_back(overall * card.real(i, "S"), card.id(i + 1, "L"));
-  }
-  if (!bulk.load_sums.emplace(set, std::move(sum)).second) {
-    card.fail(0, fmt::format("found a second LOAD {}", set));
+void Loads::list(Step& step, int32_t load, Origin origin) {
+  const auto sum = raw_.load_sums.find(load);
+  if (sum == raw_.load_sums.end()) return list_set(step, load, 1.0, origin);
+  for (const auto& [factor, set] : sum->second.terms) {
+    list_set(step, set, factor, sum->second.origin);
   }
 }
 
-void read_temp(const Card& card, Bulk& bulk) {
-  TemperatureSet& set = temperature_set(card, 0, bulk);
-  for (size_t i = 1; i < 7; i += 2) {
-    if (card.blank(i) && card.blank(i + 1)) continue;
-    set.values.push_back({card.id(i, "G"), card.real(i + 1, "T"), card.origin()});
+void Loads::list_set(Step& step, int32_t id, double factor, Origin origin) {
+  const auto at = raw_.loads.find(id);
+  if (at == raw_.loads.end()) {
+    model_.source.fail(origin, fmt::format("LOAD: found no loads of set {}", id));
+  }
+  for (const RawForce& force : at->second.forces) list_force(step, force, factor);
+  for (const RawGravity& raw : at->second.gravity) list_gravity(step, raw, factor);
+  for (const RawRotation& raw : at->second.rotations) list_rotation(step, raw, factor);
+  if (!step.acceleration.allFinite()) {
+    model_.source.fail(at->second.origin, "GRAV: its numbers are too large");
+  }
+  for (const auto& [value, name] : pressure_names_[id]) {
+    model_.spend(128, origin);
+    step.pressures.push_back({name, factor * value});
   }
 }
 
-void read_tempd(const Card& card, Bulk& bulk) {
-  for (size_t i = 0; i < 8; i += 2) {
-    if (card.blank(i) && card.blank(i + 1)) continue;
-    TemperatureSet& set = temperature_set(card, i, bulk);
-    if (set.has_default) card.fail(i, fmt::format("found a second TEMPD {}", card.text(i)));
-    set.has_default = true;
-    set.default_value = card.real(i + 1, "T");
+void Loads::list_gravity(Step& step, const RawGravity& raw, double factor) {
+  const System& system = model_.systems.get(raw.system, raw.origin);
+  if (system.kind != System::Kind::kRectangular) {
+    model_.source.fail(raw.origin, "GRAV: expected a rectangular coordinate system");
+  }
+  step.acceleration += factor * (system.axes * vector(raw.vector));
+}
+
+// A revolutions per second about an axis through a grid or the basic origin.
+void Loads::list_rotation(Step& step, const RawRotation& raw, double factor) {
+  const System& system = model_.systems.get(raw.system, raw.origin);
+  if (system.kind != System::Kind::kRectangular) {
+    model_.source.fail(raw.origin, "RFORCE: expected a rectangular coordinate system");
+  }
+  Step::Rotation rotation;
+  rotation.axis = system.axes * vector(raw.axis);
+  const double omega = 2.0 * std::numbers::pi * raw.turns;
+  rotation.omega_squared = factor * omega * omega;
+  if (raw.grid != 0) {
+    const int32_t row = model_.grids.find(raw.grid);
+    if (row < 0) model_.source.fail(raw.origin, fmt::format("found no GRID {}", raw.grid));
+    rotation.point = vector(raw_.grids.at[static_cast<size_t>(row)]);
+  }
+  step.rotations.push_back(rotation);
+}
+
+void Loads::list_force(Step& step, const RawForce& raw, double factor) {
+  const NodeIndex node_index = model_.find(raw.grid, raw.origin);
+  const char* card = raw.moment ? "MOMENT" : "FORCE";
+  if (node_index < 0) {
+    model_.source.fail(
+        raw.origin, fmt::format("{}: grid {} belongs to no solid and no coupling", card, raw.grid));
+  }
+  if (raw.moment && !model_.node_map.is_point(node_index)) {
+    model_.source.fail(raw.origin,
+                       fmt::format("MOMENT: node {} of solids has no rotations", raw.grid));
+  }
+  const Vector3d force =
+      factor *
+      (model_.systems.directions(raw.system, model_.node_map.position(node_index), raw.origin) *
+       vector(raw.vector));
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(force[k])) {
+      model_.source.fail(raw.origin, fmt::format("{}: its numbers are too large", card));
+    }
+    if (force[k] == 0.0) continue;
+    model_.spend(64, raw.origin);
+    step.forces.push_back({node_index, (raw.moment ? 3 : 0) + k, force[k], {}});
   }
 }
 
-void read_eigrl(const Card& card, Bulk& bulk) {
-  bulk.eigen_counts[card.id(0, "SID")] = card.integer_or(3, "ND", 0);
+void Loads::list_temperature(Step& step, int32_t id, Origin origin) {
+  const auto at = raw_.temperatures.find(id);
+  if (at == raw_.temperatures.end()) {
+    model_.source.fail(origin, fmt::format("TEMPERATURE = {}: found no TEMP or TEMPD", id));
+  }
+  step.temperature = fmt::format("temperature_{}", id);
+  const auto [field, fresh] = model_.deck.mesh.fields.try_emplace(step.temperature);
+  if (fresh) field->second = temperatures(id, at->second);
 }
 
-void read_eigr(const Card& card, Bulk& bulk) {
-  bulk.eigen_counts[card.id(0, "SID")] = card.integer_or(5, "ND", 0);
+RowMatrix Loads::temperatures(int32_t id, const TemperatureSet& set) {
+  model_.spend(8 * model_.node_map.node_count(), set.origin);
+  const double none = set.has_default ? set.default_value : std::nan("");
+  RowMatrix values = RowMatrix::Constant(model_.node_map.node_count(), 1, none);
+  for (const auto& entry : set.values) {
+    const NodeIndex node_index = model_.find(entry.grid, entry.origin);
+    if (node_index >= 0 && !model_.node_map.is_point(node_index))
+      values(node_index, 0) = entry.value;
+  }
+  for (NodeIndex node = 0; node < model_.node_map.node_count(); ++node) {
+    if (!std::isnan(values(node, 0))) continue;
+    model_.source.fail(set.origin,
+                       fmt::format("temperature set {}: found no TEMP of node {} and no TEMPD", id,
+                                   model_.deck.mesh.node_ids[static_cast<size_t>(node)]));
+  }
+  return values;
 }
 
 }  // namespace clatter::mesh::deck::nastran

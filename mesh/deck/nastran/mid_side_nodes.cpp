@@ -17,7 +17,7 @@ using MidSideNodes = std::map<std::pair<int32_t, int32_t>, int32_t>;
 
 class Completer {
  public:
-  explicit Completer(Model& model) : model_(model) {}
+  Completer(Model& model, std::vector<int32_t>& mesh_node) : model_(model), mesh_node_(mesh_node) {}
 
   void complete(RawBlock& block) {
     const CellTraits& cell = traits(block.type);
@@ -32,6 +32,8 @@ class Completer {
       }
   }
 
+  std::vector<int32_t> hanging_rows() const { return hanging_rows_; }
+
  private:
   int32_t between(int32_t a, int32_t b) {
     const auto [at, fresh] = mid_side_nodes_.emplace(std::minmax(a, b), 0);
@@ -40,7 +42,7 @@ class Completer {
   }
 
   int32_t add(size_t a, size_t b) {
-    Grids& grids = model_.bulk.grids;
+    Grids& grids = model_.raw.grids;
     if (next_ == 0) next_ = *std::max_element(grids.ids.begin(), grids.ids.end());
     if (next_ == std::numeric_limits<int32_t>::max())
       model_.source.fail(grids.origins[a], "found no free number above the largest GRID");
@@ -50,21 +52,24 @@ class Completer {
     grids.ids.push_back(++next_);
     grids.at.push_back(at);
     grids.origins.push_back(grids.origins[a]);
-    model_.index_of_row.push_back(0);
-    model_.hanging_rows.push_back(row);
+    mesh_node_.push_back(0);
+    hanging_rows_.push_back(row);
     return row;
   }
 
   Model& model_;
+  std::vector<int32_t>& mesh_node_;
+  std::vector<int32_t> hanging_rows_;
   MidSideNodes mid_side_nodes_;
   int32_t next_ = 0;  // last assigned number
 };
 
 }  // namespace
 
-void complete_cells(Model& model) {
-  Completer completer(model);
-  for (RawBlock& block : model.bulk.blocks) completer.complete(block);
+std::vector<int32_t> complete_cells(Model& model, std::vector<int32_t>& mesh_node) {
+  Completer completer(model, mesh_node);
+  for (RawBlock& block : model.raw.blocks) completer.complete(block);
+  return completer.hanging_rows();
 }
 
 }  // namespace clatter::mesh::deck::nastran

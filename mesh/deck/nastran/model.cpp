@@ -12,15 +12,15 @@ namespace {
 constexpr int64_t kMostEffort = 500'000'000, kMostEffortPerGrid = 2000;
 
 // Blank fields of GRID get GRDSET's values.
-void fill_defaults(Bulk& bulk) {
-  Grids& grids = bulk.grids;
+void fill_defaults(RawDeck& raw) {
+  Grids& grids = raw.grids;
   const auto fill = [&](auto& column, auto blank, auto zero, auto value) {
     if (value != blank) column.resize(grids.size(), blank);
     for (auto& entry : column) entry = entry == blank ? value : entry == zero ? blank : entry;
   };
-  fill(grids.cp, kBlank, kZero, bulk.defaults.cp);
-  fill(grids.cd, kBlank, kZero, bulk.defaults.cd);
-  fill(grids.held, DofMask{0}, kNoneHeld, bulk.defaults.held);
+  fill(grids.cp, kBlank, kZero, raw.defaults.cp);
+  fill(grids.cd, kBlank, kZero, raw.defaults.cd);
+  fill(grids.held, DofMask{0}, kNoneHeld, raw.defaults.held);
 }
 
 // Decks that include the same grids twice are common; they must agree.
@@ -39,23 +39,23 @@ IdIndex grid_index(const Grids& grids, const Source& source) {
   return index;
 }
 
-Bulk with_defaults(Bulk bulk) {
-  fill_defaults(bulk);
-  return bulk;
+RawDeck with_defaults(RawDeck raw) {
+  fill_defaults(raw);
+  return raw;
 }
 
 }  // namespace
 
-Model::Model(const Source& deck_source, Bulk cards, Refusals& all_refusals)
+Model::Model(const Source& deck_source, RawDeck cards, Refusals& all_refusals)
     : source(deck_source),
       refusals(all_refusals),
-      bulk(with_defaults(std::move(cards))),
-      grids(grid_index(bulk.grids, source)),
-      systems(bulk, grids, source),
-      index_of_row(bulk.grids.size(), -1) {
-  for (size_t row = 0; row < bulk.grids.cp.size(); ++row) {
-    Eigen::Map<Eigen::Vector3d> at(bulk.grids.at[row].data());
-    at = systems.to_basic(bulk.grids.cp[row], at, bulk.grids.origins[row]);
+      raw(with_defaults(std::move(cards))),
+      grids(grid_index(raw.grids, source)),
+      systems(raw, grids, source),
+      node_map(raw, deck) {
+  for (size_t row = 0; row < raw.grids.cp.size(); ++row) {
+    Eigen::Map<Eigen::Vector3d> at(raw.grids.at[row].data());
+    at = systems.to_basic(raw.grids.cp[row], at, raw.grids.origins[row]);
   }
 }
 
@@ -65,44 +65,28 @@ size_t Model::row_of(int32_t grid, Origin origin) const {
   return static_cast<size_t>(row);
 }
 
-NodeIndex Model::node_index_of(size_t row, Origin origin, bool make_points) {
-  NodeIndex& node_index = index_of_row[row];
-  if (node_index >= 0 || !make_points) return node_index;
-  spend(16, origin);
-  node_index = node_count + static_cast<NodeIndex>(deck.points.size());
-  const auto& at = bulk.grids.at[row];
-  deck.points.push_back({bulk.grids.ids[row], {at[0], at[1], at[2]}});
-  row_of_index_.push_back(static_cast<int32_t>(row));
-  return node_index;
+NodeIndex Model::require_row(size_t row, Origin origin) {
+  if (node_map.find(row) == NodeMap::kNone) spend(16, origin);
+  return node_map.require(row);
 }
 
 NodeIndex Model::require(int32_t grid, Origin origin) {
-  return node_index_of(row_of(grid, origin), origin, true);
+  return require_row(row_of(grid, origin), origin);
 }
 
 NodeIndex Model::find(int32_t grid, Origin origin) const {
-  return index_of_row[row_of(grid, origin)];
+  return node_map.find(row_of(grid, origin));
 }
 
 std::vector<NodeIndex> Model::node_indices(const IdList& list, Origin origin, bool make_points) {
   std::vector<NodeIndex> out;
   for_each_grid(list, origin, [&](size_t row) {
-    const NodeIndex node_index = node_index_of(row, origin, make_points);
-    if (node_index < 0) return;
+    const NodeIndex node_index = make_points ? require_row(row, origin) : node_map.find(row);
+    if (node_index == NodeMap::kNone) return;
     spend(16, origin);
     out.push_back(node_index);
   });
   return out;
-}
-
-Eigen::Vector3d Model::position(NodeIndex node_index) const {
-  if (is_node(node_index)) return deck.mesh.nodes.row(node_index).transpose();
-  return deck.points[static_cast<size_t>(node_index - node_count)].at;
-}
-
-int32_t Model::displacement_system(NodeIndex node_index) const {
-  return column_at(bulk.grids.cd,
-                   static_cast<size_t>(row_of_index_[static_cast<size_t>(node_index)]));
 }
 
 std::string Model::system_name(int32_t system, Origin origin) {
@@ -114,14 +98,19 @@ std::string Model::system_name(int32_t system, Origin origin) {
 
 void Model::spend(int64_t effort, Origin origin) {
   effort_ += effort;
-  const auto grid_count = static_cast<int64_t>(bulk.grids.size());
+  const auto grid_count = static_cast<int64_t>(raw.grids.size());
   if (effort_ > std::max(kMostEffort, kMostEffortPerGrid * grid_count)) {
     source.fail(origin, "the lists of this deck repeat the same grids too often");
   }
 }
 
+void add_term(std::vector<Equation::Term>& terms, NodeIndex node_index, int direction,
+              double coefficient) {
+  if (coefficient != 0.0) terms.push_back({node_index, direction, coefficient});
+}
+
 void count_unused(Model& model) {
-  const auto unused = std::count(model.index_of_row.begin(), model.index_of_row.end(), -1);
+  const int64_t unused = model.node_map.unused();
   if (unused > 0) model.deck.ignored["GRID (of no solid and no coupling)"] = unused;
 }
 

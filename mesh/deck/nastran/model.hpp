@@ -2,7 +2,8 @@
 #pragma once
 // Builds the Deck from the cards: shared state, and the functions in call order.
 #include "mesh/deck/id_index.hpp"
-#include "mesh/deck/nastran/bulk.hpp"
+#include "mesh/deck/nastran/node_map.hpp"
+#include "mesh/deck/nastran/raw_deck.hpp"
 #include "mesh/deck/nastran/systems.hpp"
 #include "mesh/deck/refusals.hpp"
 
@@ -13,7 +14,7 @@ namespace clatter::mesh::deck::nastran {
 class Model {
  public:
   /// Applies GRDSET, indexes the grids, transforms their coordinates to the basic frame.
-  Model(const Source& source, Bulk bulk, Refusals& refusals);
+  Model(const Source& source, RawDeck raw, Refusals& refusals);
 
   /// Node index of a grid; one without cells becomes a Point. InputError if there is no such GRID.
   NodeIndex require(int32_t grid, Origin origin);
@@ -25,56 +26,62 @@ class Model {
   /// Calls body(row of the grid) for each grid of the list.
   template <class Body>
   void for_each_grid(const IdList& list, Origin origin, const Body& body);
-  bool is_node(NodeIndex node_index) const { return node_index < node_count; }
-  /// Position of a mesh node or a point.
-  Eigen::Vector3d position(NodeIndex node_index) const;
-  /// Number of its displacement system, 0: basic.
-  int32_t displacement_system(NodeIndex node_index) const;
   /// Name of a system, which is added to the Deck; empty for the basic one.
   std::string system_name(int32_t system, Origin origin);
-  std::string where(Origin origin) const { return source.where(origin); }
   /// Counts the effort of nested lists, which could otherwise exhaust the memory.
   void spend(int64_t effort, Origin origin);
 
   const Source& source;
   Refusals& refusals;
-  Bulk bulk;
+  RawDeck raw;
   IdIndex grids;  // row of a GRID
   Systems systems;
   Deck deck;
-  std::vector<NodeIndex> index_of_row;
-  std::vector<int32_t> hanging_rows;  // grids that complete_cells() added
-  NodeIndex node_count = 0;
-  IdIndex cells;  // numbered across all blocks of the mesh
+  NodeMap node_map;  // empty until the mesh is built
+  IdIndex cells;     // numbered across all blocks of the mesh
 
  private:
   size_t row_of(int32_t grid, Origin origin) const;
-  NodeIndex node_index_of(size_t row, Origin origin, bool make_points);
+  NodeIndex require_row(size_t row, Origin origin);
 
-  std::vector<int32_t> row_of_index_;
   int64_t effort_ = 0;
-  friend void build_mesh(Model& model);
 };
 
-/// Cells, nodes, regions, materials. Grids without cells get no node index yet.
+/// Cells, nodes, regions. Grids without cells get no node index yet.
 void build_mesh(Model& model);
-/// Adds the mid-side nodes that cards omit from a quadratic cell; needs the rows of cells.
-void complete_cells(Model& model);
+/// Adds the mid-side nodes that cards omit from a quadratic cell to the grids and to `mesh_node`
+/// (of each row, NodeMap::kNone or not); needs the rows of cells. Returns their rows.
+std::vector<int32_t> complete_cells(Model& model, std::vector<int32_t>& mesh_node);
+/// PSOLID -> regions of the mesh and of the deck; `properties` are their numbers.
 void build_regions(Model& model, const std::vector<int32_t>& properties);
-/// RBE2, RBE3, MPC, CONM2: their grids get node indices.
+/// MAT1, MAT9 -> Deck::materials. Name of the material; empty when the deck has none at all.
+/// InputError at `origin` if it is missing.
+std::string use_material(Model& model, int32_t id, Origin origin);
+/// RBE2, RBE3: their grids get node indices.
 void build_couplings(Model& model);
-/// CELAS1 and CELAS2, after the couplings.
+/// CONM2.
+void build_masses(Model& model);
+/// MPC of the chosen set.
+void build_equations(Model& model);
+/// CELAS1, CELAS2 with their PELAS.
 void build_springs(Model& model);
 /// SPC, permanent constraints, ASET.
 void build_supports(Model& model);
 /// The supports of an SPC set (or SPCADD).
 std::vector<Support> supports_of(Model& model, int32_t set, Origin origin);
-/// SET1, and the surfaces and names from comments.
+/// SET1 -> Mesh::node_sets and Deck::sets.
 void build_sets(Model& model);
+/// Surfaces from comments -> Mesh::surfaces.
+void build_surfaces(Model& model);
+/// TEMPERATURE(INITIAL) -> the materials' reference temperature.
+void build_initial_temperature(Model& model);
 /// Subcases with their loads.
 void build_steps(Model& model);
 /// Adds the face of a PLOAD4 to a surface.
 void add_face(Model& model, const RawPressure& raw, SurfaceBuilder& surface);
+/// Adds a term unless its coefficient is 0.
+void add_term(std::vector<Equation::Term>& terms, NodeIndex node_index, int direction,
+              double coefficient);
 /// Notes which grids were skipped.
 void count_unused(Model& model);
 

@@ -3,49 +3,52 @@
 
 #include <memory>
 
-#include "mesh/deck/nastran/cards.hpp"
-#include "mesh/deck/nastran/control.hpp"
 #include "mesh/deck/nastran/model.hpp"
+#include "mesh/deck/nastran/parser.hpp"
 
 namespace clatter::mesh::deck {
+namespace nastran {
 namespace {
 
-using namespace nastran;
-
 Deck read(Source& source, const std::string& name, const ReadOptions& options) {
-  Ignored ignored(options.ignore);
+  Ignore ignore(options, capitals);
   Refusals refusals;
-  Control control = read_control(source, ignored, refusals);
-  Bulk bulk = read_bulk(source, std::move(control), ignored, refusals);
+  RawDeck raw = parse(source, ignore, refusals);
+  std::vector<std::string> notes = std::move(raw.notes);
   std::unique_ptr<Model> model_owner;
   refusals.require(
-      [&] { model_owner = std::make_unique<Model>(source, std::move(bulk), refusals); });
+      [&] { model_owner = std::make_unique<Model>(source, std::move(raw), refusals); });
   Model& model = *model_owner;
   model.deck.mesh.name = name;
-  model.deck.notes = model.bulk.notes;
+  model.deck.notes = std::move(notes);
   refusals.require([&] { build_mesh(model); });
   build_couplings(model);
+  build_masses(model);
+  build_equations(model);
   build_springs(model);
   refusals.attempt([&] { build_supports(model); });
   build_sets(model);
+  build_surfaces(model);
+  build_initial_temperature(model);
   build_steps(model);
   refusals.raise();
-  model.deck.ignored = ignored.counts();
+  model.deck.ignored = ignore.counted();
   count_unused(model);
   model.deck.files = source.files();
   return std::move(model.deck);
 }
 
 }  // namespace
+}  // namespace nastran
 
 Deck read_nastran(const std::filesystem::path& path, const ReadOptions& options) {
-  Source source(path);
-  return read(source, path.stem().string(), options);
+  nastran::Source source(path);
+  return nastran::read(source, path.stem().string(), options);
 }
 
 Deck read_nastran_text(const std::string& name, std::string_view text, const ReadOptions& options) {
-  Source source(name, text);
-  return read(source, name, options);
+  nastran::Source source(name, text);
+  return nastran::read(source, name, options);
 }
 
 }  // namespace clatter::mesh::deck

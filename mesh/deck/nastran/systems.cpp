@@ -35,21 +35,21 @@ Vector3d cartesian(System::Kind kind, const Vector3d& p) {
   }
 }
 
-Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
+
+Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 // Resolves systems whose references are known, until none is left.
 class SystemsBuilder {
  public:
-  SystemsBuilder(const Bulk& bulk, const IdIndex& grids, Systems& out)
-      : bulk_(bulk), grids_(grids), out_(out) {}
+  SystemsBuilder(const RawDeck& raw, const IdIndex& grids, Systems& out)
+      : raw_(raw), grids_(grids), out_(out) {}
 
   void run() {
     std::map<int32_t, std::vector<int32_t>> users;
     std::map<int32_t, size_t> open;  // unresolved references
     std::deque<int32_t> ready;
-    for (const auto& [id, raw] : bulk_.systems) {
+    for (const auto& [id, raw] : raw_.systems) {
       for (int32_t reference : references(id, raw)) {
         if (reference == 0) continue;
         users[reference].push_back(id);
@@ -59,12 +59,12 @@ class SystemsBuilder {
     }
     for (; !ready.empty(); ready.pop_front()) {
       const int32_t id = ready.front();
-      out_.systems_[id] = resolve(id, bulk_.systems.at(id));
+      out_.systems_[id] = resolve(id, raw_.systems.at(id));
       for (int32_t user : users[id]) {
         if (--open[user] == 0) ready.push_back(user);
       }
     }
-    for (const auto& [id, raw] : bulk_.systems) {
+    for (const auto& [id, raw] : raw_.systems) {
       if (out_.systems_.contains(id)) continue;
       fail(raw, fmt::format("coordinate system {} refers to itself through others", id));
     }
@@ -87,13 +87,13 @@ class SystemsBuilder {
     std::vector<int32_t> out;
     if (raw.by_grids) {
       for (int32_t grid : raw.grids) {
-        out.push_back(column_at(bulk_.grids.cp, grid_row(grid, raw, id)));
+        out.push_back(column_at(raw_.grids.cp, grid_row(grid, raw, id)));
       }
     } else {
       out.push_back(raw.reference);
     }
     for (int32_t reference : out) {
-      if (reference == 0 || bulk_.systems.contains(reference)) continue;
+      if (reference == 0 || raw_.systems.contains(reference)) continue;
       fail(raw, fmt::format("coordinate system {}: found no system {}", id, reference));
     }
     return out;
@@ -106,7 +106,7 @@ class SystemsBuilder {
       if (raw.by_grids) {
         const size_t row = grid_row(raw.grids[i], raw, id);
         abc.col(k) =
-            out_.to_basic(column_at(bulk_.grids.cp, row), vector(bulk_.grids.at[row]), raw.origin);
+            out_.to_basic(column_at(raw_.grids.cp, row), vector(raw_.grids.at[row]), raw.origin);
       } else {
         const Vector3d local(raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]);
         abc.col(k) = out_.to_basic(raw.reference, local, raw.origin);
@@ -129,14 +129,14 @@ class SystemsBuilder {
     return system;
   }
 
-  const Bulk& bulk_;
+  const RawDeck& raw_;
   const IdIndex& grids_;
   Systems& out_;
 };
 
-Systems::Systems(const Bulk& bulk, const IdIndex& grids, const Source& source) : source_(source) {
+Systems::Systems(const RawDeck& raw, const IdIndex& grids, const Source& source) : source_(source) {
   systems_.emplace(0, System{});
-  SystemsBuilder(bulk, grids, *this).run();
+  SystemsBuilder(raw, grids, *this).run();
 }
 
 const System& Systems::get(int32_t system, Origin origin) const {

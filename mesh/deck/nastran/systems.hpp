@@ -6,18 +6,23 @@
 // Coordinates and directions: rectangular x y z; cylindrical r theta z; spherical r theta phi,
 // where theta is measured from the z axis and phi about it (MSC Nastran Quick Reference Guide,
 // CORD2C, CORD2S). Angles in degrees. Numbers: those of the deck, 0 is the basic system.
+#include <Eigen/Core>
+#include <array>
 #include <map>
 
 #include "mesh/deck/id_index.hpp"
-#include "mesh/deck/nastran/bulk.hpp"
+#include "mesh/deck/nastran/raw_deck.hpp"
 
 namespace clatter::mesh::deck::nastran {
+
+/// Components of a card as a vector.
+Eigen::Vector3d vector(const std::array<double, 3>& v);
 
 class Systems {
  public:
   /// Follows references in any order. InputError for a missing system, for cycles and for points
   /// that define no axes. The grids' coordinates are those of the deck.
-  Systems(const Bulk& bulk, const IdIndex& grids, const Source& source);
+  Systems(const RawDeck& raw, const IdIndex& grids, const Source& source);
 
   /// Position in the basic frame. InputError (origin) for an unknown system.
   Eigen::Vector3d to_basic(int32_t system, const Eigen::Vector3d& local, Origin origin) const;

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <ostream>
 
 #include "core/base/error.hpp"
 #include "core/base/whole_file.hpp"
-#include "mesh/deck/nastran/fields.hpp"
+#include "mesh/deck/field_text.hpp"
+#include "mesh/deck/nastran/number.hpp"
+#include "mesh/deck/text_buffer.hpp"
 
 namespace clatter::mesh::deck {
 namespace {
@@ -18,35 +18,6 @@ namespace {
 constexpr int kLargeField = 16, kSmallField = 8;
 constexpr int32_t kNoField = -1;  // left blank
 constexpr int32_t kMostInSmallField = 99999999;
-constexpr size_t kFlushAt = 1 << 20;
-
-using Text = fmt::memory_buffer;
-
-template <class... Args>
-void put(Text& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
-
-// "1.50e-03" to "1.5-3", "0.25" to ".25", "5" to "5."; the shortest form.
-std::string compact(std::string_view plain) {
-  const size_t e = std::min(plain.find('e'), plain.size());
-  std::string mantissa(plain.substr(0, e));
-  if (mantissa.find('.') == std::string::npos) mantissa += '.';
-  while (mantissa.back() == '0') mantissa.pop_back();
-  const size_t first = mantissa.find_first_not_of('-');
-  if (mantissa[first] == '0' && mantissa.size() > first + 2) mantissa.erase(first, 1);
-  if (e == plain.size()) return mantissa;
-  const char sign = plain[e + 1] == '-' ? '-' : '+';
-  const std::string_view digits = plain.substr(plain.find_first_of("123456789", e));
-  return mantissa + sign + std::string(digits);
-}
-
-// Digits after the point, in fixed or scientific notation.
-std::string rounded(double value, std::chars_format format, int digits) {
-  char text[400];
-  const auto end = std::to_chars(text, text + sizeof text, value, format, digits).ptr;
-  return compact({text, static_cast<size_t>(end - text)});
-}
 
 // Numbers of the nodes and cells as they are written.
 class Numbers {
@@ -87,12 +58,12 @@ class Numbers {
 class NastranWriter {
  public:
   NastranWriter(const Mesh& mesh, std::ostream& out)
-      : mesh_(mesh), out_(out), numbers_(mesh), width_(numbers_.width(mesh.cell_count())) {}
+      : mesh_(mesh), text_(out), numbers_(mesh), width_(numbers_.width(mesh.cell_count())) {}
 
   void run() {
-    put(text_, "$ {} (lengths in metres)\nBEGIN BULK\n", mesh_.name);
+    text_.put("$ {} (lengths in metres)\nBEGIN BULK\n", mesh_.name);
     for (size_t r = 0; r < mesh_.regions.size(); ++r) {
-      put(text_, "$ clatter region {} {}\nPSOLID  {:<8}1\n", r + 1, mesh_.regions[r], r + 1);
+      text_.put("$ clatter region {} {}\nPSOLID  {:<8}1\n", r + 1, mesh_.regions[r], r + 1);
     }
     nodes();
     for (const CellBlock& block : mesh_.cells) cells(block);
@@ -101,8 +72,8 @@ class NastranWriter {
       if (!nodes.empty() && name != kHangingMidSideNodes) node_set(++number, name, nodes);
     }
     for (const auto& [name, surface] : mesh_.surfaces) faces(name, surface);
-    put(text_, "ENDDATA\n");
-    flush();
+    text_.put("ENDDATA\n");
+    text_.flush();
   }
 
  private:
@@ -114,13 +85,12 @@ class NastranWriter {
       std::string fields[3];
       bool exact = true;
       for (int k = 0; k < 3; ++k) {
-        fields[k] = nastran_real(at[k], kLargeField);
-        exact = exact && nastran::parse_real(fields[k]) == at[k];
+        fields[k] = nastran_number(at[k], kLargeField);
+        exact = exact && to_number(fields[k]) == at[k];
       }
-      if (!exact) put(text_, "$ clatter at {} {} {} {}\n", id, at[0], at[1], at[2]);
-      put(text_, "GRID*   {:<16}{:16}{:<16}{:<16}*\n*       {}\n", id, "", fields[0], fields[1],
-          fields[2]);
-      flush_when_full();
+      if (!exact) text_.put("$ clatter at {} {} {} {}\n", id, at[0], at[1], at[2]);
+      text_.put("GRID*   {:<16}{:16}{:<16}{:<16}*\n*       {}\n", id, "", fields[0], fields[1],
+                fields[2]);
     }
   }
 
@@ -144,22 +114,21 @@ class NastranWriter {
   }
 
   void node_set(size_t number, const std::string& name, const std::vector<int32_t>& nodes) {
-    put(text_, "$ clatter set {} {}\n", number, name);
+    text_.put("$ clatter set {} {}\n", number, name);
     std::vector<int32_t> fields = {static_cast<int32_t>(number)};
     for (int32_t node : nodes) fields.push_back(numbers_.node(node));
     card("SET1", fields);
   }
 
   void faces(const std::string& name, const Surface& surface) {
-    put(text_, "$ clatter surface {}\n", name);
+    text_.put("$ clatter surface {}\n", name);
     for (const FaceBlock& block : surface.faces) {
       for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
-        put(text_, "$ clatter {}", traits(block.type).name);
+        text_.put("$ clatter {}", traits(block.type).name);
         for (Eigen::Index i = 0; i < block.nodes.cols(); ++i) {
-          put(text_, " {}", numbers_.node(block.nodes(f, i)));
+          text_.put(" {}", numbers_.node(block.nodes(f, i)));
         }
-        put(text_, "\n");
-        flush_when_full();
+        text_.put("\n");
       }
     }
   }
@@ -167,53 +136,25 @@ class NastranWriter {
   // Integers in small fields, or in large ones if needed.
   void card(std::string_view name, const std::vector<int32_t>& fields) {
     const bool large = width_ == kLargeField;
-    put(text_, "{:<8}", large ? fmt::format("{}*", name) : std::string(name));
+    text_.put("{:<8}", large ? fmt::format("{}*", name) : std::string(name));
     const size_t per_line = large ? 4 : 8;
     for (size_t i = 0; i < fields.size(); ++i) {
-      if (i > 0 && i % per_line == 0) put(text_, "{0}\n{0:<8}", large ? '*' : '+');
+      if (i > 0 && i % per_line == 0) text_.put("{0}\n{0:<8}", large ? '*' : '+');
       if (fields[i] == kNoField)
-        put(text_, "{:<{}}", "", width_);
+        text_.put("{:<{}}", "", width_);
       else
-        put(text_, "{:<{}}", fields[i], width_);
+        text_.put("{:<{}}", fields[i], width_);
     }
-    put(text_, "\n");
-    flush_when_full();
-  }
-
-  void flush_when_full() {
-    if (text_.size() > kFlushAt) flush();
-  }
-
-  void flush() {
-    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-    text_.clear();
+    text_.put("\n");
   }
 
   const Mesh& mesh_;
-  std::ostream& out_;
+  TextBuffer text_;
   Numbers numbers_;
   int width_;
-  Text text_;
 };
 
 }  // namespace
-
-std::string nastran_real(double value, int width) {
-  const std::string shortest = compact(fmt::format("{}", value));
-  if (static_cast<int>(shortest.size()) <= width) return shortest;
-  const int sign = std::signbit(value) ? 1 : 0;
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const int exponent_width = std::abs(exponent) < 10 ? 2 : std::abs(exponent) < 100 ? 3 : 4;
-  // Significant digits next to sign, point and exponent, or sign, point and leading zeros.
-  const int scientific = width - sign - 1 - exponent_width;
-  const int fixed = width - sign - 1 - std::max(0, -exponent - 1);
-  const bool is_fixed = fixed >= scientific && exponent < width - sign - 2;
-  int digits = is_fixed ? width - sign - 1 - std::max(0, exponent + 1) : scientific - 1;
-  const auto format = is_fixed ? std::chars_format::fixed : std::chars_format::scientific;
-  std::string text = rounded(value, format, digits);
-  while (static_cast<int>(text.size()) > width) text = rounded(value, format, --digits);
-  return text;
-}
 
 void write_nastran(const Mesh& mesh, std::ostream& out) { NastranWriter(mesh, out).run(); }
 

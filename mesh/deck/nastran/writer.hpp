@@ -19,7 +19,6 @@
 // again.
 #include <filesystem>
 #include <iosfwd>
-#include <string>
 
 #include "core/mesh/mesh.hpp"
 
@@ -30,8 +29,5 @@ void write_nastran(const Mesh& mesh, std::ostream& out);
 
 /// Written under a temporary name and renamed when complete; FileError when that fails.
 void write_nastran(const Mesh& mesh, const std::filesystem::path& path);
-
-/// The most exact text of a finite number in `width` columns; "1.5-3" for 0.0015 and the like.
-std::string nastran_real(double value, int width);
 
 }  // namespace clatter::mesh::deck

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "mesh/deck/node_sets.hpp"
+
 namespace clatter::mesh::deck {
 
 RecipeNames::RecipeNames(Deck& deck)
@@ -27,8 +29,7 @@ std::string RecipeNames::node(NodeIndex node_index) {
 }
 
 std::string RecipeNames::node_set(std::vector<int32_t> nodes, const std::string& wish) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   const auto known = sets_.find(nodes);
   if (known != sets_.end()) return known->second;
   const std::string base = wish.empty() ? "nodes" : wish;

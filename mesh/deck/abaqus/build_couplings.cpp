@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "mesh/deck/abaqus/model.hpp"
+#include "mesh/deck/node_sets.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+// Mask of all "first, last" lines of a card; `all` if there are none.
+DofMask mask_of(const Card& card, const Source& source, DofMask all) {
+  DofMask mask = 0;
+  for (size_t i = 0; i < card.size(); ++i) {
+    const Fields fields = card.line(i, source);
+    fields.at_most(2, "first and last DoF");
+    mask = static_cast<DofMask>(mask | dof_range(fields, 0));
+  }
+  return card.size() == 0 ? all : mask;
+}
+
+// Node index of a reference node: with its own rotations, even on a mesh node.
+NodeIndex rigid_reference(Model& model, int32_t row) {
+  NodeMap& node_map = model.node_map;
+  return node_map.mesh_node(row) == NodeMap::kNone ? node_map.require(row)
+                                                   : node_map.point_upon(row);
+}
+
+void read_rigid_body(Model& model, size_t use, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"NSET", "ELSET", "REFNODE", "ROTNODE"}, model.source, model.ignore);
+  const int32_t row =
+      model.sets.node_named(keyword.required("REFNODE", model.source), use, card.origin());
+  Rigid rigid;
+  rigid.name = fmt::format("rigid_body_{}", model.deck.rigid.size() + 1);
+  rigid.where = model.source.where(card.origin());
+  rigid.reference = rigid_reference(model, row);
+  std::vector<int32_t> rows;
+  if (keyword.has("NSET")) {
+    rows = model.sets.nodes(use, keyword.required("NSET", model.source), card.origin());
+  } else {
+    const std::string& set = keyword.required("ELSET", model.source);
+    for (const int32_t element : model.sets.elements(use, set, card.origin())) {
+      if (element >= model.numbering.cells()) continue;
+      const auto nodes = model.numbering.nodes_of(element);
+      rows.insert(rows.end(), nodes.begin(), nodes.end());
+    }
+  }
+  if (model.node_map.mesh_node(row) != NodeMap::kNone) rows.push_back(row);
+  sort_unique(rows);
+  if (keyword.has("ROTNODE")) {
+    const int32_t rotation =
+        model.sets.node_named(keyword.required("ROTNODE", model.source), use, card.origin());
+    if (model.node_map.mesh_node(rotation) != NodeMap::kNone || rotation == row) {
+      model.source.fail(card.origin(),
+                        "*RIGID BODY: found a ROT NODE that is the reference node "
+                        "or belongs to an element, expected a separate node");
+    }
+    model.node_map.set_rotation_node(rotation, rigid.reference);
+    std::erase(rows, rotation);
+  }
+  model.dependents.emplace_back(model.deck.rigid.size(), std::move(rows));
+  model.deck.rigid.push_back(std::move(rigid));
+}
+
+// *COUPLING and the line of *KINEMATIC or *DISTRIBUTING after it.
+struct Coupling {
+  size_t use = 0;
+  const Card* card = nullptr;
+  std::string name, surface;
+  int32_t row = 0;
+  bool oriented = false;
+};
+
+Coupling begin_coupling(Model& model, size_t use, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"CONSTRAINTNAME", "REFNODE", "SURFACE", "ORIENTATION"}, model.source,
+                model.ignore);
+  Coupling coupling;
+  coupling.use = use;
+  coupling.card = &card;
+  const std::string* name = keyword.find("CONSTRAINTNAME");
+  coupling.name = name != nullptr ? *name : "coupling";
+  coupling.surface = keyword.required("SURFACE", model.source);
+  coupling.row =
+      model.sets.node_named(keyword.required("REFNODE", model.source), use, card.origin());
+  coupling.oriented = keyword.has("ORIENTATION");
+  return coupling;
+}
+
+// Rows of the nodes of a surface of either type.
+std::vector<int32_t> rows_of_surface(Model& model, const Coupling& coupling) {
+  const Origin origin = coupling.card->origin();
+  if (const auto* rows = node_surface(model, coupling.use, coupling.surface)) return *rows;
+  const std::string name = surface_named(model, coupling.use, coupling.surface, origin);
+  std::vector<bool> wanted(static_cast<size_t>(model.deck.mesh.nodes.rows()), false);
+  for (const int32_t node : nodes_of(model.deck.mesh.surfaces.at(name))) {
+    wanted[static_cast<size_t>(node)] = true;
+  }
+  std::vector<int32_t> rows;
+  for (int32_t row = 0; row < model.numbering.nodes(); ++row) {
+    const int32_t node = model.node_map.mesh_node(row);
+    if (node != NodeMap::kNone && wanted[static_cast<size_t>(node)]) rows.push_back(row);
+  }
+  return rows;
+}
+
+void read_kinematic(Model& model, const Coupling& coupling, const Card& card) {
+  card.keyword().allow({}, model.source, model.ignore);
+  Rigid rigid;
+  rigid.name = coupling.name;
+  rigid.where = model.source.where(coupling.card->origin());
+  rigid.dofs = mask_of(card, model.source, kAllDofs);
+  rigid.reference = rigid_reference(model, coupling.row);
+  std::vector<int32_t> rows = rows_of_surface(model, coupling);
+  if ((rigid.dofs & kTranslations) != kTranslations) {
+    const bool turned = std::any_of(rows.begin(), rows.end(), [&](int32_t row) {
+      return !model.node_map.displacement_system(row).empty();
+    });
+    if (coupling.oriented || turned) {
+      model.source.fail(card.origin(),
+                        "*KINEMATIC: some directions only, in axes other than the "
+                        "basic ones, are not supported; expected 1 to 3");
+    }
+  }
+  const bool own = std::find(rows.begin(), rows.end(), coupling.row) != rows.end();
+  if (!own && model.node_map.mesh_node(coupling.row) != NodeMap::kNone) {
+    Rigid carrier = rigid;  // the reference is a mesh node: its point moves it
+    carrier.name += "_reference";
+    carrier.dofs = kAllDofs;
+    model.dependents.emplace_back(model.deck.rigid.size(), std::vector<int32_t>{coupling.row});
+    model.deck.rigid.push_back(std::move(carrier));
+  }
+  model.dependents.emplace_back(model.deck.rigid.size(), std::move(rows));
+  model.deck.rigid.push_back(std::move(rigid));
+}
+
+// Weights are the areas of a surface of faces; nodes of a node surface have equal weights.
+void read_weighted(Model& model, const Coupling& coupling, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"WEIGHTINGMETHOD", "COUPLING"}, model.source, model.ignore);
+  if (keyword.choice("WEIGHTINGMETHOD", "UNIFORM") != "UNIFORM" ||
+      keyword.choice("COUPLING", "CONTINUUM") != "CONTINUUM" || coupling.oriented) {
+    model.source.fail(card.origin(),
+                      "*DISTRIBUTING: expected WEIGHTING METHOD=UNIFORM, "
+                      "COUPLING=CONTINUUM and no ORIENTATION");
+  }
+  Distributing distributing;
+  distributing.name = coupling.name;
+  distributing.where = model.source.where(coupling.card->origin());
+  distributing.dofs = mask_of(card, model.source, kAllDofs);
+  distributing.reference = model.node_map.require(coupling.row);
+  if (const auto* rows = node_surface(model, coupling.use, coupling.surface)) {
+    Distributing::Term term;
+    for (const int32_t row : *rows) {
+      if (model.node_map.mesh_node(row) != NodeMap::kNone) {
+        term.node_indices.push_back(model.node_map.mesh_node(row));
+      }
+    }
+    distributing.terms.push_back(std::move(term));
+  } else {
+    distributing.surface =
+        surface_named(model, coupling.use, coupling.surface, coupling.card->origin());
+  }
+  model.deck.distributing.push_back(std::move(distributing));
+}
+
+void expect_coupling_done(const Model& model, const Card* open) {
+  if (open == nullptr) return;
+  model.source.fail(open->origin(), "*COUPLING: expected *KINEMATIC or *DISTRIBUTING after it");
+}
+
+void read_tie(Model& model, size_t use, const Card& card) {
+  const Keyword& keyword = card.keyword();
+  keyword.allow({"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION"}, model.source,
+                model.ignore);
+  if (card.size() != 1) {
+    model.source.fail(card.origin(), fmt::format("*TIE: found {} data lines, expected one: slave, "
+                                                 "master",
+                                                 card.size()));
+  }
+  const Fields fields = card.line(0, model.source);
+  Tie tie;
+  const std::string* name = keyword.find("NAME");
+  tie.name = name != nullptr ? *name : fmt::format("tie_{}", model.deck.ties.size() + 1);
+  tie.where = model.source.where(card.origin());
+  tie.slave = surface_named(model, use, fields.word(0, "slave surface"), fields.origin());
+  tie.master = surface_named(model, use, fields.word(1, "master surface"), fields.origin());
+  if (const std::string* tolerance = keyword.find("POSITIONTOLERANCE")) {
+    tie.distance = Fields(*tolerance, model.source, card.origin()).number(0, "POSITION TOLERANCE");
+  }
+  model.deck.ties.push_back(std::move(tie));
+}
+
+}  // namespace
+
+DofMask dof_range(const Fields& fields, size_t i) {
+  constexpr std::string_view kWhat = "DoF: 1 to 3 displacements, 4 to 6 rotations";
+  const int32_t first = fields.integer(i, kWhat, 1, 6);
+  const int32_t last = fields.blank(i + 1) ? first : fields.integer(i + 1, kWhat, first, 6);
+  DofMask mask = 0;
+  for (int32_t dof = first; dof <= last; ++dof) mask = static_cast<DofMask>(mask | 1 << (dof - 1));
+  return mask;
+}
+
+void build_couplings(Model& model) {
+  for_each_card(model, {"RIGIDBODY"},
+                [&](size_t use, const Card& card) { read_rigid_body(model, use, card); });
+  Coupling coupling;
+  bool refused = false;
+  for_each_card(model, {"COUPLING", "KINEMATIC", "DISTRIBUTING"},
+                [&](size_t use, const Card& card) {
+                  if (card.keyword().key == "COUPLING") {
+                    model.refusals.attempt([&] { expect_coupling_done(model, coupling.card); });
+                    coupling = Coupling();
+                    refused = true;
+                    coupling = begin_coupling(model, use, card);
+                    refused = false;
+                    return;
+                  }
+                  if (refused) throw FollowUp();
+                  if (coupling.card == nullptr) {
+                    model.source.fail(card.origin(), "expected one line after *COUPLING");
+                  }
+                  const Coupling done = std::exchange(coupling, Coupling());
+                  if (card.keyword().key == "KINEMATIC") {
+                    read_kinematic(model, done, card);
+                  } else {
+                    read_weighted(model, done, card);
+                  }
+                });
+  model.refusals.attempt([&] { expect_coupling_done(model, coupling.card); });
+}
+
+void build_ties(Model& model) {
+  for_each_card(model, {"TIE"}, [&](size_t use, const Card& card) {
+    if (!card.keyword().has("CYCLICSYMMETRY")) read_tie(model, use, card);
+  });
+}
+
+void finish_couplings(Model& model) {
+  std::set<NodeIndex> carried;  // mesh nodes that their own point already moves
+  for (const auto& [index, rows] : model.dependents) {
+    Rigid& rigid = model.deck.rigid[index];
+    for (const int32_t row : rows) {
+      NodeIndex node_index = model.node_map.find(row);
+      if (node_index == rigid.reference) {
+        node_index = model.node_map.mesh_node(row);
+        if (node_index == NodeMap::kNone || !carried.insert(node_index).second) continue;
+      }
+      if (node_index != NodeMap::kNone) rigid.dependents.push_back(node_index);
+    }
+  }
+}
+
+}  // namespace clatter::mesh::deck::abaqus

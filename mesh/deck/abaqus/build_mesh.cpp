@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cells and nodes: deck numbers are rows already; nodes without cells are skipped.
+#include <fmt/format.h>
+
+#include "mesh/deck/abaqus/model.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+// Numbers the nodes that cells use, in the order of the deck, and copies them.
+std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
+  std::vector<int32_t> node(static_cast<size_t>(numbering.nodes()), NodeMap::kNone);
+  for (const FlatTable& table : numbering.tables()) {
+    for (const int32_t row : table.nodes) node[static_cast<size_t>(row)] = 0;
+  }
+  int32_t count = 0;
+  for (int32_t& n : node) {
+    if (n == 0) n = count++;
+  }
+  mesh.nodes.resize(count, 3);
+  mesh.node_ids.resize(static_cast<size_t>(count));
+  for (size_t row = 0; row < node.size(); ++row) {
+    if (node[row] == NodeMap::kNone) continue;
+    mesh.nodes.row(node[row]) = numbering.at(static_cast<int32_t>(row));
+    mesh.node_ids[static_cast<size_t>(node[row])] = numbering.node_ids()[row];
+  }
+  return node;
+}
+
+// Cells of one type and region form one block, in the order of the deck.
+class Blocks {
+ public:
+  Blocks(const Numbering& numbering, const std::vector<int32_t>& region,
+         const std::vector<int32_t>& node, Mesh& mesh)
+      : numbering_(numbering), region_(region), node_(node), mesh_(mesh) {}
+
+  void run() {
+    struct Size {
+      Origin origin = 0;
+      int64_t cells = 0;
+    };
+    std::map<Key, Size> sizes;
+    for_each_cell([&](const FlatTable& table, size_t cell, const Key& key) {
+      Size& size = sizes[key];
+      if (size.cells++ == 0) size.origin = table.origins[cell];
+    });
+    std::map<std::pair<Origin, Key>, int64_t> in_order;
+    for (const auto& [key, size] : sizes) in_order[{size.origin, key}] = size.cells;
+    mesh_.cells.reserve(in_order.size());
+    std::map<Key, CellBlock*> blocks;
+    for (const auto& [at, cells] : in_order) {
+      CellBlock& block = mesh_.cells.emplace_back();
+      block.region = at.second.first;
+      block.type = at.second.second;
+      block.nodes.resize(cells, traits(block.type).nodes);
+      block.ids.reserve(static_cast<size_t>(cells));
+      blocks[at.second] = &block;
+    }
+    for_each_cell([&](const FlatTable& table, size_t cell, const Key& key) {
+      add(table, cell, *blocks[key]);
+    });
+  }
+
+ private:
+  using Key = std::pair<int32_t, CellType>;
+
+  template <class Body>
+  void for_each_cell(const Body& body) const {
+    for (const FlatTable& table : numbering_.tables()) {
+      for (size_t c = 0; c < table.ids.size(); ++c) {
+        body(table, c, Key{region_[static_cast<size_t>(table.first) + c], table.type});
+      }
+    }
+  }
+
+  void add(const FlatTable& table, size_t cell, CellBlock& block) const {
+    const std::span<const int> p = traits(table.type).to_abaqus;
+    const auto row = static_cast<Eigen::Index>(block.ids.size());
+    for (size_t i = 0; i < p.size(); ++i) {
+      const int32_t from = table.nodes[cell * p.size() + i];
+      block.nodes(row, p[i]) = node_[static_cast<size_t>(from)];
+    }
+    block.ids.push_back(table.ids[cell]);
+  }
+
+  const Numbering& numbering_;
+  const std::vector<int32_t>& region_;
+  const std::vector<int32_t>& node_;
+  Mesh& mesh_;
+};
+
+}  // namespace
+
+void build_mesh(Model& model) {
+  if (model.numbering.cells() == 0) {
+    model.refusals.raise();
+    throw InputError(
+        fmt::format("{}: found no solid elements, expected some of C3D4 C3D5 C3D6 "
+                    "C3D8 C3D8I C3D8R C3D10 C3D15 C3D20 C3D20R",
+                    model.source.where(model.source.origin())));
+  }
+  build_regions(model);
+  std::vector<int32_t> node = take_nodes(model.numbering, model.deck.mesh);
+  Blocks(model.numbering, model.region_of_cell, node, model.deck.mesh).run();
+  model.node_map.set_mesh_nodes(std::move(node));
+}
+
+}  // namespace clatter::mesh::deck::abaqus

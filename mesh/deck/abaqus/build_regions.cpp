@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sections and materials of the cells.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mesh/deck/abaqus/model.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+constexpr int32_t kNoRegion = -1;
+
+const std::string& set_name(const Model& model, size_t use, const std::string& name) {
+  const IdSets& sets = model.numbering.uses()[use].scope->element_sets;
+  const auto set = sets.find(folded(name));
+  return set != sets.end() ? set->second.name : name;
+}
+
+// Regions of the cells by *SOLID SECTION, or by the sets of *ELEMENT.
+class Sections {
+ public:
+  explicit Sections(Model& model)
+      : model_(model), region_(static_cast<size_t>(model.numbering.cells()), kNoRegion) {}
+
+  std::vector<int32_t> run() {
+    bool any = false;
+    for_each_card(model_, {"SOLIDSECTION"}, [&](size_t use, const Card& card) {
+      any = true;
+      read_section(use, card);
+    });
+    // A refused deck still gets a mesh, so that its steps can be checked.
+    if (!any || model_.refusals.any()) by_element_sets(any);
+    for_each_card(model_, {"DLOAD"}, [&](size_t use, const Card& card) {
+      for (size_t i = 0; i < card.size(); ++i) {
+        const Fields fields = card.line(i, model_.source);
+        if (folded(fields.text(1)) == "CENTRIF") split(use, fields);
+      }
+    });
+    for (int32_t cell = 0; cell < model_.numbering.cells(); ++cell) add_formulation(cell);
+    return std::move(region_);
+  }
+
+ private:
+  int32_t new_region(size_t use, const std::string& name, Origin origin) {
+    const std::string shown = model_.numbering.public_name(use, set_name(model_, use, name));
+    if (!names_.insert(shown).second) {
+      model_.source.fail(origin, fmt::format("found a second region {}", shown));
+    }
+    model_.deck.mesh.regions.push_back(shown);
+    model_.deck.regions.emplace_back();
+    model_.deck.regions.back().where = model_.source.where(origin);
+    return static_cast<int32_t>(model_.deck.regions.size()) - 1;
+  }
+
+  void read_section(size_t use, const Card& card) {
+    const Keyword& keyword = card.keyword();
+    keyword.allow({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"}, model_.source, model_.ignore);
+    const std::string& name = keyword.required("ELSET", model_.source);
+    const Material& material =
+        material_named(keyword.required("MATERIAL", model_.source), card.origin());
+    const std::vector<int32_t>& elements = model_.sets.elements(use, name, card.origin());
+    const int32_t n_cells = model_.numbering.cells();
+    if (elements.empty() || elements.front() >= n_cells) return;  // only ignored elements
+    if (model_.refusals.has_lost(folded(material.name))) throw FollowUp();
+    if (material.constants.empty()) {
+      model_.source.fail(card.origin(), fmt::format("material {} has no *ELASTIC", material.name));
+    }
+    const int32_t region = new_region(use, name, card.origin());
+    model_.deck.regions.back().material = material.name;
+    if (const std::string* orientation = keyword.find("ORIENTATION")) {
+      model_.deck.regions.back().system = system_named(model_, use, *orientation, card.origin());
+    }
+    for (const int32_t element : elements) {
+      if (element >= n_cells) break;
+      int32_t& at = region_[static_cast<size_t>(element)];
+      if (at != kNoRegion) {
+        model_.source.fail(card.origin(),
+                           fmt::format("element {} has a section already: {}", id_of(element),
+                                       model_.deck.regions[static_cast<size_t>(at)].where));
+      }
+      at = region;
+    }
+  }
+
+  // Only entire regions rotate: the part that a load rotates becomes a region of its own.
+  void split(size_t use, const Fields& fields) {
+    std::vector<bool> turns(region_.size(), false);
+    for (const int32_t element : model_.sets.elements_at(fields, 0, use)) {
+      if (element < model_.numbering.cells()) turns[static_cast<size_t>(element)] = true;
+    }
+    std::vector<bool> stays(model_.deck.regions.size(), false);
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      if (!turns[cell] && region_[cell] != kNoRegion)
+        stays[static_cast<size_t>(region_[cell])] = true;
+    }
+    std::map<int32_t, int32_t> part;  // of a region that does not rotate entirely
+    for (size_t cell = 0; cell < region_.size(); ++cell) {
+      const int32_t parent = region_[cell];
+      if (!turns[cell] || parent == kNoRegion || !stays[static_cast<size_t>(parent)]) continue;
+      const auto [at, is_new] = part.emplace(parent, 0);
+      if (is_new) {
+        const Region region = model_.deck.regions[static_cast<size_t>(parent)];
+        const std::string name = model_.deck.mesh.regions[static_cast<size_t>(parent)];
+        at->second = new_region(model_.numbering.main_use(),
+                                fmt::format("{}_{}", name, fields.text(0)), fields.origin());
+        model_.deck.regions.back() = region;
+      }
+      region_[cell] = at->second;
+    }
+  }
+
+  const Material& material_named(const std::string& name, Origin origin) const {
+    const auto known = model_.material_names.find(folded(name));
+    if (known != model_.material_names.end()) return model_.deck.materials.at(known->second);
+    if (model_.refusals.has_lost(folded(name))) throw FollowUp();
+    model_.source.fail(origin, fmt::format("found no material {}", shown(name)));
+  }
+
+  // Without any section: each set of *ELEMENT, ELSET= is a region, the rest is "solid". With
+  // `rest_only` all cells without a section are "solid".
+  void by_element_sets(bool rest_only) {
+    std::map<std::pair<size_t, Origin>, const IdSet*> sets;  // in the order of the deck
+    for (size_t u = 0; u < model_.numbering.uses().size(); ++u) {
+      for (const auto& [key, set] : model_.numbering.uses()[u].scope->element_sets) {
+        for (const SetChunk& chunk : set.chunks) {
+          if (chunk.row_begin == chunk.row_end) continue;
+          sets.emplace(std::pair(u, chunk.origin), &set);
+          break;
+        }
+      }
+    }
+    if (rest_only) sets.clear();
+    for (const auto& [key, set] : sets) {
+      const int32_t region = new_region(key.first, set->name, key.second);
+      for (const SetChunk& chunk : set->chunks) fill(key.first, chunk, region);
+    }
+    if (std::find(region_.begin(), region_.end(), kNoRegion) == region_.end()) return;
+    const int32_t rest = new_region(model_.numbering.main_use(), "solid", 0);
+    std::replace(region_.begin(), region_.end(), kNoRegion, rest);
+  }
+
+  void fill(size_t use, const SetChunk& chunk, int32_t region) {
+    if (chunk.row_begin == chunk.row_end) return;
+    const auto table = static_cast<size_t>(model_.numbering.uses()[use].first_table + chunk.table);
+    const int32_t first = model_.numbering.tables()[table].first;
+    std::fill(region_.begin() + first + chunk.row_begin, region_.begin() + first + chunk.row_end,
+              region);
+  }
+
+  int32_t id_of(int32_t cell) const {
+    const FlatTable& table = model_.numbering.table_of(cell);
+    return table.ids[static_cast<size_t>(cell - table.first)];
+  }
+
+  void add_formulation(int32_t cell) {
+    const FlatTable& table = model_.numbering.table_of(cell);
+    const Origin origin = table.origins[static_cast<size_t>(cell - table.first)];
+    const int32_t region = region_[static_cast<size_t>(cell)];
+    if (region == kNoRegion) {
+      model_.source.fail(origin, fmt::format("element {} has no *SOLID SECTION", id_of(cell)));
+    }
+    if (table.formulation == Formulation::kDefault) return;
+    const auto [at, is_new] = model_.deck.regions[static_cast<size_t>(region)].formulation.emplace(
+        table.type, table.formulation);
+    if (at->second != table.formulation) {
+      model_.source.fail(origin,
+                         fmt::format("element {} is a {}, but others of its section {} "
+                                     "are integrated differently: give them sections of "
+                                     "their own",
+                                     id_of(cell), table.name,
+                                     model_.deck.mesh.regions[static_cast<size_t>(region)]));
+    }
+  }
+
+  Model& model_;
+  std::vector<int32_t> region_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+void build_regions(Model& model) { model.region_of_cell = Sections(model).run(); }
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// *SPRING and *DASHPOT.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mesh/deck/abaqus/model.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+constexpr double kStraight = 1e-9;  // of the largest force: precision of a table
+
+// Lines "force, elongation"; a straight line through the origin is a linear spring.
+double slope_of(const Card& card, size_t first, const Source& source) {
+  double force = 0.0, elongation = 0.0;
+  std::vector<std::pair<double, double>> points;
+  for (size_t i = first; i < card.size(); ++i) {
+    const Fields fields = card.line(i, source);
+    fields.at_most(2, "force, elongation (at one temperature)");
+    points.emplace_back(fields.number(0, "force"), fields.number(1, "elongation"));
+    if (std::abs(points.back().second) > std::abs(elongation)) {
+      force = points.back().first;
+      elongation = points.back().second;
+    }
+  }
+  const double slope = elongation != 0.0 ? force / elongation : 0.0;
+  const bool straight = std::all_of(points.begin(), points.end(), [&](const auto& point) {
+    return std::abs(point.first - slope * point.second) <= kStraight * std::abs(force);
+  });
+  if (!straight || elongation == 0.0) {
+    source.fail(card.origin(),
+                "*SPRING, NONLINEAR: its forces are not on one line through 0, expected a "
+                "linear spring: clatter's parts are linear");
+  }
+  return slope;
+}
+
+struct Property {
+  std::vector<int> directions;  // of SPRING1 and SPRING2
+  double stiffness = 0.0;
+};
+
+// SPRING1 and SPRING2 begin with their directions, SPRINGA with an empty line.
+Property property_of(const Card& card, const std::string& type, const Source& source) {
+  Property property;
+  size_t first = 0;
+  if (type != "SPRINGA") {
+    if (card.size() == 0) source.fail(card.origin(), "*SPRING: found no data lines");
+    const Fields fields = card.line(0, source);
+    const size_t ends = type == "SPRING1" ? 1 : 2;
+    fields.at_most(ends, "DoF of each end");
+    for (size_t i = 0; i < ends; ++i) {
+      property.directions.push_back(fields.integer(i, "DoF", 1, 6) - 1);
+    }
+    first = 1;
+  } else if (card.size() > 0 && card.line(0, source).blank(0)) {
+    first = 1;
+  }
+  if (card.keyword().has("NONLINEAR")) {
+    property.stiffness = slope_of(card, first, source);
+  } else {
+    if (card.size() != first + 1) {
+      source.fail(card.origin(), fmt::format("*SPRING: found {} lines of stiffness, expected one",
+                                             card.size() - std::min(card.size(), first)));
+    }
+    property.stiffness = card.line(first, source).number(0, "stiffness");
+  }
+  if (!(property.stiffness > 0.0)) {
+    source.fail(card.origin(), fmt::format("*SPRING: found a stiffness of {}, expected more than 0",
+                                           property.stiffness));
+  }
+  return property;
+}
+
+// DoF `direction` of a node, which CalculiX may store as a translation of a rotation node.
+Equation::Term end_of(Model& model, const PointElement& element, int32_t row, int direction,
+                      double coefficient) {
+  NodeMap& node_map = model.node_map;
+  const NodeIndex rotated = node_map.rotation_of(row);
+  const NodeIndex node_index = rotated == NodeMap::kNone ? node_map.require(row) : rotated;
+  if (rotated != NodeMap::kNone) direction += 3;
+  const int32_t id = model.numbering.node_ids()[static_cast<size_t>(row)];
+  if (direction > 5 || (direction > 2 && !node_map.is_point(node_index))) {
+    model.source.fail(element.origin,
+                      fmt::format("element {}: node {} has no rotations", element.id, id));
+  }
+  return {node_index, direction, coefficient};
+}
+
+void add_spring(Model& model, const PointElement& element, const Card& card) {
+  const Property property = property_of(card, element.type, model.source);
+  Spring spring;
+  spring.where = model.source.where(element.origin);
+  spring.stiffness = property.stiffness;
+  if (element.type == "SPRINGA") {
+    const Eigen::Vector3d line =
+        model.numbering.at(element.second) - model.numbering.at(element.node);
+    if (!(line.norm() > 0.0)) {
+      model.source.fail(element.origin, fmt::format("element {}: both ends have the same position, "
+                                                    "expected a SPRINGA with a length",
+                                                    element.id));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double along = line[k] / line.norm();
+      if (along == 0.0) continue;
+      spring.terms.push_back(end_of(model, element, element.second, k, along));
+      spring.terms.push_back(end_of(model, element, element.node, k, -along));
+    }
+  } else {
+    const int32_t ends[] = {element.node, element.second};
+    for (size_t i = 0; i < property.directions.size(); ++i) {
+      if (!model.node_map.displacement_system(ends[i]).empty()) {
+        model.source.fail(element.origin,
+                          fmt::format("element {}: a {} on a node with *TRANSFORM is not "
+                                      "supported, expected a SPRINGA",
+                                      element.id, element.type));
+      }
+      spring.terms.push_back(
+          end_of(model, element, ends[i], property.directions[i], i == 0 ? 1.0 : -1.0));
+    }
+    const bool turns = spring.terms.front().direction >= 3;
+    if (turns != (spring.terms.back().direction >= 3)) {
+      model.source.fail(card.origin(),
+                        "*SPRING: found a rotation against a displacement, expected one kind");
+    }
+  }
+  model.deck.springs.push_back(std::move(spring));
+}
+
+}  // namespace
+
+void build_springs(Model& model) {
+  std::set<Origin> described;
+  const size_t refused = model.refusals.size();
+  bool noted = false;
+  for_each_card(model, {"SPRING", "DASHPOT"}, [&](size_t use, const Card& card) {
+    const bool spring = card.keyword().key == "SPRING";
+    card.keyword().allow({"ELSET", "NONLINEAR"}, model.source, model.ignore);
+    for (const PointElement& element : point_elements(model, use, card, card.keyword().key)) {
+      if (!described.insert(element.origin).second) {
+        model.source.fail(card.origin(), fmt::format("{}: element {} has a value already",
+                                                     card.keyword().name, element.id));
+      }
+      if (spring) model.refusals.attempt([&] { add_spring(model, element, card); });
+    }
+    if (spring || noted) return;
+    noted = true;
+    model.deck.notes.push_back(fmt::format(
+        "{}: *DASHPOT is left out: dampers have no effect in statics and on undamped frequencies",
+        model.source.where(card.origin())));
+  });
+  if (model.refusals.size() > refused) return;
+  for (const PointElement& element : model.numbering.points()) {
+    const bool spring = element.type.starts_with("SPRING");
+    if (!spring && !element.type.starts_with("DASHPOT")) continue;
+    if (!described.contains(element.origin)) {
+      model.refusals.add(fmt::format("{}: element {} of type {} has no value (*{})",
+                                     model.source.where(element.origin), element.id, element.type,
+                                     spring ? "SPRING" : "DASHPOT"));
+    }
+  }
+}
+
+}  // namespace clatter::mesh::deck::abaqus

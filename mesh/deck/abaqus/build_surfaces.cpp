@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "mesh/deck/abaqus/cells.hpp"
+#include "mesh/deck/abaqus/model.hpp"
+#include "mesh/deck/node_sets.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+// Rows of a face of a cell, in our order: `count` entries.
+struct FaceRows {
+  std::array<int32_t, kMaxFaceNodes> rows;
+  size_t count, corners;
+  auto begin() const { return rows.begin(); }
+  auto end() const { return rows.begin() + static_cast<long>(count); }
+};
+
+FaceRows face_rows(const Numbering& numbering, CellFaceId id) {
+  const CellType type = numbering.table_of(id.first).type;
+  const CellFace& face = traits(type).faces[static_cast<size_t>(id.second)];
+  const std::span<const int> p = traits(type).to_abaqus;
+  const auto rows = numbering.nodes_of(id.first);
+  FaceRows out{{},
+               static_cast<size_t>(traits(face.type).nodes),
+               static_cast<size_t>(traits(face.type).corners)};
+  for (size_t i = 0; i < out.count; ++i) {
+    out.rows[i] =
+        rows[static_cast<size_t>(std::find(p.begin(), p.end(), face.nodes[i]) - p.begin())];
+  }
+  return out;
+}
+
+// A candidate for a free face, by its sorted corners: the same for both cells that share it.
+struct Candidate {
+  std::array<int32_t, 4> corners;
+  CellFaceId id;
+  bool chosen;
+};
+
+Candidate candidate(const FaceRows& face, CellFaceId id, bool chosen) {
+  Candidate out{{-1, -1, -1, -1}, id, chosen};
+  std::copy_n(face.rows.begin(), face.corners, out.corners.begin());
+  std::sort(out.corners.begin(), out.corners.end());
+  return out;
+}
+
+int32_t face_count(const Numbering& numbering, int32_t cell) {
+  return static_cast<int32_t>(traits(numbering.table_of(cell).type).faces.size());
+}
+
+// Faces of all other cells whose nodes are all selected.
+void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
+                    const std::vector<bool>& selected, std::vector<Candidate>& faces) {
+  const auto is_selected = [&](int32_t row) { return selected[static_cast<size_t>(row)]; };
+  for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
+    const auto nodes = numbering.nodes_of(cell);
+    if (chosen[static_cast<size_t>(cell)] ||
+        std::count_if(nodes.begin(), nodes.end(), is_selected) < 3) {
+      continue;
+    }
+    for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
+      const FaceRows face = face_rows(numbering, {cell, f});
+      if (std::all_of(face.begin(), face.end(), is_selected)) {
+        faces.push_back(candidate(face, {cell, f}, false));
+      }
+    }
+  }
+}
+
+// The faces of those cells for which `wanted` is true of all rows and that no other cell has.
+template <class Wanted>
+std::vector<CellFaceId> free_faces(const Numbering& numbering, const std::vector<int32_t>& cells,
+                                   const Wanted& wanted) {
+  std::vector<Candidate> all;
+  std::vector<bool> chosen(static_cast<size_t>(numbering.cells()), false);
+  std::vector<bool> selected(static_cast<size_t>(numbering.nodes()), false);
+  for (const int32_t cell : cells) {
+    chosen[static_cast<size_t>(cell)] = true;
+    for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
+      const FaceRows face = face_rows(numbering, {cell, f});
+      if (!std::all_of(face.begin(), face.end(), wanted)) continue;
+      all.push_back(candidate(face, {cell, f}, true));
+      for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
+    }
+  }
+  add_neighbours(numbering, chosen, selected, all);
+  std::sort(all.begin(), all.end(),
+            [](const Candidate& a, const Candidate& b) { return a.corners < b.corners; });
+  std::vector<CellFaceId> faces;
+  for (size_t i = 0, end = 0; i < all.size(); i = end) {
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1 && all[i].chosen) faces.push_back(all[i].id);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+// Key of Model::surface_names; "instance.name" refers to a surface of the instance.
+std::string key_of(const Model& model, size_t use, const std::string& name) {
+  std::string rest = name;
+  for (size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
+    const int instance = model.numbering.find_use(name.substr(0, dot));
+    if (instance < 0) continue;
+    use = static_cast<size_t>(instance);
+    rest = name.substr(dot + 1);
+    break;
+  }
+  return fmt::format("{}:{}", use, folded(rest));
+}
+
+class SurfaceReader {
+ public:
+  explicit SurfaceReader(Model& model) : model_(model), numbering_(model.numbering) {}
+
+  void read(size_t use, const Card& card) {
+    const Keyword& keyword = card.keyword();
+    keyword.allow({"NAME", "TYPE", "INTERNAL"}, model_.source, model_.ignore);
+    const std::string& name = keyword.required("NAME", model_.source);
+    const std::string type = keyword.choice("TYPE", "ELEMENT");
+    const std::string key = key_of(model_, use, name);
+    if (model_.surface_names.contains(key) || model_.node_surfaces.contains(key)) {
+      model_.source.fail(card.origin(), fmt::format("found a second surface {}", name));
+    }
+    if (type == "NODE") return read_nodes(use, card, key);
+    if (type != "ELEMENT") {
+      model_.source.fail(card.origin(), fmt::format("*SURFACE: found TYPE={}, expected ELEMENT or "
+                                                    "NODE",
+                                                    *keyword.find("TYPE")));
+    }
+    std::vector<CellFaceId> faces;
+    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, model_.source), faces);
+    // Without faces because the user ignores its elements: not in the mesh.
+    const bool none = faces.empty() && card.size() > 0;
+    model_.surface_names[key] =
+        none ? "" : add_surface(model_, numbering_.public_name(use, name), faces);
+  }
+
+ private:
+  void read_nodes(size_t use, const Card& card, const std::string& key) {
+    std::vector<int32_t> rows;
+    for (size_t i = 0; i < card.size(); ++i) {
+      const Fields fields = card.line(i, model_.source);
+      fields.at_most(2, "a node or node set, area");
+      const auto more = model_.sets.nodes_at(fields, 0, use);
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+    sort_unique(rows);
+    model_.node_surfaces[key] = std::move(rows);
+  }
+
+  // "elements, S3", or "elements": all their faces on the outside of the model.
+  void add_line(size_t use, const Fields& fields, std::vector<CellFaceId>& faces) {
+    fields.at_most(2, "elements, face");
+    std::vector<int32_t> cells = model_.sets.elements_at(fields, 0, use);
+    std::erase_if(cells, [&](int32_t element) { return element >= numbering_.cells(); });
+    if (fields.blank(1)) {
+      const auto found = free_faces(numbering_, cells, [](int32_t) { return true; });
+      faces.insert(faces.end(), found.begin(), found.end());
+      return;
+    }
+    const std::string face = folded(fields.text(1));
+    const auto number = face.starts_with('S') ? to_integer(face.substr(1)) : std::nullopt;
+    if (!number) {
+      fields.fail(
+          fmt::format("found face {}, expected S1 to S6: faces of solids", shown(fields.text(1))));
+    }
+    for (const int32_t cell : cells) {
+      const int32_t f = face_of_number(numbering_.table_of(cell).type, *number);
+      if (f < 0) {
+        fields.fail(fmt::format("found face {}, which elements {} do not have", face,
+                                numbering_.table_of(cell).name));
+      }
+      faces.emplace_back(cell, f);
+    }
+  }
+
+  Model& model_;
+  const Numbering& numbering_;
+};
+
+}  // namespace
+
+std::string add_surface(Model& model, const std::string& name,
+                        const std::vector<CellFaceId>& faces) {
+  constexpr int64_t kMostFaces = int64_t{1} << 25;  // of all surfaces: a gigabyte
+  model.faces += static_cast<int64_t>(faces.size());
+  if (model.faces > kMostFaces) {
+    throw InputError(fmt::format("{}: surface {}: all surfaces have more than {} faces",
+                                 model.source.files().front(), name, kMostFaces));
+  }
+  SurfaceBuilder surface;
+  std::set<CellFaceId> known;
+  for (const CellFaceId& id : faces) {
+    if (!known.insert(id).second) continue;
+    FaceRows face = face_rows(model.numbering, id);
+    for (int32_t& row : face.rows) row = model.node_map.mesh_node(row);
+    const CellType type = model.numbering.table_of(id.first).type;
+    surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
+  }
+  auto& surfaces = model.deck.mesh.surfaces;
+  std::string free_name = name;
+  for (int i = 2; surfaces.contains(free_name); ++i) free_name = fmt::format("{}_{}", name, i);
+  surfaces[free_name] = surface.finish();
+  return free_name;
+}
+
+void build_surfaces(Model& model) {
+  SurfaceReader reader(model);
+  for_each_card(model, {"SURFACE"}, [&](size_t use, const Card& card) { reader.read(use, card); });
+}
+
+std::string surface_named(Model& model, size_t use, const std::string& name, Origin origin) {
+  const std::string key = key_of(model, use, name);
+  const auto known = model.surface_names.find(key);
+  if (known != model.surface_names.end() && known->second.empty()) {
+    model.source.fail(origin, fmt::format("surface {} has no face of a solid", shown(name)));
+  }
+  if (known != model.surface_names.end()) return known->second;
+  const std::vector<int32_t>* rows = node_surface(model, use, name);
+  if (rows == nullptr && model.refusals.has_lost(folded(name))) throw FollowUp();
+  if (rows == nullptr) model.source.fail(origin, fmt::format("found no surface {}", shown(name)));
+  return model.surface_names[key] = surface_of_nodes(model, *rows, name, origin);
+}
+
+const std::vector<int32_t>* node_surface(const Model& model, size_t use, const std::string& name) {
+  const auto rows = model.node_surfaces.find(key_of(model, use, name));
+  return rows != model.node_surfaces.end() ? &rows->second : nullptr;
+}
+
+std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
+                             const std::string& name, Origin origin) {
+  const Numbering& numbering = model.numbering;
+  std::vector<bool> wanted(static_cast<size_t>(numbering.nodes()), false);
+  for (const int32_t row : rows) wanted[static_cast<size_t>(row)] = true;
+  const auto is_requested = [&](int32_t row) {
+    return static_cast<bool>(wanted[static_cast<size_t>(row)]);
+  };
+  std::vector<int32_t> cells;
+  for (int32_t cell = 0; cell < numbering.cells(); ++cell) {
+    const auto nodes = numbering.nodes_of(cell);
+    if (std::count_if(nodes.begin(), nodes.end(), is_requested) >= 3) cells.push_back(cell);
+  }
+  const auto faces = free_faces(numbering, cells, is_requested);
+  for (const CellFaceId& id : faces) {
+    for (const int32_t row : face_rows(numbering, id)) wanted[static_cast<size_t>(row)] = false;
+  }
+  for (const int32_t row : rows) {
+    if (!wanted[static_cast<size_t>(row)]) continue;
+    model.source.fail(origin, fmt::format("surface {} of nodes: node {} belongs to no outer face "
+                                          "whose nodes all belong to it, expected complete faces",
+                                          name, numbering.node_ids()[static_cast<size_t>(row)]));
+  }
+  return add_surface(model, name, faces);
+}
+
+}  // namespace clatter::mesh::deck::abaqus

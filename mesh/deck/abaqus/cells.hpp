@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Element types and their face numbers.
+#include <optional>
+#include <string_view>
+
+#include "core/mesh/cell.hpp"
+#include "mesh/deck/deck.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// A solid element type. C3D8 and C3D20 are fully integrated, C3D8I has incompatible modes, R means
+/// reduced integration; C3D6 and C3D15 have the two and nine points of reduced wedges.
+struct SolidType {
+  std::string_view name;
+  CellType type;
+  Formulation formulation;
+};
+
+/// By folded name; none for types that are not supported solids.
+std::optional<SolidType> solid_type(std::string_view name);
+
+/// Index into traits(type).faces of face `number` (1 for S1, P1); -1 where the cell has no such
+/// face.
+///   tet      1 1-2-3    2 1-4-2    3 2-4-3    4 3-4-1
+///   wedge    1 1-2-3    2 4-6-5    3 1-4-5-2  4 2-5-6-3  5 3-6-4-1
+///   hex      1 1-2-3-4  2 5-8-7-6  3 1-5-6-2  4 2-6-7-3  5 3-7-8-4  6 4-8-5-1
+///   pyramid  1 1-2-3-4  2 1-5-2    3 2-5-3    4 3-5-4    5 4-5-1
+int face_of_number(CellType type, int number);
+/// The inverse: 1, 2, ...
+int number_of_face(CellType type, int face);
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The content of a deck: tables of nodes and elements, sets, and the other keywords as cards. A
+// flat deck is one scope; a deck of parts has one scope per part and one for the assembly.
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/deck/abaqus/card.hpp"
+#include "mesh/deck/deck.hpp"
+#include "mesh/deck/id_index.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// Nodes in the order of the deck; three coordinates each.
+struct NodeTable {
+  std::vector<int32_t> ids;
+  std::vector<double> xyz;
+  std::vector<Origin> origins;
+};
+
+/// Elements of one type name; `nodes` are deck numbers in Abaqus' order.
+struct CellTable {
+  std::string name;  // "C3D8I"
+  CellType type = CellType::kTet4;
+  Formulation formulation = Formulation::kDefault;
+  std::vector<int32_t> ids;
+  std::vector<Origin> origins;
+  std::vector<int32_t> nodes;
+};
+
+/// Elements of one node (MASS, ROTARYI, DCOUP3D, SPRING1, DASHPOT1) or two (SPRINGA, ...).
+struct PointElement {
+  std::string type;
+  int32_t id = 0;
+  int32_t node = 0;    // number in the deck
+  int32_t second = 0;  // the same; 0: none
+  Origin origin = 0;
+};
+
+/// The part of a set from one keyword.
+struct SetChunk {
+  Origin origin = 0;
+  std::string instance;  // of the numbers; empty: the scope's own
+  std::vector<int32_t> ids;
+  std::vector<std::pair<size_t, Origin>> id_lines;  // first of `ids` on a line, line
+  std::vector<IdRange> ranges;
+  std::vector<std::pair<std::string, Origin>> names;  // other sets
+  std::vector<std::string> elements_of;               // *NSET, ELSET=: nodes of those elements
+  int32_t table = 0;                                  // of cells, for rows
+  int32_t row_begin = 0, row_end = 0;  // rows of the table that *NODE or *ELEMENT read
+};
+
+struct IdSet {
+  std::string name;  // as first written
+  std::vector<SetChunk> chunks;
+};
+
+/// By folded name.
+using IdSets = std::map<std::string, IdSet>;
+
+struct Scope {
+  std::string name;
+  Origin origin = 0;
+  NodeTable nodes;
+  std::vector<CellTable> cells;
+  std::vector<PointElement> points;
+  std::vector<int32_t> ignored_elements;  // numbers of elements that the user ignores
+  IdSets node_sets, element_sets;
+  std::vector<Card> cards;
+};
+
+/// A positioned part: x -> rotation * x + shift.
+struct InstanceLine {
+  std::string name, part;
+  Origin origin = 0;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+};
+
+struct RawDeck {
+  Scope model;  // the flat deck, or the assembly with materials and steps
+  std::vector<Scope> parts;
+  std::vector<InstanceLine> instances;
+  std::vector<std::string> notes;  // Deck::notes
+};
+
+/// The chunk that a new keyword adds to; creates the set if needed.
+SetChunk& new_chunk(IdSets& sets, const std::string& name, Origin origin);
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/deck/abaqus/read_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "mesh/deck/abaqus/cells.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, int>, 9> kPointTypes = {{{"MASS", 1},
+                                                                          {"ROTARYI", 1},
+                                                                          {"DCOUP3D", 1},
+                                                                          {"SPRING1", 1},
+                                                                          {"SPRING2", 2},
+                                                                          {"SPRINGA", 2},
+                                                                          {"DASHPOT1", 1},
+                                                                          {"DASHPOT2", 2},
+                                                                          {"DASHPOTA", 2}}};
+
+// Number of nodes of elements with one or two; 0 for other types.
+int point_nodes(std::string_view type) {
+  for (const auto& [name, nodes] : kPointTypes) {
+    if (name == type) return nodes;
+  }
+  return 0;
+}
+
+// Numbers of nodes and elements are positive.
+int32_t id_of(std::string_view field, const Lines& lines, std::string_view what) {
+  const auto id = to_integer(field);
+  if (!id || *id < 1) {
+    lines.source().fail(lines.origin(),
+                        fmt::format("found {}, expected {} (1 or more)", shown(field), what));
+  }
+  return *id;
+}
+
+void read_node(const Lines& lines, NodeTable& nodes) {
+  FieldWalk walk(lines.data());
+  std::string_view field;
+  walk.next(&field);
+  nodes.ids.push_back(id_of(field, lines, "the number of a node"));
+  nodes.origins.push_back(lines.origin());
+  for (int k = 0; k < 3; ++k) {
+    std::optional<double> x = 0.0;
+    if (walk.next(&field) && !field.empty()) x = to_number(field);
+    if (!x) {
+      lines.source().fail(lines.origin(),
+                          fmt::format("found {}, expected a coordinate", shown(field)));
+    }
+    nodes.xyz.push_back(*x);
+  }
+}
+
+CellTable& table_of(Scope& scope, const SolidType& solid) {
+  for (CellTable& table : scope.cells) {
+    if (table.name == solid.name) return table;
+  }
+  scope.cells.emplace_back();
+  CellTable& table = scope.cells.back();
+  table.name = solid.name;
+  table.type = solid.type;
+  table.formulation = solid.formulation;
+  return table;
+}
+
+// The name for `ignore` that skips extra nodes of an element, as CalculiX does.
+constexpr const char* kExtraNodes = "EXTRA NODES";
+
+// A number, then `n_nodes` nodes, over one or more lines.
+class ElementWalk {
+ public:
+  ElementWalk(Lines& lines, std::string_view type, int n_nodes, Ignore& ignore)
+      : lines_(lines), type_(type), n_nodes_(n_nodes), ignore_(ignore) {}
+
+  // Calls begin(id, origin) and node(id) for each element of the table.
+  template <class Begin, class Node>
+  Lines::Kind run(const Begin& begin, const Node& node) {
+    int missing = 0;
+    Origin origin = lines_.origin();
+    Lines::Kind kind = lines_.next();
+    for (; kind == Lines::Kind::kData; kind = lines_.next()) {
+      FieldWalk walk(lines_.data());
+      std::string_view field;
+      while (walk.next(&field)) {
+        if (missing == 0) {
+          if (origin == lines_.origin()) {
+            refuse_extra();
+            break;
+          }
+          origin = lines_.origin();
+          begin(id_of(field, lines_, "the number of an element"), origin);
+          missing = n_nodes_;
+        } else {
+          node(id_of(field, lines_, "the number of a node"));
+          if (--missing == 0) origin = lines_.origin();
+        }
+      }
+    }
+    if (missing > 0) {
+      lines_.source().fail(origin, fmt::format("found {} nodes of an element {}, expected {}",
+                                               n_nodes_ - missing, type_, n_nodes_));
+    }
+    return kind;
+  }
+
+ private:
+  void refuse_extra() const {
+    if (ignore_.skips(kExtraNodes)) return;
+    lines_.source().fail(lines_.origin(),
+                         fmt::format("found more than the {} nodes of an element {}; ignore = "
+                                     "[\"{}\"] takes the first ones, as CalculiX does",
+                                     n_nodes_, type_, kExtraNodes));
+  }
+
+  Lines& lines_;
+  std::string_view type_;
+  int n_nodes_;
+  Ignore& ignore_;
+};
+
+Lines::Kind read_solids(Lines& lines, const SolidType& solid, Scope& scope, SetChunk* chunk,
+                        Ignore& ignore) {
+  CellTable& table = table_of(scope, solid);
+  const auto first = table.ids.size();
+  const Lines::Kind kind = ElementWalk(lines, solid.name, traits(solid.type).nodes, ignore)
+                               .run(
+                                   [&](int32_t id, Origin origin) {
+                                     table.ids.push_back(id);
+                                     table.origins.push_back(origin);
+                                   },
+                                   [&](int32_t node) { table.nodes.push_back(node); });
+  if (chunk != nullptr) {
+    chunk->table = static_cast<int32_t>(&table - scope.cells.data());
+    chunk->row_begin = static_cast<int32_t>(first);
+    chunk->row_end = static_cast<int32_t>(table.ids.size());
+  }
+  return kind;
+}
+
+Lines::Kind read_points(Lines& lines, const std::string& type, Scope& scope, SetChunk* chunk,
+                        Ignore& ignore) {
+  return ElementWalk(lines, type, point_nodes(type), ignore)
+      .run(
+          [&](int32_t id, Origin origin) {
+            scope.points.push_back({type, id, 0, 0, origin});
+            if (chunk == nullptr) return;
+            chunk->id_lines.emplace_back(chunk->ids.size(), origin);
+            chunk->ids.push_back(id);
+          },
+          [&](int32_t node) {
+            PointElement& point = scope.points.back();
+            (point.node == 0 ? point.node : point.second) = node;
+          });
+}
+
+// Only the numbers are kept: sets may name them. A trailing comma continues the line.
+Lines::Kind skip_elements(Lines& lines, const std::string& type, Scope& scope, Ignore& ignore) {
+  bool goes_on = false;
+  Origin open = 0;
+  int64_t count = 0;
+  Lines::Kind kind = lines.next();
+  for (; kind == Lines::Kind::kData; kind = lines.next()) {
+    std::string_view field;
+    FieldWalk(lines.data()).next(&field);
+    if (!goes_on) {
+      scope.ignored_elements.push_back(id_of(field, lines, "the number of an element"));
+      ++count;
+    }
+    goes_on = lines.data().ends_with(',');
+    if (goes_on) open = lines.origin();
+  }
+  if (goes_on && kind == Lines::Kind::kEnd) {
+    lines.source().fail(open, "the deck ends after a comma, expected the rest of the element");
+  }
+  ignore.skips(type, count);
+  return kind;
+}
+
+}  // namespace
+
+Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore) {
+  const Keyword keyword = lines.keyword();
+  keyword.allow({"NSET", "SYSTEM"}, lines.source(), ignore);
+  if (keyword.choice("SYSTEM", "R") != "R") {
+    lines.source().fail(keyword.origin, fmt::format("*NODE: found SYSTEM={}, expected R: only "
+                                                    "rectangular coordinates are supported",
+                                                    *keyword.find("SYSTEM")));
+  }
+  const auto first = scope.nodes.ids.size();
+  Lines::Kind kind = lines.next();
+  for (; kind == Lines::Kind::kData; kind = lines.next()) read_node(lines, scope.nodes);
+  if (keyword.has("NSET")) {
+    const std::string& name = keyword.required("NSET", lines.source());
+    SetChunk& chunk = new_chunk(scope.node_sets, name, keyword.origin);
+    chunk.row_begin = static_cast<int32_t>(first);
+    chunk.row_end = static_cast<int32_t>(scope.nodes.ids.size());
+  }
+  return kind;
+}
+
+Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& refusals) {
+  const Keyword keyword = lines.keyword();
+  keyword.allow({"TYPE", "ELSET"}, lines.source(), ignore);
+  const std::string type = folded(keyword.required("TYPE", lines.source()));
+  SetChunk* chunk = nullptr;
+  if (keyword.has("ELSET")) {
+    chunk =
+        &new_chunk(scope.element_sets, keyword.required("ELSET", lines.source()), keyword.origin);
+  }
+  if (ignore.lists(type)) return skip_elements(lines, type, scope, ignore);
+  if (const auto solid = solid_type(type)) return read_solids(lines, *solid, scope, chunk, ignore);
+  if (point_nodes(type) > 0) {
+    return read_points(lines, type, scope, chunk, ignore);
+  }
+  refusals.add(fmt::format("{}: element type {} is not supported; ignore = [\"{}\"] skips it",
+                           lines.source().where(keyword.origin), type, type));
+  return skip_elements(lines, type, scope, ignore);
+}
+
+}  // namespace clatter::mesh::deck::abaqus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Tables of nodes and elements.
+#include "mesh/deck/abaqus/lines.hpp"
+#include "mesh/deck/abaqus/raw_deck.hpp"
+#include "mesh/deck/refusals.hpp"
+
+namespace clatter::mesh::deck::abaqus {
+
+/// Reads the data lines of *NODE or *ELEMENT into `scope` and returns what follows them. InputError
+/// for the first wrong line.
+Lines::Kind read_nodes(Lines& lines, Scope& scope, Ignore& ignore);
+/// An unsupported element type is refused and then skipped like one that the user ignores.
+Lines::Kind read_elements(Lines& lines, Scope& scope, Ignore& ignore, Refusals& refusals);
+
+}  // namespace clatter::mesh::deck::abaqus

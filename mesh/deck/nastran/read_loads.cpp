@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards of loads, temperatures and eigenvalue requests.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mesh/deck/nastran/cards.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+LoadSet& load_set(const Card& card, RawDeck& raw) {
+  const auto [at, fresh] = raw.loads.try_emplace(card.id(0, "SID"));
+  if (fresh) at->second.origin = card.origin();
+  return at->second;
+}
+
+std::array<double, 3> scaled_vector(const Card& card, size_t scale, size_t first) {
+  const double factor = card.number_or(scale, "scale", 0.0);
+  std::array<double, 3> out{};
+  for (size_t k = 0; k < 3; ++k) out[k] = factor * card.number_or(first + k, "N", 0.0);
+  return out;
+}
+
+int32_t system_number(const Card& card, size_t i) {
+  const int32_t number = card.integer_or(i, "CID", 0);
+  if (number < 0) card.fail_expected(i, "CID", "a coordinate system, 0 or more");
+  return number;
+}
+
+TemperatureSet& temperature_set(const Card& card, size_t i, RawDeck& raw) {
+  const auto [at, fresh] = raw.temperatures.try_emplace(card.id(i, "SID"));
+  if (fresh) at->second.origin = card.origin();
+  return at->second;
+}
+
+}  // namespace
+
+void read_force(const Card& card, RawDeck& raw) {
+  RawForce force;
+  force.origin = card.origin();
+  force.grid = card.id(1, "G");
+  force.system = system_number(card, 2);
+  force.vector = scaled_vector(card, 3, 4);
+  force.moment = card.name() == "MOMENT";
+  card.at_most(7);
+  load_set(card, raw).forces.push_back(force);
+}
+
+void read_pload4(const Card& card, RawDeck& raw) {
+  RawPressure pressure;
+  pressure.origin = card.origin();
+  pressure.cell = card.id(1, "EID");
+  pressure.value = card.number(2, "P1");
+  for (size_t i = 3; i < 6; ++i) {
+    if (card.number_or(i, "P", pressure.value) != pressure.value) {
+      card.fail(i,
+                fmt::format("found pressure {}, expected {} at every corner: pressures that vary "
+                            "over a face are not supported",
+                            card.text(i), pressure.value));
+    }
+  }
+  if (card.text(6) == "THRU") card.fail(6, "EID THRU EID is for shells, expected G1");
+  pressure.g1 = card.id(6, "G1");
+  pressure.g34 = card.id_or(7, "G3 or G4", 0);
+  for (size_t i = 9; i < 12; ++i) {
+    if (card.number_or(i, "N", 0.0) != 0.0) card.fail(i, "loads along a vector are not supported");
+  }
+  if (!card.blank(12) && card.text(12) != "SURF") card.fail(12, "SORL: expected SURF");
+  if (!card.blank(13) && card.text(13) != "NORM") card.fail(13, "LDIR: expected NORM");
+  card.at_most(14);
+  load_set(card, raw).pressures.push_back(pressure);
+}
+
+void read_grav(const Card& card, RawDeck& raw) {
+  RawGravity gravity;
+  gravity.origin = card.origin();
+  gravity.system = system_number(card, 1);
+  gravity.vector = scaled_vector(card, 2, 3);
+  card.at_most(7);
+  load_set(card, raw).gravity.push_back(gravity);
+}
+
+void read_rforce(const Card& card, RawDeck& raw) {
+  RawRotation rotation;
+  rotation.origin = card.origin();
+  rotation.grid = card.id_or(1, "G", 0);
+  rotation.system = system_number(card, 2);
+  rotation.turns = card.number(3, "A");
+  double square = 0.0;
+  for (size_t k = 0; k < 3; ++k) {
+    rotation.axis[k] = card.number_or(4 + k, "R", 0.0);
+    square += rotation.axis[k] * rotation.axis[k];
+  }
+  const double length = std::sqrt(square);
+  if (!(length > 0.0)) card.fail(4, "expected a direction R1 R2 R3 of the axis");
+  for (double& part : rotation.axis) part /= length;
+  rotation.turns *= length;
+  if (card.number_or(8, "RACC", 0.0) != 0.0) {
+    card.fail(8, "RACC: angular acceleration is not supported, expected none");
+  }
+  card.at_most(9);
+  load_set(card, raw).rotations.push_back(rotation);
+}
+
+void read_load(const Card& card, RawDeck& raw) {
+  LoadSum sum;
+  sum.origin = card.origin();
+  const int32_t set = card.id(0, "SID");
+  const double overall = card.number(1, "S");
+  for (size_t i = 2; i < card.size(); i += 2) {
+    if (card.blank(i) && card.blank(i + 1)) continue;
+    sum.terms.emplace_back(overall * card.number(i, "S"), card.id(i + 1, "L"));
+  }
+  if (!raw.load_sums.emplace(set, std::move(sum)).second) {
+    card.fail(0, fmt::format("found a second LOAD {}", set));
+  }
+}
+
+void read_temp(const Card& card, RawDeck& raw) {
+  TemperatureSet& set = temperature_set(card, 0, raw);
+  for (size_t i = 1; i < 7; i += 2) {
+    if (card.blank(i) && card.blank(i + 1)) continue;
+    set.values.push_back({card.id(i, "G"), card.number(i + 1, "T"), card.origin()});
+  }
+}
+
+void read_tempd(const Card& card, RawDeck& raw) {
+  for (size_t i = 0; i < 8; i += 2) {
+    if (card.blank(i) && card.blank(i + 1)) continue;
+    TemperatureSet& set = temperature_set(card, i, raw);
+    if (set.has_default) card.fail(i, fmt::format("found a second TEMPD {}", card.text(i)));
+    set.has_default = true;
+    set.default_value = card.number(i + 1, "T");
+  }
+}
+
+void read_eigrl(const Card& card, RawDeck& raw) {
+  raw.eigen_counts[card.id(0, "SID")] = card.integer_or(3, "ND", 0);
+}
+
+void read_eigr(const Card& card, RawDeck& raw) {
+  raw.eigen_counts[card.id(0, "SID")] = card.integer_or(5, "ND", 0);
+}
+
+}  // namespace clatter::mesh::deck::nastran

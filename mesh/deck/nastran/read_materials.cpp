@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards of properties and materials.
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "mesh/deck/nastran/cards.hpp"
+
+namespace clatter::mesh::deck::nastran {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void add_material(const Card& card, RawDeck& raw, const RawMaterial& material) {
+  const int32_t id = card.id(0, "MID");
+  if (material.density < 0.0) card.fail(0, fmt::format("material {}: RHO is negative", id));
+  if (!raw.materials.emplace(id, material).second) {
+    card.fail(0, fmt::format("found a second material {}", id));
+  }
+}
+
+}  // namespace
+
+void read_psolid(const Card& card, RawDeck& raw) {
+  RawSolid solid;
+  const int32_t id = card.id(0, "PID");
+  solid.origin = card.origin();
+  solid.material = card.id(1, "MID");
+  solid.system = card.integer_or(2, "CORDM", 0);
+  if (solid.system < -1) card.fail_expected(2, "CORDM", "a coordinate system, 0 or -1");
+  solid.integration = card.text(3);
+  solid.scheme = card.text(5);
+  if (!card.blank(6) && card.text(6) != "SMECH") {
+    card.fail(6, fmt::format("FCTN: found {}, expected SMECH: no fluids", shown(card.text(6))));
+  }
+  if (!raw.solids.emplace(id, solid).second) {
+    card.fail(0, fmt::format("found a second property {}", id));
+  }
+}
+
+void read_mat1(const Card& card, RawDeck& raw) {
+  RawMaterial material;
+  material.origin = card.origin();
+  for (size_t k = 0; k < 3; ++k) material.moduli[k] = card.number_or(1 + k, "E, G or NU", kNone);
+  material.density = card.number_or(4, "RHO", 0.0);
+  if (!card.blank(5)) material.expansion = {card.number(5, "A")};
+  material.reference_temperature = card.number_or(6, "TREF", 0.0);
+  add_material(card, raw, material);
+}
+
+void read_mat9(const Card& card, RawDeck& raw) {
+  RawMaterial material;
+  material.origin = card.origin();
+  material.kind = Material::Kind::kAnisotropic;
+  for (size_t k = 0; k < 21; ++k) material.constants.push_back(card.number_or(1 + k, "G", 0.0));
+  material.density = card.number_or(22, "RHO", 0.0);
+  for (size_t k = 0; k < 3; ++k) material.expansion.push_back(card.number_or(23 + k, "A", 0.0));
+  if (material.expansion == std::vector<double>(3, 0.0)) material.expansion.clear();
+  for (size_t i = 26; i < 29; ++i) {
+    if (card.number_or(i, "A", 0.0) != 0.0) card.fail(i, "thermal shear strains are not supported");
+  }
+  material.reference_temperature = card.number_or(29, "TREF", 0.0);
+  add_material(card, raw, material);
+}
+
+}  // namespace clatter::mesh::deck::nastran

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "tests/mesh/deck/nastran/support.hpp"
+
+namespace clatter::test {
+namespace {
+
+using Eigen::Vector3d;
+using mesh::FaceType;
+using mesh::deck::Deck;
+using mesh::deck::Step;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+constexpr double kLoadsRounding = 1e-14;  // of a few operations on numbers of size 10
+
+Vector3d total(const Step& step, mesh::deck::NodeIndex node_index, int base = 0) {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& force : step.forces) {
+    const int k = force.direction - base;
+    if (force.node_index == node_index && k >= 0 && k < 3) sum[k] += force.value;
+  }
+  return sum;
+}
+
+TEST(NastranLoads, ForcesAreScaledAndTurned) {
+  const std::string cord = "CORD2C,5,0,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n";
+  const Deck deck = read_deck(kTet + cord + "FORCE,3,2,,10.,.6,0.,-.8\nFORCE,3,3,5,2.,1.,.5,0.\n");
+  ASSERT_THAT(deck.steps, SizeIs(1));
+  EXPECT_EQ(deck.steps[0].name, "load_3");
+  EXPECT_EQ(deck.steps[0].kind, Step::Kind::kNone);
+  EXPECT_LT((total(deck.steps[0], 1) - Vector3d(6, 0, -8)).norm(), kLoadsRounding);
+  // Grid 3 at (0, 1, 0): r along y, theta along -x.
+  EXPECT_LT((total(deck.steps[0], 2) - Vector3d(-1, 2, 0)).norm(), kLoadsRounding);
+}
+
+TEST(NastranLoads, OnTheAxisTheAngleIsZero) {
+  const std::string points = ",0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\n";
+  const Deck deck = read_deck(kTet + "CORD2C,5,0" + points + "CORD2S,6,0" + points +
+                              "FORCE,3,4,5,1.,1.,2.,3.\nFORCE,3,1,6,1.,1.,2.,3.\n");
+  EXPECT_EQ(total(deck.steps[0], 3), Vector3d(1, 2, 3));   // r, theta, z
+  EXPECT_EQ(total(deck.steps[0], 0), Vector3d(1, 3, -2));  // r along x, theta downward, phi along y
+}
+
+TEST(NastranLoads, MomentsNeedAPoint) {
+  const std::string point = "GRID,9,,3.,4.,5.\nRBE2,7,9,123456,1\n";
+  const Deck deck = read_deck(kTet + point + "MOMENT,3,9,,10.,0.,0.,2.\n");
+  EXPECT_EQ(total(deck.steps[0], 4, 3), Vector3d(0, 0, 20));
+  EXPECT_THAT(refusal(kTet + "MOMENT,3,1,,10.,0.,0.,2.\n"),
+              HasSubstr("node 1 of solids has no rotations"));
+  EXPECT_THAT(refusal(kTet + "GRID,9\nFORCE,3,9,,10.,0.,0.,2.\n"),
+              HasSubstr("t.bdf:9: FORCE: grid 9 belongs to no solid"));
+}
+
+TEST(NastranLoads, LoadSumsSetsWithTheirFactors) {
+  const Deck deck = read_deck("SOL 101\nCEND\nLOAD = 8\nBEGIN BULK\n" + kTet +
+                              "FORCE,3,2,,1.,1.,0.,0.\nFORCE,4,2,,1.,0.,1.,0.\n"
+                              "GRAV,5,,9.81,0.,0.,-1.\nLOAD,8,2.,1.,3,3.,4,-1.,5\n");
+  ASSERT_THAT(deck.steps, SizeIs(1));
+  EXPECT_EQ(deck.steps[0].kind, Step::Kind::kStatic);
+  EXPECT_EQ(total(deck.steps[0], 1), Vector3d(2, 6, 0));
+  EXPECT_EQ(deck.steps[0].acceleration, Vector3d(0, 0, 19.62));
+  EXPECT_THAT(refusal(kTet + "LOAD,8,2.,1.,3\n"), HasSubstr("found no loads of set 3"));
+  EXPECT_THAT(refusal("CEND\nLOAD=3\nBEGIN BULK\n" + kTet), HasSubstr("found no loads of set 3"));
+}
+
+TEST(NastranLoads, WithoutCaseControlEachLoadOnTopIsAStep) {
+  const Deck deck =
+      read_deck(kTet + "FORCE,3,2,,1.,1.,0.,0.\nFORCE,4,2,,1.,0.,1.,0.\nLOAD,8,2.,1.,3\n");
+  ASSERT_THAT(deck.steps, SizeIs(2));
+  EXPECT_EQ(deck.steps[0].name, "load_4");
+  EXPECT_EQ(deck.steps[1].name, "load_8");
+}
+
+// Nodes of the only face of surface `name`, as GRID numbers.
+std::vector<int32_t> face_of(const Deck& deck, const std::string& name) {
+  const auto& surface = deck.mesh.surface(name);
+  EXPECT_EQ(surface.face_count(), 1);
+  std::vector<int32_t> ids;
+  for (Eigen::Index i = 0; i < surface.faces[0].nodes.cols(); ++i) {
+    ids.push_back(deck.mesh.node_ids[static_cast<size_t>(surface.faces[0].nodes(0, i))]);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+TEST(NastranPressure, OnATetrahedronG4IsTheCornerThatIsNotOnTheFace) {
+  const Deck deck = read_deck(kTet + "PLOAD4,3,1,5.,,,,1,3\n");
+  EXPECT_THAT(face_of(deck, "pload4_3"), ElementsAre(1, 2, 4));
+  ASSERT_THAT(deck.steps, SizeIs(1));
+  ASSERT_THAT(deck.steps[0].pressures, SizeIs(1));
+  EXPECT_EQ(deck.steps[0].pressures[0].surface, "pload4_3");
+  EXPECT_EQ(deck.steps[0].pressures[0].value, 5.0);
+  // Outward: the face 1 2 4 lies in y = 0 and points along -y.
+  const auto& nodes = deck.mesh.surface("pload4_3").faces[0].nodes;
+  const Vector3d a = deck.mesh.nodes.row(nodes(0, 0)), b = deck.mesh.nodes.row(nodes(0, 1)),
+                 c = deck.mesh.nodes.row(nodes(0, 2));
+  EXPECT_LT((b - a).cross(c - a)[1], 0.0);
+}
+
+TEST(NastranPressure, QuadranglesAreNamedByADiagonal) {
+  std::string deck;
+  const int at[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (int i = 0; i < 8; ++i) {
+    deck += "GRID," + std::to_string(i + 1) + ",," + std::to_string(at[i][0]) + ".," +
+            std::to_string(at[i][1]) + ".," + std::to_string(at[i][2]) + ".\n";
+  }
+  const std::string hex = deck + "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\n";
+  EXPECT_THAT(face_of(read_deck(hex + "PLOAD4,3,1,5.,,,,5,7\n"), "pload4_3"),
+              ElementsAre(5, 6, 7, 8));
+  EXPECT_THAT(face_of(read_deck(hex + "PLOAD4,3,1,5.,,,,6,1\n"), "pload4_3"),
+              ElementsAre(1, 2, 5, 6));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,2\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1,7\n"), HasSubstr("define no face of cell 1"));
+  EXPECT_THAT(refusal(hex + "PLOAD4,3,1,5.,,,,1\n"), HasSubstr("define no face of cell 1"));
+
+  const std::string wedge = deck + "CPENTA,1,1,1,2,3,5,6,7\n";
+  EXPECT_THAT(face_of(read_deck(wedge + "PLOAD4,3,1,5.,,,,5\n"), "pload4_3"), ElementsAre(5, 6, 7));
+  EXPECT_THAT(face_of(read_deck(wedge + "PLOAD4,3,1,5.,,,,1,6\n"), "pload4_3"),
+              ElementsAre(1, 2, 5, 6));
+
+  const std::string pyramid = deck + "CPYRAM,1,1,1,2,3,4,5\n";
+  EXPECT_THAT(face_of(read_deck(pyramid + "PLOAD4,3,1,5.,,,,1,3\n"), "pload4_3"),
+              ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(face_of(read_deck(pyramid + "PLOAD4,3,1,5.,,,,2,1\n"), "pload4_3"),
+              ElementsAre(1, 2, 5));
+  EXPECT_THAT(refusal(pyramid + "PLOAD4,3,1,5.,,,,1,5\n"), HasSubstr("define no face of cell 1"));
+}
+
+TEST(NastranPressure, ValuesThatDifferGetSurfacesOfTheirOwn) {
+  const Deck deck =
+      read_deck("CEND\nLOAD=8\nBEGIN BULK\n" + kTet +
+                "PLOAD4,3,1,5.,5.,5.,5.,1,3\nPLOAD4,3,1,-1.,,,,1,2\nLOAD,8,1.,2.,3\n");
+  ASSERT_THAT(deck.steps[0].pressures, SizeIs(2));
+  EXPECT_EQ(deck.steps[0].pressures[0].surface, "pload4_3_1");
+  EXPECT_EQ(deck.steps[0].pressures[0].value, -2.0);
+  EXPECT_EQ(deck.steps[0].pressures[1].value, 10.0);
+}
+
+TEST(NastranPressure, WhatIsNotPressureOnASolidIsRefused) {
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,6.,,,1,3\n"), HasSubstr("pressures that vary"));
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,THRU,3\n"), HasSubstr("is for shells"));
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,2,5.,,,,1,3\n"), HasSubstr("found no solid 2"));
+  EXPECT_THAT(refusal(kTet + "PLOAD4,3,1,5.,,,,1,3,+\n+,0,1.,0.,0.\n"),
+              HasSubstr("along a vector"));
+  EXPECT_THAT(refusal(kTet + "GRID,9\nPLOAD4,3,1,5.,,,,1,9\n"),
+              HasSubstr("node 9 is not a corner of cell 1"));
+}
+
+TEST(NastranTemperature, FieldsCoverAllNodes) {
+  const std::string temps = "TEMPD,4,20.,6,0.\nTEMP,4,2,50.,3,60.\n";
+  const Deck deck = read_deck("SOL 101\nCEND\nTEMP(LOAD) = 4\nBEGIN BULK\n" + kTet + temps);
+  EXPECT_EQ(deck.steps[0].temperature, "temperature_4");
+  const auto& field = deck.mesh.fields.at("temperature_4");
+  EXPECT_THAT(std::vector<double>(field.data(), field.data() + 4), ElementsAre(20., 50., 60., 20.));
+  EXPECT_THAT(refusal("CEND\nTEMP(LOAD)=4\nBEGIN BULK\n" + kTet + "TEMP,4,2,50.\n"),
+              HasSubstr("found no TEMP of node 1 and no TEMPD"));
+  EXPECT_THAT(refusal("CEND\nTEMP=5\nBEGIN BULK\n" + kTet), HasSubstr("found no TEMP or TEMPD"));
+}
+
+TEST(NastranTemperature, InitialTemperatureIsTheMaterialsReference) {
+  const Deck deck = read_deck("CEND\nTEMP(INIT) = 4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\n");
+  EXPECT_EQ(deck.materials.at("mat_1").reference_temperature, 20.0);
+  EXPECT_THAT(refusal("CEND\nTEMP(INIT)=4\nBEGIN BULK\n" + kTet + "TEMPD,4,20.\nTEMP,4,2,50.\n"),
+              HasSubstr("the same everywhere"));
+}
+
+}  // namespace
+}  // namespace clatter::test

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fe.toml of a deck, read back by clatter-assembly's own reader.
+#include "mesh/deck/recipe/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "assembly/recipe/recipe.hpp"
+#include "core/base/config.hpp"
+#include "core/mesh/boundary.hpp"
+#include "mesh/deck/import.hpp"
+#include "mesh/deck/recipe/names.hpp"
+#include "tests/mesh/deck/abaqus/support.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::mesh::deck::testing {
+namespace {
+
+using assembly::LoadSpec;
+using assembly::Recipe;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::ThrowsMessage;
+
+struct Parsed {
+  std::string text;
+  Recipe recipe;
+};
+
+Parsed parse(Deck deck) {
+  deck.mesh.surfaces["skin"] = skin_of(boundary_faces(deck.mesh));
+  const std::string text = recipe_text(deck);
+  return {text, assembly::read_recipe(Config::parse(text, "deck.fe.toml"), deck.mesh)};
+}
+
+TEST(RecipeText, WritesMaterialSupportForceAndStep) {
+  const Parsed parsed = parse(read(kModel + "*BOUNDARY\nBOT, 1, 3\n"
+                                            "*STEP\n*STATIC\n*CLOAD\nTOP, 3, -2.5\n*END STEP\n"));
+  ASSERT_THAT(parsed.recipe.materials, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.materials[0].youngs, 2.1e5);
+  EXPECT_EQ(parsed.recipe.materials[0].poisson, 0.3);
+  EXPECT_EQ(parsed.recipe.materials[0].density, 7.8e-9);
+  EXPECT_EQ(parsed.recipe.materials[0].integration.hex8, fe::Integration::kFull);
+  ASSERT_THAT(parsed.recipe.supports, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.supports[0].selection.node_set, "BOT");
+  EXPECT_THAT(parsed.recipe.supports[0].directions, ElementsAre(0, 1, 2));
+  ASSERT_THAT(parsed.recipe.loads, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.loads[0].kind, LoadSpec::Kind::kNodal);
+  ASSERT_THAT(parsed.recipe.cases, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.cases.begin()->second.begin()->second, 1.0);
+}
+
+TEST(RecipeText, GivesEveryNumberBackToTheLastBit) {
+  const double value = 0.1 + 0.2;
+  EXPECT_EQ(toml_list({value, -1e-300, 5.0}), "[0.30000000000000004, -1e-300, 5]");
+  Deck deck = read(kModel);
+  deck.materials.begin()->second.constants[0] = 1.0 / 3.0;
+  EXPECT_EQ(parse(std::move(deck)).recipe.materials[0].youngs, 1.0 / 3.0);
+}
+
+TEST(RecipeText, QuotesNamesThatTomlWouldMisread) {
+  EXPECT_EQ(toml_text("a \"b\" \\c"), "\"a \\\"b\\\" \\\\c\"");
+  EXPECT_EQ(toml_key("steel_1"), "steel_1");
+  EXPECT_EQ(toml_key("St 37.2"), "\"St 37.2\"");
+  Deck deck = read(kModel);
+  auto material = deck.materials.extract(deck.materials.begin());
+  material.key() = "St \"37.2\"";
+  deck.regions[0].material = material.key();
+  deck.materials.insert(std::move(material));
+  EXPECT_EQ(parse(std::move(deck)).recipe.materials[0].youngs, 2.1e5);
+}
+
+TEST(RecipeText, NotesWhatIsMissingInsteadOfInventingIt) {
+  const std::string no_density = kCube +
+                                 "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1E5, 0.3\n"
+                                 "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n";
+  EXPECT_THAT(parse(read(no_density)).text, HasSubstr("rho = 1.0  # the deck has none"));
+  Deck bare = read(kCube);
+  EXPECT_THAT(recipe_text(bare), HasSubstr("# region \"EALL\" has no material in the deck"));
+}
+
+TEST(RecipeText, NamesTheLaterStepWhoseSupportsDiffer) {
+  const Parsed parsed =
+      parse(read(kModel + "*STEP\n*STATIC\n*BOUNDARY\nBOT, 1, 3\n*CLOAD\nTOP, 3, 1.\n*END STEP\n"
+                          "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\nTOP, 1, 3\n*END STEP\n"));
+  EXPECT_THAT(parsed.recipe.cases, SizeIs(1));
+  EXPECT_THAT(parsed.text, HasSubstr("it needs a separate model"));
+}
+
+TEST(RecipeText, KeepsARigidBodyOnItsPointAndItsMass) {
+  const Parsed parsed =
+      parse(read(kModel + "*RIGID BODY, NSET=TOP, REF NODE=9\n"
+                          "*ELEMENT, TYPE=MASS, ELSET=M\n20, 9\n*MASS, ELSET=M\n2.5\n"));
+  ASSERT_THAT(parsed.recipe.points, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.points[0].point.position, Eigen::Vector3d(0.5, 0.5, 2.0));
+  ASSERT_THAT(parsed.recipe.couplings, SizeIs(1));
+  EXPECT_TRUE(parsed.recipe.couplings[0].rigid);
+  EXPECT_EQ(parsed.recipe.couplings[0].on_point, parsed.recipe.points[0].point.name);
+  ASSERT_THAT(parsed.recipe.point_masses, SizeIs(1));
+  EXPECT_EQ(parsed.recipe.point_masses[0].mass, 2.5);
+}
+
+TEST(RecipeText, SharesANodeSetAndMakesNoSecondOne) {
+  Deck deck = read(kModel + "*BOUNDARY\n5, 1\n6, 1\n7, 1\n8, 1\n");
+  EXPECT_THAT(recipe_text(deck), HasSubstr("node_set = \"TOP\""));
+  EXPECT_THAT(deck.mesh.node_sets, SizeIs(3));  // BOT, NALL, TOP
+}
+
+class DeckFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              (std::string("clatter_deck_file_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(DeckFile, IsKnownByItsExtensionInAnyCase) {
+  for (const char* name : {"a.inp", "a.INP", "a.bdf", "a.nas", "a.DAT"}) EXPECT_TRUE(is_deck(name));
+  for (const char* name : {"a.toml", "a", "a.step"}) EXPECT_FALSE(is_deck(name));
+}
+
+TEST_F(DeckFile, IsReadToSiWithItsSkin) {
+  const Deck deck = read_deck(write("cube.inp", kModel), unit_system_named("mm-t-s", ""), {});
+  EXPECT_EQ(deck.mesh.nodes.maxCoeff(), 1e-3);
+  EXPECT_EQ(deck.mesh.surface("skin").face_count(), 6);
+  EXPECT_NEAR(deck.materials.begin()->second.constants[0], 2.1e11, 1e-3);
+}
+
+TEST_F(DeckFile, WithAnInvertedCellIsRefusedByItsNumber) {
+  const std::string inverted =
+      kCubeNodes + "*ELEMENT, TYPE=C3D8, ELSET=EALL\n17, 5, 6, 7, 8, 1, 2, 3, 4\n";
+  const auto path = write("inverted.inp", inverted);
+  EXPECT_THAT([&] { read_deck(path, {}, {}); },
+              ThrowsMessage<InputError>(HasSubstr("1 of 1 cells are inverted or folded")));
+  EXPECT_THAT([&] { read_deck(path, {}, {}); }, ThrowsMessage<InputError>(HasSubstr("cell 17")));
+}
+
+TEST_F(DeckFile, OfAnotherKindOrAbsentIsRefusedByName) {
+  EXPECT_THAT([&] { read_deck(folder_ / "a.unv", {}, {}); },
+              ThrowsMessage<InputError>(HasSubstr("found extension '.unv'")));
+  test::expect_parts(
+      test::refusal_of<FileError>([&] { read_deck(folder_ / "absent.inp", {}, {}); }),
+      {"absent.inp: no such file"});
+}
+
+}  // namespace
+}  // namespace clatter::mesh::deck::testing
