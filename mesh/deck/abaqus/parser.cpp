@@ -60,8 +60,8 @@ class Parser {
   }
 
  private:
-  // Runs one step of the parser; goes to the next keyword if it was refused: tables then have gaps, and
-  // references to their nodes and elements are not checked.
+  // Runs one step of the parser; goes to the next keyword if it was refused: tables then have gaps,
+  // and references to their nodes and elements are not checked.
   template <class Body>
   Lines::Kind go_on(const Body& body) {
     Lines::Kind kind = Lines::Kind::kEnd;
