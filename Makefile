@@ -4,7 +4,7 @@
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
 #   make docs       the site in build/docs           make lint      format, self-contained headers
-#   make deb        a Debian package in build/
+#   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -14,7 +14,7 @@ BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs deb install clean
+.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs deb levels install clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
 
@@ -57,18 +57,22 @@ format:
 lint: format configure
 	@tools/time_left cmake --build $(BUILD) -j$(JOBS) --target clatter_each_header
 
-# A Debian package in build/, for other machines than this one.
+# For other machines than this one: a build for all processors and one for those since about 2015, of which the launchers in
+# bin run the faster one that the processor has.
+LEVELS ?= x86-64 x86-64-v3
+levels: ; @for level in $(LEVELS); do $(MAKE) --no-print-directory build PRESET=$$level || exit $$?; done
+
 deb:
 	@tools/setup build deb
-	@$(MAKE) --no-print-directory build PRESET=package PREFIX=/usr
-	cd build/package && cpack -G DEB -B ..
+	@$(MAKE) --no-print-directory levels PREFIX=/usr
+	cd build/x86-64 && cpack -G DEB -B ..
 
 docs:
 	@tools/setup docs
 	@/usr/bin/python3 -B docs/site/make_site.py
 
-install: build
-	cmake --install $(BUILD)
+install: levels
+	@for level in $(LEVELS); do cmake --install build/$$level || exit $$?; done
 
 clean:
 	rm -rf build
