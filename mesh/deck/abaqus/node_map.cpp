@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/deck/abaqus/numbering.hpp"
+#include "mesh/deck/abaqus/node_map.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 
