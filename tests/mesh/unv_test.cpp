@@ -5,11 +5,11 @@
 
 #include <fstream>
 
-#include "../assembly/block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "mesh/cad/gmsh_session.hpp"
 #include "mesh/exports/unv_writer.hpp"
 #include "support.hpp"
+#include "tests/assembly/block_mesh.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::mesh {

@@ -7,13 +7,13 @@
 #include <fstream>
 #include <random>
 
-#include "../assembly/block_mesh.hpp"
 #include "core/base/error.hpp"
 #include "mesh/cad/gmsh_session.hpp"
 #include "mesh/deck/msh/reader.hpp"
 #include "mesh/exports/mesh_export.hpp"
 #include "mesh/repair/quality.hpp"
-#include "support.hpp"
+#include "tests/assembly/block_mesh.hpp"
+#include "tests/mesh/support.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::mesh {
