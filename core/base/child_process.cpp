@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -20,6 +19,7 @@
 #include <new>
 #include <utility>
 
+#include "core/base/child_pipe.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
@@ -28,7 +28,6 @@
 namespace clatter {
 namespace {
 
-constexpr size_t kStepBytes = 1024;     // size of the shared text of enter_step()
 constexpr size_t kChatterBytes = 4096;  // kept of what libraries print
 constexpr char kStepMark = '\x1d';      // in captured output: a step begins
 constexpr int kPollMs = 20;             // between checks of time, memory and signals
@@ -43,54 +42,6 @@ enum class Frame : char {
   kError = 'e',
   kThrew = 't',
   kMemory = 'm'
-};
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() { close(); }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  int get() const { return fd_; }
-  void close() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-  }
-
- private:
-  int fd_;
-};
-
-struct Pipe {
-  Descriptor read, write;
-  Pipe() {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw FileError(fmt::format("no pipe to a child process: {}", std::strerror(errno)));
-    read = Descriptor(ends[0]);
-    write = Descriptor(ends[1]);
-  }
-};
-
-// Shared memory of both processes.
-class SharedText {
- public:
-  SharedText()
-      : text_(static_cast<char*>(::mmap(nullptr, kStepBytes, PROT_READ | PROT_WRITE,
-                                        MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {
-    if (text_ == MAP_FAILED) throw std::bad_alloc();
-  }
-  ~SharedText() { ::munmap(text_, kStepBytes); }
-  SharedText(const SharedText&) = delete;
-  SharedText& operator=(const SharedText&) = delete;
-  char* get() const { return text_; }
-  std::string str() const { return {text_, ::strnlen(text_, kStepBytes)}; }
-
- private:
-  char* text_;
 };
 
 // --- the child ---
@@ -390,7 +341,7 @@ ChildEnd run_in_child(const ChildLimits& requested, const std::function<std::str
 
 void enter_step(const std::string& step) {
   if (step_text == nullptr) return;
-  const size_t size = std::min(step.size(), kStepBytes - 1);
+  const size_t size = std::min(step.size(), SharedText::kBytes - 1);
   std::memcpy(step_text, step.data(), size);
   step_text[size] = '\0';
   std::putchar(kStepMark);
