@@ -9,7 +9,7 @@
 # Name the reduced models of a scene: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other
 # file that a stage reads (tables, CAD, base scenes) is in its dependency file after the first run.
 # CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS is passed to
-# every stage (--quiet, --threads 2). An artefact is rebuilt when an input or its stage's program is newer. An
+# every stage (--quiet, --threads 2), CLATTER_MESH_FLAGS to clatter-mesh (--time-limit 0). An artefact is rebuilt when an input or its stage's program is newer. An
 # interrupted run resumes after its last complete cycle.
 
 clatter_tool := $(lastword $(wildcard $(dir $(lastword $(MAKEFILE_LIST)))clatter \
@@ -28,7 +28,7 @@ clatter_recover := $(call clatter_program,recover)
 .SECONDARY:
 
 %.mesh.h5: %.mesh.toml $(clatter_mesh)
-	$(clatter_mesh) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(clatter_mesh) $< -o $@ --depfile $@.d $(CLATTER_FLAGS) $(CLATTER_MESH_FLAGS)
 
 %.fe.h5: %.mesh.h5 %.fe.toml $(clatter_assembly)
 	$(clatter_assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
