@@ -61,7 +61,8 @@ std::string describe_end(const ChildEnd& end, const ChildLimits& limits) {
 
 ChildLimits with_news(ChildLimits limits) {
   limits.doing = [](const ChildEnd& so_far) {
-    return fmt::format("mesh: still at: {}", last_step(so_far));
+    constexpr size_t kWidth = 60;  // Gmsh's optimiser prints many numbers
+    return fmt::format("mesh: still at: {:.{}}", last_step(so_far), kWidth);
   };
   return limits;
 }
