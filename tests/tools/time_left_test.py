@@ -15,8 +15,9 @@ def run_printing(text, code=0):
 
 class TimeLeft(unittest.TestCase):
     def test_it_follows_from_the_steps_done(self):
-        done = run_printing("[12/246 35.2] Building X\n[240/246 700.123] Linking Y\n")
-        self.assertEqual(done.stdout, "[12/246, about 11 min left] Building X\n[240/246, about 17 s left] Linking Y\n")
+        done = run_printing("[0/246 0.0] Checking\n[12/246 35.2] Building X\n[240/246 700.123] Linking Y\n")
+        self.assertEqual(done.stdout, "[0/246, unknown time left] Checking\n"
+                         "[12/246, about 11 min left] Building X\n[240/246, about 17 s left] Linking Y\n")
 
     def test_other_lines_and_the_exit_code_are_unchanged(self):
         text = "ninja: error: \\x [1/2] 'a b'\n  note: [3/4 5.6] \n\nlast line"
