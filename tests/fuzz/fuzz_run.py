@@ -14,19 +14,22 @@ FLAGS = ['-std=c++20', '-O1', '-g', '-fsanitize=fuzzer,address,undefined',
          '-isystem', '/usr/include/hdf5/serial']
 
 
+# Errors as text, which every reader throws.
+ERRORS = ('base/error', 'base/json_line', 'base/log', 'base/part_names', 'base/planned_files', 'base/refusal')
+
+
 def sources(reader):
     """The reader and its dependencies."""
+    core = {'msh': [], 'matrix': ['base/matrix_text', 'base/text_lines', 'base/whole_file']}.get(
+        reader, ['base/whole_file', 'mesh/cell', 'mesh/mesh'])
+    paths = [ROOT / f'core/{name}.cpp' for name in (*ERRORS, *core)]
     if reader == 'msh':
-        return [str(ROOT / 'mesh/deck/msh/scan.cpp'), str(ROOT / 'core/base/error.cpp'), str(HERE / 'msh_fuzz.cpp')]
-    if reader == 'matrix':
-        names = ('matrix_text', 'text_lines', 'whole_file', 'error')
-        return [str(ROOT / f'core/base/{name}.cpp') for name in names] + [str(HERE / 'matrix_fuzz.cpp')]
-    deck = sorted((ROOT / f'mesh/deck/{reader}').glob('*.cpp'))
-    shared = [ROOT / f'mesh/deck/{name}.cpp' for name in ('cyclic', 'field_text', 'id_index', 'ignore', 'line_source',
-                                                          'node_sets', 'refusals', 'system_axes')]
-    core = [ROOT / f'core/{name}.cpp' for name in ('base/error', 'base/planned_files', 'base/whole_file', 'mesh/cell',
-                                                   'mesh/mesh')]
-    return [str(path) for path in [*deck, *shared, *core, HERE / f'{reader}_fuzz.cpp']]
+        paths.append(ROOT / 'mesh/deck/msh/scan.cpp')
+    elif reader != 'matrix':
+        paths += sorted((ROOT / f'mesh/deck/{reader}').glob('*.cpp'))
+        paths += [ROOT / f'mesh/deck/{name}.cpp' for name in ('cyclic', 'field_text', 'id_index', 'ignore',
+                                                              'line_source', 'node_sets', 'refusals', 'system_axes')]
+    return [str(path) for path in [*paths, HERE / f'{reader}_fuzz.cpp']]
 
 
 def run_fuzzer(test, reader):
