@@ -156,11 +156,6 @@ void CommandLine::positional(const std::string& name, std::filesystem::path& val
   add(*impl_, impl_->inputs, name, value, help, required);
 }
 
-void CommandLine::positional(const std::string& name, std::vector<std::filesystem::path>& value,
-                             const std::string& help, bool required) {
-  add(*impl_, impl_->inputs, name, value, help, required);
-}
-
 void CommandLine::option(const std::string& flags, std::filesystem::path& value,
                          const std::string& help, bool required) {
   add(*impl_, impl_->inputs, flags, value, help, required);

@@ -44,8 +44,6 @@ class CommandLine {
   /// Input files; run() registers them in core/base/planned_files.hpp.
   void positional(const std::string& name, std::filesystem::path& value, const std::string& help,
                   bool required = true);
-  void positional(const std::string& name, std::vector<std::filesystem::path>& value,
-                  const std::string& help, bool required = true);
   void option(const std::string& flags, std::filesystem::path& value, const std::string& help,
               bool required = false);
   /// Output files, options or positional; run() refuses those that are also inputs and those that

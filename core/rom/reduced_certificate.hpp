@@ -32,7 +32,7 @@ struct ReducedCertificate {
   // Conditioning.
   std::optional<double> condition_M_rr, first_elastic_hz, max_frequency_hz;
   std::optional<double> K_ii_rcond, K_ii_probe_residual;
-  /// Numbers of another version, which --add-rows keeps.
+  /// Numbers of another version, which add-rows keeps.
   CertificateNumbers other;
 
   static const std::vector<CertificateField<ReducedCertificate>>& fields();

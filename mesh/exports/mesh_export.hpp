@@ -13,8 +13,8 @@ namespace clatter::mesh {
 ///  .msh  Gmsh MSH 2.2 text (msh_writer.hpp)
 ///  .med  Salome, Code_Aster (med_writer.hpp)
 ///  .unv  I-DEAS universal file (unv_writer.hpp)
-///  .inp  Abaqus and CalculiX (deck/abaqus_writer.hpp)
-///  .bdf, .nas, .dat  Nastran (deck/nastran_writer.hpp)
+///  .inp  Abaqus and CalculiX (deck/abaqus/writer.hpp)
+///  .bdf, .nas, .dat  Nastran (deck/nastran/writer.hpp)
 /// All keep the numbers of an imported mesh, its sets and surfaces; decks and .msh read back as the
 /// same mesh.
 void export_mesh(const Mesh& mesh, const std::filesystem::path& path);

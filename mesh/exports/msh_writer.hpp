@@ -10,7 +10,8 @@ namespace clatter::mesh {
 /// MSH 2.2 text, lengths in metres. Physical groups: regions are solids, surfaces are faces, node
 /// sets are points; a face or node in two groups is written as two elements. Nodes and
 /// cells keep their numbers; faces and points are numbered after the cells. read_msh()
-/// (msh_reader.hpp) reads the same mesh back, except the fields. InputError for a name with '"'.
+/// (deck/msh/reader.hpp) reads the same mesh back, except the fields. InputError for a name with
+/// '"'.
 std::string msh_text(const Mesh& mesh);
 
 }  // namespace clatter::mesh

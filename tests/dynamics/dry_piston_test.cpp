@@ -34,7 +34,7 @@ Crossing crossing(const StageState& before, const StageState& now, int y, double
 }
 
 TEST(RigidDryPiston, CrossesItsClearanceUnderARisingForceAsTabulated) {
-  // reference/tribology.md: m = 2 kg, F = k t with k = 2.89e6 N/s: (6 m c / k)^(1/3).
+  // m = 2 kg, F = k t with k = 2.89e6 N/s crosses the gap c in (6 m c / k)^(1/3).
   struct Row {
     double gap_um, ms, speed;
   };
