@@ -158,7 +158,6 @@ struct RawGravity {
   std::array<double, 3> vector{};
 };
 
-/// All cards of one load set.
 struct RawRotation {  // RFORCE
   Origin origin = 0;
   int32_t grid = 0, system = 0;  // 0: origin, basic
@@ -166,6 +165,7 @@ struct RawRotation {  // RFORCE
   std::array<double, 3> axis{};  // unit vector in the system
 };
 
+/// All cards of one load set.
 struct LoadSet {
   Origin origin = 0;
   std::vector<RawForce> forces;

@@ -12,18 +12,18 @@
 //   CORD1R/C/S CORD2R/C/S systems "cord_5", those that something in the Deck refers to
 //   CTETRA CPYRAM CPENTA CHEXA  with any mid-side nodes or none
 //   PSOLID                region "pid_5"; CORDM counts with MAT9. A deck without any PSOLID has
-//   regions
-//                         without material
+//                         regions without material
 //   MAT1 MAT9             "mat_5". GE (damping) and stress limits are not read
 //   RBE2 RBE3             "rbe2_5", "rbe3_5"; RBE2 in some directions of a CD system: equations
 //   CONM2 MPC MPCADD      masses, equations
+//   CELAS1 CELAS2 PELAS   springs
 //   SPC SPC1 SPCADD PS    supports "spc_5", "ps"; rotations of solids' nodes have no meaning and
-//   are
-//                         passed over
+//                         are passed over
 //   ASET ASET1 BSET BSET1 Deck::retained
 //   SET1                  node sets "set_5"
-//   FORCE MOMENT GRAV PLOAD4 LOAD TEMP TEMPD  steps "subcase_1"; without case control one step
-//                         "load_5" a load set. Pressures act on surfaces "pload4_5"
+//   FORCE MOMENT GRAV RFORCE PLOAD4 LOAD TEMP TEMPD
+//                         steps "subcase_1"; without case control one step "load_5" a load set.
+//                         Pressures act on surfaces "pload4_5"
 //   EIGRL EIGR            Step::modes
 //   PARAM                 WTMASS scales densities and masses; other parameters are passed over
 //   PLOTEL ECHOON ECHOOFF passed over
