@@ -28,7 +28,7 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
               "block.model = \"rigid\": liner and bearings at rest, no body");
   }
   if (!scene.engine) {
-    table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no [[mount]]", "mount 1");
+    table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no [[mount]]", "mount");
     table.add("gravity", scene.gravity > 0.0, "gravity_m_s2");
     return table;
   }
@@ -57,7 +57,7 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
   table.add("asperity contact", contact && effects.asperities, "contact.asperities",
             contact && !effects.film ? name : "");
   table.add("friction", contact && effects.friction, "contact.friction");
-  table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no mounted body", "mount 1");
+  table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no mounted body", "mount");
   table.add("gravity", scene.gravity > 0.0, "gravity_m_s2");
   return table;
 }

@@ -12,7 +12,8 @@ void EffectTable::add(const std::string& name, bool on, const std::string& why,
 
 void EffectTable::charge(const std::string& element, double seconds) {
   for (auto& effect : effects_) {
-    if (effect.on && effect.element == element) {
+    if (effect.on && (effect.element == element ||
+                      (!effect.element.empty() && element.starts_with(effect.element + " ")))) {
       effect.seconds += seconds;
       return;
     }

@@ -13,7 +13,7 @@ struct Effect {
   std::string name;
   bool on = false;
   std::string why;      // the key that decides, or the reason
-  std::string element;  // whose seconds are counted here; empty: none
+  std::string element;  // whose seconds are counted here, also of "element 1", ...; empty: none
   double seconds = 0.0;
 };
 
