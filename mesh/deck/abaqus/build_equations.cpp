@@ -184,8 +184,11 @@ void add_equations(Model& model, const std::vector<RawEquation>& equations) {
   for (const RawEquation& equation : equations) {
     model.refusals.attempt([&] { add(equation); });
   }
-  for (const auto& [node_index, group] : turned) {
-    model.refusals.attempt([&] { solve_for_node(model, group.first, node_index, group.second); });
+  for (const auto& entry : turned) {
+    const auto solve = [&model, node = entry.first, &group = entry.second] {
+      solve_for_node(model, group.first, node, group.second);
+    };
+    model.refusals.attempt(solve);
   }
 }
 
