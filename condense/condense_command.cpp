@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "condense/add_rows.hpp"
 #include "condense/certify/verify.hpp"
 #include "condense/condense.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 
 namespace clatter::condense {
@@ -23,17 +22,13 @@ struct CondenseArguments {
   double verify_hz = std::nan("");  // not a number: no verification
 };
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void condense_part(const CondenseArguments& a, const CommonOptions& common) {
   if (a.verify_hz < 0.0)
     throw InputError(
         fmt::format("command line: --verify: found {}, expected 0 or more", a.verify_hz));
   StepClock clock;
   const Config config = Config::load(a.config);
+  const std::string request = read_whole_file(a.config);
   CondenseOptions options = read_condense_options(config);
   if (a.uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
@@ -51,7 +46,7 @@ void condense_part(const CondenseArguments& a, const CommonOptions& common) {
   write_artefact(a.output, {rom::kRomSchema, config.resolved(), {a.model, a.config}}, clock, common,
                  [&](H5File& file) {
                    rom::write_reduced_model(file, reduced);
-                   write_request(file, text_of(a.config));
+                   write_request(file, request);
                  });
   print_json_result(a.output, json_of(reduced), clock, common);
 }

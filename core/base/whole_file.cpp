@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <iterator>
+
 #include "core/base/error.hpp"
 
 namespace clatter {
@@ -46,6 +48,13 @@ void WholeFile::commit() {
   std::filesystem::rename(part_, path_, trouble);
   if (trouble) throw FileError(fmt::format("{}: {}", path_.string(), trouble.message()));
   part_.clear();
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw FileError(fmt::format("{}: cannot be read", path.string()));
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Text files that are written completely or not at all.
+// Files that are read at once, and text files that are written completely or not at all.
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "core/base/part_names.hpp"
@@ -28,6 +29,9 @@ class WholeFile {
   PartName unfinished_;
   std::ofstream stream_;
 };
+
+/// All bytes of a file. FileError when it cannot be read.
+std::string read_whole_file(const std::filesystem::path& path);
 
 /// Writes `text` as the complete file.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);

@@ -179,7 +179,7 @@ std::vector<std::string> filter_lines(const FaceFacts& face, double margin) {
 std::vector<std::string> table_of(const FaceList& list) {
   std::vector<std::array<std::string, 7>> rows = {
       {"face", "kind", fmt::format("radius [{}]", list.unit), "axis or normal",
-       fmt::format("place [{}]", list.unit), fmt::format("area [{}2]", list.unit), "surfaces"}};
+       fmt::format("position [{}]", list.unit), fmt::format("area [{}2]", list.unit), "surfaces"}};
   for (const FaceFacts& face : list.faces) {
     const bool directed = face.shape.direction.norm() > 0.0;
     rows.push_back({fmt::format("{}", face.tag), kind_text(face.shape), radius_text(face.shape),

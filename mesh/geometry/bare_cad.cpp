@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "core/base/json_line.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
@@ -44,15 +41,13 @@ std::string cad_description(const std::filesystem::path& source,
 }
 
 void keep_description(const std::filesystem::path& description, const std::string& text) {
-  std::ifstream file(description, std::ios::binary);
-  if (!file) {
+  if (!std::filesystem::exists(description)) {
     write_whole_file(description, text);
     say(fmt::format("{}: written: the description that was meshed, for changes",
                     description.string()));
     return;
   }
-  const std::string present{std::istreambuf_iterator<char>(file), {}};
-  if (present == text) return;
+  if (read_whole_file(description) == text) return;
   say(fmt::format("{}: exists and is left as it is: the CAD file was meshed with defaults",
                   description.string()));
 }

@@ -8,12 +8,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/whole_file.hpp"
 #include "mesh/part/gmsh_in_child.hpp"
 #include "mesh/part/mesh_wire.hpp"
 
@@ -58,14 +57,6 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  if (!file) throw FileError(fmt::format("{}: cannot be read back", path.string()));
-  return std::move(bytes).str();
-}
-
 // In the child.
 MadePart make_part(const PartJob& job, const MeshSettings& settings,
                    const std::filesystem::path& scratch) {
@@ -80,7 +71,7 @@ MadePart make_part(const PartJob& job, const MeshSettings& settings,
   if (!job.cad_extension.empty()) {
     const std::filesystem::path file = scratch / ("part" + job.cad_extension);
     session.write_cad(file, unit.name);
-    made.cad = bytes_of(file);
+    made.cad = read_whole_file(file);
   }
   made.part = mesh_part(session, part, settings, unit.metres, job.name, job.where);
   clock.lap("mesh");

@@ -61,7 +61,7 @@ void write_sensor_result(H5File& file, const std::string& at, const SensorResult
                          const LevelReferences& ref) {
   const Sensor& sensor = *result.sensor;
   file.write(at + "/labels", sensor.labels);
-  put(file, at + "/position", sensor.position, "m", "place of each channel");
+  put(file, at + "/position", sensor.position, "m", "position of each channel");
   put(file, at + "/direction", sensor.direction, "1", "direction of each channel");
   put(file, at + "/is_rotation", sensor.is_rotation, "1",
       "1: the channel is an angle, read rad for m in all units");

@@ -64,12 +64,12 @@ class Faces(OfATube):
     def test_the_table_and_the_json_say_what_each_face_is(self):
         done = self.mesh("faces", "tube.step")
         head, *rows = done.stdout.splitlines()
-        self.assertRegex(head, r"face +kind +radius \[mm\] +axis or normal +place \[mm\] +area \[mm2\]")
+        self.assertRegex(head, r"face +kind +radius \[mm\] +axis or normal +position \[mm\] +area \[mm2\]")
         self.assertEqual(len(rows), 4)
         self.assertIn("tube.step: written in mm", done.stderr)
         done = self.mesh("faces", "tube.step", "--json")
         self.assertEqual(len(done.stdout.splitlines()), 1)
-        self.assertIn("place [mm]", done.stderr)  # the table is still there to read
+        self.assertIn("position [mm]", done.stderr)  # the table is still there to read
         faces = json.loads(done.stdout)["faces"]
         kinds = sorted((face["kind"], face["concave"], round(face["radius"], 6)) for face in faces
                        if face["kind"] == "cylinder")

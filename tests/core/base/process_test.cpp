@@ -49,6 +49,22 @@ TEST(Threads, AnExceptionInAPieceReachesTheCaller) {
   set_thread_count(0);
 }
 
+TEST(WholeFile, IsReadByteByByteAndFoldersAreRefused) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("clatter_whole_" + std::to_string(::getpid()));
+  const std::string bytes("a\r\n\0\xff b", 8);
+  write_whole_file(path, bytes);
+  EXPECT_EQ(read_whole_file(path), bytes);
+  write_whole_file(path, "");
+  EXPECT_EQ(read_whole_file(path), "");
+  std::filesystem::remove(path);
+  const std::string what = path.string() + ": cannot be read";
+  EXPECT_EQ(test::refusal_of<FileError>([&] { read_whole_file(path); }), what);
+  std::filesystem::create_directory(path);
+  EXPECT_EQ(test::refusal_of<FileError>([&] { read_whole_file(path); }), what);
+  std::filesystem::remove(path);
+}
+
 /// The files left when `signal` ends a process that writes an HDF5 file and text files.
 void end_while_writing(int signal) {
   const std::filesystem::path folder =
