@@ -10,10 +10,20 @@
 
 namespace clatter::dynamics {
 
-/// A linear body in its own eigenbasis, q = shapes eta with shapes^T M_rr shapes = I.
+/// What the error of a first-order coordinate is measured by.
+enum class StateError : char {
+  kNone,      // not a state: a coordinate of second order
+  kOwn,       // tolerance times `state_scale`
+  kRotation,  // an angle [rad] times `state_scale`: by the displacement scale over the arm
+  kSpin,      // an angular velocity [rad/s] times `state_scale`: by the velocity scale over the arm
+};
+
+/// A body as coordinates that are coupled by forces only. In its own eigenbasis, for a linear
+/// elastic body, q = shapes eta with shapes^T M_rr shapes = I.
 ///
 /// Modes beyond `mode_limit_hz` may drop their inertia (inertia = 0): they follow their load
-/// quasi-statically, omega^2 eta + delta eta' = phi^T f.
+/// quasi-statically, omega^2 eta + delta eta' = phi^T f. A state, a coordinate of first order, is
+/// the same with omega = 0: delta z' = f.
 struct ModalBody {
   std::string name;
   Eigen::MatrixXd shapes;         // r x n_m, mass-normalised
@@ -26,8 +36,18 @@ struct ModalBody {
   int rigid_modes = 0;               // the first ones
   double mass = 0.0;                 // [kg]
 
+  std::vector<StateError> state_error;  // n_m; empty: no coordinate is a state
+  Eigen::VectorXd state_scale;          // n_m, > 0 for states
+  std::vector<int> quaternions;         // first of four states that are kept of unit length
+  Eigen::VectorXd eta_start, v_start;   // n_m, the state at the start; empty: zero
+  /// Scales of the error test for this body; 0: those of the run (Accuracy).
+  double displacement_scale = 0.0, velocity_scale = 0.0;  // [m], [m/s]
+
   int modes() const { return static_cast<int>(omega_squared.size()); }
   int size() const { return static_cast<int>(shapes.rows()); }
+  bool is_state(int mode) const {
+    return !state_error.empty() && state_error[static_cast<size_t>(mode)] != StateError::kNone;
+  }
   /// The displacement of a DoF (of ReducedModel::places) by the modal coordinates, n_m.
   Eigen::RowVectorXd row_of(int dof) const {
     if (dof >= size()) return combined.row(dof - size());

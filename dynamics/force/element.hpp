@@ -65,6 +65,23 @@ class ForceElement {
   /// The internal state of the last stage becomes the state.
   virtual void accept_step(double /*time*/) {}
 
+  /// Number of event functions. A change of their sign is an event: the step is repeated to end
+  /// there, and the element changes its own mode by at_event().
+  virtual int events() const { return 0; }
+  /// Value of an event function, continuous along the motion.
+  virtual double event_function(int /*index*/, double /*time*/, const Eigen::VectorXd& /*y*/,
+                                const Eigen::VectorXd& /*v*/) const {
+    return 1.0;
+  }
+  /// The event happens at this state. `impulse` (n_e, zero) may be set [N s], [N m s]; it changes v
+  /// by mobility * impulse, n_e x n_e.
+  virtual void at_event(int /*index*/, double /*time*/, const Eigen::VectorXd& /*y*/,
+                        const Eigen::VectorXd& /*v*/, const Eigen::MatrixXd& /*mobility*/,
+                        Eigen::VectorXd& /*impulse*/) {}
+  /// Events of this function follow each other without end, as the impacts of a bouncing ball do.
+  /// True when the element takes a mode in which they do not; false ends the run.
+  virtual bool at_accumulation(int /*index*/) { return false; }
+
   /// Energy and power at the last finished stage; `y`, `v` are of that stage.
   virtual Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const = 0;
   /// Named scalars of the last accepted state.

@@ -19,6 +19,11 @@ namespace {
 constexpr double kSafety = 0.9;
 constexpr double kOrder = 3.0;  // of the embedded difference in dt
 constexpr int kLongestHold = 64;
+/// Part of a step within which an event counts as one at its end, or at its beginning.
+constexpr double kNear = 1e-9;
+/// Events accumulate when this many in a row follow within so many smallest steps.
+constexpr int kMostClose = 4;
+constexpr double kClose = 1e4;
 
 }  // namespace
 
@@ -27,7 +32,8 @@ Dirk::Dirk(System& system, const StepOptions& options)
       options_(options),
       weights_(error_weights(system, options.accuracy)),
       newton_(system, weights_, statistics_),
-      estimate_(system) {}
+      estimate_(system),
+      events_(system) {}
 
 double Dirk::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
 
@@ -64,6 +70,7 @@ void Dirk::start(double time, const VectorXd& eta, const VectorXd& v) {
   system_.finish_stage(stage);
   system_.accept_step(now_.time);
   if (observer_ != nullptr) observer_->stage(0, now_);
+  if (events_.any()) events_.start(now_);
   before_ = now_;
   rung_ = options_.fixed ? 0 : rung_for(std::min(options_.first, options_.largest));
 }
@@ -145,19 +152,22 @@ double Dirk::error(double dt, const StageOperator& op) {
   e_eta_ = op.filter(e_eta, e_v);
   double largest = 0.0;
   if (system_.interface_size() > 0) {
-    const VectorXd e_y = newton_.solve_linear(system_.interface(e_eta_));
+    VectorXd e_y = system_.interface(e_eta_);
+    newton_.solve_linear(e_y);
     largest = e_y.cwiseAbs().cwiseProduct(weights_.displacement).maxCoeff(&worst_);
   }
   e_v_ = (e_eta_ - e_eta) / op.kappa();
-  return std::max({largest, e_eta_.norm() * weights_.modal_displacement,
-                   e_v_.norm() * weights_.modal_velocity});
+  const double modal = modal_error(system_, weights_, e_eta_, e_v_);
+  return modal <= largest ? largest : modal;  // NaN is neither
 }
 
 void Dirk::step(double limit) {
   const Stopwatch clock;
+  event_.reset();
   for (;;) {
     double dt = ladder_step(rung_);
-    const double left = limit - now_.time;
+    const double end = event_ ? std::min(limit, event_->time) : limit;
+    const double left = end - now_.time;
     Verdict verdict;
     // The last two steps before the limit leave the ladder, so that neither of them is tiny.
     const bool near_limit = left < 2.0 * dt * (1.0 - 1e-9);
@@ -167,10 +177,12 @@ void Dirk::step(double limit) {
     } else {
       verdict = attempt(dt, ladder_operator(rung_));
     }
+    if (verdict == Verdict::kAccepted && find_event()) continue;
     if (verdict == Verdict::kAccepted) {
       std::swap(before_, now_);
       std::swap(now_, stages_[1]);
-      if (near_limit && dt == left) now_.time = limit;
+      if (system_.normalise(now_.eta)) system_.interface(now_.eta, now_.y);
+      if (near_limit && dt == left) now_.time = end;
       system_.accept_step(now_.time);
       if (observer_ != nullptr) observer_->accept(dt);
       if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_.v);
@@ -178,12 +190,79 @@ void Dirk::step(double limit) {
       statistics_.smallest_step = std::min(statistics_.smallest_step, dt);
       statistics_.largest_step = std::max(statistics_.largest_step, dt);
       after_acceptance(dt);
+      if (event_ && now_.time >= event_->time) pass_event();
       statistics_.total_seconds += clock.seconds();
       return;
     }
     if (near_limit) rung_ = std::max(rung_, rung_for(dt));
     after_rejection(verdict);
   }
+}
+
+/// Looks for an event in the step that was just accepted; true when that step is not taken, because
+/// it is to end earlier or an event happened at its beginning.
+bool Dirk::find_event() {
+  if (!events_.any()) return false;
+  const StageState& end = stages_[1];
+  const double dt = end.time - now_.time, near = std::max(kNear * dt, 1e-15 * std::abs(end.time));
+  event_ = events_.first(now_, end);
+  if (!event_) return false;
+  if (event_->time <= now_.time + near) {
+    pass_event();
+    return true;
+  }
+  const bool at_end = event_->time >= end.time - near;
+  if (at_end) event_->time = end.time;
+  return !at_end;
+}
+
+/// The state has reached an event: the element changes its mode, impulses change velocities, and
+/// the rates become those of the new mode.
+void Dirk::pass_event() {
+  const Event event = *event_;
+  event_.reset();
+  ForceElement& element = system_.element(event.element);
+  const auto& at = element.coordinates();
+  ++statistics_.events;
+  close_events_ = now_.time - last_event_ <= kClose * options_.smallest ? close_events_ + 1 : 0;
+  last_event_ = now_.time;
+  VectorXd impulse = VectorXd::Zero(static_cast<Eigen::Index>(at.size()));
+  if (close_events_ < kMostClose) {
+    element.at_event(event.index, now_.time, gather(now_.y, at), gather(now_.v_y, at),
+                     system_.mobility(at), impulse);
+  } else if (element.at_accumulation(event.index)) {
+    close_events_ = 0;
+  } else {
+    throw NumericsError(fmt::format("time {:.9g} s: events of {} follow each other without end",
+                                    now_.time, element.name()));
+  }
+  VectorXd f = VectorXd::Zero(system_.interface_size());
+  for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Eigen::Index>(i));
+  VectorXd jump = VectorXd::Zero(system_.modes());
+  system_.add_interface_force(f, jump);
+  now_.v += system_.inertia().cwiseProduct(jump);
+  system_.interface(now_.v, now_.v_y);
+  refresh_rates();
+  newton_.forget();
+  events_.passed(event, now_);
+}
+
+/// Accelerations, and rates of states, of the current state by explicit evaluation.
+void Dirk::refresh_rates() {
+  VectorXd f;
+  system_.evaluate({now_.time, options_.first, 0, {}}, now_.y, now_.v_y, false, f);
+  VectorXd F = system_.load_force(now_.time);
+  system_.add_interface_force(f, F);
+  const auto& damping = system_.damping();
+  for (Eigen::Index k = 0; k < F.size(); ++k) {
+    if (system_.inertia()(k) > 0.0) {
+      now_.a(k) = F(k) - damping(k) * now_.v(k) - system_.omega_squared()(k) * now_.eta(k);
+    } else if (system_.second_order()(k) == 0.0) {
+      now_.v(k) = F(k) / damping(k);
+    }
+  }
+  system_.interface(now_.v, now_.v_y);
+  if (observer_ != nullptr) observer_->stage(0, now_);
 }
 
 void Dirk::after_acceptance(double dt) {

@@ -2,14 +2,18 @@
 #pragma once
 // Diagonally implicit Runge-Kutta steps with error control.
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
 #include "dynamics/integrate/error_estimate.hpp"
+#include "dynamics/integrate/event_search.hpp"
 #include "dynamics/integrate/newton.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
+#include "dynamics/integrate/stage_state.hpp"
 #include "dynamics/integrate/statistics.hpp"
 #include "dynamics/integrate/system.hpp"
 #include "dynamics/integrate/tableau.hpp"
@@ -26,18 +30,12 @@ struct StepOptions {
   bool fixed = false;       // every step has `largest`; no error test (order tests)
 };
 
-/// One instant of the motion.
-struct StageState {
-  double time = 0.0;
-  Eigen::VectorXd eta, v, a;  // N modal displacements, velocities, accelerations
-  Eigen::VectorXd y, v_y;     // n_y interface displacements and velocities
-};
-
 /// Is called with each finished stage; used for the energy balance.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  /// Stage 0 is the accepted state at the start; then stages 1 and 2 of each attempted step.
+  /// Stage 0 is the accepted state at the start, and after an event; then stages 1 and 2 of each
+  /// attempted step.
   virtual void stage(int index, const StageState& state) = 0;
   /// The step of length `dt` is accepted: sums with dt b_i over its stages can be formed.
   virtual void accept(double dt) = 0;
@@ -60,7 +58,10 @@ class Dirk {
   /// Starts from (eta, v) at `time` by one implicit Euler stage of length `first`, which gives
   /// consistent accelerations and rates of internal states.
   void start(double time, const Eigen::VectorXd& eta, const Eigen::VectorXd& v);
-  /// One accepted step, not beyond `limit`.
+  /// One accepted step, not beyond `limit` nor beyond an event: a step in which an event function
+  /// changes its sign is repeated to end where it does, the element changes its mode there, and the
+  /// motion starts anew from the state that it left. NumericsError when events accumulate and their
+  /// element has no mode for it.
   void step(double limit);
   /// Resets the history of earlier steps (kept matrix, hold on growth), as after a resume.
   void forget_history();
@@ -88,6 +89,9 @@ class Dirk {
   const StageOperator& ladder_operator(int rung);
   double ladder_step(int rung) const;
   std::unique_ptr<StageOperator> make_operator(double kappa);
+  bool find_event();
+  void pass_event();
+  void refresh_rates();
   void after_acceptance(double dt);
   void after_rejection(Verdict verdict);
   int rung_for(double dt) const;
@@ -99,6 +103,10 @@ class Dirk {
   StepStatistics statistics_;
   StageNewton newton_;
   ErrorEstimate estimate_;
+  EventSearch events_;
+  std::optional<Event> event_;  // in the step under way: it ends there
+  double last_event_ = -std::numeric_limits<double>::infinity();  // [s]
+  int close_events_ = 0;        // in a row that follow within the floor of the step
   StageObserver* observer_ = nullptr;
   std::map<int, std::unique_ptr<StageOperator>> operators_;
   StageState before_, now_, stages_[2];

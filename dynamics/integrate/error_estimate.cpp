@@ -42,10 +42,10 @@ void ErrorEstimate::add(double dt, const Eigen::VectorXd& e_eta, const Eigen::Ve
 std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const {
   std::vector<BodyError> found;
   for (size_t b = 0; b < velocity_.size(); ++b) {
-    if (velocity_[b] <= 0.0) continue;
+    if (velocity_[b] <= 0.0 || system_->bodies()[b].mass <= 0.0) continue;
     const ModalBody& body = system_->bodies()[b];
     found.push_back({body.name, velocity_[b] / std::sqrt(body.mass), largest_[b] / velocity_[b],
-                     1.0 / (weights.modal_velocity * velocity_[b])});
+                     weights.velocity_limit[b] / velocity_[b]});
   }
   return found;
 }

@@ -27,17 +27,15 @@ constexpr double kSlow = 0.3;
 }  // namespace
 
 StageNewton::StageNewton(System& system, const ErrorWeights& weights, StepStatistics& statistics)
-    : system_(system), weights_(weights), statistics_(statistics) {}
+    : system_(system), weights_(weights), statistics_(statistics), matrix_(system) {}
 
-void StageNewton::factor(const StageOperator& op) {
+bool StageNewton::factor(const StageOperator& op) {
   const Stopwatch clock;
-  const auto n = system_.interface_size();
-  Eigen::MatrixXd J = -op.apply_S(tangent_);
-  J.diagonal().array() += 1.0;
-  if (n > 0) lu_.compute(J);
+  const bool regular = matrix_.form(op);
   kappa_ = op.kappa();
   ++statistics_.factorizations;
   statistics_.factor_seconds += clock.seconds();
+  return regular;
 }
 
 double StageNewton::norm(const VectorXd& dy, double kappa, int& worst) const {
@@ -69,23 +67,26 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       const Stopwatch clock;
       ++statistics_.evaluations;
       const VectorXd v = (y - y_tilde) / stage.kappa;
-      system_.evaluate(stage, y, v, refresh, f, tangent_);
+      system_.evaluate(stage, y, v, refresh, f);
       statistics_.element_seconds += clock.seconds();
     } catch (const StepRefused& refusal) {
       forget();
       return {Outcome::kRefused, refusal.what(), -1};
     }
     if (refresh) {
-      factor(op);
+      if (!factor(op)) break;
       ++fresh;
       previous = std::numeric_limits<double>::infinity();  // norms by two matrices do not compare
     }
-    const VectorXd dy = lu_.solve(y_pred + op.apply_S(f) - y);
+    VectorXd dy;
+    op.apply_S(f, dy);
+    dy += y_pred - y;
+    matrix_.solve(dy);
     const double size = norm(dy, stage.kappa, result.worst);
     if (!std::isfinite(size)) break;
     y += dy;
     if (size < kConverged) {
-      f += tangent_ * dy;
+      system_.add_tangent_forces(dy, f);
       result.outcome = Outcome::kConverged;
       return result;
     }

@@ -2,10 +2,10 @@
 #pragma once
 // The nonlinear equations of one implicit stage, y = y_pred + S f(y, v).
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <string>
 
 #include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/stage_matrix.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/statistics.hpp"
 #include "dynamics/integrate/system.hpp"
@@ -36,20 +36,19 @@ class StageNewton {
   Result solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& y_pred,
                const Eigen::VectorXd& y_tilde, Eigen::VectorXd& y, Eigen::VectorXd& f);
   /// J^{-1} x with the matrix of the last stage; the corresponding change of forces is T J^{-1} x.
-  Eigen::VectorXd solve_linear(const Eigen::VectorXd& x) const { return lu_.solve(x); }
-  const Eigen::MatrixXd& tangent() const { return tangent_; }
+  void solve_linear(Eigen::VectorXd& x) const { matrix_.solve(x); }
+  const StageMatrix& matrix() const { return matrix_; }
   /// Drops the matrix; the next stage forms a new one.
   void forget() { kappa_ = 0.0; }
 
  private:
-  void factor(const StageOperator& op);
+  bool factor(const StageOperator& op);
   double norm(const Eigen::VectorXd& dy, double kappa, int& worst) const;
 
   System& system_;
   const ErrorWeights& weights_;
   StepStatistics& statistics_;
-  Eigen::MatrixXd tangent_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  StageMatrix matrix_;
   double kappa_ = 0.0;  // of the kept matrix; 0: none
 };
 

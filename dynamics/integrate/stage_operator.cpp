@@ -19,6 +19,8 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
     const auto H = H_.segment(system.mode_offset(b), P.cols());
     S_.push_back((P * H.asDiagonal()) * P.transpose());
   }
+  in_.resize(S_.size());
+  out_.resize(S_.size());
 }
 
 VectorXd StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
@@ -31,24 +33,15 @@ VectorXd StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v) const
   return from_eta_.cwiseProduct(e_eta) + from_v_.cwiseProduct(e_v);
 }
 
-MatrixXd StageOperator::apply_S(const MatrixXd& x) const {
-  MatrixXd result(x.rows(), x.cols());
-  for (int b = 0; b < static_cast<int>(S_.size()); ++b) {
-    const auto& rows = system_->rows(b);
+void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {
+  result.resize(f.size());
+  for (size_t b = 0; b < S_.size(); ++b) {
+    const auto& rows = system_->rows(static_cast<int>(b));
     if (rows.empty()) continue;
-    result(rows, Eigen::all) = S_[static_cast<size_t>(b)] * x(rows, Eigen::all);
+    gather(f, rows, in_[b]);
+    out_[b].noalias() = S_[b] * in_[b];
+    for (size_t i = 0; i < rows.size(); ++i) result(rows[i]) = out_[b](static_cast<Eigen::Index>(i));
   }
-  return result;
-}
-
-VectorXd StageOperator::apply_S(const VectorXd& f) const {
-  VectorXd result(f.size());
-  for (int b = 0; b < static_cast<int>(S_.size()); ++b) {
-    const auto& rows = system_->rows(b);
-    if (rows.empty()) continue;
-    result(rows) = S_[static_cast<size_t>(b)] * gather(f, rows);
-  }
-  return result;
 }
 
 }  // namespace clatter::dynamics

@@ -26,10 +26,10 @@ class StageOperator {
   /// The embedded error (e_eta, e_v) filtered by the linear part of the stage equations:
   /// H (mu e_v / kappa + (mu / kappa^2 + delta / kappa) e_eta).
   Eigen::VectorXd filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v) const;
-  /// S x for a matrix of n_y rows.
-  Eigen::MatrixXd apply_S(const Eigen::MatrixXd& x) const;
-  /// S f.
-  Eigen::VectorXd apply_S(const Eigen::VectorXd& f) const;
+  /// S of one body, in the order of its rows.
+  const Eigen::MatrixXd& S(int body) const { return S_[static_cast<size_t>(body)]; }
+  /// S f, n_y.
+  void apply_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
 
  private:
   const System* system_;
@@ -39,7 +39,8 @@ class StageOperator {
   Eigen::VectorXd per_velocity_;    // delta + kappa omega^2
   Eigen::VectorXd from_eta_;        // H (mu / kappa^2 + delta / kappa)
   Eigen::VectorXd from_v_;          // H mu / kappa
-  std::vector<Eigen::MatrixXd> S_;  // per body
+  std::vector<Eigen::MatrixXd> S_;          // per body
+  mutable std::vector<Eigen::VectorXd> in_, out_;  // per body: its rows
 };
 
 }  // namespace clatter::dynamics

@@ -18,6 +18,7 @@ struct StepStatistics {
   long long evaluations = 0;       // evaluations of all elements
   long long factorizations = 0;    // of the Newton matrix
   long long operators = 0;         // S = P H P^T formed
+  long long events = 0;            // state events
   double smallest_step = std::numeric_limits<double>::infinity();  // accepted [s]
   double largest_step = 0.0;                                       // accepted [s]
   double element_seconds = 0.0;
@@ -35,6 +36,7 @@ struct StepStatistics {
     evaluations += other.evaluations;
     factorizations += other.factorizations;
     operators += other.operators;
+    events += other.events;
     smallest_step = std::min(smallest_step, other.smallest_step);
     largest_step = std::max(largest_step, other.largest_step);
     element_seconds += other.element_seconds;

@@ -12,10 +12,15 @@ namespace clatter::dynamics {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd gather(const VectorXd& all, const std::vector<int>& indices) {
-  VectorXd picked(static_cast<Eigen::Index>(indices.size()));
+void gather(const VectorXd& all, const std::vector<int>& indices, VectorXd& picked) {
+  picked.resize(static_cast<Eigen::Index>(indices.size()));
   for (size_t i = 0; i < indices.size(); ++i)
     picked(static_cast<Eigen::Index>(i)) = all(indices[i]);
+}
+
+VectorXd gather(const VectorXd& all, const std::vector<int>& indices) {
+  VectorXd picked;
+  gather(all, indices, picked);
   return picked;
 }
 
@@ -27,6 +32,18 @@ VectorXd joined(const VectorXd& head, const VectorXd& tail) {
   return both;
 }
 
+/// 1 for coordinates of second order, n_m.
+VectorXd second_order_of(const ModalBody& body) {
+  VectorXd flags = VectorXd::Ones(body.modes());
+  for (int k = 0; k < body.modes(); ++k)
+    if (body.is_state(k)) flags(k) = 0.0;
+  return flags;
+}
+
+VectorXd or_zero(const VectorXd& values, int size) {
+  return values.size() > 0 ? values : VectorXd::Zero(size);
+}
+
 }  // namespace
 
 int System::add_body(ModalBody body) {
@@ -35,14 +52,18 @@ int System::add_body(ModalBody body) {
   omega_squared_ = joined(omega_squared_, body.omega_squared);
   damping_ = joined(damping_, body.damping);
   inertia_ = joined(inertia_, body.inertia);
+  second_order_ = joined(second_order_, second_order_of(body));
+  eta_start_ = joined(eta_start_, or_zero(body.eta_start, body.modes()));
+  v_start_ = joined(v_start_, or_zero(body.v_start, body.modes()));
   rows_.emplace_back();
   dofs_.emplace_back();
   P_.emplace_back(0, body.modes());
+  part_.emplace_back();
   bodies_.push_back(std::move(body));
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-int System::coordinate(int body, int dof) {
+int System::add_row(int body, int dof, const Eigen::RowVectorXd& row) {
   const auto b = static_cast<size_t>(body);
   const auto found = std::find(dofs_[b].begin(), dofs_[b].end(), dof);
   if (found != dofs_[b].end()) return rows_[b][static_cast<size_t>(found - dofs_[b].begin())];
@@ -51,44 +72,97 @@ int System::coordinate(int body, int dof) {
   rows_[b].push_back(index);
   dofs_[b].push_back(dof);
   P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
-  P_[b].bottomRows(1) = bodies_[b].row_of(dof);
+  P_[b].bottomRows(1) = row;
   return index;
+}
+
+int System::coordinate(int body, int dof) {
+  return add_row(body, dof, bodies_[static_cast<size_t>(body)].row_of(dof));
+}
+
+int System::modal_coordinate(int body, int mode) {
+  const int modes = bodies_[static_cast<size_t>(body)].modes();
+  return add_row(body, -1 - mode, Eigen::RowVectorXd::Unit(modes, mode));
 }
 
 void System::add_element(std::unique_ptr<ForceElement> element) {
   costs_.push_back({element->name()});
+  responses_.emplace_back();
+  y_of_.emplace_back();
+  v_of_.emplace_back();
   elements_.push_back(std::move(element));
 }
 
 void System::add_load(Load load) { loads_.push_back(std::move(load)); }
 
-bool System::is_rotation(int y_index) const {
+int System::dof_of(int y_index) const {
   const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
   const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return bodies_[b].is_rotation[static_cast<size_t>(dofs_[b][static_cast<size_t>(at)])] != 0;
+  return dofs_[b][static_cast<size_t>(at)];
+}
+
+bool System::is_rotation(int y_index) const {
+  const int dof = dof_of(y_index);
+  const ModalBody& body = bodies_[static_cast<size_t>(owner(y_index))];
+  return dof >= 0 && body.is_rotation[static_cast<size_t>(dof)] != 0;
+}
+
+int System::mode_of(int y_index) const {
+  const int dof = dof_of(y_index);
+  return dof < 0 ? -1 - dof : -1;
 }
 
 std::string System::coordinate_name(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
-  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return fmt::format("{}: coordinate {}", bodies_[b].name, dofs_[b][static_cast<size_t>(at)]);
+  const std::string& body = bodies_[static_cast<size_t>(owner(y_index))].name;
+  const int mode = mode_of(y_index);
+  return mode < 0 ? fmt::format("{}: coordinate {}", body, dof_of(y_index))
+                  : fmt::format("{}: mode {}", body, mode + 1);
+}
+
+bool System::normalise(VectorXd& eta) const {
+  bool any = false;
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    for (const int first : bodies_[b].quaternions) {
+      eta.segment<4>(offsets_[b] + first).normalize();
+      any = true;
+    }
+  }
+  return any;
+}
+
+void System::interface(const VectorXd& modal, VectorXd& y) const {
+  y.resize(interface_size());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    part_[b].noalias() = P_[b] * modal.segment(offsets_[b], bodies_[b].modes());
+    for (size_t i = 0; i < rows_[b].size(); ++i)
+      y(rows_[b][i]) = part_[b](static_cast<Eigen::Index>(i));
+  }
 }
 
 VectorXd System::interface(const VectorXd& modal) const {
-  VectorXd y(interface_size());
-  for (size_t b = 0; b < bodies_.size(); ++b) {
-    const VectorXd part = P_[b] * modal.segment(offsets_[b], bodies_[b].modes());
-    for (size_t i = 0; i < rows_[b].size(); ++i)
-      y(rows_[b][i]) = part(static_cast<Eigen::Index>(i));
-  }
+  VectorXd y;
+  interface(modal, y);
   return y;
 }
 
 void System::add_interface_force(const VectorXd& f_y, VectorXd& g) const {
   for (size_t b = 0; b < bodies_.size(); ++b) {
     if (rows_[b].empty()) continue;
-    g.segment(offsets_[b], bodies_[b].modes()) += P_[b].transpose() * gather(f_y, rows_[b]);
+    gather(f_y, rows_[b], part_[b]);
+    g.segment(offsets_[b], bodies_[b].modes()).noalias() += P_[b].transpose() * part_[b];
   }
+}
+
+MatrixXd System::mobility(const std::vector<int>& coordinates) const {
+  MatrixXd rows = MatrixXd::Zero(static_cast<Eigen::Index>(coordinates.size()), modes_);
+  for (size_t i = 0; i < coordinates.size(); ++i) {
+    const int body = owner(coordinates[i]);
+    const auto& of_body = rows_[static_cast<size_t>(body)];
+    const auto at = std::find(of_body.begin(), of_body.end(), coordinates[i]) - of_body.begin();
+    rows.row(static_cast<Eigen::Index>(i))
+        .segment(mode_offset(body), bodies_[static_cast<size_t>(body)].modes()) = P(body).row(at);
+  }
+  return rows * inertia_.asDiagonal() * rows.transpose();
 }
 
 VectorXd System::load_force(double time) const {
@@ -100,25 +174,27 @@ VectorXd System::load_force(double time) const {
 }
 
 void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bool with_tangent,
-                      VectorXd& f, MatrixXd& tangent) {
-  const int n = interface_size();
-  f.setZero(n);
-  if (with_tangent) tangent.setZero(n, n);
+                      VectorXd& f) {
+  f.setZero(interface_size());
   for (size_t e = 0; e < elements_.size(); ++e) {
     const Stopwatch clock;
     const auto& at = elements_[e]->coordinates();
-    elements_[e]->evaluate(stage, gather(y, at), gather(v, at), with_tangent, response_);
-    for (size_t i = 0; i < at.size(); ++i) {
-      f(at[i]) += response_.force(static_cast<Eigen::Index>(i));
-    }
-    for (size_t j = 0; with_tangent && j < at.size(); ++j) {
-      for (size_t i = 0; i < at.size(); ++i) {
-        tangent(at[i], at[j]) +=
-            response_.tangent(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
-    }
+    gather(y, at, y_of_[e]);
+    gather(v, at, v_of_[e]);
+    elements_[e]->evaluate(stage, y_of_[e], v_of_[e], with_tangent, responses_[e]);
+    for (size_t i = 0; i < at.size(); ++i)
+      f(at[i]) += responses_[e].force(static_cast<Eigen::Index>(i));
     costs_[e].seconds += clock.seconds();
     ++costs_[e].evaluations;
+  }
+}
+
+void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) {
+  for (size_t e = 0; e < elements_.size(); ++e) {
+    const auto& at = elements_[e]->coordinates();
+    gather(dy, at, y_of_[e]);
+    v_of_[e].noalias() = responses_[e].tangent * y_of_[e];
+    for (size_t i = 0; i < at.size(); ++i) f(at[i]) += v_of_[e](static_cast<Eigen::Index>(i));
   }
 }
 

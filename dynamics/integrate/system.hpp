@@ -38,6 +38,8 @@ class System {
   int add_body(ModalBody body);
   /// Index in y of coordinate `dof` of a body's q; the same index for the same DoF.
   int coordinate(int body, int dof);
+  /// Index in y of a modal coordinate of a body, itself a coordinate on which elements act.
+  int modal_coordinate(int body, int mode);
   void add_element(std::unique_ptr<ForceElement> element);
   void add_load(Load load);
 
@@ -51,11 +53,15 @@ class System {
   int interface_size() const { return static_cast<int>(owner_.size()); }  // n_y
   /// First modal coordinate of a body in eta.
   int mode_offset(int body) const { return offsets_[static_cast<size_t>(body)]; }
+  /// The body of a y.
+  int owner(int y_index) const { return owner_[static_cast<size_t>(y_index)]; }
   /// Interface rows of a body (indices in y), and P of that body (rows x its modes).
   const std::vector<int>& rows(int body) const { return rows_[static_cast<size_t>(body)]; }
   const Eigen::MatrixXd& P(int body) const { return P_[static_cast<size_t>(body)]; }
   /// 1 where a y is a rotation.
   bool is_rotation(int y_index) const;
+  /// The modal coordinate that a y is; -1: it is a DoF.
+  int mode_of(int y_index) const;
   /// "piston: coordinate 7", for messages.
   std::string coordinate_name(int y_index) const;
 
@@ -64,36 +70,58 @@ class System {
   const Eigen::VectorXd& damping() const { return damping_; }
   const Eigen::VectorXd& inertia() const { return inertia_; }
 
+  /// 1 for coordinates of second order, 0 for states, N.
+  const Eigen::VectorXd& second_order() const { return second_order_; }
+  /// The state at the start, N.
+  const Eigen::VectorXd& eta_start() const { return eta_start_; }
+  const Eigen::VectorXd& v_start() const { return v_start_; }
+  /// Scales the quaternions of all bodies to unit length; false when there are none.
+  bool normalise(Eigen::VectorXd& eta) const;
+
   /// y = P eta; for displacements and velocities alike.
+  void interface(const Eigen::VectorXd& modal, Eigen::VectorXd& y) const;
   Eigen::VectorXd interface(const Eigen::VectorXd& modal) const;
   /// g += P^T f_y.
   void add_interface_force(const Eigen::VectorXd& f_y, Eigen::VectorXd& g) const;
+  /// Change of v of some coordinates by unit impulses on them, P mu P^T.
+  Eigen::MatrixXd mobility(const std::vector<int>& coordinates) const;
   /// Modal force of all loads at `time` (N).
   Eigen::VectorXd load_force(double time) const;
 
-  /// Sums the elements' forces f (n_y) and, if requested, tangents (n_y x n_y) at a trial state.
+  /// Sums the elements' forces f (n_y) at a trial state and, if requested, updates their tangents.
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-                bool with_tangent, Eigen::VectorXd& f, Eigen::MatrixXd& tangent);
+                bool with_tangent, Eigen::VectorXd& f);
+  /// f += T dy with the elements' last tangents.
+  void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f);
+  /// An element's last tangent, n_e x n_e.
+  const Eigen::MatrixXd& tangent(int element) const {
+    return responses_[static_cast<size_t>(element)].tangent;
+  }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);
 
  private:
+  int add_row(int body, int dof, const Eigen::RowVectorXd& row);
+  int dof_of(int y_index) const;
   std::vector<ModalBody> bodies_;
   std::vector<int> offsets_;
   std::vector<std::vector<int>> rows_;  // per body: y indices
-  std::vector<std::vector<int>> dofs_;  // per body: q indices, parallel to rows_
+  std::vector<std::vector<int>> dofs_;  // per body: q indices, parallel to rows_; modes: -1 - mode
   std::vector<Eigen::MatrixXd> P_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;
   std::vector<ElementCost> costs_;
   std::vector<Load> loads_;
-  Eigen::VectorXd omega_squared_, damping_, inertia_;
+  Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
-  Response response_;
+  std::vector<Response> responses_;           // per element
+  std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
+  mutable std::vector<Eigen::VectorXd> part_;  // per body: its rows
 };
 
 /// Picks entries of a vector.
+void gather(const Eigen::VectorXd& all, const std::vector<int>& indices, Eigen::VectorXd& picked);
 Eigen::VectorXd gather(const Eigen::VectorXd& all, const std::vector<int>& indices);
 
 }  // namespace clatter::dynamics

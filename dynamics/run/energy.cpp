@@ -30,7 +30,8 @@ EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
   flow.powers.assign(names_.size(), 0.0);
   flow.kinetic = 0.5 * state.v.dot(system_.inertia().cwiseProduct(state.v));
   flow.strain = 0.5 * state.eta.dot(system_.omega_squared().cwiseProduct(state.eta));
-  flow.powers[0] = -state.v.dot(system_.damping().cwiseProduct(state.v));
+  const auto& second_order = system_.second_order();
+  flow.powers[0] = -(state.v.array().square() * system_.damping().array() * second_order.array()).sum();
   for (size_t l = 0; l < system_.loads().size(); ++l) {
     const Load& load = system_.loads()[l];
     const auto v = state.v.segment(system_.mode_offset(load.body), load.direction.size());
@@ -48,9 +49,25 @@ EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
 }
 
 void EnergyBalance::stage(int index, const StageState& state) {
+  const double before = stages_[0].stored();
   stages_[index] = flow(state);
   time_ = state.time;
-  if (index == 0 && !started_) start_from(stages_[0]);
+  if (index != 0) return;
+  if (started_) {
+    count_event(stages_[0].stored() - before);
+  } else {
+    start_from(stages_[0]);
+  }
+}
+
+/// The impulses of an event changed the energy at once.
+void EnergyBalance::count_event(double change) {
+  now_.terms["events"] += change;
+  now_.lost -= change;
+  now_.exchanged += std::abs(change);
+  now_.kinetic = stages_[0].kinetic;
+  now_.strain = stages_[0].strain;
+  now_.element = stages_[0].element;
 }
 
 void EnergyBalance::start_from(const Flow& flow) {

@@ -50,8 +50,10 @@ class EnergyBalance : public StageObserver {
   struct Flow {
     double kinetic = 0.0, strain = 0.0, element = 0.0;
     std::vector<double> powers;  // per term; losses negative
+    double stored() const { return kinetic + strain + element; }
   };
   Flow flow(const StageState& state) const;
+  void count_event(double change);
   size_t term(const std::string& name);
   void start_from(const Flow& flow);
 

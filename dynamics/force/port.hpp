@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Points and frames of bodies where forces act.
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace clatter::dynamics {
+
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Motion of a port in the engine's axes and its derivatives by the n_p coordinates of the port.
+/// Rows of the matrices: three of the position, three of a small rotation about it.
+struct PortState {
+  Eigen::Vector3d position, velocity;  // [m], [m/s]
+  Eigen::Vector3d spin;                // angular velocity [rad/s]
+  Matrix6X by_y;                       // d(position, rotation)/dy
+  Matrix6X rate_by_y, rate_by_v;       // d(velocity, spin)/dy, /dv
+  Matrix6X work;                       // force on the coordinates = work^T (force, moment)
+};
+
+/// A point, with the axes of its body, at which elements apply force and moment.
+class Port {
+ public:
+  virtual ~Port() = default;
+  const std::vector<int>& coordinates() const { return coordinates_; }
+  int size() const { return static_cast<int>(coordinates_.size()); }
+  /// `y`, `v`: n_p displacements and velocities (rates, for states).
+  virtual void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                      PortState& state) const = 0;
+  /// tangent += d(work^T wrench)/dy at a constant wrench (force, moment), n_p x n_p.
+  virtual void add_curvature(const Eigen::VectorXd& /*y*/, const Vector6& /*wrench*/,
+                             Eigen::Ref<Eigen::MatrixXd> /*tangent*/) const {}
+
+ protected:
+  explicit Port(std::vector<int> coordinates) : coordinates_(std::move(coordinates)) {}
+  std::vector<int> coordinates_;
+};
+
+/// A point at rest.
+class GroundPort : public Port {
+ public:
+  explicit GroundPort(const Eigen::Vector3d& position) : Port({}), position_(position) {}
+  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+
+ private:
+  Eigen::Vector3d position_;
+};
+
+/// A node of a body with small motion: position + (x, y, z), with or without rotations.
+class NodePort : public Port {
+ public:
+  /// @param position of the node at rest [m]. @param coordinates y indices of x, y, z and, for a
+  /// node that rotates, rx, ry, rz.
+  NodePort(const Eigen::Vector3d& position, std::vector<int> coordinates);
+  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+
+ private:
+  Eigen::Vector3d position_;
+};
+
+/// The plane in which a planar body moves.
+struct PlaneAxes {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d first = Eigen::Vector3d::UnitX(), second = Eigen::Vector3d::UnitY();
+};
+
+/// A point of a planar body (rigid_body.hpp).
+class PlanarPort : public Port {
+ public:
+  /// @param coordinates y indices of u, v, angle. @param arm from the centre of mass, in the body's
+  /// axes [m].
+  PlanarPort(std::vector<int> coordinates, const Eigen::Vector2d& arm, const PlaneAxes& plane = {});
+  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
+                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+
+ private:
+  /// The arm in the engine's axes.
+  Eigen::Vector3d turned_arm(double angle) const;
+  Eigen::Vector2d arm_;
+  PlaneAxes plane_;
+};
+
+/// A point of a spatial body (rigid_body.hpp).
+class SpatialPort : public Port {
+ public:
+  /// @param coordinates y indices of the body's ten coordinates. @param arm from the centre of
+  /// mass, in the body's axes [m].
+  SpatialPort(std::vector<int> coordinates, const Eigen::Vector3d& arm);
+  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
+                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+
+ private:
+  Eigen::Vector3d arm_;
+};
+
+}  // namespace clatter::dynamics

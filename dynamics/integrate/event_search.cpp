@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/integrate/event_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter::dynamics {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kParts = 4;
+/// Bisections of a part: its length is then at rounding level.
+constexpr int kHalvings = 50;
+/// Sections of a part around an extreme (golden ratio): to 1e-8 of its length, below which the
+/// value at an extreme does not change.
+constexpr int kSections = 40;
+/// Time over which the direction of a function is looked at [s].
+constexpr double kMoment = 1e-9;
+
+}  // namespace
+
+EventSearch::EventSearch(const System& system) : system_(&system) {
+  for (int e = 0; e < system.elements(); ++e)
+    for (int k = 0; k < system.element(e).events(); ++k) functions_.push_back({e, k});
+}
+
+double EventSearch::value(const Function& function, double time, const VectorXd& y,
+                          const VectorXd& v) const {
+  const ForceElement& element = system_->element(function.element);
+  return element.event_function(function.index, time, gather(y, element.coordinates()),
+                                gather(v, element.coordinates()));
+}
+
+double EventSearch::direction(const Function& function, const StageState& state) const {
+  const double change = value(function, state.time + kMoment, state.y + kMoment * state.v_y,
+                              state.v_y + kMoment * interface_acceleration(state)) -
+                        value(function, state.time, state.y, state.v_y);
+  return change < 0.0 ? -1.0 : 1.0;
+}
+
+void EventSearch::start(const StageState& state) {
+  for (Function& function : functions_) {
+    const double now = value(function, state.time, state.y, state.v_y);
+    function.side = now == 0.0 ? direction(function, state) : std::copysign(1.0, now);
+  }
+}
+
+void EventSearch::passed(const Event& event, const StageState& state) {
+  for (Function& function : functions_)
+    if (function.element == event.element && function.index == event.index)
+      function.side = direction(function, state);
+}
+
+Eigen::VectorXd EventSearch::interface_acceleration(const StageState& state) const {
+  return system_->interface(state.a);
+}
+
+std::optional<double> EventSearch::root(const Function& function, const StageState& from,
+                                        const StageState& to) const {
+  const double h = to.time - from.time;
+  // Positive on the side where the function is.
+  const auto g = [&](double t) {
+    if (t >= 1.0) return function.side * value(function, to.time, to.y, to.v_y);
+    return function.side *
+           value(function, from.time + t * h, hermite(from.y, from.v_y, to.y, to.v_y, h, t),
+                 hermite_rate(from.y, from.v_y, to.y, to.v_y, h, t));
+  };
+  const auto bisect = [&](double low, double high) {
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (g(middle) < 0.0 ? high : low) = middle;
+    }
+    return high;
+  };
+  double previous = std::max(g(0.0), 0.0), at = 0.0;
+  for (int part = 1; part <= kParts; ++part) {
+    const double end = static_cast<double>(part) / kParts, last = g(end);
+    if (last < 0.0) return bisect(at, end);
+    // Falling at the beginning and rising at the end: a smallest value between.
+    const double small = 1e-3 / kParts;
+    if (g(at + small) < previous && g(end - small) < last) {
+      constexpr double kGolden = 0.6180339887498949;
+      double low = at, high = end;
+      for (int i = 0; i < kSections; ++i) {
+        const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+        (g(left) < g(right) ? high : low) = g(left) < g(right) ? right : left;
+      }
+      const double least = 0.5 * (low + high);
+      if (g(least) < 0.0) return bisect(at, least);
+    }
+    previous = last;
+    at = end;
+  }
+  return std::nullopt;
+}
+
+std::optional<Event> EventSearch::first(const StageState& from, const StageState& to) const {
+  std::optional<Event> found;
+  for (const Function& function : functions_) {
+    const auto t = root(function, from, to);
+    if (!t) continue;
+    const double time = from.time + *t * (to.time - from.time);
+    if (!found || time < found->time) found = Event{time, function.element, function.index};
+  }
+  return found;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The Newton matrix of an implicit stage.
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <optional>
+#include <vector>
+
+#include "dynamics/integrate/sparse_lu.hpp"
+#include "dynamics/integrate/stage_operator.hpp"
+#include "dynamics/integrate/system.hpp"
+
+namespace clatter::dynamics {
+
+/// J = I - S T in the interface coordinates, T = sum of the elements' tangents, factored.
+///
+/// S couples the coordinates of one body, a tangent those of one element: the rows of a body are
+/// full in the columns of all elements that touch it and empty elsewhere. Where that leaves most of
+/// J empty, as in a chain, it is factored as a sparse matrix whose pattern is analysed once; else
+/// as a dense one.
+class StageMatrix {
+ public:
+  /// `system` with all its bodies and elements.
+  explicit StageMatrix(const System& system);
+
+  /// J of this operator with the tangents of the last evaluation; false when it is singular or not
+  /// finite.
+  [[nodiscard]] bool form(const StageOperator& op);
+  /// x <- J^-1 x, n_y.
+  void solve(Eigen::VectorXd& x) const;
+
+  bool is_sparse() const { return sparse_.has_value(); }
+  /// Entries of J that may differ from 0.
+  int nonzeros() const { return nonzeros_; }
+
+ private:
+  /// One element's part in the rows of one body.
+  struct Part {
+    int element, body;
+    std::vector<int> rows;       // of the element's coordinates: those of this body
+    std::vector<int> body_rows;  // the same as rows of the body's S
+    std::vector<int> columns;    // of J, one per coordinate of the element
+    std::vector<int> starts;     // sparse: where the body's rows of those columns begin in values_
+  };
+  void list_parts();
+  void order();
+  void find_pattern();
+  const Eigen::MatrixXd& product(const Part& part, const StageOperator& op);
+
+  const System* system_;
+  std::vector<Part> parts_;
+  std::vector<int> position_;  // of a y in J: bodies one after the other
+  std::vector<int> first_;     // position of a body's first row
+  int nonzeros_ = 0;
+  std::optional<SparseLu> sparse_;
+  std::vector<double> values_;
+  std::vector<int> diagonal_;  // positions in values_
+  Eigen::MatrixXd dense_, S_part_, T_part_, product_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  mutable Eigen::VectorXd ordered_, solved_;
+};
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Mechanisms of rigid bodies for the tests.
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/body/rigid_body.hpp"
+#include "dynamics/force/port_element.hpp"
+#include "dynamics/force/spin_element.hpp"
+#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/system.hpp"
+
+namespace clatter::dynamics::testing {
+
+/// Adds a spatial body with its rotation element; the y indices of its ten coordinates.
+inline std::vector<int> add_spatial(System& system, double mass, const Eigen::Vector3d& inertia,
+                                    const SpatialMotion& start) {
+  const int body = system.add_body(make_spatial_body("body", mass, inertia, start));
+  std::vector<int> y;
+  for (int k = 0; k < kSpatial; ++k) y.push_back(system.coordinate(body, k));
+  system.add_element(std::make_unique<SpinElement>(
+      "body", std::vector<int>(y.begin() + kQuaternion, y.end()), inertia));
+  return y;
+}
+
+/// Adds a planar body; the y indices of its three coordinates.
+inline std::vector<int> add_planar(System& system, const std::string& name, double mass,
+                                   double inertia, const PlanarMotion& start) {
+  const int body = system.add_body(make_planar_body(name, mass, inertia, start));
+  return {system.coordinate(body, 0), system.coordinate(body, 1), system.coordinate(body, 2)};
+}
+
+/// A method that starts from the system's own state at time 0.
+inline std::unique_ptr<Dirk> started(System& system, const StepOptions& options) {
+  auto method = std::make_unique<Dirk>(system, options);
+  method->start(-options.first, system.eta_start(), system.v_start());
+  return method;
+}
+
+/// A moment on coordinates, constant.
+class Moment : public ForceElement {
+ public:
+  Moment(int coordinate, double value) : ForceElement({coordinate}), value_(value) {}
+  std::string name() const override { return "moment"; }
+  void evaluate(const Stage&, const Eigen::VectorXd&, const Eigen::VectorXd&, bool with_tangent,
+                Response& response) override {
+    response.force.setConstant(1, value_);
+    if (with_tangent) response.tangent.setZero(1, 1);
+  }
+  Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
+    return {0.0, 0.0, value_ * v(0)};
+  }
+
+ private:
+  double value_;
+};
+
+/// Andrews' squeezing mechanism (Hairer and Wanner 1996, section VII.7; parameters and reference of
+/// the Test Set for IVP Solvers): seven planar bodies, revolute joints of a stiffness, a spring.
+struct Andrews {
+  System system;
+  std::vector<std::vector<int>> bodies;  // y indices of K1 .. K7
+  explicit Andrews(double joint_stiffness, double joint_damping);
+  /// beta, theta, gamma, phi, delta, omega, epsilon of the state y.
+  Eigen::Matrix<double, 7, 1> angles(const Eigen::VectorXd& y) const;
+};
+
+}  // namespace clatter::dynamics::testing

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Newton matrix, dense and sparse.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "dynamics/integrate/sparse_lu.hpp"
+#include "dynamics/integrate/stage_matrix.hpp"
+#include "tests/dynamics/mechanisms.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Planar links joined by bushings, the first one to the ground; the last one too when closed.
+std::unique_ptr<System> chain(int links, bool closed) {
+  auto system = std::make_unique<System>();
+  std::vector<std::vector<int>> at;
+  for (int k = 0; k < links; ++k) {
+    PlanarMotion start;
+    start.centre.x() = k;
+    start.angle = 0.1 * k;
+    at.push_back(testing::add_planar(*system, "link", 2.0, 0.5, start));
+  }
+  const auto join = [&](std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
+    system->add_element(
+        std::make_unique<Bushing>("joint", std::move(a), std::move(b), 1e4, 10.0));
+  };
+  const auto end = [&](int k, double arm) -> std::unique_ptr<Port> {
+    return std::make_unique<PlanarPort>(at[static_cast<size_t>(k)], Eigen::Vector2d(arm, 0.0));
+  };
+  const auto ground = [](double x) -> std::unique_ptr<Port> {
+    return std::make_unique<GroundPort>(Eigen::Vector3d(x, 0.0, 0.0));
+  };
+  join(end(0, -0.5), ground(-0.5));
+  for (int k = 1; k < links; ++k) join(end(k - 1, 0.5), end(k, -0.5));
+  if (closed) join(end(links - 1, 0.5), ground(links - 0.5));
+  return system;
+}
+
+/// J = I - S T entry by entry, in the order of y.
+MatrixXd dense_matrix(const System& system, const StageOperator& op) {
+  const int n = system.interface_size();
+  MatrixXd T = MatrixXd::Zero(n, n), S = MatrixXd::Zero(n, n);
+  for (int e = 0; e < system.elements(); ++e) {
+    const auto& at = system.element(e).coordinates();
+    T(at, at) += system.tangent(e);
+  }
+  for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b)
+    S(system.rows(b), system.rows(b)) = op.S(b);
+  return MatrixXd::Identity(n, n) - S * T;
+}
+
+TEST(StageMatrix, SolvesAsTheDenseMatrixOfItsDefinitionDoes) {
+  for (const int links : {3, 60}) {
+    const auto system = chain(links, true);
+    const double kappa = 1e-3;
+    const VectorXd y = system->interface(system->eta_start());
+    const VectorXd v = VectorXd::Constant(y.size(), 0.3);
+    VectorXd f;
+    system->evaluate({0.0, kappa, 1, {}}, y, v, true, f);
+    const StageOperator op(*system, kappa);
+    StageMatrix matrix(*system);
+    EXPECT_EQ(matrix.is_sparse(), links == 60);
+    ASSERT_TRUE(matrix.form(op));
+    const VectorXd right = VectorXd::LinSpaced(y.size(), -1.0, 2.0);
+    VectorXd x = right;
+    matrix.solve(x);
+    const VectorXd expected = dense_matrix(*system, op).partialPivLu().solve(right);
+    EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm()) << links;
+  }
+}
+
+TEST(StageMatrix, AChainHasEntriesInProportionToItsLinks) {
+  const int entries = StageMatrix(*chain(100, false)).nonzeros();
+  // A link's rows are full in its own columns and those of its two neighbours, 27 entries.
+  EXPECT_LE(entries, 27 * 100);
+  EXPECT_NEAR(StageMatrix(*chain(400, false)).nonzeros(), 4 * entries, 100);
+}
+
+TEST(StageMatrix, ATangentThatIsNotFiniteIsSaid) {
+  for (const int links : {3, 60}) {
+    const auto system = chain(links, true);
+    VectorXd y = system->interface(system->eta_start()), f;
+    y(0) = std::numeric_limits<double>::quiet_NaN();
+    system->evaluate({0.0, 1e-3, 1, {}}, y, VectorXd::Zero(y.size()), true, f);
+    // A bushing's tangent depends on the rotation, which is still finite, and on the force.
+    StageMatrix matrix(*system);
+    EXPECT_FALSE(matrix.form(StageOperator(*system, 1e-3))) << links;
+  }
+}
+
+TEST(SparseLu, KeepsItsPivotsForNewValuesAndRenewsThemWhereTheyFail) {
+  // [a b; c d] with a first much larger, then 0: the kept pivot a = 0 cannot be used.
+  SparseLu lu({0, 2, 4}, {0, 1, 0, 1});
+  std::vector<double> values{4.0, 1.0, 2.0, 3.0};  // by columns
+  ASSERT_TRUE(lu.factor(values));
+  for (const double a : {4.0, 1e-30, 0.0}) {
+    values[0] = a;
+    ASSERT_TRUE(lu.factor(values)) << a;
+    double x[2] = {1.0, 2.0};
+    lu.solve(x);
+    EXPECT_NEAR(a * x[0] + 2.0 * x[1], 1.0, 1e-14);
+    EXPECT_NEAR(1.0 * x[0] + 3.0 * x[1], 2.0, 1e-14);
+  }
+  values = {0.0, 0.0, 2.0, 3.0};
+  EXPECT_FALSE(lu.factor(values));
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
