@@ -134,7 +134,8 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
     Pad& pad = *owned;
     if (pad.film && !running_) start_content(pad, stage, y, v);
     update_gap(pad, stroke_height(stroke_.position, y), y, true);
-    if (!pad.gap.allFinite()) throw dynamics::StepRefused(options_.name + ": gap is not finite");
+    if (!pad.gap.allFinite())
+      throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
     pad.load.setZero();
     if (pad.friction) pad.friction->clear();
     if (pad.film) solve_film(pad, stage, stroke_.velocity);
@@ -166,8 +167,8 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   PadFilm& film = *pad.film;
   const double lowest = pad.gap.minCoeff();
   if (lowest <= rough_->lowest_gap())
-    throw dynamics::StepRefused(
-        fmt::format("{}: gap {:.3g} m on the {} pad", options_.name, lowest, pad.name));
+    throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
+                                fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
   rough_->thicknesses(pad.gap, film.cells);
   film.before = film.content;
   for (size_t j = 0; j < stage.weights.size(); ++j) film.before += stage.weights[j] * film.rates[j];
@@ -177,7 +178,8 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   try {
     film_solves_ += film.reynolds.solve(film.cells, film.before, inner);
   } catch (const NumericsError& error) {
-    throw dynamics::StepRefused(options_.name + ": " + error.what());
+    throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
+                                fmt::format("{} pad: {}", pad.name, error.what()));
   }
   pad.load += pad.grid.area() * film.reynolds.pressure();
 }

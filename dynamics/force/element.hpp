@@ -3,7 +3,7 @@
 // Interface of force elements: forces and their tangent at an implicit stage, internal states under
 // the same tableau, power, and reported scalars.
 #include <Eigen/Core>
-#include <stdexcept>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,16 +35,27 @@ struct Power {
 };
 
 /// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.
-class StepRefused : public std::runtime_error {
+class StepRefused : public std::exception {
  public:
-  using std::runtime_error::runtime_error;
+  /// `kind`: by which refusals are counted, without values ("film: gap below the film's minimum");
+  /// `detail`: the values of this one.
+  StepRefused(std::string kind, std::string detail)
+      : kind_(std::move(kind)), detail_(std::move(detail)) {}
+
+  const std::string& kind() const { return kind_; }
+  const std::string& detail() const { return detail_; }
+  const char* what() const noexcept override { return kind_.c_str(); }
+
+ private:
+  std::string kind_, detail_;
 };
 
 /// A force between interface coordinates y of the bodies (see system.hpp).
 ///
 /// The order of calls in one step: begin_step; for each stage evaluate (as often as Newton needs),
 /// then finish_stage; accept_step at the end, or begin_step again when the step was rejected. The
-/// last evaluate before finish_stage was at the state that is kept.
+/// last evaluate before finish_stage was at the state that is kept: its forces are those of the
+/// stage (to the small part of the error limit that StageNewton names).
 class ForceElement {
  public:
   virtual ~ForceElement() = default;

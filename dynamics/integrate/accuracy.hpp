@@ -17,18 +17,31 @@ struct Accuracy {
   double arm = 0.05;                 // converts rotations to displacements [m]
 };
 
+/// The largest absolute entry of a weighted vector and its index.
+struct LargestEntry {
+  double value = 0.0;
+  int at = -1;
+};
+
+/// A NaN is the largest entry: comparisons and std::max would lose it (hard case N2).
+/// x_i times weight_i is looked at.
+LargestEntry largest_entry(const Eigen::VectorXd& x, const Eigen::VectorXd& weight);
+
 /// Weights of errors: entry times error is 1 at the limit.
 ///
 /// Displacements are checked coordinate by coordinate. Velocities are checked body by body, by the
 /// kinetic energy of the error relative to that of the body at its velocity scale: so a patch of
 /// some grams that a filling film cell pushes does not limit the step of the entire engine, nor
-/// does the lightest body tighten the limit of the others. Modes without inertia have no velocity
-/// error. States are checked one by one.
+/// does the lightest body tighten the limit of the others. Quasi-static modes have no kinetic
+/// energy: only their displacements are checked (hard case N3). States are checked one by one.
 struct ErrorWeights {
   Eigen::VectorXd displacement;  // per y
   Eigen::VectorXd velocity;      // per y: of the smallest modal velocity that moves it so fast
   Eigen::VectorXd modal_displacement, modal_velocity;  // per modal coordinate
   std::vector<double> velocity_limit;  // per body: of |e_v|, the square root of twice an energy
+
+  /// Largest change of y over its limits: as a displacement and, over kappa, as a velocity.
+  LargestEntry largest_change(const Eigen::VectorXd& dy, double kappa) const;
 };
 
 ErrorWeights error_weights(const System& system, const Accuracy& accuracy);

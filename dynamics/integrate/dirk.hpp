@@ -2,121 +2,26 @@
 #pragma once
 // Diagonally implicit Runge-Kutta steps with error control.
 #include <Eigen/Core>
-#include <limits>
-#include <map>
-#include <memory>
-#include <optional>
-#include <vector>
 
-#include "dynamics/integrate/accuracy.hpp"
-#include "dynamics/integrate/error_estimate.hpp"
-#include "dynamics/integrate/event_search.hpp"
-#include "dynamics/integrate/newton.hpp"
-#include "dynamics/integrate/stage_operator.hpp"
-#include "dynamics/integrate/stage_state.hpp"
-#include "dynamics/integrate/statistics.hpp"
-#include "dynamics/integrate/system.hpp"
-#include "dynamics/integrate/tableau.hpp"
+#include "dynamics/integrate/integrator.hpp"
 
 namespace clatter::dynamics {
 
-/// Step size limits.
-struct StepOptions {
-  const Tableau* method = &tr_bdf2();
-  Accuracy accuracy;
-  double largest = 1e-4;    // largest step of the ladder [s]
-  double smallest = 1e-10;  // floor: below it the run ends with a NumericsError [s]
-  double first = 1e-7;      // length of the starting stage and first step [s]
-  bool fixed = false;       // every step has `largest`; no error test (order tests)
-};
-
-/// Is called with each finished stage; used for the energy balance.
-class StageObserver {
- public:
-  virtual ~StageObserver() = default;
-  /// Stage 0 is the accepted state at the start, and after an event; then stages 1 and 2 of each
-  /// attempted step.
-  virtual void stage(int index, const StageState& state) = 0;
-  /// The step of length `dt` is accepted: sums with dt b_i over its stages can be formed.
-  virtual void accept(double dt) = 0;
-};
-
-/// Integrates a System by a two-stage method (tableau.hpp) with error-controlled steps dt = largest
-/// 2^(-k/2).
+/// Two-stage methods (tableau.hpp).
 ///
 /// Error test: e = dt sum (b_i - b^_i) x'_i for (eta, v), filtered by the linearised stage
 /// equations (so stiff components do not dominate), then the largest |e_y| over interface
-/// coordinates and the norms of e_eta and e_v over all bodies, each over its limit (Accuracy); a
-/// step is accepted when the largest of the three is at most 1. After an error rejection the next
-/// step is 0.9 / error^(1/3) of this one; after a Newton failure or refusal it is halved and may
-/// not grow for some steps, twice as many after each consecutive failure (hard case T4). Below
-/// `smallest` a NumericsError names the coordinate and its elements.
-class Dirk {
+/// coordinates and, body by body, the norms of e_eta and of e_v, this without quasi-static modes.
+class Dirk : public Integrator {
  public:
   Dirk(System& system, const StepOptions& options);
 
-  /// Starts from (eta, v) at `time` by one implicit Euler stage of length `first`, which gives
-  /// consistent accelerations and rates of internal states.
-  void start(double time, const Eigen::VectorXd& eta, const Eigen::VectorXd& v);
-  /// One accepted step, not beyond `limit` nor beyond an event: a step in which an event function
-  /// changes its sign is repeated to end where it does, the element changes its mode there, and the
-  /// motion starts anew from the state that it left. NumericsError when events accumulate and their
-  /// element has no mode for it.
-  void step(double limit);
-  /// Resets the history of earlier steps (kept matrix, hold on growth), as after a resume.
-  void forget_history();
-
-  const StageState& state() const { return now_; }
-  const StageState& previous() const { return before_; }
-  const StepStatistics& statistics() const { return statistics_; }
-  StepStatistics& statistics() { return statistics_; }
-  /// The accumulated velocity error of each body, of steps with an error test.
-  const ErrorEstimate& estimate() const { return estimate_; }
-  const ErrorWeights& weights() const { return weights_; }
-  void set_observer(StageObserver* observer) { observer_ = observer; }
-
-  /// The rung on the ladder of steps; together with the state it suffices to resume.
-  int rung() const { return rung_; }
-  /// Continues from the state of an earlier run.
-  void resume(const StageState& state, int rung);
-
  private:
-  enum class Verdict { kAccepted, kError, kNewton, kRefused };
-  Verdict attempt(double dt, const StageOperator& op);
-  bool solve_stage(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
-                   const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& y_guess, StageState& out);
+  Verdict attempt(double dt, const StageOperator& op) override;
   double error(double dt, const StageOperator& op);
-  const StageOperator& ladder_operator(int rung);
-  double ladder_step(int rung) const;
-  std::unique_ptr<StageOperator> make_operator(double kappa);
-  bool find_event();
-  void pass_event();
-  void refresh_rates();
-  void after_acceptance(double dt);
-  void after_rejection(Verdict verdict);
-  int rung_for(double dt) const;
-  [[noreturn]] void give_up(double dt) const;
 
-  System& system_;
-  StepOptions options_;
-  ErrorWeights weights_;
-  StepStatistics statistics_;
-  StageNewton newton_;
-  ErrorEstimate estimate_;
-  EventSearch events_;
-  std::optional<Event> event_;  // in the step under way: it ends there
-  double last_event_ = -std::numeric_limits<double>::infinity();  // [s]
-  int close_events_ = 0;        // in a row that follow within the floor of the step
-  StageObserver* observer_ = nullptr;
-  std::map<int, std::unique_ptr<StageOperator>> operators_;
-  StageState before_, now_, stages_[2];
-  StageNewton::Result last_newton_{StageNewton::Outcome::kConverged, "", -1};
-  double last_error_ = 0.0;
-  Eigen::VectorXd e_eta_, e_v_;  // local errors of the last attempt
-  int worst_ = -1;
-  int rung_ = 0;
-  int hold_ = 0;      // accepted steps before the step may grow again
-  int failures_ = 0;  // Newton failures and refusals in a row
+  Stage first_{0.0, 0.0, 1, {0.0}}, second_{0.0, 0.0, 2, {0.0, 0.0}};
+  Eigen::VectorXd eta_tilde_, v_tilde_, y_guess_, e_y_;
 };
 
 }  // namespace clatter::dynamics

@@ -18,11 +18,17 @@ constexpr int kMaxIterations = 24;
 /// nonlinear: then each iteration needs its own matrix, and a few of them decide which cells are
 /// full.
 constexpr int kMaxFresh = 10;
-/// Increments below this fraction of the error limit count as converged: the remaining Newton error
-/// is then far below the error that the step control measures.
+/// Residual and increment below this fraction of the error limit count as converged: the remaining
+/// Newton error is then far below the error that the step control measures.
 constexpr double kConverged = 0.05;
 /// A matrix that contracts slower than this is formed again.
 constexpr double kSlow = 0.3;
+/// Largest effect on y, as a fraction of the error limit, of a linear correction by a matrix that
+/// was neither formed nor seen to contract in this stage. Were it kConverged, a contact that opens
+/// under the matrix of the closed one would pull at each of many small steps.
+constexpr double kUnchecked = 1e-3;
+/// Units in the last place of y below which an increment is rounding: a few operations.
+constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -38,26 +44,18 @@ bool StageNewton::factor(const StageOperator& op) {
   return regular;
 }
 
-double StageNewton::norm(const VectorXd& dy, double kappa, int& worst) const {
-  double largest = 0.0;
-  for (int i = 0; i < static_cast<int>(dy.size()); ++i) {
-    const double weight = std::max(weights_.displacement(i), weights_.velocity(i) / kappa);
-    const double value = std::abs(dy(i)) * weight;
-    if (!(value <= largest)) {
-      largest = value;
-      worst = i;
-    }
-  }
-  return largest;
+bool StageNewton::is_rounding(const VectorXd& dy, const VectorXd& y) const {
+  const VectorXd& weight = weights_.displacement;
+  return largest_entry(dy, weight).value <= kRounding * largest_entry(y, weight).value;
 }
 
 StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& op,
                                        const VectorXd& y_pred, const VectorXd& y_tilde, VectorXd& y,
                                        VectorXd& f) {
-  Result result{Outcome::kDiverged, "", -1};
+  Result result{Outcome::kDiverged, "", "", -1};
   if (y.size() == 0) {
     f.resize(0);
-    return {Outcome::kConverged, "", -1};
+    return {Outcome::kConverged, "", "", -1};
   }
   double previous = std::numeric_limits<double>::infinity();
   bool refresh = kappa_ != op.kappa();
@@ -66,30 +64,41 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     try {
       const Stopwatch clock;
       ++statistics_.evaluations;
-      const VectorXd v = (y - y_tilde) / stage.kappa;
-      system_.evaluate(stage, y, v, refresh, f);
+      v_ = (y - y_tilde) / stage.kappa;
+      system_.evaluate(stage, y, v_, refresh, f);
       statistics_.element_seconds += clock.seconds();
     } catch (const StepRefused& refusal) {
       forget();
-      return {Outcome::kRefused, refusal.what(), -1};
+      return {Outcome::kRefused, refusal.kind(), refusal.detail(), -1};
     }
     if (refresh) {
-      if (!factor(op)) break;
+      if (!factor(op)) {
+        result.kind = "the equations of a stage are singular or not finite";
+        break;
+      }
       ++fresh;
       previous = std::numeric_limits<double>::infinity();  // norms by two matrices do not compare
     }
-    VectorXd dy;
-    op.apply_S(f, dy);
-    dy += y_pred - y;
-    matrix_.solve(dy);
-    const double size = norm(dy, stage.kappa, result.worst);
-    if (!std::isfinite(size)) break;
-    y += dy;
-    if (size < kConverged) {
-      system_.add_tangent_forces(dy, f);
+    op.apply_S(f, residual_);
+    residual_ += y_pred - y;
+    dy_ = residual_;
+    matrix_.solve(dy_);
+    const auto limits = [&](const VectorXd& x) { return weights_.largest_change(x, stage.kappa); };
+    const LargestEntry change = limits(dy_);
+    const double size = change.value, imbalance = limits(residual_).value;
+    result.worst = change.at;
+    if (!std::isfinite(size + imbalance)) {
+      result.kind = "the forces are not finite";
+      break;
+    }
+    if (size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y)) &&
+        (refresh || size <= kSlow * previous ||
+         limits(residual_ -= dy_).value <= kUnchecked)) {
+      system_.add_tangent_forces(dy_, f);
       result.outcome = Outcome::kConverged;
       return result;
     }
+    y += dy_;
     // Once one matrix failed for two states of this stage, each state gets its own.
     refresh = refresh ? fresh > 1 : size > kSlow * previous;
     previous = size;

@@ -15,24 +15,29 @@ namespace clatter::dynamics {
 /// Simplified Newton iteration on y with J = I - S (df/dy + df/dv / kappa), kept while it
 /// contracts.
 ///
-/// Convergence: the last increment is below `kConverged` of what the error test allows, measured in
-/// displacement and, divided by kappa, in velocity. The returned forces are f + (df/dy) dy of the
-/// last increment: they and y satisfy the linear part of the stage exactly, so momentum is balanced
-/// to rounding despite the remaining Newton error. An iteration that does not converge is a
-/// rejected step, never an accepted one.
+/// The state at which the elements were evaluated last is accepted when both its residual
+/// r = y_pred + S f - y, the effect of the unbalanced forces, and the increment dy = J^{-1} r are
+/// below `kConverged` (5 %) of what the error test allows, in displacement and, over kappa, in
+/// velocity. dy alone says nothing where J is kept from a stiff contact that has opened (hard case
+/// N1). Where y cannot be given more finely, dy at rounding level suffices. The forces passed on
+/// are f + (df/dy) dy: with them P eta = y + dy exactly, which keeps stiff contacts at rest. Their
+/// difference to f changes P eta by less than |r| + |dy|; a matrix that was neither formed nor
+/// contracted in this stage may add 1e-3 of the limit only, otherwise the iteration goes on.
+/// An iteration that does not converge is a rejected step, never an accepted one.
 class StageNewton {
  public:
   enum class Outcome { kConverged, kDiverged, kRefused };
   struct Result {
     Outcome outcome;
-    std::string reason;  // of a refusal
-    int worst = -1;      // y with the largest increment
+    std::string kind, detail;  // of a refusal, or of a state that is not finite
+    int worst = -1;            // y with the largest increment
+    std::string reason() const { return detail.empty() ? kind : kind + ", " + detail; }
   };
 
   StageNewton(System& system, const ErrorWeights& weights, StepStatistics& statistics);
 
-  /// `y` holds the guess and becomes the solution; `f` the forces. y_tilde gives v = (y -
-  /// y~)/kappa.
+  /// `y` holds the guess and becomes the state of the last evaluation; `f` the forces. y_tilde
+  /// gives v = (y - y~)/kappa.
   Result solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& y_pred,
                const Eigen::VectorXd& y_tilde, Eigen::VectorXd& y, Eigen::VectorXd& f);
   /// J^{-1} x with the matrix of the last stage; the corresponding change of forces is T J^{-1} x.
@@ -43,12 +48,13 @@ class StageNewton {
 
  private:
   bool factor(const StageOperator& op);
-  double norm(const Eigen::VectorXd& dy, double kappa, int& worst) const;
+  bool is_rounding(const Eigen::VectorXd& dy, const Eigen::VectorXd& y) const;
 
   System& system_;
   const ErrorWeights& weights_;
   StepStatistics& statistics_;
   StageMatrix matrix_;
+  Eigen::VectorXd v_, residual_, dy_;  // n_y, of the current iteration
   double kappa_ = 0.0;  // of the kept matrix; 0: none
 };
 

@@ -23,14 +23,14 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
   out_.resize(S_.size());
 }
 
-VectorXd StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
-                                     const VectorXd& F) const {
-  return per_force_.array() * (F.array() - system_->omega_squared().array() * eta_tilde.array() -
-                               per_velocity_.array() * v_tilde.array());
+void StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
+                                 const VectorXd& F, VectorXd& a) const {
+  a = per_force_.array() * (F.array() - system_->omega_squared().array() * eta_tilde.array() -
+                            per_velocity_.array() * v_tilde.array());
 }
 
-VectorXd StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v) const {
-  return from_eta_.cwiseProduct(e_eta) + from_v_.cwiseProduct(e_v);
+void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd& filtered) const {
+  filtered = from_eta_.cwiseProduct(e_eta) + from_v_.cwiseProduct(e_v);
 }
 
 void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {

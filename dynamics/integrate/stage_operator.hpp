@@ -21,11 +21,12 @@ class StageOperator {
   double kappa() const { return kappa_; }
   const Eigen::VectorXd& H() const { return H_; }
   /// The accelerations a of the stage under modal forces F; all N.
-  Eigen::VectorXd acceleration(const Eigen::VectorXd& eta_tilde, const Eigen::VectorXd& v_tilde,
-                               const Eigen::VectorXd& F) const;
+  void acceleration(const Eigen::VectorXd& eta_tilde, const Eigen::VectorXd& v_tilde,
+                    const Eigen::VectorXd& F, Eigen::VectorXd& a) const;
   /// The embedded error (e_eta, e_v) filtered by the linear part of the stage equations:
   /// H (mu e_v / kappa + (mu / kappa^2 + delta / kappa) e_eta).
-  Eigen::VectorXd filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v) const;
+  void filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v,
+              Eigen::VectorXd& filtered) const;
   /// S of one body, in the order of its rows.
   const Eigen::MatrixXd& S(int body) const { return S_[static_cast<size_t>(body)]; }
   /// S f, n_y.

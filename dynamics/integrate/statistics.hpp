@@ -8,6 +8,12 @@
 
 namespace clatter::dynamics {
 
+/// Refusals of one kind (StepRefused).
+struct RefusalCount {
+  long long count = 0;
+  std::string last;  // detail of the last one
+};
+
 /// Counts since the start of a run.
 struct StepStatistics {
   long long accepted = 0;
@@ -25,7 +31,7 @@ struct StepStatistics {
   double factor_seconds = 0.0;
   double operator_seconds = 0.0;
   double total_seconds = 0.0;
-  std::map<std::string, long long> refusals;  // reason: count
+  std::map<std::string, RefusalCount> refusals;  // by kind
 
   StepStatistics& operator+=(const StepStatistics& other) {
     accepted += other.accepted;
@@ -43,7 +49,11 @@ struct StepStatistics {
     factor_seconds += other.factor_seconds;
     operator_seconds += other.operator_seconds;
     total_seconds += other.total_seconds;
-    for (const auto& [reason, count] : other.refusals) refusals[reason] += count;
+    for (const auto& [kind, more] : other.refusals) {
+      RefusalCount& all = refusals[kind];
+      all.count += more.count;
+      all.last = more.last;
+    }
     return *this;
   }
 };

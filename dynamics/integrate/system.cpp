@@ -165,12 +165,11 @@ MatrixXd System::mobility(const std::vector<int>& coordinates) const {
   return rows * inertia_.asDiagonal() * rows.transpose();
 }
 
-VectorXd System::load_force(double time) const {
-  VectorXd g = VectorXd::Zero(modes_);
+void System::load_force(double time, VectorXd& g) const {
+  g.setZero(modes_);
   for (const auto& load : loads_) {
     g.segment(mode_offset(load.body), load.direction.size()) += load.value(time) * load.direction;
   }
-  return g;
 }
 
 void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, bool with_tangent,

@@ -86,7 +86,7 @@ class System {
   /// Change of v of some coordinates by unit impulses on them, P mu P^T.
   Eigen::MatrixXd mobility(const std::vector<int>& coordinates) const;
   /// Modal force of all loads at `time` (N).
-  Eigen::VectorXd load_force(double time) const;
+  void load_force(double time, Eigen::VectorXd& g) const;
 
   /// Sums the elements' forces f (n_y) at a trial state and, if requested, updates their tangents.
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,

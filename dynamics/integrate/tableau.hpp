@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The two integration methods: both of second order, L-stable, with two implicit stages that share
-// one diagonal entry.
+// The integration methods: of second order, with implicit stages that share one diagonal entry.
 #include <string>
 
 namespace clatter::dynamics {
@@ -11,6 +10,7 @@ namespace clatter::dynamics {
 /// weights b = last row, b_hat: embedded weights whose quadrature is of third order.
 struct Tableau {
   std::string name;
+  int stages;  // implicit ones, 1 or 2; of a single stage the weights of stage 2 are unused
   double c_1, a_10, a_20, a_21, d;
   double b[3], b_hat[3];
 };
@@ -22,6 +22,7 @@ inline const Tableau& tr_bdf2() {
   constexpr double w = 0.35355339059327376;      // sqrt(2) / 4
   constexpr double gamma = 0.58578643762690495;  // 2 - sqrt 2
   static const Tableau table{"tr-bdf2",
+                             2,
                              gamma,
                              0.5 * gamma,
                              w,
@@ -39,7 +40,14 @@ inline const Tableau& sdirk2() {
   constexpr double d = 0.29289321881345248;
   constexpr double b_1 = 1.0 / 6.0 / (d - d * d), b_2 = 0.5 - b_1 * d;
   static const Tableau table{
-      "sdirk2", d, 0.0, 0.0, 1.0 - d, d, {0.0, 1.0 - d, d}, {1.0 - b_1 - b_2, b_1, b_2}};
+      "sdirk2", 2, d, 0.0, 0.0, 1.0 - d, d, {0.0, 1.0 - d, d}, {1.0 - b_1 - b_2, b_1, b_2}};
+  return table;
+}
+
+/// The trapezoidal rule, corrector of predictor_corrector.hpp.
+inline const Tableau& predictor_corrector() {
+  static const Tableau table{"predictor-corrector", 1, 1.0, 0.5, 0.0, 0.0, 0.5,
+                             {0.5, 0.5, 0.0},       {0.5, 0.5, 0.0}};
   return table;
 }
 

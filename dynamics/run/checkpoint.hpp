@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/statistics.hpp"
 #include "dynamics/scene/scene.hpp"
 

@@ -104,18 +104,19 @@ void EnergyBalance::accept(double dt) {
   const auto& b = method_.b;
   for (size_t k = 0; k < names_.size(); ++k) {
     double work = 0.0;
-    for (int i = 0; i < 3; ++i) work += dt * b[i] * stages_[i].powers[k];
+    for (int i = 0; i <= method_.stages; ++i) work += dt * b[i] * stages_[i].powers[k];
     now_.terms[names_[k]] += work;
     const bool loss =
         k == 0 || std::find(lost_term_.begin(), lost_term_.end(), k) != lost_term_.end();
     (loss ? now_.lost : now_.input) += loss ? -work : work;
     now_.exchanged += std::abs(work);
   }
-  now_.kinetic = stages_[2].kinetic;
-  now_.strain = stages_[2].strain;
-  now_.element = stages_[2].element;
+  const Flow& end = stages_[method_.stages];
+  now_.kinetic = end.kinetic;
+  now_.strain = end.strain;
+  now_.element = end.element;
   now_.time = time_;
-  stages_[0] = stages_[2];
+  stages_[0] = end;
 }
 
 double EnergyBalance::imbalance() const {

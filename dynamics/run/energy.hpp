@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {

@@ -10,7 +10,7 @@
 #include "dynamics/force/history.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
-#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/system.hpp"
 #include "dynamics/run/bodies.hpp"
 #include "dynamics/run/model_elements.hpp"

@@ -55,8 +55,9 @@ std::vector<std::string> describe(const RunResult& result, double seconds) {
       "s; {} evaluations, {} factorisations",
       s.accepted, s.rejected_error, s.rejected_newton, s.rejected_refused, s.smallest_step,
       s.largest_step, s.evaluations, s.factorizations));
-  for (const auto& [reason, count] : s.refusals)
-    lines.push_back(fmt::format("  refused {}x: {}", count, reason));
+  for (const auto& [kind, refusals] : s.refusals)
+    lines.push_back(
+        fmt::format("  refused {}x: {} (last: {})", refusals.count, kind, refusals.last));
   lines.push_back(fmt::format(
       "seconds: {:.2f} stepping, of which elements {:.2f}, factorisations {:.2f}, operators "
       "{:.2f}; {:.2f} in total",

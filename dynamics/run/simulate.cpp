@@ -38,30 +38,30 @@ class CycleRun {
       : span_(cycle_span(scene, from.cycle)),
         model_(build_model(scene, bodies)),
         energy_(model_->system, *scene.steps.method),
-        method_(model_->system, scene.steps),
+        method_(make_integrator(model_->system, scene.steps)),
         recorder_(std::make_unique<Recorder>(*model_, span_.begin, span_.end,
                                              scene.time.output_step, film_every)) {
-    method_.set_observer(&energy_);
+    method_->set_observer(&energy_);
     if (from.cycle == 0) {
       const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model_->system.modes());
-      method_.start(span_.begin, rest, rest);
+      method_->start(span_.begin, rest, rest);
     } else {
       for (int e = 0; e < model_->system.elements(); ++e) {
         model_->system.element(e).restore(from.elements[static_cast<size_t>(e)]);
       }
       energy_.restore(from.energy, from.state.time);
-      method_.resume(from.state, from.rung);
+      method_->resume(from.state, from.rung);
     }
   }
 
   /// False when it was stopped before the end.
   bool run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
-    recorder_->start(method_.state());
-    while (method_.state().time < span_.end) {
+    recorder_->start(method_->state());
+    while (method_->state().time < span_.end) {
       if (stop != nullptr && stop->load()) return false;
-      method_.step(span_.end);
-      recorder_->record(*model_, method_.previous(), method_.state(), energy_);
-      progress(method_.state().time);
+      method_->step(span_.end);
+      recorder_->record(*model_, method_->previous(), method_->state(), energy_);
+      progress(method_->state().time);
     }
     return true;
   }
@@ -69,8 +69,8 @@ class CycleRun {
   Checkpoint checkpoint(int cycle) const {
     Checkpoint point;
     point.cycle = cycle;
-    point.state = method_.state();
-    point.rung = method_.rung();
+    point.state = method_->state();
+    point.rung = method_->rung();
     for (int e = 0; e < model_->system.elements(); ++e) {
       point.elements.push_back(model_->system.element(e).save());
     }
@@ -81,11 +81,11 @@ class CycleRun {
   }
 
   Span span() const { return span_; }
-  const StepStatistics& statistics() const { return method_.statistics(); }
+  const StepStatistics& statistics() const { return method_->statistics(); }
   const EnergyBalance& energy() const { return energy_; }
   std::vector<std::string> warnings(const Accuracy& accuracy) const {
-    return accuracy_warnings(method_.estimate().bodies(method_.weights()), accuracy,
-                             method_.estimate().steps());
+    return accuracy_warnings(method_->estimate().bodies(method_->weights()), accuracy,
+                             method_->estimate().steps());
   }
   std::unique_ptr<Model> model_out() { return std::move(model_); }
   std::unique_ptr<Recorder> recorder_out() { return std::move(recorder_); }
@@ -96,7 +96,7 @@ class CycleRun {
   Span span_;
   std::unique_ptr<Model> model_;
   EnergyBalance energy_;
-  Dirk method_;
+  std::unique_ptr<Integrator> method_;
   std::unique_ptr<Recorder> recorder_;
 };
 

@@ -150,9 +150,10 @@ void read_steps(const Config& root, Scene& scene) {
       scene.engine ? turn / 360.0 / kMicro : (scene.time.end - scene.time.begin) / 100.0 / kMicro;
   const Config time = root.table("time");
   const std::string method = scene.contact && scene.contact->effects.film
-                                 ? time.choice("method", {"sdirk2", "tr-bdf2"})
-                                 : time.choice("method", {"tr-bdf2", "sdirk2"});
-  scene.steps.method = method == "sdirk2" ? &sdirk2() : &tr_bdf2();
+                                 ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
+                                 : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
+  for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
+    if (known->name == method) scene.steps.method = known;
   scene.steps.largest = time.number_or("largest_step_us", largest_us, Range::positive()) * kMicro;
   scene.steps.smallest = time.number_or("smallest_step_us", 1e-4, Range::positive()) * kMicro;
   scene.steps.first = std::min(1e-7, 1e-3 * scene.steps.largest);

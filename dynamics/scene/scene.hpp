@@ -11,7 +11,7 @@
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/force/radial_law.hpp"
 #include "dynamics/given/spline.hpp"
-#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/integrator.hpp"
 
 namespace clatter::dynamics {
 

@@ -29,7 +29,7 @@ class Saboteur : public ForceElement {
                 Response& response) override {
     ++count_;
     const bool active = count_ >= from_ && count_ < to_;
-    if (active && kind_ == Kind::kRefuse) throw StepRefused("sabotage");
+    if (active && kind_ == Kind::kRefuse) throw StepRefused("sabotage", std::to_string(count_));
     response.force = vector(active ? 1e6 * (count_ % 2 ? 1.0 : -1.0) : -10.0 * y(0));
     response.tangent = Eigen::MatrixXd::Constant(1, 1, -10.0);
   }
@@ -88,7 +88,10 @@ TEST(HardT3_NewtonFailure, IsRejectedAndCounted) {
     const auto& count = method.statistics();
     if (kind == Saboteur::Kind::kRefuse) {
       EXPECT_EQ(count.rejected_refused, 10);
-      EXPECT_EQ(count.refusals.at("sabotage"), 10);
+      // One entry, although each refusal has another detail.
+      ASSERT_EQ(count.refusals.size(), 1U);
+      EXPECT_EQ(count.refusals.at("sabotage").count, 10);
+      EXPECT_EQ(count.refusals.at("sabotage").last, "49");
     } else {
       EXPECT_GT(count.rejected_newton + count.rejected_error, 0);
     }

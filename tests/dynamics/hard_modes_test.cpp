@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard case B1: high frequencies of a reduced body must not limit the step.
+// Hard cases B1 and N3: high frequencies of a reduced body must not limit the step.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "tests/dynamics/fixtures.hpp"
@@ -60,6 +61,59 @@ TEST(HardB1_AnyNumberOfModes, GivesTheSameLowResponseWithoutSmallerSteps) {
   EXPECT_LT(many_error, 0.02 * largest);
   EXPECT_LT(mode_gap, 5e-4 * largest);
   EXPECT_LT(few_error, 0.6 * largest);  // Guyan: right in the mean, without the waves
+}
+
+/// A push that swings between 0 and 1 kN in straight lines of 1 ms.
+double zigzag(double t) {
+  const double phase = std::fmod(std::max(t, 0.0) * 1e3, 2.0);
+  return 1e3 * (phase < 1.0 ? phase : 2.0 - phase);
+}
+
+struct Zigzag {
+  long long steps = 0;
+  std::vector<double> tip;  // every 0.1 ms
+};
+
+/// A bar under the zigzag with the modes above `limit` [Hz] quasi-static, or left out.
+Zigzag under_zigzag(double limit, bool left_out) {
+  ModalBody bar = make_modal_body(clamped_bar(1.0, 100, 20), {true, limit});
+  if (left_out) {
+    const auto kept = static_cast<Eigen::Index>(bar.inertia.sum());
+    bar.shapes = bar.shapes.leftCols(kept).eval();
+    for (auto* values : {&bar.omega_squared, &bar.damping, &bar.inertia})
+      values->conservativeResize(kept);
+  }
+  System system;
+  const int y = system.coordinate(system.add_body(std::move(bar)), 0);
+  testing::push(system, zigzag);
+  StepOptions options;
+  options.smallest = 1e-13;
+  Dirk method(system, options);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.modes());
+  method.start(0.0, rest, rest);
+  Zigzag result;
+  for (int i = 1; i <= 50; ++i) {
+    while (method.state().time < 1e-4 * i) method.step(1e-4 * i);
+    result.tip.push_back(method.state().y(y));
+  }
+  result.steps = method.statistics().accepted;
+  return result;
+}
+
+TEST(HardN3_QuasiStaticModes, DoNotShortenTheSteps) {
+  const double limit = 3000.0;  // one mode has inertia
+  const Zigzag with = under_zigzag(limit, false), without = under_zigzag(limit, true);
+  std::printf("    %lld steps with quasi-static modes, %lld without\n", with.steps, without.steps);
+  EXPECT_LT(with.steps, without.steps + without.steps / 20);
+  // Their share of the displacement is the static one at any instant.
+  const ModalBody bar = make_modal_body(clamped_bar(1.0, 100, 20), {true, limit});
+  double flexibility = 0.0;
+  for (int k = 1; k < bar.modes(); ++k)
+    flexibility += bar.shapes(0, k) * bar.shapes(0, k) / bar.omega_squared(k);
+  for (size_t i = 0; i < with.tip.size(); ++i) {
+    const double share = flexibility * zigzag(1e-4 * static_cast<double>(i + 1));
+    EXPECT_NEAR(with.tip[i] - without.tip[i], share, 1e-7);
+  }
 }
 
 }  // namespace

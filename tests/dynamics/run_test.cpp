@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/write_artefact.hpp"
 #include "dynamics/run/run_file.hpp"
+#include "dynamics/run/run_summary.hpp"
 #include "tests/dynamics/motored_cycle.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
@@ -139,6 +141,21 @@ TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
   const H5File back = open_artefact(folder_ / "stopped.run.h5", "clatter/run/1");
   EXPECT_EQ(back.get_int("/", "complete"), 0);
   EXPECT_EQ(back.read_doubles("output/time").size(), 1U);
+}
+
+TEST_F(Runs, RefusalsAreReportedByKindWithTheLastDetail) {
+  RunResult result;
+  result.model = build_model(scene(), load_bodies(scene()));
+  StepStatistics first, second;
+  first.refusals["contact: gap below the film's minimum"] = {2, "-1e-07 m on the thrust pad"};
+  second.refusals["contact: gap below the film's minimum"] = {1, "-3e-07 m on the thrust pad"};
+  result.statistics += first;
+  result.statistics += second;
+  const std::vector<std::string> lines = describe(result, 1.0);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(),
+                       "  refused 3x: contact: gap below the film's minimum (last: -3e-07 m on the "
+                       "thrust pad)"),
+            1);
 }
 
 TEST_F(Runs, AWiderBoreIsMoreClearance) {

@@ -226,5 +226,29 @@ TEST(PistonLiner, RefusesParametersOutOfRangeAndAGapThatIsClosedAtTheStart) {
                      {"found a smallest gap of -", "m at the start, expected more than "});
 }
 
+TEST(PistonLiner, GapsBelowTheMinimumAreOneKindOfRefusal) {
+  // The value is the detail: as part of the kind each refusal would be counted by itself.
+  const auto element = make_element(small_scene(), false);
+  dynamics::Response response;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(6);
+  settle(*element, rest, rest, response);
+  std::vector<std::string> details;
+  for (const double shift : {60e-6, 70e-6, NAN}) {
+    try {
+      element->evaluate({2e-3, 1e-6, 1, {0.0}}, pushed(*element, false, shift, 0.0), rest, false,
+                        response);
+    } catch (const dynamics::StepRefused& refusal) {
+      EXPECT_EQ(refusal.kind(),
+                element->name() +
+                    (std::isnan(shift) ? ": gap is not finite" : ": gap below the film's minimum"));
+      details.push_back(refusal.detail());
+    }
+  }
+  ASSERT_EQ(details.size(), 3U);
+  EXPECT_EQ(details[0].front(), '-');
+  EXPECT_NE(details[0], details[1]);
+  EXPECT_EQ(details[0].substr(details[0].find(' ')), " m on the thrust pad");
+}
+
 }  // namespace
 }  // namespace clatter::film

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/integrate/integrator.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/predictor_corrector.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kSafety = 0.9;
+constexpr double kOrder = 3.0;  // of the local error in dt
+constexpr int kLongestHold = 64;
+/// Part of a step within which an event counts as one at its end, or at its beginning.
+constexpr double kNear = 1e-9;
+/// Events accumulate when this many in a row follow within so many smallest steps.
+constexpr int kMostClose = 4;
+constexpr double kClose = 1e4;
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(System& system, const StepOptions& options) {
+  if (options.method->stages == 1) return std::make_unique<PredictorCorrector>(system, options);
+  return std::make_unique<Dirk>(system, options);
+}
+
+Integrator::Integrator(System& system, const StepOptions& options)
+    : system_(system),
+      options_(options),
+      tableau_(options.method),
+      weights_(error_weights(system, options.accuracy)),
+      solver_(system, weights_, statistics_),
+      stages_(static_cast<size_t>(options.method->stages)),
+      estimate_(system),
+      events_(system) {}
+
+double Integrator::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
+
+int Integrator::rung_for(double dt) const {
+  // The longest rung not above dt; the small excess keeps exact values on their rung.
+  const double exact = 2.0 * std::log2(options_.largest / dt);
+  return std::max(0, static_cast<int>(std::ceil(exact - 1e-9)));
+}
+
+std::unique_ptr<StageOperator> Integrator::make_operator(double kappa) {
+  const Stopwatch clock;
+  auto op = std::make_unique<StageOperator>(system_, kappa);
+  ++statistics_.operators;
+  statistics_.operator_seconds += clock.seconds();
+  return op;
+}
+
+const StageOperator& Integrator::ladder_operator(int rung) {
+  auto& op = operators_[rung];
+  if (!op) op = make_operator(tableau_->d * ladder_step(rung));
+  return *op;
+}
+
+void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
+  system_.begin_step(time);
+  const Stage stage{time + options_.first, options_.first, 0, {}};
+  const auto op = make_operator(options_.first);
+  const VectorXd y_guess = system_.interface(eta);
+  if (!solver_.solve(stage, *op, eta, v, y_guess, now_)) {
+    const auto& last = solver_.last();
+    throw NumericsError(
+        fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
+                    last.kind.empty() ? "Newton did not converge" : last.reason()));
+  }
+  system_.finish_stage(stage);
+  system_.accept_step(now_.time);
+  if (observer_ != nullptr) observer_->stage(0, now_);
+  if (events_.any()) events_.start(now_);
+  before_ = now_;
+  rung_ = options_.fixed ? 0 : rung_for(std::min(options_.first, options_.largest));
+}
+
+void Integrator::resume(const StageState& state, int rung) {
+  now_ = before_ = state;
+  rung_ = rung;
+  forget_history();
+}
+
+void Integrator::forget_history() {
+  solver_.newton().forget();
+  hold_ = 0;
+  failures_ = 0;
+}
+
+Integrator::Verdict Integrator::failed() const {
+  return solver_.last().outcome == StageNewton::Outcome::kRefused ? Verdict::kRefused
+                                                                  : Verdict::kNewton;
+}
+
+double Integrator::measure(const VectorXd& e_y) {
+  const LargestEntry largest = largest_entry(e_y, weights_.displacement);
+  worst_ = largest.at;
+  const double modal = modal_error(system_, weights_, e_eta_, e_v_);
+  if (!std::isfinite(largest.value + modal)) return std::numeric_limits<double>::infinity();
+  return std::max(largest.value, modal);
+}
+
+void Integrator::step(double limit) {
+  const Stopwatch clock;
+  event_.reset();
+  for (;;) {
+    double dt = ladder_step(rung_);
+    const double goal = event_ ? std::min(limit, event_->time) : limit;
+    const double left = goal - now_.time;
+    Verdict verdict;
+    // The last two steps before the limit leave the ladder, so that neither of them is tiny.
+    const bool near_limit = left < 2.0 * dt * (1.0 - 1e-9);
+    if (near_limit) {
+      dt = left <= dt * (1.0 + 1e-9) ? left : 0.5 * left;
+      verdict = attempt(dt, *make_operator(tableau_->d * dt));
+    } else {
+      verdict = attempt(dt, ladder_operator(rung_));
+    }
+    if (verdict == Verdict::kAccepted) {
+      if (find_event()) continue;
+      take_step(dt, near_limit && dt == left ? goal : end().time);
+      statistics_.total_seconds += clock.seconds();
+      return;
+    }
+    if (near_limit) rung_ = std::max(rung_, rung_for(dt));
+    after_rejection(verdict);
+  }
+}
+
+/// The state moves to the end of the accepted attempt.
+void Integrator::take_step(double dt, double time) {
+  std::swap(before_, now_);
+  std::swap(now_, stages_[static_cast<size_t>(tableau_->stages - 1)]);
+  if (system_.normalise(now_.eta)) system_.interface(now_.eta, now_.y);
+  now_.time = time;
+  system_.accept_step(time);
+  if (observer_ != nullptr) observer_->accept(dt);
+  if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_.v);
+  ++statistics_.accepted;
+  statistics_.smallest_step = std::min(statistics_.smallest_step, dt);
+  statistics_.largest_step = std::max(statistics_.largest_step, dt);
+  after_acceptance(dt);
+  accepted();
+  if (event_ && now_.time >= event_->time) pass_event();
+}
+
+/// Looks for an event in the step that was just accepted; true when that step is not taken, because
+/// it is to end earlier or an event happened at its beginning.
+bool Integrator::find_event() {
+  if (!events_.any()) return false;
+  const double dt = end().time - now_.time;
+  const double near = std::max(kNear * dt, 1e-15 * std::abs(end().time));
+  event_ = events_.first(now_, end());
+  if (!event_) return false;
+  if (event_->time <= now_.time + near) {
+    pass_event();
+    return true;
+  }
+  const bool at_end = event_->time >= end().time - near;
+  if (at_end) event_->time = end().time;
+  return !at_end;
+}
+
+/// The state has reached an event: the element changes its mode, impulses change velocities, and
+/// the rates become those of the new mode.
+void Integrator::pass_event() {
+  const Event event = *event_;
+  event_.reset();
+  ForceElement& element = system_.element(event.element);
+  const auto& at = element.coordinates();
+  ++statistics_.events;
+  close_events_ = now_.time - last_event_ <= kClose * options_.smallest ? close_events_ + 1 : 0;
+  last_event_ = now_.time;
+  VectorXd impulse = VectorXd::Zero(static_cast<Eigen::Index>(at.size()));
+  if (close_events_ < kMostClose) {
+    element.at_event(event.index, now_.time, gather(now_.y, at), gather(now_.v_y, at),
+                     system_.mobility(at), impulse);
+  } else if (element.at_accumulation(event.index)) {
+    close_events_ = 0;
+  } else {
+    throw NumericsError(fmt::format("time {:.9g} s: events of {} follow each other without end",
+                                    now_.time, element.name()));
+  }
+  VectorXd f = VectorXd::Zero(system_.interface_size());
+  for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Eigen::Index>(i));
+  VectorXd jump = VectorXd::Zero(system_.modes());
+  system_.add_interface_force(f, jump);
+  now_.v += system_.inertia().cwiseProduct(jump);
+  system_.interface(now_.v, now_.v_y);
+  refresh_rates();
+  forget_history();
+  events_.passed(event, now_);
+}
+
+/// Accelerations, and rates of states, of the current state by explicit evaluation.
+void Integrator::refresh_rates() {
+  VectorXd f;
+  system_.evaluate({now_.time, options_.first, 0, {}}, now_.y, now_.v_y, false, f);
+  VectorXd F;
+  system_.load_force(now_.time, F);
+  system_.add_interface_force(f, F);
+  const auto& damping = system_.damping();
+  for (Eigen::Index k = 0; k < F.size(); ++k) {
+    if (system_.inertia()(k) > 0.0) {
+      now_.a(k) = F(k) - damping(k) * now_.v(k) - system_.omega_squared()(k) * now_.eta(k);
+    } else if (system_.second_order()(k) == 0.0) {
+      now_.v(k) = F(k) / damping(k);
+    }
+  }
+  system_.interface(now_.v, now_.v_y);
+  if (observer_ != nullptr) observer_->stage(0, now_);
+}
+
+void Integrator::after_acceptance(double dt) {
+  failures_ = 0;
+  if (options_.fixed) return;
+  if (hold_ > 0) {
+    --hold_;
+    return;
+  }
+  const double factor = kSafety * std::pow(std::max(last_error_, 1e-6), -1.0 / kOrder);
+  const int target_rung = rung_for(dt * factor);
+  // Grows by at most a factor of two.
+  if (target_rung < rung_) rung_ = std::max(target_rung, rung_ - 2);
+}
+
+void Integrator::after_rejection(Verdict verdict) {
+  const double dt = ladder_step(rung_);
+  if (verdict == Verdict::kError) {
+    ++statistics_.rejected_error;
+    const double factor = std::max(0.1, kSafety * std::pow(last_error_, -1.0 / kOrder));
+    rung_ = std::max(rung_ + 1, std::isfinite(factor) ? rung_for(dt * factor) : rung_ + 4);
+    hold_ = std::max(hold_, 1);
+  } else {
+    ++(verdict == Verdict::kRefused ? statistics_.rejected_refused : statistics_.rejected_newton);
+    if (verdict == Verdict::kRefused) {
+      RefusalCount& refusals = statistics_.refusals[solver_.last().kind];
+      ++refusals.count;
+      refusals.last = solver_.last().detail;
+    }
+    worst_ = solver_.last().worst;
+    rung_ += 2;
+    failures_ = std::min(failures_ + 1, 6);
+    hold_ = std::min(kLongestHold, 2 << failures_);
+  }
+  if (options_.fixed || ladder_step(rung_) < options_.smallest) give_up(dt);
+}
+
+void Integrator::give_up(double dt) const {
+  std::vector<std::string> names;
+  for (int e = 0; worst_ >= 0 && e < system_.elements(); ++e) {
+    const auto& at = system_.element(e).coordinates();
+    if (std::find(at.begin(), at.end(), worst_) != at.end()) {
+      names.push_back(system_.element(e).name());
+    }
+  }
+  const std::string worst =
+      worst_ < 0
+          ? std::string("no single coordinate")
+          : fmt::format("{} (y = {:.6g}, v = {:.6g}) under {}", system_.coordinate_name(worst_),
+                        now_.y(worst_), now_.v_y(worst_),
+                        names.empty() ? "no element" : fmt::format("{}", fmt::join(names, ", ")));
+  throw NumericsError(fmt::format(
+      "time {:.9g} s: a step of {:.3g} s failed and the next is below the floor of {:.3g} s; "
+      "worst: "
+      "{}{}; {} steps accepted, {} rejected by error, {} by Newton, {} refused",
+      now_.time, dt, options_.smallest, worst,
+      solver_.last().kind.empty() ? "" : "; " + solver_.last().reason(), statistics_.accepted,
+      statistics_.rejected_error, statistics_.rejected_newton, statistics_.rejected_refused));
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// One implicit stage: linear bodies and the forces between them.
+#include <Eigen/Core>
+
+#include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/newton.hpp"
+#include "dynamics/integrate/stage_operator.hpp"
+#include "dynamics/integrate/stage_state.hpp"
+#include "dynamics/integrate/statistics.hpp"
+#include "dynamics/integrate/system.hpp"
+
+namespace clatter::dynamics {
+
+/// Solves x = x~ + kappa x' for displacements, velocities and states: modes by modes in closed form
+/// under the forces that StageNewton finds.
+class StageSolver {
+ public:
+  StageSolver(System& system, const ErrorWeights& weights, StepStatistics& statistics);
+
+  /// @param eta_tilde, v_tilde N. @param y_guess n_y. False: `last()` says why; `out` is then not
+  /// to be used.
+  bool solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
+             const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& y_guess, StageState& out);
+  const StageNewton::Result& last() const { return last_; }
+  StageNewton& newton() { return newton_; }
+
+ private:
+  void settle(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
+              const Eigen::VectorXd& v_tilde, StageState& out);
+  bool is_finite(const StageState& state);
+
+  System& system_;
+  StepStatistics& statistics_;
+  StageNewton newton_;
+  StageNewton::Result last_{StageNewton::Outcome::kConverged, "", "", -1};
+  Eigen::VectorXd F_, y_pred_, y_tilde_, f_;
+};
+
+}  // namespace clatter::dynamics
