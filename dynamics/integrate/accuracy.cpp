@@ -31,28 +31,6 @@ double state_limit(const ModalBody& body, int mode, const Limits& limits,
 
 }  // namespace
 
-LargestEntry largest_entry(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) {
-  LargestEntry largest;
-  for (int i = 0; i < static_cast<int>(x.size()); ++i) {
-    const double value = std::abs(x(i) * weight(i));
-    if (value <= largest.value) continue;
-    largest = {value, i};
-    if (std::isnan(value)) break;
-  }
-  return largest;
-}
-
-LargestEntry ErrorWeights::largest_change(const Eigen::VectorXd& dy, double kappa) const {
-  LargestEntry largest;
-  for (int i = 0; i < static_cast<int>(dy.size()); ++i) {
-    const double value = std::abs(dy(i)) * std::max(displacement(i), velocity(i) / kappa);
-    if (value <= largest.value) continue;
-    largest = {value, i};
-    if (std::isnan(value)) break;
-  }
-  return largest;
-}
-
 ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
   const int n = system.interface_size();
   ErrorWeights w{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),

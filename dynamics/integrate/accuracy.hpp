@@ -2,6 +2,7 @@
 #pragma once
 // Error limits from one tolerance.
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "dynamics/integrate/system.hpp"
@@ -17,15 +18,24 @@ struct Accuracy {
   double arm = 0.05;                 // converts rotations to displacements [m]
 };
 
-/// The largest absolute entry of a weighted vector and its index.
+/// The largest absolute entry of a vector and its index.
 struct LargestEntry {
   double value = 0.0;
   int at = -1;
 };
 
 /// A NaN is the largest entry: comparisons and std::max would lose it (hard case N2).
-/// x_i times weight_i is looked at.
-LargestEntry largest_entry(const Eigen::VectorXd& x, const Eigen::VectorXd& weight);
+template <typename Vector>
+LargestEntry largest_entry(const Vector& x) {
+  LargestEntry largest;
+  for (int i = 0; i < static_cast<int>(x.size()); ++i) {
+    const double value = std::abs(x(i));
+    if (value <= largest.value) continue;
+    largest = {value, i};
+    if (std::isnan(value)) break;
+  }
+  return largest;
+}
 
 /// Weights of errors: entry times error is 1 at the limit.
 ///
@@ -41,7 +51,9 @@ struct ErrorWeights {
   std::vector<double> velocity_limit;  // per body: of |e_v|, the square root of twice an energy
 
   /// Largest change of y over its limits: as a displacement and, over kappa, as a velocity.
-  LargestEntry largest_change(const Eigen::VectorXd& dy, double kappa) const;
+  LargestEntry largest_change(const Eigen::VectorXd& dy, double kappa) const {
+    return largest_entry(dy.cwiseProduct(displacement.cwiseMax(velocity / kappa)));
+  }
 };
 
 ErrorWeights error_weights(const System& system, const Accuracy& accuracy);

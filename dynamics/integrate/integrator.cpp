@@ -103,7 +103,7 @@ Integrator::Verdict Integrator::failed() const {
 }
 
 double Integrator::measure(const VectorXd& e_y) {
-  const LargestEntry largest = largest_entry(e_y, weights_.displacement);
+  const LargestEntry largest = largest_entry(e_y.cwiseProduct(weights_.displacement));
   worst_ = largest.at;
   const double modal = modal_error(system_, weights_, e_eta_, e_v_);
   if (!std::isfinite(largest.value + modal)) return std::numeric_limits<double>::infinity();

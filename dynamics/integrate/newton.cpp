@@ -46,7 +46,8 @@ bool StageNewton::factor(const StageOperator& op) {
 
 bool StageNewton::is_rounding(const VectorXd& dy, const VectorXd& y) const {
   const VectorXd& weight = weights_.displacement;
-  return largest_entry(dy, weight).value <= kRounding * largest_entry(y, weight).value;
+  return largest_entry(dy.cwiseProduct(weight)).value <=
+         kRounding * largest_entry(y.cwiseProduct(weight)).value;
 }
 
 StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& op,

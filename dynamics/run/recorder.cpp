@@ -5,17 +5,6 @@
 #include <cmath>
 
 namespace clatter::dynamics {
-namespace {
-
-Eigen::VectorXd hermite(const Eigen::VectorXd& x0, const Eigen::VectorXd& d0,
-                        const Eigen::VectorXd& x1, const Eigen::VectorXd& d1, double h, double t) {
-  const double u = 1.0 - t;
-  return u * u * (1.0 + 2.0 * t) * x0 + t * t * (3.0 - 2.0 * t) * x1 + h * t * u * u * d0 -
-         h * t * t * u * d1;
-}
-
-}  // namespace
-
 UniformSamples::UniformSamples(double begin, double end, double step, int modes) : begin_(begin) {
   const int n = std::max(1, static_cast<int>(std::lround((end - begin) / step)));
   step_ = (end - begin) / n;

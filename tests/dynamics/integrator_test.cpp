@@ -28,14 +28,14 @@ double error_with_step(const Tableau& tableau, double dt) {
   options.largest = dt;
   options.first = 1e-9;  // the starting stage is of first order: too short to be seen
   options.fixed = true;
-  Dirk method(system, options);
-  method.start(-options.first, vector(1e-3), vector(0.0));
-  while (method.state().time < 0.5 - 1e-12) method.step(0.5);
-  return std::abs(method.state().y(y) - exact_damped(0.5));
+  const auto method = make_integrator(system, options);
+  method->start(-options.first, vector(1e-3), vector(0.0));
+  while (method->state().time < 0.5 - 1e-12) method->step(0.5);
+  return std::abs(method->state().y(y) - exact_damped(0.5));
 }
 
-TEST(Dirk, HalvingTheStepQuartersTheError) {
-  for (const Tableau* tableau : {&tr_bdf2(), &sdirk2()}) {
+TEST(Integrator, HalvingTheStepQuartersTheError) {
+  for (const Tableau* tableau : {&tr_bdf2(), &sdirk2(), &predictor_corrector()}) {
     const double coarse = error_with_step(*tableau, 4e-3), middle = error_with_step(*tableau, 2e-3),
                  fine = error_with_step(*tableau, 1e-3);
     // Second order: the ratio tends to 4; 3 % covers the next term at these steps.
@@ -57,7 +57,16 @@ TEST(Dirk, TableausAreConsistentAndStifflyAccurate) {
   }
 }
 
-TEST(Dirk, AdaptiveStepsMeetTheirTolerance) {
+class AdaptiveSteps : public ::testing::TestWithParam<const Tableau*> {};
+INSTANTIATE_TEST_SUITE_P(Integrator, AdaptiveSteps,
+                         ::testing::Values(&tr_bdf2(), &sdirk2(), &predictor_corrector()),
+                         [](const auto& info) {
+                           std::string name = info.param->name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(AdaptiveSteps, MeetTheirTolerance) {
   double previous = 1.0;
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     System system;
@@ -65,16 +74,17 @@ TEST(Dirk, AdaptiveStepsMeetTheirTolerance) {
     StepOptions options;
     options.largest = 0.1;
     options.first = 1e-6;
+    options.method = GetParam();
     options.accuracy = {tolerance, 1e-3, 2e-2, 1.0};
-    Dirk method(system, options);
-    method.start(-options.first, vector(1e-3), vector(0.0));
-    while (method.state().time < 0.5) method.step(0.5);
-    const double error = std::abs(method.state().y(y) - exact_damped(0.5));
+    const auto method = make_integrator(system, options);
+    method->start(-options.first, vector(1e-3), vector(0.0));
+    while (method->state().time < 0.5) method->step(0.5);
+    const double error = std::abs(method->state().y(y) - exact_damped(0.5));
     // Second order at a local error limit: the global error goes with tolerance^(2/3), a factor of
     // 4.6 here; and it adds up over about three periods.
     EXPECT_LT(error, 0.33 * previous);
     EXPECT_LT(error, 2.0 * std::pow(tolerance, 2.0 / 3.0) * 1e-3);
-    EXPECT_DOUBLE_EQ(method.state().time, 0.5);
+    EXPECT_DOUBLE_EQ(method->state().time, 0.5);
     previous = error;
   }
 }

@@ -9,7 +9,7 @@
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/force/port_element.hpp"
 #include "dynamics/force/spin_element.hpp"
-#include "dynamics/integrate/dirk.hpp"
+#include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {
@@ -33,8 +33,8 @@ inline std::vector<int> add_planar(System& system, const std::string& name, doub
 }
 
 /// A method that starts from the system's own state at time 0.
-inline std::unique_ptr<Dirk> started(System& system, const StepOptions& options) {
-  auto method = std::make_unique<Dirk>(system, options);
+inline std::unique_ptr<Integrator> started(System& system, const StepOptions& options) {
+  auto method = make_integrator(system, options);
   method->start(-options.first, system.eta_start(), system.v_start());
   return method;
 }

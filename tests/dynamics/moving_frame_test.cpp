@@ -128,7 +128,7 @@ TEST(MovingFrame, WithoutRotationItIsEquationTen) {
   }
   double residue = 1.0;
   displacement(one, shaking, Vector3d::Zero(), Vector3d::Zero(), 1.0, &residue);
-  EXPECT_LT(residue, 1e-5);  // the drive's work is counted
+  EXPECT_LT(residue, 1e-4);  // the drive's work is counted
 }
 
 }  // namespace
