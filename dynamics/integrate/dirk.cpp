@@ -51,7 +51,7 @@ double Dirk::error(double dt, const StageOperator& op) {
   op.filter(eta_tilde_, v_tilde_, e_eta_);
   e_v_ = (e_eta_ - eta_tilde_) / op.kappa();
   system_.interface(e_eta_, e_y_);
-  solver_.newton().solve_linear(e_y_);
+  solver_.newton().solve_linear(op, e_y_);
   return measure(e_y_);
 }
 

@@ -83,7 +83,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     op.apply_S(f, residual_);
     residual_ += y_pred - y;
     dy_ = residual_;
-    matrix_.solve(dy_);
+    matrix_.solve(op, dy_);
     const auto limits = [&](const VectorXd& x) { return weights_.largest_change(x, stage.kappa); };
     const LargestEntry change = limits(dy_);
     const double size = change.value, imbalance = limits(residual_).value;

@@ -41,7 +41,7 @@ class StageNewton {
   Result solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& y_pred,
                const Eigen::VectorXd& y_tilde, Eigen::VectorXd& y, Eigen::VectorXd& f);
   /// J^{-1} x with the matrix of the last stage; the corresponding change of forces is T J^{-1} x.
-  void solve_linear(Eigen::VectorXd& x) const { matrix_.solve(x); }
+  void solve_linear(const StageOperator& op, Eigen::VectorXd& x) const { matrix_.solve(op, x); }
   const StageMatrix& matrix() const { return matrix_; }
   /// Drops the matrix; the next stage forms a new one.
   void forget() { kappa_ = 0.0; }

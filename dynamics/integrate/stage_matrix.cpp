@@ -15,17 +15,23 @@ using Eigen::VectorXd;
 namespace {
 
 /// Below this size dense arithmetic is the faster one whatever the pattern; above it a sparse
-/// factor pays when at most this share of J can differ from 0 (bench/stage_matrix).
+/// factor pays when at most this share of J can differ from 0.
 constexpr int kSmall = 48;
 constexpr double kFew = 0.25;
+
+bool touches_all(const System& system) {
+  for (int e = 0; e < system.elements(); ++e)
+    if (!system.response(e).touched.empty()) return false;
+  return true;
+}
 
 }  // namespace
 
 StageMatrix::StageMatrix(const System& system) : system_(&system) {
   order();
-  list_parts();
+  for (int e = 0; e < system.elements(); ++e)
+    for (Part& part : parts_of(e, {})) all_.push_back(std::move(part));
   find_pattern();
-  ordered_.setZero(system.interface_size());
 }
 
 void StageMatrix::order() {
@@ -37,115 +43,177 @@ void StageMatrix::order() {
   }
 }
 
-void StageMatrix::list_parts() {
-  for (int e = 0; e < system_->elements(); ++e) {
-    const std::vector<int>& at = system_->element(e).coordinates();
-    std::map<int, Part> by_body;
-    for (int i = 0; i < static_cast<int>(at.size()); ++i) {
-      const int y = at[static_cast<size_t>(i)], body = system_->owner(y);
-      Part& part = by_body[body];
-      part.rows.push_back(i);
-      part.body_rows.push_back(position_[static_cast<size_t>(y)] -
-                               first_[static_cast<size_t>(body)]);
-    }
-    for (auto& [body, part] : by_body) {
-      part.element = e;
-      part.body = body;
-      for (const int y : at) part.columns.push_back(position_[static_cast<size_t>(y)]);
-      parts_.push_back(std::move(part));
-    }
+std::vector<StageMatrix::Part> StageMatrix::parts_of(int element,
+                                                     const std::vector<int>& touched) const {
+  const std::vector<int>& at = system_->element(element).coordinates();
+  const size_t count = touched.empty() ? at.size() : touched.size();
+  std::map<int, Part> by_body;
+  std::vector<int> columns;
+  for (size_t i = 0; i < count; ++i) {
+    const int y = at[touched.empty() ? i : static_cast<size_t>(touched[i])];
+    const int body = system_->owner(y), position = position_[static_cast<size_t>(y)];
+    columns.push_back(position);
+    by_body[body].rows.push_back(static_cast<int>(i));
+    by_body[body].body_rows.push_back(position - first_[static_cast<size_t>(body)]);
   }
+  std::vector<Part> parts;
+  for (auto& [body, part] : by_body) {
+    part.element = element;
+    part.body = body;
+    part.columns = columns;
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 void StageMatrix::find_pattern() {
   const int n = system_->interface_size();
   const int bodies = static_cast<int>(system_->bodies().size());
+  const auto rows_of = [&](int body) { return static_cast<int>(system_->rows(body).size()); };
   std::vector<std::set<int>> blocks(static_cast<size_t>(n));  // column: bodies whose rows it has
-  for (const Part& part : parts_)
-    for (const int column : part.columns) blocks[static_cast<size_t>(column)].insert(part.body);
-  std::vector<int> owner(static_cast<size_t>(n));
   for (int b = 0; b < bodies; ++b)
-    for (size_t i = 0; i < system_->rows(b).size(); ++i)
-      owner[static_cast<size_t>(first_[static_cast<size_t>(b)]) + i] = b;
-  for (int j = 0; j < n; ++j) {
-    blocks[static_cast<size_t>(j)].insert(owner[static_cast<size_t>(j)]);
-    for (const int b : blocks[static_cast<size_t>(j)])
-      nonzeros_ += static_cast<int>(system_->rows(b).size());
-  }
-  if (n <= kSmall || nonzeros_ > kFew * static_cast<double>(n) * n) {
-    dense_.resize(n, n);
-    return;
-  }
+    for (int i = 0; i < rows_of(b); ++i)
+      blocks[static_cast<size_t>(first_[static_cast<size_t>(b)] + i)].insert(b);
+  for (const Part& part : all_)
+    for (const int column : part.columns) blocks[static_cast<size_t>(column)].insert(part.body);
+  for (const auto& block : blocks)
+    for (const int b : block) nonzeros_ += rows_of(b);
+  if (n <= kSmall || nonzeros_ > kFew * static_cast<double>(n) * n) return;
+
   std::vector<int> starts{0}, rows;
   std::vector<std::map<int, int>> begin(static_cast<size_t>(n));
   for (int j = 0; j < n; ++j) {
     for (const int b : blocks[static_cast<size_t>(j)]) {
       const int first = first_[static_cast<size_t>(b)];
       begin[static_cast<size_t>(j)][b] = static_cast<int>(rows.size());
-      for (int i = 0; i < static_cast<int>(system_->rows(b).size()); ++i) {
-        if (first + i == j) diagonal_.push_back(static_cast<int>(rows.size()));
-        rows.push_back(first + i);
+      for (int i = first; i < first + rows_of(b); ++i) {
+        if (i == j) diagonal_.push_back(static_cast<int>(rows.size()));
+        rows.push_back(i);
       }
     }
     starts.push_back(static_cast<int>(rows.size()));
   }
   values_.resize(rows.size());
-  for (Part& part : parts_)
+  for (Part& part : all_)
     for (const int column : part.columns)
       part.starts.push_back(begin[static_cast<size_t>(column)].at(part.body));
   sparse_.emplace(std::move(starts), std::move(rows));
 }
 
-const MatrixXd& StageMatrix::product(const Part& part, const StageOperator& op) {
+/// Parts and dense rows of what the elements touch at the moment.
+void StageMatrix::list_touched() {
+  const bool everything = touches_all(*system_);
+  if (everything && everything_) return;
+  everything_ = everything;
+  if (everything) {
+    parts_ = all_;
+  } else {
+    parts_.clear();
+    for (int e = 0; e < system_->elements(); ++e)
+      for (Part& part : parts_of(e, system_->response(e).touched))
+        parts_.push_back(std::move(part));
+  }
+  std::vector<char> is_touched(position_.size(), 0);
+  for (const Part& part : parts_)
+    for (const int column : part.columns) is_touched[static_cast<size_t>(column)] = 1;
+  dense_row_.assign(position_.size(), -1);
+  body_rows_.assign(system_->bodies().size(), {});
+  int next = 0;
+  for (size_t b = 0; b < body_rows_.size(); ++b) {
+    const int first = first_[b], count = static_cast<int>(system_->rows(static_cast<int>(b)).size());
+    for (int i = 0; i < count; ++i) {
+      if (is_touched[static_cast<size_t>(first + i)] == 0) continue;
+      dense_row_[static_cast<size_t>(first + i)] = next++;
+      body_rows_[b].push_back(i);
+    }
+  }
+  dense_.resize(next, next);
+}
+
+/// S T of one part in some rows of its body.
+const MatrixXd& StageMatrix::product(const Part& part, const StageOperator& op,
+                                     const std::vector<int>& body_rows) {
   const MatrixXd& S = op.S(part.body);
-  const MatrixXd& T = system_->tangent(part.element);
+  const MatrixXd& T = system_->response(part.element).tangent;
   const auto k = static_cast<Index>(part.rows.size());
-  S_part_.resize(S.rows(), k);
+  S_part_.resize(static_cast<Index>(body_rows.size()), k);
   T_part_.resize(k, T.cols());
-  for (Index i = 0; i < k; ++i) {
-    S_part_.col(i) = S.col(part.body_rows[static_cast<size_t>(i)]);
-    T_part_.row(i) = T.row(part.rows[static_cast<size_t>(i)]);
+  for (Index j = 0; j < k; ++j) {
+    const auto column = S.col(part.body_rows[static_cast<size_t>(j)]);
+    for (size_t i = 0; i < body_rows.size(); ++i)
+      S_part_(static_cast<Index>(i), j) = column(body_rows[i]);
+    T_part_.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
   }
   product_.noalias() = S_part_ * T_part_;
   return product_;
 }
 
 bool StageMatrix::form(const StageOperator& op) {
-  if (system_->interface_size() == 0) return true;
-  if (!sparse_) {
-    dense_.setIdentity();
-    for (const Part& part : parts_) {
-      const MatrixXd& ST = product(part, op);
-      const int first = first_[static_cast<size_t>(part.body)];
-      for (Index j = 0; j < ST.cols(); ++j)
-        dense_.col(part.columns[static_cast<size_t>(j)]).segment(first, ST.rows()) -= ST.col(j);
+  if (position_.empty()) return true;
+  return sparse_ ? form_sparse(op) : form_dense(op);
+}
+
+bool StageMatrix::form_dense(const StageOperator& op) {
+  list_touched();
+  dense_.setIdentity();
+  for (const Part& part : parts_) {
+    const auto& rows = body_rows_[static_cast<size_t>(part.body)];
+    const MatrixXd& ST = product(part, op, rows);
+    const int first = dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] +
+                                                     rows.front())];
+    for (Index j = 0; j < ST.cols(); ++j) {
+      const int column = dense_row_[static_cast<size_t>(part.columns[static_cast<size_t>(j)])];
+      dense_.col(column).segment(first, ST.rows()) -= ST.col(j);
     }
-    lu_.compute(dense_);
-    return dense_.allFinite();
   }
+  lu_.compute(dense_);
+  return dense_.allFinite();
+}
+
+bool StageMatrix::form_sparse(const StageOperator& op) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const int at : diagonal_) values_[static_cast<size_t>(at)] = 1.0;
-  for (const Part& part : parts_) {
-    const MatrixXd& ST = product(part, op);
-    for (Index j = 0; j < ST.cols(); ++j) {
-      double* column = values_.data() + part.starts[static_cast<size_t>(j)];
-      for (Index i = 0; i < ST.rows(); ++i) column[i] -= ST(i, j);
+  for (const Part& part : all_) {
+    const MatrixXd& S = op.S(part.body);
+    const MatrixXd& T = system_->response(part.element).tangent;
+    for (size_t k = 0; k < part.rows.size(); ++k) {
+      const auto column_of_S = S.col(part.body_rows[k]);
+      for (Index j = 0; j < T.cols(); ++j) {
+        const double t = T(part.rows[k], j);
+        if (t == 0.0) continue;
+        double* column = values_.data() + part.starts[static_cast<size_t>(j)];
+        for (Index i = 0; i < S.rows(); ++i) column[i] -= t * column_of_S(i);
+      }
     }
   }
   return sparse_->factor(values_);
 }
 
-void StageMatrix::solve(VectorXd& x) const {
-  for (size_t y = 0; y < position_.size(); ++y)
-    ordered_(position_[y]) = x(static_cast<Index>(y));
+void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
+  if (position_.empty()) return;
   if (sparse_) {
-    sparse_->solve(ordered_.data());
-  } else if (ordered_.size() > 0) {
-    solved_.noalias() = lu_.solve(ordered_);
-    ordered_.swap(solved_);
+    right_.resize(x.size());
+    for (size_t y = 0; y < position_.size(); ++y)
+      right_(position_[y]) = x(static_cast<Index>(y));
+    sparse_->solve(right_.data());
+    for (size_t y = 0; y < position_.size(); ++y)
+      x(static_cast<Index>(y)) = right_(position_[y]);
+    return;
   }
+  right_.resize(dense_.rows());
+  const auto row = [&](size_t y) { return dense_row_[static_cast<size_t>(position_[y])]; };
   for (size_t y = 0; y < position_.size(); ++y)
-    x(static_cast<Index>(y)) = ordered_(position_[y]);
+    if (row(y) >= 0) right_(row(y)) = x(static_cast<Index>(y));
+  solved_.noalias() = lu_.solve(right_);
+  for (size_t y = 0; y < position_.size(); ++y)
+    if (row(y) >= 0) x(static_cast<Index>(y)) = solved_(row(y));
+  if (dense_.rows() == x.size()) return;
+  // Rows that nothing touches: x_i = right_i + (S T x)_i, T x being zero in them.
+  forces_.setZero(x.size());
+  system_->add_tangent_forces(x, forces_);
+  op.apply_S(forces_, moved_);
+  for (size_t y = 0; y < position_.size(); ++y)
+    if (row(y) < 0) x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
 }
 
 }  // namespace clatter::dynamics

@@ -16,8 +16,9 @@ namespace clatter::dynamics {
 ///
 /// S couples the coordinates of one body, a tangent those of one element: the rows of a body are
 /// full in the columns of all elements that touch it and empty elsewhere. Where that leaves most of
-/// J empty, as in a chain, it is factored as a sparse matrix whose pattern is analysed once; else
-/// as a dense one.
+/// J empty, as in a chain, it is factored as a sparse matrix whose pattern is analysed once. Else
+/// the rows and columns that elements touch at the moment are factored as a dense matrix; the other
+/// rows follow from them.
 class StageMatrix {
  public:
   /// `system` with all its bodies and elements.
@@ -26,38 +27,50 @@ class StageMatrix {
   /// J of this operator with the tangents of the last evaluation; false when it is singular or not
   /// finite.
   [[nodiscard]] bool form(const StageOperator& op);
-  /// x <- J^-1 x, n_y.
-  void solve(Eigen::VectorXd& x) const;
+  /// x <- J^-1 x, n_y; `op` has the kappa of the last form().
+  void solve(const StageOperator& op, Eigen::VectorXd& x) const;
 
   bool is_sparse() const { return sparse_.has_value(); }
   /// Entries of J that may differ from 0.
   int nonzeros() const { return nonzeros_; }
+  /// Rows of the dense matrix of the last form().
+  int touched() const { return static_cast<int>(dense_.rows()); }
 
  private:
   /// One element's part in the rows of one body.
   struct Part {
-    int element, body;
-    std::vector<int> rows;       // of the element's coordinates: those of this body
+    int element = 0, body = 0;
+    std::vector<int> rows;       // of the tangent: those of this body
     std::vector<int> body_rows;  // the same as rows of the body's S
-    std::vector<int> columns;    // of J, one per coordinate of the element
+    std::vector<int> columns;    // y positions of the tangent's columns
     std::vector<int> starts;     // sparse: where the body's rows of those columns begin in values_
   };
-  void list_parts();
   void order();
+  std::vector<Part> parts_of(int element, const std::vector<int>& touched) const;
   void find_pattern();
-  const Eigen::MatrixXd& product(const Part& part, const StageOperator& op);
+  void list_touched();
+  bool form_dense(const StageOperator& op);
+  bool form_sparse(const StageOperator& op);
+  const Eigen::MatrixXd& product(const Part& part, const StageOperator& op,
+                                 const std::vector<int>& body_rows);
 
   const System* system_;
-  std::vector<Part> parts_;
   std::vector<int> position_;  // of a y in J: bodies one after the other
   std::vector<int> first_;     // position of a body's first row
+  std::vector<Part> all_;      // parts of entire elements
   int nonzeros_ = 0;
+
   std::optional<SparseLu> sparse_;
   std::vector<double> values_;
   std::vector<int> diagonal_;  // positions in values_
+
+  std::vector<Part> parts_;                  // dense: of what is touched
+  std::vector<std::vector<int>> body_rows_;  // per body: its touched rows
+  std::vector<int> dense_row_;               // per position: its row in dense_; -1: not touched
+  bool everything_ = false;                  // is touched, as in the form before
   Eigen::MatrixXd dense_, S_part_, T_part_, product_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  mutable Eigen::VectorXd ordered_, solved_;
+  mutable Eigen::VectorXd right_, solved_, forces_, moved_;
 };
 
 }  // namespace clatter::dynamics

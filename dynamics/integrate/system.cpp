@@ -188,12 +188,18 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
   }
 }
 
-void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) {
+void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) const {
   for (size_t e = 0; e < elements_.size(); ++e) {
     const auto& at = elements_[e]->coordinates();
-    gather(dy, at, y_of_[e]);
+    const auto& touched = responses_[e].touched;
+    const size_t count = touched.empty() ? at.size() : touched.size();
+    const auto index = [&](size_t i) {
+      return at[touched.empty() ? i : static_cast<size_t>(touched[i])];
+    };
+    y_of_[e].resize(static_cast<Eigen::Index>(count));
+    for (size_t i = 0; i < count; ++i) y_of_[e](static_cast<Eigen::Index>(i)) = dy(index(i));
     v_of_[e].noalias() = responses_[e].tangent * y_of_[e];
-    for (size_t i = 0; i < at.size(); ++i) f(at[i]) += v_of_[e](static_cast<Eigen::Index>(i));
+    for (size_t i = 0; i < count; ++i) f(index(i)) += v_of_[e](static_cast<Eigen::Index>(i));
   }
 }
 

@@ -92,11 +92,9 @@ class System {
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Eigen::VectorXd& f);
   /// f += T dy with the elements' last tangents.
-  void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f);
-  /// An element's last tangent, n_e x n_e.
-  const Eigen::MatrixXd& tangent(int element) const {
-    return responses_[static_cast<size_t>(element)].tangent;
-  }
+  void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
+  /// An element's last response.
+  const Response& response(int element) const { return responses_[static_cast<size_t>(element)]; }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);
@@ -116,7 +114,7 @@ class System {
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
   std::vector<Response> responses_;           // per element
-  std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
+  mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
   mutable std::vector<Eigen::VectorXd> part_;  // per body: its rows
 };
 

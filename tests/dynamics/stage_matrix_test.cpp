@@ -47,7 +47,7 @@ MatrixXd dense_matrix(const System& system, const StageOperator& op) {
   MatrixXd T = MatrixXd::Zero(n, n), S = MatrixXd::Zero(n, n);
   for (int e = 0; e < system.elements(); ++e) {
     const auto& at = system.element(e).coordinates();
-    T(at, at) += system.tangent(e);
+    T(at, at) += system.response(e).tangent;
   }
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b)
     S(system.rows(b), system.rows(b)) = op.S(b);
@@ -68,10 +68,70 @@ TEST(StageMatrix, SolvesAsTheDenseMatrixOfItsDefinitionDoes) {
     ASSERT_TRUE(matrix.form(op));
     const VectorXd right = VectorXd::LinSpaced(y.size(), -1.0, 2.0);
     VectorXd x = right;
-    matrix.solve(x);
+    matrix.solve(op, x);
     const VectorXd expected = dense_matrix(*system, op).partialPivLu().solve(right);
     EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm()) << links;
   }
+}
+
+/// Springs between chosen coordinates of a body with many.
+class FewSprings : public ForceElement {
+ public:
+  FewSprings(std::vector<int> coordinates, std::vector<int> touched)
+      : ForceElement(std::move(coordinates)), touched_(std::move(touched)) {}
+  std::string name() const override { return "springs"; }
+  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool, Response& response) override {
+    const auto n = static_cast<Eigen::Index>(touched_.size());
+    response.touched = touched_;
+    response.tangent = -MatrixXd::Identity(n, n) * 3.0 - MatrixXd::Ones(n, n);
+    response.force.setZero(y.size());
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        response.force(touched_[static_cast<size_t>(i)]) +=
+            response.tangent(i, j) * y(touched_[static_cast<size_t>(j)]);
+  }
+  Power power(const VectorXd&, const VectorXd&) const override { return {}; }
+
+ private:
+  std::vector<int> touched_;
+};
+
+TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
+  // A body of 30 coupled coordinates, of which two elements touch 3 and 4 (one of them the same).
+  System system;
+  const int n = 30;
+  ModalBody body;
+  body.name = "plate";
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  body.shapes = MatrixXd::NullaryExpr(n, n, [&](Eigen::Index, Eigen::Index) { return number(engine); });
+  body.omega_squared = VectorXd::LinSpaced(n, 1.0, 9.0);
+  body.damping = VectorXd::Zero(n);
+  body.inertia = VectorXd::Ones(n);
+  body.is_rotation.assign(n, 0);
+  body.mass = 1.0;
+  const int b = system.add_body(body);
+  std::vector<int> all;
+  for (int k = 0; k < n; ++k) all.push_back(system.coordinate(b, k));
+  const std::vector<int> one{2, 7, 11}, other{7, 20, 21, 29};
+  system.add_element(std::make_unique<FewSprings>(all, one));
+  system.add_element(std::make_unique<FewSprings>(all, other));
+  const StageOperator op(system, 0.3);
+  VectorXd f;
+  system.evaluate({0.0, 0.3, 1, {}}, VectorXd::Ones(n), VectorXd::Ones(n), true, f);
+  MatrixXd T = MatrixXd::Zero(n, n);
+  for (int e = 0; e < 2; ++e) {
+    const auto& touched = system.response(e).touched;
+    T(touched, touched) += system.response(e).tangent;
+  }
+  StageMatrix matrix(system);
+  ASSERT_TRUE(matrix.form(op));
+  EXPECT_EQ(matrix.touched(), 6);
+  const VectorXd right = VectorXd::LinSpaced(n, -1.0, 2.0);
+  VectorXd x = right;
+  matrix.solve(op, x);
+  const MatrixXd J = MatrixXd::Identity(n, n) - op.S(0) * T;
+  EXPECT_LT((J * x - right).norm(), 1e-12 * right.norm());
 }
 
 TEST(StageMatrix, AChainHasEntriesInProportionToItsLinks) {
