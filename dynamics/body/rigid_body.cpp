@@ -12,7 +12,8 @@ namespace {
 
 void require_positive(const std::string& name, const char* what, double value) {
   if (!(value > 0.0) || !std::isfinite(value))
-    throw InputError(fmt::format("{}: {}: found {}, expected a positive number", name, what, value));
+    throw InputError(
+        fmt::format("{}: {}: found {}, expected a positive number", name, what, value));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ ModalBody make_planar_body(const std::string& name, double mass, double inertia,
 
 /// Where a rigid body moves in space.
 struct SpatialMotion {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of mass [m]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();              // of mass [m]
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // from the body's axes
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            // [m/s]
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();  // angular velocity, in the body's axes [rad/s]

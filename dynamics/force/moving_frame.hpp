@@ -35,7 +35,7 @@ class MovingFrame : public ForceElement {
   rom::InertiaInvariants invariants_;
   std::function<rom::FrameMotion(double)> motion_;
   double time_ = 0.0;
-  Eigen::VectorXd load_;          // of the last time
+  Eigen::VectorXd load_;  // of the last time
   Eigen::MatrixXd softening_, gyroscopic_;
 };
 

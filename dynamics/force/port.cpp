@@ -25,17 +25,30 @@ constexpr int kCentre = 0, kQuaternion = 3, kSpin = 7;
 
 }  // namespace
 
-void GroundPort::motion(const VectorXd&, const VectorXd&, PortState& state) const {
+void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& state) const {
   clear(state, 0);
   state.position = position_;
   state.velocity.setZero();
   state.spin.setZero();
 }
 
+DrivenPort::DrivenPort(Drive drive, const Vector3d& centre, const Vector3d& arm,
+                       const Vector3d& axis)
+    : Port({}), drive_(std::move(drive)), centre_(centre), arm_(arm), axis_(axis) {}
+
+void DrivenPort::motion(double time, const VectorXd&, const VectorXd&, PortState& state) const {
+  clear(state, 0);
+  const Motion<double> turn = drive_.at(time);
+  const Vector3d arm = Eigen::AngleAxisd(turn.position, axis_) * arm_;
+  state.position = centre_ + arm;
+  state.spin = turn.velocity * axis_;
+  state.velocity = state.spin.cross(arm);
+}
+
 NodePort::NodePort(const Vector3d& position, std::vector<int> coordinates)
     : Port(std::move(coordinates)), position_(position) {}
 
-void NodePort::motion(const VectorXd& y, const VectorXd& v, PortState& state) const {
+void NodePort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
   clear(state, size());
   state.position = position_ + y.head<3>();
   state.velocity = v.head<3>();
@@ -54,7 +67,7 @@ Vector3d PlanarPort::turned_arm(double angle) const {
          (s * arm_.x() + c * arm_.y()) * plane_.second;
 }
 
-void PlanarPort::motion(const VectorXd& y, const VectorXd& v, PortState& state) const {
+void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
   clear(state, 3);
   const Vector3d normal = plane_.first.cross(plane_.second), arm = turned_arm(y(2));
   const Vector3d across = normal.cross(arm);
@@ -75,7 +88,7 @@ void PlanarPort::add_curvature(const VectorXd& y, const Vector6& wrench,
 SpatialPort::SpatialPort(std::vector<int> coordinates, const Vector3d& arm)
     : Port(std::move(coordinates)), arm_(arm) {}
 
-void SpatialPort::motion(const VectorXd& y, const VectorXd& v, PortState& state) const {
+void SpatialPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
   clear(state, size());
   const Eigen::Vector4d q = y.segment<4>(kQuaternion);
   const Vector3d w = y.segment<3>(kSpin), speed = w.cross(arm_);

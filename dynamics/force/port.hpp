@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/given/drive.hpp"
+
 namespace clatter::dynamics {
 
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -27,8 +29,10 @@ class Port {
   const std::vector<int>& coordinates() const { return coordinates_; }
   int size() const { return static_cast<int>(coordinates_.size()); }
   /// `y`, `v`: n_p displacements and velocities (rates, for states).
-  virtual void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+  virtual void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                       PortState& state) const = 0;
+  /// It moves as prescribed: forces on it do work on what drives it.
+  virtual bool is_driven() const { return false; }
   /// tangent += d(work^T wrench)/dy at a constant wrench (force, moment), n_p x n_p.
   virtual void add_curvature(const Eigen::VectorXd& /*y*/, const Vector6& /*wrench*/,
                              Eigen::Ref<Eigen::MatrixXd> /*tangent*/) const {}
@@ -42,10 +46,27 @@ class Port {
 class GroundPort : public Port {
  public:
   explicit GroundPort(const Eigen::Vector3d& position) : Port({}), position_(position) {}
-  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
 
  private:
   Eigen::Vector3d position_;
+};
+
+/// A point of a shaft that a drive turns.
+class DrivenPort : public Port {
+ public:
+  /// @param drive of the shaft. @param centre a point of its axis [m]. @param arm from there to the
+  /// point at the angle 0 [m]. @param axis unit vector, about which it turns right-handed.
+  DrivenPort(Drive drive, const Eigen::Vector3d& centre, const Eigen::Vector3d& arm,
+             const Eigen::Vector3d& axis);
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
+  bool is_driven() const override { return true; }
+
+ private:
+  Drive drive_;
+  Eigen::Vector3d centre_, arm_, axis_;
 };
 
 /// A node of a body with small motion: position + (x, y, z), with or without rotations.
@@ -54,7 +75,8 @@ class NodePort : public Port {
   /// @param position of the node at rest [m]. @param coordinates y indices of x, y, z and, for a
   /// node that rotates, rx, ry, rz.
   NodePort(const Eigen::Vector3d& position, std::vector<int> coordinates);
-  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
 
  private:
   Eigen::Vector3d position_;
@@ -72,7 +94,8 @@ class PlanarPort : public Port {
   /// @param coordinates y indices of u, v, angle. @param arm from the centre of mass, in the body's
   /// axes [m].
   PlanarPort(std::vector<int> coordinates, const Eigen::Vector2d& arm, const PlaneAxes& plane = {});
-  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
                      Eigen::Ref<Eigen::MatrixXd> tangent) const override;
 
@@ -89,7 +112,8 @@ class SpatialPort : public Port {
   /// @param coordinates y indices of the body's ten coordinates. @param arm from the centre of
   /// mass, in the body's axes [m].
   SpatialPort(std::vector<int> coordinates, const Eigen::Vector3d& arm);
-  void motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const override;
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
   void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
                      Eigen::Ref<Eigen::MatrixXd> tangent) const override;
 

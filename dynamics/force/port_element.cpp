@@ -30,13 +30,13 @@ Vector6 wrench(const Vector3d& force, const Vector3d& moment) {
 PortElement::PortElement(std::string name, std::unique_ptr<Port> a, std::unique_ptr<Port> b)
     : ForceElement(joined(*a, *b)), name_(std::move(name)), a_(std::move(a)), b_(std::move(b)) {}
 
-PairMotion PortElement::move(const VectorXd& y, const VectorXd& v) const {
+PairMotion PortElement::move(double time, const VectorXd& y, const VectorXd& v) const {
   y_a_ = y.head(a_->size());
   v_a_ = v.head(a_->size());
   y_b_ = y.tail(b_->size());
   v_b_ = v.tail(b_->size());
-  a_->motion(y_a_, v_a_, at_a_);
-  b_->motion(y_b_, v_b_, at_b_);
+  a_->motion(time, y_a_, v_a_, at_a_);
+  b_->motion(time, y_b_, v_b_, at_b_);
   const Vector3d distance = at_a_.position - at_b_.position;
   return {distance, at_a_.velocity - at_b_.velocity - at_b_.spin.cross(distance),
           at_a_.spin - at_b_.spin};
@@ -45,8 +45,8 @@ PairMotion PortElement::move(const VectorXd& y, const VectorXd& v) const {
 void PortElement::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v,
                            bool with_tangent, Response& response) {
   const int n_a = a_->size(), n_b = b_->size();
-  const PairMotion pair = move(y, v);
   time_ = stage.time;
+  const PairMotion pair = move(time_, y, v);
   const PairForce law = force(time_, pair);
   const Vector6 on_a = wrench(law.force, law.moment);
   const Vector6 on_b = wrench(-law.force, -law.moment - pair.distance.cross(law.force));
@@ -55,26 +55,41 @@ void PortElement::evaluate(const Stage& stage, const VectorXd& y, const VectorXd
   response.force.tail(n_b).noalias() = at_b_.work.transpose() * on_b;
   if (!with_tangent) return;
 
-  Matrix6X distance(6, n_a + n_b), rate(6, n_a + n_b);
-  distance << at_a_.by_y, -at_b_.by_y;
-  rate << at_a_.rate_by_y + at_a_.rate_by_v / stage.kappa,
-      -at_b_.rate_by_y - at_b_.rate_by_v / stage.kappa;
-  rate.topRows<3>() -= skew(at_b_.spin) * distance.topRows<3>();
-  rate.topRightCorner(3, n_b) -= skew(pair.distance) * rate.bottomRightCorner(3, n_b);
-  const Matrix6X by_a = law.by_distance * distance + law.by_rate * rate;
-  Matrix6X by_b = -by_a;
-  by_b.bottomRows<3>() += skew(law.force) * distance.topRows<3>() -
-                          skew(pair.distance) * by_a.topRows<3>();
+  Matrix6X &distance = distance_by_y_, &rate = rate_by_y_;
+  distance.resize(6, n_a + n_b);
+  rate.resize(6, n_a + n_b);
+  distance.leftCols(n_a) = at_a_.by_y;
+  distance.rightCols(n_b) = -at_b_.by_y;
+  rate.leftCols(n_a) = at_a_.rate_by_y + at_a_.rate_by_v / stage.kappa;
+  rate.rightCols(n_b) = -at_b_.rate_by_y - at_b_.rate_by_v / stage.kappa;
+  const Eigen::Matrix3d turning = skew(at_b_.spin), arm = skew(pair.distance);
+  for (int j = 0; j < n_a + n_b; ++j) {
+    Vector3d change = turning * distance.col(j).head<3>();
+    if (j >= n_a) change += arm * rate.col(j).tail<3>();
+    rate.col(j).head<3>() -= change;
+  }
+  by_a_.noalias() = law.by_distance * distance;
+  by_a_.noalias() += law.by_rate * rate;
+  by_b_ = -by_a_;
+  const Eigen::Matrix3d pulled = skew(law.force);
+  for (int j = 0; j < n_a + n_b; ++j)
+    by_b_.col(j).tail<3>() += pulled * distance.col(j).head<3>() - arm * by_a_.col(j).head<3>();
   response.tangent.resize(n_a + n_b, n_a + n_b);
-  response.tangent.topRows(n_a).noalias() = at_a_.work.transpose() * by_a;
-  response.tangent.bottomRows(n_b).noalias() = at_b_.work.transpose() * by_b;
+  response.tangent.topRows(n_a).noalias() = at_a_.work.transpose() * by_a_;
+  response.tangent.bottomRows(n_b).noalias() = at_b_.work.transpose() * by_b_;
   a_->add_curvature(y_a_, on_a, response.tangent.topLeftCorner(n_a, n_a));
   b_->add_curvature(y_b_, on_b, response.tangent.bottomRightCorner(n_b, n_b));
 }
 
 Power PortElement::power(const VectorXd& y, const VectorXd& v) const {
-  const PairForce law = force(time_, move(y, v));
-  return {law.stored, law.lost, 0.0};
+  const PairMotion pair = move(time_, y, v);
+  const PairForce law = force(time_, pair);
+  double input = 0.0;
+  if (a_->is_driven()) input -= law.force.dot(at_a_.velocity) + law.moment.dot(at_a_.spin);
+  if (b_->is_driven())
+    input += law.force.dot(at_b_.velocity) +
+             (law.moment + pair.distance.cross(law.force)).dot(at_b_.spin);
+  return {law.stored, law.lost, input};
 }
 
 PairForce Bushing::force(double, const PairMotion& motion) const {
@@ -103,8 +118,7 @@ PairForce LineSpring::force(double, const PairMotion& motion) const {
   law.by_distance.setZero();
   law.by_rate.setZero();
   law.by_distance.topLeftCorner<3, 3>() =
-      -stiffness_ * along - pull * across -
-      damping_ * n * (across * motion.velocity).transpose();
+      -stiffness_ * along - pull * across - damping_ * n * (across * motion.velocity).transpose();
   law.by_rate.topLeftCorner<3, 3>() = -damping_ * along;
   law.stored = 0.5 * stiffness_ * (length - length_) * (length - length_);
   law.lost = damping_ * speed * speed;

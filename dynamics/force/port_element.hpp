@@ -40,11 +40,12 @@ class PortElement : public ForceElement {
   virtual PairForce force(double time, const PairMotion& motion) const = 0;
 
  private:
-  PairMotion move(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+  PairMotion move(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   std::string name_;
   std::unique_ptr<Port> a_, b_;
   mutable PortState at_a_, at_b_;
   mutable Eigen::VectorXd y_a_, y_b_, v_a_, v_b_;
+  Matrix6X distance_by_y_, rate_by_y_, by_a_, by_b_;  // 6 x n_e, of the last tangent
   double time_ = 0.0;
 };
 

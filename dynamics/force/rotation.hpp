@@ -34,9 +34,8 @@ inline Eigen::Matrix4d spin_matrix(const Eigen::Vector3d& w) {
 inline Eigen::Matrix3d rotation_matrix(const Eigen::Vector4d& q) {
   const Eigen::Vector3d u = q.tail<3>();
   const double w = q(0);
-  const Eigen::Matrix3d scaled =
-      (w * w - u.squaredNorm()) * Eigen::Matrix3d::Identity() + 2.0 * u * u.transpose() +
-      2.0 * w * skew(u);
+  const Eigen::Matrix3d scaled = (w * w - u.squaredNorm()) * Eigen::Matrix3d::Identity() +
+                                 2.0 * u * u.transpose() + 2.0 * w * skew(u);
   return scaled / q.squaredNorm();
 }
 

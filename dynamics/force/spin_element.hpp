@@ -12,7 +12,8 @@ namespace clatter::dynamics {
 /// Rates of the seven states of a spatial body (rigid_body.hpp): quaternion q = (w, x, y, z) and
 /// angular velocity w in the body's principal axes,
 ///
-///   q' = 1/2 q * (0, w),     J w' = - w x J w      (Euler's equations; moments are added by others)
+///   q' = 1/2 q * (0, w),     J w' = - w x J w      (Euler's equations; moments are added by
+///   others)
 ///
 /// Its stored energy is that of the rotation, 1/2 w^T J w.
 class SpinElement : public ForceElement {

@@ -3,13 +3,9 @@
 // Kinematics of the ideal slider-crank with rigid parts and no clearances, at constant speed.
 #include <Eigen/Core>
 
-namespace clatter::dynamics {
+#include "dynamics/given/motion.hpp"
 
-/// A quantity with its first and second derivative in time.
-template <class T>
-struct Motion {
-  T position, velocity, acceleration;
-};
+namespace clatter::dynamics {
 
 /// Crank of radius r at (0, 0), rod of length l, piston pin on the line y = e.
 ///

@@ -23,9 +23,12 @@ double state_limit(const ModalBody& body, int mode, const Limits& limits,
                    const Accuracy& accuracy) {
   const double scale = body.state_scale(mode);
   switch (body.state_error[static_cast<size_t>(mode)]) {
-    case StateError::kRotation: return scale * limits.displacement / accuracy.arm;
-    case StateError::kSpin: return scale * limits.velocity / accuracy.arm;
-    default: return scale * accuracy.tolerance;
+    case StateError::kRotation:
+      return scale * limits.displacement / accuracy.arm;
+    case StateError::kSpin:
+      return scale * limits.velocity / accuracy.arm;
+    default:
+      return scale * accuracy.tolerance;
   }
 }
 
@@ -33,8 +36,11 @@ double state_limit(const ModalBody& body, int mode, const Limits& limits,
 
 ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
   const int n = system.interface_size();
-  ErrorWeights w{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),
-                 Eigen::VectorXd::Zero(system.modes()), Eigen::VectorXd::Zero(system.modes()), {}};
+  ErrorWeights w{Eigen::VectorXd::Zero(n),
+                 Eigen::VectorXd::Zero(n),
+                 Eigen::VectorXd::Zero(system.modes()),
+                 Eigen::VectorXd::Zero(system.modes()),
+                 {}};
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
     const Limits limits = limits_of(body, accuracy);
@@ -53,12 +59,11 @@ ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
       Eigen::Index state = 0;
       P.cwiseAbs().maxCoeff(&state);
       if (body.is_state(static_cast<int>(state))) {
-        w.displacement(y) =
-            1.0 / (std::abs(P(state)) *
-                   state_limit(body, static_cast<int>(state), limits, accuracy));
+        w.displacement(y) = 1.0 / (std::abs(P(state)) *
+                                   state_limit(body, static_cast<int>(state), limits, accuracy));
         continue;
       }
-      const double per_metre = system.mode_of(y) >= 0      ? 1.0 / root
+      const double per_metre = system.mode_of(y) >= 0  ? 1.0 / root
                                : system.is_rotation(y) ? accuracy.arm
                                                        : 1.0;
       w.displacement(y) = per_metre / limits.displacement;

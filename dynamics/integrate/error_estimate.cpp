@@ -25,17 +25,18 @@ void ErrorEstimate::add(double dt, const Eigen::VectorXd& e_eta, const Eigen::Ve
     velocity_.assign(bodies, 0.0);
   }
   ++steps_;
-  const Eigen::ArrayXd fade = (-0.5 * dt * system_->damping().array()).exp();
-  const Eigen::ArrayXd local =
-      (e_v.array().square() + system_->omega_squared().array() * e_eta.array().square()).sqrt();
-  const Eigen::VectorXd& moving = system_->inertia();
-  sums_ = (sums_.array() * fade + moving.array() * local).matrix();
-  const Eigen::VectorXd velocity = moving.cwiseProduct(v);
+  const auto &damping = system_->damping(), &inertia = system_->inertia(),
+             &omega_squared = system_->omega_squared();
+  for (Eigen::Index k = 0; k < sums_.size(); ++k) {
+    const double local = std::sqrt(e_v(k) * e_v(k) + omega_squared(k) * e_eta(k) * e_eta(k));
+    sums_(k) = sums_(k) * std::exp(-0.5 * dt * damping(k)) + inertia(k) * local;
+  }
   for (size_t b = 0; b < bodies; ++b) {
     const int first = system_->mode_offset(static_cast<int>(b));
     const int count = system_->bodies()[b].modes();
     largest_[b] = std::max(largest_[b], sums_.segment(first, count).norm());
-    velocity_[b] = std::max(velocity_[b], velocity.segment(first, count).norm());
+    const double speed = v.segment(first, count).cwiseProduct(inertia.segment(first, count)).norm();
+    velocity_[b] = std::max(velocity_[b], speed);
   }
 }
 

@@ -63,9 +63,9 @@ std::optional<double> EventSearch::root(const Function& function, const StageSta
   // Positive on the side where the function is.
   const auto g = [&](double t) {
     if (t >= 1.0) return function.side * value(function, to.time, to.y, to.v_y);
-    return function.side *
-           value(function, from.time + t * h, hermite(from.y, from.v_y, to.y, to.v_y, h, t),
-                 hermite_rate(from.y, from.v_y, to.y, to.v_y, h, t));
+    return function.side * value(function, from.time + t * h,
+                                 hermite(from.y, from.v_y, to.y, to.v_y, h, t),
+                                 hermite_rate(from.y, from.v_y, to.y, to.v_y, h, t));
   };
   const auto bisect = [&](double low, double high) {
     for (int i = 0; i < kHalvings; ++i) {

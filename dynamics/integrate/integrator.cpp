@@ -44,7 +44,9 @@ Integrator::Integrator(System& system, const StepOptions& options)
       estimate_(system),
       events_(system) {}
 
-double Integrator::ladder_step(int rung) const { return options_.largest * std::pow(2.0, -0.5 * rung); }
+double Integrator::ladder_step(int rung) const {
+  return options_.largest * std::pow(2.0, -0.5 * rung);
+}
 
 int Integrator::rung_for(double dt) const {
   // The longest rung not above dt; the small excess keeps exact values on their rung.
@@ -73,9 +75,8 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
   const VectorXd y_guess = system_.interface(eta);
   if (!solver_.solve(stage, *op, eta, v, y_guess, now_)) {
     const auto& last = solver_.last();
-    throw NumericsError(
-        fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
-                    last.kind.empty() ? "Newton did not converge" : last.reason()));
+    throw NumericsError(fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
+                                    last.kind.empty() ? "Newton did not converge" : last.reason()));
   }
   system_.finish_stage(stage);
   system_.accept_step(now_.time);

@@ -45,10 +45,10 @@ class StageObserver {
 /// Integrates a System in error-controlled steps dt = largest 2^(-k/2).
 ///
 /// A step is accepted when the largest error over its limit (Accuracy) is at most 1. After an error
-/// rejection the next step is 0.9 / error^(1/3) of this one (all methods are of second order); after
-/// a Newton failure or refusal it is halved and may not grow for some steps, twice as many after
-/// each consecutive failure (hard case T4). Below `smallest` a NumericsError names the coordinate
-/// and its elements.
+/// rejection the next step is 0.9 / error^(1/3) of this one (all methods are of second order);
+/// after a Newton failure or refusal it is halved and may not grow for some steps, twice as many
+/// after each consecutive failure (hard case T4). Below `smallest` a NumericsError names the
+/// coordinate and its elements.
 class Integrator {
  public:
   virtual ~Integrator() = default;

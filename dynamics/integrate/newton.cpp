@@ -93,8 +93,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       break;
     }
     if (size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y)) &&
-        (refresh || size <= kSlow * previous ||
-         limits(residual_ -= dy_).value <= kUnchecked)) {
+        (refresh || size <= kSlow * previous || limits(residual_ -= dy_).value <= kUnchecked)) {
       system_.add_tangent_forces(dy_, f);
       result.outcome = Outcome::kConverged;
       return result;

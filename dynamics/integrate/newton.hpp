@@ -55,7 +55,7 @@ class StageNewton {
   StepStatistics& statistics_;
   StageMatrix matrix_;
   Eigen::VectorXd v_, residual_, dy_;  // n_y, of the current iteration
-  double kappa_ = 0.0;  // of the kept matrix; 0: none
+  double kappa_ = 0.0;                 // of the kept matrix; 0: none
 };
 
 }  // namespace clatter::dynamics

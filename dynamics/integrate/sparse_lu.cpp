@@ -30,9 +30,8 @@ struct SparseLu::Impl {
     klu_defaults(&common);
     symbolic = klu_analyze(size(), starts.data(), rows.data(), &common);
     if (symbolic == nullptr)
-      throw NumericsError(
-          fmt::format("analysis of a sparse matrix of {} rows failed: KLU status {}", size(),
-                      common.status));
+      throw NumericsError(fmt::format(
+          "analysis of a sparse matrix of {} rows failed: KLU status {}", size(), common.status));
   }
   ~Impl() {
     forget();

@@ -18,7 +18,7 @@ class SparseLu {
   SparseLu& operator=(SparseLu&&) noexcept;
 
   int size() const;
-  int nonzeros() const;        // of the matrix
+  int nonzeros() const;         // of the matrix
   int factor_nonzeros() const;  // of L and U, after the first factorisation
 
   /// Factors a matrix with these values, in the order of the pattern's rows. Pivots of the last

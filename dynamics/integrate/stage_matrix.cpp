@@ -120,7 +120,8 @@ void StageMatrix::list_touched() {
   body_rows_.assign(system_->bodies().size(), {});
   int next = 0;
   for (size_t b = 0; b < body_rows_.size(); ++b) {
-    const int first = first_[b], count = static_cast<int>(system_->rows(static_cast<int>(b)).size());
+    const int first = first_[b],
+              count = static_cast<int>(system_->rows(static_cast<int>(b)).size());
     for (int i = 0; i < count; ++i) {
       if (is_touched[static_cast<size_t>(first + i)] == 0) continue;
       dense_row_[static_cast<size_t>(first + i)] = next++;
@@ -131,21 +132,24 @@ void StageMatrix::list_touched() {
 }
 
 /// S T of one part in some rows of its body.
-const MatrixXd& StageMatrix::product(const Part& part, const StageOperator& op,
-                                     const std::vector<int>& body_rows) {
+Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part, const StageOperator& op,
+                                                const std::vector<int>& body_rows) {
   const MatrixXd& S = op.S(part.body);
   const MatrixXd& T = system_->response(part.element).tangent;
-  const auto k = static_cast<Index>(part.rows.size());
-  S_part_.resize(static_cast<Index>(body_rows.size()), k);
-  T_part_.resize(k, T.cols());
+  const auto view = [](std::vector<double>& memory, Index rows, Index columns) {
+    memory.resize(static_cast<size_t>(rows * columns));
+    return Eigen::Map<MatrixXd>(memory.data(), rows, columns);
+  };
+  const auto k = static_cast<Index>(part.rows.size()), n = static_cast<Index>(body_rows.size());
+  auto S_part = view(S_part_, n, k), T_part = view(T_part_, k, T.cols()),
+       ST = view(product_, n, T.cols());
   for (Index j = 0; j < k; ++j) {
     const auto column = S.col(part.body_rows[static_cast<size_t>(j)]);
-    for (size_t i = 0; i < body_rows.size(); ++i)
-      S_part_(static_cast<Index>(i), j) = column(body_rows[i]);
-    T_part_.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
+    for (Index i = 0; i < n; ++i) S_part(i, j) = column(body_rows[static_cast<size_t>(i)]);
+    T_part.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
   }
-  product_.noalias() = S_part_ * T_part_;
-  return product_;
+  ST.noalias() = S_part * T_part;
+  return {product_.data(), n, T.cols()};
 }
 
 bool StageMatrix::form(const StageOperator& op) {
@@ -158,9 +162,9 @@ bool StageMatrix::form_dense(const StageOperator& op) {
   dense_.setIdentity();
   for (const Part& part : parts_) {
     const auto& rows = body_rows_[static_cast<size_t>(part.body)];
-    const MatrixXd& ST = product(part, op, rows);
-    const int first = dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] +
-                                                     rows.front())];
+    const auto ST = product(part, op, rows);
+    const int first =
+        dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] + rows.front())];
     for (Index j = 0; j < ST.cols(); ++j) {
       const int column = dense_row_[static_cast<size_t>(part.columns[static_cast<size_t>(j)])];
       dense_.col(column).segment(first, ST.rows()) -= ST.col(j);
@@ -193,11 +197,9 @@ void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
   if (position_.empty()) return;
   if (sparse_) {
     right_.resize(x.size());
-    for (size_t y = 0; y < position_.size(); ++y)
-      right_(position_[y]) = x(static_cast<Index>(y));
+    for (size_t y = 0; y < position_.size(); ++y) right_(position_[y]) = x(static_cast<Index>(y));
     sparse_->solve(right_.data());
-    for (size_t y = 0; y < position_.size(); ++y)
-      x(static_cast<Index>(y)) = right_(position_[y]);
+    for (size_t y = 0; y < position_.size(); ++y) x(static_cast<Index>(y)) = right_(position_[y]);
     return;
   }
   right_.resize(dense_.rows());

@@ -51,8 +51,8 @@ class StageMatrix {
   void list_touched();
   bool form_dense(const StageOperator& op);
   bool form_sparse(const StageOperator& op);
-  const Eigen::MatrixXd& product(const Part& part, const StageOperator& op,
-                                 const std::vector<int>& body_rows);
+  Eigen::Map<const Eigen::MatrixXd> product(const Part& part, const StageOperator& op,
+                                            const std::vector<int>& body_rows);
 
   const System* system_;
   std::vector<int> position_;  // of a y in J: bodies one after the other
@@ -68,7 +68,8 @@ class StageMatrix {
   std::vector<std::vector<int>> body_rows_;  // per body: its touched rows
   std::vector<int> dense_row_;               // per position: its row in dense_; -1: not touched
   bool everything_ = false;                  // is touched, as in the form before
-  Eigen::MatrixXd dense_, S_part_, T_part_, product_;
+  Eigen::MatrixXd dense_;
+  std::vector<double> S_part_, T_part_, product_;  // matrices of one part
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   mutable Eigen::VectorXd right_, solved_, forces_, moved_;
 };

@@ -40,7 +40,8 @@ void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {
     if (rows.empty()) continue;
     gather(f, rows, in_[b]);
     out_[b].noalias() = S_[b] * in_[b];
-    for (size_t i = 0; i < rows.size(); ++i) result(rows[i]) = out_[b](static_cast<Eigen::Index>(i));
+    for (size_t i = 0; i < rows.size(); ++i)
+      result(rows[i]) = out_[b](static_cast<Eigen::Index>(i));
   }
 }
 

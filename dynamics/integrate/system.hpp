@@ -113,9 +113,9 @@ class System {
   std::vector<Load> loads_;
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
-  std::vector<Response> responses_;           // per element
+  std::vector<Response> responses_;                   // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
-  mutable std::vector<Eigen::VectorXd> part_;  // per body: its rows
+  mutable std::vector<Eigen::VectorXd> part_;         // per body: its rows
 };
 
 /// Picks entries of a vector.

@@ -46,8 +46,8 @@ inline const Tableau& sdirk2() {
 
 /// The trapezoidal rule, corrector of predictor_corrector.hpp.
 inline const Tableau& predictor_corrector() {
-  static const Tableau table{"predictor-corrector", 1, 1.0, 0.5, 0.0, 0.0, 0.5,
-                             {0.5, 0.5, 0.0},       {0.5, 0.5, 0.0}};
+  static const Tableau table{"predictor-corrector", 1, 1.0, 0.5, 0.0, 0.0, 0.5, {0.5, 0.5, 0.0},
+                             {0.5, 0.5, 0.0}};
   return table;
 }
 

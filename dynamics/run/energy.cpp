@@ -31,7 +31,8 @@ EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {
   flow.kinetic = 0.5 * state.v.dot(system_.inertia().cwiseProduct(state.v));
   flow.strain = 0.5 * state.eta.dot(system_.omega_squared().cwiseProduct(state.eta));
   const auto& second_order = system_.second_order();
-  flow.powers[0] = -(state.v.array().square() * system_.damping().array() * second_order.array()).sum();
+  flow.powers[0] =
+      -(state.v.array().square() * system_.damping().array() * second_order.array()).sum();
   for (size_t l = 0; l < system_.loads().size(); ++l) {
     const Load& load = system_.loads()[l];
     const auto v = state.v.segment(system_.mode_offset(load.body), load.direction.size());

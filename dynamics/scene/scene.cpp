@@ -149,9 +149,10 @@ void read_steps(const Config& root, Scene& scene) {
   const double largest_us =
       scene.engine ? turn / 360.0 / kMicro : (scene.time.end - scene.time.begin) / 100.0 / kMicro;
   const Config time = root.table("time");
-  const std::string method = scene.contact && scene.contact->effects.film
-                                 ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
-                                 : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
+  const std::string method =
+      scene.contact && scene.contact->effects.film
+          ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
+          : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
   for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
     if (known->name == method) scene.steps.method = known;
   scene.steps.largest = time.number_or("largest_step_us", largest_us, Range::positive()) * kMicro;

@@ -130,13 +130,15 @@ TEST(Events, ImpactsThatAccumulateWithoutAModeForItEndTheRun) {
     FAIL() << "expected a NumericsError";
   } catch (const NumericsError& error) {
     const std::string said = error.what();
-    EXPECT_NE(said.find("events of floor follow each other without end"), std::string::npos) << said;
+    EXPECT_NE(said.find("events of floor follow each other without end"), std::string::npos)
+        << said;
     EXPECT_NE(said.find("time 0.0428"), std::string::npos) << said;
   }
 }
 
 TEST(Events, TwoInOneStepAreBothTakenInTheirOrder) {
-  // Two masses that fall from heights of which the second is reached 1e-6 s, or 0 s, after the first.
+  // Two masses that fall from heights of which the second is reached 1e-6 s, or 0 s, after the
+  // first.
   for (const double delay : {1e-6, 0.0}) {
     System system;
     Floor* floors[2];

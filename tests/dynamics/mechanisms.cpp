@@ -30,7 +30,7 @@ Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 Andrews::Andrews(double stiffness, double damping) {
   // Rotations of the bodies, and unit vectors along (c) and across (s) each.
-  const double turn[7] = {kBeta,  kBeta + kTheta,   kGamma,  kPhi + kDelta,
+  const double turn[7] = {kBeta,  kBeta + kTheta,    kGamma,  kPhi + kDelta,
                           kDelta, kOmega + kEpsilon, kEpsilon};
   Vector2d c[7], s[7];
   for (int k = 0; k < 7; ++k) {
@@ -50,8 +50,7 @@ Andrews::Andrews(double stiffness, double damping) {
     PlanarMotion start;
     start.centre = centre[k];
     start.angle = turn[k];
-    bodies.push_back(
-        add_planar(system, "K" + std::to_string(k + 1), kMass[k], kInertia[k], start));
+    bodies.push_back(add_planar(system, "K" + std::to_string(k + 1), kMass[k], kInertia[k], start));
   }
   // A point of a body, given where it is at the start.
   const auto point = [&](int k, const Vector2d& at) -> std::unique_ptr<Port> {
@@ -63,8 +62,8 @@ Andrews::Andrews(double stiffness, double damping) {
     return std::make_unique<GroundPort>(Vector3d(at.x(), at.y(), 0.0));
   };
   const auto join = [&](std::unique_ptr<Port> one, std::unique_ptr<Port> other) {
-    system.add_element(std::make_unique<Bushing>("joint", std::move(one), std::move(other),
-                                                 stiffness, damping));
+    system.add_element(
+        std::make_unique<Bushing>("joint", std::move(one), std::move(other), stiffness, damping));
   };
   const Vector2d crank = kRr * c[0], fork = crank - kD * c[1];
   join(point(0, {0.0, 0.0}), ground({0.0, 0.0}));
@@ -77,9 +76,8 @@ Andrews::Andrews(double stiffness, double damping) {
   join(point(6, a), ground(a));
   join(point(3, a + kZt * c[4]), point(4, a + kZt * c[4]));
   join(point(5, a - kU * s[6]), point(6, a - kU * s[6]));
-  system.add_element(std::make_unique<LineSpring>(
-      "spring", point(2, b + kSd * c[2] - kSc * s[2]), ground(spring_end), kSpring, 0.0,
-      kL0));
+  system.add_element(std::make_unique<LineSpring>("spring", point(2, b + kSd * c[2] - kSc * s[2]),
+                                                  ground(spring_end), kSpring, 0.0, kL0));
   system.add_element(std::make_unique<Moment>(bodies[0][2], kMoment));
 }
 

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 /// A point mass on springs in a frame: its displacement (x, y, z) in the frame, from `place`.
 struct MassOnSprings {
   double mass = 2.0;
-  Vector3d place{0.3, 0.0, 0.0};    // [m]
+  Vector3d place{0.3, 0.0, 0.0};     // [m]
   Vector3d omega{50.0, 70.0, 90.0};  // own angular frequencies along x, y, z [rad/s]
 
   ModalBody body() const {
@@ -92,7 +92,8 @@ TEST(MovingFrame, AFreeMassMovesStraightWhateverItsFrameDoes) {
   // Without springs the mass keeps its velocity in space: an oracle that knows no inertia force.
   MassOnSprings one;
   one.omega.setConstant(1e-6);
-  const double W = 3.0, A = 2.0;  // spin W + A t about z, origin accelerates with (1, 0.5, 0) in space
+  const double W = 3.0,
+               A = 2.0;  // spin W + A t about z, origin accelerates with (1, 0.5, 0) in space
   const auto angle = [=](double t) { return W * t + 0.5 * A * t * t; };
   const Vector3d a(1.0, 0.5, 0.25);
   const auto motion = [=](double t) {
@@ -108,7 +109,8 @@ TEST(MovingFrame, AFreeMassMovesStraightWhateverItsFrameDoes) {
   // In space: start at place with velocity rate + W x place; the origin is at a t^2 / 2.
   const Vector3d v = rate + Vector3d(0.0, 0.0, W).cross(one.place);
   const Vector3d in_space = one.place + v * end - 0.5 * a * end * end;
-  const Vector3d expected = Eigen::AngleAxisd(-angle(end), Vector3d::UnitZ()) * in_space - one.place;
+  const Vector3d expected =
+      Eigen::AngleAxisd(-angle(end), Vector3d::UnitZ()) * in_space - one.place;
   EXPECT_LT((found - expected).norm(), 2e-5 * expected.norm());
 }
 
@@ -123,7 +125,8 @@ TEST(MovingFrame, WithoutRotationItIsEquationTen) {
   };
   const auto invariants = one.invariants();
   for (const double t : {0.01, 0.5}) {
-    const Vector3d p = invariants.force(shaking(t), Vector3d(1.0, 2.0, 3.0), Vector3d(4.0, 5.0, 6.0));
+    const Vector3d p =
+        invariants.force(shaking(t), Vector3d(1.0, 2.0, 3.0), Vector3d(4.0, 5.0, 6.0));
     EXPECT_LT((p + std::sqrt(one.mass) * std::sin(40.0 * t) * a).norm(), 1e-15);
   }
   double residue = 1.0;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "dynamics/force/rotation.hpp"
+#include "dynamics/run/energy.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 
 namespace clatter::dynamics {
@@ -147,8 +148,10 @@ Tumbling tumble(double tolerance, double turns) {
 
 TEST(RigidBody, FreeRotationKeepsEnergyAndMomentumAsTheToleranceSays) {
   const Tumbling coarse = tumble(1e-3, 20.0), fine = tumble(1e-5, 20.0);
-  std::printf("20 turns, tolerance 1e-3 / 1e-5: energy %.2e / %.2e, momentum %.2e / %.2e, %lld / %lld steps\n",
-              coarse.energy, fine.energy, coarse.momentum, fine.momentum, coarse.steps, fine.steps);
+  std::printf(
+      "20 turns, tolerance 1e-3 / 1e-5: energy %.2e / %.2e, momentum %.2e / %.2e, %lld / %lld "
+      "steps\n",
+      coarse.energy, fine.energy, coarse.momentum, fine.momentum, coarse.steps, fine.steps);
   EXPECT_LT(fine.energy, 1e-3);
   EXPECT_LT(fine.energy, 0.1 * coarse.energy);
   EXPECT_LT(fine.momentum, 1e-3);
@@ -195,12 +198,91 @@ TEST(RigidBody, SteadyTopPrecessesAtTheRateOfTheory) {
   EXPECT_NEAR(std::acos(axis.z()), a, 1e-3);
 }
 
+/// The angle of a rod of 1 kg on a crank pin that circles, held by a spring, over half a second.
+/// @param flywheel moment of inertia of a crank that turns freely; 0: its rotation is prescribed.
+std::vector<double> rod_angles(double flywheel, double* residue = nullptr) {
+  const double radius = 0.05, half = 0.1, speed = 20.0;
+  const Eigen::Vector2d pin(radius, 0.0);
+  System system;
+  PlanarMotion start;
+  start.centre = {radius, -half};
+  start.angle = -std::numbers::pi / 2;
+  start.velocity = {0.0, radius * speed};
+  const auto rod = testing::add_planar(system, "rod", 1.0, 1.0 * half * half / 3.0, start);
+  const auto of_rod = [&](double arm) -> std::unique_ptr<Port> {
+    return std::make_unique<PlanarPort>(rod, Eigen::Vector2d(arm, 0.0));
+  };
+  std::unique_ptr<Port> crank_pin;
+  if (flywheel > 0.0) {
+    PlanarMotion turning;
+    turning.spin = speed;
+    const auto crank = testing::add_planar(system, "crank", 50.0, flywheel, turning);
+    system.add_element(std::make_unique<Bushing>(
+        "bearing", std::make_unique<PlanarPort>(crank, Eigen::Vector2d::Zero()),
+        std::make_unique<GroundPort>(Vector3d::Zero()), 1e9, 1e4));
+    crank_pin = std::make_unique<PlanarPort>(crank, pin);
+  } else {
+    crank_pin = std::make_unique<DrivenPort>(Drive(speed), Vector3d::Zero(),
+                                             Vector3d(radius, 0.0, 0.0), Vector3d::UnitZ());
+  }
+  system.add_element(
+      std::make_unique<Bushing>("pin", std::move(crank_pin), of_rod(-half), 1e8, 1e3));
+  system.add_element(std::make_unique<LineSpring>(
+      "spring", of_rod(half), std::make_unique<GroundPort>(Vector3d(0.3, -0.4, 0.0)), 200.0, 0.5,
+      0.1));
+  EnergyBalance energy(system);
+  StepOptions options;
+  options.largest = 1e-3;
+  options.first = 1e-9;
+  options.accuracy = {1e-5, 1e-3, 0.1, 0.1};
+  const auto method = make_integrator(system, options);
+  method->set_observer(&energy);
+  method->start(-options.first, system.eta_start(), system.v_start());
+  std::vector<double> angles;
+  for (int k = 1; k <= 50; ++k) {
+    while (method->state().time < 0.01 * k) method->step(0.01 * k);
+    angles.push_back(method->state().y(rod[2]));
+  }
+  if (residue != nullptr) *residue = energy.residue();
+  return angles;
+}
+
+TEST(Drive, AFreeCrankTendsToThePrescribedOneAsItsFlywheelGrows) {
+  double residue = 1.0;
+  const auto prescribed = rod_angles(0.0, &residue);
+  EXPECT_LT(residue, 1e-4);
+  double before = 0.0;
+  for (const double flywheel : {1.0, 10.0, 100.0, 1000.0}) {
+    const auto found = rod_angles(flywheel);
+    double worst = 0.0;
+    for (size_t k = 0; k < found.size(); ++k)
+      worst = std::max(worst, std::abs(found[k] - prescribed[k]));
+    std::printf("flywheel %6.0f kg m2: %.2e rad from the prescribed crank\n", flywheel, worst);
+    // The speed that the rod takes from the crank is in inverse proportion to the flywheel.
+    EXPECT_LT(worst, before > 0.0 ? 0.2 * before : 1.0) << flywheel;
+    before = worst;
+  }
+}
+
+TEST(Drive, OrdersAddToTheSpeedAndTheAngleIsItsIntegral) {
+  const Drive drive(100.0, 0.3, {{1.5, 4.0, 0.7}, {3.0, 1.0, -0.2}});
+  EXPECT_DOUBLE_EQ(drive.at(0.0).position, 0.3);
+  const double h = 1e-5;
+  for (const double t : {0.0, 0.013, 0.4}) {
+    const auto at = drive.at(t), low = drive.at(t - h), high = drive.at(t + h);
+    EXPECT_NEAR(at.velocity, 100.0 + 4.0 * std::cos(150.0 * t + 0.7) + std::cos(300.0 * t - 0.2),
+                1e-12);
+    EXPECT_NEAR(at.velocity, (high.position - low.position) / (2.0 * h), 1e-5);
+    EXPECT_NEAR(at.acceleration, (high.velocity - low.velocity) / (2.0 * h), 1e-3);
+  }
+}
+
 /// The largest error of the seven angles of Andrews' mechanism at 0.03 s.
 double andrews_error(const Tableau& method, double stiffness, double tolerance,
                      StepStatistics* statistics = nullptr) {
   // Test Set for IVP Solvers (release 2.4), problem ANDREWS.
-  const double reference[7] = {0.1581077119629904e2,  -0.1575637105984298e2, 0.4082224013073101e-1,
-                               -0.5347301163226948,   0.5244099658805304,    0.5347301163226948,
+  const double reference[7] = {0.1581077119629904e2, -0.1575637105984298e2, 0.4082224013073101e-1,
+                               -0.5347301163226948,  0.5244099658805304,    0.5347301163226948,
                                0.1048080741042263e1};
   testing::Andrews mechanism(stiffness, 1e4);
   StepOptions options;
@@ -219,7 +301,8 @@ double andrews_error(const Tableau& method, double stiffness, double tolerance,
 
 TEST(Andrews, JointsOfStiffBushingsTendToTheIdealMechanism) {
   // The joints' give is an error of the first order in 1 / k: 1.9e-2 rad of 15.8 at 1e8 N/m.
-  const double soft = andrews_error(tr_bdf2(), 1e8, 1e-6), stiff = andrews_error(tr_bdf2(), 1e10, 1e-6);
+  const double soft = andrews_error(tr_bdf2(), 1e8, 1e-6),
+               stiff = andrews_error(tr_bdf2(), 1e10, 1e-6);
   EXPECT_NEAR(soft / stiff, 100.0, 70.0);
 }
 

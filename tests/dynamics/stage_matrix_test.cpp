@@ -26,8 +26,7 @@ std::unique_ptr<System> chain(int links, bool closed) {
     at.push_back(testing::add_planar(*system, "link", 2.0, 0.5, start));
   }
   const auto join = [&](std::unique_ptr<Port> a, std::unique_ptr<Port> b) {
-    system->add_element(
-        std::make_unique<Bushing>("joint", std::move(a), std::move(b), 1e4, 10.0));
+    system->add_element(std::make_unique<Bushing>("joint", std::move(a), std::move(b), 1e4, 10.0));
   };
   const auto end = [&](int k, double arm) -> std::unique_ptr<Port> {
     return std::make_unique<PlanarPort>(at[static_cast<size_t>(k)], Eigen::Vector2d(arm, 0.0));
@@ -80,7 +79,8 @@ class FewSprings : public ForceElement {
   FewSprings(std::vector<int> coordinates, std::vector<int> touched)
       : ForceElement(std::move(coordinates)), touched_(std::move(touched)) {}
   std::string name() const override { return "springs"; }
-  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool, Response& response) override {
+  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool,
+                Response& response) override {
     const auto n = static_cast<Eigen::Index>(touched_.size());
     response.touched = touched_;
     response.tangent = -MatrixXd::Identity(n, n) * 3.0 - MatrixXd::Ones(n, n);
@@ -104,7 +104,8 @@ TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
   body.name = "plate";
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
-  body.shapes = MatrixXd::NullaryExpr(n, n, [&](Eigen::Index, Eigen::Index) { return number(engine); });
+  body.shapes =
+      MatrixXd::NullaryExpr(n, n, [&](Eigen::Index, Eigen::Index) { return number(engine); });
   body.omega_squared = VectorXd::LinSpaced(n, 1.0, 9.0);
   body.damping = VectorXd::Zero(n);
   body.inertia = VectorXd::Ones(n);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The step loop takes no memory: every allocation of the program is counted.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "tests/dynamics/fixtures.hpp"
+#include "tests/dynamics/mechanisms.hpp"
+
+#ifndef __SANITIZE_ADDRESS__  // which has an allocator of its own
+
+namespace {
+
+std::atomic<bool> counting{false};
+std::atomic<long> allocations{0};
+
+void count() {
+  if (counting.load(std::memory_order_relaxed)) allocations.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* old, size_t size);
+
+// Take the place of the C library's functions for all of the program.
+void* malloc(size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(size_t number, size_t size) {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* old, size_t size) {
+  count();
+  return __libc_realloc(old, size);
+}
+}
+
+namespace clatter::dynamics {
+namespace {
+
+/// Runs `steps` accepted steps after as many before them. Memory is taken for operators of step
+/// sizes that are new, less than 16 times each, and for nothing else.
+void expect_no_allocations(Integrator& method, int steps) {
+  for (int i = 0; i < steps; ++i) method.step(1e9);
+  const long long operators = method.statistics().operators;
+  allocations = 0;
+  counting = true;
+  for (int i = 0; i < steps; ++i) method.step(1e9);
+  counting = false;
+  const long long formed = method.statistics().operators - operators;
+  EXPECT_LE(allocations, 16 * formed);
+  EXPECT_LE(formed, 20);
+}
+
+TEST(Allocation, TheCounterCounts) {
+  counting = true;
+  allocations = 0;
+  Eigen::VectorXd taken(1000);
+  counting = false;
+  taken.setZero();
+  EXPECT_GE(allocations, 1);
+}
+
+class StepLoop : public ::testing::TestWithParam<const Tableau*> {};
+INSTANTIATE_TEST_SUITE_P(Allocation, StepLoop,
+                         ::testing::Values(&tr_bdf2(), &sdirk2(), &predictor_corrector()),
+                         [](const auto& info) {
+                           std::string name = info.param->name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(StepLoop, TakesNoMemoryForBodiesInContact) {
+  System system;
+  const int y = system.coordinate(system.add_body(testing::point_mass(1.0)), 0);
+  system.add_element(std::make_unique<testing::Wall>(y, 0.0, 1e6, 0.0, 1.0));
+  testing::push(system, [](double) { return 10.0; });
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 1e-4;
+  const auto method = make_integrator(system, options);
+  method->start(0.0, testing::vector(-1e-4), testing::vector(0.0));
+  expect_no_allocations(*method, 2000);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForMechanismsAndChains) {
+  testing::Andrews mechanism(1e8, 1e4);
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 1e-5;
+  options.first = 1e-9;
+  options.smallest = 1e-13;
+  options.accuracy = {1e-4, 1e-3, 1.0, 1e-3};
+  const auto method = testing::started(mechanism.system, options);
+  expect_no_allocations(*method, 300);
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
+
+#endif
