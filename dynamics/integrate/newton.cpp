@@ -29,6 +29,8 @@ constexpr double kSlow = 0.3;
 constexpr double kUnchecked = 1e-3;
 /// Units in the last place of y below which an increment is rounding: a few operations.
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+/// No earlier increment by the same matrix.
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -58,7 +60,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     f.resize(0);
     return {Outcome::kConverged, "", "", -1};
   }
-  double previous = std::numeric_limits<double>::infinity();
+  double previous = kNone;
   bool refresh = kappa_ != op.kappa();
   int fresh = 0;
   for (int iteration = 0; iteration < kMaxIterations && fresh + refresh <= kMaxFresh; ++iteration) {
@@ -78,7 +80,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
         break;
       }
       ++fresh;
-      previous = std::numeric_limits<double>::infinity();  // norms by two matrices do not compare
+      previous = kNone;  // norms by two matrices do not compare
     }
     op.apply_S(f, residual_);
     residual_ += y_pred - y;
@@ -92,15 +94,17 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       result.kind = "the forces are not finite";
       break;
     }
+    const bool slow = size > kSlow * previous;
+    const bool checked = refresh || (previous < kNone && !slow);
     if (size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y)) &&
-        (refresh || size <= kSlow * previous || limits(residual_ -= dy_).value <= kUnchecked)) {
+        (checked || limits(residual_ -= dy_).value <= kUnchecked)) {
       system_.add_tangent_forces(dy_, f);
       result.outcome = Outcome::kConverged;
       return result;
     }
     y += dy_;
     // Once one matrix failed for two states of this stage, each state gets its own.
-    refresh = refresh ? fresh > 1 : size > kSlow * previous;
+    refresh = refresh ? fresh > 1 : slow;
     previous = size;
   }
   forget();
