@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "dynamics/film/pad_state.hpp"
@@ -35,6 +36,10 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
       bodies_(std::move(bodies)) {
   check();
   const ContactEffects& on = options_.effects;
+  if (!on.cavitation) {  // every cell is full: no setting of partial filling applies
+    options_.initial_fill = options_.supply_fill = 1.0;
+    options_.oil_thickness = std::numeric_limits<double>::infinity();
+  }
   if (on.film) rough_ = std::make_unique<RoughFilm>(options_.roughness);
   if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
   n_piston_ =
