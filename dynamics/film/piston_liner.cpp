@@ -162,9 +162,8 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
         options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
   rough_->thicknesses(pad.gap, pad.film->cells);
-  pad.film->content =
-      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness);
-  for (Eigen::ArrayXd& rate : pad.film->rates) rate.setZero();
+  pad.film->oil.start(
+      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness));
 }
 
 void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
@@ -174,13 +173,12 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
     throw dynamics::StepRefused(
         fmt::format("{}: gap {:.3g} m on the {} pad", options_.name, lowest, pad.name));
   rough_->thicknesses(pad.gap, film.cells);
-  film.before = film.content;
-  for (size_t j = 0; j < stage.weights.size(); ++j) film.before += stage.weights[j] * film.rates[j];
   // The liner slides past the grid at -U: the mean wall velocity is half of that.
   FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
-  if (running_) inner.fill_before = &film.fill;
+  if (running_) inner.fill_before = &film.oil.fill();
   try {
-    film_solves_ += film.reynolds.solve(film.cells, film.before, inner);
+    film_solves_ +=
+        film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": " + error.what());
   }
