@@ -132,7 +132,7 @@ void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
-  stroke_ = bodies_.stroke(stage.time);
+  stroke_ = stroke_at(stage);
   response.force.setZero(n_total_);
   if (with_tangent) response.tangent.setZero(n_total_, n_total_);
   for (const auto& owned : pads_) {

@@ -13,7 +13,22 @@ void PistonLiner::begin_step(double) {
     if (pad->film) pad->film->oil.begin_step();
 }
 
+// z_B is integrated by the tableau as y is, from its exact value at the start of the step. The
+// pressure of a full film follows from dh/dt; the difference of two exact gaps would be the rate at
+// another instant, and with SDIRK2 the pressure only of first order.
+StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
+  double elapsed = stage.kappa;
+  for (double weight : stage.weights) elapsed += weight;
+  const StrokeState start = bodies_.stroke(stage.time - elapsed);
+  StrokeState now = bodies_.stroke(stage.time);
+  now.position = start.position + stage.kappa * now.velocity;
+  for (size_t j = 0; j < stage.weights.size(); ++j)
+    now.position += stage.weights[j] * (j == 0 ? start.velocity : stroke_rates_.at(j));
+  return now;
+}
+
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
+  stroke_rates_.at(static_cast<size_t>(stage.index)) = bodies_.stroke(stage.time).velocity;
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
