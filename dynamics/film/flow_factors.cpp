@@ -47,6 +47,8 @@ const auto& find_row(const Table& table, double peklenik, const char* what) {
   refuse(table, peklenik, what);
 }
 
+double lowest_of_row(double peklenik) { return peklenik < 1.0 ? 1.0 : 0.5; }
+
 // Even moments of the density 35/32 (1 - t^2)^3 on (-1, 1): m_k = m_{k-1} (2k - 1) / (2k + 7).
 ValueSlope inverse_gap_series(double z) {
   double moment = 1.0, power = 1.0 / z;
@@ -70,10 +72,15 @@ ValueSlope mean_gap(double h, double sigma) {
   return {h * free_share + sigma * density, free_share};
 }
 
+double lowest_ratio(double peklenik) {
+  return lowest_of_row(find_row(kPressureTable, peklenik, "flow factors").peklenik);
+}
+
 ValueSlope pressure_flow_factor(double ratio, double peklenik) {
   const PressureRow& row = find_row(kPressureTable, peklenik, "pressure flow factor");
-  const bool clamped = ratio < kLowestRatio;
-  const double h = clamped ? kLowestRatio : ratio;
+  const double lowest = lowest_of_row(row.peklenik);
+  const bool clamped = ratio < lowest;
+  const double h = clamped ? lowest : ratio;
   ValueSlope factor;
   if (row.peklenik <= 1.0) {
     const double decay = row.c * std::exp(-row.r * h);
@@ -88,8 +95,9 @@ ValueSlope pressure_flow_factor(double ratio, double peklenik) {
 
 ValueSlope shear_flow_factor(double ratio, double peklenik) {
   const ShearRow& row = find_row(kShearTable, peklenik, "shear flow factor");
-  const bool clamped = ratio < kLowestRatio;
-  const double h = clamped ? kLowestRatio : ratio;
+  const double lowest = lowest_of_row(row.peklenik);
+  const bool clamped = ratio < lowest;
+  const double h = clamped ? lowest : ratio;
   ValueSlope factor;
   if (h <= 5.0) {
     factor.value =

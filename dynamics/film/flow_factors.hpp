@@ -23,13 +23,14 @@ ValueSlope mean_gap(double h, double sigma);
 ///
 /// `peklenik` gamma is the ratio of the correlation lengths along and across the flow: 1/9, 1/6,
 /// 1/3, 1, 3, 6 or 9 (InputError otherwise). Across: gamma -> 1/gamma. Slope by H. Source: Patir
-/// and Cheng 1978, table 1. Below H = kLowestRatio the value of kLowestRatio holds.
+/// and Cheng 1978, table 1. Below `lowest_ratio` the factor is constant (hard case N4).
 ValueSlope pressure_flow_factor(double ratio, double peklenik);
 
 /// Patir-Cheng shear flow factor of one rough wall, Phi_s = A1 H^a1 e^{-a2 H + a3 H^2} (H <= 5), A2
 /// e^{-H/4} (H > 5).
 ///
 /// gamma 1/3, 1, 3 or 6 (InputError otherwise). Slope by H. Source: Patir and Cheng 1979, table 2.
+/// Below `lowest_ratio` the factor is constant.
 ValueSlope shear_flow_factor(double ratio, double peklenik);
 
 /// Mean of sigma / h over the roughness, phi_f / H: shear stress on the wall is mu U / sigma times
@@ -39,7 +40,10 @@ ValueSlope shear_flow_factor(double ratio, double peklenik);
 /// 35/96 (1 - (d/3)^2)^3 with gaps under sigma/100 excluded. Below H = 0 constant. Slope by H.
 ValueSlope mean_inverse_gap(double ratio);
 
-/// Below this h / sigma the flow factors are out of their range; see RoughFilm.
-inline constexpr double kLowestRatio = 0.5;
+/// Lower end of the range of H = h / sigma in which the fits hold: 1 for gamma < 1, else 0.5.
+///
+/// The fits of gamma = 1/9 and 1/6 turn negative below H = 0.93 and 0.77. InputError for a gamma
+/// that no table has. Source: Patir and Cheng 1978, 1979.
+double lowest_ratio(double peklenik);
 
 }  // namespace clatter::film

@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Working memory of one pad of a piston-liner contact; allocated once, only for active effects.
-#include <array>
 #include <optional>
 
+#include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/piston_liner.hpp"
 
 namespace clatter::film {
 
-/// Oil film of one pad and its content under the integrator's tableau.
+/// Oil film of one pad.
 struct PadFilm {
   PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation)
-      : reynolds(grid, edges, cavitation) {
+      : reynolds(grid, edges, cavitation), oil(reynolds) {
     cells.resize(grid.size());
-    for (Eigen::ArrayXd* values :
-         {&content, &fill, &before, &stage_content, &stage_fill, &inverse, &inverse_slope})
-      values->setZero(grid.size());
-    for (Eigen::ArrayXd& rate : rates) rate.setZero(grid.size());
+    for (Eigen::ArrayXd* values : {&inverse, &inverse_slope}) values->setZero(grid.size());
   }
   Reynolds reynolds;
   FilmCells cells;
-  Eigen::ArrayXd content, fill;              // m [m] and theta of the last accepted step
-  Eigen::ArrayXd before;                     // m~ of the current stage [m]
-  Eigen::ArrayXd stage_content, stage_fill;  // m [m] and theta of the last finished stage
-  std::array<Eigen::ArrayXd, 4> rates;       // m' of the stages; [0]: last accepted [m/s]
-  int last_stage = 0;
+  OilContent oil;
   Eigen::ArrayXd inverse, inverse_slope;  // effective 1/h of the shear
 };
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "dynamics/film/pad_state.hpp"
@@ -35,6 +36,10 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
       bodies_(std::move(bodies)) {
   check();
   const ContactEffects& on = options_.effects;
+  if (!on.cavitation) {  // every cell is full: no setting of partial filling applies
+    options_.initial_fill = options_.supply_fill = 1.0;
+    options_.oil_thickness = std::numeric_limits<double>::infinity();
+  }
   if (on.film) rough_ = std::make_unique<RoughFilm>(options_.roughness);
   if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
   n_piston_ =
@@ -127,7 +132,7 @@ void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
-  stroke_ = bodies_.stroke(stage.time);
+  stroke_ = stroke_at(stage);
   response.force.setZero(n_total_);
   if (with_tangent) response.tangent.setZero(n_total_, n_total_);
   for (const auto& owned : pads_) {
@@ -158,9 +163,8 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
         options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
   rough_->thicknesses(pad.gap, pad.film->cells);
-  pad.film->content =
-      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness);
-  for (Eigen::ArrayXd& rate : pad.film->rates) rate.setZero();
+  pad.film->oil.start(
+      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness));
 }
 
 void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
@@ -170,13 +174,12 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
     throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
                                 fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
   rough_->thicknesses(pad.gap, film.cells);
-  film.before = film.content;
-  for (size_t j = 0; j < stage.weights.size(); ++j) film.before += stage.weights[j] * film.rates[j];
   // The liner slides past the grid at -U: the mean wall velocity is half of that.
   FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
-  if (running_) inner.fill_before = &film.fill;
+  if (running_) inner.fill_before = &film.oil.fill();
   try {
-    film_solves_ += film.reynolds.solve(film.cells, film.before, inner);
+    film_solves_ +=
+        film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
                                 fmt::format("{} pad: {}", pad.name, error.what()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Mixed lubricated contact between a piston skirt and its liner as a force element.
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ struct PadSnapshot {
 ///   f = (dh/dy)^T A (p + p_a) + friction
 ///
 /// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
-/// to the skirt; its content follows the integrator's tableau. The liner's slope along the stroke
-/// loads the piston axially (through dh/dz), so that the contact does exactly the work of p on h.
+/// to the skirt; its content follows the integrator's tableau, and so does z_B within a step. The
+/// liner's slope along the stroke loads the piston axially (through dh/dz), so that the contact
+/// does exactly the work of p on h.
 class PistonLiner : public dynamics::ForceElement {
  public:
   /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
@@ -66,6 +68,7 @@ class PistonLiner : public dynamics::ForceElement {
   void update_friction(Pad& pad, double speed);
   void add_force(const Pad& pad, Eigen::VectorXd& force) const;
   void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
+  StrokeState stroke_at(const dynamics::Stage& stage) const;
   double stroke_height(double position, const Eigen::VectorXd& y) const;
 
   PistonLinerOptions options_;
@@ -75,7 +78,8 @@ class PistonLiner : public dynamics::ForceElement {
   std::unique_ptr<RoughFilm> rough_;
   std::unique_ptr<Asperity> asperity_;
   StrokeState stroke_;
-  bool running_ = false;  // false: the content is still the initial one
+  std::array<double, 4> stroke_rates_{};  // z_B' at the finished stages of this step [m/s]
+  bool running_ = false;                  // false: the content is still the initial one
   long film_solves_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace clatter::film {
 /// Effects of the contact; one that is off allocates and computes nothing.
 struct ContactEffects {
   bool film = true;        // oil film; off ("lubrication = none"): dry, asperity contact only
-  bool cavitation = true;  // mass-conserving JFO; off: full films with unrestricted pressure
+  bool cavitation = true;  // mass-conserving JFO; off: every cell full, pressure unrestricted
   bool asperities = true;  // asperity pressure, eq. (12)
   bool friction = true;    // film shear and contact friction along the stroke
 };
@@ -41,6 +41,7 @@ struct PistonLinerOptions {
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
+  // Without cavitation the next three do not apply: every cell is full.
   double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
   double supply_fill = 1.0;   // fill of the oil film entering at top and bottom of the pad, 0 to 1
   /// Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt

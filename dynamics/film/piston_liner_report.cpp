@@ -10,30 +10,36 @@ namespace clatter::film {
 
 void PistonLiner::begin_step(double) {
   for (const auto& pad : pads_)
-    if (pad->film) pad->film->last_stage = 0;
+    if (pad->film) pad->film->oil.begin_step();
+}
+
+// z_B is integrated by the tableau as y is, from its exact value at the start of the step. The
+// pressure of a full film follows from dh/dt; the difference of two exact gaps would be the rate at
+// another instant, and with SDIRK2 the pressure only of first order.
+StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
+  double elapsed = stage.kappa;
+  for (double weight : stage.weights) elapsed += weight;
+  const StrokeState start = bodies_.stroke(stage.time - elapsed);
+  StrokeState now = bodies_.stroke(stage.time);
+  now.position = start.position + stage.kappa * now.velocity;
+  for (size_t j = 0; j < stage.weights.size(); ++j)
+    now.position += stage.weights[j] * (j == 0 ? start.velocity : stroke_rates_.at(j));
+  return now;
 }
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
+  stroke_rates_.at(static_cast<size_t>(stage.index)) = bodies_.stroke(stage.time).velocity;
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
-    film.stage_content = film.reynolds.density() * film.cells.content;
-    film.stage_fill = film.reynolds.fill();
-    film.rates.at(static_cast<size_t>(stage.index)) =
-        (film.stage_content - film.before) / stage.kappa;
-    film.last_stage = stage.index;
+    film.oil.finish_stage(film.reynolds, film.cells.content, stage.index, stage.kappa);
   }
 }
 
 void PistonLiner::accept_step(double) {
   running_ = true;
-  for (const auto& pad : pads_) {
-    if (!pad->film) continue;
-    PadFilm& film = *pad->film;
-    film.content = film.stage_content;
-    film.fill = film.stage_fill;
-    if (film.last_stage > 0) film.rates[0] = film.rates[static_cast<size_t>(film.last_stage)];
-  }
+  for (const auto& pad : pads_)
+    if (pad->film) pad->film->oil.accept_step();
 }
 
 dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
@@ -97,31 +103,22 @@ void PistonLiner::record(dynamics::History& history) const {
 
 std::vector<double> PistonLiner::save() const {
   std::vector<double> state{running_ ? 1.0 : 0.0};
-  for (const auto& pad : pads_) {
-    if (!pad->film) continue;
-    for (const Eigen::ArrayXd* values :
-         {&pad->film->content, &pad->film->fill, &pad->film->rates[0]})
-      state.insert(state.end(), values->begin(), values->end());
-  }
+  for (const auto& pad : pads_)
+    if (pad->film) pad->film->oil.save(state);
   return state;
 }
 
 void PistonLiner::restore(const std::vector<double>& state) {
   size_t expected = 1;
   for (const auto& pad : pads_)
-    if (pad->film) expected += 3 * static_cast<size_t>(pad->grid.size());
+    if (pad->film) expected += pad->film->oil.saved_size();
   if (state.size() != expected)
     throw InputError(options_.name + ": the saved film state has " + std::to_string(state.size()) +
                      " numbers, expected " + std::to_string(expected));
   running_ = state[0] != 0.0;
   auto next = state.begin() + 1;
-  for (const auto& pad : pads_) {
-    if (!pad->film) continue;
-    for (Eigen::ArrayXd* values : {&pad->film->content, &pad->film->fill, &pad->film->rates[0]}) {
-      std::copy(next, next + values->size(), values->begin());
-      next += values->size();
-    }
-  }
+  for (const auto& pad : pads_)
+    if (pad->film) next = pad->film->oil.restore(next);
 }
 
 double PistonLiner::film_residual() const {

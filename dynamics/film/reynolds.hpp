@@ -8,6 +8,7 @@
 #include "core/base/matrix.hpp"
 #include "dynamics/film/banded_lu.hpp"
 #include "dynamics/film/grid.hpp"
+#include "dynamics/film/split_search.hpp"
 
 namespace clatter::film {
 
@@ -73,17 +74,19 @@ struct FilmStage {
 /// instead of g^3 and carries 2 a b / (a + b) instead of c, a and b being its neighbours' values:
 /// exact integrals of 1/h^3 and 1/h^2 for a linear film, so that a full 1-D wedge is exact
 /// at the centres. theta is upwinded by U_m; with `fill_before` a face carries
-/// theta + l (1 - theta), l = rise / (1 - theta_before) within -1 and 1, where rise is half of van
-/// Leer's limited slope (J. Comput. Phys. 14, 1974) of the fill before: the lift vanishes as the
-/// upstream cell fills, and the matrix stays an M-matrix.
+/// theta + l (1 - theta) between 0 and 2 theta, l = rise / (1 - theta_before) within -1 and 1,
+/// where rise is half of van Leer's limited slope (J. Comput. Phys. 14, 1974) of the fill before:
+/// the lift vanishes as the upstream cell fills and as it empties, and the matrix stays an
+/// M-matrix. So theta >= 0 for every step size when m~ >= 0 (see OilContent).
 ///
 /// The unknown of a full cell is p (theta = 1), of a cavitated cell theta (p = 0). For a given
-/// split into full and cavitated cells the system is linear, and its matrix is a column-diagonally
-/// dominant M-matrix; the split is found by a primal-dual active set (Hintermueller, Ito and
-/// Kunisch 2003), starting from the last one.
+/// split into full and cavitated cells, and into faces within and at their bounds, the system is
+/// linear, and its matrix is a column-diagonally dominant M-matrix; the split is found by an active
+/// set (see SplitSearch), starting from the last one.
 class Reynolds {
  public:
-  /// `cavitation` false: every cell stays full and p may be negative (full Sommerfeld).
+  /// `cavitation` false: every cell stays full and p may be negative (full Sommerfeld); m~ must
+  /// then be that of full cells.
   Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation);
 
   /// Solves; `content_before` is m~ [m], n (not read when steady). Returns the number of linear
@@ -99,6 +102,13 @@ class Reynolds {
   bool is_full(int cell) const { return full_[static_cast<size_t>(cell)] != 0; }
   /// Largest mass residual of a cell relative to the largest terms of its balance.
   double residual() const { return residual_; }
+  /// Volume flow over each face (from its first cell to its second) and then over each open edge
+  /// (outward) [m3/s].
+  const Eigen::ArrayXd& flows() const { return flows_; }
+  /// Reduces the volumes `sent` [m3] (as `flows`) that earlier stages moved, so that no cell gives
+  /// more than it held and received, and sets `before` = content - div(sent) / area >= 0 [m], n.
+  void limit_outflow(const Eigen::ArrayXd& content, Eigen::ArrayXd& sent,
+                     Eigen::ArrayXd& before) const;
   /// Volume that flowed out over the edges in the stage, kappa * sum of q n L [m3] (flow [m3/s]
   /// when steady).
   double outflow() const { return outflow_; }
@@ -108,6 +118,7 @@ class Reynolds {
   void sensitivities(const RowMatrix& dh, RowMatrix& derivative);
 
   const PadGrid& grid() const { return grid_; }
+  bool cavitation() const { return cavitation_; }
 
  private:
   struct Face {
@@ -126,10 +137,20 @@ class Reynolds {
   };
   void build_faces();
   void number_cells();
+  struct FaceFill {
+    double empty, full;  // theta on the face for an empty and for a full upstream cell
+  };
+  int upstream_of(size_t face) const {
+    return carry_[face] > 0.0 ? faces_[face].a : faces_[face].b;
+  }
   double lift(const Face& face, double speed) const;
+  double lowest_lifted(size_t face) const;
+  FaceFill face_fill(size_t face) const;
+  double fill_on_face(size_t face) const;
   void weigh(const FilmCells& film, const Eigen::ArrayXd& content_before, const FilmStage& stage);
   void assemble();
-  bool update_split(bool one_at_a_time);
+  void guess_split();
+  bool update_split();
   void unpack();
   void measure();
 
@@ -140,7 +161,10 @@ class Reynolds {
   std::vector<Rim> rims_;
   std::vector<int> row_;  // cell -> row of the banded system
   BandedLu lu_;
-  std::vector<char> full_;
+  std::vector<char> full_;     // by cell
+  std::vector<char> limited_;  // by face: the lift is at its bound
+  SplitSearch search_;
+  std::vector<int> violated_;
   bool started_ = false;
 
   // Nondimensional terms of the current stage: storage s, storage by pressure s / B, m~,
@@ -152,7 +176,7 @@ class Reynolds {
   FilmStage stage_;
   Eigen::VectorXd x_;
   RowMatrix work_;
-  Eigen::ArrayXd pressure_, fill_, scratch_, magnitude_;
+  Eigen::ArrayXd pressure_, fill_, flows_, scratch_, magnitude_;
   double residual_ = 0.0, outflow_ = 0.0;
 };
 

@@ -33,9 +33,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative) {
     const Eigen::ArrayXd& dg = face.axial ? film.d_flow_axial : film.d_flow_angle;
     const double speed = face.axial ? stage_.speed_axial : stage_.speed_angle;
     const double drive = mobility * face.length / face.distance * (pressure_[a] - pressure_[b]);
-    const double upstream = fill_[speed > 0.0 ? a : b];
-    const double drag =
-        kappa * speed * face.length * (upstream + lift_[f] * (1.0 - upstream)) / volume_scale_;
+    const double drag = kappa * speed * face.length * fill_on_face(f) / volume_scale_;
     const double by_a = drive * conductance_slope(g[a], g[b]) * dg[a] +
                         drag * carry_slope(film.carry[a], film.carry[b]) * film.d_carry[a];
     const double by_b = drive * conductance_slope(g[b], g[a]) * dg[b] +

@@ -18,8 +18,10 @@ RoughFilm::RoughFilm(const RoughnessOptions& options) : options_(options) {
   if (!options.flow_factors) return;
   if (sigma_ == 0.0)
     throw InputError("flow_factors: both walls are smooth, expected a roughness > 0");
+  // A product, not a difference of squares, which a fused multiply-add leaves above 0 for equal
+  // walls (hard case N5).
   share_difference_ =
-      (options.piston * options.piston - options.liner * options.liner) / (sigma_ * sigma_);
+      (options.piston - options.liner) * (options.piston + options.liner) / (sigma_ * sigma_);
   pressure_flow_factor(1.0, options.peklenik);
   if (share_difference_ != 0.0) shear_flow_factor(1.0, options.peklenik);
 }
@@ -37,29 +39,41 @@ void RoughFilm::thicknesses(const Eigen::ArrayXd& h, FilmCells& film) const {
   }
 }
 
+// Each thickness follows its law down to the end of the fit's range, and below that h_T, scaled to
+// the value there.
 void RoughFilm::apply_factors(double h, int cell, FilmCells& film) const {
-  const double lowest = kLowestRatio * sigma_;
-  const bool below = h < lowest;
-  const double at = below ? lowest : h;
-  const double ratio = at / sigma_;
-  // Below the range, value and slope of h_T scaled to match the factor at the end of its range.
-  const double h_t = film.content[cell], d_h_t = film.d_content[cell];
-  const double h_t_end = below ? mean_gap(lowest, sigma_).value : h_t;
-  auto set = [&](double value, double slope, double& out, double& d_out) {
-    out = below ? value * h_t / h_t_end : value;
-    d_out = below ? value * d_h_t / h_t_end : slope;
+  const ValueSlope h_t{film.content[cell], film.d_content[cell]};
+  auto set = [&](double peklenik, const auto& law, double& out, double& d_out) {
+    const double lowest = lowest_ratio(peklenik) * sigma_;
+    if (h < lowest) {
+      const ValueSlope end = mean_gap(lowest, sigma_);
+      const double value = law(lowest, end).value;
+      out = value * h_t.value / end.value;
+      d_out = value * h_t.slope / end.value;
+    } else {
+      const ValueSlope thickness = law(h, h_t);
+      out = thickness.value;
+      d_out = thickness.slope;
+    }
   };
   auto flow = [&](double peklenik, double& out, double& d_out) {
-    const ValueSlope phi = pressure_flow_factor(ratio, peklenik);
-    const double root = std::cbrt(phi.value);
-    set(at * root, root + ratio * phi.slope * root / (3.0 * phi.value), out, d_out);
+    const auto law = [&](double at, const ValueSlope&) -> ValueSlope {
+      const double ratio = at / sigma_;
+      const ValueSlope phi = pressure_flow_factor(ratio, peklenik);
+      const double root = std::cbrt(phi.value);
+      return {at * root, root + ratio * phi.slope * root / (3.0 * phi.value)};
+    };
+    set(peklenik, law, out, d_out);
   };
   flow(options_.peklenik, film.flow_axial[cell], film.d_flow_axial[cell]);
   flow(1.0 / options_.peklenik, film.flow_angle[cell], film.d_flow_angle[cell]);
   if (share_difference_ == 0.0) return;
-  const ValueSlope shear = shear_flow_factor(ratio, options_.peklenik);
-  const double carry = (below ? h_t_end : h_t) - sigma_ * share_difference_ * shear.value;
-  set(carry, d_h_t - share_difference_ * shear.slope, film.carry[cell], film.d_carry[cell]);
+  const auto carry = [&](double at, const ValueSlope& mean) -> ValueSlope {
+    const ValueSlope shear = shear_flow_factor(at / sigma_, options_.peklenik);
+    return {mean.value - sigma_ * share_difference_ * shear.value,
+            mean.slope - share_difference_ * shear.slope};
+  };
+  set(options_.peklenik, carry, film.carry[cell], film.d_carry[cell]);
 }
 
 void RoughFilm::inverse_gap(const Eigen::ArrayXd& h, const FilmCells& film, Eigen::ArrayXd& value,

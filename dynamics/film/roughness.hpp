@@ -21,9 +21,9 @@ struct RoughnessOptions {
 ///   sigma_l^2, V = sigma_i^2 / sigma^2.
 ///
 /// The sign of c holds because the grid moves with the piston: oil in the piston's valleys is not
-/// transported. Below h = sigma / 2, where the factors end, g and c continue in proportion to h_T:
-/// they stay positive and monotone into contact. sigma = 0: all thicknesses are h, which must then
-/// be positive.
+/// transported. Below `lowest_ratio` times sigma, where the fit of a factor ends, g and c continue
+/// in proportion to h_T: they stay positive and monotone into contact. sigma = 0: all thicknesses
+/// are h, which must then be positive.
 class RoughFilm {
  public:
   /// InputError for roughness below 0 or a pattern that is not in the tables.

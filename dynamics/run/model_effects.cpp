@@ -53,7 +53,11 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
                            : "contact.lubrication = \"none\"",
             contact && effects.film ? name : "");
   table.add("cavitation", contact && effects.film && effects.cavitation,
-            contact && !effects.film ? "no film" : "contact.cavitation");
+            !contact             ? absent
+            : !effects.film      ? "no film"
+            : effects.cavitation ? "contact.cavitation"
+                                 : "contact.cavitation = false: every cell is full; "
+                                   "oil_thickness_um, initial_fill, supply_fill are not used");
   table.add("asperity contact", contact && effects.asperities, "contact.asperities",
             contact && !effects.film ? name : "");
   table.add("friction", contact && effects.friction, "contact.friction");

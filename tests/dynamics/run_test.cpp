@@ -212,6 +212,16 @@ TEST_F(Runs, WhatIsOffIsNotThere) {
   }
 }
 
+TEST_F(Runs, TheTableSaysThatFullFilmsUseNoOilLayer) {
+  const Scene full = scene("[contact]\ncavitation = false\noil_thickness_um = 6\n");
+  const auto model = build_model(full, load_bodies(full));
+  for (const auto& effect : model->effects.effects()) {
+    if (effect.name != "cavitation") continue;
+    EXPECT_FALSE(effect.on);
+    EXPECT_NE(effect.why.find("every cell is full; oil_thickness_um"), std::string::npos);
+  }
+}
+
 TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
   const Scene described = scene(kElasticBlock + std::string("[contact]\nlubrication = \"none\"\n"));
   const LoadedBodies bodies = load_bodies(described);

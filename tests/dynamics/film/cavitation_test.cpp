@@ -15,6 +15,8 @@ namespace {
 
 double gap_at(double t) { return 0.125 * std::cos(4.0 * std::numbers::pi * t) + 0.375; }
 
+double gap_rate(double t) { return -0.5 * std::numbers::pi * std::sin(4.0 * std::numbers::pi * t); }
+
 struct Cycle {
   double rupture = 0.0, close = 0.0, widest = 0.0;
   std::vector<double> widths;  // at .40, .50, .60
@@ -23,10 +25,14 @@ struct Cycle {
 // d/dx(h^3 dp/dx) = 2 d(theta h)/dt is mu = 1/6; symmetry at 0, p = .025 at 1.
 Cycle run(int cells, int steps_per_unit, bool second_order) {
   Reynolds film(strip(0.0, 1.0, cells), strip_edges(Edge::wall(), Edge::supply(0.025, 1.0)), true);
-  FilmMarch march(
-      film, [&](double t) { return Eigen::ArrayXd::Constant(cells, gap_at(t)).eval(); }, 1.0 / 6.0,
-      0.0);
-  auto step = [&](double dt) { second_order ? march.tr_bdf2(dt) : march.implicit_euler(dt); };
+  auto uniform = [cells](double (*value)(double)) {
+    return [=](double t) { return Eigen::ArrayXd::Constant(cells, value(t)).eval(); };
+  };
+  FilmMarch march(film, {uniform(gap_at), uniform(gap_rate)}, {.viscosity = 1.0 / 6.0}, 0.0,
+                  Eigen::ArrayXd::Ones(cells));
+  auto step = [&](double dt) {
+    second_order ? march.step(dynamics::tr_bdf2(), dt) : march.implicit_euler(dt);
+  };
   // Cells of the cavity count fully; its last one, at the moving rim, by its oil against its
   // neighbour's.
   auto width = [&] {

@@ -40,37 +40,40 @@ double order(double coarse_error, double fine_error) {
   return std::log2(std::abs(coarse_error / fine_error));
 }
 
-FilmMarch::FilmMarch(Reynolds& film, std::function<Eigen::ArrayXd(double)> gap, double viscosity,
-                     double begin)
-    : film_(film), gap_(std::move(gap)), viscosity_(viscosity), time_(begin) {
-  content_ = gap_(begin);
-  const double kappa = 1e-9;
-  stage(begin + kappa, kappa, content_);
-  rate_ = (film_.fill() * cells_.content - content_) / kappa;
+FilmMarch::FilmMarch(Reynolds& film, GivenGap gap, const FilmStage& conditions, double begin,
+                     const Eigen::ArrayXd& fill)
+    : film_(film), gap_(std::move(gap)), conditions_(conditions), time_(begin), oil_(film) {
+  oil_.start(fill * gap_.at(begin));
+  const double kappa = 1e-6;
+  stage(0, gap_.at(begin) + kappa * gap_.rate(begin + kappa), kappa, {});
+  oil_.accept_step();
+  time_ += kappa;
+  running_ = true;
 }
 
-void FilmMarch::stage(double time, double kappa, const Eigen::ArrayXd& before) {
-  cells_.set_smooth(gap_(time));
-  film_.solve(cells_, before, {kappa, viscosity_, 0.0, 0.0, false});
+void FilmMarch::stage(int index, const Eigen::ArrayXd& h, double kappa,
+                      const std::vector<double>& weights) {
+  cells_.set_smooth(h);
+  FilmStage inner = conditions_;
+  inner.kappa = kappa;
+  if (running_) inner.fill_before = &oil_.fill();
+  film_.solve(cells_, oil_.before(film_, weights), inner);
+  oil_.finish_stage(film_, cells_.content, index, kappa);
 }
 
 void FilmMarch::implicit_euler(double dt) {
   time_ += dt;
-  stage(time_, dt, content_);
-  const Eigen::ArrayXd content = film_.fill() * cells_.content;
-  rate_ = (content - content_) / dt;
-  content_ = content;
+  stage(1, gap_.at(time_), dt, {});
+  oil_.accept_step();
 }
 
-void FilmMarch::tr_bdf2(double dt) {
-  const double kappa = kDiagonal * dt;
-  Eigen::ArrayXd before = content_ + kappa * rate_;
-  stage(time_ + kGamma * dt, kappa, before);
-  const Eigen::ArrayXd middle_rate = (film_.fill() * cells_.content - before) / kappa;
-  before = content_ + kWeight * dt * (rate_ + middle_rate);
-  stage(time_ + dt, kappa, before);
-  content_ = film_.fill() * cells_.content;
-  rate_ = (content_ - before) / kappa;
+void FilmMarch::step(const dynamics::Tableau& A, double dt) {
+  const double kappa = A.d * dt, w_10 = A.a_10 * dt, w_20 = A.a_20 * dt, w_21 = A.a_21 * dt;
+  const Eigen::ArrayXd h = gap_.at(time_), rate_0 = gap_.rate(time_),
+                       rate_1 = gap_.rate(time_ + A.c_1 * dt), rate_2 = gap_.rate(time_ + dt);
+  stage(1, h + w_10 * rate_0 + kappa * rate_1, kappa, {w_10});
+  stage(2, h + w_20 * rate_0 + w_21 * rate_1 + kappa * rate_2, kappa, {w_20, w_21});
+  oil_.accept_step();
   time_ += dt;
 }
 

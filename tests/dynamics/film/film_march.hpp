@@ -4,8 +4,10 @@
 // wall.
 #include <functional>
 
+#include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/piston_liner.hpp"
 #include "dynamics/film/reynolds.hpp"
+#include "dynamics/integrate/tableau.hpp"
 
 namespace clatter::film {
 
@@ -20,22 +22,33 @@ FilmCells smooth(const Eigen::ArrayXd& h);
 /// Sum of p times area [N].
 double load(const Reynolds& film);
 
-/// Integrates a film without sliding for a given gap(t) by the integrator's tableau.
+/// A gap given over time: h [m] of all cells and its rate [m/s], n each.
+struct GivenGap {
+  std::function<Eigen::ArrayXd(double)> at, rate;
+};
+
+/// Integrates the film in a given gap by the integrator's tableau. Within a step the gap follows
+/// the tableau, from its value at the start of the step, as in PistonLiner.
 class FilmMarch {
  public:
-  FilmMarch(Reynolds& film, std::function<Eigen::ArrayXd(double)> gap, double viscosity,
-            double begin);
+  /// `conditions`: viscosity, speeds, bulk modulus. At `begin` the gap holds `fill` of its volume,
+  /// n.
+  FilmMarch(Reynolds& film, GivenGap gap, const FilmStage& conditions, double begin,
+            const Eigen::ArrayXd& fill);
   void implicit_euler(double dt);
-  void tr_bdf2(double dt);
+  void step(const dynamics::Tableau& method, double dt);
   double time() const { return time_; }
+  const OilContent& oil() const { return oil_; }
 
  private:
-  void stage(double time, double kappa, const Eigen::ArrayXd& before);
+  void stage(int index, const Eigen::ArrayXd& h, double kappa, const std::vector<double>& weights);
   Reynolds& film_;
-  std::function<Eigen::ArrayXd(double)> gap_;
-  double viscosity_, time_;
+  GivenGap gap_;
+  FilmStage conditions_;
+  double time_;
+  bool running_ = false;
   FilmCells cells_;
-  Eigen::ArrayXd content_, rate_;
+  OilContent oil_;
 };
 
 /// Observed order between successive halvings.

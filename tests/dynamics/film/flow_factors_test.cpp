@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "dynamics/film/flow_factors.hpp"
@@ -49,6 +50,29 @@ TEST(FlowFactors, SlopesAreDerivatives) {
     expect_slope([](double x) { return mean_inverse_gap(x); }, h);
 }
 
+TEST(FlowFactors, HardN4_FactorsArePositiveAndConstantBelowTheirRange) {
+  // Evaluated down to H = 0.5, the fits of 1/9 and 1/6 gave -0.200 and -0.119 there, and so flow
+  // uphill.
+  for (double peklenik : {1.0 / 9.0, 1.0 / 6.0, 1.0 / 3.0, 1.0, 3.0, 6.0, 9.0}) {
+    const double lowest = lowest_ratio(peklenik);
+    EXPECT_EQ(lowest, peklenik < 1.0 ? 1.0 : 0.5);
+    const double end = pressure_flow_factor(lowest, peklenik).value;
+    for (double h = -4.0; h < 6.0; h += 0.01) {
+      const ValueSlope factor = pressure_flow_factor(h, peklenik);
+      EXPECT_GT(factor.value, 0.0) << peklenik << " at " << h;
+      if (h >= lowest) continue;
+      EXPECT_EQ(factor.value, end);
+      EXPECT_EQ(factor.slope, 0.0);
+    }
+  }
+  for (double peklenik : {1.0 / 3.0, 1.0, 3.0, 6.0}) {
+    const double lowest = lowest_ratio(peklenik);
+    const ValueSlope below = shear_flow_factor(0.9 * lowest, peklenik);
+    EXPECT_EQ(below.value, shear_flow_factor(lowest, peklenik).value);
+    EXPECT_EQ(below.slope, 0.0);
+  }
+}
+
 TEST(FlowFactors, MeanGapStaysPositiveAndIsTheGaussianMean) {
   EXPECT_NEAR(mean_gap(0.0, 2.0).value, 2.0 / std::sqrt(2.0 * M_PI), 1e-15);
   EXPECT_NEAR(mean_gap(10.0, 1.0).value, 10.0, 1e-12);
@@ -75,22 +99,54 @@ TEST(FlowFactors, MeanInverseGapIsItsDefiningIntegral) {
   }
 }
 
-TEST(RoughFilm, ThicknessesAreContinuousPositiveAndMonotoneIntoContact) {
-  const double sigma = 1e-6;
-  const RoughFilm rough({sigma, 0.0, 1.0, true});
+/// Positive, monotone, without jumps, and the derivatives are those of the values.
+void expect_smooth_into_contact(const RoughnessOptions& options) {
+  const RoughFilm rough(options);
+  const double sigma = rough.sigma(), step = 1e-2 * sigma;
+  const int n = 801;
   FilmCells film;
-  const int n = 800;
   film.resize(n);
   rough.thicknesses(Eigen::ArrayXd::LinSpaced(n, -3.0 * sigma, 5.0 * sigma), film);
-  for (int i = 1; i < n; ++i) {
-    for (const Eigen::ArrayXd* values :
-         {&film.content, &film.flow_axial, &film.flow_angle, &film.carry}) {
-      EXPECT_GT((*values)[i - 1], 0.0);
-      EXPECT_GT((*values)[i], (*values)[i - 1]) << i;
-      EXPECT_LT((*values)[i] - (*values)[i - 1], 2e-2 * sigma)
-          << i;  // steps of 1e-2 sigma, slope below 2
+  using Pair = std::pair<const Eigen::ArrayXd*, const Eigen::ArrayXd*>;
+  for (const auto& [values, slopes] :
+       {Pair{&film.content, &film.d_content}, Pair{&film.flow_axial, &film.d_flow_axial},
+        Pair{&film.flow_angle, &film.d_flow_angle}, Pair{&film.carry, &film.d_carry}}) {
+    for (int i = 1; i < n; ++i) {
+      const double rise = (*values)[i] - (*values)[i - 1];
+      ASSERT_GT((*values)[i - 1], 0.0) << options.peklenik << " cell " << i;
+      ASSERT_GT(rise, 0.0) << options.peklenik << " cell " << i;
+      ASSERT_LT(rise, 2.0 * step) << options.peklenik << " cell " << i;
+      // The mean of the slopes, except across the end of a range, where they jump.
+      const double low = (*slopes)[i - 1], high = (*slopes)[i];
+      if (std::abs(high - low) < 0.05) {
+        ASSERT_NEAR(rise / step, 0.5 * (low + high), 1e-3) << options.peklenik << " cell " << i;
+      }
     }
   }
+}
+
+TEST(RoughFilm, HardN4_ThicknessesArePositiveAndMonotoneIntoContactForEveryPattern) {
+  // Rows 1/9 and 1/6, and across them 9 and 6, have no shear factor: equal walls need none.
+  for (double peklenik : {1.0 / 9.0, 1.0 / 6.0, 1.0 / 3.0, 1.0, 3.0, 6.0, 9.0})
+    expect_smooth_into_contact({0.7e-6, 0.7e-6, peklenik, true});
+  for (double peklenik : {1.0 / 3.0, 1.0, 3.0, 6.0}) {
+    expect_smooth_into_contact({1e-6, 0.0, peklenik, true});
+    expect_smooth_into_contact({0.2e-6, 0.8e-6, peklenik, true});
+  }
+}
+
+TEST(RoughFilm, HardN5_EqualWallsNeedNoShearFactor) {
+  // p p - l l, contracted to a fused multiply-add (gcc -ffp-contract=fast, clang by default), is
+  // the rounding of l l: all of these walls were refused.
+  for (double peklenik : {1.0 / 9.0, 1.0 / 6.0, 9.0})
+    for (int k = 1; k <= 100; ++k) {
+      const double wall = 1e-8 * k;
+      EXPECT_EQ(test::refusal_of([&] { RoughFilm({wall, wall, peklenik, true}); }), "accepted");
+    }
+  test::expect_parts(test::refusal_of([] {
+                       RoughFilm({1e-6, 2e-6, 9.0, true});
+                     }),
+                     {"peklenik: no shear flow factor for 9"});
 }
 
 TEST(RoughFilm, SmoothWallsLeaveTheGapAlone) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/film/oil_content.hpp"
+
+#include <algorithm>
+
+namespace clatter::film {
+
+OilContent::OilContent(const Reynolds& film) {
+  const int n = film.grid().size();
+  for (Eigen::ArrayXd* values : {&content_, &fill_, &before_, &stage_content_, &stage_fill_})
+    values->setZero(n);
+  for (Eigen::ArrayXd& rate : rates_) rate.setZero(n);
+  for (Eigen::ArrayXd& flow : flows_) flow.setZero(film.flows().size());
+  sent_.setZero(film.flows().size());
+}
+
+void OilContent::start(const Eigen::ArrayXd& content) {
+  content_ = content;
+  for (Eigen::ArrayXd& rate : rates_) rate.setZero();
+  for (Eigen::ArrayXd& flow : flows_) flow.setZero();
+}
+
+const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector<double>& weights) {
+  before_ = content_;
+  for (size_t j = 0; j < weights.size(); ++j) before_ += weights[j] * rates_[j];
+  if (film.cavitation() && before_.minCoeff() < 0.0) {
+    sent_.setZero();
+    for (size_t j = 0; j < weights.size(); ++j) sent_ += weights[j] * flows_[j];
+    film.limit_outflow(content_, sent_, before_);
+  }
+  return before_;
+}
+
+void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
+                              double kappa) {
+  stage_content_ = film.density() * space;
+  stage_fill_ = film.fill();
+  rates_.at(static_cast<size_t>(index)) = (stage_content_ - before_) / kappa;
+  flows_.at(static_cast<size_t>(index)) = film.flows();
+  last_ = index;
+}
+
+void OilContent::accept_step() {
+  content_ = stage_content_;
+  fill_ = stage_fill_;
+  if (last_ == 0) return;
+  rates_[0] = rates_[static_cast<size_t>(last_)];
+  flows_[0] = flows_[static_cast<size_t>(last_)];
+}
+
+void OilContent::save(std::vector<double>& state) const {
+  for (const Eigen::ArrayXd* values : {&content_, &fill_, &rates_[0], &flows_[0]})
+    state.insert(state.end(), values->begin(), values->end());
+}
+
+size_t OilContent::saved_size() const {
+  return static_cast<size_t>(3 * content_.size() + flows_[0].size());
+}
+
+std::vector<double>::const_iterator OilContent::restore(std::vector<double>::const_iterator next) {
+  for (Eigen::ArrayXd* values : {&content_, &fill_, &rates_[0], &flows_[0]}) {
+    std::copy(next, next + values->size(), values->begin());
+    next += values->size();
+  }
+  return next;
+}
+
+}  // namespace clatter::film
