@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
@@ -50,9 +51,11 @@ struct ErrorWeights {
   Eigen::VectorXd modal_displacement, modal_velocity;  // per modal coordinate
   std::vector<double> velocity_limit;  // per body: of |e_v|, the square root of twice an energy
 
-  /// Largest change of y over its limits: as a displacement and, over kappa, as a velocity.
-  LargestEntry largest_change(const Eigen::VectorXd& dy, double kappa) const {
-    return largest_entry(dy.cwiseProduct(displacement.cwiseMax(velocity / kappa)));
+  /// Largest change of y in a stage over its limits: as a displacement and, over kappa, as a
+  /// velocity of the modes with inertia.
+  LargestEntry largest_change(const Eigen::VectorXd& dy, const StageOperator& op) const {
+    return largest_entry(dy.cwiseProduct(
+        displacement.cwiseMax(velocity.cwiseProduct(op.moving_share()) / op.kappa())));
   }
 };
 

@@ -23,10 +23,6 @@ constexpr int kMaxFresh = 10;
 constexpr double kConverged = 0.05;
 /// A matrix that contracts slower than this is formed again.
 constexpr double kSlow = 0.3;
-/// Largest effect on y, as a fraction of the error limit, of a linear correction by a matrix that
-/// was neither formed nor seen to contract in this stage. Were it kConverged, a contact that opens
-/// under the matrix of the closed one would pull at each of many small steps.
-constexpr double kUnchecked = 1e-3;
 /// Units in the last place of y below which an increment is rounding: a few operations.
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 /// No earlier increment by the same matrix.
@@ -86,7 +82,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     residual_ += y_pred - y;
     dy_ = residual_;
     matrix_.solve(op, dy_);
-    const auto limits = [&](const VectorXd& x) { return weights_.largest_change(x, stage.kappa); };
+    const auto limits = [&](const VectorXd& x) { return weights_.largest_change(x, op); };
     const LargestEntry change = limits(dy_);
     const double size = change.value, imbalance = limits(residual_).value;
     result.worst = change.at;
@@ -95,9 +91,9 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       break;
     }
     const bool slow = size > kSlow * previous;
+    // Without a check the matrix of a closed contact would hold the opened one in small steps.
     const bool checked = refresh || (previous < kNone && !slow);
-    if (size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y)) &&
-        (checked || limits(residual_ -= dy_).value <= kUnchecked)) {
+    if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y))) {
       system_.add_tangent_forces(dy_, f);
       result.outcome = Outcome::kConverged;
       return result;

@@ -14,10 +14,17 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
   per_velocity_ = system.damping() + kappa * system.omega_squared();
   from_eta_ = H_.array() * (mu + delta);
   from_v_ = H_.array() * system.inertia().array() / kappa;
+  moving_share_.setZero(system.interface_size());
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const MatrixXd& P = system.P(b);
     const auto H = H_.segment(system.mode_offset(b), P.cols());
     S_.push_back((P * H.asDiagonal()) * P.transpose());
+    const VectorXd all = P.cwiseAbs2() * H;
+    const VectorXd moving =
+        P.cwiseAbs2() * H.cwiseProduct(system.bodies()[static_cast<size_t>(b)].inertia);
+    const auto& rows = system.rows(b);
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      if (all(i) > 0.0) moving_share_(rows[static_cast<size_t>(i)]) = moving(i) / all(i);
   }
   in_.resize(S_.size());
   out_.resize(S_.size());

@@ -27,6 +27,9 @@ class StageOperator {
   /// H (mu e_v / kappa + (mu / kappa^2 + delta / kappa) e_eta).
   void filter(const Eigen::VectorXd& e_eta, const Eigen::VectorXd& e_v,
               Eigen::VectorXd& filtered) const;
+  /// Share of the diagonal of S that is due to modes with inertia, n_y, 0 to 1: of a change of y by
+  /// unbalanced forces this much is motion that has kinetic energy.
+  const Eigen::VectorXd& moving_share() const { return moving_share_; }
   /// S of one body, in the order of its rows.
   const Eigen::MatrixXd& S(int body) const { return S_[static_cast<size_t>(body)]; }
   /// S f, n_y.
@@ -40,6 +43,7 @@ class StageOperator {
   Eigen::VectorXd per_velocity_;                   // delta + kappa omega^2
   Eigen::VectorXd from_eta_;                       // H (mu / kappa^2 + delta / kappa)
   Eigen::VectorXd from_v_;                         // H mu / kappa
+  Eigen::VectorXd moving_share_;
   std::vector<Eigen::MatrixXd> S_;                 // per body
   mutable std::vector<Eigen::VectorXd> in_, out_;  // per body: its rows
 };

@@ -233,7 +233,7 @@ TEST(PistonLiner, GapsBelowTheMinimumAreOneKindOfRefusal) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(6);
   settle(*element, rest, rest, response);
   std::vector<std::string> details;
-  for (const double shift : {60e-6, 70e-6, NAN}) {
+  for (const double shift : {60e-6, 70e-6, std::numeric_limits<double>::quiet_NaN()}) {
     try {
       element->evaluate({2e-3, 1e-6, 1, {0.0}}, pushed(*element, false, shift, 0.0), rest, false,
                         response);
