@@ -25,16 +25,6 @@ PadGrid make_grid(const PistonLinerOptions& options, double centre) {
                           options.cells_along, options.bore_radius);
 }
 
-// Ends that are not given are those of the patches.
-LinerEnds within(LinerEnds ends, const rom::ContactGrid& grid) {
-  if (grid.axial_edges.size() < 2) return ends;
-  const double origin = grid.axis_point.z(), first = grid.axial_edges[0] * grid.axis.z(),
-               last = grid.axial_edges[grid.axial_edges.size() - 1] * grid.axis.z();
-  if (std::isinf(ends.bottom)) ends.bottom = origin + std::min(first, last);
-  if (std::isinf(ends.top)) ends.top = origin + std::max(first, last);
-  return ends;
-}
-
 }  // namespace
 
 PistonLiner::~PistonLiner() = default;
@@ -70,7 +60,7 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   height_by_y_.setZero(n_total_);
   height_by_y_[pin_ + 2] = 1.0;
   if (liner_axial_ >= 0) height_by_y_[liner_axial_] = -1.0;
-  if (bodies_.liner) options_.ends = within(options_.ends, bodies_.liner->grid);
+  if (bodies_.liner) find_ends(bodies_.liner->grid);
 
   const Edge open =
       Edge::supply(options_.supply_pressure, options_.supply_fill, options_.oil_thickness);
@@ -127,20 +117,9 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return position + y[pin_ + 2] - (liner_axial_ >= 0 ? y[liner_axial_] : 0.0);
 }
 
-// Smallest gap inside the liner [m]; of the entire pad when none of it is.
-double PistonLiner::lowest_gap(const Pad& pad) const {
-  const double lowest = (pad.area > 0.0).select(pad.gap, INFINITY).minCoeff();
-  return std::isinf(lowest) ? pad.gap.minCoeff() : lowest;
-}
-
 // Cover, gap and their derivatives at one state; `height` is the pin centre's engine z.
 void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
-  if (pad.ends) {
-    pad.ends->at(height, pad.cover);
-    const int columns = pad.grid.n_angle();
-    pad.area = pad.grid.area() * pad.cover.of_cells(columns);
-    pad.area_slope = pad.grid.area() * pad.cover.share_slope.replicate(columns, 1);
-  }
+  if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
@@ -238,12 +217,6 @@ void PistonLiner::update_friction(Pad& pad, double speed) {
   if (asperity_) pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, speed);
 }
 
-// Force along the stroke on the piston where asperities are pressed together as a row slides in
-// over the end of the liner: minus the derivative of their energy by height.
-double PistonLiner::end_force(const Pad& pad) const {
-  return asperity_ && pad.ends ? -(pad.area_slope * pad.contact_energy).sum() : 0.0;
-}
-
 void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
   force += pad.gap_by_y.transpose() * pad.load.matrix() + end_force(pad) * height_by_y_;
   if (!pad.friction) return;
@@ -287,23 +260,6 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
   if (liner_axial_ < 0) return;
   tangent.col(liner_axial_).segment(n_piston_, n_liner_) -= cross;
   tangent.row(liner_axial_).segment(n_piston_, n_liner_) -= cross.transpose();
-}
-
-// What changes with the cover: the load by the height, and the force at the end of the liner.
-void PistonLiner::add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const {
-  Eigen::ArrayXd load_slope = Eigen::ArrayXd::Zero(pad.grid.size());
-  if (pad.film) load_slope += pad.area_slope * pad.film->reynolds.pressure();
-  double curve = 0.0;
-  if (asperity_) {
-    const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact;
-    load_slope += by_gap;
-    tangent.noalias() += height_by_y_ * (pad.gap_by_y.transpose() * by_gap.matrix()).transpose();
-    const Eigen::ArrayXd area_curve =
-        pad.grid.area() * pad.cover.share_curve.replicate(pad.grid.n_angle(), 1);
-    curve = -(area_curve * pad.contact_energy).sum();
-  }
-  tangent.noalias() += (pad.gap_by_y.transpose() * load_slope.matrix() + curve * height_by_y_) *
-                       height_by_y_.transpose();
 }
 
 }  // namespace clatter::film

@@ -64,6 +64,8 @@ class PistonLiner : public dynamics::ForceElement {
   struct Pad;
   void check() const;
   void update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
+  void find_ends(const rom::ContactGrid& grid);
+  void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,

@@ -91,6 +91,8 @@ void PistonLiner::record(dynamics::History& history) const {
       moment += pad->levers.col(1).dot(pad->friction->force().matrix());
     }
   }
+  if (std::isinf(lowest))  // all of the skirt is outside the liner
+    for (const auto& pad : pads_) lowest = std::min(lowest, pad->gap.minCoeff());
   const double normal = film_load + contact_load;
   history.put("film_min", "m", lowest);
   history.put("side_force", "N", side);
