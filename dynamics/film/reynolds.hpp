@@ -102,9 +102,9 @@ struct FilmStage {
 /// the lift vanishes as the upstream cell fills and as it empties, and the matrix stays an
 /// M-matrix. So theta >= 0 for every step size when m~ >= 0 (see OilContent).
 ///
-/// A layer (see Cavity) is carried by its content instead: min(2 (1 + l) theta s, c) U_m with s and
-/// theta of the upstream cell, l = rise / layer of the layer before, c of the face. A uniform layer
-/// stays uniform over any gap, and theta >= 0 needs no bound of l.
+/// A layer (see Cavity) is carried by its content instead: min(theta max(2 (1 + l) s, c), c) U_m
+/// with s and theta of the upstream cell, l = rise / layer of the layer before, c of the face. A
+/// uniform layer stays uniform over any gap, and theta >= 0 needs no bound of l.
 ///
 /// Where the liner ends inside the pad the film is that on the covered part of each row of cells, w
 /// of its height, and m~ and the content are w m. It ends at the pressure of `Edges::liner_end`
@@ -209,6 +209,10 @@ class Reynolds {
   double lift(const Face& face, double speed) const;
   double lowest_lifted(size_t face) const;
   bool layers() const { return stage_.cavity == Cavity::kLayer && !stage_.steady; }
+  /// Whether the flux over a face follows the content of its upstream cell instead of c.
+  bool carries_content(size_t face) const {
+    return layers() && !is_full(upstream_of(face)) && limited_[face] == 0 && ratio_[face] > 1.0;
+  }
   bool violates_limit(size_t face, double theta) const;
   ValueSlope entering(const Edge& edge, int cell) const;
   FaceFill face_fill(size_t face) const;

@@ -134,10 +134,9 @@ Eigen::ArrayXd Reynolds::height_slopes() const {
     by_height *= mobility * face.length / in.distance * (pressure_[a] - pressure_[b]);
     const double speed = face.axial ? stage_.speed_axial : stage_.speed_angle;
     const double moved = stage_.kappa * speed * face.length / volume_scale_;
-    const int upstream = upstream_of(f);
     const double fill = fill_on_face(f);
     by_height += moved * fill * face_carry(c_a, c_b) * in.carried_slope;
-    if (!layers() || is_full(upstream) || limited_[f] != 0)
+    if (!carries_content(f))
       by_height += moved * fill * in.carried *
                    through_outer(carry_slope, c_a, c_b, film.carry[a], film.carry[b]);
     slopes[a] += by_height;

@@ -39,7 +39,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
     by_a *= dg[a];
     by_b *= dg[b];
     const int upstream = upstream_of(f);
-    if (layers() && !is_full(upstream) && limited_[f] == 0) {
+    if (carries_content(f)) {
       (upstream == a ? by_a : by_b) +=
           moved * 2.0 * (1.0 + lift_[f]) * fill_[upstream] * film.d_content[upstream];
     } else {
@@ -67,7 +67,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
     const Inside in = inside(rim);
     const double drive =
         mobility * rim.length * in.length / in.distance * (pressure_[c] - rim.edge.pressure);
-    const bool layer = layers() && !is_full(c) && rim_limited_[r] == 0;
+    const bool layer = rim_ratio_[r] > 1.0 && !is_full(c) && rim_limited_[r] == 0;
     const double carried = outward <= 0.0 ? entering(rim.edge, c).slope
                            : layer        ? 2.0 * fill_[c] * film.d_content[c]
                                           : fill_on_rim(r) * film.d_carry[c];

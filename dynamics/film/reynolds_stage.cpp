@@ -30,8 +30,10 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     weigh_one(face_conductance(g_a, g_b), face_carry(c_a, c_b), face.length, in, face.axial,
               conduct_[f], carry_[f]);
     lift_[f] = lift(face, face.axial ? stage.speed_axial : stage.speed_angle);
+    // At least 1: a cell that fills must not carry less than it will when it is full.
     if (layers())
-      ratio_[f] = 2.0 * (1.0 + lift_[f]) * film.content[upstream_of(f)] / face_carry(c_a, c_b);
+      ratio_[f] = std::max(
+          2.0 * (1.0 + lift_[f]) * film.content[upstream_of(f)] / face_carry(c_a, c_b), 1.0);
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
@@ -41,7 +43,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     rim_carry_[r] *= rim.sign;
     const double carry = film.carry[rim.cell];
     rim_entering_[r] = std::min(rim_carry_[r], 0.0) * entering(rim.edge, rim.cell).value / carry;
-    rim_ratio_[r] = layers() ? 2.0 * film.content[rim.cell] / carry : 1.0;
+    rim_ratio_[r] = layers() ? std::max(2.0 * film.content[rim.cell] / carry, 1.0) : 1.0;
   }
   const double count = static_cast<double>(faces_.size() + rims_.size());
   storage_ = film.content * grid_.area();
