@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Effect of roughness on the flow and shear of a film: functions of H = h / sigma.
-#include "dynamics/film/reynolds.hpp"
-
 namespace clatter::film {
 
 /// A value and its derivative.

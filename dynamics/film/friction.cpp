@@ -11,7 +11,13 @@
 namespace clatter::film {
 
 Friction::Friction(const FrictionOptions& options, int cells)
-    : options_(options), force_(cells), gap_slope_(cells), film_slope_(cells) {
+    : options_(options),
+      force_(cells),
+      gap_slope_(cells),
+      film_slope_(cells),
+      height_slope_(cells),
+      share_(Eigen::ArrayXd::Ones(cells)),
+      share_slope_(Eigen::ArrayXd::Zero(cells)) {
   if (!(options.coefficient >= 0.0) || !(options.reversal_speed > 0.0))
     throw InputError(
         fmt::format("friction: found coefficient {}, reversal speed {} m/s, expected >= 0 and > 0",
@@ -19,20 +25,23 @@ Friction::Friction(const FrictionOptions& options, int cells)
   clear();
 }
 
-void Friction::clear() {
-  force_.setZero();
-  gap_slope_.setZero();
-  film_slope_.setZero();
+void Friction::clear(const Cover* cover) {
+  for (Eigen::ArrayXd* values : {&force_, &gap_slope_, &film_slope_, &height_slope_})
+    values->setZero();
+  if (cover == nullptr) return;
+  const Eigen::Index columns = force_.size() / cover->share.size();
+  share_ = cover->share.replicate(columns, 1);
+  share_slope_ = cover->share_slope.replicate(columns, 1);
 }
 
 // Poiseuille part: the sum over axial faces of (s_a + s_b)/4 (p_b - p_a) L, written per cell as w p
 // with w = L/4 (s_before - s_after); at a pad's end the cell's own thickness replaces that of the
-// missing neighbour.
+// missing neighbour. Outside the liner, where 1/h may not be finite, there is none.
 void Friction::add_film(const Reynolds& solution, const FilmCells& film,
                         const Eigen::ArrayXd& inverse, const Eigen::ArrayXd& inverse_slope,
                         double viscosity, double speed) {
   const PadGrid& grid = solution.grid();
-  const Eigen::ArrayXd &p = solution.pressure(), &fill = solution.fill(), &s = film.content;
+  const Eigen::ArrayXd &p = solution.pressure(), &s = film.content;
   const int n_j = grid.n_axial();
   for (int i = 0; i < grid.n_angle(); ++i) {
     const double quarter = 0.25 * grid.arc(i);
@@ -41,12 +50,17 @@ void Friction::add_film(const Reynolds& solution, const FilmCells& film,
                 after = grid.cell(i, std::min(j + 1, n_j - 1));
       const double drag = -viscosity * speed * grid.area()[c];
       const double lever = quarter * (s[before] - s[after]);
-      const double pressure_jump =
-          (after == c ? -p[c] : p[after]) - (before == c ? -p[c] : p[before]);
-      force_[c] += drag * fill[c] * inverse[c] + lever * p[c];
-      gap_slope_[c] +=
-          drag * fill[c] * inverse_slope[c] + quarter * pressure_jump * film.d_content[c];
-      film_slope_[c] += solution.is_full(c) ? lever : drag * inverse[c];
+      const double share = share_[c], own = share * p[c];
+      const double pressure_jump = (after == c ? -own : share_[after] * p[after]) -
+                                   (before == c ? -own : share_[before] * p[before]);
+      gap_slope_[c] += quarter * pressure_jump * film.d_content[c];
+      if (share == 0.0) continue;
+      const ValueSlope sheared = solution.sheared(c);
+      const double force = drag * sheared.value * inverse[c] + lever * p[c];
+      force_[c] += share * force;
+      height_slope_[c] += share_slope_[c] * force;
+      gap_slope_[c] += share * drag * sheared.value * inverse_slope[c];
+      film_slope_[c] += share * (solution.is_full(c) ? lever : drag * sheared.slope * inverse[c]);
     }
   }
 }
@@ -54,8 +68,10 @@ void Friction::add_film(const Reynolds& solution, const FilmCells& film,
 void Friction::add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
                            const Eigen::ArrayXd& contact_slope, double speed) {
   const double direction = speed / std::hypot(speed, options_.reversal_speed);
-  force_ -= options_.coefficient * direction * grid.area() * contact;
-  gap_slope_ -= options_.coefficient * direction * grid.area() * contact_slope;
+  const Eigen::ArrayXd traction = -options_.coefficient * direction * grid.area() * contact;
+  force_ += share_ * traction;
+  height_slope_ += share_slope_ * traction;
+  gap_slope_ -= options_.coefficient * direction * share_ * grid.area() * contact_slope;
 }
 
 }  // namespace clatter::film

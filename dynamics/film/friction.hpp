@@ -15,19 +15,20 @@ struct FrictionOptions {
 
 /// Axial force of each cell on the piston that slides at U along z past a liner at rest:
 ///
-///   f = -mu U theta (1/h) A + (h/2) dp/dz A - mu_a p_a A U / sqrt(U^2 + u_0^2)
+///   f = -mu U a (1/h) A + (h/2) dp/dz A - mu_a p_a A U / sqrt(U^2 + u_0^2)
 ///
-/// The film's part is the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette
-/// and Poiseuille); the pressure on the slope of the skirt is contained in it, because the liner
-/// wall is straight. Derivative: df = gap_slope dh + film_slope dx, where
-/// x is p in a full cell and theta in a cavitated one. Summed along one axial column of cells both
-/// are exact.
+/// a is the sheared fraction of a cell's area (Reynolds::sheared), 1 when full. The film's part is
+/// the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette and Poiseuille); the
+/// pressure on the slope of the skirt is contained in it, because the liner wall is straight.
+/// Derivative: df = gap_slope dh + film_slope dx, where x is p in a full cell and theta in a
+/// cavitated one. Summed along one axial column of cells both are exact.
 class Friction {
  public:
   Friction(const FrictionOptions& options, int cells);
 
-  /// Sets all three arrays to zero before the contributions of a new state.
-  void clear();
+  /// Sets all arrays to zero before the contributions of a new state, which are limited to the
+  /// part of the pad inside the liner; null: all of it.
+  void clear(const Cover* cover = nullptr);
   /// Adds film shear; `inverse` and `inverse_slope` are the effective 1/h and its derivative
   /// (RoughFilm).
   void add_film(const Reynolds& solution, const FilmCells& film, const Eigen::ArrayXd& inverse,
@@ -39,10 +40,13 @@ class Friction {
   const Eigen::ArrayXd& force() const { return force_; }            // [N]
   const Eigen::ArrayXd& gap_slope() const { return gap_slope_; }    // [N/m]
   const Eigen::ArrayXd& film_slope() const { return film_slope_; }  // [N/Pa] or [N]
+  /// By the height of the pad past the ends of the liner [N/m].
+  const Eigen::ArrayXd& height_slope() const { return height_slope_; }
 
  private:
   FrictionOptions options_;
-  Eigen::ArrayXd force_, gap_slope_, film_slope_;
+  Eigen::ArrayXd force_, gap_slope_, film_slope_, height_slope_;
+  Eigen::ArrayXd share_, share_slope_;  // covered fraction of the cells and its derivative [1/m]
 };
 
 }  // namespace clatter::film

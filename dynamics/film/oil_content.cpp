@@ -7,7 +7,7 @@ namespace clatter::film {
 
 OilContent::OilContent(const Reynolds& film) {
   const int n = film.grid().size();
-  for (Eigen::ArrayXd* values : {&content_, &fill_, &before_, &stage_content_, &stage_fill_})
+  for (Eigen::ArrayXd* values : {&content_, &profile_, &before_, &stage_content_, &stage_profile_})
     values->setZero(n);
   for (Eigen::ArrayXd& rate : rates_) rate.setZero(n);
   for (Eigen::ArrayXd& flow : flows_) flow.setZero(film.flows().size());
@@ -34,7 +34,7 @@ const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector
 void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
                               double kappa) {
   stage_content_ = film.density() * space;
-  stage_fill_ = film.fill();
+  stage_profile_ = film.profile();
   rates_.at(static_cast<size_t>(index)) = (stage_content_ - before_) / kappa;
   flows_.at(static_cast<size_t>(index)) = film.flows();
   last_ = index;
@@ -42,14 +42,14 @@ void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space,
 
 void OilContent::accept_step() {
   content_ = stage_content_;
-  fill_ = stage_fill_;
+  profile_ = stage_profile_;
   if (last_ == 0) return;
   rates_[0] = rates_[static_cast<size_t>(last_)];
   flows_[0] = flows_[static_cast<size_t>(last_)];
 }
 
 void OilContent::save(std::vector<double>& state) const {
-  for (const Eigen::ArrayXd* values : {&content_, &fill_, &rates_[0], &flows_[0]})
+  for (const Eigen::ArrayXd* values : {&content_, &profile_, &rates_[0], &flows_[0]})
     state.insert(state.end(), values->begin(), values->end());
 }
 
@@ -58,7 +58,7 @@ size_t OilContent::saved_size() const {
 }
 
 std::vector<double>::const_iterator OilContent::restore(std::vector<double>::const_iterator next) {
-  for (Eigen::ArrayXd* values : {&content_, &fill_, &rates_[0], &flows_[0]}) {
+  for (Eigen::ArrayXd* values : {&content_, &profile_, &rates_[0], &flows_[0]}) {
     std::copy(next, next + values->size(), values->begin());
     next += values->size();
   }

@@ -31,18 +31,18 @@ class OilContent {
   /// The last stage becomes the state.
   void accept_step();
 
-  /// Content [m] and fill theta of the last accepted step, n each.
+  /// Content [m] and Reynolds::profile() of the last accepted step, n each.
   const Eigen::ArrayXd& content() const { return content_; }
-  const Eigen::ArrayXd& fill() const { return fill_; }
+  const Eigen::ArrayXd& profile() const { return profile_; }
 
-  /// The state as numbers: content, fill, rates and flows of the last step.
+  /// The state as numbers: content, profile, rates and flows of the last step.
   void save(std::vector<double>& state) const;
   size_t saved_size() const;
   /// Takes `saved_size()` numbers from `next` on; returns where they end.
   std::vector<double>::const_iterator restore(std::vector<double>::const_iterator next);
 
  private:
-  Eigen::ArrayXd content_, fill_, before_, stage_content_, stage_fill_, sent_;
+  Eigen::ArrayXd content_, profile_, before_, stage_content_, stage_profile_, sent_;
   std::array<Eigen::ArrayXd, 4> rates_;  // m' of the stages [m/s]; [0]: of the last accepted step
   std::array<Eigen::ArrayXd, 4> flows_;  // Reynolds::flows() of the same [m3/s]
   int last_ = 0;

@@ -27,15 +27,21 @@ struct PistonLiner::Pad {
     const int n = grid.size();
     for (Eigen::ArrayXd* values : {&rest, &gap, &gap_by_height, &load}) values->setZero(n);
     gap_by_y.setZero(n, n_coordinates);
+    area = grid.area();
+    area_slope.setZero(n);
   }
+  bool covers(Eigen::Index cell) const { return area[cell] > 0.0; }
   std::string name;
   PadGrid grid;
   Eigen::ArrayXd rest;           // clearance and skirt relief [m]
   Eigen::ArrayXd gap;            // h [m]
   Eigen::ArrayXd gap_by_height;  // dh/dz along the stroke [1]
-  Eigen::ArrayXd load;           // cell area times (p + p_a) [N]
-  RowMatrix gap_by_y;            // dh/dy, n x n_e
-  RowMatrix derivative;          // dx/dy of the film, then d(load)/dy
+  Eigen::ArrayXd load;           // covered area times (p + p_a) [N]
+  std::optional<CoverMap> ends;  // of the liner; none: it covers the pad everywhere
+  Cover cover;
+  Eigen::ArrayXd area, area_slope;  // covered area of the cells [m2], its derivative by height [m]
+  RowMatrix gap_by_y;               // dh/dy, n x n_e
+  RowMatrix derivative;             // dx/dy of the film, then d(load)/dy
   std::optional<PatchMap> liner_map;
   std::optional<LinerShapeMap> liner_shape;
   RowMatrix liner_weights, liner_slopes;  // G_l and dG_l/dz

@@ -57,8 +57,13 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
                                  coordinates_.size(), n_total_));
 
+  height_by_y_.setZero(n_total_);
+  height_by_y_[pin_ + 2] = 1.0;
+  if (liner_axial_ >= 0) height_by_y_[liner_axial_] = -1.0;
+  if (bodies_.liner) find_ends(bodies_.liner->grid);
+
   const Edge open =
-      Edge::supply(options_.supply_pressure, options_.supply_fill, 2.0 * options_.oil_thickness);
+      Edge::supply(options_.supply_pressure, options_.supply_fill, options_.oil_thickness);
   for (const auto& [name, centre] :
        {std::pair{"thrust", 0.0}, std::pair{"antithrust", std::numbers::pi}}) {
     pads_.push_back(std::make_unique<Pad>(name, make_grid(options_, centre), n_total_));
@@ -73,7 +78,9 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     }
     if (bodies_.liner) pad.liner_map.emplace(*bodies_.liner, pad.grid);
     if (options_.bore) pad.liner_shape.emplace(*options_.bore, pad.grid);
-    if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open}, on.cavitation);
+    if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
+      pad.ends.emplace(options_.ends, pad.grid);
+    if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open, open}, on.cavitation);
     if (on.asperities)
       for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
         values->setZero(pad.grid.size());
@@ -110,8 +117,9 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return position + y[pin_ + 2] - (liner_axial_ >= 0 ? y[liner_axial_] : 0.0);
 }
 
-// Gap and its derivatives at one state; `height` is the pin centre's engine z.
+// Cover, gap and their derivatives at one state; `height` is the pin centre's engine z.
 void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
+  if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
@@ -142,7 +150,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
     if (!pad.gap.allFinite())
       throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
     pad.load.setZero();
-    if (pad.friction) pad.friction->clear();
+    if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
     if (pad.film) solve_film(pad, stage, stroke_.velocity);
     if (asperity_) update_contact(pad);
     if (pad.friction) update_friction(pad, stroke_.velocity);
@@ -152,31 +160,35 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
 }
 
 // The content at the start is the gap at the start, y~ = y - kappa v, filled by the scene's
-// fraction.
+// fraction, or the layer on the liner. Streamers need twice the layer to carry its flux.
 void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
   update_gap(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start),
              y_start, false);
-  if (pad.gap.minCoeff() <= rough_->lowest_gap())
+  if (lowest_gap(pad) <= rough_->lowest_gap())
     throw InputError(fmt::format(
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
-        options_.name, pad.gap.minCoeff(), rough_->lowest_gap()));
+        options_.name, lowest_gap(pad), rough_->lowest_gap()));
   rough_->thicknesses(pad.gap, pad.film->cells);
+  const double layers = options_.cavity == Cavity::kLayer ? 1.0 : 2.0;
   pad.film->oil.start(
-      (options_.initial_fill * pad.film->cells.content).min(2.0 * options_.oil_thickness));
+      (options_.initial_fill * pad.film->cells.content).min(layers * options_.oil_thickness) *
+      pad.area / pad.grid.area());
 }
 
 void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
   PadFilm& film = *pad.film;
-  const double lowest = pad.gap.minCoeff();
+  const double lowest = lowest_gap(pad);
   if (lowest <= rough_->lowest_gap())
     throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
                                 fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
   rough_->thicknesses(pad.gap, film.cells);
   // The liner slides past the grid at -U: the mean wall velocity is half of that.
   FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
-  if (running_) inner.fill_before = &film.oil.fill();
+  if (running_) inner.profile_before = &film.oil.profile();
+  inner.cavity = options_.cavity;
+  if (pad.ends) inner.cover = &pad.cover;
   try {
     film_solves_ +=
         film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
@@ -184,7 +196,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
                                 fmt::format("{} pad: {}", pad.name, error.what()));
   }
-  pad.load += pad.grid.area() * film.reynolds.pressure();
+  pad.load += pad.area * film.reynolds.pressure();
 }
 
 void PistonLiner::update_contact(Pad& pad) {
@@ -194,7 +206,7 @@ void PistonLiner::update_contact(Pad& pad) {
     pad.contact_slope[c] = contact.slope;
     pad.contact_energy[c] = contact.energy;
   }
-  pad.load += pad.grid.area() * pad.contact;
+  pad.load += pad.area * pad.contact;
 }
 
 void PistonLiner::update_friction(Pad& pad, double speed) {
@@ -208,7 +220,7 @@ void PistonLiner::update_friction(Pad& pad, double speed) {
 }
 
 void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
-  force += pad.gap_by_y.transpose() * pad.load.matrix();
+  force += pad.gap_by_y.transpose() * pad.load.matrix() + end_force(pad) * height_by_y_;
   if (!pad.friction) return;
   const Eigen::Vector3d rub = pad.levers.transpose() * pad.friction->force().matrix();
   force.segment<3>(pin_ + 2) += rub;
@@ -217,7 +229,7 @@ void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
 
 void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
   if (pad.film)
-    pad.film->reynolds.sensitivities(pad.gap_by_y, pad.derivative);
+    pad.film->reynolds.sensitivities(pad.gap_by_y, pad.derivative, &height_by_y_);
   else if (pad.derivative.size() == 0)
     pad.derivative.setZero(pad.grid.size(), n_total_);
   if (pad.friction) {
@@ -227,16 +239,20 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
     if (pad.film)
       rub += (pad.levers.array().colwise() * pad.friction->film_slope()).matrix().transpose() *
              pad.derivative;
+    if (pad.ends)
+      rub +=
+          pad.levers.transpose() * pad.friction->height_slope().matrix() * height_by_y_.transpose();
     tangent.middleRows<3>(pin_ + 2) += rub;
     if (liner_axial_ >= 0) tangent.row(liner_axial_) -= rub.row(0);
   }
   for (int c = 0; c < pad.grid.size(); ++c) {
-    const double area = pad.grid.area()[c];
+    const double area = pad.area[c];
     auto row = pad.derivative.row(c);
     row *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
     if (asperity_ && pad.contact_slope[c] != 0.0)
       row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
   }
+  if (pad.ends) add_end_tangent(pad, tangent);
   tangent.noalias() += pad.gap_by_y.transpose() * pad.derivative;
   if (!pad.liner_map) return;
   // The liner's weights move with the stroke: d2h / (dy_l dz) under load.

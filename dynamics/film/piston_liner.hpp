@@ -28,6 +28,9 @@ struct PadSnapshot {
 ///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + y_pin,z - y_liner,z
 ///   f = (dh/dy)^T A (p + p_a) + friction
 ///
+/// A is the area inside the liner (cover.hpp): beyond its ends there is no film, no contact and no
+/// friction, and the film has an open edge with the pads' supply.
+///
 /// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
 /// to the skirt; its content follows the integrator's tableau, and so does z_B within a step. The
 /// liner's slope along the stroke loads the piston axially (through dh/dz), so that the contact
@@ -61,6 +64,9 @@ class PistonLiner : public dynamics::ForceElement {
   struct Pad;
   void check() const;
   void update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
+  void find_ends(const rom::ContactGrid& grid);
+  void update_cover(Pad& pad, double height) const;
+  double lowest_gap(const Pad& pad) const;
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
@@ -68,11 +74,14 @@ class PistonLiner : public dynamics::ForceElement {
   void update_friction(Pad& pad, double speed);
   void add_force(const Pad& pad, Eigen::VectorXd& force) const;
   void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
+  double end_force(const Pad& pad) const;
+  void add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const;
   StrokeState stroke_at(const dynamics::Stage& stage) const;
   double stroke_height(double position, const Eigen::VectorXd& y) const;
 
   PistonLinerOptions options_;
   PistonLinerBodies bodies_;
+  Eigen::VectorXd height_by_y_;  // of the pads, n_total
   int n_piston_ = 0, n_liner_ = 0, pin_ = 0, liner_axial_ = -1, n_total_ = 0;
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;

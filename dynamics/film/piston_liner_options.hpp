@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "dynamics/film/asperity.hpp"
+#include "dynamics/film/cover.hpp"
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
+#include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
 
 namespace clatter::film {
@@ -38,15 +40,18 @@ struct PistonLinerOptions {
   int cells_along = 16;                               // cells of a pad along the axis
   SkirtShape skirt;
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
+  LinerEnds
+      ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
   // Without cavitation the next three do not apply: every cell is full.
   double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
   double supply_fill = 1.0;   // fill of the oil film entering at top and bottom of the pad, 0 to 1
-  /// Thickness of the oil layer that the rings and the splash leave on the liner [m]. The skirt
-  /// slides into it at full speed while its film moves at half of that, so the content of the gap
-  /// is at most twice this, at the start and at inflow; infinite: only the fills above apply.
+  Cavity cavity = Cavity::kLayer;  // where the oil is that does not fill the gap
+  /// Thickness of the oil layer that the rings and the splash leave on the liner [m], at the start
+  /// and at inflow: the skirt slides into it at its full speed. Infinite: only the fills above
+  /// apply.
   double oil_thickness = std::numeric_limits<double>::infinity();
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};

@@ -32,7 +32,8 @@ void PistonLiner::finish_stage(const dynamics::Stage& stage) {
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
-    film.oil.finish_stage(film.reynolds, film.cells.content, stage.index, stage.kappa);
+    film.oil.finish_stage(film.reynolds, film.cells.content * pad->area / pad->grid.area(),
+                          stage.index, stage.kappa);
   }
 }
 
@@ -45,10 +46,10 @@ void PistonLiner::accept_step(double) {
 dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
   dynamics::Power power;
   for (const auto& pad : pads_) {
-    const Eigen::ArrayXd& area = pad->grid.area();
+    const Eigen::ArrayXd& area = pad->area;
     const Eigen::ArrayXd gap_rate =
         (pad->gap_by_y * v).array() + pad->gap_by_height * stroke_.velocity;
-    power.input -= (pad->load * pad->gap_by_height).sum() * stroke_.velocity;
+    power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
     if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
     if (!pad->friction) continue;
@@ -66,7 +67,7 @@ void PistonLiner::record(dynamics::History& history) const {
   double film_peak = 0.0, contact_peak = 0.0, oil = 0.0, space = 0.0;
   for (const auto& pad : pads_) {
     const PadGrid& grid = pad->grid;
-    lowest = std::min(lowest, pad->gap.minCoeff());
+    lowest = std::min(lowest, lowest_gap(*pad));
     for (int i = 0; i < grid.n_angle(); ++i) {
       const double across = pad_normal(grid.angle(i)).y();
       for (int j = 0; j < grid.n_axial(); ++j) {
@@ -76,13 +77,13 @@ void PistonLiner::record(dynamics::History& history) const {
       }
     }
     if (pad->film) {
-      film_load += (grid.area() * pad->film->reynolds.pressure()).sum();
+      film_load += (pad->area * pad->film->reynolds.pressure()).sum();
       film_peak = std::max(film_peak, pad->film->reynolds.pressure().maxCoeff());
-      oil += (grid.area() * pad->film->cells.content * pad->film->reynolds.fill()).sum();
-      space += (grid.area() * pad->film->cells.content).sum();
+      oil += (pad->area * pad->film->cells.content * pad->film->reynolds.fill()).sum();
+      space += (pad->area * pad->film->cells.content).sum();
     }
     if (asperity_) {
-      contact_load += (grid.area() * pad->contact).sum();
+      contact_load += (pad->area * pad->contact).sum();
       contact_peak = std::max(contact_peak, pad->contact.maxCoeff());
     }
     if (pad->friction) {
@@ -90,6 +91,8 @@ void PistonLiner::record(dynamics::History& history) const {
       moment += pad->levers.col(1).dot(pad->friction->force().matrix());
     }
   }
+  if (std::isinf(lowest))  // all of the skirt is outside the liner
+    for (const auto& pad : pads_) lowest = std::min(lowest, pad->gap.minCoeff());
   const double normal = film_load + contact_load;
   history.put("film_min", "m", lowest);
   history.put("side_force", "N", side);
@@ -146,7 +149,7 @@ std::vector<PadSnapshot> PistonLiner::snapshot() const {
       one.pressure = field(pad->film->reynolds.pressure());
       one.fill = field(pad->film->reynolds.fill());
     }
-    if (asperity_) one.contact_pressure = field(pad->contact);
+    if (asperity_) one.contact_pressure = field((pad->area > 0.0).select(pad->contact, 0.0));
     all.push_back(std::move(one));
   }
   return all;

@@ -51,10 +51,15 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
   carry_.resize(faces_.size());
   lift_.assign(faces_.size(), 0.0);
   limited_.assign(faces_.size(), 0);
+  ratio_.assign(faces_.size(), 1.0);
+  rim_limited_.assign(rims_.size(), 0);
+  rim_ratio_.assign(rims_.size(), 1.0);
+  end_limited_.assign(static_cast<size_t>(n), 0);
+  covered_.setZero(n);
   rim_conduct_.resize(rims_.size());
   rim_carry_.resize(rims_.size());
   rim_entering_.resize(rims_.size());
-  flows_.setZero(static_cast<Eigen::Index>(faces_.size() + rims_.size()));
+  flows_.setZero(static_cast<Eigen::Index>(faces_.size() + rims_.size()) + n);
 }
 
 void Reynolds::build_faces() {
@@ -118,14 +123,24 @@ void Reynolds::guess_split() {
   if (!started_ && !stage_.steady)
     for (int c = 0; c < grid_.size(); ++c)
       full_[static_cast<size_t>(c)] = before_[c] >= storage_[c];
-  for (size_t f = 0; f < faces_.size(); ++f)
-    limited_[f] = lift_[f] != 0.0 && fill_[upstream_of(f)] < lowest_lifted(f);
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const double theta = fill_[upstream_of(f)];
+    limited_[f] = layers() ? ratio_[f] * theta > 1.0 : lift_[f] != 0.0 && theta < lowest_lifted(f);
+  }
+  for (size_t r = 0; r < rims_.size(); ++r)
+    rim_limited_[r] = rim_ratio_[r] * fill_[rims_[r].cell] > 1.0;
+  if (!partial_) return;
+  for (int c = 0; c < grid_.size(); ++c) {
+    if (outside(c)) full_[static_cast<size_t>(c)] = 1;
+    end_limited_[static_cast<size_t>(c)] = 2.0 * film_->content[c] * fill_[c] > film_->carry[c];
+  }
 }
 
-// Changes states whose unknown violates its bound: cells by number, then faces; true when there
-// were any.
+// Changes states whose unknown violates its bound: cells by number, then faces, open edges and
+// ends; true when there were any.
 bool Reynolds::update_split() {
-  const int n = grid_.size();
+  const int n = grid_.size(), n_faces = static_cast<int>(faces_.size()),
+            n_rims = static_cast<int>(rims_.size());
   auto value = [this](int cell) { return x_[row_[static_cast<size_t>(cell)]]; };
   double highest = 0.0;
   for (int c = 0; c < n; ++c)
@@ -134,22 +149,55 @@ bool Reynolds::update_split() {
   for (int c = 0; c < n; ++c)
     if (is_full(c) ? value(c) < -kBorder * highest : value(c) > 1.0 + kBorder)
       violated_.push_back(c);
+  // A full cell carries as much as its face takes, and so at first when it cavitates.
   for (size_t f = 0; f < faces_.size(); ++f) {
     const int upstream = upstream_of(f);
-    if (lift_[f] == 0.0 || is_full(upstream)) continue;
-    const double lowest = lowest_lifted(f), excess = value(upstream) - lowest;
-    if (limited_[f] != 0 ? excess > kBorder * lowest : excess < -kBorder * lowest)
+    if (layers() && is_full(upstream)) limited_[f] = 1;
+    if (!is_full(upstream) && violates_limit(f, value(upstream)))
       violated_.push_back(n + static_cast<int>(f));
+  }
+  for (size_t r = 0; layers() && r < rims_.size(); ++r) {
+    const int cell = rims_[r].cell;
+    if (is_full(cell)) rim_limited_[r] = 1;
+    if (rim_carry_[r] <= 0.0 || is_full(cell)) continue;
+    const double excess = rim_ratio_[r] * value(cell) - 1.0;
+    if (rim_limited_[r] != 0 ? excess < -kBorder : excess > kBorder)
+      violated_.push_back(n + n_faces + static_cast<int>(r));
+  }
+  for (int c = 0; layers() && partial_ && c < n; ++c) {
+    char& limited = end_limited_[static_cast<size_t>(c)];
+    if (is_full(c)) limited = 1;
+    if (covered_[c] >= 0.0 || is_full(c)) continue;
+    const double excess = 2.0 * value(c) * film_->content[c] / film_->carry[c] - 1.0;
+    if (limited != 0 ? excess < -kBorder : excess > kBorder)
+      violated_.push_back(n + n_faces + n_rims + c);
   }
   if (violated_.empty()) return false;
   violated_.resize(search_.count(violated_));
   for (int state : violated_) {
     if (state < n)
       full_[static_cast<size_t>(state)] ^= 1;
-    else
+    else if (state < n + n_faces)
       limited_[static_cast<size_t>(state - n)] ^= 1;
+    else if (state < n + n_faces + n_rims)
+      rim_limited_[static_cast<size_t>(state - n - n_faces)] ^= 1;
+    else
+      end_limited_[static_cast<size_t>(state - n - n_faces - n_rims)] ^= 1;
   }
   return true;
+}
+
+// A state within rounding of its bound stays.
+bool Reynolds::violates_limit(size_t face, double theta) const {
+  if (carry_[face] == 0.0) return false;
+  const bool limited = limited_[face] != 0;
+  if (layers()) {
+    const double excess = ratio_[face] * theta - 1.0;
+    return limited ? excess < -kBorder : excess > kBorder;
+  }
+  if (lift_[face] == 0.0) return false;
+  const double lowest = lowest_lifted(face), excess = theta - lowest;
+  return limited ? excess > kBorder * lowest : excess < -kBorder * lowest;
 }
 
 int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,

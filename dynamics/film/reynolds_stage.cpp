@@ -3,50 +3,54 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/film/face_law.hpp"
 #include "dynamics/film/reynolds.hpp"
 
 namespace clatter::film {
-namespace {
-
-double face_conductance(double a, double b) { return 2.0 * a * a * b * b / (a + b); }
-double face_carry(double a, double b) { return 2.0 * a * b / (a + b); }
-
-}  // namespace
 
 void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before,
                      const FilmStage& stage) {
   const double kappa = stage.steady ? 1.0 : stage.kappa;
   const double mobility = kappa / (12.0 * stage.viscosity);
   double conduct_sum = 0.0, carry_sum = 0.0;
-  auto weigh_one = [&](double conductance, double carry, double length, double distance, bool axial,
-                       double& t, double& c) {
-    t = mobility * conductance * length / distance;
-    c = kappa * (axial ? stage.speed_axial : stage.speed_angle) * length * carry;
+  partial_ = stage.cover != nullptr && (stage.cover->share < 1.0).any();
+  auto weigh_one = [&](double conductance, double carry, double length, const Inside& in,
+                       bool axial, double& t, double& c) {
+    t = mobility * conductance * (length * in.length) / in.distance;
+    c = kappa * (axial ? stage.speed_axial : stage.speed_angle) * (length * in.carried) * carry;
     conduct_sum += t;
     carry_sum += std::abs(c);
   };
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;
-    weigh_one(face_conductance(g[face.a], g[face.b]),
-              face_carry(film.carry[face.a], film.carry[face.b]), face.length, face.distance,
-              face.axial, conduct_[f], carry_[f]);
+    const Inside in = inside(face);
+    const auto [g_a, g_b] = in.beside(g[face.a], g[face.b]);
+    const auto [c_a, c_b] = in.beside(film.carry[face.a], film.carry[face.b]);
+    weigh_one(face_conductance(g_a, g_b), face_carry(c_a, c_b), face.length, in, face.axial,
+              conduct_[f], carry_[f]);
     lift_[f] = lift(face, face.axial ? stage.speed_axial : stage.speed_angle);
+    // At least 1: a cell that fills must not carry less than it will when it is full.
+    if (layers())
+      ratio_[f] = std::max(
+          2.0 * (1.0 + lift_[f]) * film.content[upstream_of(f)] / face_carry(c_a, c_b), 1.0);
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
     const double g = (rim.axial ? film.flow_axial : film.flow_angle)[rim.cell];
-    weigh_one(g * g * g, film.carry[rim.cell], rim.length, rim.distance, rim.axial, rim_conduct_[r],
+    weigh_one(g * g * g, film.carry[rim.cell], rim.length, inside(rim), rim.axial, rim_conduct_[r],
               rim_carry_[r]);
     rim_carry_[r] *= rim.sign;
-    // The inflow of a layer thinner than the gap does not depend on the gap.
     const double carry = film.carry[rim.cell];
-    rim_entering_[r] =
-        std::min(rim_carry_[r], 0.0) * std::min(rim.edge.fill, rim.edge.layer / carry);
+    rim_entering_[r] = std::min(rim_carry_[r], 0.0) * entering(rim.edge, rim.cell).value / carry;
+    rim_ratio_[r] = layers() ? std::max(2.0 * film.content[rim.cell] / carry, 1.0) : 1.0;
   }
   const double count = static_cast<double>(faces_.size() + rims_.size());
-  volume_scale_ = stage.steady ? carry_sum / count : (film.content * grid_.area()).mean();
+  storage_ = film.content * grid_.area();
+  if (partial_) storage_ *= stage.cover->of_cells(grid_.n_angle());
+  volume_scale_ = stage.steady ? carry_sum / count : storage_.mean();
   if (!(volume_scale_ > 0.0)) volume_scale_ = 1.0;
+  if (!(conduct_sum > 0.0)) conduct_sum = 1.0;  // the entire pad is outside
   pressure_scale_ = volume_scale_ * count / conduct_sum;
   for (std::vector<double>* values : {&conduct_, &rim_conduct_})
     for (double& t : *values) t *= pressure_scale_ / volume_scale_;
@@ -56,59 +60,72 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     storage_.setZero();
     before_.setZero();
   } else {
-    storage_ = film.content * grid_.area() / volume_scale_;
+    storage_ /= volume_scale_;
     before_ = content_before * grid_.area() / volume_scale_;
   }
   squeeze_ = storage_ * (stage.bulk_modulus > 0.0 ? pressure_scale_ / stage.bulk_modulus : 0.0);
+  if (partial_) weigh_ends();
 }
 
+// The row of a cell outside the liner holds only its pressure.
 void Reynolds::assemble() {
   lu_.set_zero();
   auto row_of = [this](int cell) { return row_[static_cast<size_t>(cell)]; };
+  auto add = [&](int cell, int unknown, double value) {
+    if (!outside(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
+  };
+  auto give = [&](int cell, double value) {
+    if (!outside(cell)) x_[row_of(cell)] += value;
+  };
   for (int c = 0; c < grid_.size(); ++c) {
-    x_[row_of(c)] = before_[c];
-    if (is_full(c)) {
-      x_[row_of(c)] -= storage_[c];
-      lu_.at(row_of(c), row_of(c)) += squeeze_[c];
-    } else {
-      lu_.at(row_of(c), row_of(c)) += storage_[c];
+    if (outside(c)) {
+      x_[row_of(c)] = edges_.liner_end.pressure / pressure_scale_;
+      lu_.at(row_of(c), row_of(c)) = 1.0;
+      continue;
     }
+    x_[row_of(c)] = before_[c];
+    if (is_full(c)) x_[row_of(c)] -= storage_[c];
+    add(c, c, is_full(c) ? squeeze_[c] : storage_[c]);
   }
   for (size_t f = 0; f < faces_.size(); ++f) {
-    const int a = faces_[f].a, b = faces_[f].b, pa = row_of(a), pb = row_of(b);
+    const int a = faces_[f].a, b = faces_[f].b;
     const double t = conduct_[f], carried = carry_[f];
     if (is_full(a)) {
-      lu_.at(pa, pa) += t;
-      lu_.at(pb, pa) -= t;
+      add(a, a, t);
+      add(b, a, -t);
     }
     if (is_full(b)) {
-      lu_.at(pb, pb) += t;
-      lu_.at(pa, pb) -= t;
+      add(b, b, t);
+      add(a, b, -t);
     }
     const int upstream = upstream_of(f);
-    if (is_full(upstream)) {
-      x_[pa] -= carried;
-      x_[pb] += carried;
-    } else {
-      const FaceFill law = face_fill(f);
-      const double lifted = carried * law.empty, rest = carried * law.full - lifted;
-      x_[pa] -= lifted;
-      x_[pb] += lifted;
-      lu_.at(pa, row_of(upstream)) += rest;
-      lu_.at(pb, row_of(upstream)) -= rest;
-    }
+    const FaceFill law = is_full(upstream) ? FaceFill{1.0, 1.0} : face_fill(f);
+    const double lifted = carried * law.empty, rest = carried * law.full - lifted;
+    give(a, -lifted);
+    give(b, lifted);
+    if (is_full(upstream)) continue;
+    add(a, upstream, rest);
+    add(b, upstream, -rest);
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
-    const int row = row_of(rim.cell);
-    x_[row] += rim_conduct_[r] * rim.edge.pressure / pressure_scale_;
-    if (is_full(rim.cell)) lu_.at(row, row) += rim_conduct_[r];
+    give(rim.cell, rim_conduct_[r] * rim.edge.pressure / pressure_scale_);
+    if (is_full(rim.cell)) add(rim.cell, rim.cell, rim_conduct_[r]);
     const double carried = rim_carry_[r];
-    if (carried > 0.0 && !is_full(rim.cell)) {
-      lu_.at(row, row) += carried;
-    } else {
-      x_[row] -= carried > 0.0 ? carried : rim_entering_[r];
-    }
+    if (carried > 0.0 && !is_full(rim.cell) && rim_limited_[r] == 0)
+      add(rim.cell, rim.cell, carried * rim_ratio_[r]);
+    else
+      give(rim.cell, -(carried > 0.0 ? carried : rim_entering_[r]));
+  }
+  for (int c = 0; partial_ && c < grid_.size(); ++c) {
+    if (covered_[c] == 0.0) continue;
+    const FaceFill law = end_law(c);
+    const double area = std::abs(covered_[c]);
+    give(c, -area * (is_full(c) ? law.full : law.empty));
+    if (!is_full(c))
+      add(c, c, area * (law.full - law.empty));
+    else if (covered_[c] < 0.0 && stage_.bulk_modulus > 0.0)
+      add(c, c, area * film_->content[c] * pressure_scale_ / stage_.bulk_modulus);
   }
 }
 
@@ -122,7 +139,7 @@ void Reynolds::unpack() {
     const double value = x_[row_[static_cast<size_t>(c)]];
     const bool full = is_full(c);
     pressure_[c] = full ? (cavitation_ ? std::max(value, 0.0) : value) * pressure_scale_ : 0.0;
-    fill_[c] = full ? 1.0 : std::clamp(value, 0.0, 1.0);  // outside by rounding
+    fill_[c] = outside(c) ? 0.0 : full ? 1.0 : std::clamp(value, 0.0, 1.0);  // beyond by rounding
   }
 }
 
@@ -148,7 +165,7 @@ void Reynolds::measure() {
   double out = 0.0;
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
-    const double carried = rim_carry_[r] > 0.0 ? rim_carry_[r] * fill_[rim.cell] : rim_entering_[r];
+    const double carried = rim_carry_[r] > 0.0 ? rim_carry_[r] * fill_on_rim(r) : rim_entering_[r];
     const double flow =
         rim_conduct_[r] * (pressure_[rim.cell] - rim.edge.pressure) / pressure_scale_ + carried;
     balance[rim.cell] += flow;
@@ -158,10 +175,19 @@ void Reynolds::measure() {
     flows_[static_cast<Eigen::Index>(faces_.size() + r)] = flow * flow_scale;
     out += flow;
   }
-  outflow_ = out * volume_scale_;
   residual_ = 0.0;
-  for (int c = 0; c < grid_.size(); ++c)
-    if (magnitude_[c] > 0.0) residual_ = std::max(residual_, std::abs(balance[c]) / magnitude_[c]);
+  for (int c = 0; c < grid_.size(); ++c) {
+    double flow = partial_ ? std::abs(covered_[c]) * end_thickness(c) : 0.0;
+    balance[c] += flow;
+    magnitude_[c] += std::abs(flow);
+    if (outside(c))
+      flow = -balance[c];
+    else if (magnitude_[c] > 0.0)
+      residual_ = std::max(residual_, std::abs(balance[c]) / magnitude_[c]);
+    flows_[static_cast<Eigen::Index>(faces_.size() + rims_.size()) + c] = flow * flow_scale;
+    out += flow;
+  }
+  outflow_ = out * volume_scale_;
 }
 
 }  // namespace clatter::film

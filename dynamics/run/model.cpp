@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/model.hpp"
 
+#include "dynamics/run/liner_ends_text.hpp"
 #include "dynamics/run/model_effects.hpp"
 #include "dynamics/run/model_loads.hpp"
 #include "dynamics/run/scene_bodies.hpp"
@@ -45,12 +46,14 @@ std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loade
   std::vector<std::unique_ptr<ForceElement>> mounts = mounts_of(bodies, system);
   const size_t n_mounts = mounts.size();
   for (auto& mount : mounts) system.add_element(std::move(mount));
+  const std::string ends =
+      engine.contact != nullptr ? liner_ends_text(*crank, engine.contact->options()) : "";
   std::optional<Spline> gas = crank ? gas_pressure(scene) : std::nullopt;
   for (Load& load : loads_of(bodies, system, crank, gas)) system.add_load(std::move(load));
   return std::make_unique<Model>(Model{.system = std::move(system),
                                        .crank = crank,
                                        .gas = std::move(gas),
-                                       .effects = effects_of(bodies, n_mounts),
+                                       .effects = effects_of(bodies, n_mounts, ends),
                                        .contact = engine.contact,
                                        .pin_y = engine.pin[1],
                                        .pin_rx = engine.pin[3],

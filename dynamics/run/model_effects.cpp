@@ -16,7 +16,7 @@ std::string body_size(const LoadedBody& body) {
 
 }  // namespace
 
-EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
+EffectTable effects_of(const SceneBodies& bodies, size_t mounts, const std::string& ends) {
   const Scene& scene = bodies.scene;
   EffectTable table;
   for (const auto& body : bodies.loaded) {
@@ -55,12 +55,18 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
   table.add("cavitation", contact && effects.film && effects.cavitation,
             !contact             ? absent
             : !effects.film      ? "no film"
-            : effects.cavitation ? "contact.cavitation"
+            : effects.cavitation ? scene.contact->cavity == film::Cavity::kLayer
+                                       ? "contact.cavitation, oil in layers on the walls"
+                                       : "contact.cavitation, oil in streamers across the gap"
                                  : "contact.cavitation = false: every cell is full; "
                                    "oil_thickness_um, initial_fill, supply_fill are not used");
   table.add("asperity contact", contact && effects.asperities, "contact.asperities",
             contact && !effects.film ? name : "");
   table.add("friction", contact && effects.friction, "contact.friction");
+  table.add("ends of the liner", !ends.empty(),
+            !contact       ? absent
+            : ends.empty() ? "no contact.liner_bottom_mm, liner_top_mm, no elastic liner"
+                           : ends);
   table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no mounted body", "mount");
   table.add("gravity", scene.gravity > 0.0, "gravity_m_s2");
   return table;

@@ -51,6 +51,14 @@ void read_bore(const Config& table, std::optional<film::LinerShape>& bore) {
   bore->deviation = Eigen::Map<const Eigen::RowVectorXd>(widening.data(), std::ssize(widening));
 }
 
+void read_ends(const Config& table, film::LinerEnds& ends) {
+  if (table.has("liner_bottom_mm")) ends.bottom = table.number("liner_bottom_mm") * kMilli;
+  if (table.has("liner_top_mm")) ends.top = table.number("liner_top_mm") * kMilli;
+  if (!(ends.top > ends.bottom))
+    table.fail("liner_top_mm", fmt::format("found {:g}, expected more than liner_bottom_mm, {:g}",
+                                           ends.top / kMilli, ends.bottom / kMilli));
+}
+
 void read_oil(const Config& table, film::PistonLinerOptions& options) {
   const Range share{0.0, 1.0, false};
   options.viscosity = table.number_or("viscosity_pa_s", options.viscosity, Range::positive());
@@ -58,6 +66,9 @@ void read_oil(const Config& table, film::PistonLinerOptions& options) {
       table.number_or("bulk_modulus_mpa", options.bulk_modulus * 1e-6, Range::not_negative()) * 1e6;
   options.initial_fill = table.number_or("initial_fill", options.initial_fill, share);
   options.supply_fill = table.number_or("supply_fill", options.supply_fill, share);
+  options.cavity = table.choice("cavity", {"layer", "striated"}) == "layer"
+                       ? film::Cavity::kLayer
+                       : film::Cavity::kStriated;
   if (table.has("oil_thickness_um")) {
     options.oil_thickness = table.number("oil_thickness_um", Range::positive()) * kMicro;
   }
@@ -117,6 +128,7 @@ film::PistonLinerOptions read_contact(const Config& table) {
   }
   read_shape(table, options.skirt);
   read_bore(table, options.bore);
+  read_ends(table, options.ends);
   read_oil(table, options);
   read_surfaces(table, options);
   return options;

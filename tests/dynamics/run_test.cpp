@@ -172,6 +172,26 @@ TEST_F(Runs, AWiderBoreIsMoreClearance) {
   EXPECT_GT((cone.recorder->samples().eta() - b).norm(), 1e-3 * b.norm());
 }
 
+TEST_F(Runs, HardN9_ASkirtThatLeavesItsLinerIsSaid) {
+  const auto ends = [this](const std::string& changes) {
+    const Scene described = scene(changes);
+    const auto model = build_model(described, load_bodies(described));
+    for (const auto& effect : model->effects.effects())
+      if (effect.name == "ends of the liner") return std::pair{effect.on, effect.why};
+    return std::pair{false, std::string("absent")};
+  };
+  EXPECT_FALSE(ends("").first);
+  // The pin is at 145 mm at BDC, the skirt reaches 45 mm below it; at 115 mm + 45 mm the crank is
+  // 133.3 deg after TDC: r cos a + sqrt(l^2 - r^2 sin^2 a) = 160 mm.
+  EXPECT_EQ(ends("[contact]\nliner_bottom_mm = 115.0\n"),
+            (std::pair{true, std::string("skirt leaves its bottom by 15 mm, 133 to 227 deg after "
+                                         "TDC")}));
+  EXPECT_EQ(ends("[contact]\nliner_bottom_mm = 90.0\nliner_top_mm = 290\n").second,
+            "skirt stays 10 mm above its bottom, leaves its top by 10 mm, -28 to 28 deg after TDC");
+  // An elastic liner ends with its patches.
+  EXPECT_TRUE(ends(kElasticBlock).first);
+}
+
 TEST(UniformSamples, AccelerationIsTheMeanOverTheSamplingInterval) {
   // v = t^2 in one mode, between states 0.25 s apart, sampled every second: the mean of 2 t over
   // [t - 1/2, t + 1/2] is 2 t; over the halves at both ends 0.5 and 2 t - 0.5.
@@ -370,6 +390,8 @@ TEST_F(Runs, BadScenesAreRefusedInOneLine) {
                   "contact.bore_widening_um: expected as many values as bore_height_mm"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [0, -1]\n"),
                   "contact.bore_widening_um: found -1, expected no value below 0"));
+  EXPECT_TRUE(has(refusal("[contact]\nliner_bottom_mm = 300.0\nliner_top_mm = 200.0\n"),
+                  "contact.liner_top_mm: found 200, expected more than liner_bottom_mm, 300"));
   EXPECT_TRUE(has(refusal("[contact]\nlubricaton = \"none\"\n"), "did you mean lubrication?"));
   EXPECT_TRUE(has(refusal("[piston]\npin = \"pinn\"\n"), "pinn"));
   EXPECT_TRUE(has(refusal("[piston]\ngas_load = \"fire\"\n"), "no unit load \"fire\", found: gas"));

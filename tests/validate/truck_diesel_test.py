@@ -65,6 +65,17 @@ class TruckDiesel(unittest.TestCase):
         for run in (*LUBRICATED, *DRY):
             self.assertLess(self.certificate(f"{run}.run.h5")["energy_residue"], 1e-5)  # at most 1.1e-6 is reached
 
+    def test_the_skirt_rubs_around_firing_tdc_at_idle_with_thin_hot_oil(self):
+        with h5py.File(self.folder / "slap_mixed.run.h5") as file:
+            angle = file["history/crank_angle_deg"][()]
+            share = file["history/asperity_share"][()]
+            gap = file["history/film_min"][()]
+        near = abs(angle) < 30.0
+        steps = angle[near][1:] - angle[near][:-1]
+        mean = (steps * share[near][1:]).sum() / steps.sum()
+        self.assertGreater(mean, 0.1)
+        self.assertLess(gap[near].min(), 4 * 0.54e-6)  # where asperities begin to touch
+
     def test_lubricated_cycles_repeat(self):
         for run, most in zip(LUBRICATED, (4e-6, 10e-6)):  # 0.4 and 1 um are reached
             self.assertLess(self.certificate(f"{run}.run.h5")["periodicity_lateral"], most)

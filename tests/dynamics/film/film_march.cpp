@@ -56,7 +56,7 @@ void FilmMarch::stage(int index, const Eigen::ArrayXd& h, double kappa,
   cells_.set_smooth(h);
   FilmStage inner = conditions_;
   inner.kappa = kappa;
-  if (running_) inner.fill_before = &oil_.fill();
+  if (running_) inner.profile_before = &oil_.profile();
   film_.solve(cells_, oil_.before(film_, weights), inner);
   oil_.finish_stage(film_, cells_.content, index, kappa);
 }

@@ -32,7 +32,7 @@ double error_after_one_turn(int cells, bool second_order) {
     // Trapezoidal rule: second order in time.
     const Eigen::ArrayXd before = content + 0.5 * dt * rate;
     FilmStage stage{0.5 * dt, 0.01, 1.0, 0.0};
-    if (second_order) stage.fill_before = &fill;
+    if (second_order) stage.profile_before = &fill;
     film.solve(cells_of_film, k == 0 ? content : before, stage);
     if (k == 0) {
       rate = (gap * film.fill() - content) / stage.kappa;
@@ -72,7 +72,7 @@ TEST(Transport, AFrontOfOilNeitherOvershootsNorUndershoots) {
   Eigen::ArrayXd fill = Eigen::ArrayXd::Constant(50, 0.2);
   for (int k = 0; k < 100; ++k) {
     FilmStage stage{0.005, 0.01, 0.0, 1.0};
-    stage.fill_before = &fill;
+    stage.profile_before = &fill;
     film.solve(cells, gap * fill, stage);
     const Eigen::ArrayXd next = film.fill();
     fill = next;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The piston-liner contact where the skirt passes the ends of the liner.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/film/pad_state.hpp"
+
+namespace clatter::film {
+
+// Ends that are not given are those of the patches.
+void PistonLiner::find_ends(const rom::ContactGrid& grid) {
+  LinerEnds& ends = options_.ends;
+  if (grid.axial_edges.size() < 2) return;
+  const double origin = grid.axis_point.z(), first = grid.axial_edges[0] * grid.axis.z(),
+               last = grid.axial_edges[grid.axial_edges.size() - 1] * grid.axis.z();
+  if (std::isinf(ends.bottom)) ends.bottom = origin + std::min(first, last);
+  if (std::isinf(ends.top)) ends.top = origin + std::max(first, last);
+}
+
+void PistonLiner::update_cover(Pad& pad, double height) const {
+  pad.ends->at(height, pad.cover);
+  const int columns = pad.grid.n_angle();
+  pad.area = pad.grid.area() * pad.cover.of_cells(columns);
+  pad.area_slope = pad.grid.area() * pad.cover.share_slope.replicate(columns, 1);
+}
+
+// Smallest gap inside the liner [m]; infinite when the pad is outside.
+double PistonLiner::lowest_gap(const Pad& pad) const {
+  return (pad.area > 0.0).select(pad.gap, INFINITY).minCoeff();
+}
+
+// Force along the stroke on the piston where asperities are pressed together as a row slides in
+// over the end of the liner: minus the derivative of their energy by height.
+double PistonLiner::end_force(const Pad& pad) const {
+  return asperity_ && pad.ends ? -(pad.area_slope * pad.contact_energy).sum() : 0.0;
+}
+
+// What changes with the cover: the load by the height, and the force at the end of the liner.
+void PistonLiner::add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const {
+  Eigen::ArrayXd load_slope = Eigen::ArrayXd::Zero(pad.grid.size());
+  if (pad.film) load_slope += pad.area_slope * pad.film->reynolds.pressure();
+  double curve = 0.0;
+  if (asperity_) {
+    const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact;
+    load_slope += by_gap;
+    tangent.noalias() += height_by_y_ * (pad.gap_by_y.transpose() * by_gap.matrix()).transpose();
+    const Eigen::ArrayXd area_curve =
+        pad.grid.area() * pad.cover.share_curve.replicate(pad.grid.n_angle(), 1);
+    curve = -(area_curve * pad.contact_energy).sum();
+  }
+  tangent.noalias() += (pad.gap_by_y.transpose() * load_slope.matrix() + curve * height_by_y_) *
+                       height_by_y_.transpose();
+}
+
+}  // namespace clatter::film
