@@ -16,6 +16,9 @@ EnergyBalance::EnergyBalance(const System& system, const Tableau& method)
     lost_term_.push_back(term(system.element(e).name() + " lost"));
     input_term_.push_back(term(system.element(e).name() + " input"));
   }
+  is_loss_.assign(names_.size(), 0);
+  is_loss_[0] = 1;
+  for (const size_t lost : lost_term_) is_loss_[lost] = 1;
 }
 
 size_t EnergyBalance::term(const std::string& name) {
@@ -79,7 +82,7 @@ void EnergyBalance::restore(const std::vector<double>& state, double time) {
 void EnergyBalance::reset() {
   now_.time = time_;
   now_.lost = now_.input = now_.exchanged = 0.0;
-  for (const auto& name : names_) now_.terms[name] = 0.0;
+  now_.terms.assign(names_.size(), 0.0);
   stored_at_start_ = now_.stored();
 }
 
@@ -88,9 +91,8 @@ void EnergyBalance::accept(double dt) {
   for (size_t k = 0; k < names_.size(); ++k) {
     double work = 0.0;
     for (int i = 0; i < 3; ++i) work += dt * b[i] * stages_[i].powers[k];
-    now_.terms[names_[k]] += work;
-    const bool loss =
-        k == 0 || std::find(lost_term_.begin(), lost_term_.end(), k) != lost_term_.end();
+    now_.terms[k] += work;
+    const bool loss = is_loss_[k] != 0;
     (loss ? now_.lost : now_.input) += loss ? -work : work;
     now_.exchanged += std::abs(work);
   }
