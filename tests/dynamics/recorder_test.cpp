@@ -88,7 +88,8 @@ TEST(Recorder, HardN11_HoldsNoMoreNumbersInALongRun) {
   testing::write_slap_scene(folder);
   const RunResult some = bar_run(folder, 0.02, 0.5), more = bar_run(folder, 0.08, 0.5);
   // 20 000 and 80 000 steps with twice as many samples of 11 modes: all of them, 1.5 and 6.1
-  // million numbers, were in memory before.
+  // million numbers, were in memory before. The slap of these tests with 3 million samples took 2.1
+  // GB before and takes 24 MB.
   EXPECT_GT(more.statistics.accepted, 3 * some.statistics.accepted);
   EXPECT_EQ(more.samples, 160001);
   EXPECT_EQ(some.most_held, more.most_held);

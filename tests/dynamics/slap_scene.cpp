@@ -9,6 +9,7 @@
 #include "dynamics/run/run_file.hpp"
 #include "tests/dynamics/motored_cycle.hpp"
 #include "tests/dynamics/synthetic.hpp"
+#include "tests/refusal.hpp"
 
 namespace clatter::dynamics::testing {
 
@@ -63,6 +64,13 @@ oil_thickness_um = 5.0
 Scene changed_scene(const fs::path& folder, const std::string& changes) {
   std::ofstream(folder / "changed.run.toml") << "base = \"slap.run.toml\"\n" << changes;
   return read_scene(folder / "changed.run.toml");
+}
+
+std::string scene_refusal(const fs::path& folder, const std::string& changes) {
+  return test::refusal_of([&] {
+    const Scene scene = changed_scene(folder, changes);
+    build_model(scene, load_bodies(scene));
+  });
 }
 
 H5File finished_file(const Scene& scene, const LoadedBodies& bodies, RunResult& result) {

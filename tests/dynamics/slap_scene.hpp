@@ -19,6 +19,9 @@ void write_slap_scene(const std::filesystem::path& folder);
 /// The scene with some tables changed: changed.run.toml, based on slap.run.toml.
 Scene changed_scene(const std::filesystem::path& folder, const std::string& changes);
 
+/// The InputError of that scene when it is read or its model is built, else "accepted".
+std::string scene_refusal(const std::filesystem::path& folder, const std::string& changes);
+
 /// Completes the file of a result and reads it.
 H5File finished_file(const Scene& scene, const LoadedBodies& bodies, RunResult& result);
 
