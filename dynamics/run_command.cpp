@@ -6,10 +6,12 @@
 #include <atomic>
 #include <csignal>
 
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/write_artefact.hpp"
 #include "dynamics/run/run_file.hpp"
+#include "dynamics/run/run_size.hpp"
 #include "dynamics/run/run_summary.hpp"
 
 namespace clatter::dynamics {
@@ -24,27 +26,39 @@ struct RunArguments {
   bool resume = false;
 };
 
-/// Stops on signals, writes checkpoints, and continues from one where that was requested.
+/// From here on SIGINT and SIGTERM end the run after a step; an ignored signal stays ignored.
+void stop_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (std::signal(signal, request_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
+/// NumericsError when a signal came while there is nothing to write yet.
+void require_no_stop(const std::filesystem::path& output) {
+  if (stop_requested.load())
+    throw NumericsError(
+        fmt::format("{}: interrupted before the first step, nothing was written", output.string()));
+}
+
+/// Stops on signals, and continues from a checkpoint where that was requested.
 RunControl control_of(const RunArguments& a, const Scene& scene) {
   const std::filesystem::path checkpoint = checkpoint_path(a.output);
-  const std::string mark = fingerprint(scene);
   RunControl control;
+  control.output = a.output;
   control.stop = &stop_requested;
-  control.checkpoint = [=](const Checkpoint& point) { write_checkpoint(checkpoint, point, mark); };
-  control.film_every = scene.film_every;
   control.label = fmt::format("integrating {}", a.scene.stem().stem().string());
-  if (a.resume) control.resume_from = read_checkpoint(checkpoint, mark);
+  if (a.resume) control.resume_from = read_checkpoint(checkpoint, fingerprint(scene));
   if (control.resume_from) {
     say(fmt::format("resuming after cycle {}", control.resume_from->cycle));
   } else if (a.resume && std::filesystem::exists(checkpoint)) {
     say(fmt::format("{} belongs to another scene, other inputs or another program: starting again",
                     checkpoint.string()));
   }
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, request_stop);
   return control;
 }
 
 void run_scene(const RunArguments& a, const CommonOptions& common) {
+  stop_on_signals();
   plan_run_files(a.output);
   StepClock clock;
   const Scene scene = read_scene(a.scene);
@@ -52,6 +66,9 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
   clock.lap("read and modal bodies");
   say("effects:");
   for (const auto& row : build_model(scene, bodies)->effects.lines(false)) say(row);
+  const std::string size = check_size(scene, predict_size(scene, bodies), a.output);
+  if (!size.empty()) say(size);
+  require_no_stop(a.output);
 
   const RunResult result = simulate(scene, bodies, control_of(a, scene));
   clock.lap("integration");
@@ -59,11 +76,10 @@ void run_scene(const RunArguments& a, const CommonOptions& common) {
 
   CommonOptions finished = common;
   if (!is_finished(result)) finished.depfile.clear();  // for make the run is still to be done
-  write_artefact(written_file(a.output, result), provenance_of(scene), clock, finished,
-                 [&](H5File& file) {
-                   write_run(file, scene, bodies, result);
-                   clock.lap("writing");
-                 });
+  write_run(scene, bodies, result);
+  clock.lap("writing");
+  finish_artefact(*result.file, written_file(a.output, result), provenance_of(scene), clock,
+                  finished);
   require_finished(result, a.output);
   remove_unfinished(a.output);
   for (const std::string& line : describe(result, clock.total_seconds())) print_result(line);

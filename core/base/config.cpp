@@ -59,11 +59,15 @@ Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
 
 std::string Config::where() const { return position_in_file(document_->origin, node_->table); }
 
-void Config::fail(std::string_view key, const std::string& message) const {
+std::string Config::where(std::string_view key) const {
   const toml::node* at = node_->table->get(key);
-  throw InputError(fmt::format(
-      "{}: {}{}: {}", position_in_file(document_->origin, at != nullptr ? at : node_->table),
-      node_->prefix, key, message));
+  return fmt::format("{}: {}{}",
+                     position_in_file(document_->origin, at != nullptr ? at : node_->table),
+                     node_->prefix, key);
+}
+
+void Config::fail(std::string_view key, const std::string& message) const {
+  throw InputError(fmt::format("{}: {}", where(key), message));
 }
 
 bool Config::has(std::string_view key) const {

@@ -20,6 +20,7 @@ struct Range {
   bool open_min = false;
   static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
   static Range not_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
+  static Range between(double min, double max) { return {min, max, false}; }
 };
 
 /// One table of a TOML file. Reading a key marks it as known; `finish()` on the root refuses all
@@ -79,6 +80,8 @@ class Config {
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   /// Position of this table for messages: "file:line".
   std::string where() const;
+  /// Position of a key for messages, "file:line: table.key"; of the table when it is absent.
+  std::string where(std::string_view key) const;
 
  private:
   struct Document;

@@ -77,6 +77,11 @@ void H5File::commit() {
   impl_->part_path.clear();
 }
 
+void H5File::commit(const std::filesystem::path& final_path) {
+  impl_->final_path = final_path;
+  commit();
+}
+
 const std::filesystem::path& H5File::path() const { return impl_->final_path; }
 
 bool H5File::has(std::string_view name) const { return impl_->exists(std::string(name)); }

@@ -32,6 +32,8 @@ class H5File {
 
   /// Flushes, closes, syncs and renames `path.part` to `path`.
   void commit();
+  /// The same with another final path in the same folder.
+  void commit(const std::filesystem::path& final_path);
   const std::filesystem::path& path() const;
 
   bool has(std::string_view name) const;
@@ -53,6 +55,15 @@ class H5File {
   /// Single precision, for visualisation data.
   void write_float(std::string_view name, const std::vector<float>& values,
                    const std::vector<int64_t>& shape);
+
+  /// Appends rows to a dataset that grows along its first dimension. The first call creates it, in
+  /// chunks of its rows, at most 128 KiB: later calls of the same number of rows fill complete
+  /// chunks. What was appended is on disk, apart from the library's metadata.
+  void append(std::string_view name, const std::vector<double>& values);
+  void append(std::string_view name, const RowMatrix& rows);
+  /// Single precision; `shape`: rows, then the extents of each row.
+  void append_float(std::string_view name, const std::vector<float>& values,
+                    const std::vector<int64_t>& shape);
 
   std::vector<double> read_doubles(std::string_view name) const;
   std::vector<int32_t> read_ints(std::string_view name) const;

@@ -141,6 +141,10 @@ struct H5File::Impl {
     }
   }
 
+  /// Appends rows along the first dimension; the first call creates the dataset.
+  void append(std::string_view name, hid_t type, const void* values,
+              const std::vector<int64_t>& shape);
+
   template <class T>
   std::vector<T> read(std::string_view name, size_t rank) const {
     const Id set = open_dataset(name);

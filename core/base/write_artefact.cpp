@@ -14,9 +14,15 @@ void write_artefact(const std::filesystem::path& output, const Provenance& prove
                     const std::function<void(H5File&)>& content) {
   H5File file = H5File::create(output);
   content(file);
+  finish_artefact(file, output, provenance, clock, common);
+}
+
+void finish_artefact(H5File& file, const std::filesystem::path& output,
+                     const Provenance& provenance, const StepClock& clock,
+                     const CommonOptions& common) {
   write_provenance(file, provenance);
   write_timing(file, clock);
-  file.commit();
+  file.commit(output);
   write_depfile(common.depfile, output, provenance.inputs);
 }
 

@@ -20,6 +20,13 @@ void write_artefact(const std::filesystem::path& output, const Provenance& prove
                     const StepClock& clock, const CommonOptions& common,
                     const std::function<void(H5File&)>& content);
 
+/// Finishes an artefact that was written during the work: adds `provenance` and the steps of
+/// `clock`, gives it its name `output` (in the folder in which it was created), then writes the
+/// dependency file. FileError when a file cannot be written.
+void finish_artefact(H5File& file, const std::filesystem::path& output,
+                     const Provenance& provenance, const StepClock& clock,
+                     const CommonOptions& common);
+
 /// The results of a stage for --json, in one line: {"output": ..., `members`, "seconds": ...};
 /// no effect without --json.
 void print_json_result(const std::filesystem::path& output, const JsonMembers& members,

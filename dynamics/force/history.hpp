@@ -17,13 +17,18 @@ class History {
   };
 
   void put(const std::string& name, const std::string& unit, double value) {
-    entries_.push_back({name, unit, value});
+    if (next_ == entries_.size()) entries_.emplace_back();
+    Entry& entry = entries_[next_++];
+    if (entry.name != name) entry = {name, unit, value};
+    entry.value = value;
   }
   const std::vector<Entry>& entries() const { return entries_; }
-  void clear() { entries_.clear(); }
+  /// Begins the next instant, whose names are the same: they keep their memory.
+  void clear() { next_ = 0; }
 
  private:
   std::vector<Entry> entries_;
+  size_t next_ = 0;  // entry of the next put
 };
 
 }  // namespace clatter::dynamics

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kCycle = 4.0 * std::numbers::pi;
 constexpr double kGapFactor = 20.0;
+constexpr double kLargestPressure = 1e9;  // of a gas; engines stay below 0.05 GPa [Pa]
 
 void check_units(const CsvColumns& table, const std::filesystem::path& path,
                  const std::string& abscissa_unit, const std::string& unit) {
@@ -81,10 +82,9 @@ void close_cycle(CsvColumns& table, const std::filesystem::path& path, double ty
   }
 }
 
-}  // namespace
-
-Spline read_cycle_table(const std::filesystem::path& path, const std::string& column,
-                        const std::string& unit, Spline::Kind kind) {
+/// One cycle without a closing row.
+CsvColumns cycle_columns(const std::filesystem::path& path, const std::string& column,
+                         const std::string& unit) {
   CsvColumns table = read_csv(path, column);
   check_units(table, path, "rad", unit);
   if (table.x.size() < 4) {
@@ -94,7 +94,30 @@ Spline read_cycle_table(const std::filesystem::path& path, const std::string& co
   const double typical = median_step(table);
   refuse_gaps(table, path, typical);
   close_cycle(table, path, typical);
+  return table;
+}
+
+Spline cycle_spline(CsvColumns table, Spline::Kind kind) {
   return Spline(kind, std::move(table.x), std::move(table.y), kCycle);
+}
+
+}  // namespace
+
+Spline read_cycle_table(const std::filesystem::path& path, const std::string& column,
+                        const std::string& unit, Spline::Kind kind) {
+  return cycle_spline(cycle_columns(path, column, unit), kind);
+}
+
+Spline read_gas_table(const std::filesystem::path& path, const std::string& column,
+                      Spline::Kind kind) {
+  CsvColumns table = cycle_columns(path, column, "Pa");
+  for (size_t i = 0; i < table.y.size(); ++i) {
+    if (table.y[i] >= 0.0 && table.y[i] <= kLargestPressure) continue;
+    throw InputError(fmt::format(
+        "{}:{}: {}: found {:g} bar, expected an absolute pressure from 0 to {:g} bar",
+        path.string(), table.lines[i], table.name, 1e-5 * table.y[i], 1e-5 * kLargestPressure));
+  }
+  return cycle_spline(std::move(table), kind);
 }
 
 Spline read_time_table(const std::filesystem::path& path, const std::string& column,

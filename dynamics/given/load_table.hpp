@@ -16,6 +16,11 @@ namespace clatter::dynamics {
 Spline read_cycle_table(const std::filesystem::path& path, const std::string& column,
                         const std::string& unit, Spline::Kind kind);
 
+/// Reads a table of absolute pressure [Pa] over the crank angle, as read_cycle_table(). InputError
+/// also for a value below 0 or above 1 GPa.
+Spline read_gas_table(const std::filesystem::path& path, const std::string& column,
+                      Spline::Kind kind);
+
 /// Reads a table over time [s] that must cover [begin, end].
 Spline read_time_table(const std::filesystem::path& path, const std::string& column,
                        const std::string& unit, Spline::Kind kind, double begin, double end);

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
+#include "core/base/h5_file.hpp"
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/statistics.hpp"
+#include "dynamics/run/uniform_samples.hpp"
 #include "dynamics/scene/scene.hpp"
 
 namespace clatter::dynamics {
@@ -20,20 +23,50 @@ struct Checkpoint {
   int rung = 0;
   std::vector<std::vector<double>> elements;  // internal states, per element
   std::vector<double> energy;                 // EnergyBalance::save()
-  RowMatrix eta, v;  // uniform samples of the cycle before, for periodicity
   StepStatistics statistics;
 };
+
+/// Datasets of a checkpoint with the uniform samples of the cycle that it ends, for the periodicity
+/// of the next one: eta and its velocity, n_t x modes.
+inline constexpr const char *kCycleEta = "cycle/eta", *kCycleVelocity = "cycle/v";
 
 /// Text that must agree between a checkpoint and the run that resumes from it: the hashes of the
 /// program and of all inputs, and the configuration.
 std::string fingerprint(const Scene& scene);
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
-void write_checkpoint(const std::filesystem::path& path, const Checkpoint& point,
-                      const std::string& fingerprint);
+
+/// The checkpoint at the end of a running cycle: its samples are written as they are taken, and the
+/// file replaces the checkpoint before it at the end of the cycle.
+class CheckpointFile {
+ public:
+  explicit CheckpointFile(const std::filesystem::path& path) : file_(H5File::create(path)) {}
+  /// The next block of samples.
+  void add(const SampleBlock& block);
+  /// Adds the state at the end of the cycle and gives the file its name.
+  void commit(const Checkpoint& point, const std::string& fingerprint);
+
+ private:
+  H5File file_;
+};
+
 /// Empty when there is no such file or it belongs to another scene, other inputs or another
-/// program; InputError when it cannot be read.
+/// program; InputError when it cannot be read, as of from_checkpoint().
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
                                           const std::string& fingerprint);
+
+/// The InputError of a damaged checkpoint: what is wrong with it, and what to delete.
+InputError damaged_checkpoint(const std::filesystem::path& path, const std::string& what);
+
+/// Runs `body`, which uses the content of the checkpoint at `path`: its InputError becomes that of
+/// a damaged checkpoint.
+template <class Body>
+auto from_checkpoint(const std::filesystem::path& path, const Body& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    throw damaged_checkpoint(path, error.what());
+  }
+}
 
 }  // namespace clatter::dynamics

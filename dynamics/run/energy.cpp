@@ -16,6 +16,12 @@ EnergyBalance::EnergyBalance(const System& system, const Tableau& method)
     lost_term_.push_back(term(system.element(e).name() + " lost"));
     input_term_.push_back(term(system.element(e).name() + " input"));
   }
+  for (int e = 0; e < system.elements(); ++e)
+    if (system.element(e).events() > 0) events_term_ = term("events");
+  is_loss_.assign(names_.size(), 0);
+  if (events_term_) is_loss_[*events_term_] = 1;
+  is_loss_[0] = 1;
+  for (const size_t lost : lost_term_) is_loss_[lost] = 1;
 }
 
 size_t EnergyBalance::term(const std::string& name) {
@@ -63,7 +69,7 @@ void EnergyBalance::stage(int index, const StageState& state) {
 
 /// The impulses of an event changed the energy at once.
 void EnergyBalance::count_event(double change) {
-  now_.terms["events"] += change;
+  if (events_term_) now_.terms[*events_term_] += change;
   now_.lost -= change;
   now_.exchanged += std::abs(change);
   now_.kinetic = stages_[0].kinetic;
@@ -97,7 +103,7 @@ void EnergyBalance::restore(const std::vector<double>& state, double time) {
 void EnergyBalance::reset() {
   now_.time = time_;
   now_.lost = now_.input = now_.exchanged = 0.0;
-  for (const auto& name : names_) now_.terms[name] = 0.0;
+  now_.terms.assign(names_.size(), 0.0);
   stored_at_start_ = now_.stored();
 }
 
@@ -106,9 +112,8 @@ void EnergyBalance::accept(double dt) {
   for (size_t k = 0; k < names_.size(); ++k) {
     double work = 0.0;
     for (int i = 0; i <= method_.stages; ++i) work += dt * b[i] * stages_[i].powers[k];
-    now_.terms[names_[k]] += work;
-    const bool loss =
-        k == 0 || std::find(lost_term_.begin(), lost_term_.end(), k) != lost_term_.end();
+    now_.terms[k] += work;
+    const bool loss = is_loss_[k] != 0;
     (loss ? now_.lost : now_.input) += loss ? -work : work;
     now_.exchanged += std::abs(work);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The energy balance, updated during the integration.
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +13,13 @@ namespace clatter::dynamics {
 /// Energies in the bodies' reference frames [J].
 struct EnergyState {
   double time = 0.0;
-  double kinetic = 0.0;                 // 1/2 v^T v of modes with inertia
-  double strain = 0.0;                  // 1/2 omega^2 eta^2
-  double element = 0.0;                 // stored in elements
-  double lost = 0.0;                    // since the start: dampers, friction, film, modal damping
-  double input = 0.0;                   // since the start: loads and prescribed motion
-  double exchanged = 0.0;               // since the start: sum of |power| over all terms
-  std::map<std::string, double> terms;  // each input (>0 in) and loss (<0) by name
+  double kinetic = 0.0;       // 1/2 v^T v of modes with inertia
+  double strain = 0.0;        // 1/2 omega^2 eta^2
+  double element = 0.0;       // stored in elements
+  double lost = 0.0;          // since the start: dampers, friction, film, modal damping
+  double input = 0.0;         // since the start: loads and prescribed motion
+  double exchanged = 0.0;     // since the start: sum of |power| over all terms
+  std::vector<double> terms;  // each input (>0 in) and loss (<0), as EnergyBalance::terms()
 
   double stored() const { return kinetic + strain + element; }
 };
@@ -36,6 +36,8 @@ class EnergyBalance : public StageObserver {
   void stage(int index, const StageState& state) override;
   void accept(double dt) override;
   const EnergyState& now() const { return now_; }
+  /// Names of the terms.
+  const std::vector<std::string>& terms() const { return names_; }
   /// Restarts the sums from the current state.
   void reset();
   /// Powers and energies of the current state, for checkpoints; restore() restarts the sums from
@@ -61,6 +63,8 @@ class EnergyBalance : public StageObserver {
   const Tableau& method_;
   std::vector<std::string> names_;
   std::vector<size_t> load_term_, input_term_, lost_term_;
+  std::optional<size_t> events_term_;
+  std::vector<char> is_loss_;  // per term
   Flow stages_[3];
   double time_ = 0.0;
   double stored_at_start_ = 0.0;

@@ -4,6 +4,7 @@
 #include "dynamics/run/liner_ends_text.hpp"
 #include "dynamics/run/model_effects.hpp"
 #include "dynamics/run/model_loads.hpp"
+#include "dynamics/run/piston_axis.hpp"
 #include "dynamics/run/scene_bodies.hpp"
 
 namespace clatter::dynamics {
@@ -24,6 +25,7 @@ struct EngineElements {
 
 /// Joints, guide and contact of an engine scene.
 EngineElements add_engine(const SceneBodies& bodies, const SliderCrank& crank, System& system) {
+  check_piston_axis(bodies);
   const PinNode pin = pin_node(bodies, system);
   system.add_element(pin_joint(bodies, crank, pin, system));
   system.add_element(crank_joint(bodies, crank, system));

@@ -52,20 +52,6 @@ LinerFit fit_of(const GridOfBody& liner) {
   return {liner.coordinates, rows};
 }
 
-void check_axes(const Scene& scene, const film::PistonLinerBodies& bodies) {
-  if (!bodies.piston || !bodies.liner) return;
-  const double skirt = bodies.piston->grid.axis_point.y() + scene.engine->pin_offset;
-  const double bore = bodies.liner->grid.axis_point.y();
-  if (std::abs(skirt - bore) > 1e-6) {
-    throw InputError(
-        fmt::format("{}: engine.pin_offset_mm: skirt axis at y = {:.4g} mm in the piston plus "
-                    "pin offset {:.4g} "
-                    "mm, expected the bore's axis at {:.4g} mm",
-                    scene.file.string(), 1e3 * bodies.piston->grid.axis_point.y(),
-                    1e3 * scene.engine->pin_offset, 1e3 * bore));
-  }
-}
-
 /// Springs to the ground at the nodes of a mount.
 std::vector<GroundSpring> springs_of(const SceneBodies& bodies, const MountSpec& mount,
                                      System& system) {
@@ -151,8 +137,10 @@ LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, 
     const auto motion = crank.piston_pin(time);
     return film::StrokeState{motion.position, motion.velocity};
   };
-  check_axes(scene, surfaces);
-  return {std::make_unique<film::PistonLiner>(*scene.contact, surfaces, coordinates), fit};
+  auto element = with_context(scene.contact_where, [&] {
+    return std::make_unique<film::PistonLiner>(*scene.contact, surfaces, coordinates);
+  });
+  return {std::move(element), fit};
 }
 
 std::vector<std::unique_ptr<ForceElement>> mounts_of(const SceneBodies& bodies, System& system) {

@@ -38,7 +38,6 @@ std::unique_ptr<ForceElement> pin_joint(const SceneBodies& bodies, const SliderC
 std::unique_ptr<ForceElement> crank_joint(const SceneBodies& bodies, const SliderCrank& crank,
                                           System& system);
 std::unique_ptr<ForceElement> pin_guide(const GuideSpec& guide, const PinNode& pin);
-/// InputError when the axes of skirt and bore differ.
 LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, const PinNode& pin,
                            System& system);
 /// One per [[mount]], without those of a block that is not simulated. InputError for a body that is

@@ -153,7 +153,7 @@ std::vector<Load> named_loads(const SceneBodies& bodies, const std::optional<Sli
 
 std::optional<Spline> gas_pressure(const Scene& scene) {
   if (!scene.gas) return std::nullopt;
-  return read_cycle_table(scene.gas->table, scene.gas->column, "Pa", scene.gas->interpolation);
+  return read_gas_table(scene.gas->table, scene.gas->column, scene.gas->interpolation);
 }
 
 std::vector<Load> loads_of(const SceneBodies& bodies, const System& system,

@@ -1,34 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/periodicity.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "core/base/error.hpp"
+#include "dynamics/run/checkpoint.hpp"
 
 namespace clatter::dynamics {
 
-CycleDifference cycle_difference(const Model& model, const UniformSamples& now,
-                                 const RowMatrix& eta_before, const RowMatrix& v_before) {
-  CycleDifference result;
-  if (v_before.rows() != now.v().rows() || now.count() != now.v().rows()) return result;
-  const auto& bodies = model.system.bodies();
-  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
-    const auto at = model.system.mode_offset(b), n = bodies[static_cast<size_t>(b)].modes();
-    const double all = now.v().middleCols(at, n).squaredNorm();
-    const double difference =
-        (now.v().middleCols(at, n) - v_before.middleCols(at, n)).squaredNorm();
-    result.velocity[bodies[static_cast<size_t>(b)].name] =
-        all > 0.0 ? std::sqrt(difference / all) : 0.0;
+CycleComparison::CycleComparison(const Model& model, H5File before, int64_t samples)
+    : model_(model),
+      before_(std::move(before)),
+      samples_(samples),
+      all_(model.system.bodies().size(), 0.0),
+      change_(all_) {
+  const std::vector<int64_t> expected{samples, model.system.modes()};
+  for (const char* name : {kCycleEta, kCycleVelocity}) {
+    if (before_.shape(name) == expected) continue;
+    throw InputError(fmt::format("{}: {}: expected {} samples of {} modes", before_.path().string(),
+                                 name, expected[0], expected[1]));
   }
-  if (model.pin_y < 0) return result;
-  Eigen::Vector2d largest = Eigen::Vector2d::Zero();
-  for (int i = 0; i < now.count(); ++i) {
-    const Eigen::VectorXd change = (now.eta().row(i) - eta_before.row(i)).transpose();
+}
+
+void CycleComparison::add(const SampleBlock& now) {
+  const RowMatrix v_before = before_.read_rows(kCycleVelocity, now.first, now.count);
+  for (size_t b = 0; b < all_.size(); ++b) {
+    const auto at = model_.system.mode_offset(static_cast<int>(b));
+    const auto n = model_.system.bodies()[b].modes();
+    const auto v = now.v.block(0, at, now.count, n);
+    all_[b] += v.squaredNorm();
+    change_[b] += (v - v_before.middleCols(at, n)).squaredNorm();
+  }
+  compared_ += now.count;
+  if (model_.pin_y < 0) return;
+  const RowMatrix eta_before = before_.read_rows(kCycleEta, now.first, now.count);
+  for (Eigen::Index i = 0; i < now.count; ++i) {
+    const Eigen::VectorXd change = (now.eta.row(i) - eta_before.row(i)).transpose();
     const Eigen::Vector2d motion =
-        model.secondary_motion(now.time(i), model.system.interface(change));
-    largest = largest.cwiseMax(motion.cwiseAbs());
+        model_.secondary_motion(now.time(i), model_.system.interface(change));
+    largest_ = largest_.cwiseMax(motion.cwiseAbs());
   }
-  result.lateral = largest.x();
-  result.tilt = largest.y();
+}
+
+CycleDifference CycleComparison::difference() const {
+  CycleDifference result;
+  if (compared_ != samples_) return result;
+  for (size_t b = 0; b < all_.size(); ++b)
+    result.velocity[model_.system.bodies()[b].name] =
+        all_[b] > 0.0 ? std::sqrt(change_[b] / all_[b]) : 0.0;
+  if (model_.pin_y < 0) return result;
+  result.lateral = largest_.x();
+  result.tilt = largest_.y();
   return result;
 }
 

@@ -1,81 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Results of one cycle (or of an entire run): uniform samples, histories, energies, film fields.
-#include <map>
-#include <string>
+// Results of one cycle (or of an entire run), which go to the run file block by block.
 #include <vector>
 
+#include "dynamics/force/history.hpp"
+#include "dynamics/run/column_stream.hpp"
 #include "dynamics/run/energy.hpp"
+#include "dynamics/run/film_stream.hpp"
 #include "dynamics/run/model.hpp"
+#include "dynamics/run/uniform_samples.hpp"
 
 namespace clatter::dynamics {
 
-/// Modal motion at uniform times begin + i (end - begin) / n, i = 0..n.
-///
-/// Between accepted states q and v are cubic Hermite interpolants (of q, v and of v, a). a is the
-/// mean over one sampling interval around its instant, from v half an interval before and after: an
-/// impact shorter than the interval keeps its momentum and does not fold into lower frequencies.
-/// The first and last sample use the half interval available.
-class UniformSamples {
- public:
-  UniformSamples(double begin, double end, double step, int modes);
-  /// Takes the sample at `begin`.
-  void start(const StageState& state);
-  /// Takes the samples in (previous, now].
-  void add(const StageState& previous, const StageState& now);
-
-  int count() const { return count_; }  // samples taken so far
-  double time(int i) const;
-  double step() const { return step_; }
-  /// count x modes; rows beyond count() are not set.
-  const RowMatrix& eta() const { return eta_; }
-  const RowMatrix& v() const { return v_; }
-  const RowMatrix& a() const { return a_; }
-
- private:
-  void take(const StageState& p, const StageState& n, double t);
-  double begin_, step_;
-  int count_ = 0;
-  int halves_ = 0;          // half intervals passed since begin
-  Eigen::VectorXd v_half_;  // v at the last half
-  RowMatrix eta_, v_, a_;
+/// What is recorded of a span.
+struct RecordedSpan {
+  double begin = 0.0, end = 0.0;  // [s]
+  double output_step = 0.0;       // between samples, as requested [s]
+  double film_every = 0.0;        // between film fields [s], 0: none
 };
 
-/// Columns of numbers that grow row by row.
-struct Columns {
-  std::vector<std::string> names, units;
-  std::vector<std::vector<double>> values;  // one per column
-};
-
-/// Film fields of some instants.
-struct FilmFrames {
-  std::vector<double> time;
-  std::vector<std::vector<film::PadSnapshot>> pads;
-};
-
-/// Records one span of a run.
+/// Records one span of a run into the groups `history`, `energy` and `film` of a run file; the
+/// samples go to a sink. What is held in memory does not grow with the span.
 class Recorder {
  public:
-  /// `film_every`: time between film fields [s], 0: none.
-  Recorder(const Model& model, double begin, double end, double step, double film_every);
+  /// `model` and `file` outlive the recorder; `sink` takes the blocks of samples.
+  Recorder(const Model& model, const RecordedSpan& span, H5File& file, UniformSamples::Sink sink);
   /// The state that the span starts from: a sample, no history (elements were not evaluated there).
   void start(const StageState& state) { samples_.start(state); }
   /// After each accepted step.
-  void record(const Model& model, const StageState& previous, const StageState& now,
-              const EnergyBalance& energy);
+  void record(const StageState& previous, const StageState& now, const EnergyBalance& energy);
+  /// Writes what is left, also of a span that ends early.
+  void finish();
 
-  const UniformSamples& samples() const { return samples_; }
-  const std::vector<double>& time() const { return time_; }  // of the histories: accepted states
-  const Columns& history() const { return history_; }
-  const Columns& energy() const { return energy_; }
-  const FilmFrames& film() const { return film_; }
+  /// The scalars of the last accepted state.
+  const History& last() const { return last_; }
+  int64_t samples() const { return samples_.count(); }
+  /// Numbers in memory, all together.
+  int64_t held() const;
 
  private:
-  static void append(Columns& columns, const History& row);
+  void add_clock(double time);
+  void record_energy(const EnergyBalance& energy);
+  const Model& model_;
   UniformSamples samples_;
-  std::vector<double> time_;
-  Columns history_, energy_;
-  FilmFrames film_;
+  History last_;
+  ColumnStream history_, energy_, film_clock_;
+  FilmStream film_;
+  std::vector<double> row_;
   double film_every_, next_film_;
 };
 

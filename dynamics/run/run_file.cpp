@@ -1,90 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/run_file.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "core/run/run_layout.hpp"
+#include "dynamics/run/run_clock.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-double degrees(const Model& model, double time) {
-  return model.crank->angle(time) * 180.0 / std::numbers::pi;
-}
-
-void write_clock(H5File& file, const Model& model, const std::string& group,
-                 const std::vector<double>& time) {
-  file.write(run::path(group, run::kTime), time);
-  file.set(run::path(group, run::kTime), "unit", "s");
-  if (!model.crank) return;
-  std::vector<double> angle;
-  for (const double t : time) angle.push_back(degrees(model, t));
-  file.write(run::path(group, run::kCrankAngle), angle);
-  file.set(run::path(group, run::kCrankAngle), "unit", "deg");
-}
-
-void write_bodies(H5File& file, const LoadedBodies& bodies, const RunResult& result) {
-  const auto& samples = result.recorder->samples();
+void write_body(H5File& file, const LoadedBody& body) {
+  const std::string group = run::path(run::kBodies, body.spec.name);
   const auto folder = std::filesystem::absolute(file.path()).parent_path();
-  int index = 0;
-  for (const auto& body : bodies) {
-    const auto at = result.model->system.mode_offset(index++), n = body.modal.modes();
-    const std::string group = run::path(run::kBodies, body.spec.name);
-    const auto physical = [&](const RowMatrix& modal) -> RowMatrix {
-      return modal.topRows(samples.count()).middleCols(at, n) * body.modal.shapes.transpose();
-    };
-    file.write(run::path(group, run::kPosition), physical(samples.eta()));
-    file.write(run::path(group, run::kVelocity), physical(samples.v()));
-    file.write(run::path(group, run::kAcceleration), physical(samples.a()));
-    const auto rom = std::filesystem::absolute(body.spec.rom);
-    file.set(group, run::kRom, rom.lexically_proximate(folder).string());
-    file.set(group, run::kRomHash, body.sha256);
-    file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
-  }
-}
-
-void write_columns(H5File& file, const std::string& group, const Columns& columns) {
-  for (size_t i = 0; i < columns.names.size(); ++i) {
-    const std::string name = group + "/" + columns.names[i];
-    file.write(name, columns.values[i]);
-    file.set(name, "unit", columns.units[i]);
-  }
-}
-
-using Field = RowMatrix film::PadSnapshot::*;
-
-void write_field(H5File& file, const std::string& name, const FilmFrames& frames, size_t pad,
-                 Field field) {
-  const RowMatrix& first = frames.pads.front()[pad].*field;
-  if (first.size() == 0) return;
-  std::vector<float> values;
-  for (const auto& pads : frames.pads) {
-    const RowMatrix& one = pads[pad].*field;
-    for (Eigen::Index k = 0; k < one.size(); ++k) {
-      values.push_back(static_cast<float>(one.data()[k]));
-    }
-  }
-  file.write_float(name, values,
-                   {static_cast<int64_t>(frames.pads.size()), first.rows(), first.cols()});
-}
-
-void write_film(H5File& file, const Model& model, const FilmFrames& frames) {
-  if (frames.time.empty()) return;
-  write_clock(file, model, "film", frames.time);
-  const auto& pads = frames.pads.front();
-  for (size_t pad = 0; pad < pads.size(); ++pad) {
-    const std::string group = "film/" + pads[pad].name;
-    file.write(group + "/angle_deg", Eigen::VectorXd(pads[pad].angle * (180.0 / std::numbers::pi)));
-    file.write(group + "/axial", pads[pad].axial);
-    write_field(file, group + "/gap", frames, pad, &film::PadSnapshot::gap);
-    write_field(file, group + "/pressure", frames, pad, &film::PadSnapshot::pressure);
-    write_field(file, group + "/fill", frames, pad, &film::PadSnapshot::fill);
-    write_field(file, group + "/contact_pressure", frames, pad,
-                &film::PadSnapshot::contact_pressure);
-  }
+  const auto rom = std::filesystem::absolute(body.spec.rom);
+  file.set(group, run::kRom, rom.lexically_proximate(folder).string());
+  file.set(group, run::kRomHash, body.sha256);
+  file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
 }
 
 void write_statistics(H5File& file, const StepStatistics& s) {
@@ -126,23 +55,40 @@ Provenance provenance_of(const Scene& scene) {
   return {run::kSchema, scene.resolved, scene.inputs};
 }
 
-void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
-               const RunResult& result) {
-  const Model& model = *result.model;
-  const Recorder& recorder = *result.recorder;
+void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies,
+                    const SampleBlock& block) {
+  std::vector<double> time, angle;
+  for (Eigen::Index i = 0; i < block.count; ++i) {
+    time.push_back(block.time(i));
+    if (model.crank) angle.push_back(crank_angle_deg(model, time.back()));
+  }
+  const auto clock = [&](const char* name, const std::vector<double>& values, const char* unit) {
+    const std::string path = run::path(run::kOutput, name);
+    file.append(path, values);
+    if (block.first == 0) file.set(path, "unit", unit);
+  };
+  clock(run::kTime, time, "s");
+  if (model.crank) clock(run::kCrankAngle, angle, "deg");
+  int index = 0;
+  for (const auto& body : bodies) {
+    const auto at = model.system.mode_offset(index++), n = body.modal.modes();
+    const std::string group = run::path(run::kBodies, body.spec.name);
+    const auto physical = [&](const RowMatrix& modal) -> RowMatrix {
+      return modal.block(0, at, block.count, n) * body.modal.shapes.transpose();
+    };
+    file.append(run::path(group, run::kPosition), physical(block.eta));
+    file.append(run::path(group, run::kVelocity), physical(block.v));
+    file.append(run::path(group, run::kAcceleration), physical(block.a));
+  }
+}
+
+void write_run(const Scene& scene, const LoadedBodies& bodies, const RunResult& result) {
+  H5File& file = *result.file;
   file.set("/", "title", scene.title);
   file.set("/", run::kComplete, result.complete ? 1 : 0);
-  std::vector<double> time;
-  for (int i = 0; i < recorder.samples().count(); ++i) time.push_back(recorder.samples().time(i));
-  write_clock(file, model, run::kOutput, time);
-  write_bodies(file, bodies, result);
-  write_clock(file, model, "history", recorder.time());
-  write_columns(file, "history", recorder.history());
-  write_clock(file, model, "energy", recorder.time());
-  write_columns(file, "energy", recorder.energy());
+  for (const auto& body : bodies) write_body(file, body);
   file.set("energy", "residue", result.energy_residue);
-  write_film(file, model, recorder.film());
-  model.effects.write(file);
+  result.model->effects.write(file);
   write_statistics(file, result.statistics);
   write_certificate(file, run_certificate(result));
 }

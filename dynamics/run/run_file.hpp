@@ -8,20 +8,19 @@
 
 namespace clatter::dynamics {
 
-/// Writes
+/// Appends a block of samples:
 ///   output/time [s], output/crank_angle_deg        n_t, uniform
-///   bodies/<name>/q, v, a                          n_t x r, reduced coordinates, SI; attributes
-///   rom
-///                                                  (relative to the run file), rom_sha256
-///   history/crank_angle_deg, history/time, history/<name>   accepted states; attribute unit
-///   energy/time, kinetic, strain, element, input, lost, imbalance, terms/<name>; attribute residue
-///   film/time, film/crank_angle_deg, film/<pad>/angle_deg, axial, gap, pressure, fill,
-///     contact_pressure                             instants x angle x axial, single precision
+///   bodies/<name>/q, v, a                          n_t x r, reduced coordinates, SI
+void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies,
+                    const SampleBlock& block);
+
+/// Adds to the file of a result what is known at its end:
+///   bodies/<name>                       attributes rom (relative to the run file), rom_sha256
+///   energy                              attribute residue
 ///   effects/..., statistics (attributes), certificate (attributes)
-/// Root attribute `complete`: 0 when the run was interrupted inside its last cycle. Provenance and
-/// timing are left to the caller.
-void write_run(H5File& file, const Scene& scene, const LoadedBodies& bodies,
-               const RunResult& result);
+/// Root attribute `complete`: 0 when the run was interrupted inside its last cycle. Provenance,
+/// timing and the name of the file are left to the caller (finish_artefact).
+void write_run(const Scene& scene, const LoadedBodies& bodies, const RunResult& result);
 
 /// Schema, resolved configuration and inputs of a run.
 Provenance provenance_of(const Scene& scene);

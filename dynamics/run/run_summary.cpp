@@ -43,6 +43,7 @@ void require_finished(const RunResult& result, const std::filesystem::path& outp
 
 void remove_unfinished(const std::filesystem::path& output) {
   std::filesystem::remove(checkpoint_path(output));
+  std::filesystem::remove(checkpoint_path(output).string() + ".part");  // of a killed run
   std::filesystem::remove(beside(output, kInterrupted));
 }
 

@@ -3,14 +3,14 @@
 // Runs a scene from its start (or a checkpoint) to its end, cycle by cycle.
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/base/h5_file.hpp"
 #include "dynamics/run/checkpoint.hpp"
 #include "dynamics/run/model.hpp"
-#include "dynamics/run/recorder.hpp"
 #include "dynamics/run/run_certificate.hpp"
 
 namespace clatter::dynamics {
@@ -18,7 +18,11 @@ namespace clatter::dynamics {
 /// Result of a run: the last cycle (possibly incomplete) and statistics.
 struct RunResult {
   std::unique_ptr<Model> model;  // of the last cycle; its effects have the cost
-  std::unique_ptr<Recorder> recorder;
+  /// The run file with samples, histories, energies and film of the last cycle, still without its
+  /// final name; write_run() adds the rest.
+  std::unique_ptr<H5File> file;
+  int64_t samples = 0;    // in the file
+  int64_t most_held = 0;  // largest count of recorded numbers in memory
   StepStatistics statistics;
   int cycles = 0;                     // completed; 1 for a scene without an engine
   bool complete = false;              // false: interrupted inside a cycle
@@ -26,21 +30,23 @@ struct RunResult {
   double energy_residue = 0.0;        // of the reported cycle
   double energy_exchanged = 0.0;      // [J]
   CycleDifference periodicity;        // of the reported cycle
-  std::vector<std::string> warnings;  // of accuracy_warnings(), in the reported cycle
+  std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure
 };
 
 struct RunControl {
-  std::optional<Checkpoint> resume_from;
-  const std::atomic<bool>* stop = nullptr;            // set by the caller: stop after a step
-  std::function<void(const Checkpoint&)> checkpoint;  // after each cycle but the last
-  double film_every = 0.0;                            // [s]
-  std::string label = "integrating";                  // of the progress
+  /// The run file, written as `output.part`; each cycle replaces that of the cycle before. After
+  /// each cycle but the last there is a checkpoint beside it, checkpoint_path(output).
+  std::filesystem::path output;
+  std::optional<Checkpoint> resume_from;    // read from that checkpoint
+  const std::atomic<bool>* stop = nullptr;  // set by the caller: stop after a step
+  std::string label = "integrating";        // of the progress
 };
 
 /// Starts from rest at the ideal position of every body (all deviations zero, so every gap is the
 /// clearance) at TDC of gas exchange, with loads growing from zero over `time.ramp`: a consistent
 /// state. Integrates `cycles` cycles of 720 deg, or the span of a scene without an engine.
-/// When steps fall below the floor the result ends there, with the reason in `failure`.
+/// When steps fall below the floor the result ends there, with the reason in `failure`. Memory does
+/// not grow with the number of steps or samples. FileError when a file cannot be written.
 RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunControl& control);
 
 }  // namespace clatter::dynamics

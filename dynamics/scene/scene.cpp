@@ -10,9 +10,14 @@
 #include "core/base/units.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/scene/contact_table.hpp"
+#include "dynamics/scene/time_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
+
+// Ranges, here and in the other tables, are those of any machine, from model engines to ship
+// diesels, with a wide margin: a value outside is a slip of unit or sign. They also keep products
+// and powers of values finite.
 
 Spline::Kind interpolation(const Config& table, std::string_view fallback) {
   const bool linear_first = fallback == "linear";
@@ -25,24 +30,46 @@ void read_body(const Config& table, const std::string& name, BodySpec& body) {
   body.name = name;
   body.rom = table.path("rom");
   body.elastic = table.choice("model", {"elastic", "rigid"}) == "elastic";
-  body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::not_negative());
+  body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::between(0.0, 1e9));
   body.where = table.where();
+}
+
+void read_rod(const Config& rod, RodProperties& out) {
+  out.length = rod.number("length_mm", Range::between(1.0, 1e5)) * kMilli;
+  out.mass = rod.number("mass_kg", Range::between(1e-6, 1e6));
+  // Beyond these the radius of gyration is over the length, or under a thousandth of it.
+  const double largest = out.mass * out.length * out.length;
+  out.inertia = rod.number("inertia_kg_m2", Range::positive());
+  if (!(out.inertia >= 1e-6 * largest && out.inertia <= largest))
+    rod.fail("inertia_kg_m2",
+             fmt::format("found {:g}, expected at least {:.3g} and at most {:.3g}, mass x length^2",
+                         out.inertia, 1e-6 * largest, largest));
+  out.centre = rod.number("centre_mm", Range::between(0.0, out.length / kMilli)) * kMilli;
+}
+
+/// The name of a [[body]]: a group of the run file, and different from the engine's own bodies.
+std::string body_name(const Config& table, const Scene& scene) {
+  const std::string name = table.text("name");
+  if (name.empty() || name == "." || name.find('/') != std::string::npos)
+    table.fail("name", fmt::format("found \"{}\", expected a name without /", name));
+  if (scene.engine && name == "rod")
+    table.fail("name", "found \"rod\", which is the rod of [rod]: expected another name");
+  return name;
 }
 
 EngineSpec read_engine(const Config& root) {
   const Config table = root.table("engine");
   EngineSpec engine;
-  engine.speed = table.number("speed_rpm", Range::positive()) * std::numbers::pi / 30.0;
-  engine.stroke = table.number("stroke_mm", Range::positive()) * kMilli;
-  engine.pin_offset = table.number_or("pin_offset_mm", 0.0) * kMilli;
+  engine.speed = table.number("speed_rpm", Range::between(0.01, 1e5)) * std::numbers::pi / 30.0;
+  engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
+  engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
   engine.balanced = table.flag_or("balanced", false);
   const Config rod = root.table("rod");
-  engine.rod.length = rod.number("length_mm", Range::positive()) * kMilli;
-  engine.rod.mass = rod.number("mass_kg", Range::positive());
-  engine.rod.inertia = rod.number("inertia_kg_m2", Range::positive());
-  engine.rod.centre =
-      rod.number("centre_mm", Range{0.0, engine.rod.length / kMilli, false}) * kMilli;
-  SliderCrank(0.5 * engine.stroke, engine.rod.length, engine.pin_offset, engine.speed);
+  read_rod(rod, engine.rod);
+  const bool by_offset = engine.rod.length > 0.5 * engine.stroke;
+  with_context(by_offset ? table.where("pin_offset_mm") : rod.where("length_mm"), [&] {
+    SliderCrank(0.5 * engine.stroke, engine.rod.length, engine.pin_offset, engine.speed);
+  });
   return engine;
 }
 
@@ -51,12 +78,12 @@ RadialLaw read_law(const Config& root, std::string_view key) {
   const auto table = root.find_table(key);
   if (!table) return law;
   law.clearance =
-      table->number_or("clearance_um", law.clearance / kMicro, Range::not_negative()) * kMicro;
+      table->number_or("clearance_um", law.clearance / kMicro, Range::between(0.0, 1e5)) * kMicro;
   law.soft_stiffness =
-      table->number_or("soft_stiffness_n_m", law.soft_stiffness, Range::not_negative());
+      table->number_or("soft_stiffness_n_m", law.soft_stiffness, Range::between(0.0, 1e15));
   law.exponent = table->number_or("exponent", law.exponent, Range{1.0, 3.0, false});
-  law.stiffness = table->number_or("stiffness", law.stiffness, Range::positive());
-  law.damping = table->number_or("damping_n_s_m", law.damping, Range::not_negative());
+  law.stiffness = table->number_or("stiffness", law.stiffness, Range::between(1.0, 1e27));
+  law.damping = table->number_or("damping_n_s_m", law.damping, Range::between(0.0, 1e12));
   return law;
 }
 
@@ -64,11 +91,11 @@ GuideSpec read_guide(const Config& root) {
   GuideSpec guide;
   const auto table = root.find_table("pin_guide");
   if (!table) return guide;
-  const auto positive = Range::not_negative();
-  guide.axial_stiffness = table->number_or("axial_stiffness_n_m", guide.axial_stiffness, positive);
-  guide.axial_damping = table->number_or("axial_damping_n_s_m", guide.axial_damping, positive);
-  guide.tilt_stiffness = table->number_or("tilt_stiffness_n_m", guide.tilt_stiffness, positive);
-  guide.tilt_damping = table->number_or("tilt_damping_n_m_s", guide.tilt_damping, positive);
+  const Range any = Range::between(0.0, 1e15);
+  guide.axial_stiffness = table->number_or("axial_stiffness_n_m", guide.axial_stiffness, any);
+  guide.axial_damping = table->number_or("axial_damping_n_s_m", guide.axial_damping, any);
+  guide.tilt_stiffness = table->number_or("tilt_stiffness_n_m", guide.tilt_stiffness, any);
+  guide.tilt_damping = table->number_or("tilt_damping_n_m_s", guide.tilt_damping, any);
   return guide;
 }
 
@@ -77,7 +104,7 @@ GasSpec read_gas(const Config& table) {
   gas.table = table.path("table");
   gas.column = table.text_or("column", "pressure");
   gas.interpolation = interpolation(table, "cubic");
-  gas.ambient = table.number_or("ambient_bar", 1.0, Range::not_negative()) * 1e5;
+  gas.ambient = table.number_or("ambient_bar", 1.0, Range::between(0.0, 1e4)) * 1e5;
   return gas;
 }
 
@@ -105,22 +132,28 @@ MountSpec read_mount(const Config& table) {
   mount.where = table.where();
   mount.body = table.text_or("body", "block");
   mount.sets = table.texts("sets");
+  if (mount.sets.empty()) table.fail("sets", "found none, expected names of sets of the body");
   mount.stiffness = table.numbers("stiffness_n_m", 3);
   mount.damping =
       table.has("damping_n_s_m") ? table.numbers("damping_n_s_m", 3) : std::vector<double>(3, 0.0);
-  for (const double value : mount.stiffness) {
-    if (value < 0.0)
-      table.fail("stiffness_n_m", fmt::format("found {}, expected at least 0", value));
-  }
-  for (const double value : mount.damping) {
-    if (value < 0.0)
-      table.fail("damping_n_s_m", fmt::format("found {}, expected at least 0", value));
-  }
+  bool acts = false;
+  const auto check = [&](const char* key, const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!(value >= 0.0 && value <= 1e15))
+        table.fail(key, fmt::format("found {}, expected at least 0 and at most 1e+15", value));
+      acts = acts || value > 0.0;
+    }
+  };
+  check("stiffness_n_m", mount.stiffness);
+  check("damping_n_s_m", mount.damping);
+  if (!acts)
+    table.fail("stiffness_n_m", "found 0 everywhere, expected a stiffness or damping above 0");
   return mount;
 }
 
 LoadSpec read_load(const Config& table) {
   static constexpr std::string_view kComponents[] = {"x", "y", "z", "rx", "ry", "rz"};
+  const Range factor = Range::between(-1e15, 1e15);
   LoadSpec load;
   load.where = table.where();
   load.body = table.text("body");
@@ -137,54 +170,11 @@ LoadSpec read_load(const Config& table) {
     load.column = table.text_or("column", "");
     load.unit = table.text_or("unit", load.component < 3 ? "N" : "N m");
     load.interpolation = interpolation(table, "linear");
-    load.scale = table.number_or("scale", 1.0);
+    load.scale = table.number_or("scale", 1.0, factor);
   } else {
-    load.scale = table.number("value");
+    load.scale = table.number("value", factor);
   }
   return load;
-}
-
-void read_steps(const Config& root, Scene& scene) {
-  const double turn = scene.engine ? 2.0 * std::numbers::pi / scene.engine->speed : 0.0;
-  const double largest_us =
-      scene.engine ? turn / 360.0 / kMicro : (scene.time.end - scene.time.begin) / 100.0 / kMicro;
-  const Config time = root.table("time");
-  const std::string method =
-      scene.contact && scene.contact->effects.film
-          ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
-          : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
-  for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
-    if (known->name == method) scene.steps.method = known;
-  scene.steps.largest = time.number_or("largest_step_us", largest_us, Range::positive()) * kMicro;
-  scene.steps.smallest = time.number_or("smallest_step_us", 1e-4, Range::positive()) * kMicro;
-  scene.steps.first = std::min(1e-7, 1e-3 * scene.steps.largest);
-  auto& accuracy = scene.steps.accuracy;
-  const auto table = root.find_table("accuracy");
-  if (!table) return;
-  accuracy.tolerance = table->number_or("tolerance", accuracy.tolerance, Range{1e-12, 1.0, false});
-  accuracy.displacement_scale =
-      table->number_or("displacement_um", accuracy.displacement_scale / kMicro, Range::positive()) *
-      kMicro;
-  accuracy.velocity_scale =
-      table->number_or("velocity_m_s", accuracy.velocity_scale, Range::positive());
-  accuracy.arm = table->number_or("arm_mm", accuracy.arm / kMilli, Range::positive()) * kMilli;
-}
-
-void read_time(const Config& root, Scene& scene) {
-  const Config time = root.table("time");
-  scene.time.output_step = time.number_or("output_step_us", 20.0, Range::positive()) * kMicro;
-  if (!scene.engine) {
-    scene.time.end = time.number("end_s", Range::positive());
-    return;
-  }
-  scene.time.cycles = static_cast<int>(time.integer_or("cycles", 2, Range{1.0, 1000.0, false}));
-  const double ramp_deg = time.number_or("ramp_deg", 60.0, Range{0.0, 360.0, false});
-  const double omega = scene.engine->speed;
-  scene.time.begin = -(2.0 + 4.0 * (scene.time.cycles - 1)) * std::numbers::pi / omega;
-  scene.time.end = 2.0 * std::numbers::pi / omega;
-  scene.time.ramp = ramp_deg * kDegree / omega;
-  scene.film_every =
-      time.number_or("film_every_deg", 10.0, Range::not_negative()) * kDegree / omega;
 }
 
 void check_engine(const Config& root, const Scene& scene) {
@@ -226,10 +216,10 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   scene.title = root.text_or("title", path.stem().stem().string());
   if (root.has("engine")) scene.engine = read_engine(root);
   read_time(root, scene);
-  scene.gravity = root.number_or("gravity_m_s2", 0.0, Range::not_negative());
+  scene.gravity = root.number_or("gravity_m_s2", 0.0, Range::between(0.0, 1e5));
   for (const Config& table : root.tables("body")) {
     BodySpec body;
-    read_body(table, table.text("name"), body);
+    read_body(table, body_name(table, scene), body);
     scene.bodies.push_back(body);
   }
   for (const Config& table : root.tables("mount")) scene.mounts.push_back(read_mount(table));
@@ -239,6 +229,8 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
     if (const auto table = root.find_table("block")) scene.block = read_block(*table);
     if (const auto table = root.find_table("gas")) scene.gas = read_gas(*table);
     if (const auto table = root.find_table("contact")) scene.contact = read_contact(*table);
+    scene.contact_where = root.where("contact");
+    scene.pin_offset_where = root.table("engine").where("pin_offset_mm");
     scene.small_end = read_law(root, "small_end");
     scene.big_end = read_law(root, "big_end");
     scene.guide = read_guide(root);

@@ -90,6 +90,7 @@ struct TimeSpec {
   double begin = 0.0, end = 0.0;  // [s]; engine scenes: 0 = FTDC of the reported cycle
   double ramp = 0.0;              // loads grow from zero over this time at the start [s]
   double output_step = 2e-5;      // as requested; it is adjusted to the span [s]
+  std::string output_step_where, film_every_where;  // "file:line: key", for messages
 };
 
 struct Scene {
@@ -105,6 +106,8 @@ struct Scene {
   std::optional<BlockSpec> block;
   std::optional<GasSpec> gas;
   std::optional<film::PistonLinerOptions> contact;
+  std::string contact_where;     // "file:line: contact", for messages
+  std::string pin_offset_where;  // "file:line: engine.pin_offset_mm"
   RadialLaw small_end, big_end;
   GuideSpec guide;
   std::vector<BodySpec> bodies;  // [[body]]

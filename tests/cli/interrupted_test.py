@@ -42,23 +42,51 @@ class HardH1KilledHalfWay(stages.PipelineTest):
 
 
 class HardN11Terminated(stages.PipelineTest):
-    def test_sigterm_ends_a_run_at_a_step_with_what_there_is(self):
+    def send(self, number, after, wait=0.0):
+        """The signal, so many seconds after a line that contains `after`; returns (exit code, messages)."""
+        process = subprocess.Popen([stages.BIN / "clatter-dynamics", *self.command("dynamics")], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        for line in process.stderr:
+            if after in line:
+                break
+        time.sleep(wait)
+        process.send_signal(number)
+        messages = process.communicate()[1]
+        self.assertEqual(list(self.folder.glob("*.part")), [], "a part file is left")
+        return process.returncode, messages
+
+    def test_both_signals_end_a_run_at_a_step_with_what_there_is(self):
         self.edit("step.run.toml", "end_s = 0.06", "end_s = 600.0")
         self.edit("step.run.toml", "output_step_us = 50.0", "output_step_us = 5000.0")
-        for wait in (0.3, 1.0, 3.0, 10.0):
-            process = subprocess.Popen([stages.BIN / "clatter-dynamics", *self.command("dynamics")], cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            time.sleep(wait)  # until time stepping; before that the signal ends it like any program
-            process.terminate()
-            messages = process.communicate()[1]
-            self.assertEqual(list(self.folder.glob("*.part")), [])
-            if process.returncode != -signal.SIGTERM:
-                break
-        self.assertEqual(process.returncode, 3, messages)
-        self.assertIn("step.run.interrupted.h5", messages)
-        with h5py.File(self.folder / "step.run.interrupted.h5") as run:
-            self.assertEqual(run.attrs["complete"], 0)
-            self.assertGreater(len(run["output/time"]), 0)
+        interrupted = self.folder / "step.run.interrupted.h5"
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number.name):
+                code, messages = self.send(number, "effects:", wait=1.0)
+                self.assertEqual(code, 3, messages)
+                self.assertIn("step.run.interrupted.h5", messages)
+                with h5py.File(interrupted) as run:
+                    self.assertEqual(run.attrs["complete"], 0)
+                    self.assertEqual(len(run["output/time"]), len(run["bodies/beam/q"]))
+                    self.assertEqual(len(run["history/time"]), len(run["energy/kinetic"]))
+                interrupted.unlink()
+
+    def test_both_signals_before_the_first_step_end_it_with_the_same_code(self):
+        # Before, the signal killed the program until its first step.
+        self.edit("step.run.toml", "end_s = 0.06", "end_s = 600.0")
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number.name):
+                code, messages = self.send(number, "effects:")
+                self.assertEqual(code, 3, messages)
+                self.assertIn("interrupted", messages)
+
+    def test_a_signal_while_the_results_are_written_lets_them_be_complete(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number.name):
+                code, messages = self.send(number, "cycle 1 of 1")
+                self.assertEqual(code, 0, messages)
+                with h5py.File(self.folder / "step.run.h5") as run:
+                    self.assertEqual(run.attrs["complete"], 1)
+                    self.assertIn("timing", run)
 
 
 class HardH2DiskFull(stages.PipelineTest):
@@ -76,6 +104,15 @@ class HardH2DiskFull(stages.PipelineTest):
                 self.assertEqual(target.read_bytes(), b"the older artefact")
             filler.unlink()
             target.unlink()
+
+    def test_a_disk_that_fills_while_a_run_goes_is_reported_in_one_line(self):
+        small = self.small_disk()
+        # The samples fit, 0.7 MB; the histories of 120 000 steps do not.
+        self.edit("step.run.toml", "largest_step_us = 50.0", "largest_step_us = 0.5")
+        target = small / "step.run.h5"
+        target.write_bytes(b"the older artefact")
+        self.assert_refused("dynamics", ["step.run.toml", "-o", str(target)], code=4, says=["step.run.h5: ", "disk full"])
+        self.assertEqual([path.name for path in small.iterdir()], ["step.run.h5"])
 
     def small_disk(self):
         """A file system of 1 MB in the test's folder; the test is skipped where none can be mounted."""

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Complete scenes from TOML to the run file, with synthetic reduced models.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -10,10 +11,9 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
-#include "core/base/write_artefact.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "dynamics/run/run_summary.hpp"
-#include "tests/dynamics/motored_cycle.hpp"
+#include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics {
@@ -41,54 +41,20 @@ damping_n_s_m = [1e3, 1e3, 2e3]
 /// A folder with the models, the gas table and the scene that the tests change.
 class Runs : public ::testing::Test {
  protected:
-  void SetUp() override {
-    // One folder a test: CTest runs them side by side.
-    folder_ = fs::path(::testing::TempDir()) / "clatter_dynamics_runs" /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-    testing::write_rom(folder_ / "piston.rom.h5", testing::rigid_piston(1.9, 4e-3, 8.992e-3));
-    testing::write_rom(folder_ / "block.rom.h5", testing::elastic_block(0.0535, 8, 6));
-    testing::write_rom(folder_ / "bar.rom.h5", testing::clamped_bar(1.0, 100, 10));
-    testing::write_motored_cycle(folder_ / "motored.csv", {}, 0.0174532925199432957);
-    std::ofstream(folder_ / "slap.run.toml") << R"(
-[engine]
-speed_rpm = 2000.0
-stroke_mm = 130.0
-[rod]
-length_mm = 210.0
-mass_kg = 2.2
-inertia_kg_m2 = 0.02
-centre_mm = 70.0
-[time]
-cycles = 2
-output_step_us = 50.0
-[gas]
-table = "motored.csv"
-[piston]
-rom = "piston.rom.h5"
-model = "rigid"
-[block]
-rom = "block.rom.h5"
-model = "rigid"
-[contact]
-bore_mm = 107.0
-clearance_um = 20.0
-barrel_top_um = 30.0
-barrel_bottom_um = 20.0
-ovality_um = 40.0
-cells_around = 6
-cells_along = 6
-oil_thickness_um = 5.0
-)";
-  }
-  Scene scene(const std::string& changes = "") {
-    std::ofstream(folder_ / "changed.run.toml") << "base = \"slap.run.toml\"\n" << changes;
-    return read_scene(folder_ / "changed.run.toml");
-  }
-  static RunResult run(const Scene& scene, const RunControl& control = {}) {
+  void SetUp() override { testing::write_slap_scene(folder_); }
+  Scene scene(const std::string& changes = "") { return testing::changed_scene(folder_, changes); }
+  /// Runs it into a file of its own.
+  RunResult run(const Scene& scene, RunControl control = {}) {
+    control.output = folder_ / fmt::format("{}.run.h5", ++runs_);
     return simulate(scene, load_bodies(scene), control);
   }
-  fs::path folder_;
+  /// The same; returns the finished file.
+  H5File recorded(const Scene& scene) {
+    RunResult result = run(scene);
+    return testing::finished_file(scene, load_bodies(scene), result);
+  }
+  fs::path folder_ = testing::test_folder();
+  int runs_ = 0;
 };
 
 TEST_F(Runs, LubricatedRigidCyclesCloseTheirEnergyBalance) {
@@ -102,45 +68,50 @@ TEST_F(Runs, LubricatedRigidCyclesCloseTheirEnergyBalance) {
 }
 
 TEST_F(Runs, AResumedRunGivesTheSameBits) {
-  const Scene described = scene();
-  std::optional<Checkpoint> point;
-  RunControl control;
-  control.checkpoint = [&](const Checkpoint& taken) { point = taken; };
-  const RunResult whole = run(described, control);
-  ASSERT_TRUE(point.has_value());
-  const fs::path file = folder_ / "x.checkpoint";
-  write_checkpoint(file, *point, fingerprint(described));
+  const Scene described = scene("[time]\ncycles = 3\n");
+  const LoadedBodies bodies = load_bodies(described);
+  const std::string mark = fingerprint(described);
+  RunResult whole = run(described);
+  const fs::path point = checkpoint_path(folder_ / "1.run.h5");
+  fs::copy_file(point, checkpoint_path(folder_ / "2.run.h5"));
   RunControl resumed;
-  resumed.resume_from = read_checkpoint(file, fingerprint(described));
-  const RunResult again = run(described, resumed);
-  const auto &a = whole.recorder->samples(), &b = again.recorder->samples();
-  EXPECT_EQ(a.eta(), b.eta());
-  EXPECT_EQ(a.v(), b.v());
-  EXPECT_EQ(a.a(), b.a());
-  EXPECT_EQ(whole.recorder->history().values, again.recorder->history().values);
+  resumed.resume_from = read_checkpoint(point, mark);
+  ASSERT_TRUE(resumed.resume_from.has_value());
+  EXPECT_EQ(resumed.resume_from->cycle, 2);
+  RunResult again = run(described, resumed);
   EXPECT_EQ(whole.statistics.accepted, again.statistics.accepted);
-  EXPECT_EQ(whole.energy_residue, again.energy_residue);
-  ASSERT_FALSE(again.recorder->history().values.empty());
-  for (const auto& column : again.recorder->history().values)
-    EXPECT_EQ(column.size(), again.recorder->time().size());
+  EXPECT_EQ(run_certificate(whole), run_certificate(again));
+  ASSERT_TRUE(again.periodicity.lateral.has_value());
+  const H5File a = testing::finished_file(described, bodies, whole);
+  const H5File b = testing::finished_file(described, bodies, again);
+  for (const char* name : {"bodies/piston/q", "bodies/piston/v", "bodies/piston/a"})
+    EXPECT_EQ(a.read_rows(name), b.read_rows(name)) << name;
+  for (const std::string group : {"history", "energy", "energy/terms", "output"}) {
+    EXPECT_EQ(a.list(group), b.list(group));
+    for (const std::string& name : a.list(group)) {
+      if (name == "terms") continue;
+      const auto values = a.read_doubles(group + "/" + name);
+      EXPECT_EQ(values, b.read_doubles(group + "/" + name)) << name;
+      EXPECT_EQ(values.size(),
+                a.read_doubles(group == "output" ? "output/time" : "history/time").size());
+    }
+  }
   // Neither another scene's checkpoint nor an absent one is used.
-  EXPECT_FALSE(read_checkpoint(file, fingerprint(scene("[contact]\nclearance_um = 21.0\n"))));
-  EXPECT_FALSE(read_checkpoint(folder_ / "absent.checkpoint", fingerprint(described)));
+  EXPECT_FALSE(read_checkpoint(point, fingerprint(scene("[contact]\nclearance_um = 21.0\n"))));
+  EXPECT_FALSE(read_checkpoint(folder_ / "absent.checkpoint", mark));
 }
 
 TEST_F(Runs, StoppedRunsLeaveAValidFileMarkedIncomplete) {
   const Scene described = scene();
-  const LoadedBodies bodies = load_bodies(described);
   const std::atomic<bool> stop{true};
   RunControl control;
   control.stop = &stop;
-  const RunResult result = simulate(described, bodies, control);
+  RunResult result = run(described, control);
   EXPECT_FALSE(result.complete);
-  write_artefact(folder_ / "stopped.run.h5", provenance_of(described), {}, {},
-                 [&](H5File& file) { write_run(file, described, bodies, result); });
-  const H5File back = open_artefact(folder_ / "stopped.run.h5", "clatter/run/1");
+  const H5File back = testing::finished_file(described, load_bodies(described), result);
   EXPECT_EQ(back.get_int("/", "complete"), 0);
   EXPECT_EQ(back.read_doubles("output/time").size(), 1U);
+  EXPECT_EQ(back.read_doubles("history/time").size(), 0U);
 }
 
 TEST_F(Runs, RefusalsAreReportedByKindWithTheLastDetail) {
@@ -159,17 +130,19 @@ TEST_F(Runs, RefusalsAreReportedByKindWithTheLastDetail) {
 }
 
 TEST_F(Runs, AWiderBoreIsMoreClearance) {
-  const RunResult wide =
-      run(scene("[contact]\nclearance_um = 15.0\nbore_height_mm = [0, 400]\n"
-                "bore_widening_um = [5, 5]\n"));
-  const RunResult clear = run(scene("[contact]\nclearance_um = 20.0\n"));
-  const auto &a = wide.recorder->samples().eta(), &b = clear.recorder->samples().eta();
-  EXPECT_LT((a - b).norm(), 1e-6 * b.norm());
+  const auto motion = [&](const std::string& contact) {
+    return recorded(scene("[contact]\n" + contact)).read_rows("bodies/piston/q");
+  };
+  const RowMatrix wide = motion(
+      "clearance_um = 15.0\nbore_height_mm = [0, 400]\n"
+      "bore_widening_um = [5, 5]\n");
+  const RowMatrix clear = motion("clearance_um = 20.0\n");
+  EXPECT_LT((wide - clear).norm(), 1e-6 * clear.norm());
   // Wider at the top only: the piston must go further there.
-  const RunResult cone =
-      run(scene("[contact]\nclearance_um = 20.0\nbore_height_mm = [145, 275]\n"
-                "bore_widening_um = [0, 20]\n"));
-  EXPECT_GT((cone.recorder->samples().eta() - b).norm(), 1e-3 * b.norm());
+  const RowMatrix cone = motion(
+      "clearance_um = 20.0\nbore_height_mm = [145, 275]\n"
+      "bore_widening_um = [0, 20]\n");
+  EXPECT_GT((cone - clear).norm(), 1e-3 * clear.norm());
 }
 
 TEST_F(Runs, HardN9_ASkirtThatLeavesItsLinerIsSaid) {
@@ -190,28 +163,6 @@ TEST_F(Runs, HardN9_ASkirtThatLeavesItsLinerIsSaid) {
             "skirt stays 10 mm above its bottom, leaves its top by 10 mm, -28 to 28 deg after TDC");
   // An elastic liner ends with its patches.
   EXPECT_TRUE(ends(kElasticBlock).first);
-}
-
-TEST(UniformSamples, AccelerationIsTheMeanOverTheSamplingInterval) {
-  // v = t^2 in one mode, between states 0.25 s apart, sampled every second: the mean of 2 t over
-  // [t - 1/2, t + 1/2] is 2 t; over the halves at both ends 0.5 and 2 t - 0.5.
-  const auto at = [](double t) {
-    StageState state;
-    state.time = t;
-    state.eta = Eigen::VectorXd::Constant(1, t * t * t / 3.0);
-    state.v = Eigen::VectorXd::Constant(1, t * t);
-    state.a = Eigen::VectorXd::Constant(1, 2.0 * t);
-    return state;
-  };
-  UniformSamples samples(0.0, 4.0, 1.0, 1);
-  samples.start(at(0.0));
-  for (int k = 1; k <= 16; ++k) samples.add(at(0.25 * (k - 1)), at(0.25 * k));
-  ASSERT_EQ(samples.count(), 5);
-  const double expected[] = {0.5, 2.0, 4.0, 6.0, 7.5};
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_NEAR(samples.v()(i, 0), i * i, 1e-13);
-    EXPECT_NEAR(samples.a()(i, 0), expected[i], 1e-12);
-  }
 }
 
 TEST_F(Runs, WhatIsOffIsNotThere) {
@@ -245,10 +196,8 @@ TEST_F(Runs, TheTableSaysThatFullFilmsUseNoOilLayer) {
 TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
   const Scene described = scene(kElasticBlock + std::string("[contact]\nlubrication = \"none\"\n"));
   const LoadedBodies bodies = load_bodies(described);
-  const RunResult result = simulate(described, bodies, {});
-  write_artefact(folder_ / "slap.run.h5", provenance_of(described), {}, {},
-                 [&](H5File& file) { write_run(file, described, bodies, result); });
-  const H5File back = open_artefact(folder_ / "slap.run.h5", "clatter/run/1");
+  RunResult result = run(described);
+  const H5File back = testing::finished_file(described, bodies, result);
   const auto time = back.read_vector("output/time");
   const auto n_t = time.size();
   EXPECT_EQ(n_t, 1201);  // 60 ms at 50 us
@@ -290,13 +239,11 @@ gas_load = "gas"
 mode_limit_hz = 8000.0
 )"));
   const LoadedBodies bodies = load_bodies(described);
-  const RunResult result = simulate(described, bodies, {});
+  RunResult result = run(described);
   EXPECT_TRUE(result.complete) << result.failure;
   EXPECT_GT(result.energy_exchanged, 1.0);
   EXPECT_LT(result.energy_residue, 1.5e-5);  // 1.4e-6
-  write_artefact(folder_ / "film.run.h5", provenance_of(described), {}, {},
-                 [&](H5File& file) { write_run(file, described, bodies, result); });
-  const H5File back = open_artefact(folder_ / "film.run.h5", "clatter/run/1");
+  const H5File back = testing::finished_file(described, bodies, result);
   // The film's pressure deforms the liner: what is left without the rigid-body motion.
   const rom::ReducedModel& block = bodies[1].model;
   const RowMatrix q = back.read_rows("bodies/block/q");
@@ -325,9 +272,7 @@ component = "x"
 value = 1000.0
 )";
   const Scene described = read_scene(folder_ / "bar.run.toml");
-  const LoadedBodies bodies = load_bodies(described);
-  const RunResult result = simulate(described, bodies, {});
-  const RowMatrix q = result.recorder->samples().eta() * bodies[0].modal.shapes.transpose();
+  const RowMatrix q = recorded(described).read_rows("bodies/bar/q");
   // The tip of a bar under a step force swings between 0 and twice the static displacement.
   const double still = 1000.0 / (210e9 * 1e-4);
   EXPECT_NEAR(q.col(0).maxCoeff(), 2.0 * still, 0.03 * still);  // ten modes of the triangle wave
@@ -362,9 +307,8 @@ TEST_F(Runs, ATipThatBecameACombinationOfCoordinatesMovesTheSame) {
                                                    "stiffness_n_m = [1e7, 0, 0]\n"
                                                    "damping_n_s_m = [100, 0, 0]\n";
     const Scene described = read_scene(folder_ / "bar.run.toml");
-    const LoadedBodies bodies = load_bodies(described);
-    const RunResult result = simulate(described, bodies, {});
-    return result.recorder->samples().eta() * bodies[0].modal.row_of(place).transpose();
+    const rom::ReducedModel model = load_bodies(described)[0].model;
+    return recorded(described).read_rows("bodies/bar/q") * model.row_of(place).transpose();
   };
   const Eigen::VectorXd whole = tip("bar.rom.h5", 0), combined = tip("turned.rom.h5", n);
   ASSERT_GT(whole.size(), 40);
@@ -387,7 +331,7 @@ TEST_F(Runs, BadScenesAreRefusedInOneLine) {
   };
   EXPECT_TRUE(has(refusal("[contact]\nclearance_um = -1.0\n"), "contact.clearance_um: found -1"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [1]\n"),
-                  "contact.bore_widening_um: expected as many values as bore_height_mm"));
+                  "expected as many values as bore_height_mm"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [0, -1]\n"),
                   "contact.bore_widening_um: found -1, expected no value below 0"));
   EXPECT_TRUE(has(refusal("[contact]\nliner_bottom_mm = 300.0\nliner_top_mm = 200.0\n"),

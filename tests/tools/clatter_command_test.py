@@ -2,6 +2,7 @@
 """The command `clatter`: information, report, pictures, on small synthetic artefacts."""
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -71,6 +72,21 @@ class Command(unittest.TestCase):
                 self.assertEqual(done.returncode, 2)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertIn(expected, done.stderr)
+
+    def test_sigterm_ends_the_stages_that_run_started(self):
+        # Before, the command ended at once and the stages went on without it.
+        (self.folder / "stage.py").write_text(
+            "import pathlib, signal, sys, time\n"
+            "signal.signal(signal.SIGTERM, lambda *_: (pathlib.Path('ended').touch(), sys.exit(3)))\n"
+            "print('started', flush=True)\n"
+            "time.sleep(60)\n")
+        (self.folder / "Makefile").write_text(f"all:\n\t@{sys.executable} stage.py\n")
+        run = subprocess.Popen([CLATTER, "run"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.assertEqual(run.stdout.readline(), "started\n")
+        run.terminate()
+        run.communicate(timeout=30)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertTrue((self.folder / "ended").exists(), "the stage was told, and the command waited for it")
 
 
 class Slap(unittest.TestCase):

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter motored-cycle`: the pressure table of a motored engine."""
+import argparse
 import math
 import pathlib
 import subprocess
 import tempfile
 import unittest
 
+from clatter_tools import motored_cycle
+from clatter_tools.artefact import BadArtefact
 from clatter_tools.motored_cycle import MotoredCycle
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -60,16 +63,37 @@ class MotoredCycleTable(unittest.TestCase):
         # Symmetric path and trapezoidal sums: only rounding is left.
         self.assertLess(abs(sum(work)), 1e-12 * sum(map(abs, work)))
 
-    def test_wrong_data_and_places_are_refused_in_one_line(self):
-        for arguments, code, words in ((["a.csv", "--rod-mm", 60], 2, "expected rod > radius + offset"),
-                                       (["a.csv", "--compression-ratio", 1], 2, "--compression-ratio: found 1"),
-                                       (["a.csv", "--step-deg", 0], 2, "--step-deg: found 0"),
-                                       (["nowhere/a.csv"], 4, "nowhere/a.csv: cannot be written: No such file")):
-            with self.subTest(arguments=arguments):
-                done = self.run_command(*arguments, code=code)
-                self.assertIn(words, done.stderr)
-                self.assertEqual(len(done.stderr.splitlines()), 1)
-                self.assertEqual(list(self.folder.iterdir()), [])
+    def assert_refused(self, arguments, code, words):
+        with self.subTest(arguments=arguments):
+            done = self.run_command(*arguments, code=code)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_rod_and_a_place_that_do_not_fit_are_refused_in_one_line(self):
+        self.assert_refused(["a.csv", "--rod-mm", 60], 2, "expected more than 65: rod > radius + offset")
+        self.assert_refused(["a.csv", "--pin-offset-mm", 150], 2, "--rod-mm: found 210")
+        self.assert_refused(["nowhere/a.csv"], 4, "nowhere/a.csv: cannot be written: No such file")
+
+    def test_meaningless_values_are_refused_with_option_and_limits(self):
+        # Before, all but ratios up to 1, short rods and steps of 0 were written to a table, with exit code 0: a negative bore
+        # or intake pressure as well as nan.
+        refused = {"--bore-mm": (-107, 0, 1e30), "--stroke-mm": (-130, 0, 1e30), "--rod-mm": (-210, 0, 1e30),
+                   "--compression-ratio": (1, 0.5, -17, 1e30), "--exponent": (0, -1.3, 40), "--intake-bar": (0, -500, 1e30),
+                   "--closed-deg": (0, -180, 361), "--step-deg": (0, -1, 1e-30, 721)}
+        for option, values in refused.items():
+            for value in (*values, "nan", "inf", "-inf"):
+                found = value if isinstance(value, str) else f"{value:g}"
+                with self.subTest(option=option, value=value), self.assertRaises(BadArtefact) as refusal:
+                    motored_cycle.write_motored_cycle(self.parsed("a.csv", f"{option}={value}"))
+                self.assertIn(f"{option}: found {found}, expected at least ", str(refusal.exception))
+        self.assert_refused(["a.csv", "--bore-mm=-107"], 2, "--bore-mm: found -107, expected at least 0.1 and at most 1e+04")
+
+    @staticmethod
+    def parsed(*arguments):
+        command = argparse.ArgumentParser()
+        motored_cycle.add_arguments(command)
+        return command.parse_args(arguments)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input, 4 file or disk error)."""
+"""The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input, 3 interrupted, 4 file or disk error)."""
 import argparse
 import os
+import signal
 import subprocess
 import sys
 
@@ -37,7 +38,14 @@ def parser():
 def run_make(folder, jobs):
     if not os.path.exists(os.path.join(folder, "Makefile")):
         raise BadArtefact(f"{folder}: no Makefile; write one with `include $(shell clatter rules)`")
-    return subprocess.call(["make", "--no-print-directory", "-C", folder, f"-j{jobs}"])
+    make = subprocess.Popen(["make", "--no-print-directory", "-C", folder, f"-j{jobs}"])
+    signal.signal(signal.SIGTERM, lambda *_: make.terminate())  # which make passes on to the stages
+    while True:
+        try:
+            code = make.wait()
+            return code if code >= 0 else 3
+        except KeyboardInterrupt:  # the terminal has told make and the stages: they end by themselves
+            continue
 
 
 def plot(kind, files, output):

@@ -27,14 +27,6 @@ class MotoredCycle:
     intake: float = 1e5         # absolute pressure at valve closing [Pa]
     closed: float = math.pi     # valves closed for |theta| below this [rad]
 
-    def check(self):
-        radius = 0.5 * self.stroke
-        if not radius > 0.0 or not self.rod > radius + abs(self.pin_offset):
-            raise BadArtefact(f"slider-crank: crank radius {radius:g} m, rod {self.rod:g} m, pin offset {self.pin_offset:g} m: "
-                              "expected rod > radius + offset")
-        if not self.compression_ratio > 1.0:
-            raise BadArtefact(f"--compression-ratio: found {self.compression_ratio:g}, expected more than 1")
-
     def pin_height(self, theta):
         """Height of the piston pin above the crank axis [m]."""
         radius = 0.5 * self.stroke
@@ -74,25 +66,42 @@ def table(cycle, step):
     return "\n".join(lines) + "\n"
 
 
+# Option, default, smallest and largest value, help. The limits are those of a scene (dynamics/README.md).
+OPTIONS = (("bore-mm", 107.0, 0.1, 1e4, "bore [mm]"),
+           ("stroke-mm", 130.0, 0.1, 1e4, "stroke [mm]"),
+           ("rod-mm", 210.0, 1.0, 1e5, "rod length [mm]"),
+           ("pin-offset-mm", 0.0, -1e4, 1e4, "pin offset [mm]"),
+           ("compression-ratio", 17.0, 1.01, 100.0, "compression ratio"),
+           ("exponent", 1.34, 1.0, 5.0 / 3.0, "polytropic exponent, from isothermal to adiabatic with one atom"),
+           ("intake-bar", 1.0, 0.001, 1000.0, "absolute pressure at valve closing [bar]"),
+           ("closed-deg", 180.0, 1.0, 360.0, "valves closed within +- this of firing TDC [deg]"),
+           ("step-deg", 1.0, 0.001, 180.0, "rows every so many degrees of crank angle"))
+
+
 def add_arguments(command):
     """Declares the options of `clatter motored-cycle`."""
     command.add_argument("output", metavar="out.csv")
-    for name, default, text in (("bore-mm", 107.0, "bore [mm]"), ("stroke-mm", 130.0, "stroke [mm]"),
-                                ("rod-mm", 210.0, "rod length [mm]"), ("pin-offset-mm", 0.0, "pin offset [mm]"),
-                                ("compression-ratio", 17.0, "compression ratio"), ("exponent", 1.34, "polytropic exponent"),
-                                ("intake-bar", 1.0, "absolute pressure at valve closing [bar]"),
-                                ("closed-deg", 180.0, "valves closed within +- this of firing TDC [deg]"),
-                                ("step-deg", 1.0, "rows every so many degrees of crank angle")):
+    for name, default, _, _, text in OPTIONS:
         command.add_argument(f"--{name}", type=float, default=default, metavar="X", help=f"{text}; default {default:g}")
+
+
+def check(options):
+    """BadArtefact for an option outside its limits (also nan) and for a rod that is too short."""
+    for name, _, low, high, _ in OPTIONS:
+        value = getattr(options, name.replace("-", "_"))
+        if not low <= value <= high:
+            raise BadArtefact(f"--{name}: found {value:g}, expected at least {low:.4g} and at most {high:.4g}")
+    radius, offset = 0.5 * options.stroke_mm, abs(options.pin_offset_mm)
+    if not options.rod_mm > radius + offset:
+        raise BadArtefact(f"--rod-mm: found {options.rod_mm:g}, expected more than {radius + offset:g}: "
+                          f"rod > radius + offset, {radius:g} + {offset:g} mm")
 
 
 def write_motored_cycle(options):
     """Writes the table that the options describe, complete or not at all; prints the peak pressure."""
-    if not 0.0 < options.step_deg <= 720.0:
-        raise BadArtefact(f"--step-deg: found {options.step_deg:g}, expected more than 0, at most 720")
+    check(options)
     cycle = MotoredCycle(1e-3 * options.bore_mm, 1e-3 * options.stroke_mm, 1e-3 * options.rod_mm, 1e-3 * options.pin_offset_mm,
                          options.compression_ratio, options.exponent, 1e5 * options.intake_bar, DEGREE * options.closed_deg)
-    cycle.check()
     text, part = table(cycle, DEGREE * options.step_deg), f"{options.output}.part"
     try:
         with open(part, "w", encoding="ascii") as file:

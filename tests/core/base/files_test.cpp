@@ -50,6 +50,32 @@ rom::ReducedModel small_model() {
   return model;
 }
 
+TEST_F(Files, AppendedRowsAreTheRowsWrittenAtOnceUnderAnotherName) {
+  const RowMatrix all = RowMatrix::Random(1003, 7);
+  const fs::path begun = folder_ / "begun.h5", named = folder_ / "named.h5";
+  H5File file = H5File::create(begun);
+  for (int first = 0; first < 1003; first += 100) {
+    const int count = std::min(100, 1003 - first);
+    file.append("group/rows", all.middleRows(first, count));
+    file.append("numbers", std::vector<double>(static_cast<size_t>(count), first));
+    file.append_float("cells", std::vector<float>(static_cast<size_t>(6 * count), 0.5F),
+                      {count, 2, 3});
+  }
+  file.append("group/rows", RowMatrix(0, 7));
+  file.append("none", std::vector<double>());
+  EXPECT_EQ(file.read_rows("group/rows", 300, 200), all.middleRows(300, 200));  // while it grows
+  file.commit(named);
+  EXPECT_FALSE(fs::exists(begun) || fs::exists(folder_ / "begun.h5.part"));
+  const H5File back = H5File::open(named);
+  EXPECT_EQ(back.read_rows("group/rows"), all);
+  const auto numbers = back.read_doubles("numbers");
+  ASSERT_EQ(numbers.size(), 1003U);
+  EXPECT_EQ(numbers[999], 900.0);
+  EXPECT_EQ(numbers[1002], 1000.0);
+  EXPECT_EQ(back.shape("cells"), (std::vector<int64_t>{1003, 2, 3}));
+  EXPECT_EQ(back.shape("none"), (std::vector<int64_t>{0}));
+}
+
 TEST_F(Files, MatricesComeBackAsTheyWere) {
   const RowMatrix rows{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
   H5File out = H5File::create(folder_ / "a.h5");

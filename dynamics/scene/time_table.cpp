@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/scene/time_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/base/units.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+constexpr double kMostSamples = 1e9;       // of a span: 8 GB for one column of the file
+constexpr double kTimeResolution = 1e-15;  // of a span: steps below do not advance a double
+constexpr double kRounding = 1e-9;         // of a bound that is converted between units
+
+/// A number, given or by default, that another setting bounds.
+double number_within(const Config& table, const char* key, double fallback, double min,
+                     double max) {
+  const double value = table.number_or(key, fallback, Range::positive());
+  if (!(value >= min * (1.0 - kRounding) && value <= max * (1.0 + kRounding)))
+    table.fail(key, fmt::format("found {:g}{}, expected at least {:.3g} and at most {:.3g}", value,
+                                table.has(key) ? "" : " (default)", min, max));
+  return value;
+}
+
+/// The span that is recorded: a cycle, or the entire run.
+double recorded_span(const Scene& scene) {
+  return scene.engine ? 4.0 * std::numbers::pi / scene.engine->speed
+                      : scene.time.end - scene.time.begin;
+}
+
+void read_accuracy(const Config& table, Accuracy& accuracy) {
+  accuracy.tolerance = table.number_or("tolerance", accuracy.tolerance, Range::between(1e-12, 1.0));
+  accuracy.displacement_scale =
+      table.number_or("displacement_um", accuracy.displacement_scale / kMicro,
+                      Range::between(1e-15, 1e6)) *
+      kMicro;
+  accuracy.velocity_scale =
+      table.number_or("velocity_m_s", accuracy.velocity_scale, Range::between(1e-18, 1e4));
+  accuracy.arm =
+      table.number_or("arm_mm", accuracy.arm / kMilli, Range::between(1e-3, 1e5)) * kMilli;
+}
+
+void read_output(const Config& time, Scene& scene) {
+  const double span_us = recorded_span(scene) / kMicro;
+  scene.time.output_step = number_within(time, "output_step_us", std::min(20.0, span_us),
+                                         span_us / kMostSamples, span_us) *
+                           kMicro;
+  scene.time.output_step_where = time.where("output_step_us");
+  if (!scene.engine) return;
+  const double film_deg = time.number_or("film_every_deg", 10.0, Range::between(0.0, 720.0));
+  if (film_deg > 0.0 && film_deg < 0.01)
+    time.fail("film_every_deg",
+              fmt::format("found {:g}, expected 0 (no film fields) or at least 0.01", film_deg));
+  scene.film_every = film_deg * kDegree / scene.engine->speed;
+  scene.time.film_every_where = time.where("film_every_deg");
+}
+
+}  // namespace
+
+void read_time(const Config& root, Scene& scene) {
+  const Config time = root.table("time");
+  if (!scene.engine) {
+    scene.time.end = time.number("end_s", Range::between(1e-9, 1e9));
+    read_output(time, scene);
+    return;
+  }
+  scene.time.cycles = static_cast<int>(time.integer_or("cycles", 2, Range::between(1.0, 1000.0)));
+  const double ramp_deg = time.number_or("ramp_deg", 60.0, Range::between(0.0, 360.0));
+  const double omega = scene.engine->speed;
+  scene.time.begin = -(2.0 + 4.0 * (scene.time.cycles - 1)) * std::numbers::pi / omega;
+  scene.time.end = 2.0 * std::numbers::pi / omega;
+  scene.time.ramp = ramp_deg * kDegree / omega;
+  read_output(time, scene);
+}
+
+void read_steps(const Config& root, Scene& scene) {
+  const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
+  const double largest_us = (scene.engine ? span / 720.0 : span / 100.0) / kMicro;
+  const Config time = root.table("time");
+  const std::string method =
+      scene.contact && scene.contact->effects.film
+          ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
+          : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
+  for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
+    if (known->name == method) scene.steps.method = known;
+  const auto step = [&](const char* key, double fallback) {
+    const double resolved = kTimeResolution * whole / kMicro;
+    return number_within(time, key, fallback, resolved, span / kMicro) * kMicro;
+  };
+  scene.steps.largest = step("largest_step_us", largest_us);
+  scene.steps.smallest = step("smallest_step_us", std::min(1e-4, 1e-3 * largest_us));
+  if (!(scene.steps.smallest < scene.steps.largest))
+    time.fail("smallest_step_us",
+              fmt::format("found {:g}, expected less than largest_step_us, {:g}",
+                          scene.steps.smallest / kMicro, scene.steps.largest / kMicro));
+  scene.steps.first = std::min(1e-7, 1e-3 * scene.steps.largest);
+  if (const auto table = root.find_table("accuracy")) read_accuracy(*table, scene.steps.accuracy);
+}
+
+}  // namespace clatter::dynamics
