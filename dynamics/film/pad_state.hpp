@@ -34,6 +34,7 @@ struct PistonLiner::Pad {
     const int n = grid.size();
     for (Eigen::ArrayXd* values : {&rest, &gap, &gap_by_height, &load}) values->setZero(n);
     gap_by_y.setZero(n, n_coordinates);
+    gap_by_pin.setZero(n, 6);
   }
   std::string name;
   PadGrid grid;
@@ -42,6 +43,7 @@ struct PistonLiner::Pad {
   Eigen::ArrayXd gap_by_height;  // dh/dz along the stroke [1]
   Eigen::ArrayXd load;           // cell area times (p + p_a) [N]
   RowMatrix gap_by_y;            // dh/dy, n x n_e
+  RowMatrix gap_by_pin;          // dh/dy of the pin at a fixed height, n x 6; 0: elastic piston
   RowMatrix derivative;          // dx/dy of the film, then d(load)/dy
   std::optional<PatchMap> liner_map;
   std::optional<LinerShapeMap> liner_shape;
@@ -50,7 +52,7 @@ struct PistonLiner::Pad {
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_a [Pa], dp_a/dh, energy [J/m2]
   std::optional<Friction> friction;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
-      levers;  // friction on pin z, rx, ry per unit axial force, n x 3
+      levers;  // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3
 };
 
 }  // namespace clatter::film

@@ -36,23 +36,41 @@ int System::add_body(ModalBody body) {
   damping_ = joined(damping_, body.damping);
   inertia_ = joined(inertia_, body.inertia);
   rows_.emplace_back();
-  dofs_.emplace_back();
+  places_.emplace_back();
   P_.emplace_back(0, body.modes());
   bodies_.push_back(std::move(body));
   return static_cast<int>(bodies_.size()) - 1;
 }
 
 int System::coordinate(int body, int dof) {
+  return find_or_add(body, {dof, 0, Eigen::Vector3d::Zero()});
+}
+
+int System::frame_coordinate(int body, int k, const Eigen::Vector3d& point) {
+  return find_or_add(body, {-1, k, k < 3 ? point : Eigen::Vector3d::Zero()});
+}
+
+int System::find_or_add(int body, const Place& place) {
   const auto b = static_cast<size_t>(body);
-  const auto found = std::find(dofs_[b].begin(), dofs_[b].end(), dof);
-  if (found != dofs_[b].end()) return rows_[b][static_cast<size_t>(found - dofs_[b].begin())];
+  const auto found = std::find(places_[b].begin(), places_[b].end(), place);
+  if (found != places_[b].end()) return rows_[b][static_cast<size_t>(found - places_[b].begin())];
+  const ModalBody& owner = bodies_[b];
+  const Eigen::RowVectorXd row =
+      place.dof >= 0 ? owner.row_of(place.dof)
+                     : owner.force_of(unit_wrench(place.axis, place.point)).transpose();
   const int index = interface_size();
   owner_.push_back(body);
   rows_[b].push_back(index);
-  dofs_[b].push_back(dof);
+  places_[b].push_back(place);
   P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
-  P_[b].bottomRows(1) = bodies_[b].row_of(dof);
+  P_[b].bottomRows(1) = row;
   return index;
+}
+
+const System::Place& System::place_of(int y_index) const {
+  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
+  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
+  return places_[b][static_cast<size_t>(at)];
 }
 
 void System::add_element(std::unique_ptr<ForceElement> element) {
@@ -63,15 +81,18 @@ void System::add_element(std::unique_ptr<ForceElement> element) {
 void System::add_load(Load load) { loads_.push_back(std::move(load)); }
 
 bool System::is_rotation(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
-  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return bodies_[b].is_rotation[static_cast<size_t>(dofs_[b][static_cast<size_t>(at)])] != 0;
+  const Place& place = place_of(y_index);
+  if (place.dof < 0) return place.axis >= 3;
+  const ModalBody& body = bodies_[static_cast<size_t>(owner_[static_cast<size_t>(y_index)])];
+  return body.is_rotation[static_cast<size_t>(place.dof)] != 0;
 }
 
 std::string System::coordinate_name(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
-  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return fmt::format("{}: coordinate {}", bodies_[b].name, dofs_[b][static_cast<size_t>(at)]);
+  static constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
+  const Place& place = place_of(y_index);
+  const ModalBody& body = bodies_[static_cast<size_t>(owner_[static_cast<size_t>(y_index)])];
+  if (place.dof < 0) return fmt::format("{}: rigid frame, {}", body.name, kAxes[place.axis]);
+  return fmt::format("{}: coordinate {}", body.name, place.dof);
 }
 
 VectorXd System::interface(const VectorXd& modal) const {

@@ -60,8 +60,8 @@ RadialLaw read_law(const Config& root, std::string_view key) {
   return law;
 }
 
-GuideSpec read_guide(const Config& root) {
-  GuideSpec guide;
+GuideLaw read_guide(const Config& root) {
+  GuideLaw guide;
   const auto table = root.find_table("pin_guide");
   if (!table) return guide;
   const auto positive = Range::not_negative();

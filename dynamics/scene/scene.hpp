@@ -9,6 +9,7 @@
 #include "core/base/config.hpp"
 #include "dynamics/body/rigid_rod.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
+#include "dynamics/force/pin_guide.hpp"
 #include "dynamics/force/radial_law.hpp"
 #include "dynamics/given/spline.hpp"
 #include "dynamics/integrate/dirk.hpp"
@@ -43,12 +44,6 @@ struct GasSpec {
   double ambient = 1e5;  // subtracted from the table's absolute pressure [Pa]
 };
 
-/// [pin_guide]: holds the piston in the directions in which a planar rod does not.
-struct GuideSpec {
-  double axial_stiffness = 1e6, axial_damping = 1e2;  // along the pin [N/m], [N s/m]
-  double tilt_stiffness = 1e4, tilt_damping = 1.0;    // about y and z [N m/rad], [N m s/rad]
-};
-
 /// [piston].
 struct PistonSpec : BodySpec {
   std::string pin = "pin";       // set of the pin's node, 6 DoFs
@@ -59,8 +54,8 @@ struct PistonSpec : BodySpec {
 /// [block]; a rigid block is not simulated.
 struct BlockSpec : BodySpec {
   std::string liner = "liner";        // contact grid of the bore
-  std::string liner_axial;            // set of its mean axial displacement; empty: none
-  std::vector<std::string> bearings;  // main bearings next to the crank, sharing its force
+  std::string liner_axial;            // set of its mean axial displacement; empty: rigid frame
+  std::vector<std::string> bearings;  // main bearings next to the crank; empty: rigid frame
   std::string gas_load;               // unit load on the head, per Pa; empty: none
 };
 
@@ -106,7 +101,7 @@ struct Scene {
   std::optional<GasSpec> gas;
   std::optional<film::PistonLinerOptions> contact;
   RadialLaw small_end, big_end;
-  GuideSpec guide;
+  GuideLaw guide;                // [pin_guide]
   std::vector<BodySpec> bodies;  // [[body]]
   std::vector<MountSpec> mounts;
   std::vector<LoadSpec> loads;

@@ -79,7 +79,9 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double appr
     };
     // Differences across a switch of a cell are meaningless: reduce the step until the split does
     // not change.
-    double d = 4e-10;
+    // The pin of an elastic piston turns the skirt by the lever of its axial displacement only:
+    // millimetres, on a slope of the liner of 1e-5.
+    double d = n > 6 && k >= n - 4 && k < n - 1 ? 4e-7 : 4e-10;
     Eigen::VectorXd difference;
     do {
       same_split = true;
@@ -97,7 +99,8 @@ class Tangent : public ::testing::TestWithParam<Regime> {};
 
 TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
   const Regime& regime = GetParam();
-  for (bool elastic : {false, true}) {
+  // The pin offset adds levers of the axial forces.
+  for (const auto& [elastic, offset] : {std::pair{false, 0.0}, {true, 0.0}, {true, 2e-3}}) {
     PistonLinerOptions options;
     options.cells_around = 8;
     options.cells_along = 9;
@@ -111,7 +114,7 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
     options.skirt.ovality = 8e-6;
     options.roughness = {0.4e-6, 0.3e-6, 1.0, regime.flow_factors};
     options.asperity.law = regime.law;
-    const auto element = make_element(options, elastic);
+    const auto element = make_element(options, elastic, offset);
     Eigen::VectorXd y = pushed(*element, elastic, regime.depth, 2e-5);
     double cavitated = 0.0, contact = 0.0;
     const double error = tangent_error(*element, y, regime.approach, cavitated, contact);
