@@ -30,8 +30,8 @@ struct EngineSpec {
   double speed = 0.0;       // omega [rad/s]
   double stroke = 0.0;      // [m]
   double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
-  /// The other cylinders balance the inertia forces of this one on the block's rigid modes, but not
-  /// on its elastic modes.
+  /// The block's rigid modes get no resultant, neither force nor moment, of this cylinder's inertia
+  /// forces; its elastic modes get them all (balance.hpp).
   bool balanced = false;
   RodProperties rod;
 };
