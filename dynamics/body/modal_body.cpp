@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 
@@ -91,6 +93,25 @@ std::vector<int32_t> rotations(const rom::ReducedModel& model) {
 }
 
 }  // namespace
+
+Wrench unit_wrench(int k, const Eigen::Vector3d& point) { return moved(Wrench::Unit(k), point); }
+
+Wrench moved(const Wrench& wrench, const Eigen::Vector3d& point) {
+  Wrench result = wrench;
+  result.tail<3>() += point.cross(wrench.head<3>());
+  return result;
+}
+
+VectorXd ModalBody::force_of(const Wrench& wrench) const {
+  const auto decomposition = rigid.transpose().completeOrthogonalDecomposition();
+  if (decomposition.rank() < 6) {
+    throw NumericsError(
+        fmt::format("{}: found {} independent rigid motions, expected 6 for a force on its rigid "
+                    "frame",
+                    name, decomposition.rank()));
+  }
+  return decomposition.solve(wrench);
+}
 
 ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions& options) {
   const VectorXd scale = mass_scale(model);

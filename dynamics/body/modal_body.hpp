@@ -10,6 +10,14 @@
 
 namespace clatter::dynamics {
 
+/// Forces (x, y, z) [N] and moments [N m] about an origin.
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// A unit force along axis k < 3 at `point` [m], or a unit moment about axis k - 3.
+Wrench unit_wrench(int k, const Eigen::Vector3d& point);
+/// The same forces with their moments about another origin, from which the first one is at `point`.
+Wrench moved(const Wrench& wrench, const Eigen::Vector3d& point);
+
 /// What the error of a first-order coordinate is measured by.
 enum class StateError : char {
   kNone,      // not a state: a coordinate of second order
@@ -53,6 +61,12 @@ struct ModalBody {
     if (dof >= size()) return combined.row(dof - size());
     return shapes.row(dof);
   }
+  /// The modal force (n_m) of least norm with the resultant `wrench` about the body's origin,
+  /// R (R^T R)^-1 w, R = rigid: inertia forces of a rigid motion, so that a free body does not
+  /// deform. Its transpose is a coordinate: of a unit wrench along k the motion k of the body's
+  /// rigid frame, (R^T R)^-1 R^T eta, its mass-weighted mean motion.
+  /// NumericsError for bodies without six rigid motions, as one that moves in a plane.
+  Eigen::VectorXd force_of(const Wrench& wrench) const;
 };
 
 /// Options of make_modal_body().

@@ -55,13 +55,14 @@ Eigen::ArrayXd skirt_relief(const SkirtShape& shape, const PadGrid& pad) {
   return relief;
 }
 
-RowMatrix rigid_radial(const PadGrid& pad, double offset) {
+RowMatrix rigid_radial(const PadGrid& pad, double offset, const Eigen::Vector2d& axis) {
   RowMatrix rigid(pad.size(), 6);
   for (int i = 0; i < pad.n_angle(); ++i) {
     const Eigen::Vector3d n = pad_normal(pad.angle(i));
     for (int j = 0; j < pad.n_axial(); ++j) {
       const double z = pad.axial(j) + offset;
-      rigid.row(pad.cell(i, j)) << n.x(), n.y(), 0.0, -z * n.y(), z * n.x(), 0.0;
+      rigid.row(pad.cell(i, j)) << n.x(), n.y(), 0.0, -z * n.y(), z * n.x(),
+          n.y() * axis.x() - n.x() * axis.y();
     }
   }
   return rigid;

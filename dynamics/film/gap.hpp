@@ -83,6 +83,9 @@ class PatchMap {
   PatchMap(const ElasticSurface& surface, const PadGrid& pad);
 
   int patches() const { return static_cast<int>(inverse_.cols()); }
+  /// R_patches^+, 4 x patches: the rigid motion x, y, rx, ry about the frame's origin that fits the
+  /// patches best. Its transpose distributes a force or couple with exactly that resultant.
+  const Eigen::Matrix<double, 4, Eigen::Dynamic>& rigid_fit() const { return inverse_; }
   /// Writes G at `offset` [m] into `map`, and dG/d(offset) into `slope` when given; n x patches.
   void at(double offset, RowMatrix& map, RowMatrix* slope = nullptr);
 
@@ -111,7 +114,9 @@ class LinerShapeMap {
 };
 
 /// Radial displacement of the cells under unit rigid motions x, y, z, rx, ry, rz about the origin
-/// of the frame in which cell heights are pad.axial(j) + offset; n x 6.
-RowMatrix rigid_radial(const PadGrid& pad, double offset = 0.0);
+/// of the frame in which cell heights are pad.axial(j) + offset and the cylinder's axis is at
+/// (x, y) = `axis` [m]; n x 6.
+RowMatrix rigid_radial(const PadGrid& pad, double offset = 0.0,
+                       const Eigen::Vector2d& axis = Eigen::Vector2d::Zero());
 
 }  // namespace clatter::film

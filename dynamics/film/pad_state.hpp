@@ -29,6 +29,7 @@ struct PistonLiner::Pad {
     gap_by_y.setZero(n, n_coordinates);
     area = grid.area();
     area_slope.setZero(n);
+    gap_by_pin.setZero(n, 6);
   }
   bool covers(Eigen::Index cell) const { return area[cell] > 0.0; }
   std::string name;
@@ -41,6 +42,7 @@ struct PistonLiner::Pad {
   Cover cover;
   Eigen::ArrayXd area, area_slope;  // covered area of the cells [m2], its derivative by height [m]
   RowMatrix gap_by_y;               // dh/dy, n x n_e
+  RowMatrix gap_by_pin;             // dh/dy of the pin at a fixed height, n x 6; 0: elastic piston
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy
   std::optional<PatchMap> liner_map;
   std::optional<LinerShapeMap> liner_shape;
@@ -49,7 +51,7 @@ struct PistonLiner::Pad {
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_a [Pa], dp_a/dh, energy [J/m2]
   std::optional<Friction> friction;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
-      levers;  // friction on pin z, rx, ry per unit axial force, n x 3
+      levers;  // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3
 };
 
 }  // namespace clatter::film

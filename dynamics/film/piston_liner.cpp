@@ -51,15 +51,11 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
           ? static_cast<int>(bodies_.liner->grid.angle.size() * bodies_.liner->grid.axial.size())
           : 0;
   pin_ = n_piston_ + n_liner_;
-  n_total_ = pin_ + 6;
-  if (bodies_.liner_axial) liner_axial_ = n_total_++;
+  n_total_ = pin_ + (bodies_.liner ? 7 : 6);
   if (static_cast<int>(coordinates_.size()) != n_total_)
     throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
                                  coordinates_.size(), n_total_));
 
-  height_by_y_.setZero(n_total_);
-  height_by_y_[pin_ + 2] = 1.0;
-  if (liner_axial_ >= 0) height_by_y_[liner_axial_] = -1.0;
   if (bodies_.liner) find_ends(bodies_.liner->grid);
 
   const Edge open =
@@ -74,7 +70,7 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
       PatchMap(*bodies_.piston, pad.grid).at(0.0, map);
       pad.gap_by_y.leftCols(n_piston_) = -map;
     } else {
-      pad.gap_by_y.middleCols(pin_, 6) = -rigid_radial(pad.grid);
+      pad.gap_by_pin = -rigid_radial(pad.grid, 0.0, bodies_.bore_axis);
     }
     if (bodies_.liner) pad.liner_map.emplace(*bodies_.liner, pad.grid);
     if (options_.bore) pad.liner_shape.emplace(*options_.bore, pad.grid);
@@ -88,11 +84,21 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     pad.friction.emplace(options_.friction, pad.grid.size());
     pad.levers.resize(pad.grid.size(), 3);
     for (int i = 0; i < pad.grid.n_angle(); ++i) {
-      const Eigen::Vector3d arm = pad.grid.radius() * pad_normal(pad.grid.angle(i));
+      const Eigen::Vector2d arm =
+          bodies_.bore_axis + pad.grid.radius() * pad_normal(pad.grid.angle(i)).head<2>();
       for (int j = 0; j < pad.grid.n_axial(); ++j)
         pad.levers.row(pad.grid.cell(i, j)) << 1.0, arm.y(), -arm.x();
     }
   }
+  if (bodies_.liner) {
+    const LinerAxial liner{n_piston_, pin_ + 6,
+                           pads_.front()->liner_map->rigid_fit().bottomRows<2>()};
+    axial_ = axial_motion(n_total_, pin_, bodies_.liner_axial, &liner);
+  } else {
+    axial_ = axial_motion(n_total_, pin_, bodies_.bore_axis, nullptr);
+  }
+  height_by_y_.setZero(n_total_);
+  for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
 }
 
 void PistonLiner::check() const {
@@ -114,7 +120,9 @@ void PistonLiner::check() const {
 }
 
 double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) const {
-  return position + y[pin_ + 2] - (liner_axial_ >= 0 ? y[liner_axial_] : 0.0);
+  double height = position;
+  for (const auto& [coordinate, factor] : axial_.height) height += factor * y[coordinate];
+  return height;
 }
 
 // Cover, gap and their derivatives at one state; `height` is the pin centre's engine z.
@@ -129,12 +137,12 @@ void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, 
     pad.gap_by_y.middleCols(n_piston_, n_liner_) = pad.liner_weights;
   }
   // Height affects the gap nonlinearly, by d(z) and G_l(z): its column is added after the sum.
-  pad.gap_by_y.col(pin_ + 2).setZero();
-  if (liner_axial_ >= 0) pad.gap_by_y.col(liner_axial_).setZero();
+  pad.gap_by_y.middleCols(pin_, 6) = pad.gap_by_pin;
+  if (bodies_.liner) pad.gap_by_y.rightCols<1>().setZero();
   pad.gap += (pad.gap_by_y * y).array();
   if (!with_slope) return;
-  pad.gap_by_y.col(pin_ + 2) = pad.gap_by_height;
-  if (liner_axial_ >= 0) pad.gap_by_y.col(liner_axial_) = -pad.gap_by_height;
+  for (const auto& [coordinate, factor] : axial_.height)
+    pad.gap_by_y.col(coordinate) += (factor * pad.gap_by_height).matrix();
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
@@ -219,12 +227,13 @@ void PistonLiner::update_friction(Pad& pad, double speed) {
   if (asperity_) pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, speed);
 }
 
+Eigen::Vector3d PistonLiner::friction_wrench(const Pad& pad) const {
+  return pad.levers.transpose() * pad.friction->force().matrix();
+}
+
 void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
   force += pad.gap_by_y.transpose() * pad.load.matrix() + end_force(pad) * height_by_y_;
-  if (!pad.friction) return;
-  const Eigen::Vector3d rub = pad.levers.transpose() * pad.friction->force().matrix();
-  force.segment<3>(pin_ + 2) += rub;
-  if (liner_axial_ >= 0) force[liner_axial_] -= rub[0];
+  if (pad.friction) force += axial_.slide.transpose() * friction_wrench(pad);
 }
 
 void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
@@ -233,7 +242,7 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
   else if (pad.derivative.size() == 0)
     pad.derivative.setZero(pad.grid.size(), n_total_);
   if (pad.friction) {
-    Eigen::Matrix<double, 3, Eigen::Dynamic> rub =
+    Eigen::Matrix3Xd rub =
         (pad.levers.array().colwise() * pad.friction->gap_slope()).matrix().transpose() *
         pad.gap_by_y;
     if (pad.film)
@@ -242,8 +251,7 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
     if (pad.ends)
       rub +=
           pad.levers.transpose() * pad.friction->height_slope().matrix() * height_by_y_.transpose();
-    tangent.middleRows<3>(pin_ + 2) += rub;
-    if (liner_axial_ >= 0) tangent.row(liner_axial_) -= rub.row(0);
+    tangent.noalias() += axial_.slide.transpose() * rub;
   }
   for (int c = 0; c < pad.grid.size(); ++c) {
     const double area = pad.area[c];
@@ -257,11 +265,10 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
   if (!pad.liner_map) return;
   // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
   const Eigen::VectorXd cross = pad.liner_slopes.transpose() * pad.load.matrix();
-  tangent.col(pin_ + 2).segment(n_piston_, n_liner_) += cross;
-  tangent.row(pin_ + 2).segment(n_piston_, n_liner_) += cross.transpose();
-  if (liner_axial_ < 0) return;
-  tangent.col(liner_axial_).segment(n_piston_, n_liner_) -= cross;
-  tangent.row(liner_axial_).segment(n_piston_, n_liner_) -= cross.transpose();
+  for (const auto& [coordinate, factor] : axial_.height) {
+    tangent.col(coordinate).segment(n_piston_, n_liner_) += factor * cross;
+    tangent.row(coordinate).segment(n_piston_, n_liner_) += factor * cross.transpose();
+  }
 }
 
 }  // namespace clatter::film

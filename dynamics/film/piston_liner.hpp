@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/film/axial_motion.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/force/element.hpp"
@@ -25,7 +26,7 @@ struct PadSnapshot {
 
 /// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
 ///
-///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + y_pin,z - y_liner,z
+///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + skirt's axial displacement - liner's
 ///   f = (dh/dy)^T A (p + p_a) + friction
 ///
 /// A is the area inside the liner (cover.hpp): beyond its ends there is no film, no contact and no
@@ -35,6 +36,8 @@ struct PadSnapshot {
 /// to the skirt; its content follows the integrator's tableau, and so does z_B within a step. The
 /// liner's slope along the stroke loads the piston axially (through dh/dz), so that the contact
 /// does exactly the work of p on h.
+/// Friction acts at the wall, at the bore's radius. Forces and moments on both bodies cancel, with
+/// the levers of the ideal position: pin at z_B(t), bore's axis at `bore_axis` from it.
 class PistonLiner : public dynamics::ForceElement {
  public:
   /// `coordinates`: in the order of PistonLinerBodies. InputError for parameters out of range.
@@ -78,11 +81,13 @@ class PistonLiner : public dynamics::ForceElement {
   void add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const;
   StrokeState stroke_at(const dynamics::Stage& stage) const;
   double stroke_height(double position, const Eigen::VectorXd& y) const;
+  Eigen::Vector3d friction_wrench(const Pad& pad) const;
 
   PistonLinerOptions options_;
   PistonLinerBodies bodies_;
   Eigen::VectorXd height_by_y_;  // of the pads, n_total
-  int n_piston_ = 0, n_liner_ = 0, pin_ = 0, liner_axial_ = -1, n_total_ = 0;
+  int n_piston_ = 0, n_liner_ = 0, pin_ = 0, n_total_ = 0;
+  AxialMotion axial_;
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;
   std::unique_ptr<Asperity> asperity_;

@@ -66,13 +66,15 @@ struct StrokeState {
 };
 
 /// The bodies in contact. Coordinates of the element, in this order:
-/// [piston patches | liner patches | pin x, y, z, rx, ry, rz | liner axial mean]; absent parts have
-/// none.
+/// [piston patches | liner patches | pin x, y, z, rx, ry, rz | liner axial]; absent parts have
+/// none. A liner has an axial coordinate, which takes the axial reaction.
 struct PistonLinerBodies {
   std::optional<ElasticSurface>
       piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin
   std::optional<ElasticSurface> liner;  // bore patches, engine frame; absent: rigid at rest
-  bool liner_axial = false;             // a coordinate takes the axial reaction on the liner
+  Eigen::Vector2d bore_axis = Eigen::Vector2d::Zero();  // (x, y) from the pin's centre [m]
+  Eigen::Vector2d liner_axial =
+      Eigen::Vector2d::Zero();  // (x, y) of the liner's axial coordinate from the pin's centre [m]
   std::function<StrokeState(double time)> stroke;
 };
 

@@ -53,9 +53,8 @@ dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd
     if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
     if (!pad->friction) continue;
-    const Eigen::Vector3d rub = pad->levers.transpose() * pad->friction->force().matrix();
-    const double liner = liner_axial_ >= 0 ? v[liner_axial_] : 0.0;
-    power.lost -= rub.dot(v.segment<3>(pin_ + 2)) + rub[0] * (stroke_.velocity - liner);
+    const Eigen::Vector3d rub = friction_wrench(*pad);
+    power.lost -= rub.dot(axial_.slide * v) + rub[0] * stroke_.velocity;
     power.input -= rub[0] * stroke_.velocity;
   }
   return power;
@@ -73,7 +72,8 @@ void PistonLiner::record(dynamics::History& history) const {
       for (int j = 0; j < grid.n_axial(); ++j) {
         const double load = pad->load[grid.cell(i, j)];
         side -= load * across;
-        moment += load * across * grid.axial(j);
+        moment += load * (across * grid.axial(j) +
+                          axial_.reaction.y() * pad->gap_by_height[grid.cell(i, j)]);
       }
     }
     if (pad->film) {

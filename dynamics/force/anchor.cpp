@@ -4,28 +4,20 @@
 #include <cmath>
 
 namespace clatter::dynamics {
-namespace {
 
-std::vector<int> flattened(const std::vector<std::pair<int, int>>& nodes) {
-  std::vector<int> all;
-  for (const auto& [lateral, stroke] : nodes) {
-    all.push_back(lateral);
-    all.push_back(stroke);
-  }
-  return all;
+void PointWeights::add(int coordinate, double lateral, double stroke) {
+  coordinates.push_back(coordinate);
+  G.conservativeResize(Eigen::NoChange, G.cols() + 1);
+  G.rightCols<1>() << lateral, stroke;
 }
 
-}  // namespace
+LinearAnchor::LinearAnchor(PointWeights point)
+    : Anchor(std::move(point.coordinates)), G_(std::move(point.G)) {}
 
-NodesAnchor::NodesAnchor(const std::vector<std::pair<int, int>>& nodes)
-    : Anchor(flattened(nodes)) {}
-
-AnchorState NodesAnchor::state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
-  const auto n = static_cast<Eigen::Index>(coordinates_.size());
+AnchorState LinearAnchor::state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
   AnchorState state;
-  state.G.setZero(2, n);
-  for (Eigen::Index i = 0; i < n; ++i) state.G(i % 2, i) = 2.0 / static_cast<double>(n);
-  state.B.setZero(2, n);
+  state.G = G_;
+  state.B.setZero(2, G_.cols());
   state.d = state.G * y;
   state.rate = state.G * v;
   state.prescribed.setZero();

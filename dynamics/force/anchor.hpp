@@ -34,15 +34,26 @@ class Anchor {
   std::vector<int> coordinates_;
 };
 
-/// The mean of some nodes' (y, z) displacements; without nodes a point fixed in the engine.
-class NodesAnchor : public Anchor {
+/// Weights of coordinates in the displacement (lateral, stroke) of a point.
+struct PointWeights {
+  std::vector<int> coordinates;  // y indices, n_a
+  Eigen::Matrix<double, 2, Eigen::Dynamic> G = Eigen::Matrix<double, 2, Eigen::Dynamic>(2, 0);
+
+  void add(int coordinate, double lateral, double stroke);
+};
+
+/// A point whose (y, z) displacement is d = G y: a node, a mean of nodes; without coordinates it is
+/// fixed in the engine.
+class LinearAnchor : public Anchor {
  public:
-  /// Pairs of y indices (lateral, stroke), each with the same weight.
-  explicit NodesAnchor(const std::vector<std::pair<int, int>>& nodes);
+  explicit LinearAnchor(PointWeights point);
   AnchorState state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   Eigen::MatrixXd curvature(double, const Eigen::VectorXd&, const Eigen::Vector2d&) const override {
     return {};
   }
+
+ private:
+  Eigen::Matrix<double, 2, Eigen::Dynamic> G_;
 };
 
 /// An end of the rod at `arm` from its centre of mass: d = (dy, dz) + arm (u(phi + dphi) - u(phi)),

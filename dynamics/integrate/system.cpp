@@ -56,33 +56,51 @@ int System::add_body(ModalBody body) {
   eta_start_ = joined(eta_start_, or_zero(body.eta_start, body.modes()));
   v_start_ = joined(v_start_, or_zero(body.v_start, body.modes()));
   rows_.emplace_back();
-  dofs_.emplace_back();
+  places_.emplace_back();
   P_.emplace_back(0, body.modes());
   part_.emplace_back();
   bodies_.push_back(std::move(body));
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-int System::add_row(int body, int dof, const Eigen::RowVectorXd& row) {
+int System::coordinate(int body, int dof) {
+  return find_or_add(body, {dof, 0, Eigen::Vector3d::Zero()});
+}
+
+int System::frame_coordinate(int body, int k, const Eigen::Vector3d& point) {
+  return find_or_add(body, {kFrame, k, k < 3 ? point : Eigen::Vector3d::Zero()});
+}
+
+int System::modal_coordinate(int body, int mode) {
+  return find_or_add(body, {kMode, mode, Eigen::Vector3d::Zero()});
+}
+
+int System::find_or_add(int body, const Place& place) {
   const auto b = static_cast<size_t>(body);
-  const auto found = std::find(dofs_[b].begin(), dofs_[b].end(), dof);
-  if (found != dofs_[b].end()) return rows_[b][static_cast<size_t>(found - dofs_[b].begin())];
+  const auto found = std::find(places_[b].begin(), places_[b].end(), place);
+  if (found != places_[b].end()) return rows_[b][static_cast<size_t>(found - places_[b].begin())];
+  const ModalBody& owner = bodies_[b];
+  Eigen::RowVectorXd row;
+  if (place.dof == kFrame) {
+    row = owner.force_of(unit_wrench(place.axis, place.point)).transpose();
+  } else if (place.dof == kMode) {
+    row = Eigen::RowVectorXd::Unit(owner.modes(), place.axis);
+  } else {
+    row = owner.row_of(place.dof);
+  }
   const int index = interface_size();
   owner_.push_back(body);
   rows_[b].push_back(index);
-  dofs_[b].push_back(dof);
+  places_[b].push_back(place);
   P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
   P_[b].bottomRows(1) = row;
   return index;
 }
 
-int System::coordinate(int body, int dof) {
-  return add_row(body, dof, bodies_[static_cast<size_t>(body)].row_of(dof));
-}
-
-int System::modal_coordinate(int body, int mode) {
-  const int modes = bodies_[static_cast<size_t>(body)].modes();
-  return add_row(body, -1 - mode, Eigen::RowVectorXd::Unit(modes, mode));
+const System::Place& System::place_of(int y_index) const {
+  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
+  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
+  return places_[b][static_cast<size_t>(at)];
 }
 
 void System::add_element(std::unique_ptr<ForceElement> element) {
@@ -95,28 +113,26 @@ void System::add_element(std::unique_ptr<ForceElement> element) {
 
 void System::add_load(Load load) { loads_.push_back(std::move(load)); }
 
-int System::dof_of(int y_index) const {
-  const auto b = static_cast<size_t>(owner_[static_cast<size_t>(y_index)]);
-  const auto at = std::find(rows_[b].begin(), rows_[b].end(), y_index) - rows_[b].begin();
-  return dofs_[b][static_cast<size_t>(at)];
-}
-
 bool System::is_rotation(int y_index) const {
-  const int dof = dof_of(y_index);
-  const ModalBody& body = bodies_[static_cast<size_t>(owner(y_index))];
-  return dof >= 0 && body.is_rotation[static_cast<size_t>(dof)] != 0;
+  const Place& place = place_of(y_index);
+  if (place.dof == kMode) return false;
+  if (place.dof == kFrame) return place.axis >= 3;
+  return bodies_[static_cast<size_t>(owner(y_index))]
+             .is_rotation[static_cast<size_t>(place.dof)] != 0;
 }
 
 int System::mode_of(int y_index) const {
-  const int dof = dof_of(y_index);
-  return dof < 0 ? -1 - dof : -1;
+  const Place& place = place_of(y_index);
+  return place.dof == kMode ? place.axis : -1;
 }
 
 std::string System::coordinate_name(int y_index) const {
+  static constexpr const char* kAxes[] = {"x", "y", "z", "rx", "ry", "rz"};
+  const Place& place = place_of(y_index);
   const std::string& body = bodies_[static_cast<size_t>(owner(y_index))].name;
-  const int mode = mode_of(y_index);
-  return mode < 0 ? fmt::format("{}: coordinate {}", body, dof_of(y_index))
-                  : fmt::format("{}: mode {}", body, mode + 1);
+  if (place.dof == kMode) return fmt::format("{}: mode {}", body, place.axis + 1);
+  if (place.dof == kFrame) return fmt::format("{}: rigid frame, {}", body, kAxes[place.axis]);
+  return fmt::format("{}: coordinate {}", body, place.dof);
 }
 
 bool System::normalise(VectorXd& eta) const {

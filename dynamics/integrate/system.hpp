@@ -38,6 +38,10 @@ class System {
   int add_body(ModalBody body);
   /// Index in y of coordinate `dof` of a body's q; the same index for the same DoF.
   int coordinate(int body, int dof);
+  /// Index in y of a motion of a body's rigid frame (ModalBody::force_of): the displacement of
+  /// `point` [m, in the part's frame] along axis k < 3, or the rotation about axis k - 3 in 3 to 5,
+  /// where `point` has no meaning. A force on it has exactly that resultant.
+  int frame_coordinate(int body, int k, const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
   /// Index in y of a modal coordinate of a body, itself a coordinate on which elements act.
   int modal_coordinate(int body, int mode);
   void add_element(std::unique_ptr<ForceElement> element);
@@ -100,12 +104,21 @@ class System {
   void accept_step(double time);
 
  private:
-  int add_row(int body, int dof, const Eigen::RowVectorXd& row);
-  int dof_of(int y_index) const;
+  /// Where a coordinate is on its body.
+  struct Place {
+    int dof;                // of q; kFrame: of the rigid frame; kMode: a mode
+    int axis;               // k of the rigid frame, or the mode
+    Eigen::Vector3d point;  // of the rigid frame
+    bool operator==(const Place&) const = default;
+  };
+  static constexpr int kFrame = -1, kMode = -2;
+  int find_or_add(int body, const Place& place);
+  const Place& place_of(int y_index) const;
+
   std::vector<ModalBody> bodies_;
   std::vector<int> offsets_;
-  std::vector<std::vector<int>> rows_;  // per body: y indices
-  std::vector<std::vector<int>> dofs_;  // per body: q indices, parallel to rows_; modes: -1 - mode
+  std::vector<std::vector<int>> rows_;      // per body: y indices
+  std::vector<std::vector<Place>> places_;  // per body, parallel to rows_
   std::vector<Eigen::MatrixXd> P_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;

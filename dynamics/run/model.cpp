@@ -29,7 +29,7 @@ EngineElements add_engine(const SceneBodies& bodies, const SliderCrank& crank, S
   const PinNode pin = pin_node(bodies, system);
   system.add_element(pin_joint(bodies, crank, pin, system));
   system.add_element(crank_joint(bodies, crank, system));
-  system.add_element(pin_guide(bodies.scene.guide, pin));
+  system.add_element(pin_guide(bodies, crank, pin, system));
   if (!bodies.scene.contact) return {.pin = pin, .contact = nullptr, .liner = std::nullopt};
   LinerContact contact = liner_contact(bodies, crank, pin, system);
   const film::PistonLiner* element = contact.element.get();

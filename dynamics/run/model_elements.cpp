@@ -8,6 +8,9 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/force/joint.hpp"
+#include "dynamics/force/mount.hpp"
+#include "dynamics/force/pin_guide.hpp"
+#include "dynamics/run/crank_centre.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -52,6 +55,25 @@ LinerFit fit_of(const GridOfBody& liner) {
   return {liner.coordinates, rows};
 }
 
+/// The coordinate that takes axial forces on the liner, and (x, y) of their line of action [m].
+struct AxialCoordinate {
+  int coordinate;
+  Eigen::Vector2d at;
+};
+
+AxialCoordinate liner_axial(const SceneBodies& bodies, const Cylinder& cylinder, System& system) {
+  const std::string& set = bodies.scene.block->liner_axial;
+  const int block = bodies.index.at("block");
+  if (set.empty()) {
+    const Eigen::Vector3d on_axis(cylinder.bore.x(), cylinder.bore.y(), 0.0);
+    return {system.frame_coordinate(block, 2, on_axis), cylinder.bore};
+  }
+  const rom::ReducedModel& model = bodies.block()->model;
+  const int dof = set_dof(model, set, 2, false);
+  const Eigen::RowVectorXd motion = model.row_of(dof) * model.rigid;
+  return {system.coordinate(block, dof), {-motion(4), motion(3)}};
+}
+
 /// Springs to the ground at the nodes of a mount.
 std::vector<GroundSpring> springs_of(const SceneBodies& bodies, const MountSpec& mount,
                                      System& system) {
@@ -79,33 +101,33 @@ PinNode pin_node(const SceneBodies& bodies, System& system) {
 
 std::unique_ptr<ForceElement> pin_joint(const SceneBodies& bodies, const SliderCrank& crank,
                                         const PinNode& pin, System& system) {
-  const std::vector<std::pair<int, int>> piston{{pin[1], pin[2]}};
+  PointWeights centre;
+  centre.add(pin[1], 1.0, 0.0);
+  centre.add(pin[2], 0.0, 1.0);
   return std::make_unique<Joint>(
-      "pin", std::make_unique<NodesAnchor>(piston),
+      "pin", std::make_unique<LinearAnchor>(std::move(centre)),
       rod_end(bodies, crank, bodies.scene.engine->rod.small_arm(), system), bodies.scene.small_end);
 }
 
 std::unique_ptr<ForceElement> crank_joint(const SceneBodies& bodies, const SliderCrank& crank,
                                           System& system) {
-  const Scene& scene = bodies.scene;
-  auto rod = rod_end(bodies, crank, scene.engine->rod.big_arm(), system);
-  std::vector<std::pair<int, int>> bearings;
-  if (bodies.block() != nullptr) {
-    for (const auto& set : scene.block->bearings) {
-      const int stroke = bodies.y(system, "block", set, 2, false);
-      const int lateral = bodies.y(system, "block", set, 1, false);
-      bearings.emplace_back(lateral, stroke);
-    }
-  }
+  auto rod = rod_end(bodies, crank, bodies.scene.engine->rod.big_arm(), system);
+  PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies, system) : PointWeights{};
   return std::make_unique<Joint>("crank_pin", std::move(rod),
-                                 std::make_unique<NodesAnchor>(bearings), scene.big_end);
+                                 std::make_unique<LinearAnchor>(std::move(centre)),
+                                 bodies.scene.big_end);
 }
 
-std::unique_ptr<ForceElement> pin_guide(const GuideSpec& guide, const PinNode& pin) {
-  return std::make_unique<Mount>(
-      "pin_guide", std::vector<GroundSpring>{{pin[0], guide.axial_stiffness, guide.axial_damping},
-                                             {pin[4], guide.tilt_stiffness, guide.tilt_damping},
-                                             {pin[5], guide.tilt_stiffness, guide.tilt_damping}});
+std::unique_ptr<ForceElement> pin_guide(const SceneBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, System& system) {
+  std::optional<std::array<int, 3>> block;
+  if (bodies.block() != nullptr) {
+    const int b = bodies.index.at("block");
+    block = {system.frame_coordinate(b, 0), system.frame_coordinate(b, 4),
+             system.frame_coordinate(b, 5)};
+  }
+  return std::make_unique<PinGuide>(bodies.scene.guide, crank, std::array{pin[0], pin[4], pin[5]},
+                                    block);
 }
 
 LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, const PinNode& pin,
@@ -129,9 +151,12 @@ LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, 
     append(liner.coordinates);
   }
   append(pin);
-  if (bodies.block() != nullptr && !scene.block->liner_axial.empty()) {
-    surfaces.liner_axial = true;
-    coordinates.push_back(bodies.y(system, "block", scene.block->liner_axial, 2, false));
+  const Cylinder cylinder = bodies.cylinder();
+  surfaces.bore_axis = cylinder.bore - cylinder.pin;
+  if (bodies.block() != nullptr) {
+    const AxialCoordinate axial = liner_axial(bodies, cylinder, system);
+    surfaces.liner_axial = axial.at - cylinder.pin;
+    coordinates.push_back(axial.coordinate);
   }
   surfaces.stroke = [crank](double time) {
     const auto motion = crank.piston_pin(time);

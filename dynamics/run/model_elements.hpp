@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamics/film/piston_liner.hpp"
-#include "dynamics/force/mount.hpp"
+#include "dynamics/force/element.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/run/scene_bodies.hpp"
 
@@ -37,7 +37,8 @@ std::unique_ptr<ForceElement> pin_joint(const SceneBodies& bodies, const SliderC
                                         const PinNode& pin, System& system);
 std::unique_ptr<ForceElement> crank_joint(const SceneBodies& bodies, const SliderCrank& crank,
                                           System& system);
-std::unique_ptr<ForceElement> pin_guide(const GuideSpec& guide, const PinNode& pin);
+std::unique_ptr<ForceElement> pin_guide(const SceneBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, System& system);
 LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, const PinNode& pin,
                            System& system);
 /// One per [[mount]], without those of a block that is not simulated. InputError for a body that is

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/given/load_table.hpp"
+#include "dynamics/run/balance.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -21,6 +22,11 @@ TimeFunction ramped(const TimeSpec& time, TimeFunction value) {
     const double s = std::clamp((t - begin) / length, 0.0, 1.0);
     return s * s * (3.0 - 2.0 * s) * value(t);
   };
+}
+
+std::vector<Load> ramped(const TimeSpec& time, std::vector<Load> loads) {
+  for (Load& load : loads) load.value = ramped(time, std::move(load.value));
+  return loads;
 }
 
 /// Modal force of gravity or of an accelerated frame per unit acceleration: -M r.
@@ -61,54 +67,6 @@ std::vector<Load> frame_inertia(const SceneBodies& bodies, const System& system,
           load("rod", 2,
                [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.y(); }),
           load("rod", 3, [crank](double t) { return crank.rod_angle(t).acceleration; })};
-}
-
-/// Inertia loads of the ideal mechanism on the engine: forces (y, z) and moment about x at the
-/// crank axis, sum of m a and of its moments.
-Eigen::Vector3d mechanism_inertia(const EngineSpec& engine, const SliderCrank& crank,
-                                  double piston_mass, double t) {
-  const auto pin = crank.piston_pin(t);
-  const auto centre = crank.rod_point(t, engine.rod.centre);
-  const Eigen::Vector2d rod = engine.rod.mass * centre.acceleration;
-  const double piston = piston_mass * pin.acceleration;
-  const double moment = centre.position.x() * rod.y() - centre.position.y() * rod.x() +
-                        engine.pin_offset * piston +
-                        engine.rod.inertia * crank.rod_angle(t).acceleration;
-  return {rod.x(), rod.y() + piston, moment};
-}
-
-/// Forces of the other cylinders that cancel this one's inertia on the block's rigid modes.
-std::vector<Load> balance(const SceneBodies& bodies, const SliderCrank& crank) {
-  const Scene& scene = bodies.scene;
-  const auto block = bodies.index.find("block");
-  if (!scene.engine->balanced || block == bodies.index.end()) return {};
-  const LoadedBody& body = *find_body(bodies.loaded, "block");
-  const int n = body.modal.rigid_modes;
-  if (n != 6) return {};  // a held block needs no balance
-  const double x = body.model.grids.empty() || !scene.contact
-                       ? 0.0
-                       : body.model.grid(scene.block->liner).axis_point.x();
-  // Wrench (F, M) about the origin of a unit force y, a unit force z in the crank's plane, a unit
-  // moment about x.
-  Eigen::Matrix<double, 6, 3> wrench = Eigen::Matrix<double, 6, 3>::Zero();
-  wrench(1, 0) = 1.0;
-  wrench(5, 0) = x;
-  wrench(2, 1) = 1.0;
-  wrench(4, 1) = -x;
-  wrench(3, 2) = 1.0;
-  const Eigen::MatrixXd on_modes =
-      body.modal.rigid.topRows(6).transpose().partialPivLu().solve(wrench);
-  const double piston_mass = find_body(bodies.loaded, "piston")->model.mass.mass;
-  std::vector<Load> loads;
-  for (int k = 0; k < 3; ++k) {
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(body.modal.modes());
-    direction.head(6) = on_modes.col(k);
-    loads.push_back({"balance of the other cylinders", block->second, direction,
-                     ramped(scene.time, [engine = *scene.engine, crank, piston_mass, k](double t) {
-                       return mechanism_inertia(engine, crank, piston_mass, t)(k);
-                     })});
-  }
-  return loads;
 }
 
 /// The value of a [[load]] over time, without the ramp of the start.
@@ -167,7 +125,7 @@ std::vector<Load> loads_of(const SceneBodies& bodies, const System& system,
   if (crank) {
     if (gas) append(gas_loads(bodies, *crank, *gas));
     append(frame_inertia(bodies, system, *crank));
-    append(balance(bodies, *crank));
+    append(ramped(scene.time, balance_loads(bodies, *crank)));
   }
   if (scene.gravity > 0.0) {
     for (const auto& [name, b] : bodies.index)

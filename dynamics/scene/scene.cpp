@@ -87,8 +87,8 @@ RadialLaw read_law(const Config& root, std::string_view key) {
   return law;
 }
 
-GuideSpec read_guide(const Config& root) {
-  GuideSpec guide;
+GuideLaw read_guide(const Config& root) {
+  GuideLaw guide;
   const auto table = root.find_table("pin_guide");
   if (!table) return guide;
   const Range any = Range::between(0.0, 1e15);

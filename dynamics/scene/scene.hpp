@@ -9,6 +9,7 @@
 #include "core/base/config.hpp"
 #include "dynamics/body/rigid_rod.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
+#include "dynamics/force/pin_guide.hpp"
 #include "dynamics/force/radial_law.hpp"
 #include "dynamics/given/spline.hpp"
 #include "dynamics/integrate/integrator.hpp"
@@ -29,8 +30,8 @@ struct EngineSpec {
   double speed = 0.0;       // omega [rad/s]
   double stroke = 0.0;      // [m]
   double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
-  /// The other cylinders balance the inertia forces of this one on the block's rigid modes, but not
-  /// on its elastic modes.
+  /// The block's rigid modes get no resultant, neither force nor moment, of this cylinder's inertia
+  /// forces; its elastic modes get them all (balance.hpp).
   bool balanced = false;
   RodProperties rod;
 };
@@ -43,12 +44,6 @@ struct GasSpec {
   double ambient = 1e5;  // subtracted from the table's absolute pressure [Pa]
 };
 
-/// [pin_guide]: holds the piston in the directions in which a planar rod does not.
-struct GuideSpec {
-  double axial_stiffness = 1e6, axial_damping = 1e2;  // along the pin [N/m], [N s/m]
-  double tilt_stiffness = 1e4, tilt_damping = 1.0;    // about y and z [N m/rad], [N m s/rad]
-};
-
 /// [piston].
 struct PistonSpec : BodySpec {
   std::string pin = "pin";       // set of the pin's node, 6 DoFs
@@ -59,8 +54,8 @@ struct PistonSpec : BodySpec {
 /// [block]; a rigid block is not simulated.
 struct BlockSpec : BodySpec {
   std::string liner = "liner";        // contact grid of the bore
-  std::string liner_axial;            // set of its mean axial displacement; empty: none
-  std::vector<std::string> bearings;  // main bearings next to the crank, sharing its force
+  std::string liner_axial;            // set of its mean axial displacement; empty: rigid frame
+  std::vector<std::string> bearings;  // main bearings next to the crank; empty: rigid frame
   std::string gas_load;               // unit load on the head, per Pa; empty: none
 };
 
@@ -109,7 +104,7 @@ struct Scene {
   std::string contact_where;     // "file:line: contact", for messages
   std::string pin_offset_where;  // "file:line: engine.pin_offset_mm"
   RadialLaw small_end, big_end;
-  GuideSpec guide;
+  GuideLaw guide;                // [pin_guide]
   std::vector<BodySpec> bodies;  // [[body]]
   std::vector<MountSpec> mounts;
   std::vector<LoadSpec> loads;

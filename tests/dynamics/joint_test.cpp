@@ -14,8 +14,12 @@ const SliderCrank kCrank(0.065, 0.21, 0.001, 2000.0 * std::numbers::pi / 30.0);
 
 Joint pin_joint(double exponent) {
   RadialLaw law{1e-5, 1e7, exponent > 1.0 ? 1e11 : 1e9, exponent, 2e4};
-  using Nodes = std::vector<std::pair<int, int>>;
-  return Joint("pin", std::make_unique<NodesAnchor>(Nodes{{0, 1}, {2, 3}}),
+  PointWeights nodes;
+  for (const int k : {0, 2}) {
+    nodes.add(k, 0.5, 0.0);
+    nodes.add(k + 1, 0.0, 0.5);
+  }
+  return Joint("pin", std::make_unique<LinearAnchor>(nodes),
                std::make_unique<RodAnchor>(std::vector<int>{4, 5, 6}, kCrank, 0.14), law);
 }
 

@@ -49,6 +49,39 @@ TEST(ModalBody, RigidVariantKeepsTheSixMotionsOnly) {
       {"bar: found model = \"rigid\", but only 0 of its six rigid motions are free"});
 }
 
+TEST(ModalBody, ForceOfAWrenchHasThatResultantAndDoesNotDeformAFreeBody) {
+  const ModalBody body = make_modal_body(testing::elastic_block(0.0535, 6, 4), {});
+  const Eigen::Vector3d point(0.2, -0.01, 0.3);
+  for (int k = 0; k < 6; ++k) {
+    const Wrench wrench = unit_wrench(k, point);
+    const Eigen::VectorXd force = body.force_of(wrench);
+    EXPECT_LT((body.rigid.transpose() * force - wrench).norm(), 1e-12);
+    EXPECT_LT(force.tail(body.modes() - 6).norm(), 1e-10 * force.norm());
+    // As a row it is the displacement of the point in a rigid motion.
+    const Wrench motion = Wrench::LinSpaced(0.3, -0.7);
+    EXPECT_NEAR(force.dot(body.rigid * motion), wrench.dot(motion), 1e-12);
+  }
+  EXPECT_EQ(unit_wrench(1, point).tail<3>(), Eigen::Vector3d(-0.3, 0.0, 0.2));
+  test::expect_parts(
+      test::refusal_of<NumericsError>([&] { testing::point_mass(2.0).force_of(Wrench::Unit(0)); }),
+      {"mass: found 0 independent rigid motions, expected 6"});
+}
+
+TEST(System, FrameCoordinatesAreSharedNamedAndKnowRotations) {
+  System system;
+  const int body = system.add_body(make_modal_body(testing::elastic_block(0.0535, 6, 4), {}));
+  const Eigen::Vector3d point(0.2, 0.0, 0.0);
+  const int tilt = system.frame_coordinate(body, 4, point), up = system.frame_coordinate(body, 2);
+  EXPECT_EQ(system.frame_coordinate(body, 4), tilt);  // a rotation has no point
+  EXPECT_EQ(system.frame_coordinate(body, 2), up);
+  EXPECT_NE(system.frame_coordinate(body, 2, point), up);
+  EXPECT_NE(system.coordinate(body, 2), up);
+  EXPECT_EQ(system.interface_size(), 4);
+  EXPECT_TRUE(system.is_rotation(tilt));
+  EXPECT_FALSE(system.is_rotation(up));
+  EXPECT_EQ(system.coordinate_name(tilt), "block: rigid frame, ry");
+}
+
 TEST(ModalBody, InertiaIsDroppedAboveTheLimit) {
   const auto model = clamped_bar(1.0, 40, 10);
   const ModalBody body = make_modal_body(model, {true, 6000.0});

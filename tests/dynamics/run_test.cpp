@@ -216,7 +216,7 @@ TEST_F(Runs, ElasticBlockFileHoldsWhatRecoverReads) {
     EXPECT_TRUE(back.has(std::string("history/") + name)) << name;
   }
   EXPECT_EQ(read_certificate<RunCertificate>(back), run_certificate(result));
-  EXPECT_LT(result.energy_residue, 5e-6);  // 4.3e-7 is reached
+  EXPECT_LT(result.energy_residue, 2.5e-6);  // 2.4e-7 is reached
   // v is the derivative of q: trapezoidal sums of v give back q to the sampling's accuracy.
   const RowMatrix q = back.read_rows("bodies/piston/q"), v = back.read_rows("bodies/piston/v");
   double worst = 0.0;

@@ -173,7 +173,7 @@ rom::ReducedModel clamped_bar(double length, int elements, int modes) {
   return model;
 }
 
-rom::ReducedModel elastic_piston(double radius, int strips, int rows) {
+rom::ReducedModel elastic_piston(double radius, int strips, int rows, double axis) {
   Assembly parts;
   parts.node("pin", "bearing", Vector3d::Zero(), 0.5, 6000.0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -185,8 +185,8 @@ rom::ReducedModel elastic_piston(double radius, int strips, int rows) {
   auto edges = equal_strips(-half, half, strips);
   const auto other = equal_strips(std::numbers::pi - half, std::numbers::pi + half, strips);
   edges.insert(edges.end(), other.begin(), other.end());
-  parts.grid("skirt", radius, edges, VectorXd::LinSpaced(rows + 1, -0.045, 0.025), Vector3d::Zero(),
-             0.3 / (2 * strips * rows), 9000.0);
+  parts.grid("skirt", radius, edges, VectorXd::LinSpaced(rows + 1, -0.045, 0.025),
+             Vector3d(0.0, axis, 0.0), 0.3 / (2 * strips * rows), 9000.0);
   rom::ReducedModel model = parts.finish("piston");
   model.alpha = 1e-7;
   model.loads["gas"] = VectorXd::Zero(model.size());
@@ -194,12 +194,12 @@ rom::ReducedModel elastic_piston(double radius, int strips, int rows) {
   return model;
 }
 
-rom::ReducedModel elastic_block(double radius, int strips, int rows) {
+rom::ReducedModel elastic_block(double radius, int strips, int rows, const Eigen::Vector2d& off) {
   Assembly parts;
   const Vector3d axis(0.195, 0.0, 0.0);
   parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * std::numbers::pi, strips),
              VectorXd::LinSpaced(rows + 1, 0.115, 0.345), axis, 4.0 / (strips * rows), 5000.0);
-  parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(0, 0, 0.23),
+  parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(off.x(), off.y(), 0.23),
             Vector3d::UnitZ(), false, 4.0, 4000.0);
   parts.node("main_4", "bearing", Vector3d(0.13, 0.0, 0.0), 8.0, 2500.0);
   parts.node("main_5", "bearing", Vector3d(0.26, 0.0, 0.0), 8.0, 2200.0);

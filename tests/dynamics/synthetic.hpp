@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reduced models defined without a mesh: simple bodies with known solutions.
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 
@@ -16,10 +17,13 @@ rom::ReducedModel rigid_piston(double mass, double inertia, double area);
 /// form: tip coordinate (set "tip", x) and `modes` fixed-interface modes.
 rom::ReducedModel clamped_bar(double length, int elements, int modes);
 
-/// An elastic piston: pin node and a skirt grid ("skirt", two sides of `strips` x `rows` patches).
-rom::ReducedModel elastic_piston(double radius, int strips, int rows);
+/// An elastic piston: pin node and a skirt grid ("skirt", two sides of `strips` x `rows` patches)
+/// around the axis at y = `axis`.
+rom::ReducedModel elastic_piston(double radius, int strips, int rows, double axis = 0.0);
 /// An elastic block: liner grid "liner_4", "liner_4_axial", "main_4", "main_5", "mounts", "sensor".
-rom::ReducedModel elastic_block(double radius, int strips, int rows);
+/// @param off of "liner_4_axial" from the bore's axis (x, y) [m].
+rom::ReducedModel elastic_block(double radius, int strips, int rows,
+                                const Eigen::Vector2d& off = Eigen::Vector2d::Zero());
 
 /// Writes the model as a .rom.h5.
 void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model);

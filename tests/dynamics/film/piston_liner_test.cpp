@@ -77,7 +77,12 @@ TEST(PistonLiner, ElasticBodiesInRigidMotionFeelTheSameForceAsRigidOnes) {
 }
 
 TEST(PistonLiner, ReportedResultantsAreTheForcesOnTheRigidPiston) {
-  const auto element = make_element(small_scene(), false);
+  PistonLinerOptions options = small_scene();
+  options.bore.emplace();  // wider above: part of the pressure is axial
+  options.bore->angle = Eigen::VectorXd::Zero(1);
+  options.bore->height = Eigen::Vector2d(0.1, 0.4);
+  options.bore->deviation = Eigen::RowVector2d(-1e-6, 1e-6);
+  const auto element = make_element(options, false, 1e-3);
   dynamics::Response response;
   Eigen::VectorXd y = pushed(*element, false, 5e-6, 3e-5), v = Eigen::VectorXd::Zero(6);
   v[1] = 0.01;
@@ -86,7 +91,15 @@ TEST(PistonLiner, ReportedResultantsAreTheForcesOnTheRigidPiston) {
   element->record(history);
   EXPECT_NEAR(entry(history, "side_force"), response.force[1], 1e-9 * std::abs(response.force[1]));
   EXPECT_NEAR(entry(history, "side_moment"), response.force[3], 1e-9 * std::abs(response.force[1]));
-  EXPECT_NEAR(entry(history, "friction_force"), response.force[2],
+  double axial = 0.0;  // of the pressure on the conical bore
+  for (const PadSnapshot& pad : element->snapshot()) {
+    const double slope = 2e-6 / 0.3, width = options.pad_span / options.cells_around;
+    const double area = options.bore_radius * width * (options.skirt_top - options.skirt_bottom) /
+                        options.cells_along;
+    axial += slope * area * (pad.pressure.sum() + pad.contact_pressure.sum());
+  }
+  EXPECT_GT(axial, 1e-5);
+  EXPECT_NEAR(entry(history, "friction_force"), response.force[2] - axial,
               1e-9 * std::abs(response.force[2]));
   EXPECT_LT(response.force[1], 0.0);  // pushed to the thrust side, driven back
   EXPECT_GT(response.force[2], 0.0);  // moving down at 2 ms, friction points up
@@ -97,7 +110,7 @@ TEST(PistonLiner, ReportedResultantsAreTheForcesOnTheRigidPiston) {
 TEST(PistonLiner, PowerBalancesForceTimesVelocity) {
   // f.v = input - lost - d(stored)/dt, in a state where film, asperities, liner slope and friction
   // all act.
-  const auto element = make_element(small_scene(), true);
+  const auto element = make_element(small_scene(), true, 1e-3);
   dynamics::Response response;
   Eigen::VectorXd y = pushed(*element, true, 6.5e-6, 2e-5),
                   v = Eigen::VectorXd::Zero(element->size());

@@ -35,16 +35,19 @@ inline StrokeState crank_stroke(double time) {
 }
 
 /// `elastic`: 8 x 3 skirt patches and 8 x 5 liner patches with an axial liner coordinate and a
-/// resting shape.
-inline std::unique_ptr<PistonLiner> make_element(PistonLinerOptions options, bool elastic) {
+/// resting shape. `offset`: of the pin toward the thrust side [m]; the liner's axial coordinate is
+/// then off the bore's axis by another half of it.
+inline std::unique_ptr<PistonLiner> make_element(PistonLinerOptions options, bool elastic,
+                                                 double offset = 0.0) {
   PistonLinerBodies bodies;
+  bodies.bore_axis.y() = -offset;
+  bodies.liner_axial = {0.5 * offset, -1.5 * offset};
   bodies.stroke = crank_stroke;
   int n = 6;
   if (elastic) {
     bodies.piston = ElasticSurface{
         make_patches(8, 3, options.skirt_bottom, options.skirt_top, options.bore_radius), {}};
     bodies.liner = ElasticSurface{make_patches(8, 5, 0.08, 0.31, options.bore_radius), {}};
-    bodies.liner_axial = true;
     LinerShape shape;
     shape.angle = Eigen::VectorXd::LinSpaced(4, 0.0, 1.5 * std::numbers::pi);
     shape.height = Eigen::VectorXd::LinSpaced(3, 0.05, 0.33);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/force/pin_guide.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+constexpr int kTilt = 4;  // ry of the block among the element's coordinates
+constexpr int kYaw = 5;   // rz of the block
+
+}  // namespace
+
+PinGuide::PinGuide(const GuideLaw& law, const SliderCrank& crank, const std::array<int, 3>& pin,
+                   const std::optional<std::array<int, 3>>& block)
+    : ForceElement({pin.begin(), pin.end()}),
+      crank_(crank),
+      stiffness_(law.axial_stiffness, law.tilt_stiffness, law.tilt_stiffness),
+      damping_(law.axial_damping, law.tilt_damping, law.tilt_damping),
+      G_(Eigen::Matrix<double, 3, Eigen::Dynamic>::Identity(3, 3)),
+      on_block_(block.has_value()) {
+  if (!block) return;
+  coordinates_.insert(coordinates_.end(), block->begin(), block->end());
+  G_.conservativeResize(Eigen::NoChange, 6);
+  G_.rightCols<3>() = -Eigen::Matrix3d::Identity();
+  G_(0, kYaw) = crank.pin_offset();
+}
+
+void PinGuide::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                        bool with_tangent, Response& response) {
+  const Motion<double> stroke = crank_.piston_pin(stage.time);
+  last_.prescribed.setZero();
+  if (on_block_) {
+    G_(0, kTilt) = -stroke.position;
+    last_.prescribed.x() = -stroke.velocity * y(kTilt);
+  }
+  last_.d = G_ * y;
+  last_.rate = G_ * v + last_.prescribed;
+  last_.force = -stiffness_.cwiseProduct(last_.d) - damping_.cwiseProduct(last_.rate);
+  response.force = G_.transpose() * last_.force;
+  if (!with_tangent) return;
+  response.tangent = G_.transpose() * (-stiffness_ - damping_ / stage.kappa).asDiagonal() * G_;
+  if (on_block_) {
+    response.tangent.col(kTilt) += G_.row(0).transpose() * (damping_.x() * stroke.velocity);
+  }
+}
+
+Power PinGuide::power(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
+  const Instant& at = finished_;
+  return {0.5 * at.d.dot(stiffness_.cwiseProduct(at.d)),
+          at.rate.dot(damping_.cwiseProduct(at.rate)), -at.force.dot(at.prescribed)};
+}
+
+}  // namespace clatter::dynamics

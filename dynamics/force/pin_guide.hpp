@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The piston along its pin and about y and z, where a planar rod leaves it free.
+#include <array>
+#include <optional>
+
+#include "dynamics/force/element.hpp"
+#include "dynamics/given/crank.hpp"
+
+namespace clatter::dynamics {
+
+/// Stiffnesses and dampings of the guide.
+struct GuideLaw {
+  double axial_stiffness = 1e6, axial_damping = 1e2;  // along the pin [N/m], [N s/m]
+  double tilt_stiffness = 1e4, tilt_damping = 1.0;    // about y and z [N m/rad], [N m s/rad]
+};
+
+/// Linear springs and dampers between the pin and the engine block, at the height of the pin:
+///
+///   d = (x - x_b - z_B ry_b + y_pin rz_b,  ry - ry_b,  rz - rz_b),   f = G^T (-k d - c d')
+///
+/// x_b, ry_b, rz_b are of the block's rigid frame about the engine's origin. The pin slides along a
+/// tilted block, so d' contains -z_B' ry_b; the power of the stroke on it is the input.
+class PinGuide : public ForceElement {
+ public:
+  /// `pin`: y indices of the pin's x, ry, rz. `block`: of those of the block's frame; absent: the
+  /// guide is at rest.
+  PinGuide(const GuideLaw& law, const SliderCrank& crank, const std::array<int, 3>& pin,
+           const std::optional<std::array<int, 3>>& block);
+  std::string name() const override { return "pin_guide"; }
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, Response& response) override;
+  void finish_stage(const Stage&) override { finished_ = last_; }
+  Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+
+ private:
+  struct Instant {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();       // on the pin [N], [N m]
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();           // [m], [rad]
+    Eigen::Vector3d rate = Eigen::Vector3d::Zero();        // d'
+    Eigen::Vector3d prescribed = Eigen::Vector3d::Zero();  // part of the rate that is not G v
+  };
+  SliderCrank crank_;
+  Eigen::Vector3d stiffness_, damping_;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> G_;  // dd/dy at the last evaluated height
+  bool on_block_;
+  Instant last_, finished_;
+};
+
+}  // namespace clatter::dynamics

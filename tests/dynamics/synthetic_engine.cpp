@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/dynamics/synthetic_engine.hpp"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "tests/dynamics/synthetic.hpp"
+
+namespace clatter::dynamics::testing {
+namespace {
+
+constexpr double kRadius = 0.0535;
+
+void load(const BodySpec& spec, const rom::ReducedModel& model, LoadedBodies& bodies) {
+  bodies.push_back({spec, "", model, make_modal_body(model, {spec.elastic, 0.0})});
+  bodies.back().modal.name = spec.name;
+}
+
+film::PistonLinerOptions contact_of(const EngineVariant& variant) {
+  film::PistonLinerOptions contact;
+  contact.bore_radius = kRadius;
+  contact.effects = {variant.film, true, true, true};
+  contact.clearance = variant.film ? 12e-6 : 0.5e-6;
+  contact.skirt.barrel_top = 10e-6;
+  contact.cells_around = contact.cells_along = 6;
+  film::LinerShape widening;  // slopes along the stroke: an axial part of the pressure
+  widening.angle = Eigen::VectorXd::Zero(1);
+  widening.height = Eigen::Vector2d(0.12, 0.34);
+  widening.deviation = Eigen::RowVector2d(0.0, variant.film ? 8e-6 : 1e-6);
+  contact.bore = widening;
+  return contact;
+}
+
+}  // namespace
+
+SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
+  scene.engine = EngineSpec{2000.0 * std::numbers::pi / 30.0, 0.130, variant.pin_offset,
+                            variant.balanced, RodProperties{0.210, 2.2, 0.02, 0.07}};
+  PistonSpec piston;
+  piston.name = "piston";
+  piston.elastic = variant.elastic_piston;
+  BlockSpec block;
+  block.name = "block";
+  block.liner = "liner_4";
+  block.liner_axial = variant.liner_axial ? "liner_4_axial" : "";
+  block.bearings = variant.bearings;
+  scene.piston = piston;
+  scene.block = block;
+  scene.contact = contact_of(variant);
+  scene.mounts = {{"block", "", {"mounts"}, {1e5, 1e5, 2e5}, {1e3, 1e3, 2e3}}};
+  load(piston,
+       variant.elastic_piston ? elastic_piston(kRadius, 4, 4, -variant.pin_offset)
+                              : rigid_piston(1.9, 4e-3, 9e-3),
+       bodies);
+  load(block, elastic_block(kRadius, 8, 6, {2e-3, -1e-3}), bodies);
+}
+
+Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time) {
+  const SliderCrank& crank = *model.crank;
+  const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
+  const Eigen::Vector2d rod = crank.rod_point(time, engine.scene.engine->rod.centre).position;
+  const System& system = model.system;
+  Eigen::MatrixXd V(system.interface_size(), 6);
+  for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+    const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    if (body.name == "piston") place = {x, crank.pin_offset(), crank.piston_pin(time).position};
+    if (body.name == "rod") place = {x, rod.x(), rod.y()};
+    Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
+    for (int k = 0; k < 3; ++k)
+      motion.topRightCorner<3, 3>().col(k) = Eigen::Vector3d::Unit(k).cross(place);
+    V(system.rows(b), Eigen::all) = system.P(b) * body.rigid * motion;
+  }
+  return V;
+}
+
+}  // namespace clatter::dynamics::testing

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Engine scenes of synthetic bodies: a block, a piston and a rod at 2000 rpm.
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "dynamics/run/model.hpp"
+
+namespace clatter::dynamics::testing {
+
+/// What differs between the scenes.
+struct EngineVariant {
+  std::string name;
+  bool elastic_piston = true;
+  bool liner_axial = true;
+  bool film = true;
+  bool balanced = false;
+  double pin_offset = 0.0;  // [m]
+  std::vector<std::string> bearings{"main_4", "main_5"};
+};
+
+inline void PrintTo(const EngineVariant& variant, std::ostream* out) { *out << variant.name; }
+
+/// A scene with an elastic block on mounts, without gas or a ramp of the start, and its bodies.
+struct SyntheticEngine {
+  explicit SyntheticEngine(const EngineVariant& variant);
+  std::unique_ptr<Model> model() const { return build_model(scene, bodies); }
+
+  Scene scene;
+  LoadedBodies bodies;
+};
+
+/// Velocities of all interface coordinates (n_y x 6) when block, rod and piston, ideally placed at
+/// `time`, move together as one rigid body: unit motions x, y, z, rx, ry, rz about the engine's
+/// origin.
+Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time);
+
+}  // namespace clatter::dynamics::testing
