@@ -39,10 +39,10 @@ class StageOperator {
   const System* system_;
   double kappa_;
   Eigen::VectorXd H_;
-  Eigen::VectorXd per_force_;                      // H / kappa^2
-  Eigen::VectorXd per_velocity_;                   // delta + kappa omega^2
-  Eigen::VectorXd from_eta_;                       // H (mu / kappa^2 + delta / kappa)
-  Eigen::VectorXd from_v_;                         // H mu / kappa
+  Eigen::VectorXd per_force_;     // H / kappa^2
+  Eigen::VectorXd per_velocity_;  // delta + kappa omega^2
+  Eigen::VectorXd from_eta_;      // H (mu / kappa^2 + delta / kappa)
+  Eigen::VectorXd from_v_;        // H mu / kappa
   Eigen::VectorXd moving_share_;
   std::vector<Eigen::MatrixXd> S_;                 // per body
   mutable std::vector<Eigen::VectorXd> in_, out_;  // per body: its rows

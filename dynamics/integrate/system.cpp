@@ -117,8 +117,8 @@ bool System::is_rotation(int y_index) const {
   const Place& place = place_of(y_index);
   if (place.dof == kMode) return false;
   if (place.dof == kFrame) return place.axis >= 3;
-  return bodies_[static_cast<size_t>(owner(y_index))]
-             .is_rotation[static_cast<size_t>(place.dof)] != 0;
+  return bodies_[static_cast<size_t>(owner(y_index))].is_rotation[static_cast<size_t>(place.dof)] !=
+         0;
 }
 
 int System::mode_of(int y_index) const {
