@@ -6,7 +6,7 @@
 
 namespace clatter::dynamics {
 
-/// KLU (Davis and Palamadai Natarajan 2010) with one analysis per pattern. The pivots of a
+/// KLU (Davis and Natarajan 2010) with one analysis per pattern. The pivots of a
 /// factorisation are kept for the next values as long as they are good (`factor`).
 class SparseLu {
  public:
