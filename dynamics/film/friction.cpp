@@ -52,10 +52,13 @@ void Friction::add_film(const Reynolds& solution, const FilmCells& film,
 }
 
 void Friction::add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
-                           const Eigen::ArrayXd& contact_slope, double speed) {
+                           const Eigen::ArrayXd& contact_slope, const Eigen::ArrayXd& rate_slope,
+                           double speed) {
   const double direction = speed / std::hypot(speed, options_.reversal_speed);
   force_ -= options_.coefficient * direction * grid.area() * contact;
   gap_slope_ -= options_.coefficient * direction * grid.area() * contact_slope;
+  if (rate_slope.size() > 0)
+    rate_slope_ = -options_.coefficient * direction * grid.area() * rate_slope;
 }
 
 }  // namespace clatter::film

@@ -40,14 +40,16 @@ struct PistonLiner::Pad {
   Eigen::ArrayXd rest;           // clearance and skirt relief [m]
   Eigen::ArrayXd gap;            // h [m]
   Eigen::ArrayXd gap_by_height;  // dh/dz along the stroke [1]
-  Eigen::ArrayXd load;           // cell area times (p + p_a) [N]
+  Eigen::ArrayXd load;           // cell area times (p + p_c) [N]
   RowMatrix gap_by_y;            // dh/dy, n x n_e
   RowMatrix derivative;          // dx/dy of the film, then d(load)/dy
   std::optional<PatchMap> liner_map;
   std::optional<LinerShapeMap> liner_shape;
   RowMatrix liner_weights, liner_slopes;  // G_l and dG_l/dz
   std::optional<PadFilm> film;
-  Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_a [Pa], dp_a/dh, energy [J/m2]
+  Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]
+  Eigen::ArrayXd contact_rate_slope, contact_loss;        // dp_c/dh' [Pa s/m], loss [W/m2]; damped
+  RowMatrix rate_by_y;                                    // dh'/dy, n x n_e; damped
   std::optional<Friction> friction;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
       levers;  // friction on pin z, rx, ry per unit axial force, n x 3

@@ -25,10 +25,11 @@ struct PadSnapshot {
 /// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
 ///
 ///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + y_pin,z - y_liner,z
-///   f = (dh/dy)^T A (p + p_a) + friction
+///   f = (dh/dy)^T A (p + p_c) + friction
 ///
 /// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
-/// to the skirt; its content follows the integrator's tableau. The liner's slope along the stroke
+/// to the skirt; its content follows the integrator's tableau. p_c = p_a(h) times the ratio of
+/// contact_damping.hpp is the asperity pressure. The liner's slope along the stroke
 /// loads the piston axially (through dh/dz), so that the contact does exactly the work of p on h.
 class PistonLiner : public dynamics::ForceElement {
  public:
@@ -62,7 +63,9 @@ class PistonLiner : public dynamics::ForceElement {
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
-  void update_contact(Pad& pad);
+  void update_contact(Pad& pad, const Eigen::VectorXd& v);
+  void damp_contact(Pad& pad, const Eigen::VectorXd& v);
+  void update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v);
   void update_friction(Pad& pad, double speed);
   void add_force(const Pad& pad, Eigen::VectorXd& force) const;
   void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
@@ -74,6 +77,7 @@ class PistonLiner : public dynamics::ForceElement {
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;
   std::unique_ptr<Asperity> asperity_;
+  std::unique_ptr<ContactDamping> damping_;
   StrokeState stroke_;
   bool running_ = false;  // false: the content is still the initial one
   long film_solves_ = 0;

@@ -56,6 +56,9 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts) {
             contact && !effects.film ? "no film" : "contact.cavitation");
   table.add("asperity contact", contact && effects.asperities, "contact.asperities",
             contact && !effects.film ? name : "");
+  const bool damped = contact && effects.asperities && scene.contact->damping.loss_factor > 0.0;
+  table.add("damping of the contact", damped,
+            contact && !effects.asperities ? "no asperities" : "contact.asperity_loss_factor");
   table.add("friction", contact && effects.friction, "contact.friction");
   table.add("mounts", mounts > 0, mounts > 0 ? "[[mount]]" : "no mounted body", "mount");
   table.add("gravity", scene.gravity > 0.0, "gravity_m_s2");

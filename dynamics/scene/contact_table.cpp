@@ -84,6 +84,9 @@ void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
   asperity.roughness =
       table.number_or("summit_roughness_um", asperity.roughness / kMicro, Range::positive()) *
       kMicro;
+  auto& damping = options.damping;
+  damping.loss_factor =
+      table.number_or("asperity_loss_factor", damping.loss_factor, Range{0.0, 0.6, false});
   options.friction.coefficient =
       table.number_or("friction_coefficient", options.friction.coefficient, Range::not_negative());
   options.friction.reversal_speed =

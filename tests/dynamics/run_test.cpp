@@ -178,7 +178,9 @@ TEST(UniformSamples, AccelerationIsTheMeanOverTheSamplingInterval) {
 }
 
 TEST_F(Runs, WhatIsOffIsNotThere) {
-  const Scene without = scene("[contact]\nlubrication = \"none\"\nfriction = false\n");
+  const Scene without = scene(
+      "[contact]\nlubrication = \"none\"\nfriction = false\n"
+      "asperity_loss_factor = 0.0\n");
   const auto bodies = load_bodies(without);
   EXPECT_EQ(bodies.size(), 1U);  // a rigid block is no body
   const auto model = build_model(without, bodies);
@@ -188,7 +190,7 @@ TEST_F(Runs, WhatIsOffIsNotThere) {
   EXPECT_TRUE(model->contact->save().size() == 1);  // no film content
   for (const auto& effect : model->effects.effects()) {
     if (effect.name == "oil film" || effect.name == "cavitation" || effect.name == "friction" ||
-        effect.name == "elastic block") {
+        effect.name == "elastic block" || effect.name == "damping of the contact") {
       EXPECT_FALSE(effect.on) << effect.name;
       EXPECT_FALSE(effect.why.empty());
     }
@@ -343,6 +345,9 @@ TEST_F(Runs, BadScenesAreRefusedInOneLine) {
                   "contact.bore_widening_um: expected as many values as bore_height_mm"));
   EXPECT_TRUE(has(refusal("[contact]\nbore_height_mm = [1, 2]\nbore_widening_um = [0, -1]\n"),
                   "contact.bore_widening_um: found -1, expected no value below 0"));
+  EXPECT_TRUE(has(
+      refusal("[contact]\nasperity_loss_factor = 0.75\n"),
+      "contact.asperity_loss_factor: found 0.75, expected a number at least 0 and at most 0.6"));
   EXPECT_TRUE(has(refusal("[contact]\nlubricaton = \"none\"\n"), "did you mean lubrication?"));
   EXPECT_TRUE(has(refusal("[piston]\npin = \"pinn\"\n"), "pinn"));
   EXPECT_TRUE(has(refusal("[piston]\ngas_load = \"fire\"\n"), "no unit load \"fire\", found: gas"));
