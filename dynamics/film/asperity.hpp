@@ -25,7 +25,8 @@ struct AsperityOptions {
   double roughness = 0.5e-6;  // sigma_s, standard deviation of the summit heights [m]
 };
 
-/// p_a(h) = K E* F(h / sigma_s), eq. (12) of the paper; Greenwood and Tripp 1970.
+/// p_a(h) = K E* F(h / sigma_s), eq. (12) of the paper; Greenwood and Tripp 1970. Elastic: damping
+/// is in contact_damping.hpp.
 class Asperity {
  public:
   struct Contact {

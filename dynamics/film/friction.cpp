@@ -66,12 +66,15 @@ void Friction::add_film(const Reynolds& solution, const FilmCells& film,
 }
 
 void Friction::add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
-                           const Eigen::ArrayXd& contact_slope, double speed) {
+                           const Eigen::ArrayXd& contact_slope, const Eigen::ArrayXd& rate_slope,
+                           double speed) {
   const double direction = speed / std::hypot(speed, options_.reversal_speed);
   const Eigen::ArrayXd traction = -options_.coefficient * direction * grid.area() * contact;
   force_ += share_ * traction;
   height_slope_ += share_slope_ * traction;
   gap_slope_ -= options_.coefficient * direction * share_ * grid.area() * contact_slope;
+  if (rate_slope.size() > 0)
+    rate_slope_ = -options_.coefficient * direction * share_ * grid.area() * rate_slope;
 }
 
 }  // namespace clatter::film

@@ -15,13 +15,13 @@ struct FrictionOptions {
 
 /// Axial force of each cell on the piston that slides at U along z past a liner at rest:
 ///
-///   f = -mu U a (1/h) A + (h/2) dp/dz A - mu_a p_a A U / sqrt(U^2 + u_0^2)
+///   f = -mu U a (1/h) A + (h/2) dp/dz A - mu_a p_c A U / sqrt(U^2 + u_0^2)
 ///
 /// a is the sheared fraction of a cell's area (Reynolds::sheared), 1 when full. The film's part is
 /// the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette and Poiseuille); the
 /// pressure on the slope of the skirt is contained in it, because the liner wall is straight.
-/// Derivative: df = gap_slope dh + film_slope dx, where x is p in a full cell and theta in a
-/// cavitated one. Summed along one axial column of cells both are exact.
+/// Derivative: df = gap_slope dh + rate_slope dh' + film_slope dx, where x is p in a full cell and
+/// theta in a cavitated one. Summed along one axial column of cells both are exact.
 class Friction {
  public:
   Friction(const FrictionOptions& options, int cells);
@@ -33,19 +33,22 @@ class Friction {
   /// (RoughFilm).
   void add_film(const Reynolds& solution, const FilmCells& film, const Eigen::ArrayXd& inverse,
                 const Eigen::ArrayXd& inverse_slope, double viscosity, double speed);
-  /// Adds contact friction; `contact` p_a [Pa] and `contact_slope` dp_a/dh, n.
+  /// Adds contact friction; `contact` p_c [Pa], `contact_slope` dp_c/dh, n, and `rate_slope`
+  /// dp_c/dh' [Pa s/m], n, or none for an elastic contact.
   void add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,
-                   const Eigen::ArrayXd& contact_slope, double speed);
+                   const Eigen::ArrayXd& contact_slope, const Eigen::ArrayXd& rate_slope,
+                   double speed);
 
   const Eigen::ArrayXd& force() const { return force_; }            // [N]
   const Eigen::ArrayXd& gap_slope() const { return gap_slope_; }    // [N/m]
+  const Eigen::ArrayXd& rate_slope() const { return rate_slope_; }  // [N s/m]; empty: elastic
   const Eigen::ArrayXd& film_slope() const { return film_slope_; }  // [N/Pa] or [N]
   /// By the height of the pad past the ends of the liner [N/m].
   const Eigen::ArrayXd& height_slope() const { return height_slope_; }
 
  private:
   FrictionOptions options_;
-  Eigen::ArrayXd force_, gap_slope_, film_slope_, height_slope_;
+  Eigen::ArrayXd force_, gap_slope_, rate_slope_, film_slope_, height_slope_;
   Eigen::ArrayXd share_, share_slope_;  // covered fraction of the cells and its derivative [1/m]
 };
 

@@ -37,7 +37,7 @@ struct PistonLiner::Pad {
   Eigen::ArrayXd rest;           // clearance and skirt relief [m]
   Eigen::ArrayXd gap;            // h [m]
   Eigen::ArrayXd gap_by_height;  // dh/dz along the stroke [1]
-  Eigen::ArrayXd load;           // covered area times (p + p_a) [N]
+  Eigen::ArrayXd load;           // covered area times (p + p_c) [N]
   std::optional<CoverMap> ends;  // of the liner; none: it covers the pad everywhere
   Cover cover;
   Eigen::ArrayXd area, area_slope;  // covered area of the cells [m2], its derivative by height [m]
@@ -48,7 +48,10 @@ struct PistonLiner::Pad {
   std::optional<LinerShapeMap> liner_shape;
   RowMatrix liner_weights, liner_slopes;  // G_l and dG_l/dz
   std::optional<PadFilm> film;
-  Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_a [Pa], dp_a/dh, energy [J/m2]
+  Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]
+  Eigen::ArrayXd contact_elastic;                         // p_a [Pa]
+  Eigen::ArrayXd contact_rate_slope, contact_loss;        // dp_c/dh' [Pa s/m], loss [W/m2]; damped
+  RowMatrix rate_by_y;                                    // dh'/dy, n x n_e; damped
   std::optional<Friction> friction;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
       levers;  // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3

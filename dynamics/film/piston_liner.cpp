@@ -42,6 +42,8 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   }
   if (on.film) rough_ = std::make_unique<RoughFilm>(options_.roughness);
   if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
+  if (on.asperities && options_.damping.loss_factor > 0.0)
+    damping_ = std::make_unique<ContactDamping>(options_.damping);
   n_piston_ =
       bodies_.piston
           ? static_cast<int>(bodies_.piston->grid.angle.size() * bodies_.piston->grid.axial.size())
@@ -79,6 +81,9 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open, open}, on.cavitation);
     if (on.asperities)
       for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
+        values->setZero(pad.grid.size());
+    if (damping_)
+      for (Eigen::ArrayXd* values : {&pad.contact_rate_slope, &pad.contact_loss})
         values->setZero(pad.grid.size());
     if (!on.friction) continue;
     pad.friction.emplace(options_.friction, pad.grid.size());
@@ -160,10 +165,12 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
     pad.load.setZero();
     if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
     if (pad.film) solve_film(pad, stage, stroke_.velocity);
-    if (asperity_) update_contact(pad);
+    if (asperity_) update_contact(pad, v);
     if (pad.friction) update_friction(pad, stroke_.velocity);
     add_force(pad, response.force);
-    if (with_tangent) add_tangent(pad, response.tangent);
+    if (!with_tangent) continue;
+    if (damping_) update_rate_tangent(pad, stage.kappa, v);
+    add_tangent(pad, response.tangent);
   }
 }
 
@@ -207,16 +214,6 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   pad.load += pad.area * film.reynolds.pressure();
 }
 
-void PistonLiner::update_contact(Pad& pad) {
-  for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
-    const Asperity::Contact contact = asperity_->at(pad.gap[c]);
-    pad.contact[c] = contact.pressure;
-    pad.contact_slope[c] = contact.slope;
-    pad.contact_energy[c] = contact.energy;
-  }
-  pad.load += pad.area * pad.contact;
-}
-
 void PistonLiner::update_friction(Pad& pad, double speed) {
   if (pad.film) {
     PadFilm& film = *pad.film;
@@ -224,7 +221,9 @@ void PistonLiner::update_friction(Pad& pad, double speed) {
     pad.friction->add_film(film.reynolds, film.cells, film.inverse, film.inverse_slope,
                            options_.viscosity, speed);
   }
-  if (asperity_) pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, speed);
+  if (asperity_)
+    pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, pad.contact_rate_slope,
+                              speed);
 }
 
 Eigen::Vector3d PistonLiner::friction_wrench(const Pad& pad) const {
@@ -248,6 +247,9 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
     if (pad.film)
       rub += (pad.levers.array().colwise() * pad.friction->film_slope()).matrix().transpose() *
              pad.derivative;
+    if (damping_)
+      rub += (pad.levers.array().colwise() * pad.friction->rate_slope()).matrix().transpose() *
+             pad.rate_by_y;
     if (pad.ends)
       rub +=
           pad.levers.transpose() * pad.friction->height_slope().matrix() * height_by_y_.transpose();
@@ -257,8 +259,9 @@ void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
     const double area = pad.area[c];
     auto row = pad.derivative.row(c);
     row *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
-    if (asperity_ && pad.contact_slope[c] != 0.0)
-      row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
+    if (!asperity_ || pad.contact_slope[c] == 0.0) continue;
+    row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
+    if (damping_) row += area * pad.contact_rate_slope[c] * pad.rate_by_y.row(c);
   }
   if (pad.ends) add_end_tangent(pad, tangent);
   tangent.noalias() += pad.gap_by_y.transpose() * pad.derivative;

@@ -27,7 +27,7 @@ struct PadSnapshot {
 /// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
 ///
 ///   h = c + d(z) + G_l(z) y_l - G_p y_p,   z = z_B(t) + skirt's axial displacement - liner's
-///   f = (dh/dy)^T A (p + p_a) + friction
+///   f = (dh/dy)^T A (p + p_c) + friction
 ///
 /// A is the area inside the liner (cover.hpp): beyond its ends there is no film, no contact and no
 /// friction, and the film has an open edge with the pads' supply.
@@ -35,7 +35,8 @@ struct PadSnapshot {
 /// p solves the mass-conserving Reynolds equation in the stage form of reynolds.hpp on a grid fixed
 /// to the skirt; its content follows the integrator's tableau, and so does z_B within a step. The
 /// liner's slope along the stroke loads the piston axially (through dh/dz), so that the contact
-/// does exactly the work of p on h.
+/// does exactly the work of p on h. p_c = p_a(h) times the ratio of contact_damping.hpp is the
+/// asperity pressure.
 /// Friction acts at the wall, at the bore's radius. Forces and moments on both bodies cancel, with
 /// the levers of the ideal position: pin at z_B(t), bore's axis at `bore_axis` from it.
 class PistonLiner : public dynamics::ForceElement {
@@ -73,7 +74,9 @@ class PistonLiner : public dynamics::ForceElement {
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
-  void update_contact(Pad& pad);
+  void update_contact(Pad& pad, const Eigen::VectorXd& v);
+  void damp_contact(Pad& pad, const Eigen::VectorXd& v);
+  void update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v);
   void update_friction(Pad& pad, double speed);
   void add_force(const Pad& pad, Eigen::VectorXd& force) const;
   void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
@@ -91,6 +94,7 @@ class PistonLiner : public dynamics::ForceElement {
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;
   std::unique_ptr<Asperity> asperity_;
+  std::unique_ptr<ContactDamping> damping_;
   StrokeState stroke_;
   std::array<double, 4> stroke_rates_{};  // z_B' at the finished stages of this step [m/s]
   bool running_ = false;                  // false: the content is still the initial one

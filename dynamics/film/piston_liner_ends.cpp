@@ -41,8 +41,8 @@ void PistonLiner::add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) cons
   if (pad.film) load_slope += pad.area_slope * pad.film->reynolds.pressure();
   double curve = 0.0;
   if (asperity_) {
-    const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact;
-    load_slope += by_gap;
+    const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact_elastic;
+    load_slope += pad.area_slope * pad.contact;
     tangent.noalias() += height_by_y_ * (pad.gap_by_y.transpose() * by_gap.matrix()).transpose();
     const Eigen::ArrayXd area_curve =
         pad.grid.area() * pad.cover.share_curve.replicate(pad.grid.n_angle(), 1);

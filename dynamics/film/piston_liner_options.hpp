@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/film/asperity.hpp"
+#include "dynamics/film/contact_damping.hpp"
 #include "dynamics/film/cover.hpp"
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
@@ -56,6 +57,7 @@ struct PistonLinerOptions {
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};
   AsperityOptions asperity;
+  ContactDampingOptions damping;
   FrictionOptions friction;
 };
 

@@ -52,6 +52,7 @@ dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd
     power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
     if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
+    if (damping_) power.lost += (area * pad->contact_loss).sum();
     if (!pad->friction) continue;
     const Eigen::Vector3d rub = friction_wrench(*pad);
     power.lost -= rub.dot(axial_.slide * v) + rub[0] * stroke_.velocity;

@@ -62,6 +62,9 @@ EffectTable effects_of(const SceneBodies& bodies, size_t mounts, const std::stri
                                    "oil_thickness_um, initial_fill, supply_fill are not used");
   table.add("asperity contact", contact && effects.asperities, "contact.asperities",
             contact && !effects.film ? name : "");
+  const bool damped = contact && effects.asperities && scene.contact->damping.loss_factor > 0.0;
+  table.add("damping of the contact", damped,
+            contact && !effects.asperities ? "no asperities" : "contact.asperity_loss_factor");
   table.add("friction", contact && effects.friction, "contact.friction");
   table.add("ends of the liner", !ends.empty(),
             !contact       ? absent

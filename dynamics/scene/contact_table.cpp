@@ -124,6 +124,8 @@ void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
   asperity.roughness = table.number_or("summit_roughness_um", asperity.roughness / kMicro,
                                        Range::between(1e-4, 1e3)) *
                        kMicro;
+  options.damping.loss_factor = table.number_or("asperity_loss_factor", options.damping.loss_factor,
+                                                Range::between(0.0, 0.6));
   options.friction.coefficient = table.number_or(
       "friction_coefficient", options.friction.coefficient, Range::between(0.0, 10.0));
   options.friction.reversal_speed = table.number_or(

@@ -92,6 +92,7 @@ std::vector<NumberKey> engine_numbers() {
                           "contact.supply_pressure_bar",
                           "contact.piston_roughness_um",
                           "contact.liner_roughness_um",
+                          "contact.asperity_loss_factor",
                           "contact.friction_coefficient"})
     keys.push_back({key, in(key), kZero | kTiny});
   for (const char* key : {"engine.pin_offset_mm", "contact.skirt_bottom_mm", "contact.skirt_top_mm",

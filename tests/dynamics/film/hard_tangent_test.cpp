@@ -51,7 +51,11 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double appr
   // Closing towards the thrust side, and a different little step of every coordinate.
   probe += stage.kappa * approach * (y.array() / y.cwiseAbs().maxCoeff()).matrix();
   for (int k = 0; k < n; ++k) probe[k] += 0.1 * stage.kappa * approach * std::sin(3.0 * k + 1.0);
-  element.evaluate(stage, probe, Eigen::VectorXd::Zero(n), true, response);
+  // Velocities follow from the displacements, as in the integrator's stage.
+  const auto rate = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
+    return (at - y) / stage.kappa;
+  };
+  element.evaluate(stage, probe, rate(probe), true, response);
   const Eigen::MatrixXd tangent = response.tangent;
   double fill = 0.0, count = 0.0, contact = 0.0, total = 0.0;
   for (const PadSnapshot& pad : element.snapshot()) {
@@ -73,9 +77,9 @@ double tangent_error(PistonLiner& element, const Eigen::VectorXd& y, double appr
       Eigen::VectorXd y_low = probe, y_high = probe;
       y_low[k] -= d;
       y_high[k] += d;
-      element.evaluate(stage, y_high, Eigen::VectorXd::Zero(n), false, high);
+      element.evaluate(stage, y_high, rate(y_high), false, high);
       same_split = same_split && split_of(element) == split;
-      element.evaluate(stage, y_low, Eigen::VectorXd::Zero(n), false, low);
+      element.evaluate(stage, y_low, rate(y_low), false, low);
       same_split = same_split && split_of(element) == split;
       return Eigen::VectorXd((high.force - low.force) / (2.0 * d));
     };

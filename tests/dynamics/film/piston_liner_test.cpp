@@ -132,9 +132,10 @@ TEST(PistonLiner, PowerBalancesForceTimesVelocity) {
               5e-12 * (std::abs(power.lost) + std::abs(rate)));  // rounding of the difference
 }
 
-TEST(PistonLiner, DryContactTakesNoFilmMemoryAndIsConservativeWithoutFriction) {
+TEST(PistonLiner, DryContactTakesNoFilmMemoryAndIsConservativeWithoutFrictionAndDamping) {
   PistonLinerOptions options = small_scene();
   options.effects = {false, true, true, false};
+  options.damping.loss_factor = 0.0;
   const auto element = make_element(options, false);
   EXPECT_TRUE(element->save().size() == 1);
   Eigen::VectorXd mass(6);
