@@ -73,8 +73,8 @@ void PistonLiner::record(dynamics::History& history) const {
       for (int j = 0; j < grid.n_axial(); ++j) {
         const double load = pad->load[grid.cell(i, j)];
         side -= load * across;
-        moment += load * (across * grid.axial(j) +
-                          axial_.reaction.y() * pad->gap_by_height[grid.cell(i, j)]);
+        moment += load * across * grid.axial(j);
+        moment += load * pad->gap_by_height[grid.cell(i, j)] * axial_.reaction.y();
       }
     }
     if (pad->film) {

@@ -24,29 +24,31 @@ PinGuide::PinGuide(const GuideLaw& law, const SliderCrank& crank, const std::arr
   G_(0, kYaw) = crank.pin_offset();
 }
 
+PinGuide::Motion3 PinGuide::motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
+  const Eigen::Vector3d prescribed(on_block_ ? -stroke_rate_ * y(kTilt) : 0.0, 0.0, 0.0);
+  return {G_ * y, G_ * v + prescribed, prescribed};
+}
+
 void PinGuide::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                         bool with_tangent, Response& response) {
   const Motion<double> stroke = crank_.piston_pin(stage.time);
-  last_.prescribed.setZero();
-  if (on_block_) {
-    G_(0, kTilt) = -stroke.position;
-    last_.prescribed.x() = -stroke.velocity * y(kTilt);
-  }
-  last_.d = G_ * y;
-  last_.rate = G_ * v + last_.prescribed;
-  last_.force = -stiffness_.cwiseProduct(last_.d) - damping_.cwiseProduct(last_.rate);
-  response.force = G_.transpose() * last_.force;
+  stroke_rate_ = stroke.velocity;
+  if (on_block_) G_(0, kTilt) = -stroke.position;
+  const Motion3 at = motion(y, v);
+  const Eigen::Vector3d force = -stiffness_.cwiseProduct(at.d) - damping_.cwiseProduct(at.rate);
+  response.force = G_.transpose() * force;
   if (!with_tangent) return;
   response.tangent = G_.transpose() * (-stiffness_ - damping_ / stage.kappa).asDiagonal() * G_;
   if (on_block_) {
-    response.tangent.col(kTilt) += G_.row(0).transpose() * (damping_.x() * stroke.velocity);
+    response.tangent.col(kTilt) += G_.row(0).transpose() * (damping_.x() * stroke_rate_);
   }
 }
 
-Power PinGuide::power(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
-  const Instant& at = finished_;
+Power PinGuide::power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
+  const Motion3 at = motion(y, v);
+  const Eigen::Vector3d resistance = stiffness_.cwiseProduct(at.d) + damping_.cwiseProduct(at.rate);
   return {0.5 * at.d.dot(stiffness_.cwiseProduct(at.d)),
-          at.rate.dot(damping_.cwiseProduct(at.rate)), -at.force.dot(at.prescribed)};
+          at.rate.dot(damping_.cwiseProduct(at.rate)), resistance.dot(at.prescribed)};
 }
 
 }  // namespace clatter::dynamics

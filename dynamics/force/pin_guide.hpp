@@ -30,21 +30,20 @@ class PinGuide : public ForceElement {
   std::string name() const override { return "pin_guide"; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
-  void finish_stage(const Stage&) override { finished_ = last_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
 
  private:
-  struct Instant {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();       // on the pin [N], [N m]
-    Eigen::Vector3d d = Eigen::Vector3d::Zero();           // [m], [rad]
-    Eigen::Vector3d rate = Eigen::Vector3d::Zero();        // d'
-    Eigen::Vector3d prescribed = Eigen::Vector3d::Zero();  // part of the rate that is not G v
+  /// d, d' and the part of d' that is not G v at the last evaluated height.
+  struct Motion3 {
+    Eigen::Vector3d d, rate, prescribed;  // [m], [rad] and per second
   };
+  Motion3 motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+
   SliderCrank crank_;
   Eigen::Vector3d stiffness_, damping_;
   Eigen::Matrix<double, 3, Eigen::Dynamic> G_;  // dd/dy at the last evaluated height
+  double stroke_rate_ = 0.0;                    // z_B' there [m/s]
   bool on_block_;
-  Instant last_, finished_;
 };
 
 }  // namespace clatter::dynamics

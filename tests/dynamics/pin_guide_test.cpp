@@ -59,8 +59,7 @@ TEST(PinGuide, PowerBalancesExactly) {
   const auto at = [&](double time) {
     const Stage stage{time, 1e-6, 1, {}};
     guide.evaluate(stage, y + (time - t) * v, v, false, response);
-    guide.finish_stage(stage);
-    return guide.power(y, v);
+    return guide.power(y + (time - t) * v, v);
   };
   const double rate = (at(t + h).stored - at(t - h).stored) / (2.0 * h);
   const Power power = at(t);
