@@ -19,9 +19,9 @@ namespace {
 constexpr int kSmall = 48;
 constexpr double kFew = 0.25;
 
-bool touches_all(const System& system) {
+bool same_touched(const System& system, const std::vector<std::vector<int>>& before) {
   for (int e = 0; e < system.elements(); ++e)
-    if (!system.response(e).touched.empty()) return false;
+    if (system.response(e).touched != before[static_cast<size_t>(e)]) return false;
   return true;
 }
 
@@ -102,16 +102,13 @@ void StageMatrix::find_pattern() {
 
 /// Parts and dense rows of what the elements touch at the moment.
 void StageMatrix::list_touched() {
-  const bool everything = touches_all(*system_);
-  if (everything && everything_) return;
-  everything_ = everything;
-  if (everything) {
-    parts_ = all_;
-  } else {
-    parts_.clear();
-    for (int e = 0; e < system_->elements(); ++e)
-      for (Part& part : parts_of(e, system_->response(e).touched))
-        parts_.push_back(std::move(part));
+  if (!touched_.empty() && same_touched(*system_, touched_)) return;
+  touched_.resize(static_cast<size_t>(system_->elements()));
+  parts_.clear();
+  kappa_ = 0.0;
+  for (int e = 0; e < system_->elements(); ++e) {
+    touched_[static_cast<size_t>(e)] = system_->response(e).touched;
+    for (Part& part : parts_of(e, system_->response(e).touched)) parts_.push_back(std::move(part));
   }
   std::vector<char> is_touched(position_.size(), 0);
   for (const Part& part : parts_)
@@ -128,24 +125,42 @@ void StageMatrix::list_touched() {
       body_rows_[b].push_back(i);
     }
   }
+  for (Part& part : parts_) {
+    const auto& rows = body_rows_[static_cast<size_t>(part.body)];
+    for (const int row : part.body_rows)
+      part.S_rows.push_back(
+          static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
+  }
   dense_.resize(next, next);
 }
 
-/// S T of one part in some rows of its body.
-Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part, const StageOperator& op,
-                                                const std::vector<int>& body_rows) {
-  const MatrixXd& S = op.S(part.body);
+/// S of all bodies in the rows that are touched.
+void StageMatrix::form_S(const StageOperator& op) {
+  if (kappa_ == op.kappa()) return;
+  kappa_ = op.kappa();
+  S_.resize(system_->bodies().size());
+  for (size_t b = 0; b < S_.size(); ++b) {
+    const int body = static_cast<int>(b);
+    if (sparse_)
+      S_[b] = op.S(body);
+    else
+      op.form_S(body, body_rows_[b], S_[b]);
+  }
+}
+
+/// S T of one part in the touched rows of its body.
+Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part) {
+  const MatrixXd& S = S_[static_cast<size_t>(part.body)];
   const MatrixXd& T = system_->response(part.element).tangent;
   const auto view = [](std::vector<double>& memory, Index rows, Index columns) {
     memory.resize(static_cast<size_t>(rows * columns));
     return Eigen::Map<MatrixXd>(memory.data(), rows, columns);
   };
-  const auto k = static_cast<Index>(part.rows.size()), n = static_cast<Index>(body_rows.size());
+  const auto k = static_cast<Index>(part.rows.size()), n = S.rows();
   auto S_part = view(S_part_, n, k), T_part = view(T_part_, k, T.cols()),
        ST = view(product_, n, T.cols());
   for (Index j = 0; j < k; ++j) {
-    const auto column = S.col(part.body_rows[static_cast<size_t>(j)]);
-    for (Index i = 0; i < n; ++i) S_part(i, j) = column(body_rows[static_cast<size_t>(i)]);
+    S_part.col(j) = S.col(part.S_rows[static_cast<size_t>(j)]);
     T_part.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
   }
   ST.noalias() = S_part * T_part;
@@ -159,10 +174,11 @@ bool StageMatrix::form(const StageOperator& op) {
 
 bool StageMatrix::form_dense(const StageOperator& op) {
   list_touched();
+  form_S(op);
   dense_.setIdentity();
   for (const Part& part : parts_) {
     const auto& rows = body_rows_[static_cast<size_t>(part.body)];
-    const auto ST = product(part, op, rows);
+    const auto ST = product(part);
     const int first =
         dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] + rows.front())];
     for (Index j = 0; j < ST.cols(); ++j) {
@@ -175,10 +191,11 @@ bool StageMatrix::form_dense(const StageOperator& op) {
 }
 
 bool StageMatrix::form_sparse(const StageOperator& op) {
+  form_S(op);
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const int at : diagonal_) values_[static_cast<size_t>(at)] = 1.0;
   for (const Part& part : all_) {
-    const MatrixXd& S = op.S(part.body);
+    const MatrixXd& S = S_[static_cast<size_t>(part.body)];
     const MatrixXd& T = system_->response(part.element).tangent;
     for (size_t k = 0; k < part.rows.size(); ++k) {
       const auto column_of_S = S.col(part.body_rows[k]);

@@ -75,6 +75,13 @@ int System::modal_coordinate(int body, int mode) {
   return find_or_add(body, {kMode, mode, Eigen::Vector3d::Zero()});
 }
 
+int System::combined_coordinate(int body, const WeightedDofs& sum) {
+  const auto found = std::find(sums_.begin(), sums_.end(), sum);
+  const auto index = static_cast<int>(found - sums_.begin());
+  if (found == sums_.end()) sums_.push_back(sum);
+  return find_or_add(body, {kSum, index, Eigen::Vector3d::Zero()});
+}
+
 int System::find_or_add(int body, const Place& place) {
   const auto b = static_cast<size_t>(body);
   const auto found = std::find(places_[b].begin(), places_[b].end(), place);
@@ -85,6 +92,10 @@ int System::find_or_add(int body, const Place& place) {
     row = owner.force_of(unit_wrench(place.axis, place.point)).transpose();
   } else if (place.dof == kMode) {
     row = Eigen::RowVectorXd::Unit(owner.modes(), place.axis);
+  } else if (place.dof == kSum) {
+    const WeightedDofs& sum = sums_[static_cast<size_t>(place.axis)];
+    row.setZero(owner.modes());
+    for (size_t i = 0; i < sum.dofs.size(); ++i) row += sum.weights[i] * owner.row_of(sum.dofs[i]);
   } else {
     row = owner.row_of(place.dof);
   }
@@ -117,6 +128,7 @@ bool System::is_rotation(int y_index) const {
   const Place& place = place_of(y_index);
   if (place.dof == kMode) return false;
   if (place.dof == kFrame) return place.axis >= 3;
+  if (place.dof == kSum) return sums_[static_cast<size_t>(place.axis)].is_rotation;
   return bodies_[static_cast<size_t>(owner(y_index))].is_rotation[static_cast<size_t>(place.dof)] !=
          0;
 }
@@ -132,6 +144,10 @@ std::string System::coordinate_name(int y_index) const {
   const std::string& body = bodies_[static_cast<size_t>(owner(y_index))].name;
   if (place.dof == kMode) return fmt::format("{}: mode {}", body, place.axis + 1);
   if (place.dof == kFrame) return fmt::format("{}: rigid frame, {}", body, kAxes[place.axis]);
+  if (place.dof == kSum)
+    return fmt::format("{}: {} of {} coordinates", body,
+                       is_rotation(y_index) ? "rotation" : "displacement",
+                       sums_[static_cast<size_t>(place.axis)].dofs.size());
   return fmt::format("{}: coordinate {}", body, place.dof);
 }
 

@@ -20,6 +20,14 @@ struct Load {
   std::function<double(double)> value;  // of time [s]
 };
 
+/// A sum of DoFs of a body's q; a rotation, or a displacement.
+struct WeightedDofs {
+  std::vector<int> dofs;
+  std::vector<double> weights;
+  bool is_rotation = false;
+  bool operator==(const WeightedDofs&) const = default;
+};
+
 /// Computing time of an element.
 struct ElementCost {
   std::string name;
@@ -44,6 +52,9 @@ class System {
   int frame_coordinate(int body, int k, const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
   /// Index in y of a modal coordinate of a body, itself a coordinate on which elements act.
   int modal_coordinate(int body, int mode);
+  /// Index in y of a sum of weighted DoFs of a body's q, such as the rigid motion that fits a
+  /// surface best; the same index for the same sum.
+  int combined_coordinate(int body, const WeightedDofs& sum);
   void add_element(std::unique_ptr<ForceElement> element);
   void add_load(Load load);
 
@@ -106,12 +117,12 @@ class System {
  private:
   /// Where a coordinate is on its body.
   struct Place {
-    int dof;                // of q; kFrame: of the rigid frame; kMode: a mode
-    int axis;               // k of the rigid frame, or the mode
+    int dof;                // of q; kFrame: of the rigid frame; kMode: a mode; kSum: a sum of DoFs
+    int axis;               // k of the rigid frame, the mode, or the index in sums_
     Eigen::Vector3d point;  // of the rigid frame
     bool operator==(const Place&) const = default;
   };
-  static constexpr int kFrame = -1, kMode = -2;
+  static constexpr int kFrame = -1, kMode = -2, kSum = -3;
   int find_or_add(int body, const Place& place);
   const Place& place_of(int y_index) const;
 
@@ -119,6 +130,7 @@ class System {
   std::vector<int> offsets_;
   std::vector<std::vector<int>> rows_;      // per body: y indices
   std::vector<std::vector<Place>> places_;  // per body, parallel to rows_
+  std::vector<WeightedDofs> sums_;
   std::vector<Eigen::MatrixXd> P_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;
