@@ -6,6 +6,7 @@
 // f is n = (-sin f, cos f, 0).
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
@@ -108,7 +109,19 @@ class PatchMap {
   PadGrid pad_;
   CylinderStencil stencil_;
   double axis_origin_ = 0.0, axis_sign_ = 1.0;
-  std::vector<CylinderStencil::Angular> columns_;
+  /// A point of one direction of the stencil.
+  struct Point {
+    int at;
+    double weight, slope;
+  };
+  /// Its points in ascending order, each once.
+  struct Points {
+    std::array<Point, 2> of;
+    int count;
+  };
+  static Points points(int first, int second, double weight, double slope);
+
+  std::vector<Points> columns_, rows_;                                   // of the pad's cells
   Eigen::Matrix<double, Eigen::Dynamic, kFits, Eigen::RowMajor> rigid_;  // R_patches
 };
 

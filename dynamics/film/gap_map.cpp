@@ -37,7 +37,11 @@ GapMap::GapMap(const PistonLinerBodies& bodies, const ContactCoordinates& at, co
 
 void GapMap::move(double height) {
   if (!liner_map_) return;
+  liner_before_.assign(liner_.innerIndexPtr(), liner_.innerIndexPtr() + liner_.nonZeros());
   liner_map_->at(height, liner_, &liner_slope_);
+  if (std::equal(liner_before_.begin(), liner_before_.end(), liner_.innerIndexPtr(),
+                 liner_.innerIndexPtr() + liner_.nonZeros()))
+    return;  // the same patches
   used_ = always_;
   mark(liner_, at_.liner(), used_);
   list_columns();
@@ -51,6 +55,27 @@ void GapMap::list_columns() {
     columns_.push_back(i);
   }
   gather(height_by_y_, height_by_column_);
+  find_pattern();
+}
+
+void GapMap::find_pattern() {
+  pattern_.resize(cells_, static_cast<Eigen::Index>(columns_.size()));
+  pattern_.reserve(piston_.nonZeros() + liner_.nonZeros() + 7 * static_cast<Eigen::Index>(cells_));
+  for (int cell = 0; cell < cells_; ++cell) {
+    pattern_.startVec(cell);
+    const auto put = [&](int coordinate) {
+      pattern_.insertBack(cell, column_[static_cast<size_t>(coordinate)]) = 0.0;
+    };
+    const auto put_row = [&](const SparseRows& rows, int first) {
+      if (rows.rows() == 0) return;
+      for (SparseRows::InnerIterator entry(rows, cell); entry; ++entry)
+        put(first + static_cast<int>(entry.index()));
+    };
+    put_row(piston_, 0);
+    put_row(liner_, at_.liner());
+    for (int k = at_.pin(); k < at_.size(); ++k) put(k);
+  }
+  pattern_.finalize();
 }
 
 void GapMap::gather(const Eigen::VectorXd& all, Eigen::VectorXd& picked) const {
@@ -59,10 +84,21 @@ void GapMap::gather(const Eigen::VectorXd& all, Eigen::VectorXd& picked) const {
     picked[static_cast<Eigen::Index>(i)] = all[columns_[i]];
 }
 
-void GapMap::add(const Eigen::VectorXd& y, Eigen::ArrayXd& gap) const {
+void GapMap::add(const Eigen::VectorXd& y, Eigen::ArrayXd& gap, Eigen::ArrayXd& slope) const {
   if (piston_.rows() > 0) gap += (piston_ * y.head(piston_.cols())).array();
-  if (liner_map_) gap += (liner_ * y.segment(at_.liner(), liner_.cols())).array();
   gap += (pin_ * y.segment<6>(at_.pin())).array();
+  if (!liner_map_) return;
+  const double* y_l = y.data() + at_.liner();
+  for (int cell = 0; cell < cells_; ++cell) {
+    double value = 0.0, change = 0.0;
+    for (int k = liner_.outerIndexPtr()[cell]; k < liner_.outerIndexPtr()[cell + 1]; ++k) {
+      const double moved = y_l[liner_.innerIndexPtr()[k]];
+      value += liner_.valuePtr()[k] * moved;
+      change += liner_slope_.valuePtr()[k] * moved;
+    }
+    gap[cell] += value;
+    slope[cell] += change;
+  }
 }
 
 void GapMap::add_slope(const Eigen::VectorXd& y, Eigen::ArrayXd& slope) const {
@@ -79,26 +115,19 @@ Eigen::VectorXd GapMap::slope_transposed(const Eigen::VectorXd& cells) const {
 }
 
 void GapMap::rows(double a, double b, const Eigen::ArrayXd& c, SparseRows& result) const {
-  result.resize(cells_, static_cast<Eigen::Index>(columns_.size()));
-  result.reserve(piston_.nonZeros() + liner_.nonZeros() + 7 * static_cast<Eigen::Index>(cells_));
+  result = pattern_;
+  double* value = result.valuePtr();
+  const int with_axial = at_.size() - at_.pin();
   for (int cell = 0; cell < cells_; ++cell) {
-    result.startVec(cell);
-    const auto put = [&](int coordinate, double value) {
-      result.insertBack(cell, column_[static_cast<size_t>(coordinate)]) = value;
-    };
     if (piston_.rows() > 0)
-      for (SparseRows::InnerIterator entry(piston_, cell); entry; ++entry)
-        put(static_cast<int>(entry.index()), a * entry.value());
-    if (liner_map_) {
-      const int first = liner_.outerIndexPtr()[cell], end = liner_.outerIndexPtr()[cell + 1];
-      for (int k = first; k < end; ++k)
-        put(at_.liner() + liner_.innerIndexPtr()[k],
-            a * liner_.valuePtr()[k] + b * liner_slope_.valuePtr()[k]);
-    }
-    for (int k = at_.pin(); k < at_.size(); ++k)
-      put(k, c[cell] * height_by_y_[k] + (k < at_.axial() ? a * pin_(cell, k - at_.pin()) : 0.0));
+      for (int k = piston_.outerIndexPtr()[cell]; k < piston_.outerIndexPtr()[cell + 1]; ++k)
+        *value++ = a * piston_.valuePtr()[k];
+    if (liner_map_)
+      for (int k = liner_.outerIndexPtr()[cell]; k < liner_.outerIndexPtr()[cell + 1]; ++k)
+        *value++ = a * liner_.valuePtr()[k] + b * liner_slope_.valuePtr()[k];
+    for (int k = 0; k < with_axial; ++k)
+      *value++ = c[cell] * height_by_y_[at_.pin() + k] + (k < 6 ? a * pin_(cell, k) : 0.0);
   }
-  result.finalize();
 }
 
 }  // namespace clatter::film

@@ -24,13 +24,13 @@ struct ContactCoordinates {
   static int with_fits(int patches) { return patches > 0 ? patches + kFits : 0; }
 };
 
-/// The gap's change by displacements, at one position of the stroke:
+/// The gap's change by displacements, at one height of the pad:
 ///
-///   dh = (G_l y_l - G_p y_p or its rigid motion) + dh/dz times the skirt's axial displacement
+///   dh = G y,   dh/dz = G' y
 ///
-/// in the k coordinates on which it depends there: the liner's patches beside the pad, those of the
-/// skirt, the fits, the pin and the liner's axial coordinate. A row has some twenty entries,
-/// however many patches the bodies have.
+/// G has the weights of skirt, liner and pin. Rows are given in the k coordinates on which the gap
+/// depends there: the liner's patches beside the pad, those of the skirt, the fits, the pin and the
+/// liner's axial coordinate. A row has some twenty entries, however many patches the bodies have.
 class GapMap {
  public:
   /// @param height_by_y n_e: the skirt's axial displacement against the liner by the coordinates.
@@ -43,21 +43,22 @@ class GapMap {
   const std::vector<int>& columns() const { return columns_; }
   /// The entries of `all` (n_e) in columns().
   void gather(const Eigen::VectorXd& all, Eigen::VectorXd& picked) const;
-
-  /// Adds the change by displacements `y` (n_e), at a fixed height, to `gap`, n.
-  void add(const Eigen::VectorXd& y, Eigen::ArrayXd& gap) const;
-  /// Adds d(G_l)/dz times the liner's part of `y` (n_e), n.
-  void add_slope(const Eigen::VectorXd& y, Eigen::ArrayXd& slope) const;
-  /// (d(G_l)/dz)^T times `cells` (n), by columns, k.
-  Eigen::VectorXd slope_transposed(const Eigen::VectorXd& cells) const;
-
-  /// Writes a G + b d(G_l)/dz + c height_by_y^T, n x k; c has n entries. G is at a fixed height.
-  void rows(double a, double b, const Eigen::ArrayXd& c, SparseRows& result) const;
   /// height_by_y in columns(), k.
   const Eigen::VectorXd& height_by_column() const { return height_by_column_; }
 
+  /// Adds G y to `gap` and G' y to `slope`, n; y has n_e entries.
+  void add(const Eigen::VectorXd& y, Eigen::ArrayXd& gap, Eigen::ArrayXd& slope) const;
+  /// Adds G' y to `slope`, n.
+  void add_slope(const Eigen::VectorXd& y, Eigen::ArrayXd& slope) const;
+  /// G'^T times `cells` (n), by columns, k.
+  Eigen::VectorXd slope_transposed(const Eigen::VectorXd& cells) const;
+
+  /// Writes a G + b G' + c height_by_y^T, n x k; c has n entries.
+  void rows(double a, double b, const Eigen::ArrayXd& c, SparseRows& result) const;
+
  private:
   void list_columns();
+  void find_pattern();
 
   ContactCoordinates at_;
   SparseRows piston_, liner_, liner_slope_;  // by the coordinates of their own
@@ -65,8 +66,10 @@ class GapMap {
   Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> pin_;  // of a rigid piston, n x 6
   Eigen::VectorXd height_by_y_, height_by_column_;
   std::vector<char> always_, used_;  // by coordinate
+  std::vector<int> liner_before_;    // patches of liner_ at the height before, entry by entry
   std::vector<int> columns_;
   std::vector<int> column_;  // of a coordinate
+  SparseRows pattern_;       // of rows(), n x k
   int cells_ = 0;
 };
 

@@ -45,7 +45,7 @@ struct PistonLiner::Pad {
   SparseRows rate_by_y;             // dh'/dy, n x k; damped
   Eigen::VectorXd v;                // of the columns, k
   Eigen::VectorXd force;            // on the columns, k
-  Eigen::MatrixXd tangent;          // of the force, k x k
+  RowMatrix tangent;                // of the force, k x k
   RowMatrix gap_directions;         // dh/dy for the film, n x k
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::optional<LinerShapeMap> liner_shape;

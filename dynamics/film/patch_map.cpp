@@ -54,35 +54,10 @@ CylinderStencil stencil_of(const rom::ContactGrid& grid) {
   return CylinderStencil(strips.angles, strips.neighbours, grid.axial);
 }
 
-/// One entry of B, and its derivative by the offset.
-struct Weight {
-  int patch;
-  double value, slope;
-};
-
-/// The entries of a row of B in ascending order, each patch once.
-struct Weights {
-  std::array<Weight, 4> entries;
-  int count = 0;
-  void add(const Weight& weight) {
-    auto* const end = entries.begin() + count;
-    auto* const at = std::lower_bound(
-        entries.begin(), end, weight,
-        [](const Weight& one, const Weight& other) { return one.patch < other.patch; });
-    if (at != end && at->patch == weight.patch) {
-      at->value += weight.value;
-      at->slope += weight.slope;
-      return;
-    }
-    std::move_backward(at, end, end + 1);
-    *at = weight;
-    ++count;
-  }
-};
-
-void start_rows(SparseRows& rows, int n, int columns) {
-  rows.resize(n, columns);
-  rows.reserve(static_cast<Eigen::Index>(n) * (4 + kFits));
+/// Makes room for `entries` entries in n rows.
+void start_rows(SparseRows& rows, int n, int columns, Eigen::Index entries) {
+  if (rows.rows() != n || rows.cols() != columns) rows.resize(n, columns);
+  rows.resizeNonZeros(entries);
 }
 
 }  // namespace
@@ -157,50 +132,68 @@ PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
                                  grid.axis.x(), grid.axis.y(), grid.axis.z()));
   axis_sign_ = grid.axis.z() > 0.0 ? 1.0 : -1.0;
   axis_origin_ = grid.axis_point.z();
+  rows_.resize(static_cast<size_t>(pad.n_axial()));
   const Eigen::Vector3d across = grid.axis.cross(grid.zero_angle);
   for (int i = 0; i < pad.n_angle(); ++i) {
     const Eigen::Vector3d n = pad_normal(pad.angle(i));
-    columns_.push_back(stencil_.at_angle(std::atan2(n.dot(across), n.dot(grid.zero_angle))));
+    const auto around = stencil_.at_angle(std::atan2(n.dot(across), n.dot(grid.zero_angle)));
+    columns_.push_back(points(around.first, around.second, around.weight, 0.0));
   }
+}
+
+PatchMap::Points PatchMap::points(int first, int second, double weight, double slope) {
+  if (first == second) return {{{{first, 1.0, 0.0}, {}}}, 1};
+  const Point one{first, 1.0 - weight, -slope}, other{second, weight, slope};
+  if (first < second) return {{{one, other}}, 2};
+  return {{{other, one}}, 2};
 }
 
 void PatchMap::at(double offset, SparseRows& map, SparseRows* slope) {
   const int n_z = stencil_.n_axial(), n = patches();
-  start_rows(map, pad_.size(), columns());
-  if (slope != nullptr) start_rows(*slope, pad_.size(), columns());
+  const Eigen::Index most = static_cast<Eigen::Index>(pad_.size()) * (4 + kFits);
+  start_rows(map, pad_.size(), columns(), most);
+  if (slope != nullptr) start_rows(*slope, pad_.size(), columns(), most);
+  for (int j = 0; j < pad_.n_axial(); ++j) {
+    const double z = pad_.axial(j) + offset;
+    const CylinderStencil::Axial along = stencil_.at_axial(axis_sign_ * (z - axis_origin_));
+    rows_[static_cast<size_t>(j)] =
+        points(along.first, along.second, along.weight, along.slope * axis_sign_);
+  }
+  int next = 0;
   for (int i = 0; i < pad_.n_angle(); ++i) {
-    const CylinderStencil::Angular& around = columns_[static_cast<size_t>(i)];
+    const Points& around = columns_[static_cast<size_t>(i)];
     const Eigen::Vector3d normal = pad_normal(pad_.angle(i));
     for (int j = 0; j < pad_.n_axial(); ++j) {
+      const Points& along = rows_[static_cast<size_t>(j)];
       const double z = pad_.axial(j) + offset;
-      const CylinderStencil::Axial along = stencil_.at_axial(axis_sign_ * (z - axis_origin_));
-      Weights row;
-      for (const auto& [a, w] : {std::pair{around.first, 1.0 - around.weight},
-                                 std::pair{around.second, around.weight}}) {
-        const double change = w * along.slope * axis_sign_;
-        row.add({a * n_z + along.first, w * (1.0 - along.weight), -change});
-        row.add({a * n_z + along.second, w * along.weight, change});
-      }
       Eigen::RowVector4d defect(normal.x(), normal.y(), -z * normal.y(), z * normal.x()),
           defect_slope(0.0, 0.0, -normal.y(), normal.x());
-      const int cell = pad_.cell(i, j);
-      map.startVec(cell);
-      if (slope != nullptr) slope->startVec(cell);
-      for (int k = 0; k < row.count; ++k) {
-        const Weight& entry = row.entries[static_cast<size_t>(k)];
-        map.insertBack(cell, entry.patch) = entry.value;
-        if (slope != nullptr) slope->insertBack(cell, entry.patch) = entry.slope;
-        defect -= entry.value * rigid_.row(entry.patch);
-        defect_slope -= entry.slope * rigid_.row(entry.patch);
-      }
-      for (int k = 0; k < kFits; ++k) {
-        map.insertBack(cell, n + k) = defect[k];
-        if (slope != nullptr) slope->insertBack(cell, n + k) = defect_slope[k];
-      }
+      map.outerIndexPtr()[pad_.cell(i, j)] = next;
+      const auto put = [&](int at, double value, double change) {
+        map.innerIndexPtr()[next] = at;
+        map.valuePtr()[next] = value;
+        if (slope != nullptr) slope->valuePtr()[next] = change;
+        ++next;
+      };
+      for (int a = 0; a < around.count; ++a)
+        for (int k = 0; k < along.count; ++k) {
+          const Point &angular = around.of[static_cast<size_t>(a)],
+                      &axial = along.of[static_cast<size_t>(k)];
+          const int patch = angular.at * n_z + axial.at;
+          const double value = angular.weight * axial.weight, change = angular.weight * axial.slope;
+          put(patch, value, change);
+          defect -= value * rigid_.row(patch);
+          defect_slope -= change * rigid_.row(patch);
+        }
+      for (int k = 0; k < kFits; ++k) put(n + k, defect[k], defect_slope[k]);
     }
   }
-  map.finalize();
-  if (slope != nullptr) slope->finalize();
+  map.outerIndexPtr()[pad_.size()] = next;
+  map.resizeNonZeros(next);
+  if (slope == nullptr) return;
+  std::copy_n(map.outerIndexPtr(), pad_.size() + 1, slope->outerIndexPtr());
+  std::copy_n(map.innerIndexPtr(), next, slope->innerIndexPtr());
+  slope->resizeNonZeros(next);
 }
 
 }  // namespace clatter::film

@@ -118,24 +118,23 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return height;
 }
 
-// Cover, gap and their derivatives at one state; `height` is the pin centre's engine z.
-void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y) {
+// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z.
+void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y) {
+  const double height = stroke_height(position, y);
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
   pad.map.move(height);
-  pad.map.add(y, pad.gap);
-  pad.map.add_slope(y, pad.gap_by_height);
+  pad.map.add(y, pad.gap, pad.gap_by_height);
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
   stroke_ = stroke_at(stage);
-  parallel_pieces(static_cast<int64_t>(pads_.size()), [&](int64_t begin, int64_t end) {
-    for (int64_t k = begin; k < end; ++k)
-      evaluate_pad(*pads_[static_cast<size_t>(k)], stage, y, v, with_tangent);
+  parallel_tasks(static_cast<int>(pads_.size()), [&](int k) {
+    evaluate_pad(*pads_[static_cast<size_t>(k)], stage, y, v, with_tangent);
   });
   collect(with_tangent, response);
 }
@@ -143,7 +142,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
 void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                const Eigen::VectorXd& v, bool with_tangent) {
   if (pad.film && !running_) start_content(pad, stage, y, v);
-  update_gap(pad, stroke_height(stroke_.position, y), y);
+  update_gap(pad, stroke_.position, y);
   if (!pad.gap.allFinite())
     throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
   pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
@@ -164,8 +163,7 @@ void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eig
 void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
-  update_gap(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start),
-             y_start);
+  update_gap(pad, bodies_.stroke(stage.time - stage.kappa).position, y_start);
   if (lowest_gap(pad) <= rough_->lowest_gap())
     throw InputError(fmt::format(
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",

@@ -71,7 +71,7 @@ class PistonLiner : public dynamics::ForceElement {
   void add_pad(const char* name, double centre);
   void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v, bool with_tangent);
-  void update_gap(Pad& pad, double height, const Eigen::VectorXd& y);
+  void update_gap(Pad& pad, double position, const Eigen::VectorXd& y);
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;

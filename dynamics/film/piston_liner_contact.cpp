@@ -20,6 +20,7 @@ void PistonLiner::update_contact(Pad& pad) {
 void PistonLiner::damp_contact(Pad& pad) {
   pad.contact_rate_slope.setZero();
   pad.contact_loss.setZero();
+  if ((pad.contact == 0.0).all()) return;
   const Eigen::VectorXd rates = pad.gap_by_y * pad.v;
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
     const double elastic = pad.contact[c];

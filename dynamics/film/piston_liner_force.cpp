@@ -35,16 +35,22 @@ void PistonLiner::update_tangent(Pad& pad) {
     const Eigen::Matrix3Xd slide = axial_.slide(Eigen::all, pad.map.columns());
     pad.tangent.noalias() += slide.transpose() * friction_tangent(pad);
   }
+  const auto add_row = [&pad](int cell, double factor, const SparseRows& rows) {
+    double* row = pad.derivative.row(cell).data();
+    for (SparseRows::InnerIterator entry(rows, cell); entry; ++entry)
+      row[entry.index()] += factor * entry.value();
+  };
   for (int c = 0; c < pad.grid.size(); ++c) {
     const double area = pad.area[c];
-    auto row = pad.derivative.row(c);
-    row *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
+    pad.derivative.row(c) *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
     if (!asperity_ || pad.contact_slope[c] == 0.0) continue;
-    row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
-    if (damping_) row += area * pad.contact_rate_slope[c] * pad.rate_by_y.row(c);
+    add_row(c, area * pad.contact_slope[c], pad.gap_by_y);
+    if (damping_) add_row(c, area * pad.contact_rate_slope[c], pad.rate_by_y);
   }
   if (pad.ends) add_end_tangent(pad);
-  pad.tangent += pad.gap_by_y.transpose() * pad.derivative;
+  for (int c = 0; c < pad.grid.size(); ++c)
+    for (SparseRows::InnerIterator entry(pad.gap_by_y, c); entry; ++entry)
+      pad.tangent.row(entry.index()) += entry.value() * pad.derivative.row(c);
   if (!bodies_.liner) return;
   // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
   const Eigen::VectorXd cross = pad.map.slope_transposed(pad.load.matrix());

@@ -132,6 +132,11 @@ void StageMatrix::list_touched() {
           static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
   }
   dense_.resize(next, next);
+  touched_y_.resize(static_cast<size_t>(next));
+  for (size_t y = 0; y < position_.size(); ++y) {
+    const int row = dense_row_[static_cast<size_t>(position_[y])];
+    if (row >= 0) touched_y_[static_cast<size_t>(row)] = static_cast<int>(y);
+  }
 }
 
 /// S of all bodies in the rows that are touched.
@@ -210,6 +215,25 @@ bool StageMatrix::form_sparse(const StageOperator& op) {
   return sparse_->factor(values_);
 }
 
+bool StageMatrix::covers(const StageOperator& op) const {
+  return !sparse_ && kappa_ == op.kappa() && !touched_.empty() && same_touched(*system_, touched_);
+}
+
+void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {
+  gather(f, touched_y_, right_);
+  result.resize(right_.size());
+  Index first = 0;
+  for (const MatrixXd& S : S_) {
+    result.segment(first, S.rows()).noalias() = S * right_.segment(first, S.rows());
+    first += S.rows();
+  }
+}
+
+void StageMatrix::solve_touched(VectorXd& x) const {
+  solved_.noalias() = lu_.solve(x);
+  x.swap(solved_);
+}
+
 void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
   if (position_.empty()) return;
   if (sparse_) {
@@ -219,20 +243,17 @@ void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
     for (size_t y = 0; y < position_.size(); ++y) x(static_cast<Index>(y)) = right_(position_[y]);
     return;
   }
-  right_.resize(dense_.rows());
-  const auto row = [&](size_t y) { return dense_row_[static_cast<size_t>(position_[y])]; };
-  for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) >= 0) right_(row(y)) = x(static_cast<Index>(y));
-  solved_.noalias() = lu_.solve(right_);
-  for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) >= 0) x(static_cast<Index>(y)) = solved_(row(y));
+  gather(x, touched_y_, right_);
+  solve_touched(right_);
+  for (size_t i = 0; i < touched_y_.size(); ++i) x(touched_y_[i]) = right_(static_cast<Index>(i));
   if (dense_.rows() == x.size()) return;
   // Rows that nothing touches: x_i = right_i + (S T x)_i, T x being zero in them.
   forces_.setZero(x.size());
   system_->add_tangent_forces(x, forces_);
   op.apply_S(forces_, moved_);
   for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) < 0) x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
+    if (dense_row_[static_cast<size_t>(position_[y])] < 0)
+      x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
 }
 
 }  // namespace clatter::dynamics

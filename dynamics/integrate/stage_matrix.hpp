@@ -35,6 +35,15 @@ class StageMatrix {
   int nonzeros() const { return nonzeros_; }
   /// Rows of the dense matrix of the last form().
   int touched() const { return static_cast<int>(dense_.rows()); }
+  /// Whether the last form() was dense, of this operator's kappa and of what the elements touch
+  /// now: then the equations can be solved in those rows alone.
+  bool covers(const StageOperator& op) const;
+  /// The y of those rows, k.
+  const std::vector<int>& touched_y() const { return touched_y_; }
+  /// S f in those rows, k; `f` (n_y) is zero in the others.
+  void apply_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
+  /// x <- J^-1 x in those rows, k.
+  void solve_touched(Eigen::VectorXd& x) const;
 
  private:
   /// One element's part in the rows of one body.
@@ -69,6 +78,7 @@ class StageMatrix {
   std::vector<std::vector<int>> body_rows_;  // per body: its touched rows
   std::vector<int> dense_row_;               // per position: its row in dense_; -1: not touched
   std::vector<std::vector<int>> touched_;    // per element, as in the form before
+  std::vector<int> touched_y_;               // per row of dense_: its y
   std::vector<Eigen::MatrixXd> S_;           // per body, of its touched rows; sparse: of all
   double kappa_ = 0.0;                       // of S_; 0: not formed
   Eigen::MatrixXd dense_;

@@ -18,6 +18,11 @@ void gather(const VectorXd& all, const std::vector<int>& indices, VectorXd& pick
     picked(static_cast<Eigen::Index>(i)) = all(indices[i]);
 }
 
+void scatter_add(const VectorXd& values, const std::vector<int>& indices, VectorXd& all) {
+  for (size_t i = 0; i < indices.size(); ++i)
+    all(indices[i]) += values(static_cast<Eigen::Index>(i));
+}
+
 VectorXd gather(const VectorXd& all, const std::vector<int>& indices) {
   VectorXd picked;
   gather(all, indices, picked);
@@ -170,6 +175,34 @@ void System::interface(const VectorXd& modal, VectorXd& y) const {
       y(rows_[b][i]) = part_[b](static_cast<Eigen::Index>(i));
   }
 }
+
+template <size_t kCount>
+void System::interface(const std::array<const VectorXd*, kCount>& modal,
+                       const std::array<VectorXd*, kCount>& y) const {
+  for (VectorXd* result : y) result->resize(interface_size());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const MatrixXd& P = P_[b];
+    const Eigen::Index n = P.rows(), first = offsets_[b];
+    row_sums_.assign(kCount * static_cast<size_t>(n), 0.0);
+    double* sums = row_sums_.data();
+    for (Eigen::Index j = 0; j < P.cols(); ++j) {
+      const double* column = P.col(j).data();
+      std::array<double, kCount> x;
+      for (size_t k = 0; k < kCount; ++k) x[k] = (*modal[k])(first + j);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (size_t k = 0; k < kCount; ++k)
+          sums[static_cast<Eigen::Index>(k) * n + i] += column[i] * x[k];
+    }
+    for (size_t k = 0; k < kCount; ++k)
+      for (Eigen::Index i = 0; i < n; ++i)
+        (*y[k])(rows_[b][static_cast<size_t>(i)]) = sums[static_cast<Eigen::Index>(k) * n + i];
+  }
+}
+
+template void System::interface(const std::array<const VectorXd*, 2>&,
+                                const std::array<VectorXd*, 2>&) const;
+template void System::interface(const std::array<const VectorXd*, 3>&,
+                                const std::array<VectorXd*, 3>&) const;
 
 VectorXd System::interface(const VectorXd& modal) const {
   VectorXd y;

@@ -2,6 +2,7 @@
 #pragma once
 // The bodies of a scene, their interface coordinates, force elements and loads.
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -96,6 +97,10 @@ class System {
   /// y = P eta; for displacements and velocities alike.
   void interface(const Eigen::VectorXd& modal, Eigen::VectorXd& y) const;
   Eigen::VectorXd interface(const Eigen::VectorXd& modal) const;
+  /// The same for 2 or 3 vectors at once: P is read once.
+  template <size_t kCount>
+  void interface(const std::array<const Eigen::VectorXd*, kCount>& modal,
+                 const std::array<Eigen::VectorXd*, kCount>& y) const;
   /// g += P^T f_y.
   void add_interface_force(const Eigen::VectorXd& f_y, Eigen::VectorXd& g) const;
   /// Change of v of some coordinates by unit impulses on them, P mu P^T.
@@ -141,8 +146,12 @@ class System {
   std::vector<Response> responses_;                   // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
   mutable std::vector<Eigen::VectorXd> part_;         // per body: its rows
+  mutable std::vector<double> row_sums_;              // of one body's rows, for some vectors
 };
 
+/// all(indices) += values.
+void scatter_add(const Eigen::VectorXd& values, const std::vector<int>& indices,
+                 Eigen::VectorXd& all);
 /// Picks entries of a vector.
 void gather(const Eigen::VectorXd& all, const std::vector<int>& indices, Eigen::VectorXd& picked);
 Eigen::VectorXd gather(const Eigen::VectorXd& all, const std::vector<int>& indices);
