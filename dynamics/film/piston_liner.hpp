@@ -106,6 +106,7 @@ class PistonLiner : public dynamics::ForceElement {
   std::array<double, 4> stroke_rates_{};  // z_B' at the finished stages of this step [m/s]
   bool running_ = false;                  // false: the content is still the initial one
   std::vector<int> touched_row_;          // of a coordinate in the response's tangent; -1: none
+  int touched_count_ = 0;
 };
 
 }  // namespace clatter::film

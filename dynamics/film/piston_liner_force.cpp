@@ -69,6 +69,8 @@ void PistonLiner::list_touched(dynamics::Response& response) {
     row = static_cast<int>(response.touched.size());
     response.touched.push_back(i);
   }
+  touched_count_ = static_cast<int>(response.touched.size());
+  if (touched_count_ == size()) response.touched.clear();
 }
 
 void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
@@ -79,9 +81,9 @@ void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
       response.force[columns[i]] += pad->force[static_cast<Eigen::Index>(i)];
     if (pad->friction) response.force += axial_.slide.transpose() * friction_wrench(*pad);
   }
-  if (!with_tangent) return;
   list_touched(response);
-  const auto n = static_cast<Eigen::Index>(response.touched.size());
+  if (!with_tangent) return;
+  const Eigen::Index n = touched_count_;
   response.tangent.setZero(n, n);
   for (const auto& pad : pads_) {
     const std::vector<int>& columns = pad->map.columns();
@@ -91,7 +93,6 @@ void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
                          touched_row_[static_cast<size_t>(columns[j])]) +=
             pad->tangent(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
-  if (n == size()) response.touched.clear();
 }
 
 }  // namespace clatter::film

@@ -19,12 +19,6 @@ namespace {
 constexpr int kSmall = 48;
 constexpr double kFew = 0.25;
 
-bool same_touched(const System& system, const std::vector<std::vector<int>>& before) {
-  for (int e = 0; e < system.elements(); ++e)
-    if (system.response(e).touched != before[static_cast<size_t>(e)]) return false;
-  return true;
-}
-
 }  // namespace
 
 StageMatrix::StageMatrix(const System& system) : system_(&system) {
@@ -102,13 +96,16 @@ void StageMatrix::find_pattern() {
 
 /// Parts and dense rows of what the elements touch at the moment.
 void StageMatrix::list_touched() {
-  if (!touched_.empty() && same_touched(*system_, touched_)) return;
+  bool same = !touched_.empty();
+  for (int e = 0; same && e < system_->elements(); ++e)
+    same = system_->tangent_rows(e) == touched_[static_cast<size_t>(e)];
+  if (same) return;
   touched_.resize(static_cast<size_t>(system_->elements()));
   parts_.clear();
   kappa_ = 0.0;
   for (int e = 0; e < system_->elements(); ++e) {
-    touched_[static_cast<size_t>(e)] = system_->response(e).touched;
-    for (Part& part : parts_of(e, system_->response(e).touched)) parts_.push_back(std::move(part));
+    touched_[static_cast<size_t>(e)] = system_->tangent_rows(e);
+    for (Part& part : parts_of(e, system_->tangent_rows(e))) parts_.push_back(std::move(part));
   }
   std::vector<char> is_touched(position_.size(), 0);
   for (const Part& part : parts_)
@@ -216,7 +213,10 @@ bool StageMatrix::form_sparse(const StageOperator& op) {
 }
 
 bool StageMatrix::covers(const StageOperator& op) const {
-  return !sparse_ && kappa_ == op.kappa() && !touched_.empty() && same_touched(*system_, touched_);
+  if (sparse_ || kappa_ != op.kappa() || touched_.empty()) return false;
+  for (int e = 0; e < system_->elements(); ++e)
+    if (system_->response(e).touched != touched_[static_cast<size_t>(e)]) return false;
+  return true;
 }
 
 void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {

@@ -122,6 +122,7 @@ const System::Place& System::place_of(int y_index) const {
 void System::add_element(std::unique_ptr<ForceElement> element) {
   costs_.push_back({element->name()});
   responses_.emplace_back();
+  tangent_rows_.emplace_back();
   y_of_.emplace_back();
   v_of_.emplace_back();
   elements_.push_back(std::move(element));
@@ -246,6 +247,7 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
     gather(y, at, y_of_[e]);
     gather(v, at, v_of_[e]);
     elements_[e]->evaluate(stage, y_of_[e], v_of_[e], with_tangent, responses_[e]);
+    if (with_tangent) tangent_rows_[e] = responses_[e].touched;
     for (size_t i = 0; i < at.size(); ++i)
       f(at[i]) += responses_[e].force(static_cast<Eigen::Index>(i));
     costs_[e].seconds += clock.seconds();
@@ -256,7 +258,7 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
 void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) const {
   for (size_t e = 0; e < elements_.size(); ++e) {
     const auto& at = elements_[e]->coordinates();
-    const auto& touched = responses_[e].touched;
+    const auto& touched = tangent_rows_[e];
     const size_t count = touched.empty() ? at.size() : touched.size();
     const auto index = [&](size_t i) {
       return at[touched.empty() ? i : static_cast<size_t>(touched[i])];

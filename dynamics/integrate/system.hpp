@@ -115,6 +115,10 @@ class System {
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
   /// An element's last response.
   const Response& response(int element) const { return responses_[static_cast<size_t>(element)]; }
+  /// Response::touched of an element when its last tangent was computed: the tangent's rows.
+  const std::vector<int>& tangent_rows(int element) const {
+    return tangent_rows_[static_cast<size_t>(element)];
+  }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);
@@ -144,6 +148,7 @@ class System {
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
   std::vector<Response> responses_;                   // per element
+  std::vector<std::vector<int>> tangent_rows_;        // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
   mutable std::vector<Eigen::VectorXd> part_;         // per body: its rows
   mutable std::vector<double> row_sums_;              // of one body's rows, for some vectors
