@@ -18,13 +18,15 @@ namespace {
 /// factor pays when at most this share of J can differ from 0.
 constexpr int kSmall = 48;
 constexpr double kFew = 0.25;
+/// Rows and columns of S^1/2 T S^1/2 whose entries sum to less change nothing.
+constexpr double kNegligible = 1e-14;
 
 }  // namespace
 
 StageMatrix::StageMatrix(const System& system) : system_(&system) {
   order();
   for (int e = 0; e < system.elements(); ++e)
-    for (Part& part : parts_of(e, {})) all_.push_back(std::move(part));
+    for (Part& part : parts_of(e)) parts_.push_back(std::move(part));
   find_pattern();
 }
 
@@ -37,15 +39,12 @@ void StageMatrix::order() {
   }
 }
 
-std::vector<StageMatrix::Part> StageMatrix::parts_of(int element,
-                                                     const std::vector<int>& touched) const {
+std::vector<StageMatrix::Part> StageMatrix::parts_of(int element) const {
   const std::vector<int>& at = system_->element(element).coordinates();
-  const size_t count = touched.empty() ? at.size() : touched.size();
   std::map<int, Part> by_body;
   std::vector<int> columns;
-  for (size_t i = 0; i < count; ++i) {
-    const int y = at[touched.empty() ? i : static_cast<size_t>(touched[i])];
-    const int body = system_->owner(y), position = position_[static_cast<size_t>(y)];
+  for (size_t i = 0; i < at.size(); ++i) {
+    const int body = system_->owner(at[i]), position = position_[static_cast<size_t>(at[i])];
     columns.push_back(position);
     by_body[body].rows.push_back(static_cast<int>(i));
     by_body[body].body_rows.push_back(position - first_[static_cast<size_t>(body)]);
@@ -68,7 +67,7 @@ void StageMatrix::find_pattern() {
   for (int b = 0; b < bodies; ++b)
     for (int i = 0; i < rows_of(b); ++i)
       blocks[static_cast<size_t>(first_[static_cast<size_t>(b)] + i)].insert(b);
-  for (const Part& part : all_)
+  for (const Part& part : parts_)
     for (const int column : part.columns) blocks[static_cast<size_t>(column)].insert(part.body);
   for (const auto& block : blocks)
     for (const int b : block) nonzeros_ += rows_of(b);
@@ -88,52 +87,44 @@ void StageMatrix::find_pattern() {
     starts.push_back(static_cast<int>(rows.size()));
   }
   values_.resize(rows.size());
-  for (Part& part : all_)
+  for (Part& part : parts_)
     for (const int column : part.columns)
       part.starts.push_back(begin[static_cast<size_t>(column)].at(part.body));
   sparse_.emplace(std::move(starts), std::move(rows));
 }
 
-/// Parts and dense rows of what the elements touch at the moment.
+/// Rows that the elements touch at the moment, body by body.
 void StageMatrix::list_touched() {
   bool same = !touched_.empty();
   for (int e = 0; same && e < system_->elements(); ++e)
     same = system_->tangent_rows(e) == touched_[static_cast<size_t>(e)];
   if (same) return;
-  touched_.resize(static_cast<size_t>(system_->elements()));
-  parts_.clear();
   kappa_ = 0.0;
+  touched_.resize(static_cast<size_t>(system_->elements()));
+  row_.assign(position_.size(), -1);
   for (int e = 0; e < system_->elements(); ++e) {
+    const std::vector<int>& at = system_->element(e).coordinates();
     touched_[static_cast<size_t>(e)] = system_->tangent_rows(e);
-    for (Part& part : parts_of(e, system_->tangent_rows(e))) parts_.push_back(std::move(part));
+    for (const int i : system_->tangent_rows(e))
+      row_[static_cast<size_t>(at[static_cast<size_t>(i)])] = 0;
+    if (system_->tangent_rows(e).empty())
+      for (const int y : at) row_[static_cast<size_t>(y)] = 0;
   }
-  std::vector<char> is_touched(position_.size(), 0);
-  for (const Part& part : parts_)
-    for (const int column : part.columns) is_touched[static_cast<size_t>(column)] = 1;
-  dense_row_.assign(position_.size(), -1);
+  touched_y_.clear();
   body_rows_.assign(system_->bodies().size(), {});
-  int next = 0;
   for (size_t b = 0; b < body_rows_.size(); ++b) {
-    const int first = first_[b],
-              count = static_cast<int>(system_->rows(static_cast<int>(b)).size());
-    for (int i = 0; i < count; ++i) {
-      if (is_touched[static_cast<size_t>(first + i)] == 0) continue;
-      dense_row_[static_cast<size_t>(first + i)] = next++;
-      body_rows_[b].push_back(i);
+    const std::vector<int>& rows = system_->rows(static_cast<int>(b));
+    for (size_t i = 0; i < rows.size(); ++i) {
+      int& row = row_[static_cast<size_t>(rows[i])];
+      if (row < 0) continue;
+      row = static_cast<int>(touched_y_.size());
+      touched_y_.push_back(rows[i]);
+      body_rows_[b].push_back(static_cast<int>(i));
     }
   }
-  for (Part& part : parts_) {
-    const auto& rows = body_rows_[static_cast<size_t>(part.body)];
-    for (const int row : part.body_rows)
-      part.S_rows.push_back(
-          static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
-  }
-  dense_.resize(next, next);
-  touched_y_.resize(static_cast<size_t>(next));
-  for (size_t y = 0; y < position_.size(); ++y) {
-    const int row = dense_row_[static_cast<size_t>(position_[y])];
-    if (row >= 0) touched_y_[static_cast<size_t>(row)] = static_cast<int>(y);
-  }
+  const auto k = static_cast<Index>(touched_y_.size());
+  T_.resize(k, k);
+  size_.resize(k);
 }
 
 /// S of all bodies in the rows that are touched.
@@ -150,23 +141,43 @@ void StageMatrix::form_S(const StageOperator& op) {
   }
 }
 
-/// S T of one part in the touched rows of its body.
-Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part) {
-  const MatrixXd& S = S_[static_cast<size_t>(part.body)];
-  const MatrixXd& T = system_->response(part.element).tangent;
-  const auto view = [](std::vector<double>& memory, Index rows, Index columns) {
-    memory.resize(static_cast<size_t>(rows * columns));
-    return Eigen::Map<MatrixXd>(memory.data(), rows, columns);
-  };
-  const auto k = static_cast<Index>(part.rows.size()), n = S.rows();
-  auto S_part = view(S_part_, n, k), T_part = view(T_part_, k, T.cols()),
-       ST = view(product_, n, T.cols());
-  for (Index j = 0; j < k; ++j) {
-    S_part.col(j) = S.col(part.S_rows[static_cast<size_t>(j)]);
-    T_part.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
+/// T_ of the elements' last tangents.
+void StageMatrix::add_tangents() {
+  T_.setZero();
+  for (int e = 0; e < system_->elements(); ++e) {
+    const std::vector<int>& at = system_->element(e).coordinates();
+    const std::vector<int>& touched = touched_[static_cast<size_t>(e)];
+    const MatrixXd& T = system_->response(e).tangent;
+    const auto row = [&](Index i) {
+      const auto place = static_cast<size_t>(i);
+      return row_[static_cast<size_t>(
+          at[touched.empty() ? place : static_cast<size_t>(touched[place])])];
+    };
+    for (Index j = 0; j < T.cols(); ++j) {
+      double* column = T_.col(row(j)).data();
+      for (Index i = 0; i < T.rows(); ++i) column[row(i)] += T(i, j);
+    }
   }
-  ST.noalias() = S_part * T_part;
-  return {product_.data(), n, T.cols()};
+}
+
+/// Rows and columns of T_ that matter, measured as S^1/2 T S^1/2 is, which has no units.
+void StageMatrix::pick_significant() {
+  const auto k = T_.rows();
+  Index first = 0;
+  for (const MatrixXd& S : S_) {
+    size_.segment(first, S.rows()) = S.diagonal().cwiseMax(0.0).cwiseSqrt();
+    first += S.rows();
+  }
+  columns_.clear();
+  rows_.clear();
+  moved_.setZero(k);  // sums of rows
+  for (Index j = 0; j < k; ++j) {
+    const auto scaled = T_.col(j).cwiseAbs().cwiseProduct(size_) * size_(j);
+    if (!(scaled.sum() <= kNegligible)) columns_.push_back(static_cast<int>(j));
+    moved_ += scaled;
+  }
+  for (Index i = 0; i < k; ++i)
+    if (!(moved_(i) <= kNegligible)) rows_.push_back(static_cast<int>(i));
 }
 
 bool StageMatrix::form(const StageOperator& op) {
@@ -177,26 +188,41 @@ bool StageMatrix::form(const StageOperator& op) {
 bool StageMatrix::form_dense(const StageOperator& op) {
   list_touched();
   form_S(op);
-  dense_.setIdentity();
-  for (const Part& part : parts_) {
-    const auto& rows = body_rows_[static_cast<size_t>(part.body)];
-    const auto ST = product(part);
-    const int first =
-        dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] + rows.front())];
-    for (Index j = 0; j < ST.cols(); ++j) {
-      const int column = dense_row_[static_cast<size_t>(part.columns[static_cast<size_t>(j)])];
-      dense_.col(column).segment(first, ST.rows()) -= ST.col(j);
-    }
+  add_tangents();
+  pick_significant();
+  auto J = lu_.matrix(static_cast<Index>(columns_.size()));
+  J.setIdentity();
+  const auto view = [](std::vector<double>& memory, Index n, Index m) {
+    memory.resize(std::max(memory.size(), static_cast<size_t>(n * m)));
+    return Eigen::Map<MatrixXd>(memory.data(), n, m);
+  };
+  int first = 0;
+  auto row = rows_.begin();
+  auto column = columns_.begin();
+  for (const MatrixXd& S : S_) {
+    const int end = first + static_cast<int>(S.rows());
+    const auto rows_end = std::lower_bound(row, rows_.end(), end);
+    const auto columns_end = std::lower_bound(column, columns_.end(), end);
+    auto S_part = view(S_part_, columns_end - column, rows_end - row),
+         T_part = view(T_part_, rows_end - row, J.cols());
+    for (Index r = 0; r < S_part.cols(); ++r)
+      for (Index c = 0; c < S_part.rows(); ++c) S_part(c, r) = S(column[c] - first, row[r] - first);
+    for (Index c = 0; c < J.cols(); ++c)
+      for (Index r = 0; r < T_part.rows(); ++r)
+        T_part(r, c) = T_(row[r], columns_[static_cast<size_t>(c)]);
+    J.middleRows(column - columns_.begin(), S_part.rows()).noalias() -= S_part * T_part;
+    first = end;
+    row = rows_end;
+    column = columns_end;
   }
-  lu_.compute(dense_);
-  return dense_.allFinite();
+  return lu_.factor();
 }
 
 bool StageMatrix::form_sparse(const StageOperator& op) {
   form_S(op);
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const int at : diagonal_) values_[static_cast<size_t>(at)] = 1.0;
-  for (const Part& part : all_) {
+  for (const Part& part : parts_) {
     const MatrixXd& S = S_[static_cast<size_t>(part.body)];
     const MatrixXd& T = system_->response(part.element).tangent;
     for (size_t k = 0; k < part.rows.size(); ++k) {
@@ -219,19 +245,31 @@ bool StageMatrix::covers(const StageOperator& op) const {
   return true;
 }
 
-void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {
-  gather(f, touched_y_, right_);
-  result.resize(right_.size());
+void StageMatrix::add_S(const VectorXd& f, VectorXd& result) const {
   Index first = 0;
   for (const MatrixXd& S : S_) {
-    result.segment(first, S.rows()).noalias() = S * right_.segment(first, S.rows());
+    result.segment(first, S.rows()).noalias() += S * f.segment(first, S.rows());
     first += S.rows();
   }
 }
 
+void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {
+  gather(f, touched_y_, right_);
+  result.setZero(right_.size());
+  add_S(right_, result);
+}
+
 void StageMatrix::solve_touched(VectorXd& x) const {
-  solved_.noalias() = lu_.solve(x);
-  x.swap(solved_);
+  solved_.resize(static_cast<Index>(columns_.size()));
+  for (size_t c = 0; c < columns_.size(); ++c) solved_(static_cast<Index>(c)) = x(columns_[c]);
+  lu_.solve(solved_);
+  if (columns_.size() < touched_y_.size()) {
+    forces_.setZero(x.size());
+    for (size_t c = 0; c < columns_.size(); ++c)
+      forces_ += T_.col(columns_[c]) * solved_(static_cast<Index>(c));
+    add_S(forces_, x);
+  }
+  for (size_t c = 0; c < columns_.size(); ++c) x(columns_[c]) = solved_(static_cast<Index>(c));
 }
 
 void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
@@ -246,14 +284,13 @@ void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
   gather(x, touched_y_, right_);
   solve_touched(right_);
   for (size_t i = 0; i < touched_y_.size(); ++i) x(touched_y_[i]) = right_(static_cast<Index>(i));
-  if (dense_.rows() == x.size()) return;
+  if (touched() == x.size()) return;
   // Rows that nothing touches: x_i = right_i + (S T x)_i, T x being zero in them.
   forces_.setZero(x.size());
   system_->add_tangent_forces(x, forces_);
   op.apply_S(forces_, moved_);
   for (size_t y = 0; y < position_.size(); ++y)
-    if (dense_row_[static_cast<size_t>(position_[y])] < 0)
-      x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
+    if (row_[y] < 0) x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
 }
 
 }  // namespace clatter::dynamics
