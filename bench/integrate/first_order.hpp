@@ -50,10 +50,10 @@ class FirstOrder {
   int side(int event, double time, const double* x);
 
  private:
-  struct Block {  // one element's part of the Jacobian
-    std::vector<int> modes;                    // on which it acts, ascending
-    Eigen::MatrixXd P;                         // n_e x modes
-    std::vector<int64_t> at_eta, at_v;         // positions in the pattern, modes x modes; -1: none
+  struct Block {                        // one element's part of the Jacobian
+    std::vector<int> modes;             // on which it acts, ascending
+    Eigen::MatrixXd P;                  // n_e x modes
+    std::vector<int64_t> at_eta, at_v;  // positions in the pattern, modes x modes; -1: none
     Eigen::MatrixXd T_1, A, B, P_touched, product, by_eta, by_v;  // of the last Jacobian
   };
   struct EventFunction {

@@ -19,13 +19,14 @@ namespace {
 
 struct SundialsMethod {
   const char* name;
-  SundialsSolver solver;
-  int order;
+  SundialsOptions options;
 };
-constexpr std::array<SundialsMethod, 4> kSundials{{{"cvode", SundialsSolver::kCvode, 5},
-                                                   {"cvode-2", SundialsSolver::kCvode, 2},
-                                                   {"ida", SundialsSolver::kIda, 5},
-                                                   {"ida-2", SundialsSolver::kIda, 2}}};
+constexpr std::array<SundialsMethod, 5> kSundials{
+    {{"cvode", {SundialsSolver::kCvode, 5, true}},
+     {"cvode-2", {SundialsSolver::kCvode, 2, true}},
+     {"ida", {SundialsSolver::kIda, 5, true}},
+     {"ida-2", {SundialsSolver::kIda, 2, true}},
+     {"ida-displacements", {SundialsSolver::kIda, 5, false}}}};
 
 const std::array<const dynamics::Tableau*, 3> kKernel{&dynamics::tr_bdf2(), &dynamics::sdirk2(),
                                                       &dynamics::predictor_corrector()};
@@ -93,12 +94,11 @@ VectorXd limits(const BenchScene& scene, const FirstOrder& system, double tolera
 Motion by_sundials(const BenchScene& scene, const SundialsMethod& method, double tolerance) {
   FirstOrder system(*scene.system);
   scene.system->begin_step(scene.begin);
-  SundialsRun run(system, method.solver, method.order, scene.begin,
-                  system.state(scene.eta, scene.v), limits(scene, system, tolerance));
+  SundialsRun run(system, method.options, scene.begin, system.state(scene.eta, scene.v),
+                  limits(scene, system, tolerance));
   Motion motion;
   for (int sample = 1; sample <= scene.samples; ++sample)
-    motion.states.push_back(
-        run.advance(scene.sample_time(sample), scene.end).head(system.modes()));
+    motion.states.push_back(run.advance(scene.sample_time(sample), scene.end).head(system.modes()));
   const SundialsCounts count = run.counts();
   motion.steps = count.steps;
   motion.rejected = count.rejected;

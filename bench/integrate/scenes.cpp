@@ -105,15 +105,15 @@ BenchScene tumbling() {
   BenchScene scene = scene_of(model, *model, 5.0);
   scene.options.largest = 0.1;
   scene.options.accuracy = {1.0, 1.0, 10.0, 1.0};
-  scene.unit = "1";
+  scene.unit = "-";
   scene.observe = [](double, const VectorXd& eta) -> VectorXd {
     return eta.segment<4>(dynamics::kQuaternion).normalized();
   };
   return scene;
 }
 
-/// A ball that falls from 1 mm on a rigid floor with a restitution of 0.8, until some impacts before
-/// they accumulate; compared is its height.
+/// A ball that falls from 1 mm on a rigid floor with a restitution of 0.8, until some impacts
+/// before they accumulate; compared is its height.
 BenchScene bounces() {
   const auto model = std::make_shared<System>();
   const int y = model->coordinate(model->add_body(point_mass(1.0)), 0);

@@ -16,9 +16,9 @@ struct BenchScene {
   std::shared_ptr<dynamics::System> system;
   Eigen::VectorXd eta, v;  // at `begin`, N
   double begin = 0.0, end = 0.0;
-  int samples = 200;               // equidistant, the last one at `end`
-  dynamics::StepOptions options;   // of the kernel; tolerance 1: `accuracy` has the scales
-  std::string unit;                // of what is compared
+  int samples = 200;              // equidistant, the last one at `end`
+  dynamics::StepOptions options;  // of the kernel; tolerance 1: `accuracy` has the scales
+  std::string unit;               // of what is compared
   /// The compared values of a state: of the time and the modal displacements, N.
   std::function<Eigen::VectorXd(double time, const Eigen::VectorXd& eta)> observe;
 

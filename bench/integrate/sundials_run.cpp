@@ -124,7 +124,8 @@ struct SundialsRun::Impl {
   }
   static void silent(int, const char*, const char*, char*, void*) {}
 
-  void create(int max_order, double time) {
+  void create(const SundialsOptions& options, double time) {
+    const int max_order = options.max_order;
     linear = SUNLinSol_KLU(x, matrix, context);
     if (is_ida) {
       memory = IDACreate(context);
@@ -135,6 +136,7 @@ struct SundialsRun::Impl {
       check(IDASetJacFn(memory, ida_jacobian), "IDASetJacFn");
       check(IDASetMaxOrd(memory, max_order), "IDASetMaxOrd");
       check(IDASetMaxNumSteps(memory, kMostSteps), "IDASetMaxNumSteps");
+      if (!options.test_velocities) leave_out_velocities();
       check(IDASetErrHandlerFn(memory, silent, nullptr), "IDASetErrHandlerFn");
       if (system.events() > 0)
         check(IDARootInit(memory, system.events(), ida_roots), "IDARootInit");
@@ -155,6 +157,15 @@ struct SundialsRun::Impl {
     for (int e = 0; e < system.events(); ++e)
       sides[static_cast<size_t>(e)] = -system.side(e, time, N_VGetArrayPointer(x));
     look_for_changes();
+  }
+
+  void leave_out_velocities() {
+    const N_Vector is_tested = N_VClone(x);
+    map(is_tested).setZero();
+    map(is_tested).head(system.modes()).setOnes();
+    check(IDASetId(memory, is_tested), "IDASetId");
+    check(IDASetSuppressAlg(memory, SUNTRUE), "IDASetSuppressAlg");
+    N_VDestroy(is_tested);
   }
 
   std::vector<int> sides;  // direction in which each event function can change its sign
@@ -202,9 +213,9 @@ struct SundialsRun::Impl {
   }
 };
 
-SundialsRun::SundialsRun(FirstOrder& system, SundialsSolver solver, int max_order, double time,
+SundialsRun::SundialsRun(FirstOrder& system, const SundialsOptions& options, double time,
                          const VectorXd& x, const VectorXd& limits)
-    : impl_(std::make_unique<Impl>(system, solver)) {
+    : impl_(std::make_unique<Impl>(system, options.solver)) {
   Impl& run = *impl_;
   const auto n = static_cast<sunindextype>(system.size());
   check(SUNContext_Create(nullptr, &run.context), "SUNContext_Create");
@@ -214,10 +225,10 @@ SundialsRun::SundialsRun(FirstOrder& system, SundialsSolver solver, int max_orde
   run.map(run.x) = x;
   run.map(run.limits) = limits;
   run.rates(time, run.x, run.rate);
-  run.matrix = SUNSparseMatrix(n, n, static_cast<sunindextype>(system.rows().size()), CSC_MAT,
-                               run.context);
+  run.matrix =
+      SUNSparseMatrix(n, n, static_cast<sunindextype>(system.rows().size()), CSC_MAT, run.context);
   run.values(run.matrix);
-  run.create(max_order, time);
+  run.create(options, time);
 }
 
 SundialsRun::~SundialsRun() = default;
@@ -228,9 +239,8 @@ const VectorXd& SundialsRun::advance(double time, double end) {
   check(run.is_ida ? IDASetStopTime(run.memory, end) : CVodeSetStopTime(run.memory, end),
         "SetStopTime");
   for (;;) {
-    const int flag = run.is_ida
-                         ? IDASolve(run.memory, time, &reached, run.x, run.rate, IDA_NORMAL)
-                         : CVode(run.memory, time, run.x, &reached, CV_NORMAL);
+    const int flag = run.is_ida ? IDASolve(run.memory, time, &reached, run.x, run.rate, IDA_NORMAL)
+                                : CVode(run.memory, time, run.x, &reached, CV_NORMAL);
     check(flag, run.is_ida ? "IDASolve" : "CVode");
     if (flag != CV_ROOT_RETURN) break;  // IDA_ROOT_RETURN is the same number
     run.restart(reached);

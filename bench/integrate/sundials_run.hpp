@@ -10,6 +10,12 @@ namespace clatter::bench {
 
 enum class SundialsSolver { kCvode, kIda };
 
+struct SundialsOptions {
+  SundialsSolver solver = SundialsSolver::kIda;
+  int max_order = 5;            // of the BDF; those above 2 are not A-stable
+  bool test_velocities = true;  // IDA: false leaves them out of the error test (suppressalg)
+};
+
 /// Counts since the start.
 struct SundialsCounts {
   long steps = 0, rejected = 0, evaluations = 0, jacobians = 0, events = 0;
@@ -20,9 +26,9 @@ struct SundialsCounts {
 /// changes its mode and the solver starts again from the state that it leaves.
 class SundialsRun {
  public:
-  /// @param max_order of the BDF, 1 to 5; those above 2 are not A-stable. @param x state at `time`.
-  /// @param limits absolute tolerance of each x (relative 0). NumericsError when SUNDIALS fails.
-  SundialsRun(FirstOrder& system, SundialsSolver solver, int max_order, double time,
+  /// @param x state at `time`. @param limits absolute tolerance of each x (relative 0).
+  /// NumericsError when SUNDIALS fails.
+  SundialsRun(FirstOrder& system, const SundialsOptions& options, double time,
               const Eigen::VectorXd& x, const Eigen::VectorXd& limits);
   ~SundialsRun();
 

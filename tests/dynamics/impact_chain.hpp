@@ -32,8 +32,7 @@ struct ImpactChainOptions {
   double mass = 0.01;        // [kg]
   double stiffness = 1e9;    // [N/m]
   double damping = 0.0;      // [s/m]
-  double gap = 1e-4;         // mean free length between neighbours [m]
-  double unevenness = 0.0;   // of gaps: uniform in gap (1 +- unevenness)
+  double gap = 1e-4;         // between neighbours at the start [m]
   double speed = 1.0;        // [m/s]
   bool alternating = false;  // speeds +speed, -speed, ..; else uniform in +-speed, mean zero
 };
