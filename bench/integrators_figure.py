@@ -32,6 +32,9 @@ def draw(results, path):
             axis.plot([p[1] for p in shown], [p[0] for p in shown], color=style.COLOURS[colour], marker=marker, markersize=4,
                       linestyle=line, label=method)
         axis.set(xscale="log", yscale="log", title=scene, ylabel=f"error [{result['unit']}]", xlabel="CPU seconds")
+        least, most = axis.get_xlim()
+        if most < 10 * least:  # at least one decade, whose ends are labelled
+            axis.set_xlim(10 ** np.floor(np.log10(least)), 10 ** np.ceil(np.log10(most)))
     for axis in axes.ravel()[len(results):]:
         axis.remove()
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper left", ncol=4, columnspacing=1.2)
