@@ -6,8 +6,13 @@ Runs samples/truck_diesel/slap.run.toml (its reduced models must exist: make dem
 setting at a time, and compares each run with the finest of its table: the piston's position, the liner's acceleration
 (above 300 Hz, without the block's shaking on its mounts). Two cycles per run, so that a table takes minutes; seconds
 are those of the time stepping, as measured by clatter-dynamics.
+
+--tables large: a block with 600 liner patches and 300 coordinates, meshed and condensed first (minutes, 10 GB), 1536
+film cells, mixed lubrication at idle.
 """
 import argparse
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -34,9 +39,13 @@ EFFECTS = {
 }
 
 
-def scene(folder, name, changes):
-    """A scene that changes a few lines of the sample's."""
-    text = f'base = "{SAMPLE / "slap.run.toml"}"\ntitle = "{name}"\n'
+LARGE_TOLERANCES = [2e-3, 1e-3, 5e-4, 2.5e-4]
+LARGE_CONTACT = "[contact]\ncells_around = 16\ncells_along = 48\n"
+
+
+def scene(folder, name, changes, base):
+    """A scene that changes a few lines of another one."""
+    text = f'base = "{base}"\ntitle = "{name}"\n'
     if "[time]" not in changes:
         text += "[time]\ncycles = 2\n"
     path = folder / f"{name}.run.toml"
@@ -44,9 +53,9 @@ def scene(folder, name, changes):
     return path
 
 
-def simulate(folder, binaries, name, changes, recovered=True):
+def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "slap.run.toml"):
     """Runs one scene; its numbers as a dict."""
-    path = scene(folder, name, changes)
+    path = scene(folder, name, changes, base)
     run = folder / f"{name}.run.h5"
     call([binaries / "clatter-dynamics", path, "-o", run, "--quiet"])
     result = {"name": name}
@@ -70,8 +79,33 @@ def simulate(folder, binaries, name, changes, recovered=True):
     return result
 
 
-def call(command):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+def large_scene(folder, binaries):
+    """Writes the large block, and the sample's mixed lubrication with it; the path of the scene."""
+    def changed(name, *changes):
+        text = (SAMPLE / name).read_text()
+        for old, new in changes:
+            text, count = re.subn(f"(?m)^{old} = .*$", new, text)
+            if count == 0:
+                sys.exit(f"bench: {name} has no line {old}")
+        (folder / name).write_text(text)
+
+    changed("block.mesh.toml", ("elements_per_turn", "elements_per_turn = 40"))
+    changed("block.fe.toml", ("rows", "rows = 30"), ("strips", "strips = 10"))
+    changed("block.rom.toml", ("fmax_hz", 'count = 39\n[interface]\nsets = ["liner_4"]\nmodes = 200'))
+    moved = (folder / "block.rom.toml").read_text()
+    skin = 'skin = ["skin"]\n'
+    (folder / "block.rom.toml").write_text(skin + moved.replace(skin, ""))
+    for stage, source, made in (("mesh", (), "mesh"), ("assembly", ("block.mesh.h5",), "fe"), ("condense", ("block.fe.h5",), "rom")):
+        settings = [f"block.{made}.toml"] if not source else [*source, "-c", f"block.{made}.toml"]
+        print(f"bench: {stage} of the large block", file=sys.stderr)
+        call([binaries / f"clatter-{stage}", *settings, "-o", f"block.{made}.h5"], folder)
+    for name in ("piston.rom.h5", "motored.csv", "slap.run.toml", "slap_mixed.run.toml"):
+        shutil.copy(SAMPLE / name, folder / name)
+    return folder / "slap_mixed.run.toml"
+
+
+def call(command, folder=None):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=folder)
     if done.returncode:
         sys.exit(f"bench: {done.stderr.strip()}")
 
@@ -99,6 +133,8 @@ def table(title, results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=ROOT / "build" / "release" / "bin")
+    parser.add_argument("--tables", nargs="+", choices=["tolerance", "grid", "effects", "large"],
+                        default=["tolerance", "grid", "effects"])
     options = parser.parse_args()
     for part in ("block", "piston"):
         if not (SAMPLE / f"{part}.rom.h5").exists():
@@ -106,17 +142,27 @@ def main():
     print("differences are from the last row of each table: of the piston's lateral position, and the largest of the "
           "liner's\nthird octaves from 500 Hz to 4 kHz; slap: instant and height of the liner's acceleration")
     with tempfile.TemporaryDirectory() as scratch:
-        def runs(names_and_changes, **more):
-            return [simulate(Path(scratch), options.bin, name, changes, **more) for name, changes in names_and_changes]
+        folder = Path(scratch)
 
-        table("step tolerance", runs((f"tolerance {value:g}", f"[accuracy]\ntolerance = {value:g}\n")
-                                     for value in TOLERANCES))
-        table("film grid, cells around x along",
-              runs((f"grid {a} x {b}", f"[contact]\ncells_around = {a}\ncells_along = {b}\n") for a, b in GRIDS))
-        print("\neffects: cost of each (rigid liner: no block to recover)")
-        results = runs(EFFECTS.items(), recovered=False)
-        for result in results:
-            print_row(result, results[-1])
+        def runs(names_and_changes, **more):
+            return [simulate(folder, options.bin, name, changes, **more) for name, changes in names_and_changes]
+
+        def tolerances(values, changes="", **more):
+            return runs(((f"tolerance {value:g}", f"[accuracy]\ntolerance = {value:g}\n{changes}") for value in values), **more)
+
+        if "tolerance" in options.tables:
+            table("step tolerance", tolerances(TOLERANCES))
+        if "grid" in options.tables:
+            table("film grid, cells around x along",
+                  runs((f"grid {a} x {b}", f"[contact]\ncells_around = {a}\ncells_along = {b}\n") for a, b in GRIDS))
+        if "effects" in options.tables:
+            print("\neffects: cost of each (rigid liner: no block to recover)")
+            results = runs(EFFECTS.items(), recovered=False)
+            for result in results:
+                print_row(result, results[-1])
+        if "large" in options.tables:
+            table("600 patches, 300 coordinates, 1536 film cells, mixed lubrication",
+                  tolerances(LARGE_TOLERANCES, LARGE_CONTACT, base=large_scene(folder, options.bin)))
 
 
 if __name__ == "__main__":

@@ -83,11 +83,10 @@ void ensure_fast_blas(char** argv) {
   if (automatic && generation(running) >= generation(wanted)) return;
   if (set != nullptr && same_name(set, wanted)) return;  // it was started with that already
   setenv(kChoice, wanted.c_str(), 1);
-  if (requested.empty())
-    warn(fmt::format("OpenBLAS chose its kernel {} on this CPU; starting again with {}={}", running,
-                     kChoice, wanted));
   execv("/proc/self/exe", argv);
-  // If restarting fails, the run continues with the slow kernel, as announced above.
+  if (requested.empty())
+    warn(fmt::format("OpenBLAS chose its kernel {} on this CPU, a slow one: set {}={}", running,
+                     kChoice, wanted));
 }
 
 void report_blas(const std::string& requested) {

@@ -8,10 +8,10 @@
 namespace clatter {
 
 /// Compares the kernel that OpenBLAS chose with what the CPU supports; if a better one exists, sets
-/// OPENBLAS_CORETYPE and restarts this program with the same arguments (at most once, logged):
-/// OpenBLAS selects its kernel while it is loaded. A kernel set in the environment is kept, unless
-/// `argv` contains "--blas NAME", or "--blas auto" for the best one.
-/// Call first in main of every stage that uses BLAS. No effect without OpenBLAS.
+/// OPENBLAS_CORETYPE and restarts this program with the same arguments (at most once, silently; a
+/// restart that fails is warned of): OpenBLAS selects its kernel while it is loaded. A kernel set
+/// in the environment is kept, unless `argv` contains "--blas NAME", or "--blas auto" for the best
+/// one. Call first in main of every stage that uses BLAS. No effect without OpenBLAS.
 void ensure_fast_blas(char** argv);
 
 /// Logs the running kernel when --blas was given, and otherwise when the environment forces a

@@ -64,12 +64,14 @@ void send(int to, Frame kind, const std::string& text) {
   send_bytes(to, text.data(), text.size());
 }
 
+#ifndef __SANITIZE_ADDRESS__
 double address_space_bytes() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0;
   file >> pages;
   return pages * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
+#endif
 
 // The parent monitors resident memory; a single huge allocation is refused in the child.
 void limit_address_space([[maybe_unused]] double memory_gib) {

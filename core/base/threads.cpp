@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/threads.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <exception>
 #include <thread>
@@ -38,6 +42,26 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t, int64_t)>& bod
   for (int64_t piece = 1; piece < pieces; ++piece) workers.emplace_back(run, piece);
   run(0);  // on this thread: one thread less to start
   for (auto& worker : workers) worker.join();
+  for (const auto& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+void parallel_tasks(int count, const std::function<void(int)>& task) {
+  if (count <= 1 || thread_count() == 1) {
+    for (int k = 0; k < count; ++k) task(k);
+    return;
+  }
+  std::vector<std::exception_ptr> failures(static_cast<size_t>(count));
+  const auto run = [&](int k) {
+    try {
+      task(k);
+    } catch (...) {
+      failures[static_cast<size_t>(k)] = std::current_exception();
+    }
+  };
+  static tbb::task_arena arena(thread_count());
+  arena.execute([&] { tbb::parallel_for(0, count, run, tbb::simple_partitioner()); });
   for (const auto& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

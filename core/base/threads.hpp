@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Thread count of clatter's own loops, and the parallel loop.
+// Thread count of clatter's own loops, and the parallel loops.
 #include <cstdint>
 #include <functional>
 
@@ -13,5 +13,10 @@ int thread_count();
 /// Calls body(begin, end) on contiguous pieces of [0, n), one per thread. The pieces depend only on
 /// n and the thread count, so results do too. An exception in any piece is rethrown.
 void parallel_pieces(int64_t n, const std::function<void(int64_t begin, int64_t end)>& body);
+
+/// Calls task(0) .. task(count - 1). A waiting thread takes what the caller has not begun, so short
+/// tasks (tens of microseconds) gain on an idle machine and lose little on a busy one. Of several
+/// exceptions that of the first task is rethrown.
+void parallel_tasks(int count, const std::function<void(int task)>& task);
 
 }  // namespace clatter

@@ -14,9 +14,9 @@ AxialMotion axial_motion(int size, int pin, const Eigen::Vector2d& reaction,
   motion.height.emplace_back(liner->coordinate, -1.0);
   motion.slide(0, liner->coordinate) = -1.0;
   // The liner's axial displacement at the pin's centre is that at `reaction` less the tilts'.
-  auto patches = motion.slide.middleCols(liner->first, liner->tilt.cols());
-  patches.row(0) = reaction.y() * liner->tilt.row(0) - reaction.x() * liner->tilt.row(1);
-  patches.bottomRows<2>() = -liner->tilt;
+  auto tilts = motion.slide.middleCols<2>(liner->tilt);
+  tilts.row(0) << reaction.y(), -reaction.x();
+  tilts.bottomRows<2>() = -Eigen::Matrix2d::Identity();
   return motion;
 }
 

@@ -9,9 +9,8 @@ namespace clatter::film {
 
 /// Where an axial force on the liner acts.
 struct LinerAxial {
-  int first = 0;          // of the liner's patches among the element's coordinates
-  int coordinate = 0;     // mean axial displacement of the liner among the element's coordinates
-  Eigen::Matrix2Xd tilt;  // 2 x patches: rotations about x and y by the patches, R_patches^+
+  int coordinate = 0;  // mean axial displacement of the liner among the element's coordinates
+  int tilt = 0;        // the first of the rotations rx, ry that fit the liner's patches best
 };
 
 /// Motion of the skirt against the liner along the stroke, linear in the element's coordinates.

@@ -5,6 +5,8 @@
 // Angles of pads count from the thrust side (+y) right-handed about z: the outward normal at angle
 // f is n = (-sin f, cos f, 0).
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
@@ -48,6 +50,16 @@ struct ElasticSurface {
               // frame's origin (rows of ReducedModel::rigid); 0 rows: taken from the patch centres
 };
 
+/// Rigid motions x, y, rx, ry, which move a cylinder's surface radially.
+constexpr int kFits = 4;
+
+/// R_patches, n x 4: patch values of a surface under unit rigid motions x, y, rx, ry. InputError
+/// when `surface.rigid` is of another shape.
+Eigen::MatrixXd radial_motions(const ElasticSurface& surface);
+/// R_patches^+, 4 x n: the rigid motion x, y, rx, ry about the frame's origin that fits the patches
+/// best. Its transpose distributes a force or couple with exactly that resultant.
+Eigen::MatrixXd rigid_fit(const ElasticSurface& surface);
+
 /// Interpolates fields on a cylinder, given on angle x axial points, at the cells of a pad.
 class CylinderStencil {
  public:
@@ -71,32 +83,46 @@ class CylinderStencil {
   std::vector<char> neighbours_;
 };
 
-/// From patch means to cell displacements, exact for rigid motions of the body.
+/// A matrix with few entries in a row; of cells by coordinates.
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// From patch means u to cell displacements, exact for rigid motions of the body:
 ///
-///   G = B + (R_cells - B R_patches) R_patches^+
+///   G u = B u + D w,   D = R_cells - B R_patches,   w = R_patches^+ u
 ///
 /// B is bilinear between the patch centres; R holds the rigid motions x, y, rx, ry that move a
-/// cylinder surface radially. So G^T gives exact resultants of the cell forces.
+/// cylinder surface radially, w the rigid motion that fits the patches best. So G^T gives exact
+/// resultants of the cell forces. u and w are separate columns of the map, [B | D], so that a cell
+/// has eight entries: w is made a coordinate of its own (System::combined_coordinate).
 class PatchMap {
  public:
   /// Cells of `pad` are at axial position pad.axial(j) + offset in the frame of `surface`.
   PatchMap(const ElasticSurface& surface, const PadGrid& pad);
 
-  int patches() const { return static_cast<int>(inverse_.cols()); }
-  /// R_patches^+, 4 x patches: the rigid motion x, y, rx, ry about the frame's origin that fits the
-  /// patches best. Its transpose distributes a force or couple with exactly that resultant.
-  const Eigen::Matrix<double, 4, Eigen::Dynamic>& rigid_fit() const { return inverse_; }
-  /// Writes G at `offset` [m] into `map`, and dG/d(offset) into `slope` when given; n x patches.
-  void at(double offset, RowMatrix& map, RowMatrix* slope = nullptr);
+  int patches() const { return static_cast<int>(rigid_.rows()); }
+  int columns() const { return patches() + kFits; }
+  /// Writes [B | D] at `offset` [m] into `map`, n x columns, and its derivative by the offset, with
+  /// the same pattern, into `slope` when given.
+  void at(double offset, SparseRows& map, SparseRows* slope = nullptr);
 
  private:
   PadGrid pad_;
   CylinderStencil stencil_;
   double axis_origin_ = 0.0, axis_sign_ = 1.0;
-  std::vector<CylinderStencil::Angular> columns_;
-  Eigen::Matrix<double, Eigen::Dynamic, 4> rigid_;    // R_patches
-  Eigen::Matrix<double, 4, Eigen::Dynamic> inverse_;  // R_patches^+
-  RowMatrix defect_, defect_slope_;                   // R_cells - B R_patches, n x 4
+  /// A point of one direction of the stencil.
+  struct Point {
+    int at;
+    double weight, slope;
+  };
+  /// Its points in ascending order, each once.
+  struct Points {
+    std::array<Point, 2> of;
+    int count;
+  };
+  static Points points(int first, int second, double weight, double slope);
+
+  std::vector<Points> columns_, rows_;                                   // of the pad's cells
+  Eigen::Matrix<double, Eigen::Dynamic, kFits, Eigen::RowMajor> rigid_;  // R_patches
 };
 
 /// The deviation of the liner at rest at the cells of a pad.

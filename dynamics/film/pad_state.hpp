@@ -3,6 +3,7 @@
 // Working memory of one pad of a piston-liner contact; allocated once, only for active effects.
 #include <optional>
 
+#include "dynamics/film/gap_map.hpp"
 #include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/piston_liner.hpp"
 
@@ -22,18 +23,17 @@ struct PadFilm {
 };
 
 struct PistonLiner::Pad {
-  Pad(std::string pad_name, PadGrid pad_grid, int n_coordinates)
-      : name(std::move(pad_name)), grid(std::move(pad_grid)) {
+  Pad(std::string pad_name, PadGrid pad_grid, GapMap gap_map)
+      : name(std::move(pad_name)), grid(std::move(pad_grid)), map(std::move(gap_map)) {
     const int n = grid.size();
     for (Eigen::ArrayXd* values : {&rest, &gap, &gap_by_height, &load}) values->setZero(n);
-    gap_by_y.setZero(n, n_coordinates);
     area = grid.area();
     area_slope.setZero(n);
-    gap_by_pin.setZero(n, 6);
   }
   bool covers(Eigen::Index cell) const { return area[cell] > 0.0; }
   std::string name;
   PadGrid grid;
+  GapMap map;                    // k columns
   Eigen::ArrayXd rest;           // clearance and skirt relief [m]
   Eigen::ArrayXd gap;            // h [m]
   Eigen::ArrayXd gap_by_height;  // dh/dz along the stroke [1]
@@ -41,20 +41,22 @@ struct PistonLiner::Pad {
   std::optional<CoverMap> ends;  // of the liner; none: it covers the pad everywhere
   Cover cover;
   Eigen::ArrayXd area, area_slope;  // covered area of the cells [m2], its derivative by height [m]
-  RowMatrix gap_by_y;               // dh/dy, n x n_e
-  RowMatrix gap_by_pin;             // dh/dy of the pin at a fixed height, n x 6; 0: elastic piston
-  RowMatrix derivative;             // dx/dy of the film, then d(load)/dy
-  std::optional<PatchMap> liner_map;
+  SparseRows gap_by_y;              // dh/dy, n x k
+  SparseRows rate_by_y;             // dh'/dy, n x k; damped
+  Eigen::VectorXd v;                // of the columns, k
+  Eigen::VectorXd force;            // on the columns, k
+  RowMatrix tangent;                // of the force, k x k
+  RowMatrix gap_directions;         // dh/dy for the film, n x k
+  RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::optional<LinerShapeMap> liner_shape;
-  RowMatrix liner_weights, liner_slopes;  // G_l and dG_l/dz
   std::optional<PadFilm> film;
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]
   Eigen::ArrayXd contact_elastic;                         // p_a [Pa]
   Eigen::ArrayXd contact_rate_slope, contact_loss;        // dp_c/dh' [Pa s/m], loss [W/m2]; damped
-  RowMatrix rate_by_y;                                    // dh'/dy, n x n_e; damped
   std::optional<Friction> friction;
   Eigen::Matrix<double, Eigen::Dynamic, 3>
       levers;  // (F, M_x, M_y) about the pin's centre per unit axial force, n x 3
+  long film_solves = 0;
 };
 
 }  // namespace clatter::film

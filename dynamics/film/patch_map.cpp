@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +54,12 @@ CylinderStencil stencil_of(const rom::ContactGrid& grid) {
   return CylinderStencil(strips.angles, strips.neighbours, grid.axial);
 }
 
+/// Makes room for `entries` entries in n rows.
+void start_rows(SparseRows& rows, int n, int columns, Eigen::Index entries) {
+  if (rows.rows() != n || rows.cols() != columns) rows.resize(n, columns);
+  rows.resizeNonZeros(entries);
+}
+
 }  // namespace
 
 CylinderStencil::CylinderStencil(Eigen::VectorXd angles, std::vector<char> neighbours,
@@ -85,81 +93,107 @@ CylinderStencil::Axial CylinderStencil::at_axial(double axial) const {
   return {k - 1, k, (axial - axials_[k - 1]) / step, 1.0 / step};
 }
 
-PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
-    : pad_(pad), stencil_(stencil_of(surface.grid)) {
+Eigen::MatrixXd radial_motions(const ElasticSurface& surface) {
   const rom::ContactGrid& grid = surface.grid;
-  const int n_a = static_cast<int>(grid.angle.size()), n_z = static_cast<int>(grid.axial.size());
+  const Eigen::Index n_a = grid.angle.size(), n_z = grid.axial.size();
+  Eigen::MatrixXd motions(n_a * n_z, kFits);
+  if (surface.rigid.rows() > 0) {
+    if (surface.rigid.rows() != motions.rows() || surface.rigid.cols() != 6)
+      throw InputError(fmt::format("contact grid: rigid motions are {} x {}, expected {} x 6",
+                                   surface.rigid.rows(), surface.rigid.cols(), motions.rows()));
+    motions << surface.rigid.leftCols<2>(), surface.rigid.middleCols<2>(3);
+    return motions;
+  }
+  const Eigen::Vector3d across = grid.axis.cross(grid.zero_angle);
+  for (Eigen::Index i = 0; i < n_a; ++i) {
+    const Eigen::Vector3d n =
+        std::cos(grid.angle[i]) * grid.zero_angle + std::sin(grid.angle[i]) * across;
+    for (Eigen::Index j = 0; j < n_z; ++j) {
+      const double z = grid.axis_point.z() + grid.axis.z() * grid.axial[j];
+      motions.row(i * n_z + j) << n.x(), n.y(), -z * n.y(), z * n.x();
+    }
+  }
+  return motions;
+}
+
+Eigen::MatrixXd rigid_fit(const ElasticSurface& surface) {
+  // Rotations are scaled by the bore radius, so that all columns are of one size.
+  const double turn = 1.0 / surface.grid.radius;
+  const Eigen::DiagonalMatrix<double, kFits> scale(1.0, 1.0, turn, turn);
+  const Eigen::MatrixXd scaled = radial_motions(surface) * scale;
+  return scale * scaled.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
+    : pad_(pad), stencil_(stencil_of(surface.grid)), rigid_(radial_motions(surface)) {
+  const rom::ContactGrid& grid = surface.grid;
   if (std::abs(std::abs(grid.axis.z()) - 1.0) > 1e-6)
     throw InputError(fmt::format("contact grid: axis ({:.3g}, {:.3g}, {:.3g}), expected along z",
                                  grid.axis.x(), grid.axis.y(), grid.axis.z()));
   axis_sign_ = grid.axis.z() > 0.0 ? 1.0 : -1.0;
   axis_origin_ = grid.axis_point.z();
+  rows_.resize(static_cast<size_t>(pad.n_axial()));
   const Eigen::Vector3d across = grid.axis.cross(grid.zero_angle);
   for (int i = 0; i < pad.n_angle(); ++i) {
     const Eigen::Vector3d n = pad_normal(pad.angle(i));
-    columns_.push_back(stencil_.at_angle(std::atan2(n.dot(across), n.dot(grid.zero_angle))));
+    const auto around = stencil_.at_angle(std::atan2(n.dot(across), n.dot(grid.zero_angle)));
+    columns_.push_back(points(around.first, around.second, around.weight, 0.0));
   }
-  rigid_.resize(n_a * n_z, 4);
-  if (surface.rigid.rows() > 0) {
-    if (surface.rigid.rows() != rigid_.rows() || surface.rigid.cols() != 6)
-      throw InputError(fmt::format("contact grid: rigid motions are {} x {}, expected {} x 6",
-                                   surface.rigid.rows(), surface.rigid.cols(), rigid_.rows()));
-    rigid_ << surface.rigid.col(0), surface.rigid.col(1), surface.rigid.col(3),
-        surface.rigid.col(4);
-  } else {
-    for (int i = 0; i < n_a; ++i) {
-      const Eigen::Vector3d n =
-          std::cos(grid.angle[i]) * grid.zero_angle + std::sin(grid.angle[i]) * across;
-      for (int j = 0; j < n_z; ++j) {
-        const double z = axis_origin_ + axis_sign_ * grid.axial[j];
-        rigid_.row(i * n_z + j) << n.x(), n.y(), -z * n.y(), z * n.x();
-      }
-    }
-  }
-  // Rotations are scaled by the bore radius, so that all columns are of one size.
-  Eigen::DiagonalMatrix<double, 4> scale(1.0, 1.0, 1.0 / grid.radius, 1.0 / grid.radius);
-  const Eigen::MatrixXd scaled = rigid_ * scale;
-  inverse_ = scale * scaled.completeOrthogonalDecomposition().pseudoInverse();
-  defect_.setZero(pad.size(), 4);
-  defect_slope_.setZero(pad.size(), 4);
 }
 
-void PatchMap::at(double offset, RowMatrix& map, RowMatrix* slope) {
-  const int n_z = stencil_.n_axial();
-  // First the correction, which needs R_cells - B R_patches row by row; then B is added.
-  auto for_each_entry = [&](auto&& visit) {
-    for (int i = 0; i < pad_.n_angle(); ++i) {
-      const auto& around = columns_[static_cast<size_t>(i)];
-      for (int j = 0; j < pad_.n_axial(); ++j) {
-        const auto along = stencil_.at_axial(axis_sign_ * (pad_.axial(j) + offset - axis_origin_));
-        const int cell = pad_.cell(i, j);
-        for (const auto& [a, w_a] : {std::pair{around.first, 1.0 - around.weight},
-                                     std::pair{around.second, around.weight}}) {
-          visit(cell, a * n_z + along.first, w_a * (1.0 - along.weight),
-                -w_a * along.slope * axis_sign_);
-          visit(cell, a * n_z + along.second, w_a * along.weight, w_a * along.slope * axis_sign_);
-        }
-      }
-    }
-  };
+PatchMap::Points PatchMap::points(int first, int second, double weight, double slope) {
+  if (first == second) return {{{{first, 1.0, 0.0}, {}}}, 1};
+  const Point one{first, 1.0 - weight, -slope}, other{second, weight, slope};
+  if (first < second) return {{{one, other}}, 2};
+  return {{{other, one}}, 2};
+}
+
+void PatchMap::at(double offset, SparseRows& map, SparseRows* slope) {
+  const int n_z = stencil_.n_axial(), n = patches();
+  const Eigen::Index most = static_cast<Eigen::Index>(pad_.size()) * (4 + kFits);
+  start_rows(map, pad_.size(), columns(), most);
+  if (slope != nullptr) start_rows(*slope, pad_.size(), columns(), most);
+  for (int j = 0; j < pad_.n_axial(); ++j) {
+    const double z = pad_.axial(j) + offset;
+    const CylinderStencil::Axial along = stencil_.at_axial(axis_sign_ * (z - axis_origin_));
+    rows_[static_cast<size_t>(j)] =
+        points(along.first, along.second, along.weight, along.slope * axis_sign_);
+  }
+  int next = 0;
   for (int i = 0; i < pad_.n_angle(); ++i) {
-    const Eigen::Vector3d n = pad_normal(pad_.angle(i));
+    const Points& around = columns_[static_cast<size_t>(i)];
+    const Eigen::Vector3d normal = pad_normal(pad_.angle(i));
     for (int j = 0; j < pad_.n_axial(); ++j) {
+      const Points& along = rows_[static_cast<size_t>(j)];
       const double z = pad_.axial(j) + offset;
-      defect_.row(pad_.cell(i, j)) << n.x(), n.y(), -z * n.y(), z * n.x();
-      defect_slope_.row(pad_.cell(i, j)) << 0.0, 0.0, -n.y(), n.x();
+      Eigen::RowVector4d defect(normal.x(), normal.y(), -z * normal.y(), z * normal.x()),
+          defect_slope(0.0, 0.0, -normal.y(), normal.x());
+      map.outerIndexPtr()[pad_.cell(i, j)] = next;
+      const auto put = [&](int at, double value, double change) {
+        map.innerIndexPtr()[next] = at;
+        map.valuePtr()[next] = value;
+        if (slope != nullptr) slope->valuePtr()[next] = change;
+        ++next;
+      };
+      for (int a = 0; a < around.count; ++a)
+        for (int k = 0; k < along.count; ++k) {
+          const Point &angular = around.of[static_cast<size_t>(a)],
+                      &axial = along.of[static_cast<size_t>(k)];
+          const int patch = angular.at * n_z + axial.at;
+          const double value = angular.weight * axial.weight, change = angular.weight * axial.slope;
+          put(patch, value, change);
+          defect -= value * rigid_.row(patch);
+          defect_slope -= change * rigid_.row(patch);
+        }
+      for (int k = 0; k < kFits; ++k) put(n + k, defect[k], defect_slope[k]);
     }
   }
-  for_each_entry([&](int cell, int patch, double weight, double weight_slope) {
-    defect_.row(cell) -= weight * rigid_.row(patch);
-    if (slope) defect_slope_.row(cell) -= weight_slope * rigid_.row(patch);
-  });
-  map.noalias() = defect_ * inverse_;
-  if (slope) slope->noalias() = defect_slope_ * inverse_;
-  for_each_entry([&](int cell, int patch, double weight, double weight_slope) {
-    map(cell, patch) += weight;
-    if (slope) (*slope)(cell, patch) += weight_slope;
-  });
+  map.outerIndexPtr()[pad_.size()] = next;
+  map.resizeNonZeros(next);
+  if (slope == nullptr) return;
+  std::copy_n(map.outerIndexPtr(), pad_.size() + 1, slope->outerIndexPtr());
+  std::copy_n(map.innerIndexPtr(), next, slope->innerIndexPtr());
+  slope->resizeNonZeros(next);
 }
 
 }  // namespace clatter::film

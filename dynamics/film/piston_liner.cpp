@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/threads.hpp"
 #include "dynamics/film/pad_state.hpp"
 
 namespace clatter::film {
@@ -44,66 +44,54 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
   if (on.asperities && options_.damping.loss_factor > 0.0)
     damping_ = std::make_unique<ContactDamping>(options_.damping);
-  n_piston_ =
-      bodies_.piston
-          ? static_cast<int>(bodies_.piston->grid.angle.size() * bodies_.piston->grid.axial.size())
-          : 0;
-  n_liner_ =
-      bodies_.liner
-          ? static_cast<int>(bodies_.liner->grid.angle.size() * bodies_.liner->grid.axial.size())
-          : 0;
-  pin_ = n_piston_ + n_liner_;
-  n_total_ = pin_ + (bodies_.liner ? 7 : 6);
-  if (static_cast<int>(coordinates_.size()) != n_total_)
+  const auto patches_of = [](const std::optional<ElasticSurface>& surface) {
+    return surface ? static_cast<int>(surface->grid.angle.size() * surface->grid.axial.size()) : 0;
+  };
+  at_ = {patches_of(bodies_.piston), patches_of(bodies_.liner)};
+  if (static_cast<int>(coordinates_.size()) != size())
     throw InputError(fmt::format("{}: found {} coordinates, expected {}", options_.name,
-                                 coordinates_.size(), n_total_));
+                                 coordinates_.size(), size()));
+  touched_row_.assign(coordinates_.size(), -1);
+  if (bodies_.liner) {
+    find_ends(bodies_.liner->grid);
+    const LinerAxial liner{at_.axial(), at_.liner_fit() + 2};
+    axial_ = axial_motion(size(), at_.pin(), bodies_.liner_axial, &liner);
+  } else {
+    axial_ = axial_motion(size(), at_.pin(), bodies_.bore_axis, nullptr);
+  }
+  height_by_y_.setZero(size());
+  for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
+  add_pad("thrust", 0.0);
+  add_pad("antithrust", std::numbers::pi);
+}
 
-  if (bodies_.liner) find_ends(bodies_.liner->grid);
-
+void PistonLiner::add_pad(const char* name, double centre) {
+  const ContactEffects& on = options_.effects;
+  const PadGrid grid = make_grid(options_, centre);
+  pads_.push_back(std::make_unique<Pad>(name, grid, GapMap(bodies_, at_, grid, height_by_y_)));
+  Pad& pad = *pads_.back();
+  pad.rest = options_.clearance + skirt_relief(options_.skirt, grid);
+  if (options_.bore) pad.liner_shape.emplace(*options_.bore, grid);
+  if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
+    pad.ends.emplace(options_.ends, grid);
   const Edge open =
       Edge::supply(options_.supply_pressure, options_.supply_fill, options_.oil_thickness);
-  for (const auto& [name, centre] :
-       {std::pair{"thrust", 0.0}, std::pair{"antithrust", std::numbers::pi}}) {
-    pads_.push_back(std::make_unique<Pad>(name, make_grid(options_, centre), n_total_));
-    Pad& pad = *pads_.back();
-    pad.rest = options_.clearance + skirt_relief(options_.skirt, pad.grid);
-    if (bodies_.piston) {
-      RowMatrix map;
-      PatchMap(*bodies_.piston, pad.grid).at(0.0, map);
-      pad.gap_by_y.leftCols(n_piston_) = -map;
-    } else {
-      pad.gap_by_pin = -rigid_radial(pad.grid, 0.0, bodies_.bore_axis);
-    }
-    if (bodies_.liner) pad.liner_map.emplace(*bodies_.liner, pad.grid);
-    if (options_.bore) pad.liner_shape.emplace(*options_.bore, pad.grid);
-    if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
-      pad.ends.emplace(options_.ends, pad.grid);
-    if (on.film) pad.film.emplace(pad.grid, Edges{open, open, open, open, open}, on.cavitation);
-    if (on.asperities)
-      for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
-        values->setZero(pad.grid.size());
-    if (damping_)
-      for (Eigen::ArrayXd* values : {&pad.contact_rate_slope, &pad.contact_loss})
-        values->setZero(pad.grid.size());
-    if (!on.friction) continue;
-    pad.friction.emplace(options_.friction, pad.grid.size());
-    pad.levers.resize(pad.grid.size(), 3);
-    for (int i = 0; i < pad.grid.n_angle(); ++i) {
-      const Eigen::Vector2d arm =
-          bodies_.bore_axis + pad.grid.radius() * pad_normal(pad.grid.angle(i)).head<2>();
-      for (int j = 0; j < pad.grid.n_axial(); ++j)
-        pad.levers.row(pad.grid.cell(i, j)) << 1.0, arm.y(), -arm.x();
-    }
+  if (on.film) pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation);
+  if (on.asperities)
+    for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
+      values->setZero(grid.size());
+  if (damping_)
+    for (Eigen::ArrayXd* values : {&pad.contact_rate_slope, &pad.contact_loss})
+      values->setZero(grid.size());
+  if (!on.friction) return;
+  pad.friction.emplace(options_.friction, grid.size());
+  pad.levers.resize(grid.size(), 3);
+  for (int i = 0; i < grid.n_angle(); ++i) {
+    const Eigen::Vector2d arm =
+        bodies_.bore_axis + grid.radius() * pad_normal(grid.angle(i)).head<2>();
+    for (int j = 0; j < grid.n_axial(); ++j)
+      pad.levers.row(grid.cell(i, j)) << 1.0, arm.y(), -arm.x();
   }
-  if (bodies_.liner) {
-    const LinerAxial liner{n_piston_, pin_ + 6,
-                           pads_.front()->liner_map->rigid_fit().bottomRows<2>()};
-    axial_ = axial_motion(n_total_, pin_, bodies_.liner_axial, &liner);
-  } else {
-    axial_ = axial_motion(n_total_, pin_, bodies_.bore_axis, nullptr);
-  }
-  height_by_y_.setZero(n_total_);
-  for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
 }
 
 void PistonLiner::check() const {
@@ -130,48 +118,44 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return height;
 }
 
-// Cover, gap and their derivatives at one state; `height` is the pin centre's engine z.
-void PistonLiner::update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope) {
+// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z.
+void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y) {
+  const double height = stroke_height(position, y);
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
-  if (pad.liner_map) {
-    pad.liner_map->at(height, pad.liner_weights, &pad.liner_slopes);
-    pad.gap_by_height += (pad.liner_slopes * y.segment(n_piston_, n_liner_)).array();
-    pad.gap_by_y.middleCols(n_piston_, n_liner_) = pad.liner_weights;
-  }
-  // Height affects the gap nonlinearly, by d(z) and G_l(z): its column is added after the sum.
-  pad.gap_by_y.middleCols(pin_, 6) = pad.gap_by_pin;
-  if (bodies_.liner) pad.gap_by_y.rightCols<1>().setZero();
-  pad.gap += (pad.gap_by_y * y).array();
-  if (!with_slope) return;
-  for (const auto& [coordinate, factor] : axial_.height)
-    pad.gap_by_y.col(coordinate) += (factor * pad.gap_by_height).matrix();
+  pad.map.move(height);
+  pad.map.add(y, pad.gap, pad.gap_by_height);
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
   stroke_ = stroke_at(stage);
-  response.force.setZero(n_total_);
-  if (with_tangent) response.tangent.setZero(n_total_, n_total_);
-  for (const auto& owned : pads_) {
-    Pad& pad = *owned;
-    if (pad.film && !running_) start_content(pad, stage, y, v);
-    update_gap(pad, stroke_height(stroke_.position, y), y, true);
-    if (!pad.gap.allFinite())
-      throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
-    pad.load.setZero();
-    if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
-    if (pad.film) solve_film(pad, stage, stroke_.velocity);
-    if (asperity_) update_contact(pad, v);
-    if (pad.friction) update_friction(pad, stroke_.velocity);
-    add_force(pad, response.force);
-    if (!with_tangent) continue;
-    if (damping_) update_rate_tangent(pad, stage.kappa, v);
-    add_tangent(pad, response.tangent);
-  }
+  parallel_tasks(static_cast<int>(pads_.size()), [&](int k) {
+    evaluate_pad(*pads_[static_cast<size_t>(k)], stage, y, v, with_tangent);
+  });
+  collect(with_tangent, response);
+}
+
+void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                               const Eigen::VectorXd& v, bool with_tangent) {
+  if (pad.film && !running_) start_content(pad, stage, y, v);
+  update_gap(pad, stroke_.position, y);
+  if (!pad.gap.allFinite())
+    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
+  pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
+  pad.map.gather(v, pad.v);
+  pad.load.setZero();
+  if (pad.friction) pad.friction->clear(pad.ends ? &pad.cover : nullptr);
+  if (pad.film) solve_film(pad, stage, stroke_.velocity);
+  if (asperity_) update_contact(pad);
+  if (pad.friction) update_friction(pad, stroke_.velocity);
+  update_force(pad);
+  if (!with_tangent) return;
+  if (damping_) update_rate_tangent(pad, stage.kappa, v);
+  update_tangent(pad);
 }
 
 // The content at the start is the gap at the start, y~ = y - kappa v, filled by the scene's
@@ -179,8 +163,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
 void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
-  update_gap(pad, stroke_height(bodies_.stroke(stage.time - stage.kappa).position, y_start),
-             y_start, false);
+  update_gap(pad, bodies_.stroke(stage.time - stage.kappa).position, y_start);
   if (lowest_gap(pad) <= rough_->lowest_gap())
     throw InputError(fmt::format(
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",
@@ -205,7 +188,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   inner.cavity = options_.cavity;
   if (pad.ends) inner.cover = &pad.cover;
   try {
-    film_solves_ +=
+    pad.film_solves +=
         film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
@@ -228,50 +211,6 @@ void PistonLiner::update_friction(Pad& pad, double speed) {
 
 Eigen::Vector3d PistonLiner::friction_wrench(const Pad& pad) const {
   return pad.levers.transpose() * pad.friction->force().matrix();
-}
-
-void PistonLiner::add_force(const Pad& pad, Eigen::VectorXd& force) const {
-  force += pad.gap_by_y.transpose() * pad.load.matrix() + end_force(pad) * height_by_y_;
-  if (pad.friction) force += axial_.slide.transpose() * friction_wrench(pad);
-}
-
-void PistonLiner::add_tangent(Pad& pad, Eigen::MatrixXd& tangent) {
-  if (pad.film)
-    pad.film->reynolds.sensitivities(pad.gap_by_y, pad.derivative, &height_by_y_);
-  else if (pad.derivative.size() == 0)
-    pad.derivative.setZero(pad.grid.size(), n_total_);
-  if (pad.friction) {
-    Eigen::Matrix3Xd rub =
-        (pad.levers.array().colwise() * pad.friction->gap_slope()).matrix().transpose() *
-        pad.gap_by_y;
-    if (pad.film)
-      rub += (pad.levers.array().colwise() * pad.friction->film_slope()).matrix().transpose() *
-             pad.derivative;
-    if (damping_)
-      rub += (pad.levers.array().colwise() * pad.friction->rate_slope()).matrix().transpose() *
-             pad.rate_by_y;
-    if (pad.ends)
-      rub +=
-          pad.levers.transpose() * pad.friction->height_slope().matrix() * height_by_y_.transpose();
-    tangent.noalias() += axial_.slide.transpose() * rub;
-  }
-  for (int c = 0; c < pad.grid.size(); ++c) {
-    const double area = pad.area[c];
-    auto row = pad.derivative.row(c);
-    row *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
-    if (!asperity_ || pad.contact_slope[c] == 0.0) continue;
-    row += area * pad.contact_slope[c] * pad.gap_by_y.row(c);
-    if (damping_) row += area * pad.contact_rate_slope[c] * pad.rate_by_y.row(c);
-  }
-  if (pad.ends) add_end_tangent(pad, tangent);
-  tangent.noalias() += pad.gap_by_y.transpose() * pad.derivative;
-  if (!pad.liner_map) return;
-  // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
-  const Eigen::VectorXd cross = pad.liner_slopes.transpose() * pad.load.matrix();
-  for (const auto& [coordinate, factor] : axial_.height) {
-    tangent.col(coordinate).segment(n_piston_, n_liner_) += factor * cross;
-    tangent.row(coordinate).segment(n_piston_, n_liner_) += factor * cross.transpose();
-  }
 }
 
 }  // namespace clatter::film

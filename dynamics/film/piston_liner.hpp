@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/film/axial_motion.hpp"
+#include "dynamics/film/gap_map.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/force/element.hpp"
@@ -56,40 +57,46 @@ class PistonLiner : public dynamics::ForceElement {
   std::vector<double> save() const override;
   void restore(const std::vector<double>& state) override;
 
-  int size() const { return n_total_; }
+  int size() const { return at_.size(); }
   std::vector<PadSnapshot> snapshot() const;
   const PistonLinerOptions& options() const { return options_; }
   /// Linear solves of the film so far; a measure of the cost of the effect.
-  long film_solves() const { return film_solves_; }
+  long film_solves() const;
   /// Worst mass residual of the last evaluation (0 without film).
   double film_residual() const;
 
  private:
   struct Pad;
   void check() const;
-  void update_gap(Pad& pad, double height, const Eigen::VectorXd& y, bool with_slope);
+  void add_pad(const char* name, double centre);
+  void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
+                    const Eigen::VectorXd& v, bool with_tangent);
+  void update_gap(Pad& pad, double position, const Eigen::VectorXd& y);
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
-  void update_contact(Pad& pad, const Eigen::VectorXd& v);
-  void damp_contact(Pad& pad, const Eigen::VectorXd& v);
+  void update_contact(Pad& pad);
+  void damp_contact(Pad& pad);
   void update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v);
   void update_friction(Pad& pad, double speed);
-  void add_force(const Pad& pad, Eigen::VectorXd& force) const;
-  void add_tangent(Pad& pad, Eigen::MatrixXd& tangent);
+  void update_force(Pad& pad) const;
+  void update_tangent(Pad& pad);
+  Eigen::Matrix3Xd friction_tangent(const Pad& pad) const;
+  void collect(bool with_tangent, dynamics::Response& response);
+  void list_touched(dynamics::Response& response);
   double end_force(const Pad& pad) const;
-  void add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const;
+  void add_end_tangent(Pad& pad) const;
   StrokeState stroke_at(const dynamics::Stage& stage) const;
   double stroke_height(double position, const Eigen::VectorXd& y) const;
   Eigen::Vector3d friction_wrench(const Pad& pad) const;
 
   PistonLinerOptions options_;
   PistonLinerBodies bodies_;
-  Eigen::VectorXd height_by_y_;  // of the pads, n_total
-  int n_piston_ = 0, n_liner_ = 0, pin_ = 0, n_total_ = 0;
+  ContactCoordinates at_;
+  Eigen::VectorXd height_by_y_;  // of the pads, n_e
   AxialMotion axial_;
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;
@@ -98,7 +105,8 @@ class PistonLiner : public dynamics::ForceElement {
   StrokeState stroke_;
   std::array<double, 4> stroke_rates_{};  // z_B' at the finished stages of this step [m/s]
   bool running_ = false;                  // false: the content is still the initial one
-  long film_solves_ = 0;
+  std::vector<int> touched_row_;          // of a coordinate in the response's tangent; -1: none
+  int touched_count_ = 0;
 };
 
 }  // namespace clatter::film

@@ -4,7 +4,7 @@
 
 namespace clatter::film {
 
-void PistonLiner::update_contact(Pad& pad, const Eigen::VectorXd& v) {
+void PistonLiner::update_contact(Pad& pad) {
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
     const Asperity::Contact contact = asperity_->at(pad.gap[c]);
     pad.contact[c] = contact.pressure;
@@ -12,18 +12,20 @@ void PistonLiner::update_contact(Pad& pad, const Eigen::VectorXd& v) {
     pad.contact_energy[c] = contact.energy;
   }
   pad.contact_elastic = pad.contact;
-  if (damping_) damp_contact(pad, v);
+  if (damping_) damp_contact(pad);
   pad.load += pad.area * pad.contact;
 }
 
 // From the elastic pressure to the damped one, where there is any.
-void PistonLiner::damp_contact(Pad& pad, const Eigen::VectorXd& v) {
+void PistonLiner::damp_contact(Pad& pad) {
   pad.contact_rate_slope.setZero();
   pad.contact_loss.setZero();
+  if ((pad.contact == 0.0).all()) return;
+  const Eigen::VectorXd rates = pad.gap_by_y * pad.v;
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
     const double elastic = pad.contact[c];
     if (elastic == 0.0) continue;
-    const double rate = pad.gap_by_y.row(c).dot(v) + pad.gap_by_height[c] * stroke_.velocity;
+    const double rate = rates[c] + pad.gap_by_height[c] * stroke_.velocity;
     const ContactDamping::Ratio ratio = damping_->at(rate);
     pad.contact[c] *= ratio.value;
     pad.contact_slope[c] *= ratio.value;
@@ -34,12 +36,9 @@ void PistonLiner::damp_contact(Pad& pad, const Eigen::VectorXd& v) {
 
 // dh'/dy at fixed stage: v changes with y / kappa, and the liner's weights move with the stroke.
 void PistonLiner::update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v) {
-  pad.rate_by_y = pad.gap_by_y / kappa;
-  if (!pad.liner_map) return;
-  const double sliding = stroke_height(stroke_.velocity, v);  // rate of the height
-  const Eigen::VectorXd turning = pad.liner_slopes * v.segment(n_piston_, n_liner_);
-  pad.rate_by_y.middleCols(n_piston_, n_liner_) += sliding * pad.liner_slopes;
-  pad.rate_by_y += turning * height_by_y_.transpose();
+  Eigen::ArrayXd turning = pad.gap_by_height / kappa;
+  pad.map.add_slope(v, turning);
+  pad.map.rows(1.0 / kappa, stroke_height(stroke_.velocity, v), turning, pad.rate_by_y);
 }
 
 }  // namespace clatter::film

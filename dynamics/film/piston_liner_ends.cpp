@@ -36,20 +36,21 @@ double PistonLiner::end_force(const Pad& pad) const {
 }
 
 // What changes with the cover: the load by the height, and the force at the end of the liner.
-void PistonLiner::add_end_tangent(const Pad& pad, Eigen::MatrixXd& tangent) const {
+void PistonLiner::add_end_tangent(Pad& pad) const {
+  const Eigen::VectorXd& height = pad.map.height_by_column();
   Eigen::ArrayXd load_slope = Eigen::ArrayXd::Zero(pad.grid.size());
   if (pad.film) load_slope += pad.area_slope * pad.film->reynolds.pressure();
   double curve = 0.0;
   if (asperity_) {
     const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact_elastic;
     load_slope += pad.area_slope * pad.contact;
-    tangent.noalias() += height_by_y_ * (pad.gap_by_y.transpose() * by_gap.matrix()).transpose();
+    pad.tangent += height * (pad.gap_by_y.transpose() * by_gap.matrix()).transpose();
     const Eigen::ArrayXd area_curve =
         pad.grid.area() * pad.cover.share_curve.replicate(pad.grid.n_angle(), 1);
     curve = -(area_curve * pad.contact_energy).sum();
   }
-  tangent.noalias() += (pad.gap_by_y.transpose() * load_slope.matrix() + curve * height_by_y_) *
-                       height_by_y_.transpose();
+  pad.tangent +=
+      (pad.gap_by_y.transpose() * load_slope.matrix() + curve * height) * height.transpose();
 }
 
 }  // namespace clatter::film

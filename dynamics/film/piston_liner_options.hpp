@@ -68,8 +68,9 @@ struct StrokeState {
 };
 
 /// The bodies in contact. Coordinates of the element, in this order:
-/// [piston patches | liner patches | pin x, y, z, rx, ry, rz | liner axial]; absent parts have
-/// none. A liner has an axial coordinate, which takes the axial reaction.
+/// [piston patches | their fit | liner patches | their fit | pin x, y, z, rx, ry, rz | liner
+/// axial]; absent parts have none. The fit of a surface is its rigid motion x, y, rx, ry,
+/// rigid_fit() times its patches. A liner has an axial coordinate, which takes the axial reaction.
 struct PistonLinerBodies {
   std::optional<ElasticSurface>
       piston;  // skirt patches, frame at the pin centre; absent: rigid, moved by the pin

@@ -46,9 +46,10 @@ void PistonLiner::accept_step(double) {
 dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
   dynamics::Power power;
   for (const auto& pad : pads_) {
+    pad->map.gather(v, pad->v);
     const Eigen::ArrayXd& area = pad->area;
     const Eigen::ArrayXd gap_rate =
-        (pad->gap_by_y * v).array() + pad->gap_by_height * stroke_.velocity;
+        (pad->gap_by_y * pad->v).array() + pad->gap_by_height * stroke_.velocity;
     power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
     if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
@@ -123,6 +124,12 @@ void PistonLiner::restore(const std::vector<double>& state) {
   auto next = state.begin() + 1;
   for (const auto& pad : pads_)
     if (pad->film) next = pad->film->oil.restore(next);
+}
+
+long PistonLiner::film_solves() const {
+  long solves = 0;
+  for (const auto& pad : pads_) solves += pad->film_solves;
+  return solves;
 }
 
 double PistonLiner::film_residual() const {

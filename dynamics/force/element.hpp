@@ -26,7 +26,7 @@ struct Response {
   Eigen::VectorXd force;    // n_e; works on y: [N] on displacements, [N m] on rotations
   Eigen::MatrixXd tangent;  // n_t x n_t; df/dy + df/dv / kappa at fixed stage
   /// The n_t of the element's coordinates on which its force depends at this state and acts, where
-  /// it touches few of them; ascending. Empty: all, n_t = n_e.
+  /// it touches few of them; ascending. Empty: all, n_t = n_e. Set by every evaluation.
   std::vector<int> touched;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 // Error limits from one tolerance.
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,18 +24,21 @@ struct Accuracy {
 struct LargestEntry {
   double value = 0.0;
   int at = -1;
+
+  /// Keeps the larger one; true for a NaN, which is the largest of all: comparisons and std::max
+  /// would lose it (hard case N2).
+  bool take(double other, int position) {
+    if (other <= value) return false;
+    *this = {other, position};
+    return std::isnan(other);
+  }
 };
 
-/// A NaN is the largest entry: comparisons and std::max would lose it (hard case N2).
 template <typename Vector>
 LargestEntry largest_entry(const Vector& x) {
   LargestEntry largest;
-  for (int i = 0; i < static_cast<int>(x.size()); ++i) {
-    const double value = std::abs(x(i));
-    if (value <= largest.value) continue;
-    largest = {value, i};
-    if (std::isnan(value)) break;
-  }
+  for (int i = 0; i < static_cast<int>(x.size()); ++i)
+    if (largest.take(std::abs(x(i)), i)) break;
   return largest;
 }
 
@@ -52,10 +56,17 @@ struct ErrorWeights {
   std::vector<double> velocity_limit;  // per body: of |e_v|, the square root of twice an energy
 
   /// Largest change of y in a stage over its limits: as a displacement and, over kappa, as a
-  /// velocity of the modes with inertia.
-  LargestEntry largest_change(const Eigen::VectorXd& dy, const StageOperator& op) const {
-    return largest_entry(dy.cwiseProduct(
-        displacement.cwiseMax(velocity.cwiseProduct(op.moving_share()) / op.kappa())));
+  /// velocity of the modes with inertia. `dy`: of the y in `rows`; `at` is a y.
+  LargestEntry largest_change(const Eigen::VectorXd& dy, const std::vector<int>& rows,
+                              const StageOperator& op) const {
+    LargestEntry largest;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const int y = rows[i];
+      const double limit =
+          std::max(displacement(y), velocity(y) * op.moving_share()(y) / op.kappa());
+      if (largest.take(std::abs(dy(static_cast<Eigen::Index>(i))) * limit, y)) break;
+    }
+    return largest;
   }
 };
 

@@ -17,10 +17,9 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   first_.weights[0] = w_10;
   eta_tilde_ = now_.eta + w_10 * now_.v;
   v_tilde_ = now_.v + w_10 * now_.a;
-  system_.interface(now_.a, a_y_);
-  y_guess_ = now_.y + c * now_.v_y + 0.5 * c * c * a_y_;
+  eta_guess_ = now_.eta + c * now_.v + 0.5 * c * c * now_.a;
   StageState& mid = stages_[0];
-  if (!solver_.solve(first_, op, eta_tilde_, v_tilde_, y_guess_, mid)) return failed();
+  if (!solver_.solve(first_, op, eta_tilde_, v_tilde_, eta_guess_, mid)) return failed();
   system_.finish_stage(first_);
   if (observer_ != nullptr) observer_->stage(1, mid);
 
@@ -29,9 +28,8 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   second_.weights[1] = w_21;
   eta_tilde_ = now_.eta + w_20 * now_.v + w_21 * mid.v;
   v_tilde_ = now_.v + w_20 * now_.a + w_21 * mid.a;
-  system_.interface(mid.a, a_y_);
-  y_guess_ = mid.y + (dt - c) * mid.v_y + 0.5 * (dt - c) * (dt - c) * a_y_;
-  if (!solver_.solve(second_, op, eta_tilde_, v_tilde_, y_guess_, stages_[1])) return failed();
+  eta_guess_ = mid.eta + (dt - c) * mid.v + 0.5 * (dt - c) * (dt - c) * mid.a;
+  if (!solver_.solve(second_, op, eta_tilde_, v_tilde_, eta_guess_, stages_[1])) return failed();
   if (!options_.fixed) {
     last_error_ = error(dt, op);
     if (!(last_error_ <= 1.0)) return Verdict::kError;

@@ -21,7 +21,7 @@ class Dirk : public Integrator {
   double error(double dt, const StageOperator& op);
 
   Stage first_{0.0, 0.0, 1, {0.0}}, second_{0.0, 0.0, 2, {0.0, 0.0}};
-  Eigen::VectorXd eta_tilde_, v_tilde_, y_guess_, a_y_, e_y_;
+  Eigen::VectorXd eta_tilde_, v_tilde_, eta_guess_, e_y_;
 };
 
 }  // namespace clatter::dynamics

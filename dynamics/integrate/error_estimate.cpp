@@ -46,7 +46,7 @@ std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const 
     if (velocity_[b] <= 0.0 || system_->bodies()[b].mass <= 0.0) continue;
     const ModalBody& body = system_->bodies()[b];
     found.push_back({body.name, velocity_[b] / std::sqrt(body.mass), largest_[b] / velocity_[b],
-                     weights.velocity_limit[b] / velocity_[b]});
+                     weights.velocity_limit[b] / velocity_[b], body.velocity_scale});
   }
   return found;
 }
@@ -58,11 +58,14 @@ std::vector<std::string> accuracy_warnings(const std::vector<BodyError>& bodies,
     if (body.step_limit <= kWanted || body.estimate <= kWanted) continue;
     // Local errors fall with the third power of the step, so their sum falls with the second.
     const double more_steps = static_cast<double>(steps) * std::sqrt(body.estimate / kWanted);
-    const double scale = accuracy.velocity_scale * kWanted / (body.step_limit * more_steps);
+    const bool own = body.velocity_scale > 0.0;
+    const double scale = (own ? body.velocity_scale : accuracy.velocity_scale) * kWanted /
+                         (body.step_limit * more_steps);
     lines.push_back(fmt::format(
         "{}: velocities are off by about {:.2g} % of the largest ({:.3g} m/s, rms over the body): "
-        "[accuracy] is too coarse; set velocity_m_s = {:.1e} there for less than 1 %",
-        body.name, 100.0 * body.estimate, body.speed, scale));
+        "{} is too coarse; set velocity_m_s = {:.1e} there for less than 1 %",
+        body.name, 100.0 * body.estimate, body.speed,
+        own ? "the body's own velocity_m_s" : "[accuracy]", scale));
   }
   return lines;
 }

@@ -16,6 +16,7 @@ struct BodyError {
   double speed = 0.0;     // largest of the run: |v| / sqrt(m), root mean square over the body [m/s]
   double estimate = 0.0;  // of the error of v, relative to `speed`
   double step_limit = 0.0;  // largest error of one step that passes the test, relative to `speed`
+  double velocity_scale = 0.0;  // of the body itself [m/s]; 0: that of the run
 };
 
 /// Sums local errors mode by mode. A mode's local error is a point of its phase plane,

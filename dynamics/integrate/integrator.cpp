@@ -72,8 +72,7 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
   system_.begin_step(time);
   const Stage stage{time + options_.first, options_.first, 0, {}};
   const auto op = make_operator(options_.first);
-  const VectorXd y_guess = system_.interface(eta);
-  if (!solver_.solve(stage, *op, eta, v, y_guess, now_)) {
+  if (!solver_.solve(stage, *op, eta, v, eta, now_)) {
     const auto& last = solver_.last();
     throw NumericsError(fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
                                     last.kind.empty() ? "Newton did not converge" : last.reason()));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/base/stopwatch.hpp"
 
@@ -31,7 +32,13 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 }  // namespace
 
 StageNewton::StageNewton(System& system, const ErrorWeights& weights, StepStatistics& statistics)
-    : system_(system), weights_(weights), statistics_(statistics), matrix_(system) {}
+    : system_(system),
+      weights_(weights),
+      statistics_(statistics),
+      matrix_(system),
+      all_(static_cast<size_t>(system.interface_size())) {
+  std::iota(all_.begin(), all_.end(), 0);
+}
 
 bool StageNewton::factor(const StageOperator& op) {
   const Stopwatch clock;
@@ -42,10 +49,35 @@ bool StageNewton::factor(const StageOperator& op) {
   return regular;
 }
 
-bool StageNewton::is_rounding(const VectorXd& dy, const VectorXd& y) const {
-  const VectorXd& weight = weights_.displacement;
-  return largest_entry(dy.cwiseProduct(weight)).value <=
-         kRounding * largest_entry(y.cwiseProduct(weight)).value;
+bool StageNewton::is_rounding(const VectorXd& y) const {
+  LargestEntry change, size;
+  for (size_t i = 0; i < rows_->size(); ++i) {
+    const int at = (*rows_)[i];
+    const double weight = weights_.displacement(at);
+    change.take(std::abs(dy_(static_cast<Eigen::Index>(i))) * weight, at);
+    size.take(std::abs(y(at)) * weight, at);
+  }
+  return change.value <= kRounding * size.value;
+}
+
+/// Residual and increment of y in rows_: those that elements touch, which do not depend on the
+/// others, where the matrix is of these; else all.
+void StageNewton::correct(const StageOperator& op, const VectorXd& y_pred, const VectorXd& y,
+                          const VectorXd& f) {
+  if (matrix_.covers(op)) {
+    rows_ = &matrix_.touched_y();
+    matrix_.apply_S(f, residual_);
+    for (size_t i = 0; i < rows_->size(); ++i)
+      residual_(static_cast<Eigen::Index>(i)) += y_pred((*rows_)[i]) - y((*rows_)[i]);
+    dy_ = residual_;
+    matrix_.solve_touched(dy_);
+    return;
+  }
+  rows_ = &all_;
+  op.apply_S(f, residual_);
+  residual_ += y_pred - y;
+  dy_ = residual_;
+  matrix_.solve(op, dy_);
 }
 
 StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& op,
@@ -78,13 +110,10 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
       ++fresh;
       previous = kNone;  // norms by two matrices do not compare
     }
-    op.apply_S(f, residual_);
-    residual_ += y_pred - y;
-    dy_ = residual_;
-    matrix_.solve(op, dy_);
-    const auto limits = [&](const VectorXd& x) { return weights_.largest_change(x, op); };
-    const LargestEntry change = limits(dy_);
-    const double size = change.value, imbalance = limits(residual_).value;
+    correct(op, y_pred, y, f);
+    const LargestEntry change = weights_.largest_change(dy_, *rows_, op);
+    const double size = change.value,
+                 imbalance = weights_.largest_change(residual_, *rows_, op).value;
     result.worst = change.at;
     if (!std::isfinite(size + imbalance)) {
       result.kind = "the forces are not finite";
@@ -93,12 +122,14 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     const bool slow = size > kSlow * previous;
     // Without a check the matrix of a closed contact would hold the opened one in small steps.
     const bool checked = refresh || (previous < kNone && !slow);
-    if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(dy_, y))) {
-      system_.add_tangent_forces(dy_, f);
+    if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(y))) {
+      moved_.setZero(y.size());
+      scatter_add(dy_, *rows_, moved_);
+      system_.add_tangent_forces(moved_, f);
       result.outcome = Outcome::kConverged;
       return result;
     }
-    y += dy_;
+    scatter_add(dy_, *rows_, y);
     // Once one matrix failed for two states of this stage, each state gets its own.
     refresh = refresh ? fresh > 1 : slow;
     previous = size;

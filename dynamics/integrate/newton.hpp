@@ -36,8 +36,8 @@ class StageNewton {
 
   StageNewton(System& system, const ErrorWeights& weights, StepStatistics& statistics);
 
-  /// `y` holds the guess and becomes the state of the last evaluation; `f` the forces. y_tilde
-  /// gives v = (y - y~)/kappa.
+  /// `y` holds the guess and becomes the state of the last evaluation, in the rows that elements
+  /// touch; `f` the forces. y_tilde gives v = (y - y~)/kappa.
   Result solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& y_pred,
                const Eigen::VectorXd& y_tilde, Eigen::VectorXd& y, Eigen::VectorXd& f);
   /// J^{-1} x with the matrix of the last stage; the corresponding change of forces is T J^{-1} x.
@@ -48,14 +48,19 @@ class StageNewton {
 
  private:
   bool factor(const StageOperator& op);
-  bool is_rounding(const Eigen::VectorXd& dy, const Eigen::VectorXd& y) const;
+  bool is_rounding(const Eigen::VectorXd& y) const;
+  void correct(const StageOperator& op, const Eigen::VectorXd& y_pred, const Eigen::VectorXd& y,
+               const Eigen::VectorXd& f);
 
   System& system_;
   const ErrorWeights& weights_;
   StepStatistics& statistics_;
   StageMatrix matrix_;
-  Eigen::VectorXd v_, residual_, dy_;  // n_y, of the current iteration
-  double kappa_ = 0.0;                 // of the kept matrix; 0: none
+  std::vector<int> all_;                    // y
+  const std::vector<int>* rows_ = nullptr;  // y that the current iteration corrects
+  Eigen::VectorXd residual_, dy_;           // of those
+  Eigen::VectorXd v_, moved_;               // n_y
+  double kappa_ = 0.0;                      // of the kept matrix; 0: none
 };
 
 }  // namespace clatter::dynamics

@@ -24,10 +24,9 @@ Integrator::Verdict PredictorCorrector::attempt(double dt, const StageOperator& 
     eta_predicted_ -= half * ratio * v_before_;
     v_predicted_ -= half * ratio * a_before_;
   }
-  system_.interface(eta_predicted_, y_guess_);
   eta_tilde_ = now_.eta + half * now_.v;
   v_tilde_ = now_.v + half * now_.a;
-  if (!solver_.solve(stage_, op, eta_tilde_, v_tilde_, y_guess_, stages_[0])) return failed();
+  if (!solver_.solve(stage_, op, eta_tilde_, v_tilde_, eta_predicted_, stages_[0])) return failed();
   if (!options_.fixed) {
     // Without history the predictor is Euler's: half its difference is the term that it lacks.
     const double share = has_history ? 1.0 / (3.0 * (1.0 + 1.0 / ratio)) : 0.5;

@@ -27,7 +27,7 @@ class PredictorCorrector : public Integrator {
   Stage stage_{0.0, 0.0, 1, {0.0}};
   double dt_before_ = 0.0;               // 0: there is no step before this one
   Eigen::VectorXd v_before_, a_before_;  // rates at its start
-  Eigen::VectorXd eta_tilde_, v_tilde_, y_guess_, eta_predicted_, v_predicted_, e_y_;
+  Eigen::VectorXd eta_tilde_, v_tilde_, eta_predicted_, v_predicted_, e_y_;
 };
 
 }  // namespace clatter::dynamics

@@ -19,12 +19,6 @@ namespace {
 constexpr int kSmall = 48;
 constexpr double kFew = 0.25;
 
-bool touches_all(const System& system) {
-  for (int e = 0; e < system.elements(); ++e)
-    if (!system.response(e).touched.empty()) return false;
-  return true;
-}
-
 }  // namespace
 
 StageMatrix::StageMatrix(const System& system) : system_(&system) {
@@ -102,16 +96,16 @@ void StageMatrix::find_pattern() {
 
 /// Parts and dense rows of what the elements touch at the moment.
 void StageMatrix::list_touched() {
-  const bool everything = touches_all(*system_);
-  if (everything && everything_) return;
-  everything_ = everything;
-  if (everything) {
-    parts_ = all_;
-  } else {
-    parts_.clear();
-    for (int e = 0; e < system_->elements(); ++e)
-      for (Part& part : parts_of(e, system_->response(e).touched))
-        parts_.push_back(std::move(part));
+  bool same = !touched_.empty();
+  for (int e = 0; same && e < system_->elements(); ++e)
+    same = system_->tangent_rows(e) == touched_[static_cast<size_t>(e)];
+  if (same) return;
+  touched_.resize(static_cast<size_t>(system_->elements()));
+  parts_.clear();
+  kappa_ = 0.0;
+  for (int e = 0; e < system_->elements(); ++e) {
+    touched_[static_cast<size_t>(e)] = system_->tangent_rows(e);
+    for (Part& part : parts_of(e, system_->tangent_rows(e))) parts_.push_back(std::move(part));
   }
   std::vector<char> is_touched(position_.size(), 0);
   for (const Part& part : parts_)
@@ -128,24 +122,47 @@ void StageMatrix::list_touched() {
       body_rows_[b].push_back(i);
     }
   }
+  for (Part& part : parts_) {
+    const auto& rows = body_rows_[static_cast<size_t>(part.body)];
+    for (const int row : part.body_rows)
+      part.S_rows.push_back(
+          static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
+  }
   dense_.resize(next, next);
+  touched_y_.resize(static_cast<size_t>(next));
+  for (size_t y = 0; y < position_.size(); ++y) {
+    const int row = dense_row_[static_cast<size_t>(position_[y])];
+    if (row >= 0) touched_y_[static_cast<size_t>(row)] = static_cast<int>(y);
+  }
 }
 
-/// S T of one part in some rows of its body.
-Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part, const StageOperator& op,
-                                                const std::vector<int>& body_rows) {
-  const MatrixXd& S = op.S(part.body);
+/// S of all bodies in the rows that are touched.
+void StageMatrix::form_S(const StageOperator& op) {
+  if (kappa_ == op.kappa()) return;
+  kappa_ = op.kappa();
+  S_.resize(system_->bodies().size());
+  for (size_t b = 0; b < S_.size(); ++b) {
+    const int body = static_cast<int>(b);
+    if (sparse_)
+      S_[b] = op.S(body);
+    else
+      op.form_S(body, body_rows_[b], S_[b]);
+  }
+}
+
+/// S T of one part in the touched rows of its body.
+Eigen::Map<const MatrixXd> StageMatrix::product(const Part& part) {
+  const MatrixXd& S = S_[static_cast<size_t>(part.body)];
   const MatrixXd& T = system_->response(part.element).tangent;
   const auto view = [](std::vector<double>& memory, Index rows, Index columns) {
     memory.resize(static_cast<size_t>(rows * columns));
     return Eigen::Map<MatrixXd>(memory.data(), rows, columns);
   };
-  const auto k = static_cast<Index>(part.rows.size()), n = static_cast<Index>(body_rows.size());
+  const auto k = static_cast<Index>(part.rows.size()), n = S.rows();
   auto S_part = view(S_part_, n, k), T_part = view(T_part_, k, T.cols()),
        ST = view(product_, n, T.cols());
   for (Index j = 0; j < k; ++j) {
-    const auto column = S.col(part.body_rows[static_cast<size_t>(j)]);
-    for (Index i = 0; i < n; ++i) S_part(i, j) = column(body_rows[static_cast<size_t>(i)]);
+    S_part.col(j) = S.col(part.S_rows[static_cast<size_t>(j)]);
     T_part.row(j) = T.row(part.rows[static_cast<size_t>(j)]);
   }
   ST.noalias() = S_part * T_part;
@@ -159,10 +176,11 @@ bool StageMatrix::form(const StageOperator& op) {
 
 bool StageMatrix::form_dense(const StageOperator& op) {
   list_touched();
+  form_S(op);
   dense_.setIdentity();
   for (const Part& part : parts_) {
     const auto& rows = body_rows_[static_cast<size_t>(part.body)];
-    const auto ST = product(part, op, rows);
+    const auto ST = product(part);
     const int first =
         dense_row_[static_cast<size_t>(first_[static_cast<size_t>(part.body)] + rows.front())];
     for (Index j = 0; j < ST.cols(); ++j) {
@@ -175,10 +193,11 @@ bool StageMatrix::form_dense(const StageOperator& op) {
 }
 
 bool StageMatrix::form_sparse(const StageOperator& op) {
+  form_S(op);
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const int at : diagonal_) values_[static_cast<size_t>(at)] = 1.0;
   for (const Part& part : all_) {
-    const MatrixXd& S = op.S(part.body);
+    const MatrixXd& S = S_[static_cast<size_t>(part.body)];
     const MatrixXd& T = system_->response(part.element).tangent;
     for (size_t k = 0; k < part.rows.size(); ++k) {
       const auto column_of_S = S.col(part.body_rows[k]);
@@ -193,6 +212,28 @@ bool StageMatrix::form_sparse(const StageOperator& op) {
   return sparse_->factor(values_);
 }
 
+bool StageMatrix::covers(const StageOperator& op) const {
+  if (sparse_ || kappa_ != op.kappa() || touched_.empty()) return false;
+  for (int e = 0; e < system_->elements(); ++e)
+    if (system_->response(e).touched != touched_[static_cast<size_t>(e)]) return false;
+  return true;
+}
+
+void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {
+  gather(f, touched_y_, right_);
+  result.resize(right_.size());
+  Index first = 0;
+  for (const MatrixXd& S : S_) {
+    result.segment(first, S.rows()).noalias() = S * right_.segment(first, S.rows());
+    first += S.rows();
+  }
+}
+
+void StageMatrix::solve_touched(VectorXd& x) const {
+  solved_.noalias() = lu_.solve(x);
+  x.swap(solved_);
+}
+
 void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
   if (position_.empty()) return;
   if (sparse_) {
@@ -202,20 +243,17 @@ void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
     for (size_t y = 0; y < position_.size(); ++y) x(static_cast<Index>(y)) = right_(position_[y]);
     return;
   }
-  right_.resize(dense_.rows());
-  const auto row = [&](size_t y) { return dense_row_[static_cast<size_t>(position_[y])]; };
-  for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) >= 0) right_(row(y)) = x(static_cast<Index>(y));
-  solved_.noalias() = lu_.solve(right_);
-  for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) >= 0) x(static_cast<Index>(y)) = solved_(row(y));
+  gather(x, touched_y_, right_);
+  solve_touched(right_);
+  for (size_t i = 0; i < touched_y_.size(); ++i) x(touched_y_[i]) = right_(static_cast<Index>(i));
   if (dense_.rows() == x.size()) return;
   // Rows that nothing touches: x_i = right_i + (S T x)_i, T x being zero in them.
   forces_.setZero(x.size());
   system_->add_tangent_forces(x, forces_);
   op.apply_S(forces_, moved_);
   for (size_t y = 0; y < position_.size(); ++y)
-    if (row(y) < 0) x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
+    if (dense_row_[static_cast<size_t>(position_[y])] < 0)
+      x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
 }
 
 }  // namespace clatter::dynamics

@@ -35,13 +35,23 @@ class StageMatrix {
   int nonzeros() const { return nonzeros_; }
   /// Rows of the dense matrix of the last form().
   int touched() const { return static_cast<int>(dense_.rows()); }
+  /// Whether the last form() was dense, of this operator's kappa and of what the elements touch
+  /// now: then the equations can be solved in those rows alone.
+  bool covers(const StageOperator& op) const;
+  /// The y of those rows, k.
+  const std::vector<int>& touched_y() const { return touched_y_; }
+  /// S f in those rows, k; `f` (n_y) is zero in the others.
+  void apply_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
+  /// x <- J^-1 x in those rows, k.
+  void solve_touched(Eigen::VectorXd& x) const;
 
  private:
   /// One element's part in the rows of one body.
   struct Part {
     int element = 0, body = 0;
     std::vector<int> rows;       // of the tangent: those of this body
-    std::vector<int> body_rows;  // the same as rows of the body's S
+    std::vector<int> body_rows;  // the same as rows of the body's P
+    std::vector<int> S_rows;     // dense: the same as rows of S_
     std::vector<int> columns;    // y positions of the tangent's columns
     std::vector<int> starts;     // sparse: where the body's rows of those columns begin in values_
   };
@@ -51,8 +61,8 @@ class StageMatrix {
   void list_touched();
   bool form_dense(const StageOperator& op);
   bool form_sparse(const StageOperator& op);
-  Eigen::Map<const Eigen::MatrixXd> product(const Part& part, const StageOperator& op,
-                                            const std::vector<int>& body_rows);
+  void form_S(const StageOperator& op);
+  Eigen::Map<const Eigen::MatrixXd> product(const Part& part);
 
   const System* system_;
   std::vector<int> position_;  // of a y in J: bodies one after the other
@@ -67,7 +77,10 @@ class StageMatrix {
   std::vector<Part> parts_;                  // dense: of what is touched
   std::vector<std::vector<int>> body_rows_;  // per body: its touched rows
   std::vector<int> dense_row_;               // per position: its row in dense_; -1: not touched
-  bool everything_ = false;                  // is touched, as in the form before
+  std::vector<std::vector<int>> touched_;    // per element, as in the form before
+  std::vector<int> touched_y_;               // per row of dense_: its y
+  std::vector<Eigen::MatrixXd> S_;           // per body, of its touched rows; sparse: of all
+  double kappa_ = 0.0;                       // of S_; 0: not formed
   Eigen::MatrixXd dense_;
   std::vector<double> S_part_, T_part_, product_;  // matrices of one part
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

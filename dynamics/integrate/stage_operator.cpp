@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrate/stage_operator.hpp"
 
+#include <numeric>
+
 namespace clatter::dynamics {
 
 using Eigen::MatrixXd;
@@ -18,7 +20,6 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const MatrixXd& P = system.P(b);
     const auto H = H_.segment(system.mode_offset(b), P.cols());
-    S_.push_back((P * H.asDiagonal()) * P.transpose());
     const VectorXd all = P.cwiseAbs2() * H;
     const VectorXd moving =
         P.cwiseAbs2() * H.cwiseProduct(system.bodies()[static_cast<size_t>(b)].inertia);
@@ -26,8 +27,8 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
     for (Eigen::Index i = 0; i < all.size(); ++i)
       if (all(i) > 0.0) moving_share_(rows[static_cast<size_t>(i)]) = moving(i) / all(i);
   }
-  in_.resize(S_.size());
-  out_.resize(S_.size());
+  part_.resize(system.bodies().size());
+  modal_.resize(system.bodies().size());
 }
 
 void StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
@@ -40,15 +41,37 @@ void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd&
   filtered = from_eta_.cwiseProduct(e_eta) + from_v_.cwiseProduct(e_v);
 }
 
+void StageOperator::form_S(int body, const std::vector<int>& rows, MatrixXd& S) const {
+  const MatrixXd& P = system_->P(body);
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  picked_.resize(n, P.cols());
+  for (Eigen::Index i = 0; i < n; ++i) picked_.row(i) = P.row(rows[static_cast<size_t>(i)]);
+  scaled_ = picked_ * H_.segment(system_->mode_offset(body), P.cols()).asDiagonal();
+  S.resize(n, n);
+  S.noalias() = scaled_ * picked_.transpose();
+}
+
+MatrixXd StageOperator::S(int body) const {
+  std::vector<int> all(system_->rows(body).size());
+  std::iota(all.begin(), all.end(), 0);
+  MatrixXd S;
+  form_S(body, all, S);
+  return S;
+}
+
 void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {
   result.resize(f.size());
-  for (size_t b = 0; b < S_.size(); ++b) {
-    const auto& rows = system_->rows(static_cast<int>(b));
+  for (size_t b = 0; b < part_.size(); ++b) {
+    const int body = static_cast<int>(b);
+    const auto& rows = system_->rows(body);
     if (rows.empty()) continue;
-    gather(f, rows, in_[b]);
-    out_[b].noalias() = S_[b] * in_[b];
+    const MatrixXd& P = system_->P(body);
+    gather(f, rows, part_[b]);
+    modal_[b].noalias() = P.transpose() * part_[b];
+    modal_[b].array() *= H_.segment(system_->mode_offset(body), P.cols()).array();
+    part_[b].noalias() = P * modal_[b];
     for (size_t i = 0; i < rows.size(); ++i)
-      result(rows[i]) = out_[b](static_cast<Eigen::Index>(i));
+      result(rows[i]) = part_[b](static_cast<Eigen::Index>(i));
   }
 }
 

@@ -13,7 +13,8 @@ namespace clatter::dynamics {
 ///   a = H / kappa^2 (F - omega^2 eta~ - (delta + kappa omega^2) v~),  v = v~ + kappa a,
 ///   eta = eta~ + kappa v,
 /// which is the stage equation solved for a: without cancellation at any kappa.
-/// Per body S = P H P^T, so that y = y_pred + S f.
+/// Per body S = P H P^T, so that y = y_pred + S f. S is applied by its factors and formed only in
+/// the rows that are asked for: a body of hundreds of rows is touched in some tens of them.
 class StageOperator {
  public:
   StageOperator(const System& system, double kappa);
@@ -30,8 +31,10 @@ class StageOperator {
   /// Share of the diagonal of S that is due to modes with inertia, n_y, 0 to 1: of a change of y by
   /// unbalanced forces this much is motion that has kinetic energy.
   const Eigen::VectorXd& moving_share() const { return moving_share_; }
+  /// Writes S of one body in some of its rows (indices in System::rows), n x n.
+  void form_S(int body, const std::vector<int>& rows, Eigen::MatrixXd& S) const;
   /// S of one body, in the order of its rows.
-  const Eigen::MatrixXd& S(int body) const { return S_[static_cast<size_t>(body)]; }
+  Eigen::MatrixXd S(int body) const;
   /// S f, n_y.
   void apply_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
 
@@ -44,8 +47,8 @@ class StageOperator {
   Eigen::VectorXd from_eta_;      // H (mu / kappa^2 + delta / kappa)
   Eigen::VectorXd from_v_;        // H mu / kappa
   Eigen::VectorXd moving_share_;
-  std::vector<Eigen::MatrixXd> S_;                 // per body
-  mutable std::vector<Eigen::VectorXd> in_, out_;  // per body: its rows
+  mutable std::vector<Eigen::VectorXd> part_, modal_;  // per body: its rows, its modes
+  mutable Eigen::MatrixXd picked_, scaled_;            // rows of P, and times H
 };
 
 }  // namespace clatter::dynamics

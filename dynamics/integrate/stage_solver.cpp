@@ -16,21 +16,18 @@ void StageSolver::settle(const Stage& stage, const StageOperator& op, const Vect
 }
 
 bool StageSolver::solve(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
-                        const VectorXd& v_tilde, const VectorXd& y_guess, StageState& out) {
+                        const VectorXd& v_tilde, const VectorXd& eta_guess, StageState& out) {
   ++statistics_.stages;
   system_.load_force(stage.time, F_);
   settle(stage, op, eta_tilde, v_tilde, out);
-  system_.interface(out.eta, y_pred_);
-  system_.interface(eta_tilde, y_tilde_);
-  out.y = y_guess;
+  system_.interface<3>({&out.eta, &eta_tilde, &eta_guess}, {&y_pred_, &y_tilde_, &out.y});
   last_ = newton_.solve(stage, op, y_pred_, y_tilde_, out.y, f_);
   if (last_.outcome != StageNewton::Outcome::kConverged) return false;
   system_.add_interface_force(f_, F_);
   settle(stage, op, eta_tilde, v_tilde, out);
   if (!is_finite(out)) return false;
   out.time = stage.time;
-  system_.interface(out.eta, out.y);
-  system_.interface(out.v, out.v_y);
+  system_.interface<2>({&out.eta, &out.v}, {&out.y, &out.v_y});
   return true;
 }
 

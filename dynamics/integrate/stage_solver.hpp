@@ -18,10 +18,10 @@ class StageSolver {
  public:
   StageSolver(System& system, const ErrorWeights& weights, StepStatistics& statistics);
 
-  /// @param eta_tilde, v_tilde N. @param y_guess n_y. False: `last()` says why; `out` is then not
-  /// to be used.
+  /// @param eta_tilde, v_tilde, eta_guess N. False: `last()` says why; `out` is then not to be
+  /// used.
   bool solve(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
-             const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& y_guess, StageState& out);
+             const Eigen::VectorXd& v_tilde, const Eigen::VectorXd& eta_guess, StageState& out);
   const StageNewton::Result& last() const { return last_; }
   StageNewton& newton() { return newton_; }
 

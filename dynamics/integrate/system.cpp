@@ -18,6 +18,11 @@ void gather(const VectorXd& all, const std::vector<int>& indices, VectorXd& pick
     picked(static_cast<Eigen::Index>(i)) = all(indices[i]);
 }
 
+void scatter_add(const VectorXd& values, const std::vector<int>& indices, VectorXd& all) {
+  for (size_t i = 0; i < indices.size(); ++i)
+    all(indices[i]) += values(static_cast<Eigen::Index>(i));
+}
+
 VectorXd gather(const VectorXd& all, const std::vector<int>& indices) {
   VectorXd picked;
   gather(all, indices, picked);
@@ -75,6 +80,13 @@ int System::modal_coordinate(int body, int mode) {
   return find_or_add(body, {kMode, mode, Eigen::Vector3d::Zero()});
 }
 
+int System::combined_coordinate(int body, const WeightedDofs& sum) {
+  const auto found = std::find(sums_.begin(), sums_.end(), sum);
+  const auto index = static_cast<int>(found - sums_.begin());
+  if (found == sums_.end()) sums_.push_back(sum);
+  return find_or_add(body, {kSum, index, Eigen::Vector3d::Zero()});
+}
+
 int System::find_or_add(int body, const Place& place) {
   const auto b = static_cast<size_t>(body);
   const auto found = std::find(places_[b].begin(), places_[b].end(), place);
@@ -85,6 +97,10 @@ int System::find_or_add(int body, const Place& place) {
     row = owner.force_of(unit_wrench(place.axis, place.point)).transpose();
   } else if (place.dof == kMode) {
     row = Eigen::RowVectorXd::Unit(owner.modes(), place.axis);
+  } else if (place.dof == kSum) {
+    const WeightedDofs& sum = sums_[static_cast<size_t>(place.axis)];
+    row.setZero(owner.modes());
+    for (size_t i = 0; i < sum.dofs.size(); ++i) row += sum.weights[i] * owner.row_of(sum.dofs[i]);
   } else {
     row = owner.row_of(place.dof);
   }
@@ -106,6 +122,7 @@ const System::Place& System::place_of(int y_index) const {
 void System::add_element(std::unique_ptr<ForceElement> element) {
   costs_.push_back({element->name()});
   responses_.emplace_back();
+  tangent_rows_.emplace_back();
   y_of_.emplace_back();
   v_of_.emplace_back();
   elements_.push_back(std::move(element));
@@ -117,6 +134,7 @@ bool System::is_rotation(int y_index) const {
   const Place& place = place_of(y_index);
   if (place.dof == kMode) return false;
   if (place.dof == kFrame) return place.axis >= 3;
+  if (place.dof == kSum) return sums_[static_cast<size_t>(place.axis)].is_rotation;
   return bodies_[static_cast<size_t>(owner(y_index))].is_rotation[static_cast<size_t>(place.dof)] !=
          0;
 }
@@ -132,6 +150,10 @@ std::string System::coordinate_name(int y_index) const {
   const std::string& body = bodies_[static_cast<size_t>(owner(y_index))].name;
   if (place.dof == kMode) return fmt::format("{}: mode {}", body, place.axis + 1);
   if (place.dof == kFrame) return fmt::format("{}: rigid frame, {}", body, kAxes[place.axis]);
+  if (place.dof == kSum)
+    return fmt::format("{}: {} of {} coordinates", body,
+                       is_rotation(y_index) ? "rotation" : "displacement",
+                       sums_[static_cast<size_t>(place.axis)].dofs.size());
   return fmt::format("{}: coordinate {}", body, place.dof);
 }
 
@@ -154,6 +176,34 @@ void System::interface(const VectorXd& modal, VectorXd& y) const {
       y(rows_[b][i]) = part_[b](static_cast<Eigen::Index>(i));
   }
 }
+
+template <size_t kCount>
+void System::interface(const std::array<const VectorXd*, kCount>& modal,
+                       const std::array<VectorXd*, kCount>& y) const {
+  for (VectorXd* result : y) result->resize(interface_size());
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const MatrixXd& P = P_[b];
+    const Eigen::Index n = P.rows(), first = offsets_[b];
+    row_sums_.assign(kCount * static_cast<size_t>(n), 0.0);
+    double* sums = row_sums_.data();
+    for (Eigen::Index j = 0; j < P.cols(); ++j) {
+      const double* column = P.col(j).data();
+      std::array<double, kCount> x;
+      for (size_t k = 0; k < kCount; ++k) x[k] = (*modal[k])(first + j);
+      for (Eigen::Index i = 0; i < n; ++i)
+        for (size_t k = 0; k < kCount; ++k)
+          sums[static_cast<Eigen::Index>(k) * n + i] += column[i] * x[k];
+    }
+    for (size_t k = 0; k < kCount; ++k)
+      for (Eigen::Index i = 0; i < n; ++i)
+        (*y[k])(rows_[b][static_cast<size_t>(i)]) = sums[static_cast<Eigen::Index>(k) * n + i];
+  }
+}
+
+template void System::interface(const std::array<const VectorXd*, 2>&,
+                                const std::array<VectorXd*, 2>&) const;
+template void System::interface(const std::array<const VectorXd*, 3>&,
+                                const std::array<VectorXd*, 3>&) const;
 
 VectorXd System::interface(const VectorXd& modal) const {
   VectorXd y;
@@ -197,6 +247,7 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
     gather(y, at, y_of_[e]);
     gather(v, at, v_of_[e]);
     elements_[e]->evaluate(stage, y_of_[e], v_of_[e], with_tangent, responses_[e]);
+    if (with_tangent) tangent_rows_[e] = responses_[e].touched;
     for (size_t i = 0; i < at.size(); ++i)
       f(at[i]) += responses_[e].force(static_cast<Eigen::Index>(i));
     costs_[e].seconds += clock.seconds();
@@ -207,7 +258,7 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
 void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) const {
   for (size_t e = 0; e < elements_.size(); ++e) {
     const auto& at = elements_[e]->coordinates();
-    const auto& touched = responses_[e].touched;
+    const auto& touched = tangent_rows_[e];
     const size_t count = touched.empty() ? at.size() : touched.size();
     const auto index = [&](size_t i) {
       return at[touched.empty() ? i : static_cast<size_t>(touched[i])];

@@ -2,6 +2,7 @@
 #pragma once
 // The bodies of a scene, their interface coordinates, force elements and loads.
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,6 +19,14 @@ struct Load {
   int body = 0;
   Eigen::VectorXd direction;            // modal, n_m of the body: shapes^T f_r of the unit load
   std::function<double(double)> value;  // of time [s]
+};
+
+/// A sum of DoFs of a body's q; a rotation, or a displacement.
+struct WeightedDofs {
+  std::vector<int> dofs;
+  std::vector<double> weights;
+  bool is_rotation = false;
+  bool operator==(const WeightedDofs&) const = default;
 };
 
 /// Computing time of an element.
@@ -44,6 +53,9 @@ class System {
   int frame_coordinate(int body, int k, const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
   /// Index in y of a modal coordinate of a body, itself a coordinate on which elements act.
   int modal_coordinate(int body, int mode);
+  /// Index in y of a sum of weighted DoFs of a body's q, such as the rigid motion that fits a
+  /// surface best; the same index for the same sum.
+  int combined_coordinate(int body, const WeightedDofs& sum);
   void add_element(std::unique_ptr<ForceElement> element);
   void add_load(Load load);
 
@@ -85,6 +97,10 @@ class System {
   /// y = P eta; for displacements and velocities alike.
   void interface(const Eigen::VectorXd& modal, Eigen::VectorXd& y) const;
   Eigen::VectorXd interface(const Eigen::VectorXd& modal) const;
+  /// The same for 2 or 3 vectors at once: P is read once.
+  template <size_t kCount>
+  void interface(const std::array<const Eigen::VectorXd*, kCount>& modal,
+                 const std::array<Eigen::VectorXd*, kCount>& y) const;
   /// g += P^T f_y.
   void add_interface_force(const Eigen::VectorXd& f_y, Eigen::VectorXd& g) const;
   /// Change of v of some coordinates by unit impulses on them, P mu P^T.
@@ -99,6 +115,10 @@ class System {
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
   /// An element's last response.
   const Response& response(int element) const { return responses_[static_cast<size_t>(element)]; }
+  /// Response::touched of an element when its last tangent was computed: the tangent's rows.
+  const std::vector<int>& tangent_rows(int element) const {
+    return tangent_rows_[static_cast<size_t>(element)];
+  }
   void begin_step(double time);
   void finish_stage(const Stage& stage);
   void accept_step(double time);
@@ -106,12 +126,12 @@ class System {
  private:
   /// Where a coordinate is on its body.
   struct Place {
-    int dof;                // of q; kFrame: of the rigid frame; kMode: a mode
-    int axis;               // k of the rigid frame, or the mode
+    int dof;                // of q; kFrame: of the rigid frame; kMode: a mode; kSum: a sum of DoFs
+    int axis;               // k of the rigid frame, the mode, or the index in sums_
     Eigen::Vector3d point;  // of the rigid frame
     bool operator==(const Place&) const = default;
   };
-  static constexpr int kFrame = -1, kMode = -2;
+  static constexpr int kFrame = -1, kMode = -2, kSum = -3;
   int find_or_add(int body, const Place& place);
   const Place& place_of(int y_index) const;
 
@@ -119,6 +139,7 @@ class System {
   std::vector<int> offsets_;
   std::vector<std::vector<int>> rows_;      // per body: y indices
   std::vector<std::vector<Place>> places_;  // per body, parallel to rows_
+  std::vector<WeightedDofs> sums_;
   std::vector<Eigen::MatrixXd> P_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;
@@ -127,10 +148,15 @@ class System {
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
   std::vector<Response> responses_;                   // per element
+  std::vector<std::vector<int>> tangent_rows_;        // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
   mutable std::vector<Eigen::VectorXd> part_;         // per body: its rows
+  mutable std::vector<double> row_sums_;              // of one body's rows, for some vectors
 };
 
+/// all(indices) += values.
+void scatter_add(const Eigen::VectorXd& values, const std::vector<int>& indices,
+                 Eigen::VectorXd& all);
 /// Picks entries of a vector.
 void gather(const Eigen::VectorXd& all, const std::vector<int>& indices, Eigen::VectorXd& picked);
 Eigen::VectorXd gather(const Eigen::VectorXd& all, const std::vector<int>& indices);

@@ -23,6 +23,8 @@ LoadedBody load_body(const BodySpec& spec) {
   body.sha256 = sha256_of_file(spec.rom);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
   body.modal.name = spec.name;
+  body.modal.displacement_scale = spec.displacement_scale;
+  body.modal.velocity_scale = spec.velocity_scale;
   return body;
 }
 

@@ -65,8 +65,8 @@ std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loade
 Eigen::Vector2d Model::secondary_motion(double time, const Eigen::VectorXd& y) const {
   Eigen::Vector2d motion(y(pin_y), y(pin_rx));
   if (liner) {
-    const Eigen::Vector2d fit = liner->rigid_motion * gather(y, liner->coordinates);
-    motion -= Eigen::Vector2d(fit.x() - fit.y() * crank->piston_pin(time).position, fit.y());
+    const double tilt = y(liner->tilt);
+    motion -= Eigen::Vector2d(y(liner->lateral) - tilt * crank->piston_pin(time).position, tilt);
   }
   return motion;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -24,35 +23,31 @@ std::unique_ptr<RodAnchor> rod_end(const SceneBodies& bodies, const SliderCrank&
   return std::make_unique<RodAnchor>(y, crank, arm);
 }
 
-/// A contact grid with the y indices of its patches.
+/// A contact grid with the y indices of its patches and of the rigid motion that fits them.
 struct GridOfBody {
   film::ElasticSurface surface;
-  std::vector<int> coordinates;
+  std::vector<int> coordinates, fit;
 };
 
 GridOfBody grid_of(const SceneBodies& bodies, const std::string& body, const std::string& grid,
                    System& system) {
   const LoadedBody& loaded = *find_body(bodies.loaded, body);
   const rom::DofSet& set = loaded.model.set(grid);
-  GridOfBody found{{loaded.model.grid(grid), {}}, {}};
+  const int index = bodies.index.at(body);
+  GridOfBody found{{loaded.model.grid(grid), {}}, {}, {}};
   found.surface.rigid.resize(static_cast<Eigen::Index>(set.dofs.size()), 6);
   for (size_t i = 0; i < set.dofs.size(); ++i) {
     found.surface.rigid.row(static_cast<Eigen::Index>(i)) =
         loaded.model.row_of(set.dofs[i]) * loaded.model.rigid;
-    found.coordinates.push_back(system.coordinate(bodies.index.at(body), set.dofs[i]));
+    found.coordinates.push_back(system.coordinate(index, set.dofs[i]));
+  }
+  const Eigen::MatrixXd fit = film::rigid_fit(found.surface);
+  for (int k = 0; k < film::kFits; ++k) {
+    WeightedDofs sum{{set.dofs.begin(), set.dofs.end()}, {}, k >= 2};
+    for (Eigen::Index i = 0; i < fit.cols(); ++i) sum.weights.push_back(fit(k, i));
+    found.fit.push_back(system.combined_coordinate(index, sum));
   }
   return found;
-}
-
-/// Radial means depend only on x, y and the tilts; a least squares fit of the four gives (y, rx).
-LinerFit fit_of(const GridOfBody& liner) {
-  const Eigen::MatrixXd& rigid = liner.surface.rigid;
-  Eigen::MatrixXd seen(rigid.rows(), 4);
-  seen << rigid.leftCols<2>(), rigid.col(3), rigid.col(4);
-  const Eigen::MatrixXd inverse = seen.completeOrthogonalDecomposition().pseudoInverse();
-  Eigen::MatrixXd rows(2, inverse.cols());
-  rows << inverse.row(1), inverse.row(2);
-  return {liner.coordinates, rows};
 }
 
 /// The coordinate that takes axial forces on the liner, and (x, y) of their line of action [m].
@@ -143,12 +138,14 @@ LinerContact liner_contact(const SceneBodies& bodies, const SliderCrank& crank, 
     const GridOfBody skirt = grid_of(bodies, "piston", scene.piston->skirt, system);
     surfaces.piston = skirt.surface;
     append(skirt.coordinates);
+    append(skirt.fit);
   }
   if (bodies.block() != nullptr) {
     const GridOfBody liner = grid_of(bodies, "block", scene.block->liner, system);
     surfaces.liner = liner.surface;
-    fit = fit_of(liner);
+    fit = LinerFit{liner.fit[1], liner.fit[2]};
     append(liner.coordinates);
+    append(liner.fit);
   }
   append(pin);
   const Cylinder cylinder = bodies.cylinder();

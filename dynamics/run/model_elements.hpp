@@ -17,10 +17,10 @@ namespace clatter::dynamics {
 /// y indices of the pin's node in the piston: x, y, z, rx, ry, rz.
 using PinNode = std::array<int, 6>;
 
-/// Position of the liner as a rigid motion fitted to its patches.
+/// y indices of the rigid motion that fits the liner's patches best: y at the crank axis, and the
+/// rotation about x.
 struct LinerFit {
-  std::vector<int> coordinates;  // y indices of the patches
-  Eigen::MatrixXd rigid_motion;  // 2 x patches: (y at the crank axis, rotation about x)
+  int lateral, tilt;
 };
 
 /// Piston and liner.

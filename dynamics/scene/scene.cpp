@@ -31,6 +31,9 @@ void read_body(const Config& table, const std::string& name, BodySpec& body) {
   body.rom = table.path("rom");
   body.elastic = table.choice("model", {"elastic", "rigid"}) == "elastic";
   body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::between(0.0, 1e9));
+  if (table.has("displacement_um"))
+    body.displacement_scale = table.number("displacement_um", kDisplacementScaleUm) * kMicro;
+  if (table.has("velocity_m_s")) body.velocity_scale = table.number("velocity_m_s", kVelocityScale);
   body.where = table.where();
 }
 

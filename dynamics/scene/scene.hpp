@@ -22,7 +22,9 @@ struct BodySpec {
   std::filesystem::path rom;
   bool elastic = true;         // model = "elastic" | "rigid"
   double mode_limit_hz = 0.0;  // inertia of higher modes is dropped; 0: never
-  std::string where;           // "file:line", for messages
+  /// Scales of the error test for this body; 0: those of [accuracy].
+  double displacement_scale = 0.0, velocity_scale = 0.0;  // [m], [m/s]
+  std::string where;                                      // "file:line", for messages
 };
 
 /// [engine] and [rod].

@@ -35,10 +35,10 @@ void read_accuracy(const Config& table, Accuracy& accuracy) {
   accuracy.tolerance = table.number_or("tolerance", accuracy.tolerance, Range::between(1e-12, 1.0));
   accuracy.displacement_scale =
       table.number_or("displacement_um", accuracy.displacement_scale / kMicro,
-                      Range::between(1e-15, 1e6)) *
+                      kDisplacementScaleUm) *
       kMicro;
   accuracy.velocity_scale =
-      table.number_or("velocity_m_s", accuracy.velocity_scale, Range::between(1e-18, 1e4));
+      table.number_or("velocity_m_s", accuracy.velocity_scale, kVelocityScale);
   accuracy.arm =
       table.number_or("arm_mm", accuracy.arm / kMilli, Range::between(1e-3, 1e5)) * kMilli;
 }

@@ -6,6 +6,10 @@
 
 namespace clatter::dynamics {
 
+/// Ranges of displacement_um and velocity_m_s, of [accuracy] and of single bodies.
+inline const Range kDisplacementScaleUm = Range::between(1e-15, 1e6);
+inline const Range kVelocityScale = Range::between(1e-18, 1e4);
+
 /// Reads span, ramp and output of a scene whose engine, if it has one, is known. InputError for
 /// values outside their range, which allows for 2 to 1e9 samples.
 void read_time(const Config& root, Scene& scene);

@@ -318,6 +318,40 @@ TEST_F(Runs, ATipThatBecameACombinationOfCoordinatesMovesTheSame) {
   EXPECT_LT((whole - combined).cwiseAbs().maxCoeff(), 1e-6 * whole.cwiseAbs().maxCoeff());
 }
 
+TEST_F(Runs, ABodysOwnScalesSetItsErrorLimitsAndNoOthers) {
+  const auto model_of = [this](const std::string& changes) {
+    const Scene described = scene(kElasticBlock + changes);
+    return build_model(described, load_bodies(described));
+  };
+  const auto model = model_of("");
+  const auto scaled = model_of("[piston]\ndisplacement_um = 0.5\nvelocity_m_s = 1e-3\n");
+  const ErrorWeights general = error_weights(model->system, {}),
+                     own = error_weights(scaled->system, {});
+  // Piston, block and rod. The general scales are 10 um and 0.1 m/s.
+  EXPECT_DOUBLE_EQ(own.velocity_limit[0], 1e-2 * general.velocity_limit[0]);
+  EXPECT_EQ(own.velocity_limit[1], general.velocity_limit[1]);
+  EXPECT_EQ(own.velocity_limit[2], general.velocity_limit[2]);
+  for (int y = 0; y < model->system.interface_size(); ++y) {
+    const double factor = model->system.owner(y) == 0 ? 20.0 : 1.0;
+    EXPECT_DOUBLE_EQ(own.displacement(y), factor * general.displacement(y))
+        << model->system.coordinate_name(y);
+  }
+}
+
+TEST(AccuracyWarnings, NameTheScaleThatIsTooCoarse) {
+  const auto line = [](double own) {
+    return accuracy_warnings({{"block", 1e-3, 0.04, 0.05, own}}, Accuracy{}, 100).front();
+  };
+  // 0.1 or 0.02 m/s, times 0.01 / (0.05 * 100 steps * sqrt(0.04 / 0.01)).
+  EXPECT_NE(line(0.0).find("[accuracy] is too coarse; set velocity_m_s = 1.0e-04 there"),
+            std::string::npos)
+      << line(0.0);
+  EXPECT_NE(
+      line(0.02).find("the body's own velocity_m_s is too coarse; set velocity_m_s = 2.0e-05"),
+      std::string::npos)
+      << line(0.02);
+}
+
 TEST_F(Runs, BadScenesAreRefusedInOneLine) {
   const auto refusal = [&](const std::string& changes) -> std::string {
     try {

@@ -96,10 +96,8 @@ class FewSprings : public ForceElement {
   std::vector<int> touched_;
 };
 
-TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
-  // A body of 30 coupled coordinates, of which two elements touch 3 and 4 (one of them the same).
-  System system;
-  const int n = 30;
+/// A body of n coupled coordinates, all of them requested from `system`.
+std::vector<int> add_plate(System& system, int n) {
   ModalBody body;
   body.name = "plate";
   std::mt19937 engine(7);
@@ -109,11 +107,19 @@ TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
   body.omega_squared = VectorXd::LinSpaced(n, 1.0, 9.0);
   body.damping = VectorXd::Zero(n);
   body.inertia = VectorXd::Ones(n);
-  body.is_rotation.assign(n, 0);
+  body.is_rotation.assign(static_cast<size_t>(n), 0);
   body.mass = 1.0;
   const int b = system.add_body(body);
   std::vector<int> all;
   for (int k = 0; k < n; ++k) all.push_back(system.coordinate(b, k));
+  return all;
+}
+
+TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
+  // A body of 30 coupled coordinates, of which two elements touch 3 and 4 (one of them the same).
+  System system;
+  const int n = 30;
+  const std::vector<int> all = add_plate(system, n);
   const std::vector<int> one{2, 7, 11}, other{7, 20, 21, 29};
   system.add_element(std::make_unique<FewSprings>(all, one));
   system.add_element(std::make_unique<FewSprings>(all, other));
@@ -133,6 +139,52 @@ TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
   matrix.solve(op, x);
   const MatrixXd J = MatrixXd::Identity(n, n) - op.S(0) * T;
   EXPECT_LT((J * x - right).norm(), 1e-12 * right.norm());
+}
+
+/// A spring to a support that runs along the coordinates: it is between two of them at a time.
+class RunningSpring : public ForceElement {
+ public:
+  RunningSpring(std::vector<int> coordinates, bool names_them)
+      : ForceElement(std::move(coordinates)), names_them_(names_them) {}
+  std::string name() const override { return "running spring"; }
+  void evaluate(const Stage& stage, const VectorXd& y, const VectorXd&, bool with_tangent,
+                Response& response) override {
+    const double at = 40.0 * stage.time, stiffness = 1e7;  // every 25 ms to the next one
+    const int i = static_cast<int>(at);
+    const Eigen::Vector2d weights(1.0 - (at - i), at - i);
+    const double force = stiffness * (1e-3 - weights.dot(y.segment<2>(i)));
+    response.force.setZero(y.size());
+    response.force.segment<2>(i) = force * weights;
+    response.touched.clear();
+    if (names_them_) response.touched = {i, i + 1};
+    if (!with_tangent) return;
+    const Eigen::Matrix2d tangent = -stiffness * weights * weights.transpose();
+    response.tangent.setZero(names_them_ ? 2 : y.size(), names_them_ ? 2 : y.size());
+    response.tangent.block<2, 2>(names_them_ ? 0 : i, names_them_ ? 0 : i) = tangent;
+  }
+  Power power(const VectorXd&, const VectorXd&) const override { return {}; }
+
+ private:
+  bool names_them_;
+};
+
+TEST(StageMatrix, TouchedRowsMayChangeUnderAKeptMatrix) {
+  VectorXd end[2];
+  long kept[2];
+  for (const bool names_them : {false, true}) {
+    System system;
+    system.add_element(std::make_unique<RunningSpring>(add_plate(system, 30), names_them));
+    StepOptions options;
+    options.largest = 1e-3;
+    options.first = 1e-6;
+    const auto method = testing::started(system, options);
+    while (method->state().time < 0.6) method->step(0.6);
+    end[names_them] = method->state().y;
+    kept[names_them] = method->statistics().evaluations - 2 * method->statistics().factorizations;
+  }
+  EXPECT_GT(kept[1], 0);
+  EXPECT_GT(end[0].norm(), 1e-4);
+  EXPECT_LT((end[1] - end[0]).norm(), 1e-6 * end[0].norm());
 }
 
 TEST(StageMatrix, AChainHasEntriesInProportionToItsLinks) {

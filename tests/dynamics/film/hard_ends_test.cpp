@@ -286,15 +286,15 @@ TEST(HardN9, ForcesOfBothSidesCancelAndPowerBalancesAtPartialCover) {
   const Eigen::VectorXd force = found.force;
   EXPECT_GT(entry(*element, "asperity_share"), 0.05);
   // Along the stroke: the piston's pin against the liner's mean.
-  EXPECT_NEAR(force[66], -force[70], 1e-12 * std::abs(force[66]));
-  EXPECT_GT(std::abs(force[66]), 1.0);
-  // Sideways: a common displacement of all patches of both bodies.
-  double across = 0.0, size = 0.0;
+  EXPECT_NEAR(force[kPin + 2], -force[kAxial], 1e-12 * std::abs(force[kPin + 2]));
+  EXPECT_GT(std::abs(force[kPin + 2]), 1.0);
+  // Sideways: a common displacement of all patches of both bodies, and so of their fits.
+  double across = force[kSkirtFit + 1] + force[kLinerFit + 1], size = 0.0;
   const double turn = 2.0 * std::numbers::pi / 8.0;
   for (int i = 0; i < 8; ++i) {
     const double weight = std::cos(i * turn);
     for (int j = 0; j < 3; ++j) across += weight * force[i * 3 + j];
-    for (int j = 0; j < 5; ++j) across += weight * force[24 + i * 5 + j];
+    for (int j = 0; j < 5; ++j) across += weight * force[kLiner + i * 5 + j];
     for (int j = 0; j < 3; ++j) size += std::abs(weight * force[i * 3 + j]);
   }
   EXPECT_LT(std::abs(across), 1e-10 * size);

@@ -34,6 +34,18 @@ inline StrokeState crank_stroke(double time) {
   return {r * c + root, -w * (r * s + r * r * s * c / root)};
 }
 
+/// Coordinates of an elastic element: [skirt | its fit | liner | its fit | pin | axial].
+constexpr int kSkirt = 0, kSkirtFit = 24, kLiner = 28, kLinerFit = 68, kPin = 72, kAxial = 78;
+
+/// The tangent of all coordinates.
+inline Eigen::MatrixXd full_tangent(const dynamics::Response& response) {
+  const Eigen::Index n = response.force.size();
+  if (response.touched.empty()) return response.tangent;
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(n, n);
+  tangent(response.touched, response.touched) = response.tangent;
+  return tangent;
+}
+
 /// `elastic`: 8 x 3 skirt patches and 8 x 5 liner patches with an axial liner coordinate and a
 /// resting shape. `offset`: of the pin toward the thrust side [m]; the liner's axial coordinate is
 /// then off the bore's axis by another half of it.
@@ -54,7 +66,7 @@ inline std::unique_ptr<PistonLiner> make_element(PistonLinerOptions options, boo
     shape.deviation =
         1e-6 * (Eigen::MatrixXd(4, 3) << 0, 1, 2, 1, 0, 1, 2, 1, 0, 0, 2, 1).finished();
     options.bore = shape;
-    n += 24 + 40 + 1;
+    n = kAxial + 1;
   }
   std::vector<int> coordinates(static_cast<size_t>(n));
   std::iota(coordinates.begin(), coordinates.end(), 0);
@@ -65,7 +77,7 @@ inline std::unique_ptr<PistonLiner> make_element(PistonLinerOptions options, boo
 /// little.
 inline Eigen::VectorXd pushed(const PistonLiner& element, bool elastic, double depth, double tilt) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(element.size());
-  const int pin = elastic ? 64 : 0;
+  const int pin = elastic ? kPin : 0;
   y[pin + 1] = depth;
   y[pin + 3] = tilt;
   if (!elastic) return y;
@@ -77,7 +89,10 @@ inline Eigen::VectorXd pushed(const PistonLiner& element, bool elastic, double d
       y[i * 3 + j] =
           std::cos(skirt.angle[i]) * (depth - tilt * z) + 2e-7 * std::cos(2.0 * skirt.angle[i] + j);
     }
-  for (int k = 0; k < 40; ++k) y[24 + k] = 3e-7 * std::sin(1.7 * k);
+  for (int k = 0; k < 40; ++k) y[kLiner + k] = 3e-7 * std::sin(1.7 * k);
+  const ElasticSurface liner{make_patches(8, 5, 0.08, 0.31, element.options().bore_radius), {}};
+  y.segment<kFits>(kSkirtFit) = rigid_fit({skirt, {}}) * y.segment<24>(kSkirt);
+  y.segment<kFits>(kLinerFit) = rigid_fit(liner) * y.segment<40>(kLiner);
   return y;
 }
 

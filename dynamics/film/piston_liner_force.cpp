@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Force and tangent of the piston-liner contact, pad by pad, and both pads together.
+#include "dynamics/film/pad_state.hpp"
+
+namespace clatter::film {
+
+void PistonLiner::update_force(Pad& pad) const {
+  pad.force = pad.gap_by_y.transpose() * pad.load.matrix();
+  pad.force += end_force(pad) * pad.map.height_by_column();
+}
+
+// Derivative of the friction wrench, 3 x k.
+Eigen::Matrix3Xd PistonLiner::friction_tangent(const Pad& pad) const {
+  const auto weighted = [&pad](const Eigen::ArrayXd& slope) {
+    return Eigen::MatrixX3d(pad.levers.array().colwise() * slope);
+  };
+  Eigen::MatrixX3d rub = pad.gap_by_y.transpose() * weighted(pad.friction->gap_slope());
+  if (damping_) rub += pad.rate_by_y.transpose() * weighted(pad.friction->rate_slope());
+  if (pad.film) rub += pad.derivative.transpose() * weighted(pad.friction->film_slope());
+  if (pad.ends)
+    rub += pad.map.height_by_column() *
+           (pad.friction->height_slope().matrix().transpose() * pad.levers);
+  return rub.transpose();
+}
+
+void PistonLiner::update_tangent(Pad& pad) {
+  const Eigen::VectorXd& height = pad.map.height_by_column();
+  pad.gap_directions = pad.gap_by_y;
+  if (pad.film)
+    pad.film->reynolds.sensitivities(pad.gap_directions, pad.derivative, &height);
+  else
+    pad.derivative.setZero(pad.grid.size(), height.size());
+  pad.tangent.setZero(height.size(), height.size());
+  if (pad.friction) {
+    const Eigen::Matrix3Xd slide = axial_.slide(Eigen::all, pad.map.columns());
+    pad.tangent.noalias() += slide.transpose() * friction_tangent(pad);
+  }
+  const auto add_row = [&pad](int cell, double factor, const SparseRows& rows) {
+    double* row = pad.derivative.row(cell).data();
+    for (SparseRows::InnerIterator entry(rows, cell); entry; ++entry)
+      row[entry.index()] += factor * entry.value();
+  };
+  for (int c = 0; c < pad.grid.size(); ++c) {
+    const double area = pad.area[c];
+    pad.derivative.row(c) *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
+    if (!asperity_ || pad.contact_slope[c] == 0.0) continue;
+    add_row(c, area * pad.contact_slope[c], pad.gap_by_y);
+    if (damping_) add_row(c, area * pad.contact_rate_slope[c], pad.rate_by_y);
+  }
+  if (pad.ends) add_end_tangent(pad);
+  for (int c = 0; c < pad.grid.size(); ++c)
+    for (SparseRows::InnerIterator entry(pad.gap_by_y, c); entry; ++entry)
+      pad.tangent.row(entry.index()) += entry.value() * pad.derivative.row(c);
+  if (!bodies_.liner) return;
+  // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
+  const Eigen::VectorXd cross = pad.map.slope_transposed(pad.load.matrix());
+  pad.tangent += cross * height.transpose() + height * cross.transpose();
+}
+
+// The coordinates of both pads, ascending; none where they are all.
+void PistonLiner::list_touched(dynamics::Response& response) {
+  std::fill(touched_row_.begin(), touched_row_.end(), -1);
+  for (const auto& pad : pads_)
+    for (const int column : pad->map.columns()) touched_row_[static_cast<size_t>(column)] = 0;
+  response.touched.clear();
+  for (int i = 0; i < size(); ++i) {
+    int& row = touched_row_[static_cast<size_t>(i)];
+    if (row < 0) continue;
+    row = static_cast<int>(response.touched.size());
+    response.touched.push_back(i);
+  }
+  touched_count_ = static_cast<int>(response.touched.size());
+  if (touched_count_ == size()) response.touched.clear();
+}
+
+void PistonLiner::collect(bool with_tangent, dynamics::Response& response) {
+  response.force.setZero(size());
+  for (const auto& pad : pads_) {
+    const std::vector<int>& columns = pad->map.columns();
+    for (size_t i = 0; i < columns.size(); ++i)
+      response.force[columns[i]] += pad->force[static_cast<Eigen::Index>(i)];
+    if (pad->friction) response.force += axial_.slide.transpose() * friction_wrench(*pad);
+  }
+  list_touched(response);
+  if (!with_tangent) return;
+  const Eigen::Index n = touched_count_;
+  response.tangent.setZero(n, n);
+  for (const auto& pad : pads_) {
+    const std::vector<int>& columns = pad->map.columns();
+    for (size_t j = 0; j < columns.size(); ++j)
+      for (size_t i = 0; i < columns.size(); ++i)
+        response.tangent(touched_row_[static_cast<size_t>(columns[i])],
+                         touched_row_[static_cast<size_t>(columns[j])]) +=
+            pad->tangent(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+}
+
+}  // namespace clatter::film
