@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/rom/reduced_model.hpp"
 #include "dynamics/body/modal_body.hpp"
@@ -51,6 +52,39 @@ class Wall : public ForceElement {
 
  private:
   double gap_, k_, c_, n_;
+};
+
+/// A rigid floor at y = 0 with Newton's coefficient of restitution. Where impacts accumulate it
+/// holds the body on a stiff spring.
+class Floor : public ForceElement {
+ public:
+  Floor(int coordinate, double restitution, bool may_rest = true)
+      : ForceElement({coordinate}), restitution_(restitution), may_rest_(may_rest) {}
+  std::string name() const override { return "floor"; }
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, Response& response) override {
+    const double k = resting_ ? 1e8 : 0.0, c = resting_ ? 1e5 : 0.0;
+    response.force = -k * y - c * v;
+    if (with_tangent) response.tangent.setConstant(1, 1, -k - c / stage.kappa);
+  }
+  Power power(const Eigen::VectorXd&, const Eigen::VectorXd&) const override { return {}; }
+  int events() const override { return resting_ ? 0 : 1; }
+  double event_function(int, double, const Eigen::VectorXd& y,
+                        const Eigen::VectorXd&) const override {
+    return resting_ ? 1.0 : y(0);
+  }
+  void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd& v,
+                const Eigen::MatrixXd& mobility, Eigen::VectorXd& impulse) override {
+    impacts.push_back(time);
+    impulse(0) = -(1.0 + restitution_) * v(0) / mobility(0, 0);
+  }
+  bool at_accumulation(int) override { return resting_ = may_rest_; }
+
+  std::vector<double> impacts;  // [s]
+
+ private:
+  double restitution_;
+  bool may_rest_, resting_ = false;
 };
 
 inline Eigen::VectorXd vector(double value) { return Eigen::VectorXd::Constant(1, value); }

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/integrate/first_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/error.hpp"
+
+namespace clatter::bench {
+
+using dynamics::ForceElement;
+using dynamics::gather;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// A stage that ends where it begins: what moves within a step is at its value at `time`.
+dynamics::Stage instant(double time, double kappa) { return {time, kappa, 0, {-kappa}}; }
+
+/// Over which the direction of an event function is looked at [s].
+constexpr double kMoment = 1e-9;
+
+}  // namespace
+
+FirstOrder::FirstOrder(dynamics::System& system) : system_(&system) {
+  const int N = system.modes();
+  int next = N;
+  for (int k = 0; k < N; ++k) {
+    const bool second = system.second_order()(k) != 0.0;
+    if (second && system.inertia()(k) == 0.0)
+      throw InputError("bench: found a quasi-static mode, expected modes with inertia");
+    v_at_.push_back(second ? next++ : -1);
+  }
+  D_ = VectorXd::Ones(next);
+  for (int k = 0; k < N; ++k)
+    if (v_at_[static_cast<size_t>(k)] < 0) D_(k) = system.damping()(k);
+  v_.setZero(N);
+  for (int e = 0; e < system.elements(); ++e) {
+    blocks_.push_back(block_of(e));
+    for (int i = 0; i < system.element(e).events(); ++i) events_.push_back({e, i});
+  }
+  find_pattern();
+}
+
+int FirstOrder::row_of(int mode) const {
+  const int v = v_at_[static_cast<size_t>(mode)];
+  return v < 0 ? mode : v;
+}
+
+FirstOrder::Block FirstOrder::block_of(int element) const {
+  const std::vector<int>& at = system_->element(element).coordinates();
+  MatrixXd all = MatrixXd::Zero(static_cast<Index>(at.size()), modes());
+  for (size_t i = 0; i < at.size(); ++i) {
+    const int body = system_->owner(at[i]);
+    const auto& rows = system_->rows(body);
+    const auto row = std::find(rows.begin(), rows.end(), at[i]) - rows.begin();
+    const MatrixXd& P = system_->P(body);
+    all.row(static_cast<Index>(i)).segment(system_->mode_offset(body), P.cols()) = P.row(row);
+  }
+  Block block;
+  for (int k = 0; k < modes(); ++k)
+    if ((all.col(k).array() != 0.0).any()) block.modes.push_back(k);
+  block.P = all(Eigen::all, block.modes);
+  return block;
+}
+
+void FirstOrder::find_pattern() {
+  std::vector<std::set<int64_t>> columns(static_cast<size_t>(size()));
+  const auto column = [&](int j) -> std::set<int64_t>& { return columns[static_cast<size_t>(j)]; };
+  for (int j = 0; j < size(); ++j) column(j).insert(j);
+  for (int k = 0; k < modes(); ++k) {
+    const int v = v_at_[static_cast<size_t>(k)];
+    if (v < 0) continue;
+    column(v).insert(k);
+    column(k).insert(v);
+  }
+  for (const Block& block : blocks_)
+    for (const int j : block.modes)
+      for (const int i : block.modes) {
+        column(j).insert(row_of(i));
+        if (v_at_[static_cast<size_t>(j)] >= 0) column(row_of(j)).insert(row_of(i));
+      }
+  for (const auto& rows : columns) {
+    starts_.push_back(static_cast<int64_t>(rows_.size()));
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+  }
+  starts_.push_back(static_cast<int64_t>(rows_.size()));
+  const auto position = [&](int i, int j) {
+    const auto begin = rows_.begin() + starts_[static_cast<size_t>(j)],
+               end = rows_.begin() + starts_[static_cast<size_t>(j) + 1];
+    return std::lower_bound(begin, end, i) - rows_.begin();
+  };
+  for (int j = 0; j < size(); ++j) diagonal_.push_back(position(j, j));
+  for (int k = 0; k < modes(); ++k) {
+    const int v = v_at_[static_cast<size_t>(k)];
+    eta_of_v_.push_back(v < 0 ? -1 : position(k, v));
+    omega_at_.push_back(v < 0 ? -1 : position(v, k));
+    damping_at_.push_back(v < 0 ? -1 : position(v, v));
+  }
+  for (Block& block : blocks_)
+    for (const int j : block.modes)
+      for (const int i : block.modes) {
+        const int v = v_at_[static_cast<size_t>(j)];
+        block.at_eta.push_back(position(row_of(i), j));
+        block.at_v.push_back(v < 0 ? -1 : position(row_of(i), v));
+      }
+}
+
+VectorXd FirstOrder::state(const VectorXd& eta, const VectorXd& v) const {
+  VectorXd x(size());
+  x.head(modes()) = eta;
+  for (int k = 0; k < modes(); ++k)
+    if (v_at_[static_cast<size_t>(k)] >= 0) x(v_at_[static_cast<size_t>(k)]) = v(k);
+  return x;
+}
+
+void FirstOrder::set_state(const double* x) {
+  eta_ = Eigen::Map<const VectorXd>(x, modes());
+  for (int k = 0; k < modes(); ++k)
+    if (v_at_[static_cast<size_t>(k)] >= 0) v_(k) = x[v_at_[static_cast<size_t>(k)]];
+  system_->interface(eta_, y_);
+  system_->interface(v_, v_y_);
+}
+
+void FirstOrder::evaluate(double time, const double* x, double* g) {
+  set_state(x);
+  system_->evaluate(instant(time, 1.0), y_, v_y_, false, f_);
+  system_->load_force(time, F_);
+  system_->add_interface_force(f_, F_);
+  const auto &omega_squared = system_->omega_squared(), &damping = system_->damping();
+  for (int k = 0; k < modes(); ++k) {
+    const int v = v_at_[static_cast<size_t>(k)];
+    if (v < 0) {
+      g[k] = F_(k);
+    } else {
+      g[k] = v_(k);
+      g[v] = F_(k) - damping(k) * v_(k) - omega_squared(k) * eta_(k);
+    }
+  }
+}
+
+void FirstOrder::jacobian(double time, const double* x, double* values) {
+  set_state(x);
+  system_->evaluate(instant(time, 1.0), y_, v_y_, true, f_);
+  for (size_t e = 0; e < blocks_.size(); ++e)
+    blocks_[e].T_1 = system_->response(static_cast<int>(e)).tangent;
+  system_->evaluate(instant(time, 2.0), y_, v_y_, true, f_);
+  std::fill(values, values + rows_.size(), 0.0);
+  for (int k = 0; k < modes(); ++k) {
+    const auto i = static_cast<size_t>(k);
+    if (v_at_[i] < 0) continue;
+    values[eta_of_v_[i]] = 1.0;
+    values[omega_at_[i]] -= system_->omega_squared()(k);
+    values[damping_at_[i]] -= system_->damping()(k);
+  }
+  for (size_t e = 0; e < blocks_.size(); ++e)
+    add_block(blocks_[e], system_->response(static_cast<int>(e)), values);
+}
+
+/// Adds P^T A P and P^T B P of the tangents T_1 = A + B (kappa = 1) and T_2 = A + B / 2.
+void FirstOrder::add_block(Block& block, const dynamics::Response& response, double* values) const {
+  block.B = 2.0 * (block.T_1 - response.tangent);
+  block.A = block.T_1 - block.B;
+  const bool all = response.touched.empty();
+  if (!all) block.P_touched = block.P(response.touched, Eigen::all);
+  const MatrixXd& P = all ? block.P : block.P_touched;
+  block.product.noalias() = block.A * P;
+  block.by_eta.noalias() = P.transpose() * block.product;
+  for (size_t i = 0; i < block.at_eta.size(); ++i)
+    values[block.at_eta[i]] += block.by_eta(static_cast<Index>(i));
+  if (block.B.isZero(0.0)) return;
+  block.product.noalias() = block.B * P;
+  block.by_v.noalias() = P.transpose() * block.product;
+  const double rounding = 1e-12 * block.by_eta.cwiseAbs().maxCoeff();
+  for (size_t i = 0; i < block.at_v.size(); ++i) {
+    const double value = block.by_v(static_cast<Index>(i));
+    if (block.at_v[i] >= 0) {
+      values[block.at_v[i]] += value;
+    } else if (std::abs(value) > rounding) {
+      throw NumericsError("bench: a force depends on the rate of a state");
+    }
+  }
+}
+
+void FirstOrder::event_functions(double time, const double* x, double* values) {
+  set_state(x);
+  for (size_t i = 0; i < events_.size(); ++i) {
+    const ForceElement& element = system_->element(events_[i].element);
+    const auto& at = element.coordinates();
+    values[i] = element.event_function(events_[i].index, time, gather(y_, at), gather(v_y_, at));
+  }
+}
+
+int FirstOrder::side(int event, double time, const double* x) {
+  VectorXd g(size()), now(events()), then(events());
+  evaluate(time, x, g.data());
+  const VectorXd later = Eigen::Map<const VectorXd>(x, size()) + kMoment * g.cwiseQuotient(D_);
+  event_functions(time, x, now.data());
+  event_functions(time + kMoment, later.data(), then.data());
+  const double change = then(event) - now(event);
+  const bool at_root = std::abs(now(event)) <= std::abs(change);
+  return (at_root ? change : now(event)) >= 0.0 ? 1 : -1;
+}
+
+int FirstOrder::pass_event(int event, double time, double* x) {
+  set_state(x);
+  const EventFunction& which = events_[static_cast<size_t>(event)];
+  ForceElement& element = system_->element(which.element);
+  const auto& at = element.coordinates();
+  VectorXd impulse = VectorXd::Zero(static_cast<Index>(at.size()));
+  element.at_event(which.index, time, gather(y_, at), gather(v_y_, at), system_->mobility(at),
+                   impulse);
+  VectorXd f = VectorXd::Zero(system_->interface_size()), jump = VectorXd::Zero(modes());
+  for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Index>(i));
+  system_->add_interface_force(f, jump);
+  v_ += system_->inertia().cwiseProduct(jump);
+  Eigen::Map<VectorXd>(x, size()) = state(VectorXd(eta_), VectorXd(v_));
+  return side(event, time, x);
+}
+
+}  // namespace clatter::bench

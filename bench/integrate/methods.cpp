@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/integrate/methods.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "bench/integrate/first_order.hpp"
+#include "bench/integrate/sundials_run.hpp"
+#include "core/base/error.hpp"
+
+namespace clatter::bench {
+
+using dynamics::StageState;
+using Eigen::VectorXd;
+
+namespace {
+
+struct SundialsMethod {
+  const char* name;
+  SundialsOptions options;
+};
+constexpr std::array<SundialsMethod, 5> kSundials{
+    {{"cvode", {SundialsSolver::kCvode, 5, true}},
+     {"cvode-2", {SundialsSolver::kCvode, 2, true}},
+     {"ida", {SundialsSolver::kIda, 5, true}},
+     {"ida-2", {SundialsSolver::kIda, 2, true}},
+     {"ida-displacements", {SundialsSolver::kIda, 5, false}}}};
+
+const std::array<const dynamics::Tableau*, 3> kKernel{&dynamics::tr_bdf2(), &dynamics::sdirk2(),
+                                                      &dynamics::predictor_corrector()};
+
+/// Impulses change the velocities at the end of a step, so that no cubic leads there.
+bool has_events(const dynamics::System& system) {
+  for (int e = 0; e < system.elements(); ++e)
+    if (system.element(e).events() > 0) return true;
+  return false;
+}
+
+Motion by_kernel(const BenchScene& scene, const dynamics::Tableau& table, double tolerance) {
+  dynamics::StepOptions options = scene.options;
+  options.method = &table;
+  options.accuracy.tolerance = tolerance;
+  const auto method = dynamics::make_integrator(*scene.system, options);
+  method->start(scene.begin, scene.eta, scene.v);
+  Motion motion;
+  const bool steps_to_samples = has_events(*scene.system);
+  for (int sample = 1; sample <= scene.samples;) {
+    method->step(steps_to_samples ? scene.sample_time(sample) : scene.end);
+    const StageState &from = method->previous(), &to = method->state();
+    const double length = to.time - from.time;
+    for (; sample <= scene.samples && scene.sample_time(sample) <= to.time; ++sample) {
+      const double t = (scene.sample_time(sample) - from.time) / length;
+      motion.states.push_back(
+          steps_to_samples ? to.eta : dynamics::hermite(from.eta, from.v, to.eta, to.v, length, t));
+    }
+  }
+  const dynamics::StepStatistics& count = method->statistics();
+  motion.steps = count.accepted;
+  motion.rejected = count.rejected_error + count.rejected_newton + count.rejected_refused;
+  motion.evaluations = count.evaluations;
+  motion.matrices = count.factorizations;
+  motion.events = count.events;
+  return motion;
+}
+
+/// The kernel's limits of errors (ErrorWeights), for each x.
+VectorXd limits(const BenchScene& scene, const FirstOrder& system, double tolerance) {
+  const dynamics::System& bodies = *scene.system;
+  dynamics::Accuracy accuracy = scene.options.accuracy;
+  accuracy.tolerance = tolerance;
+  const auto weights = dynamics::error_weights(bodies, accuracy);
+  VectorXd eta = VectorXd::Zero(bodies.modes()), v = eta;
+  for (int k = 0; k < bodies.modes(); ++k) {
+    if (weights.modal_displacement(k) > 0.0) {
+      eta(k) = 1.0 / weights.modal_displacement(k);
+      v(k) = 1.0 / weights.modal_velocity(k);
+    }
+  }
+  for (int b = 0; b < static_cast<int>(bodies.bodies().size()); ++b) {
+    for (size_t i = 0; i < bodies.rows(b).size(); ++i) {
+      Eigen::Index state = 0;
+      const double reach =
+          bodies.P(b).row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff(&state);
+      if (bodies.bodies()[static_cast<size_t>(b)].is_state(static_cast<int>(state)))
+        eta(bodies.mode_offset(b) + state) =
+            1.0 / (reach * weights.displacement(bodies.rows(b)[i]));
+    }
+  }
+  return system.state(eta, v);
+}
+
+Motion by_sundials(const BenchScene& scene, const SundialsMethod& method, double tolerance) {
+  FirstOrder system(*scene.system);
+  scene.system->begin_step(scene.begin);
+  SundialsRun run(system, method.options, scene.begin, system.state(scene.eta, scene.v),
+                  limits(scene, system, tolerance));
+  Motion motion;
+  for (int sample = 1; sample <= scene.samples; ++sample)
+    motion.states.push_back(run.advance(scene.sample_time(sample), scene.end).head(system.modes()));
+  const SundialsCounts count = run.counts();
+  motion.steps = count.steps;
+  motion.rejected = count.rejected;
+  motion.evaluations = count.evaluations;
+  motion.matrices = count.jacobians;
+  motion.events = count.events;
+  return motion;
+}
+
+}  // namespace
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const dynamics::Tableau* table : kKernel) all.push_back(table->name);
+    for (const SundialsMethod& method : kSundials) all.emplace_back(method.name);
+    return all;
+  }();
+  return names;
+}
+
+Motion integrate(const BenchScene& scene, const std::string& method, double tolerance) {
+  for (const dynamics::Tableau* table : kKernel)
+    if (table->name == method) return by_kernel(scene, *table, tolerance);
+  for (const SundialsMethod& own : kSundials)
+    if (own.name == method) return by_sundials(scene, own, tolerance);
+  throw InputError(fmt::format("bench: found method {}, expected one of {}", method,
+                               fmt::join(method_names(), ", ")));
+}
+
+}  // namespace clatter::bench
