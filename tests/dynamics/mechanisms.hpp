@@ -8,22 +8,11 @@
 
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/force/port_element.hpp"
-#include "dynamics/force/spin_element.hpp"
 #include "dynamics/integrate/integrator.hpp"
+#include "dynamics/integrate/spatial_body.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {
-
-/// Adds a spatial body with its rotation element; the y indices of its ten coordinates.
-inline std::vector<int> add_spatial(System& system, double mass, const Eigen::Vector3d& inertia,
-                                    const SpatialMotion& start) {
-  const int body = system.add_body(make_spatial_body("body", mass, inertia, start));
-  std::vector<int> y;
-  for (int k = 0; k < kSpatial; ++k) y.push_back(system.coordinate(body, k));
-  system.add_element(std::make_unique<SpinElement>(
-      "body", std::vector<int>(y.begin() + kQuaternion, y.end()), inertia));
-  return y;
-}
 
 /// Adds a planar body; the y indices of its three coordinates.
 inline std::vector<int> add_planar(System& system, const std::string& name, double mass,
