@@ -85,6 +85,16 @@ Matrix3d SpatialFrame::inertia(const VectorXd& eta) const {
   return inertia_of(place);
 }
 
+Vector3d SpatialFrame::momentum(const VectorXd& eta, const VectorXd& rate,
+                                const Vector3d& w) const {
+  if (modes_ == 0) return rigid_ * w;
+  std::array<VectorXd, 9> g;
+  arms(eta, g);
+  Matrix3X H;
+  cross_rows(g, H);
+  return inertia(eta) * w + H * rate;
+}
+
 void SpatialFrame::rotate(double time, const VectorXd& y, const VectorXd& v,
                           SpatialState& state) const {
   state.A = rotation_matrix(y.segment<4>(kTurn)) * free_.at(time).A;

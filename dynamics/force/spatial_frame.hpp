@@ -79,10 +79,13 @@ class SpatialFrame {
     free_.restart(time, quaternion, spin);
   }
   const FreeRotation& free() const { return free_; }
+  /// J(eta) about the centre of mass [kg m2].
+  Eigen::Matrix3d inertia(const Eigen::VectorXd& eta) const;
+  /// A^T L = J w + H eta' in the body's axes [N m s].
+  Eigen::Vector3d momentum(const Eigen::VectorXd& eta, const Eigen::VectorXd& rate,
+                           const Eigen::Vector3d& w) const;
 
  private:
-  Eigen::Matrix3d inertia(const Eigen::VectorXd& eta) const;
-
   int modes_ = 0;
   rom::InertiaInvariants invariants_;
   Eigen::Matrix3d rigid_;  // J without deformation

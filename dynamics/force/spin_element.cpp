@@ -24,6 +24,7 @@ SpinElement::SpinElement(std::string body, std::vector<int> coordinates,
     : ForceElement(std::move(coordinates)), body_(std::move(body)), frame_(std::move(frame)) {
   rotate(frame_->free().start(), y_start, v_start);
   h_rate_ = VectorXd::Zero(frame_->modes());
+  stage_rate_.fill(h_rate_);
   h_ = frame_->modes() > 0 ? VectorXd(state_.H.transpose() * state_.w) : h_rate_;
 }
 

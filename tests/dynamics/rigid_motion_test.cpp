@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "dynamics/force/rotation.hpp"
 #include "dynamics/force/spin_element.hpp"
@@ -15,36 +14,11 @@
 namespace clatter::dynamics {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using testing::arbitrary;
 using testing::started;
-
-VectorXd arbitrary(int n, unsigned seed) {
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  VectorXd values(n);
-  for (double& value : values) value = number(engine);
-  return values;
-}
-
-/// The largest difference of an element's tangent from central differences, relative to its
-/// largest entry.
-double tangent_error(ForceElement& element, const VectorXd& y, const VectorXd& v) {
-  const Stage stage{0.1, 0.03, 1, {}};
-  Response at, low, high;
-  element.evaluate(stage, y, v, true, at);
-  MatrixXd differences(at.tangent.rows(), at.tangent.cols());
-  for (int j = 0; j < y.size(); ++j) {
-    const double step = 1e-6;
-    VectorXd dy = VectorXd::Zero(y.size());
-    dy(j) = step;
-    element.evaluate(stage, y + dy, v + dy / stage.kappa, false, high);
-    element.evaluate(stage, y - dy, v - dy / stage.kappa, false, low);
-    differences.col(j) = (high.force - low.force) / (2.0 * step);
-  }
-  return (at.tangent - differences).cwiseAbs().maxCoeff() / at.tangent.cwiseAbs().maxCoeff();
-}
+using testing::tangent_error;
 
 std::shared_ptr<SpatialFrame> arbitrary_frame(int first) {
   const Eigen::Vector4d q = arbitrary(4, static_cast<unsigned>(20 + first)).normalized();
