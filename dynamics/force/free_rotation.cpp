@@ -73,6 +73,7 @@ void FreeRotation::restart(double time, const Vector4d& rotation, const Vector3d
 }
 
 const Attitude& FreeRotation::at(double time) const {
+  if (time == start_) return first_;
   if (time == time_) return last_;
   Vector4d q = first_.q;
   for (double left = time - start_; left != 0.0;) left -= advance(inverse_, momentum_, left, q);

@@ -33,8 +33,9 @@ class FreeRotation {
   const Attitude& at(double time) const;
   /// Its angular momentum, in the engine's axes [N m s].
   const Eigen::Vector3d& momentum() const { return momentum_; }
-  /// The time of the last restart [s].
+  /// The time of the last restart [s], and where the body was then.
   double start() const { return start_; }
+  const Attitude& first() const { return first_; }
 
  private:
   Eigen::Matrix3d inertia_, inverse_;

@@ -111,7 +111,7 @@ Power SpinElement::power(const VectorXd& y, const VectorXd& v) const {
 }
 
 std::vector<double> SpinElement::save() const {
-  const Attitude& at = frame_->free().at(frame_->free().start());
+  const Attitude& at = frame_->free().first();
   std::vector<double> state{frame_->free().start()};
   const auto add = [&](const auto& values) {
     state.insert(state.end(), values.data(), values.data() + values.size());

@@ -139,7 +139,7 @@ std::string System::coordinate_name(int y_index) const {
 void System::start_frames(double time) const {
   for (const ModalBody& body : bodies_) {
     if (!body.frame) continue;
-    const Attitude first = body.frame->free().at(body.frame->free().start());
+    const Attitude first = body.frame->free().first();
     body.frame->restart(time, first.q, first.spin);
   }
 }
