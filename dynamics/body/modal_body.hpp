@@ -3,12 +3,15 @@
 // A body as a set of decoupled oscillators: eta'' + delta eta' + omega^2 eta = phi^T f.
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::dynamics {
+
+class SpatialFrame;
 
 /// Forces (x, y, z) [N] and moments [N m] about an origin.
 using Wrench = Eigen::Matrix<double, 6, 1>;
@@ -46,7 +49,7 @@ struct ModalBody {
 
   std::vector<StateError> state_error;  // n_m; empty: no coordinate is a state
   Eigen::VectorXd state_scale;          // n_m, > 0 for states
-  std::vector<int> quaternions;         // first of four states that are kept of unit length
+  std::shared_ptr<SpatialFrame> frame;  // of a spatial body: one system's, not to be shared
   Eigen::VectorXd eta_start, v_start;   // n_m, the state at the start; empty: zero
   /// Scales of the error test for this body; 0: those of the run (Accuracy).
   double displacement_scale = 0.0, velocity_scale = 0.0;  // [m], [m/s]

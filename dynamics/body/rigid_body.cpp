@@ -52,6 +52,15 @@ ModalBody make_spatial_body(const std::string& name, double mass, const Eigen::V
                       "two, {:.6g} kg m2: no body has them",
                       name, inertia(k), inertia.sum() - inertia(k)));
   }
+  return spatial_coordinates(
+      name, mass, inertia.minCoeff(),
+      std::make_shared<SpatialFrame>(inertia.asDiagonal().toDenseMatrix(),
+                                     quaternion_of(start.rotation), start.spin),
+      start);
+}
+
+ModalBody spatial_coordinates(const std::string& name, double mass, double least,
+                              std::shared_ptr<SpatialFrame> frame, const SpatialMotion& start) {
   const double root = std::sqrt(mass);
   ModalBody body;
   body.name = name;
@@ -59,8 +68,7 @@ ModalBody make_spatial_body(const std::string& name, double mass, const Eigen::V
   body.shapes.topLeftCorner<3, 3>() /= root;
   body.omega_squared = Eigen::VectorXd::Zero(kSpatial);
   body.damping = Eigen::VectorXd::Zero(kSpatial);
-  body.damping.segment<4>(kQuaternion).setOnes();
-  body.damping.segment<3>(kSpin) = inertia;
+  body.damping.tail(kSpatial - kTurn).setOnes();
   body.inertia = Eigen::VectorXd::Zero(kSpatial);
   body.inertia.head<3>().setOnes();
   body.rigid = Eigen::MatrixXd::Zero(kSpatial, 6);
@@ -69,21 +77,29 @@ ModalBody make_spatial_body(const std::string& name, double mass, const Eigen::V
   body.rigid_modes = 3;
   body.mass = mass;
   body.state_error.assign(kSpatial, StateError::kNone);
-  // A change of the quaternion by d is a rotation by 2 d.
   body.state_scale = Eigen::VectorXd::Ones(kSpatial);
-  for (int k = kQuaternion; k < kSpin; ++k) {
+  // A change of p by d is a rotation by 2 d, one of L by d an angular velocity of at most d /
+  // least.
+  for (int k = kTurn; k < kMomentum; ++k) {
     body.state_error[static_cast<size_t>(k)] = StateError::kRotation;
     body.state_scale(k) = 0.5;
   }
-  for (int k = kSpin; k < kSpatial; ++k)
+  for (int k = kMomentum; k < kSpatial; ++k) {
     body.state_error[static_cast<size_t>(k)] = StateError::kSpin;
-  body.quaternions = {kQuaternion};
-  const Eigen::Quaterniond q = start.rotation.normalized();
-  body.eta_start = Eigen::VectorXd::Zero(kSpatial);
-  body.eta_start << root * start.centre, q.w(), q.x(), q.y(), q.z(), start.spin;
-  body.v_start = Eigen::VectorXd::Zero(kSpatial);
+    body.state_scale(k) = least;
+  }
+  body.eta_start = body.v_start = Eigen::VectorXd::Zero(kSpatial);
+  body.eta_start.head<3>() = root * start.centre;
+  body.eta_start(kTurn) = 1.0;
   body.v_start.head<3>() = root * start.velocity;
+  body.eta_start.segment<3>(kMomentum) = frame->free().momentum();
+  body.frame = std::move(frame);
   return body;
+}
+
+Eigen::Vector4d quaternion_of(const Eigen::Quaterniond& rotation) {
+  const Eigen::Quaterniond q = rotation.normalized();
+  return {q.w(), q.x(), q.y(), q.z()};
 }
 
 }  // namespace clatter::dynamics

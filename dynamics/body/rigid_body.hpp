@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/body/modal_body.hpp"
+#include "dynamics/force/spatial_frame.hpp"
 
 namespace clatter::dynamics {
 
@@ -32,15 +33,19 @@ struct SpatialMotion {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();  // angular velocity, in the body's axes [rad/s]
 };
 
-/// Coordinates of a spatial body, in this order: centre of mass (3, of second order), quaternion
-/// (w, x, y, z) and angular velocity in the body's principal axes (3), both states.
-inline constexpr int kCentre = 0, kQuaternion = 3, kSpin = 7, kSpatial = 10;
-
 /// A body in space, eq. (1) and (2) of the paper: m r'' = f, J w' = m - w x J w in its principal
-/// axes. Its system needs a SpinElement, which relates the quaternion to the angular velocity.
+/// axes, with the coordinates of spatial_frame.hpp. Its system needs a SpinElement.
 /// @param mass [kg]. @param inertia principal moments about the centre of mass [kg m2]. InputError
 /// unless they are positive and no moment exceeds the sum of the other two.
 ModalBody make_spatial_body(const std::string& name, double mass, const Eigen::Vector3d& inertia,
                             const SpatialMotion& start);
+
+/// The part of every spatial body that is the same without and with modes: its ten first
+/// coordinates and its frame. @param least the smallest principal moment of inertia [kg m2].
+ModalBody spatial_coordinates(const std::string& name, double mass, double least,
+                              std::shared_ptr<SpatialFrame> frame, const SpatialMotion& start);
+
+/// A rotation as (w, x, y, z) of unit length.
+Eigen::Vector4d quaternion_of(const Eigen::Quaterniond& rotation);
 
 }  // namespace clatter::dynamics

@@ -42,15 +42,16 @@ void PistonLiner::update_tangent(Pad& pad) {
   };
   for (int c = 0; c < pad.grid.size(); ++c) {
     const double area = pad.area[c];
-    pad.derivative.row(c) *= pad.film && pad.film->reynolds.is_full(c) ? area : 0.0;
-    if (!asperity_ || pad.contact_slope[c] == 0.0) continue;
-    add_row(c, area * pad.contact_slope[c], pad.gap_by_y);
-    if (damping_) add_row(c, area * pad.contact_rate_slope[c], pad.rate_by_y);
-  }
-  if (pad.ends) add_end_tangent(pad);
-  for (int c = 0; c < pad.grid.size(); ++c)
+    const bool full = pad.film && pad.film->reynolds.is_full(c);
+    const bool touching = asperity_ && pad.contact_slope[c] != 0.0;
+    if (!full && !touching) continue;  // carries no load
+    pad.derivative.row(c) *= full ? area : 0.0;
+    if (touching) add_row(c, area * pad.contact_slope[c], pad.gap_by_y);
+    if (touching && damping_) add_row(c, area * pad.contact_rate_slope[c], pad.rate_by_y);
     for (SparseRows::InnerIterator entry(pad.gap_by_y, c); entry; ++entry)
       pad.tangent.row(entry.index()) += entry.value() * pad.derivative.row(c);
+  }
+  if (pad.ends) add_end_tangent(pad);
   if (!bodies_.liner) return;
   // The liner's weights move with the stroke: d2h / (dy_l dz) under load.
   const Eigen::VectorXd cross = pad.map.slope_transposed(pad.load.matrix());

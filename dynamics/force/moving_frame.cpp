@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/force/moving_frame.hpp"
 
+#include <Eigen/Geometry>
 #include <limits>
 #include <utility>
 
 namespace clatter::dynamics {
+
+std::function<rom::FrameMotion(double)> turning_frame(const Drive& drive,
+                                                      const Eigen::Vector3d& axis,
+                                                      const Eigen::Vector3d& arm) {
+  return [drive, axis, arm](double time) {
+    const Motion<double> turn = drive.at(time);
+    rom::FrameMotion motion;
+    motion.omega = turn.velocity * axis;
+    motion.omega_rate = turn.acceleration * axis;
+    motion.acceleration =
+        motion.omega_rate.cross(arm) + motion.omega.cross(motion.omega.cross(arm));
+    return motion;
+  };
+}
 
 MovingFrame::MovingFrame(std::string body, std::vector<int> coordinates,
                          rom::InertiaInvariants invariants,

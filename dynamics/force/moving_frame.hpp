@@ -8,8 +8,16 @@
 
 #include "core/rom/inertia_invariants.hpp"
 #include "dynamics/force/element.hpp"
+#include "dynamics/given/drive.hpp"
 
 namespace clatter::dynamics {
+
+/// The motion of a frame that a drive turns, for MovingFrame. @param axis unit vector in the
+/// frame's axes, about which it turns. @param arm from a point of the axis to the frame's origin,
+/// in the frame's axes [m].
+std::function<rom::FrameMotion(double)> turning_frame(const Drive& drive,
+                                                      const Eigen::Vector3d& axis,
+                                                      const Eigen::Vector3d& arm);
 
 /// p* of eq. (9) of the paper on the modal coordinates of a body in a frame that moves as
 /// `motion(t)` says (in the frame's axes):

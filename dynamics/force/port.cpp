@@ -5,11 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "dynamics/force/rotation.hpp"
-
 namespace clatter::dynamics {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -19,9 +16,6 @@ void clear(PortState& state, int size) {
   for (Matrix6X* matrix : {&state.by_y, &state.rate_by_y, &state.rate_by_v, &state.work})
     matrix->setZero(6, size);
 }
-
-// Positions of a spatial body's coordinates.
-constexpr int kCentre = 0, kQuaternion = 3, kSpin = 7;
 
 }  // namespace
 
@@ -83,40 +77,6 @@ void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState&
 void PlanarPort::add_curvature(const VectorXd& y, const Vector6& wrench,
                                Eigen::Ref<Eigen::MatrixXd> tangent) const {
   tangent(2, 2) -= turned_arm(y(2)).dot(wrench.head<3>());
-}
-
-SpatialPort::SpatialPort(std::vector<int> coordinates, const Vector3d& arm)
-    : Port(std::move(coordinates)), arm_(arm) {}
-
-void SpatialPort::motion(double, const VectorXd& y, const VectorXd& v, PortState& state) const {
-  clear(state, size());
-  const Eigen::Vector4d q = y.segment<4>(kQuaternion);
-  const Vector3d w = y.segment<3>(kSpin), speed = w.cross(arm_);
-  const Matrix3d A = rotation_matrix(q), by_spin = -A * skew(arm_);
-  state.position = y.segment<3>(kCentre) + A * arm_;
-  state.velocity = v.segment<3>(kCentre) + A * speed;
-  state.spin = A * w;
-  state.by_y.topRows<3>().middleCols<3>(kCentre).setIdentity();
-  state.by_y.topRows<3>().middleCols<4>(kQuaternion) = rotated_by_quaternion(q, arm_);
-  state.by_y.bottomRows<3>().middleCols<4>(kQuaternion) = turn_by_quaternion(q);
-  state.rate_by_y.topRows<3>().middleCols<4>(kQuaternion) = rotated_by_quaternion(q, speed);
-  state.rate_by_y.topRows<3>().middleCols<3>(kSpin) = by_spin;
-  state.rate_by_y.bottomRows<3>().middleCols<4>(kQuaternion) = rotated_by_quaternion(q, w);
-  state.rate_by_y.bottomRows<3>().middleCols<3>(kSpin) = A;
-  state.rate_by_v.topRows<3>().middleCols<3>(kCentre).setIdentity();
-  state.work.topRows<3>().middleCols<3>(kCentre).setIdentity();
-  state.work.topRows<3>().middleCols<3>(kSpin) = by_spin;
-  state.work.bottomRows<3>().middleCols<3>(kSpin) = A;
-}
-
-void SpatialPort::add_curvature(const VectorXd& y, const Vector6& wrench,
-                                Eigen::Ref<Eigen::MatrixXd> tangent) const {
-  // The moment about the centre in the body's axes, c x A^T F + A^T M; dA^T = -A^T skew(t).
-  const Eigen::Vector4d q = y.segment<4>(kQuaternion);
-  const Matrix3d back = rotation_matrix(q).transpose();
-  tangent.block<3, 4>(kSpin, kQuaternion) +=
-      (skew(arm_) * back * skew(wrench.head<3>()) + back * skew(wrench.tail<3>())) *
-      turn_by_quaternion(q);
 }
 
 }  // namespace clatter::dynamics

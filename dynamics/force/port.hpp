@@ -106,19 +106,4 @@ class PlanarPort : public Port {
   PlaneAxes plane_;
 };
 
-/// A point of a spatial body (rigid_body.hpp).
-class SpatialPort : public Port {
- public:
-  /// @param coordinates y indices of the body's ten coordinates. @param arm from the centre of
-  /// mass, in the body's axes [m].
-  SpatialPort(std::vector<int> coordinates, const Eigen::Vector3d& arm);
-  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
-  void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
-                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
-
- private:
-  Eigen::Vector3d arm_;
-};
-
 }  // namespace clatter::dynamics

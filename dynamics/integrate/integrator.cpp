@@ -69,6 +69,7 @@ const StageOperator& Integrator::ladder_operator(int rung) {
 }
 
 void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
+  system_.start_frames(time);
   system_.begin_step(time);
   const Stage stage{time + options_.first, options_.first, 0, {}};
   const auto op = make_operator(options_.first);
@@ -82,6 +83,7 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
   if (observer_ != nullptr) observer_->stage(0, now_);
   if (events_.any()) events_.start(now_);
   before_ = now_;
+  system_.restart_frames(before_, now_);
   rung_ = options_.fixed ? 0 : rung_for(std::min(options_.first, options_.largest));
 }
 
@@ -141,8 +143,8 @@ void Integrator::step(double limit) {
 void Integrator::take_step(double dt, double time) {
   std::swap(before_, now_);
   std::swap(now_, stages_[static_cast<size_t>(tableau_->stages - 1)]);
-  if (system_.normalise(now_.eta)) system_.interface(now_.eta, now_.y);
   now_.time = time;
+  system_.restart_frames(before_, now_);
   system_.accept_step(time);
   if (observer_ != nullptr) observer_->accept(dt);
   if (!options_.fixed) estimate_.add(dt, e_eta_, e_v_, now_.v);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/base/stopwatch.hpp"
+#include "dynamics/force/spatial_frame.hpp"
 
 namespace clatter::dynamics {
 
@@ -157,15 +158,42 @@ std::string System::coordinate_name(int y_index) const {
   return fmt::format("{}: coordinate {}", body, place.dof);
 }
 
-bool System::normalise(VectorXd& eta) const {
+void System::start_frames(double time) const {
+  for (const ModalBody& body : bodies_) {
+    if (!body.frame) continue;
+    const Attitude first = body.frame->free().first();
+    body.frame->restart(time, first.q, first.spin);
+  }
+}
+
+void System::restart_frames(StageState& before, StageState& now) const {
   bool any = false;
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    for (const int first : bodies_[b].quaternions) {
-      eta.segment<4>(offsets_[b] + first).normalize();
-      any = true;
-    }
+    if (!bodies_[b].frame) continue;
+    any = true;
+    SpatialFrame& frame = *bodies_[b].frame;
+    const int at = offsets_[b] + kTurn;
+    const auto spin = [&](const StageState& x) {
+      return frame.spin(x.time, x.eta.segment<4>(at), x.v.segment<4>(at));
+    };
+    const Eigen::Vector4d q_before = frame.quaternion(before.time, before.eta.segment<4>(at)),
+                          q_now = frame.quaternion(now.time, now.eta.segment<4>(at));
+    const Eigen::Vector3d spin_before = spin(before), spin_now = spin(now);
+    frame.restart(now.time, q_now, spin_now);
+    Eigen::Vector4d p, rate;
+    frame.localise(before.time, q_before, spin_before, p, rate);
+    before.eta.segment<4>(at) = p;
+    before.v.segment<4>(at) = rate;
+    now.eta.segment<4>(at) = Eigen::Vector4d::Unit(0);
+    now.v.segment<4>(at).setZero();
+    before.a.segment<4>(at).setZero();
+    now.a.segment<4>(at).setZero();
   }
-  return any;
+  if (!any) return;
+  for (StageState* state : {&before, &now}) {
+    interface(state->eta, state->y);
+    interface(state->v, state->v_y);
+  }
 }
 
 void System::interface(const VectorXd& modal, VectorXd& y) const {

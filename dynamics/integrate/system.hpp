@@ -10,6 +10,7 @@
 
 #include "dynamics/body/modal_body.hpp"
 #include "dynamics/force/element.hpp"
+#include "dynamics/integrate/stage_state.hpp"
 
 namespace clatter::dynamics {
 
@@ -91,8 +92,11 @@ class System {
   /// The state at the start, N.
   const Eigen::VectorXd& eta_start() const { return eta_start_; }
   const Eigen::VectorXd& v_start() const { return v_start_; }
-  /// Scales the quaternions of all bodies to unit length; false when there are none.
-  bool normalise(Eigen::VectorXd& eta) const;
+  /// The frames of the spatial bodies are at `time` as they were made; for the start of a run.
+  void start_frames(double time) const;
+  /// At the end of a step: the free rotations of the spatial bodies (spatial_frame.hpp) go on from
+  /// `now`, and both ends of the step are written in the new local coordinates.
+  void restart_frames(StageState& before, StageState& now) const;
 
   /// y = P eta; for displacements and velocities alike.
   void interface(const Eigen::VectorXd& modal, Eigen::VectorXd& y) const;

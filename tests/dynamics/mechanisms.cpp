@@ -2,6 +2,7 @@
 #include "tests/dynamics/mechanisms.hpp"
 
 #include <cmath>
+#include <random>
 
 namespace clatter::dynamics::testing {
 namespace {
@@ -27,6 +28,30 @@ constexpr double kBeta = -0.0617138900142764496358948458001, kTheta = 0.0,
 Vector2d direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
+
+Eigen::VectorXd arbitrary(int n, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  Eigen::VectorXd values(n);
+  for (double& value : values) value = number(engine);
+  return values;
+}
+
+double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v) {
+  const Stage stage{0.1, 0.03, 1, {0.03}};
+  Response at, low, high;
+  element.evaluate(stage, y, v, true, at);
+  Eigen::MatrixXd differences(at.tangent.rows(), at.tangent.cols());
+  for (int j = 0; j < y.size(); ++j) {
+    const double step = 1e-6;
+    Eigen::VectorXd dy = Eigen::VectorXd::Zero(y.size());
+    dy(j) = step;
+    element.evaluate(stage, y + dy, v + dy / stage.kappa, false, high);
+    element.evaluate(stage, y - dy, v - dy / stage.kappa, false, low);
+    differences.col(j) = (high.force - low.force) / (2.0 * step);
+  }
+  return (at.tangent - differences).cwiseAbs().maxCoeff() / at.tangent.cwiseAbs().maxCoeff();
+}
 
 Andrews::Andrews(double stiffness, double damping) {
   // Rotations of the bodies, and unit vectors along (c) and across (s) each.

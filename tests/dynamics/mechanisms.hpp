@@ -2,28 +2,18 @@
 #pragma once
 // Mechanisms of rigid bodies for the tests.
 #include <Eigen/Core>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/force/port_element.hpp"
-#include "dynamics/force/spin_element.hpp"
 #include "dynamics/integrate/integrator.hpp"
+#include "dynamics/integrate/spatial_body.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {
-
-/// Adds a spatial body with its rotation element; the y indices of its ten coordinates.
-inline std::vector<int> add_spatial(System& system, double mass, const Eigen::Vector3d& inertia,
-                                    const SpatialMotion& start) {
-  const int body = system.add_body(make_spatial_body("body", mass, inertia, start));
-  std::vector<int> y;
-  for (int k = 0; k < kSpatial; ++k) y.push_back(system.coordinate(body, k));
-  system.add_element(std::make_unique<SpinElement>(
-      "body", std::vector<int>(y.begin() + kQuaternion, y.end()), inertia));
-  return y;
-}
 
 /// Adds a planar body; the y indices of its three coordinates.
 inline std::vector<int> add_planar(System& system, const std::string& name, double mass,
@@ -32,12 +22,35 @@ inline std::vector<int> add_planar(System& system, const std::string& name, doub
   return {system.coordinate(body, 0), system.coordinate(body, 1), system.coordinate(body, 2)};
 }
 
+/// Adds a mass that moves along x; the y indices of its displacements x, y, z.
+inline std::vector<int> add_slider(System& system, double mass, double position, double velocity) {
+  ModalBody body;
+  body.name = "slider";
+  body.shapes = Eigen::Vector3d(1.0 / std::sqrt(mass), 0.0, 0.0);
+  body.omega_squared = body.damping = Eigen::VectorXd::Zero(1);
+  body.inertia = Eigen::VectorXd::Ones(1);
+  body.rigid = Eigen::MatrixXd::Zero(1, 6);
+  body.is_rotation = {0, 0, 0};
+  body.mass = mass;
+  body.eta_start = Eigen::VectorXd::Constant(1, std::sqrt(mass) * position);
+  body.v_start = Eigen::VectorXd::Constant(1, std::sqrt(mass) * velocity);
+  const int added = system.add_body(body);
+  return {system.coordinate(added, 0), system.coordinate(added, 1), system.coordinate(added, 2)};
+}
+
 /// A method that starts from the system's own state at time 0.
 inline std::unique_ptr<Integrator> started(System& system, const StepOptions& options) {
   auto method = make_integrator(system, options);
   method->start(-options.first, system.eta_start(), system.v_start());
   return method;
 }
+
+/// Numbers between -1 and 1.
+Eigen::VectorXd arbitrary(int n, unsigned seed);
+
+/// The largest difference of an element's tangent from central differences, relative to its largest
+/// entry.
+double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v);
 
 /// A moment on coordinates, constant.
 class Moment : public ForceElement {

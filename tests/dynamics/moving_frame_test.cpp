@@ -114,6 +114,20 @@ TEST(MovingFrame, AFreeMassMovesStraightWhateverItsFrameDoes) {
   EXPECT_LT((found - expected).norm(), 2e-5 * expected.norm());
 }
 
+TEST(MovingFrame, AFreeMassMovesStraightInAFrameThatADriveWithOrdersTurns) {
+  MassOnSprings one;
+  one.omega.setConstant(1e-6);
+  const Drive drive(8.0, 0.0, {{1.0, 1.5, 0.3}, {2.0, 0.5, -0.4}});
+  const Vector3d arm(0.1, 0.05, 0.0), rate(0.1, -0.2, 0.3), axis = Vector3d::UnitZ();
+  const double end = 0.4;
+  const Vector3d found =
+      displacement(one, turning_frame(drive, axis, arm), Vector3d::Zero(), rate, end, nullptr);
+  const Vector3d at = arm + one.place;
+  const Vector3d in_space = at + (rate + drive.at(0.0).velocity * axis.cross(at)) * end;
+  const Vector3d expected = Eigen::AngleAxisd(-drive.at(end).position, axis) * in_space - at;
+  EXPECT_LT((found - expected).norm(), 2e-5 * expected.norm());
+}
+
 TEST(MovingFrame, WithoutRotationItIsEquationTen) {
   // p* = -m a for every mass: the displacement is that of a load on a body at rest, to the bit.
   const MassOnSprings one;
