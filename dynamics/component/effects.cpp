@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace clatter::dynamics {
 
 void EffectTable::add(const std::string& name, bool on, const std::string& why,
@@ -22,12 +24,14 @@ void EffectTable::charge(const std::string& element, double seconds) {
 
 std::vector<std::string> EffectTable::lines(bool with_cost) const {
   std::vector<std::string> lines;
+  size_t width = 28;
+  for (const auto& effect : effects_) width = std::max(width, effect.name.size());
   for (const auto& effect : effects_) {
     const std::string cost = !with_cost               ? ""
                              : effect.element.empty() ? "         -"
                                                       : fmt::format("{:8.2f} s", effect.seconds);
-    lines.push_back(fmt::format("  {:<28} {:<4}{}  {}", effect.name, effect.on ? "on" : "off", cost,
-                                effect.why));
+    lines.push_back(fmt::format("  {:<{}} {:<4}{}  {}", effect.name, width,
+                                effect.on ? "on" : "off", cost, effect.why));
   }
   return lines;
 }

@@ -58,7 +58,7 @@ TEST_F(Components, AndrewsMechanismAsASceneMovesLikeThatOfTheLibrary) {
   EXPECT_LT(result_.energy_residue, 1e-4);
 }
 
-/// A double pendulum's first swing: a rod of 1 m and 3 kg on a bushing, under gravity.
+/// A rod of 1 m and 3 kg that hangs on a bushing, under gravity.
 std::string pendulum(const std::string& plane, const std::string& centre) {
   return fmt::format(R"(
 gravity_m_s2 = 9.81
@@ -91,6 +91,8 @@ TEST_F(Components, APendulumSwingsTheSameInEveryPlaneAndInSpace) {
     return file.read_doubles("history/rod_z").back();
   };
   const double down = heights("yz", "[0, 500, 0]");
+  const double reaction =
+      H5File::open(folder_ / "mechanism.run.h5").read_doubles("history/bushing_1_force_z").back();
   // theta'' = -m g l cos(theta) / (J + m l^2) from theta = 0; by classical Runge-Kutta steps.
   double angle = 0.0, rate = 0.0;
   const double h = 1e-4, factor = 3.0 * 9.81 * 0.5 / (0.25 + 3.0 * 0.25);
@@ -103,6 +105,9 @@ TEST_F(Components, APendulumSwingsTheSameInEveryPlaneAndInSpace) {
     rate += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
   EXPECT_NEAR(down, 0.5 * std::sin(angle), 1e-4);
+  // On the rod: its weight, the centripetal and the tangential acceleration of its centre.
+  const double upward = 0.5 * (pull(angle) * std::cos(angle) - rate * rate * std::sin(angle));
+  EXPECT_NEAR(reaction, 3.0 * (9.81 + upward), 1e-3 * 3.0 * 9.81);
   EXPECT_NEAR(heights("zx", "[500, 0, 0]"), down, 1e-5);
   EXPECT_NEAR(heights("space", "[300, 400, 0]"), down, 1e-4);
 }

@@ -48,7 +48,7 @@ class Cylinders : public ::testing::Test {
 };
 
 TEST_F(Cylinders, ANamedOneIsTheOnlyOneToTheBit) {
-  const std::string one = "[time]\ncycles = 1\n";
+  const std::string one = std::string("[time]\ncycles = 1\n") + kFull;
   const H5File plain = recorded(scene(one), "plain");
   const H5File named = recorded(scene(one + "[[cylinder]]\nname = \"c1\"\n"), "named");
   for (const char* name : {"q", "v", "a"})
