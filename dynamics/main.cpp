@@ -7,8 +7,9 @@
 namespace {
 
 constexpr const char* kEpilog =
-    R"(A scene is a TOML file: [engine] [rod] [piston] [block] [gas] [contact] [[mount]] for piston slap,
-or [[body]] and [[load]] for any reduced bodies without an engine. `base = "other.toml"` takes all
+    R"(A scene is a TOML file: [engine] [rod] [piston] [block] [gas] [contact] [[mount]] for piston slap
+([[cylinder]] for several), or [[body]] [[rigid_body]] [[drive]] [[bushing]] [[spring]] [[mount]]
+[[load]] for any bodies and mechanisms without an engine. `base = "other.toml"` takes all
 keys that a scene does not set from another scene, so a variant is a few lines:
 
     base = "slap.run.toml"

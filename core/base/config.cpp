@@ -60,6 +60,7 @@ Config::Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node)
 std::string Config::where() const { return position_in_file(document_->origin, node_->table); }
 
 std::string Config::where(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->where(key);
   const toml::node* at = node_->table->get(key);
   return fmt::format("{}: {}{}",
                      position_in_file(document_->origin, at != nullptr ? at : node_->table),
@@ -70,9 +71,24 @@ void Config::fail(std::string_view key, const std::string& message) const {
   throw InputError(fmt::format("{}: {}", where(key), message));
 }
 
+Config Config::with_fallback(const Config& below) const {
+  const auto node = std::make_shared<Node>(*node_);
+  node->below = below.node_;
+  return Config(document_, node);
+}
+
+std::optional<Config> Config::fallback_of(std::string_view key) const {
+  if (node_->below == nullptr || node_->table->get(key) != nullptr) return std::nullopt;
+  document_->requested[node_->table].insert(std::string(key));
+  Config below(document_, node_->below);
+  if (!below.has(key)) return std::nullopt;
+  return below;
+}
+
 bool Config::has(std::string_view key) const {
   document_->requested[node_->table].insert(std::string(key));
-  return node_->table->get(key) != nullptr;
+  const bool below = node_->below != nullptr && Config(document_, node_->below).has(key);
+  return below || node_->table->get(key) != nullptr;
 }
 
 std::vector<std::string> Config::keys() const {
@@ -89,11 +105,15 @@ std::vector<std::string> Config::keys() const {
 
 std::optional<Config> Config::find_table(std::string_view key) const {
   if (!has(key)) return std::nullopt;
+  std::optional<Config> below;
+  if (node_->below != nullptr) below = Config(document_, node_->below).find_table(key);
   const toml::node* node = node_->table->get(key);
+  if (node == nullptr) return below;
   if (!node->is_table()) fail(key, fmt::format("found {}, expected a table", shown(*node)));
   document_->known.insert(node);
-  return Config(document_, std::make_shared<Node>(
-                               Node{node->as_table(), fmt::format("{}{}.", node_->prefix, key)}));
+  const Config table(document_, std::make_shared<Node>(Node{
+                                    node->as_table(), fmt::format("{}{}.", node_->prefix, key)}));
+  return below ? table.with_fallback(*below) : table;
 }
 
 Config Config::table(std::string_view key) const {
@@ -103,6 +123,7 @@ Config Config::table(std::string_view key) const {
 }
 
 std::vector<Config> Config::tables(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->tables(key);
   std::vector<Config> result;
   if (!has(key)) return result;
   const toml::node* node = node_->table->get(key);
@@ -119,10 +140,12 @@ std::vector<Config> Config::tables(std::string_view key) const {
 }
 
 bool Config::is_list(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->is_list(key);
   return has(key) && node_->table->get(key)->is_array();
 }
 
 double Config::number(std::string_view key, Range range) const {
+  if (const auto below = fallback_of(key)) return below->number(key, range);
   if (!has(key)) fail(key, "found nothing, expected " + expectation(range));
   const toml::node* node = node_->table->get(key);
   const auto value = node->value<double>();
@@ -141,6 +164,7 @@ double Config::number_or(std::string_view key, double fallback, Range range) con
 }
 
 int64_t Config::integer(std::string_view key, Range range) const {
+  if (const auto below = fallback_of(key)) return below->integer(key, range);
   if (!has(key)) fail(key, "found nothing, expected a whole number");
   const toml::node* node = node_->table->get(key);
   if (!node->is_integer() || !inside(static_cast<double>(*node->value<int64_t>()), range)) {
@@ -160,6 +184,7 @@ int64_t Config::integer_or(std::string_view key, int64_t fallback, Range range) 
 }
 
 bool Config::flag_or(std::string_view key, bool fallback) const {
+  if (const auto below = fallback_of(key)) return below->flag_or(key, fallback);
   bool value = fallback;
   if (has(key)) {
     const toml::node* node = node_->table->get(key);
@@ -174,6 +199,7 @@ bool Config::flag_or(std::string_view key, bool fallback) const {
 }
 
 std::string Config::text(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->text(key);
   if (!has(key)) fail(key, "found nothing, expected a string in quotes");
   const toml::node* node = node_->table->get(key);
   if (!node->is_string()) {
@@ -201,6 +227,7 @@ std::string Config::choice(std::string_view key,
 }
 
 std::vector<double> Config::numbers(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->numbers(key);
   if (!has(key)) fail(key, "found nothing, expected a list of numbers");
   const toml::node* node = node_->table->get(key);
   if (!node->is_array())
@@ -234,6 +261,7 @@ std::vector<double> Config::numbers(std::string_view key, size_t count) const {
 }
 
 std::vector<std::string> Config::texts(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->texts(key);
   if (!has(key)) fail(key, "found nothing, expected a list of strings");
   const toml::node* node = node_->table->get(key);
   if (!node->is_array())
@@ -258,6 +286,7 @@ std::vector<std::string> Config::texts_or(std::string_view key,
 }
 
 std::filesystem::path Config::path(std::string_view key) const {
+  if (const auto below = fallback_of(key)) return below->path(key);
   std::filesystem::path named = text(key);
   const toml::node* node = node_->table->get(key);
   if (named.is_relative()) {

@@ -36,6 +36,10 @@ class Config {
   /// Reads TOML from memory; `origin` is used as the file name in messages.
   static Config parse(std::string_view text, const std::string& origin);
 
+  /// This table with the keys that it lacks from another table of the same file, sub-tables
+  /// likewise; errors and resolved values name the table that has the key.
+  Config with_fallback(const Config& below) const;
+
   bool has(std::string_view key) const;
   /// True when the key exists and its value is a list.
   bool is_list(std::string_view key) const;
@@ -88,6 +92,8 @@ class Config {
   struct Node;
   Config(std::shared_ptr<Document> document, std::shared_ptr<Node> node);
   void refuse_unknown(const Node& node) const;
+  /// The table below from which a key comes that this one lacks; empty: not from there.
+  std::optional<Config> fallback_of(std::string_view key) const;
   std::shared_ptr<Document> document_;
   std::shared_ptr<Node> node_;
 };

@@ -26,7 +26,8 @@ struct Config::Document {
 
 struct Config::Node {
   const toml::table* table;
-  std::string prefix;  // "contact.film." for messages
+  std::string prefix;                     // "contact.film." for messages
+  std::shared_ptr<Node> below = nullptr;  // has the keys that this table lacks
 };
 
 /// "file:line" of a node; only the origin when the node has no source position.

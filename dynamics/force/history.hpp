@@ -19,15 +19,22 @@ class History {
   void put(const std::string& name, const std::string& unit, double value) {
     if (next_ == entries_.size()) entries_.emplace_back();
     Entry& entry = entries_[next_++];
-    if (entry.name != name) entry = {name, unit, value};
+    if (!is_named(entry, name)) entry = {prefix_ + name, unit, value};
     entry.value = value;
   }
+  /// Begins the names of what is put from now on: those of one of several cylinders.
+  void set_prefix(const std::string& prefix) { prefix_ = prefix; }
   const std::vector<Entry>& entries() const { return entries_; }
   /// Begins the next instant, whose names are the same: they keep their memory.
   void clear() { next_ = 0; }
 
  private:
+  bool is_named(const Entry& entry, const std::string& name) const {
+    return entry.name.size() == prefix_.size() + name.size() && entry.name.starts_with(prefix_) &&
+           entry.name.ends_with(name);
+  }
   std::vector<Entry> entries_;
+  std::string prefix_;
   size_t next_ = 0;  // entry of the next put
 };
 

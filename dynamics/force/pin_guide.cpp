@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/force/pin_guide.hpp"
 
+#include <utility>
+
 namespace clatter::dynamics {
 namespace {
 
@@ -9,9 +11,10 @@ constexpr int kYaw = 5;   // rz of the block
 
 }  // namespace
 
-PinGuide::PinGuide(const GuideLaw& law, const SliderCrank& crank, const std::array<int, 3>& pin,
-                   const std::optional<std::array<int, 3>>& block)
+PinGuide::PinGuide(std::string name, const GuideLaw& law, const SliderCrank& crank,
+                   const std::array<int, 3>& pin, const std::optional<std::array<int, 3>>& block)
     : ForceElement({pin.begin(), pin.end()}),
+      name_(std::move(name)),
       crank_(crank),
       stiffness_(law.axial_stiffness, law.tilt_stiffness, law.tilt_stiffness),
       damping_(law.axial_damping, law.tilt_damping, law.tilt_damping),

@@ -25,9 +25,9 @@ class PinGuide : public ForceElement {
  public:
   /// `pin`: y indices of the pin's x, ry, rz. `block`: of those of the block's frame; absent: the
   /// guide is at rest.
-  PinGuide(const GuideLaw& law, const SliderCrank& crank, const std::array<int, 3>& pin,
-           const std::optional<std::array<int, 3>>& block);
-  std::string name() const override { return "pin_guide"; }
+  PinGuide(std::string name, const GuideLaw& law, const SliderCrank& crank,
+           const std::array<int, 3>& pin, const std::optional<std::array<int, 3>>& block);
+  std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
@@ -39,6 +39,7 @@ class PinGuide : public ForceElement {
   };
   Motion3 motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
 
+  std::string name_;
   SliderCrank crank_;
   Eigen::Vector3d stiffness_, damping_;
   Eigen::Matrix<double, 3, Eigen::Dynamic> G_;  // dd/dy at the last evaluated height

@@ -2,6 +2,7 @@
 #include "dynamics/force/port_element.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 
 #include "dynamics/force/rotation.hpp"
@@ -28,7 +29,11 @@ Vector6 wrench(const Vector3d& force, const Vector3d& moment) {
 }  // namespace
 
 PortElement::PortElement(std::string name, std::unique_ptr<Port> a, std::unique_ptr<Port> b)
-    : ForceElement(joined(*a, *b)), name_(std::move(name)), a_(std::move(a)), b_(std::move(b)) {}
+    : ForceElement(joined(*a, *b)), name_(std::move(name)), a_(std::move(a)), b_(std::move(b)) {
+  std::string prefix = name_ + "_force_";
+  std::replace(prefix.begin(), prefix.end(), ' ', '_');
+  for (size_t k = 0; k < 3; ++k) recorded_[k] = prefix + "xyz"[k];
+}
 
 PairMotion PortElement::move(double time, const VectorXd& y, const VectorXd& v) const {
   y_a_ = y.head(a_->size());
@@ -48,6 +53,7 @@ void PortElement::evaluate(const Stage& stage, const VectorXd& y, const VectorXd
   time_ = stage.time;
   const PairMotion pair = move(time_, y, v);
   const PairForce law = force(time_, pair);
+  last_ = law.force;
   const Vector6 on_a = wrench(law.force, law.moment);
   const Vector6 on_b = wrench(-law.force, -law.moment - pair.distance.cross(law.force));
   response.force.resize(n_a + n_b);
@@ -90,6 +96,11 @@ Power PortElement::power(const VectorXd& y, const VectorXd& v) const {
     input += law.force.dot(at_b_.velocity) +
              (law.moment + pair.distance.cross(law.force)).dot(at_b_.spin);
   return {law.stored, law.lost, input};
+}
+
+void PortElement::record(History& history) const {
+  for (size_t k = 0; k < 3; ++k)
+    history.put(recorded_[k], "N", accepted_(static_cast<Eigen::Index>(k)));
 }
 
 PairForce Bushing::force(double, const PairMotion& motion) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Forces between two ports.
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +35,12 @@ class PortElement : public ForceElement {
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
+  void finish_stage(const Stage&) override { finished_ = last_; }
+  void accept_step(double) override { accepted_ = finished_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+  /// `<name>_force_x`, `_y`, `_z` [N] on a, in the engine's axes; spaces of the name are
+  /// underscores.
+  void record(History& history) const override;
 
  protected:
   virtual PairForce force(double time, const PairMotion& motion) const = 0;
@@ -42,6 +48,8 @@ class PortElement : public ForceElement {
  private:
   PairMotion move(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   std::string name_;
+  std::array<std::string, 3> recorded_;  // names of histories
+  Eigen::Vector3d last_ = Eigen::Vector3d::Zero(), finished_ = last_, accepted_ = last_;  // [N]
   std::unique_ptr<Port> a_, b_;
   mutable PortState at_a_, at_b_;
   mutable Eigen::VectorXd y_a_, y_b_, v_a_, v_b_;

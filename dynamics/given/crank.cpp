@@ -9,8 +9,13 @@
 
 namespace clatter::dynamics {
 
-SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, double omega)
-    : radius_(radius), rod_length_(rod_length), pin_offset_(pin_offset), omega_(omega) {
+SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, double omega,
+                         double firing)
+    : radius_(radius),
+      rod_length_(rod_length),
+      pin_offset_(pin_offset),
+      omega_(omega),
+      firing_(firing) {
   if (!(radius > 0.0) || !(rod_length > radius + std::abs(pin_offset))) {
     throw InputError(
         fmt::format("slider-crank: crank radius {} m, rod {} m, pin offset {} m: expected rod > "

@@ -26,21 +26,22 @@ Vector3d SpatialBody::spin(const StageState& state) const {
   return at.w;
 }
 
-SpatialBody add_spatial_body(System& system, ModalBody body) {
-  SpatialBody added;
-  const auto frame = body.frame;
-  const std::string name = body.name;
-  const VectorXd y_start = body.eta_start, v_start = body.v_start;
-  added.body = system.add_body(std::move(body));
-  added.frame = frame;
-  for (int k = 0; k < kSpatial; ++k) added.coordinates.push_back(system.coordinate(added.body, k));
-  for (int k = 0; k < frame->modes(); ++k)
-    added.coordinates.push_back(system.modal_coordinate(added.body, kSpatial + k));
-  const int own = kSpatial - kTurn + frame->modes();
+SpatialBody add_rotation(System& system, int body) {
+  const ModalBody& owner = system.bodies()[static_cast<size_t>(body)];
+  SpatialBody added{body, {}, owner.frame};
+  const int modes = owner.frame->modes();
+  for (int k = 0; k < kSpatial; ++k) added.coordinates.push_back(system.coordinate(body, k));
+  for (int k = 0; k < modes; ++k)
+    added.coordinates.push_back(system.modal_coordinate(body, kSpatial + k));
+  const int own = kSpatial - kTurn + modes;
   system.add_element(std::make_unique<SpinElement>(
-      name, std::vector<int>(added.coordinates.begin() + kTurn, added.coordinates.end()), frame,
-      y_start.tail(own), v_start.tail(own)));
+      owner.name, std::vector<int>(added.coordinates.begin() + kTurn, added.coordinates.end()),
+      owner.frame, owner.eta_start.tail(own), owner.v_start.tail(own)));
   return added;
+}
+
+SpatialBody add_spatial_body(System& system, ModalBody body) {
+  return add_rotation(system, system.add_body(std::move(body)));
 }
 
 }  // namespace clatter::dynamics

@@ -29,5 +29,7 @@ struct SpatialBody {
 
 /// Adds a spatial body, rigid or floating, with its coordinates and its SpinElement.
 SpatialBody add_spatial_body(System& system, ModalBody body);
+/// Adds coordinates and SpinElement of a body that the system has.
+SpatialBody add_rotation(System& system, int body);
 
 }  // namespace clatter::dynamics

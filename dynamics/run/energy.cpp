@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/energy.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -25,10 +24,9 @@ EnergyBalance::EnergyBalance(const System& system, const Tableau& method)
 }
 
 size_t EnergyBalance::term(const std::string& name) {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found != names_.end()) return static_cast<size_t>(found - names_.begin());
-  names_.push_back(name);
-  return names_.size() - 1;
+  const auto [found, is_new] = index_.emplace(name, names_.size());
+  if (is_new) names_.push_back(name);
+  return found->second;
 }
 
 EnergyBalance::Flow EnergyBalance::flow(const StageState& state) const {

@@ -3,6 +3,7 @@
 // The energy balance, updated during the integration.
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "dynamics/integrate/integrator.hpp"
@@ -62,6 +63,7 @@ class EnergyBalance : public StageObserver {
   const System& system_;
   const Tableau& method_;
   std::vector<std::string> names_;
+  std::unordered_map<std::string, size_t> index_;  // of a name
   std::vector<size_t> load_term_, input_term_, lost_term_;
   std::optional<size_t> events_term_;
   std::vector<char> is_loss_;  // per term

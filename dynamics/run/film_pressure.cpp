@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "dynamics/run/run_clock.hpp"
+#include "dynamics/film/piston_liner.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -28,27 +28,46 @@ std::string position_of_largest(const film::PistonLiner& contact) {
                      pad->angle[around] * 180.0 / std::numbers::pi, 1e3 * pad->axial[along]);
 }
 
-size_t entry_of_pressure(const History& scalars) {
+size_t entry_of(const History& scalars, const std::string& name) {
   const auto& entries = scalars.entries();
   size_t k = 0;
-  while (k < entries.size() && entries[k].name != "film_pressure_max") ++k;
+  while (k < entries.size() && entries[k].name != name) ++k;
   return k;
 }
 
 }  // namespace
 
 void FilmPressureWatch::look(const Model& model, const History& scalars, double time) {
-  if (model.contact == nullptr) return;
-  if (!entry_) entry_ = entry_of_pressure(scalars);
-  if (*entry_ == scalars.entries().size()) return;
-  const double pressure = scalars.entries()[*entry_].value;
-  if (!(pressure > largest_)) return;
-  largest_ = pressure;
-  warning_ = {fmt::format(
-      "film pressure {:.3g} GPa at crank angle {:.1f} deg on {} is above {:.3g} GPa, which neither "
-      "oil nor skirt bear as modelled: reduce the speed or the clearance, or use elastic bodies",
-      1e-9 * pressure, crank_angle_deg(model, time), position_of_largest(*model.contact),
-      1e-9 * kLargestFilmPressure)};
+  if (!watched_) {
+    watched_.emplace();
+    for (const auto& component : model.components) {
+      if (component->contact() == nullptr) continue;
+      const std::string name = component->name();
+      const size_t entry =
+          entry_of(scalars, name.empty() ? "film_pressure_max" : name + "_film_pressure_max");
+      if (entry < scalars.entries().size()) watched_->push_back({component.get(), entry});
+    }
+  }
+  for (Watched& one : *watched_) {
+    const double pressure = scalars.entries()[one.entry].value;
+    if (!(pressure > one.largest)) continue;
+    one.largest = pressure;
+    const std::string name = one.component->name();
+    one.warning = fmt::format(
+        "{}film pressure {:.3g} GPa at crank angle {:.1f} deg on {} is above {:.3g} GPa, which "
+        "neither oil nor skirt bear as modelled: reduce the speed or the clearance, or use elastic "
+        "bodies",
+        name.empty() ? "" : name + ": ", 1e-9 * pressure, model.clock->angle_deg(time),
+        position_of_largest(*one.component->contact()), 1e-9 * kLargestFilmPressure);
+  }
+}
+
+std::vector<std::string> FilmPressureWatch::warnings() const {
+  std::vector<std::string> found;
+  if (!watched_) return found;
+  for (const Watched& one : *watched_)
+    if (!one.warning.empty()) found.push_back(one.warning);
+  return found;
 }
 
 }  // namespace clatter::dynamics

@@ -22,14 +22,18 @@ class FilmPressureWatch {
  public:
   /// `scalars`: what model.record() reports of the state at `time` [s].
   void look(const Model& model, const History& scalars, double time);
-  /// One warning with time, position and remedy when the largest pressure is above
+  /// For each contact one warning with time, position and remedy when its largest pressure is above
   /// kLargestFilmPressure.
-  std::vector<std::string> warnings() const { return warning_; }
+  std::vector<std::string> warnings() const;
 
  private:
-  std::optional<size_t> entry_;  // of film_pressure_max among the scalars
-  double largest_ = kLargestFilmPressure;
-  std::vector<std::string> warning_;  // none or one
+  struct Watched {
+    const Component* component;
+    size_t entry;  // of its film_pressure_max among the scalars
+    double largest = kLargestFilmPressure;
+    std::string warning = {};
+  };
+  std::optional<std::vector<Watched>> watched_;  // after the first look
 };
 
 }  // namespace clatter::dynamics

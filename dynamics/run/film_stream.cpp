@@ -12,14 +12,14 @@ constexpr int64_t kBlock = 32768;  // numbers of a field in memory: 128 KiB
 
 }  // namespace
 
-void FilmStream::add(const std::vector<film::PadSnapshot>& pads) {
+void FilmStream::add() {
   const bool first = fields_.empty();
-  for (const film::PadSnapshot& pad : pads) {
-    const std::string group = run::path("film", pad.name);
+  for (const film::PadSnapshot& pad : contact_->snapshot()) {
+    const std::string group = run::path(group_, pad.name);
     if (first) {
-      file_.write(run::path(group, "angle_deg"),
-                  Eigen::VectorXd(pad.angle * (180.0 / std::numbers::pi)));
-      file_.write(run::path(group, "axial"), pad.axial);
+      file_->write(run::path(group, "angle_deg"),
+                   Eigen::VectorXd(pad.angle * (180.0 / std::numbers::pi)));
+      file_->write(run::path(group, "axial"), pad.axial);
     }
     put(run::path(group, "gap"), pad.gap);
     put(run::path(group, "pressure"), pad.pressure);
@@ -40,7 +40,7 @@ void FilmStream::put(const std::string& name, const RowMatrix& frame) {
 
 void FilmStream::flush(const std::string& name, Field& field) {
   const int64_t frames = std::ssize(field.values) / field.cells();
-  if (frames > 0) file_.append_float(name, field.values, {frames, field.around, field.along});
+  if (frames > 0) file_->append_float(name, field.values, {frames, field.around, field.along});
   field.values.clear();
 }
 

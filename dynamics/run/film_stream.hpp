@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/h5_file.hpp"
@@ -11,12 +12,15 @@
 
 namespace clatter::dynamics {
 
-/// Group `film`: the pads' cell centres once, their fields in single precision.
+/// The film of one contact: the pads' cell centres once, their fields in single precision.
 class FilmStream {
  public:
-  explicit FilmStream(H5File& file) : file_(file) {}
-  /// The fields of all pads at one instant.
-  void add(const std::vector<film::PadSnapshot>& pads);
+  /// `file` and `contact` outlive the stream. @param group `film`, or that of one of several
+  /// contacts.
+  FilmStream(H5File& file, const film::PistonLiner& contact, std::string group)
+      : file_(&file), contact_(&contact), group_(std::move(group)) {}
+  /// The fields of all pads of the last accepted state.
+  void add();
   /// Writes what is left.
   void finish();
   /// Numbers in memory.
@@ -30,7 +34,9 @@ class FilmStream {
   };
   void put(const std::string& name, const RowMatrix& frame);
   void flush(const std::string& name, Field& field);
-  H5File& file_;
+  H5File* file_;
+  const film::PistonLiner* contact_;
+  std::string group_;
   std::map<std::string, Field> fields_;  // by dataset
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -15,7 +16,8 @@ CycleComparison::CycleComparison(const Model& model, H5File before, int64_t samp
       before_(std::move(before)),
       samples_(samples),
       all_(model.system.bodies().size(), 0.0),
-      change_(all_) {
+      change_(all_),
+      largest_(model.components.size()) {
   const std::vector<int64_t> expected{samples, model.system.modes()};
   for (const char* name : {kCycleEta, kCycleVelocity}) {
     if (before_.shape(name) == expected) continue;
@@ -34,13 +36,18 @@ void CycleComparison::add(const SampleBlock& now) {
     change_[b] += (v - v_before.middleCols(at, n)).squaredNorm();
   }
   compared_ += now.count;
-  if (model_.pin_y < 0) return;
+  if (std::none_of(model_.components.begin(), model_.components.end(),
+                   [](const auto& component) { return component->has_secondary_motion(); }))
+    return;
   const RowMatrix eta_before = before_.read_rows(kCycleEta, now.first, now.count);
   for (Eigen::Index i = 0; i < now.count; ++i) {
     const Eigen::VectorXd change = (now.eta.row(i) - eta_before.row(i)).transpose();
-    const Eigen::Vector2d motion =
-        model_.secondary_motion(now.time(i), model_.system.interface(change));
-    largest_ = largest_.cwiseMax(motion.cwiseAbs());
+    const Eigen::VectorXd y = model_.system.interface(change);
+    for (size_t c = 0; c < largest_.size(); ++c) {
+      if (!model_.components[c]->has_secondary_motion()) continue;
+      const Eigen::Vector2d motion = model_.components[c]->secondary_motion(now.time(i), y);
+      largest_[c] = largest_[c].value_or(Eigen::Vector2d::Zero()).cwiseMax(motion.cwiseAbs());
+    }
   }
 }
 
@@ -50,9 +57,17 @@ CycleDifference CycleComparison::difference() const {
   for (size_t b = 0; b < all_.size(); ++b)
     result.velocity[model_.system.bodies()[b].name] =
         all_[b] > 0.0 ? std::sqrt(change_[b] / all_[b]) : 0.0;
-  if (model_.pin_y < 0) return result;
-  result.lateral = largest_.x();
-  result.tilt = largest_.y();
+  for (size_t c = 0; c < largest_.size(); ++c) {
+    if (!largest_[c]) continue;
+    const std::string name = model_.components[c]->name();
+    if (name.empty()) {
+      result.lateral = largest_[c]->x();
+      result.tilt = largest_[c]->y();
+    } else {
+      result.lateral_of[name] = largest_[c]->x();
+      result.tilt_of[name] = largest_[c]->y();
+    }
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 // Difference of one cycle from the previous one.
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/base/h5_file.hpp"
@@ -28,7 +29,8 @@ class CycleComparison {
   H5File before_;
   int64_t samples_, compared_ = 0;
   std::vector<double> all_, change_;  // per body: sum |v|^2 and sum |v - v'|^2
-  Eigen::Vector2d largest_ = Eigen::Vector2d::Zero();
+  /// Per component, of its secondary motion.
+  std::vector<std::optional<Eigen::Vector2d>> largest_;
 };
 
 }  // namespace clatter::dynamics

@@ -2,14 +2,13 @@
 #include "dynamics/run/recorder.hpp"
 
 #include "core/run/run_layout.hpp"
-#include "dynamics/run/run_clock.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
 void add_clock_columns(ColumnStream& columns, const Model& model) {
   columns.add_column(run::kTime, "s");
-  if (model.crank) columns.add_column(run::kCrankAngle, "deg");
+  if (model.clock) columns.add_column(run::kCrankAngle, "deg");
 }
 
 }  // namespace
@@ -21,9 +20,14 @@ Recorder::Recorder(const Model& model, const RecordedSpan& span, H5File& file,
       history_(file, "history"),
       energy_(file, "energy"),
       film_clock_(file, "film"),
-      film_(file),
-      film_every_(model.contact != nullptr ? span.film_every : 0.0),
+      film_every_(span.film_every),
       next_film_(span.begin) {
+  for (const auto& component : model.components) {
+    if (component->contact() == nullptr) continue;
+    const std::string name = component->name();
+    films_.emplace_back(file, *component->contact(),
+                        name.empty() ? "film" : run::path("film", name));
+  }
   for (ColumnStream* columns : {&history_, &energy_, &film_clock_})
     add_clock_columns(*columns, model);
 }
@@ -31,7 +35,7 @@ Recorder::Recorder(const Model& model, const RecordedSpan& span, H5File& file,
 void Recorder::add_clock(double time) {
   row_.clear();
   row_.push_back(time);
-  if (model_.crank) row_.push_back(crank_angle_deg(model_, time));
+  if (model_.clock) row_.push_back(model_.clock->angle_deg(time));
 }
 
 void Recorder::record(const StageState& previous, const StageState& now,
@@ -46,10 +50,10 @@ void Recorder::record(const StageState& previous, const StageState& now,
   history_.add(row_);
   add_clock(now.time);
   record_energy(energy);
-  if (film_every_ > 0.0 && now.time >= next_film_) {
+  if (film_every_ > 0.0 && !films_.empty() && now.time >= next_film_) {
     add_clock(now.time);
     film_clock_.add(row_);
-    film_.add(model_.contact->snapshot());
+    for (FilmStream& film : films_) film.add();
     while (next_film_ <= now.time) next_film_ += film_every_;
   }
 }
@@ -72,11 +76,13 @@ void Recorder::finish() {
   history_.finish();
   energy_.finish();
   if (film_clock_.rows() > 0) film_clock_.finish();
-  film_.finish();
+  for (FilmStream& film : films_) film.finish();
 }
 
 int64_t Recorder::held() const {
-  return samples_.held() + history_.held() + energy_.held() + film_clock_.held() + film_.held();
+  int64_t sum = samples_.held() + history_.held() + energy_.held() + film_clock_.held();
+  for (const FilmStream& film : films_) sum += film.held();
+  return sum;
 }
 
 }  // namespace clatter::dynamics

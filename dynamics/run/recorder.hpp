@@ -45,7 +45,7 @@ class Recorder {
   UniformSamples samples_;
   History last_;
   ColumnStream history_, energy_, film_clock_;
-  FilmStream film_;
+  std::vector<FilmStream> films_;  // of the contacts
   std::vector<double> row_;
   double film_every_, next_film_;
 };

@@ -16,8 +16,11 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
       {"steps_rejected", &C::steps_rejected, "", "steps that were rejected and repeated"},
       {"periodicity_lateral", &C::lateral, "m",
        "largest difference of the piston's lateral position between the last two cycles; absent "
-       "after one cycle, as are the next two"},
+       "after one cycle, as are all that follow"},
       {"periodicity_tilt", &C::tilt, "rad", "the same of its tilt"},
+      {"periodicity_lateral_<cylinder>", &C::lateral_of, "m",
+       "the lateral position of each named cylinder's piston"},
+      {"periodicity_tilt_<cylinder>", &C::tilt_of, "rad", "the same of its tilt"},
       {"periodicity_<body>", &C::velocity, "", "relative difference of the body's velocities"}};
   return list;
 }

@@ -13,6 +13,8 @@ namespace clatter::dynamics {
 struct CycleDifference {
   /// Largest difference of the piston's secondary motion [m], [rad]; absent without a piston.
   std::optional<double> lateral{}, tilt{};
+  /// The same of named cylinders.
+  CertificateNumbers lateral_of{}, tilt_of{};
   /// By body, sqrt(sum |v - v'|^2 / sum |v|^2) over modal velocities, the norm of kinetic energy.
   CertificateNumbers velocity{};
 
@@ -21,7 +23,7 @@ struct CycleDifference {
 
 /// The certificate of a run. fields() has the unit and meaning of each member, which are named as
 /// in the file; those of CycleDifference are named periodicity_lateral,
-/// periodicity_tilt and `periodicity_<body>`.
+/// periodicity_tilt, those of named cylinders and `periodicity_<body>`.
 struct RunCertificate : CycleDifference {
   double energy_residue = 0.0, energy_exchanged = 0.0;
   double complete = 0.0, cycles = 0.0, steps_accepted = 0.0, steps_rejected = 0.0;

@@ -2,7 +2,6 @@
 #include "dynamics/run/run_file.hpp"
 
 #include "core/run/run_layout.hpp"
-#include "dynamics/run/run_clock.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -60,7 +59,7 @@ void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies
   std::vector<double> time, angle;
   for (Eigen::Index i = 0; i < block.count; ++i) {
     time.push_back(block.time(i));
-    if (model.crank) angle.push_back(crank_angle_deg(model, time.back()));
+    if (model.clock) angle.push_back(model.clock->angle_deg(time.back()));
   }
   const auto clock = [&](const char* name, const std::vector<double>& values, const char* unit) {
     const std::string path = run::path(run::kOutput, name);
@@ -68,7 +67,7 @@ void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies
     if (block.first == 0) file.set(path, "unit", unit);
   };
   clock(run::kTime, time, "s");
-  if (model.crank) clock(run::kCrankAngle, angle, "deg");
+  if (model.clock) clock(run::kCrankAngle, angle, "deg");
   int index = 0;
   for (const auto& body : bodies) {
     const auto at = model.system.mode_offset(index++), n = body.modal.modes();

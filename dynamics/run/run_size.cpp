@@ -16,32 +16,34 @@ namespace {
 
 constexpr double kLarge = kBytesPerGib;  // from here on the size is reported
 
-/// Two pads with gap, pressure, fill and contact pressure, in single precision.
-double bytes_of_film_field(const film::PistonLinerOptions& contact) {
-  return 2.0 * 4.0 * 4.0 * static_cast<double>(contact.cells_around) *
-         static_cast<double>(contact.cells_along);
-}
+/// Gap, pressure, fill and contact pressure of a cell, in single precision.
+constexpr double kBytesOfFilmCell = 4.0 * 4.0;
 
 }  // namespace
 
 RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
   const double whole = scene.time.end - scene.time.begin;
-  const double span = scene.engine ? whole / scene.time.cycles : whole;
+  const double span = scene.clock ? whole / scene.time.cycles : whole;
   RunSize size;
   size.samples = sample_count(span, scene.time.output_step);
-  int64_t modes = scene.engine ? 3 : 0;  // of the rod, which the file does not contain
+  int64_t modes = 0, film_cells = 0;
+  for (const auto& component : scene.components) {
+    modes += component->size().modes;
+    film_cells += component->size().film_cells;
+  }
   for (const auto& body : bodies) {
     size.coordinates += body.model.size();
     modes += body.modal.modes();
   }
   // q, v and a of each coordinate, time and angle; eta and v of the cycle before and, while another
   // one follows, of this cycle.
-  const int64_t checkpoints = scene.engine ? std::min(scene.time.cycles - 1, 2) : 0;
+  const int64_t checkpoints = scene.clock ? std::min(scene.time.cycles - 1, 2) : 0;
   const int64_t numbers = 3 * size.coordinates + 2 + checkpoints * 2 * modes;
   size.sample_bytes = 8.0 * static_cast<double>(size.samples) * static_cast<double>(numbers);
-  if (scene.contact && scene.film_every > 0.0) {
+  if (film_cells > 0 && scene.film_every > 0.0) {
     size.film_fields = std::llround(std::ceil(span / scene.film_every));
-    size.film_bytes = static_cast<double>(size.film_fields) * bytes_of_film_field(*scene.contact);
+    size.film_bytes =
+        static_cast<double>(size.film_fields) * kBytesOfFilmCell * static_cast<double>(film_cells);
   }
   return size;
 }
@@ -57,7 +59,7 @@ std::string check_size(const Scene& scene, const RunSize& size, const std::files
   if (all > free_bytes) {
     const bool film = size.film_bytes > size.sample_bytes;
     const double found =
-        film ? scene.film_every * scene.engine->speed / kDegree : scene.time.output_step / kMicro;
+        film ? scene.film_every * scene.clock->speed / kDegree : scene.time.output_step / kMicro;
     throw FileError(fmt::format("{}: found {:g}: {}, and {} has {} free, expected at least {:.3g}",
                                 film ? scene.time.film_every_where : scene.time.output_step_where,
                                 found, needs, output.string(), text(free_bytes),

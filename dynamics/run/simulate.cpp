@@ -24,13 +24,13 @@ struct Span {
 };
 
 Span cycle_span(const Scene& scene, int cycle) {
-  if (!scene.engine) return {scene.time.begin, scene.time.end};
-  const double length = 4.0 * std::numbers::pi / scene.engine->speed;
+  if (!scene.clock) return {scene.time.begin, scene.time.end};
+  const double length = scene.clock->cycle();
   const double begin = scene.time.end - length * (scene.time.cycles - cycle);
   return {begin, cycle + 1 == scene.time.cycles ? scene.time.end : begin + length};
 }
 
-int cycles_of(const Scene& scene) { return scene.engine ? scene.time.cycles : 1; }
+int cycles_of(const Scene& scene) { return scene.clock ? scene.time.cycles : 1; }
 
 Checkpoint first_state(const Scene& scene) {
   Checkpoint point;
@@ -54,8 +54,7 @@ class CycleRun {
     method_->set_observer(&energy_);
     const std::filesystem::path point = checkpoint_path(output);
     if (from.cycle == 0) {
-      const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model_->system.modes());
-      method_->start(span_.begin, rest, rest);
+      method_->start(span_.begin, model_->system.eta_start(), model_->system.v_start());
     } else {
       from_checkpoint(point, [&] {
         restore(from);
@@ -168,9 +167,9 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
   Checkpoint point = control.resume_from ? *control.resume_from : first_state(scene);
   const int cycles = cycles_of(scene);
   const std::string mark = cycles > 1 ? fingerprint(scene) : "";
-  const double factor = scene.engine ? scene.engine->speed * 180.0 / std::numbers::pi : 1.0;
+  const double factor = scene.clock ? scene.clock->speed * 180.0 / std::numbers::pi : 1.0;
   Progress progress(control.label, factor * (scene.time.end - scene.time.begin),
-                    scene.engine ? "deg" : "s");
+                    scene.clock ? "deg" : "s");
   std::map<std::string, double> seconds;
   while (point.cycle < cycles) {
     result.file.reset();  // of the cycle before: the next one takes its name
@@ -194,7 +193,7 @@ RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunCont
       point.statistics = result.statistics;
       say(fmt::format("cycle {} of {}: {:.6g} to {:.6g} {}, {} steps so far, energy residue {:.2e}",
                       result.cycles, cycles, span.begin * factor, span.end * factor,
-                      scene.engine ? "deg" : "s", result.statistics.accepted,
+                      scene.clock ? "deg" : "s", result.statistics.accepted,
                       result.energy_residue));
       cycle.commit(point, mark);
     }

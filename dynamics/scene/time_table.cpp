@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/units.hpp"
+#include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -27,8 +28,7 @@ double number_within(const Config& table, const char* key, double fallback, doub
 
 /// The span that is recorded: a cycle, or the entire run.
 double recorded_span(const Scene& scene) {
-  return scene.engine ? 4.0 * std::numbers::pi / scene.engine->speed
-                      : scene.time.end - scene.time.begin;
+  return scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
 }
 
 void read_accuracy(const Config& table, Accuracy& accuracy) {
@@ -49,12 +49,12 @@ void read_output(const Config& time, Scene& scene) {
                                          span_us / kMostSamples, span_us) *
                            kMicro;
   scene.time.output_step_where = time.where("output_step_us");
-  if (!scene.engine) return;
+  if (!scene.clock) return;
   const double film_deg = time.number_or("film_every_deg", 10.0, Range::between(0.0, 720.0));
   if (film_deg > 0.0 && film_deg < 0.01)
     time.fail("film_every_deg",
               fmt::format("found {:g}, expected 0 (no film fields) or at least 0.01", film_deg));
-  scene.film_every = film_deg * kDegree / scene.engine->speed;
+  scene.film_every = film_deg * kDegree / scene.clock->speed;
   scene.time.film_every_where = time.where("film_every_deg");
 }
 
@@ -62,14 +62,14 @@ void read_output(const Config& time, Scene& scene) {
 
 void read_time(const Config& root, Scene& scene) {
   const Config time = root.table("time");
-  if (!scene.engine) {
+  if (!scene.clock) {
     scene.time.end = time.number("end_s", Range::between(1e-9, 1e9));
     read_output(time, scene);
     return;
   }
   scene.time.cycles = static_cast<int>(time.integer_or("cycles", 2, Range::between(1.0, 1000.0)));
   const double ramp_deg = time.number_or("ramp_deg", 60.0, Range::between(0.0, 360.0));
-  const double omega = scene.engine->speed;
+  const double omega = scene.clock->speed;
   scene.time.begin = -(2.0 + 4.0 * (scene.time.cycles - 1)) * std::numbers::pi / omega;
   scene.time.end = 2.0 * std::numbers::pi / omega;
   scene.time.ramp = ramp_deg * kDegree / omega;
@@ -78,10 +78,11 @@ void read_time(const Config& root, Scene& scene) {
 
 void read_steps(const Config& root, Scene& scene) {
   const double span = recorded_span(scene), whole = scene.time.end - scene.time.begin;
-  const double largest_us = (scene.engine ? span / 720.0 : span / 100.0) / kMicro;
+  const double largest_us = (scene.clock ? span / 720.0 : span / 100.0) / kMicro;
   const Config time = root.table("time");
   const std::string method =
-      scene.contact && scene.contact->effects.film
+      std::any_of(scene.components.begin(), scene.components.end(),
+                  [](const auto& component) { return component->has_film(); })
           ? time.choice("method", {"sdirk2", "tr-bdf2", "predictor-corrector"})
           : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
   for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})

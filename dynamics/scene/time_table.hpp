@@ -6,16 +6,12 @@
 
 namespace clatter::dynamics {
 
-/// Ranges of displacement_um and velocity_m_s, of [accuracy] and of single bodies.
-inline const Range kDisplacementScaleUm = Range::between(1e-15, 1e6);
-inline const Range kVelocityScale = Range::between(1e-18, 1e4);
-
-/// Reads span, ramp and output of a scene whose engine, if it has one, is known. InputError for
+/// Reads span, ramp and output of a scene whose clock, if it has one, is known. InputError for
 /// values outside their range, which allows for 2 to 1e9 samples.
 void read_time(const Config& root, Scene& scene);
 
-/// Reads method, step limits and accuracy; after read_time() and the contact, whose film decides on
-/// the default method.
+/// Reads method, step limits and accuracy; after read_time() and the components, whose film decides
+/// on the default method.
 void read_steps(const Config& root, Scene& scene);
 
 }  // namespace clatter::dynamics

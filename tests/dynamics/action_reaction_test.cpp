@@ -40,14 +40,16 @@ Motion12 random_motion(const Model& model, const SyntheticEngine& engine, unsign
     if (system.is_rotation(i)) at.y(i) *= 10.0;
   at.y(system.rows(2)[2]) = 0.0;  // the rod's rotation
   // Pin x, y, z, rx, ry, rz, then the liner's axial coordinate.
-  const std::vector<int>& contact = model.contact->coordinates();
-  const auto pin = std::find(contact.begin(), contact.end(), model.pin_y) - contact.begin() - 1;
+  const std::vector<int>& contact = testing::cylinder_of(model).contact()->coordinates();
+  const auto pin = std::find(contact.begin(), contact.end(), testing::cylinder_of(model).pin()[1]) -
+                   contact.begin() - 1;
   const auto y_of = [&](long k) -> double& { return at.y(contact[static_cast<size_t>(pin + k)]); };
   const rom::ReducedModel& block = engine.bodies[1].model;
   Eigen::Vector2d arm = block.grid("liner_4").axis_point.head<2>();
-  if (!engine.scene.block->liner_axial.empty())
+  if (!engine.cylinder.bore->liner_axial.empty())
     arm = block.set("liner_4_axial").position.row(0).head<2>();
-  arm -= Eigen::Vector2d(block.grid("liner_4").axis_point.x(), model.crank->pin_offset());
+  arm -= Eigen::Vector2d(block.grid("liner_4").axis_point.x(),
+                         testing::cylinder_of(model).crank().pin_offset());
   y_of(2) = -(arm.y() * y_of(3) - arm.x() * y_of(4));
   if (pin + 6 < std::ssize(contact)) y_of(6) = 0.0;
   return at;
@@ -57,7 +59,7 @@ class ActionReaction : public ::testing::TestWithParam<EngineVariant> {};
 
 TEST_P(ActionReaction, RigidMotionsOfTheWholeDoNoWorkButThatOfTheDrive) {
   const SyntheticEngine engine(GetParam());
-  const double omega = engine.scene.engine->speed;
+  const double omega = engine.cylinder.engine.speed;
   std::map<std::string, Balance> balance;
   for (const double degrees : {-310.0, -90.0, 0.0, 35.0, 130.0, 181.0}) {
     const double time = degrees * std::numbers::pi / 180.0 / omega;
@@ -80,7 +82,7 @@ TEST_P(ActionReaction, RigidMotionsOfTheWholeDoNoWorkButThatOfTheDrive) {
       if (element.name() == "mount 1") continue;  // the ground is external
       if (element.name() == "crank_pin") {
         // External is the torque that drives the crank at constant speed, and nothing else.
-        const Eigen::Vector2d pin = model->crank->crank_pin(time).position;
+        const Eigen::Vector2d pin = testing::cylinder_of(*model).crank().crank_pin(time).position;
         const double torque = pin.x() * f(1) - pin.y() * f(0);
         EXPECT_GT(std::abs(torque), 1e-3 * terms(3));
         work(3) -= torque;

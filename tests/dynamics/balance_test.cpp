@@ -59,13 +59,13 @@ TEST(Balanced, LeavesNoInertiaResultantOfTheRigidMechanismOnTheBlock) {
     const SyntheticEngine engine(
         {.name = "", .elastic_piston = false, .balanced = true, .pin_offset = offset});
     const auto model = engine.model();
-    const EngineSpec& spec = *engine.scene.engine;
+    const EngineSpec& spec = engine.cylinder.engine;
     const double mass = engine.bodies[0].model.mass.mass;
     const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
     Vector6 largest = Vector6::Zero(), left = Vector6::Zero();
     for (int degrees = -360; degrees < 360; degrees += 7) {
       const double t = degrees * std::numbers::pi / 180.0 / spec.speed;
-      const Vector6 on_block = reactions(spec, *model->crank, mass, x, t);
+      const Vector6 on_block = reactions(spec, testing::cylinder_of(*model).crank(), mass, x, t);
       Vector6 sum = on_block;
       for (const Load& load : model->system.loads())
         if (load.term == kBalance) sum += resultant(*model, load, t);
@@ -88,8 +88,8 @@ TEST(Balanced, LeavesNoInertiaResultantOfTheRigidMechanismOnTheBlock) {
 TEST(Balanced, HoldsForAPistonWhoseMassIsOffThePin) {
   const SyntheticEngine engine({.name = "", .balanced = true, .pin_offset = 1.2e-3});
   const auto model = engine.model();
-  const SliderCrank& crank = *model->crank;
-  const RodProperties& rod = engine.scene.engine->rod;
+  const SliderCrank& crank = testing::cylinder_of(*model).crank();
+  const RodProperties& rod = engine.cylinder.engine.rod;
   const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
   for (const double t : {-0.011, -0.002, 0.0, 0.0013, 0.0041}) {
     const auto pin = crank.piston_pin(t);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/run/model.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/motored_cycle.hpp"
@@ -117,19 +118,21 @@ class ConstrainedPiston {
 
 TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   Scene scene;
-  scene.engine = EngineSpec{2000.0 * std::numbers::pi / 30.0, 0.130, 0.0, false,
-                            RodProperties{0.210, 2.2, 0.02, 0.07}};
-  PistonSpec piston;
+  scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
+  CylinderSpec cylinder;
+  cylinder.engine =
+      EngineSpec{scene.clock->speed, 0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}};
+  PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = false;
-  scene.piston = piston;
   const testing::MotoredCycle cycle;
   GasSpec gas;
   gas.table = ::testing::TempDir() + "clatter_dry_piston.csv";
   testing::write_motored_cycle(gas.table, cycle, std::numbers::pi / 720.0);
-  scene.gas = gas;
+  cylinder.gas = gas;
   // Nearly rigid joints without clearance: 40 kN press 1e11 N/m by 0.4 um.
-  scene.small_end = scene.big_end = RadialLaw{0.0, 0.0, 1e11, 1.0, 3e5};
+  cylinder.small_end = cylinder.big_end = RadialLaw{0.0, 0.0, 1e11, 1.0, 3e5};
+  scene.components = {std::make_shared<CylinderComponent>(cylinder)};
   const double area = 8.992e-3;
   LoadedBodies bodies;
   bodies.push_back({piston, "", testing::rigid_piston(1.916, 4e-3, area), {}});
@@ -138,12 +141,13 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
 
   for (const double gap : {20e-6, 50e-6, 100e-6}) {
     const auto model = build_model(scene, bodies);
+    const int pin_y = components_of<CylinderComponent>(*model).at(0)->pin()[1];
     Dirk method(model->system, {});
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model->system.modes());
     method.start(0.0, rest, rest);
-    while (method.state().y(model->pin_y) < gap) method.step(0.01);
-    const Crossing found = crossing(method.previous(), method.state(), model->pin_y, gap);
-    const Crossing exact = ConstrainedPiston(*scene.engine, 1.916, area, cycle, 1e5).cross(gap);
+    while (method.state().y(pin_y) < gap) method.step(0.01);
+    const Crossing found = crossing(method.previous(), method.state(), pin_y, gap);
+    const Crossing exact = ConstrainedPiston(cylinder.engine, 1.916, area, cycle, 1e5).cross(gap);
     EXPECT_NEAR(found.time, exact.time, 0.01 * exact.time) << gap;
     EXPECT_NEAR(found.speed, exact.speed, 0.01 * exact.speed) << gap;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dynamics/scene/effects.hpp"
+#include "dynamics/component/effects.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,6 +15,7 @@
 #include "dynamics/run/run_summary.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"
+#include "tests/dynamics/synthetic_engine.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -174,8 +175,9 @@ TEST_F(Runs, WhatIsOffIsNotThere) {
   const auto model = build_model(without, bodies);
   EXPECT_EQ(model->system.modes(), 9);           // six of the piston, three of the rod
   EXPECT_EQ(model->system.interface_size(), 9);  // pin and rod
-  ASSERT_NE(model->contact, nullptr);
-  EXPECT_TRUE(model->contact->save().size() == 1);  // no film content
+  const film::PistonLiner* contact = testing::cylinder_of(*model).contact();
+  ASSERT_NE(contact, nullptr);
+  EXPECT_TRUE(contact->save().size() == 1);  // no film content
   for (const auto& effect : model->effects.effects()) {
     if (effect.name == "oil film" || effect.name == "cavitation" || effect.name == "friction" ||
         effect.name == "elastic block" || effect.name == "damping of the contact") {

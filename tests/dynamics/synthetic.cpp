@@ -194,13 +194,21 @@ rom::ReducedModel elastic_piston(double radius, int strips, int rows, double axi
   return model;
 }
 
-rom::ReducedModel elastic_block(double radius, int strips, int rows, const Eigen::Vector2d& off) {
-  Assembly parts;
-  const Vector3d axis(0.195, 0.0, 0.0);
-  parts.grid("liner_4", radius, equal_strips(0.0, 2.0 * std::numbers::pi, strips),
+namespace {
+
+/// Adds what the block has for one cylinder: liner, mean axial displacement, node of the head.
+void add_bore(Assembly& parts, const std::string& number, double x, double radius, int strips,
+              int rows, const Eigen::Vector2d& off, const std::string& head) {
+  const Vector3d axis(x, 0.0, 0.0);
+  const std::string liner = "liner_" + number;
+  parts.grid(liner, radius, equal_strips(0.0, 2.0 * std::numbers::pi, strips),
              VectorXd::LinSpaced(rows + 1, 0.115, 0.345), axis, 4.0 / (strips * rows), 5000.0);
-  parts.add("liner_4_axial", "mean", "liner_4_axial", axis + Vector3d(off.x(), off.y(), 0.23),
+  parts.add(liner + "_axial", "mean", liner + "_axial", axis + Vector3d(off.x(), off.y(), 0.23),
             Vector3d::UnitZ(), false, 4.0, 4000.0);
+  if (!head.empty()) parts.node(head, "sensor", Vector3d(x, 0.0, 0.345), 15.0, 2000.0);
+}
+
+void add_bearings_and_mounts(Assembly& parts) {
   parts.node("main_4", "bearing", Vector3d(0.13, 0.0, 0.0), 8.0, 2500.0);
   parts.node("main_5", "bearing", Vector3d(0.26, 0.0, 0.0), 8.0, 2200.0);
   parts.node("head", "sensor", Vector3d(0.195, 0.0, 0.345), 15.0, 2000.0);
@@ -210,10 +218,34 @@ rom::ReducedModel elastic_block(double radius, int strips, int rows, const Eigen
       parts.node("mounts", "mount", Vector3d(x, y, 0.05), 20.0, 900.0);
     }
   }
+}
+
+rom::ReducedModel finished_block(Assembly& parts, double radius) {
   rom::ReducedModel model = parts.finish("block");
   model.alpha = 2e-6;
   model.loads["head_4_gas"] = VectorXd::Zero(model.size());
   model.loads["head_4_gas"](model.set("head").dofs[2]) = std::numbers::pi * radius * radius;
+  return model;
+}
+
+}  // namespace
+
+rom::ReducedModel elastic_block(double radius, int strips, int rows, const Eigen::Vector2d& off) {
+  Assembly parts;
+  add_bore(parts, "4", 0.195, radius, strips, rows, off, "");
+  add_bearings_and_mounts(parts);
+  return finished_block(parts, radius);
+}
+
+rom::ReducedModel two_bore_block(double radius, int strips, int rows) {
+  Assembly parts;
+  add_bore(parts, "4", 0.195, radius, strips, rows, Eigen::Vector2d::Zero(), "");
+  add_bearings_and_mounts(parts);
+  add_bore(parts, "3", 0.065, radius, strips, rows, Eigen::Vector2d::Zero(), "head_3");
+  parts.node("main_3", "bearing", Vector3d(0.0, 0.0, 0.0), 8.0, 2300.0);
+  rom::ReducedModel model = finished_block(parts, radius);
+  model.loads["head_3_gas"] = VectorXd::Zero(model.size());
+  model.loads["head_3_gas"](model.set("head_3").dofs[2]) = std::numbers::pi * radius * radius;
   return model;
 }
 

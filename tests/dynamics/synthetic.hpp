@@ -24,6 +24,9 @@ rom::ReducedModel elastic_piston(double radius, int strips, int rows, double axi
 /// @param off of "liner_4_axial" from the bore's axis (x, y) [m].
 rom::ReducedModel elastic_block(double radius, int strips, int rows,
                                 const Eigen::Vector2d& off = Eigen::Vector2d::Zero());
+/// The same with a second bore at x = 65 mm: "liner_3", "liner_3_axial", "main_3", and the unit
+/// load "head_3_gas" on "head_3".
+rom::ReducedModel two_bore_block(double radius, int strips, int rows);
 
 /// Writes the model as a .rom.h5.
 void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model);

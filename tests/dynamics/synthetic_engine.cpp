@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "dynamics/component/body_component.hpp"
+#include "dynamics/component/mount_component.hpp"
 #include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics::testing {
@@ -34,20 +36,21 @@ film::PistonLinerOptions contact_of(const EngineVariant& variant) {
 }  // namespace
 
 SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
-  scene.engine = EngineSpec{2000.0 * std::numbers::pi / 30.0, 0.130, variant.pin_offset,
-                            variant.balanced, RodProperties{0.210, 2.2, 0.02, 0.07}};
-  PistonSpec piston;
+  scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
+  cylinder.engine = EngineSpec{scene.clock->speed, 0.130, variant.pin_offset, variant.balanced,
+                               RodProperties{0.210, 2.2, 0.02, 0.07}};
+  PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = variant.elastic_piston;
-  BlockSpec block;
+  BodySpec block;
   block.name = "block";
-  block.liner = "liner_4";
-  block.liner_axial = variant.liner_axial ? "liner_4_axial" : "";
-  block.bearings = variant.bearings;
-  scene.piston = piston;
-  scene.block = block;
-  scene.contact = contact_of(variant);
-  scene.mounts = {{"block", "", {"mounts"}, {1e5, 1e5, 2e5}, {1e3, 1e3, 2e3}}};
+  cylinder.bore =
+      BoreSpec{"liner_4", variant.liner_axial ? "liner_4_axial" : "", variant.bearings, ""};
+  cylinder.contact = contact_of(variant);
+  const MountSpec mount{"block", "", {"mounts"}, {1e5, 1e5, 2e5}, {1e3, 1e3, 2e3}};
+  scene.components = {std::make_shared<CylinderComponent>(cylinder),
+                      std::make_shared<BlockComponent>(block),
+                      std::make_shared<MountComponent>(std::vector{mount}, false)};
   load(piston,
        variant.elastic_piston ? elastic_piston(kRadius, 4, 4, -variant.pin_offset)
                               : rigid_piston(1.9, 4e-3, 9e-3),
@@ -56,9 +59,9 @@ SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
 }
 
 Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time) {
-  const SliderCrank& crank = *model.crank;
+  const SliderCrank& crank = cylinder_of(model).crank();
   const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
-  const Eigen::Vector2d rod = crank.rod_point(time, engine.scene.engine->rod.centre).position;
+  const Eigen::Vector2d rod = crank.rod_point(time, engine.cylinder.engine.rod.centre).position;
   const System& system = model.system;
   Eigen::MatrixXd V(system.interface_size(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {

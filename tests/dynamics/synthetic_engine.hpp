@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/run/model.hpp"
 
 namespace clatter::dynamics::testing {
@@ -28,9 +29,15 @@ struct SyntheticEngine {
   explicit SyntheticEngine(const EngineVariant& variant);
   std::unique_ptr<Model> model() const { return build_model(scene, bodies); }
 
+  CylinderSpec cylinder;
   Scene scene;
   LoadedBodies bodies;
 };
+
+/// The cylinder of a model that has one.
+inline const CylinderComponent& cylinder_of(const Model& model) {
+  return *components_of<CylinderComponent>(model).at(0);
+}
 
 /// Velocities of all interface coordinates (n_y x 6) when block, rod and piston, ideally placed at
 /// `time`, move together as one rigid body: unit motions x, y, z, rx, ry, rz about the engine's

@@ -92,6 +92,34 @@ TEST(Config, AChoiceListsWhatIsAllowed) {
             "s:1: mode: found \"oily\", expected one of: film, none");
 }
 
+TEST(Config, ATableWithAFallbackLacksNoKeyOfIt) {
+  const Config root = Config::parse(
+      "[oil]\nviscosity = 1\nfill = 2\n[oil.cold]\nstart = 5\n[air]\np = 3\n"
+      "[[part]]\n[part.oil]\nfill = 4\nname = 7\n",
+      "s");
+  const Config part = root.tables("part").at(0).with_fallback(root);
+  const Config oil = part.table("oil");
+  EXPECT_EQ(oil.number("viscosity"), 1.0);
+  EXPECT_EQ(oil.number("fill"), 4.0);
+  EXPECT_EQ(oil.table("cold").number("start"), 5.0);
+  EXPECT_EQ(oil.number_or("absent", 9.0), 9.0);
+  EXPECT_EQ(part.table("air").number("p"), 3.0);
+  EXPECT_FALSE(part.find_table("gas").has_value());
+  // Messages name the table that has the key.
+  EXPECT_EQ(oil.where("viscosity"), "s:2: oil.viscosity");
+  EXPECT_EQ(oil.where("fill"), "s:10: part[0].oil.fill");
+  EXPECT_EQ(message_of([&] { oil.number("viscosity", Range::between(2.0, 3.0)); }),
+            "s:2: oil.viscosity: found 1, expected a number at least 2 and at most 3");
+  EXPECT_EQ(message_of([&] { oil.text("name"); }),
+            "s:11: part[0].oil.name: found 7, expected a string in quotes");
+  EXPECT_EQ(root.resolved(),
+            "oil.viscosity = 1\npart[0].oil.fill = 4\noil.cold.start = 5\n"
+            "part[0].oil.absent = 9\nair.p = 3\n");
+  // The shared fill is known, although the part has its own.
+  static_cast<void>(oil.has("name"));
+  EXPECT_NO_THROW(root.finish());
+}
+
 TEST(Config, MissingKeysAreTakenFromTheBase) {
   const std::filesystem::path folder = ::testing::TempDir() + "clatter_config_base";
   std::filesystem::create_directories(folder / "below");

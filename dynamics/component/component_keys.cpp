@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/component/component_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/units.hpp"
+
+namespace clatter::dynamics {
+
+void read_body(const Config& table, const std::string& name, BodySpec& body) {
+  body.name = name;
+  body.rom = table.path("rom");
+  body.elastic = table.choice("model", {"elastic", "rigid"}) == "elastic";
+  body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::between(0.0, 1e9));
+  read_error_scales(table, body);
+  body.where = table.where();
+}
+
+Spline::Kind read_interpolation(const Config& table, std::string_view fallback) {
+  const bool linear_first = fallback == "linear";
+  const std::string kind = linear_first ? table.choice("interpolation", {"linear", "cubic"})
+                                        : table.choice("interpolation", {"cubic", "linear"});
+  return kind == "linear" ? Spline::Kind::kLinear : Spline::Kind::kMonotoneCubic;
+}
+
+std::string read_name(const Config& table) {
+  const std::string name = table.text("name");
+  if (name.empty() || name == "." || name.find('/') != std::string::npos)
+    table.fail("name", fmt::format("found \"{}\", expected a name without /", name));
+  return name;
+}
+
+Eigen::Vector3d read_vector(const Config& table, std::string_view key, double limit) {
+  const std::vector<double> values = table.numbers(key, 3);
+  for (const double value : values)
+    if (!(std::abs(value) <= limit))
+      table.fail(key, fmt::format("found {:g}, expected at least {:g} and at most {:g}", value,
+                                  -limit, limit));
+  return {values[0], values[1], values[2]};
+}
+
+PointSpec read_point(const Config& table, std::string_view key) {
+  const Config at = table.table(key);
+  PointSpec point;
+  point.where = table.where(key);
+  point.body = at.text_or("body", "");
+  if (at.has("set")) point.set = at.text("set");
+  if (at.has("at_mm")) point.at = read_vector(at, "at_mm", 1e6) * kMilli;
+  if (point.at && !point.set.empty())
+    at.fail("at_mm", "found a position and a set, expected one of both");
+  return point;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/component/drive_component.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/component/component_keys.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
+
+DriveSpec read_drive(const Config& table) {
+  const Range angle = Range::between(-1e6, 1e6), speed = Range::between(-1e5, 1e5);
+  DriveSpec spec;
+  spec.name = read_name(table);
+  spec.where = table.where();
+  if (table.has("centre_mm")) spec.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
+  const std::string axis = table.choice("axis", {"x", "y", "z"});
+  spec.axis = axis[0] - 'x';
+  const double mean = table.number("speed_rpm", speed) * kRpm;
+  const double start = table.number_or("start_deg", 0.0, angle) * kDegree;
+  std::vector<SpeedOrder> orders;
+  for (const Config& one : table.tables("order"))
+    orders.push_back({one.number("order", Range::between(1e-6, 1e6)),
+                      one.number("amplitude_rpm", speed) * kRpm,
+                      one.number_or("phase_deg", 0.0, angle) * kDegree});
+  spec.drive = with_context(table.where("speed_rpm"), [&] { return Drive(mean, start, orders); });
+  return spec;
+}
+
+}  // namespace
+
+void DriveComponent::add_bodies(ModelBuilder& model) {
+  const auto port = [spec = spec_, begin = model.time.begin](System&, const Eigen::Vector3d& at) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(spec.axis);
+    const Eigen::AngleAxisd back(-spec.drive.at(begin).position, axis);
+    return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis);
+  };
+  model.add_ports(spec_.name, port, spec_.where);
+}
+
+void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
+  effects.add("drive " + spec_.name, true, "[[drive]]: turns as prescribed, no body");
+}
+
+ComponentList read_drives(const Config& root) {
+  ComponentList drives;
+  for (const Config& table : root.tables("drive"))
+    drives.push_back(std::make_shared<DriveComponent>(read_drive(table)));
+  return drives;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// [[drive]]: shafts that turn as prescribed.
+#include <Eigen/Core>
+#include <utility>
+
+#include "dynamics/component/component.hpp"
+#include "dynamics/given/drive.hpp"
+
+namespace clatter::dynamics {
+
+/// One [[drive]].
+struct DriveSpec {
+  std::string name, where;
+  Drive drive{0.0};
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // a point of the axis [m]
+  int axis = 0;                                      // it turns about x, y or z, right-handed
+};
+
+/// A shaft without mass on whose points elements may act; what drives it bears all forces.
+class DriveComponent : public Component {
+ public:
+  explicit DriveComponent(DriveSpec spec) : spec_(std::move(spec)) {}
+  std::unique_ptr<Component> clone() const override {
+    return std::make_unique<DriveComponent>(*this);
+  }
+  std::string name() const override { return spec_.name; }
+  void add_bodies(ModelBuilder& model) override;
+  void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
+
+ private:
+  DriveSpec spec_;
+};
+
+ComponentList read_drives(const Config& root);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/component/loaded_body.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/rom/certificate_warning.hpp"
+
+namespace clatter::dynamics {
+LoadedBody load_body(const BodySpec& spec) {
+  LoadedBody body;
+  body.spec = spec;
+  body.model = rom::read_reduced_model(spec.rom, false);
+  const std::string warning = rom::certificate_warning(body.model);
+  if (!warning.empty()) warn(fmt::format("{}: {}", spec.rom.string(), warning));
+  body.sha256 = sha256_of_file(spec.rom);
+  body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
+  body.modal.name = spec.name;
+  body.modal.displacement_scale = spec.displacement_scale;
+  body.modal.velocity_scale = spec.velocity_scale;
+  return body;
+}
+
+const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name) {
+  for (const auto& body : bodies) {
+    if (body.spec.name == name) return &body;
+  }
+  return nullptr;
+}
+
+int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {
+  const rom::DofSet& dofs = model.set(set);
+  for (size_t i = 0; i < dofs.dofs.size(); ++i) {
+    // A direction within half a degree of the axis counts as the axis.
+    const bool along = std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996;
+    if (along && (dofs.is_rotation[i] != 0) == rotation) return dofs.dofs[i];
+  }
+  throw InputError(fmt::format("{}: set \"{}\" has no {} {}, found: {}", model.name, set,
+                               rotation ? "rotation about" : "displacement along", "xyz"[axis],
+                               fmt::join(dofs.labels, ", ")));
+}
+
+const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load) {
+  const auto found = model.loads.find(load);
+  if (found != model.loads.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& entry : model.loads) names.push_back(entry.first);
+  throw InputError(fmt::format("{}: no unit load \"{}\", found: {}", model.name, load,
+                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+}  // namespace clatter::dynamics

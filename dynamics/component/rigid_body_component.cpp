@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/component/rigid_body_component.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/body/rigid_body.hpp"
+#include "dynamics/component/component_keys.hpp"
+#include "dynamics/force/spatial_port.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kOffPlane = 1e-6;  // [m]: points of a body in a plane may be so far beside it
+
+/// The axes of a plane by the one normal to it: x of y z, y of z x, z of x y.
+struct Axes {
+  int first, second;
+};
+
+Axes axes_of(int normal) { return {(normal + 1) % 3, (normal + 2) % 3}; }
+
+Vector2d in_plane(const Vector3d& vector, int normal) {
+  const Axes axes = axes_of(normal);
+  return {vector(axes.first), vector(axes.second)};
+}
+
+std::vector<int> all_coordinates(System& system, int body) {
+  std::vector<int> y;
+  for (int k = 0; k < system.bodies()[static_cast<size_t>(body)].size(); ++k)
+    y.push_back(system.coordinate(body, k));
+  return y;
+}
+
+void set_scales(const RigidBodySpec& spec, ModalBody& body) {
+  body.displacement_scale = spec.displacement_scale;
+  body.velocity_scale = spec.velocity_scale;
+}
+
+RigidBodySpec read_rigid_body(const Config& table) {
+  const Range moment = Range::between(1e-15, 1e12);
+  const auto three = [&](const char* key, double limit) -> Vector3d {
+    return table.has(key) ? read_vector(table, key, limit) : Vector3d::Zero();
+  };
+  RigidBodySpec spec;
+  spec.name = read_name(table);
+  spec.where = table.where();
+  const std::string motion = table.choice("motion", {"xy", "yz", "zx", "space"});
+  spec.normal = motion == "xy" ? 2 : motion == "yz" ? 0 : motion == "zx" ? 1 : -1;
+  spec.mass = table.number("mass_kg", Range::between(1e-9, 1e9));
+  spec.centre = three("centre_mm", 1e6) * kMilli;
+  spec.velocity = three("start_velocity_m_s", 1e4);
+  if (spec.normal >= 0) {
+    spec.inertia(0) = table.number("inertia_kg_m2", moment);
+    spec.angle = table.number_or("angle_deg", 0.0, Range::between(-1e6, 1e6)) * kDegree;
+    spec.spin(0) = table.number_or("start_spin_rad_s", 0.0, Range::between(-1e6, 1e6));
+  } else {
+    spec.inertia = read_vector(table, "inertia_kg_m2", moment.max);
+    spec.spin = three("start_spin_rad_s", 1e6);
+    const std::vector<double> q = table.numbers_or("quaternion", {1.0, 0.0, 0.0, 0.0});
+    if (q.size() != 4)
+      table.fail("quaternion", fmt::format("found {} numbers, expected 4: w, x, y, z", q.size()));
+    spec.quaternion = {q[0], q[1], q[2], q[3]};
+    if (!(std::abs(spec.quaternion.norm() - 1.0) < 1e-3))
+      table.fail("quaternion",
+                 fmt::format("found length {:g}, expected 1", spec.quaternion.norm()));
+  }
+  read_error_scales(table, spec);
+  return spec;
+}
+
+}  // namespace
+
+ComponentSize RigidBodyComponent::size() const {
+  return {.modes = is_planar() ? 3 : kSpatial, .film_cells = 0};
+}
+
+void RigidBodyComponent::add_bodies(ModelBuilder& model) {
+  if (is_planar()) {
+    add_planar(model);
+  } else {
+    add_spatial(model);
+  }
+}
+
+void RigidBodyComponent::add_planar(ModelBuilder& model) {
+  const int normal = spec_.normal;
+  const Axes axes = axes_of(normal);
+  PlanarMotion start;
+  start.centre = in_plane(spec_.centre, normal);
+  start.angle = spec_.angle;
+  start.velocity = in_plane(spec_.velocity, normal);
+  start.spin = spec_.spin(0);
+  ModalBody body = with_context(spec_.where, [&] {
+    return make_planar_body(spec_.name, spec_.mass, spec_.inertia(0), start);
+  });
+  body.rigid.setZero();
+  body.rigid(0, axes.first) = body.rigid(1, axes.second) = std::sqrt(spec_.mass);
+  body.rigid(2, 3 + normal) = std::sqrt(spec_.inertia(0));
+  set_scales(spec_, body);
+  const int index = model.add_body(std::move(body), spec_.where);
+  const auto port = [spec = spec_, axes, index](System& system, const Vector3d& at) {
+    const Vector3d arm = at - spec.centre;
+    if (std::abs(arm(spec.normal)) > kOffPlane)
+      throw InputError(
+          fmt::format("{}: a joint of \"{}\" is {:.4g} mm beside the plane in which "
+                      "it moves, expected on it",
+                      spec.where, spec.name, arm(spec.normal) / kMilli));
+    const Vector2d turned = Eigen::Rotation2Dd(-spec.angle) * in_plane(arm, spec.normal);
+    const Vector3d origin = spec.centre(spec.normal) * Vector3d::Unit(spec.normal);
+    const PlaneAxes plane{origin, Vector3d::Unit(axes.first), Vector3d::Unit(axes.second)};
+    return std::make_unique<PlanarPort>(all_coordinates(system, index), turned, plane);
+  };
+  model.add_ports(spec_.name, port, spec_.where);
+}
+
+void RigidBodyComponent::add_spatial(ModelBuilder& model) {
+  SpatialMotion start;
+  start.centre = spec_.centre;
+  const Eigen::Vector4d& q = spec_.quaternion;
+  start.rotation = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
+  start.velocity = spec_.velocity;
+  start.spin = spec_.spin;
+  ModalBody body = with_context(
+      spec_.where, [&] { return make_spatial_body(spec_.name, spec_.mass, spec_.inertia, start); });
+  set_scales(spec_, body);
+  const int index = model.add_body(std::move(body), spec_.where);
+  const auto port = [start, index](System& system, const Vector3d& at) {
+    const Vector3d arm = start.rotation.conjugate() * (at - start.centre);
+    const auto& frame = system.bodies()[static_cast<size_t>(index)].frame;
+    return std::make_unique<SpatialPort>(all_coordinates(system, index), frame, arm);
+  };
+  model.add_ports(spec_.name, port, spec_.where);
+}
+
+void RigidBodyComponent::add_elements(ModelBuilder& model) {
+  static constexpr const char* kAxis[] = {"x", "y", "z"};
+  const int body = model.body(spec_.name);
+  if (!is_planar()) spatial_ = add_rotation(model.system, body);
+  const std::vector<int> y = all_coordinates(model.system, body);
+  const auto add = [&](size_t k, const char* what, const char* unit) {
+    recorded_.push_back({spec_.name + "_" + what, unit, y[k]});
+  };
+  if (is_planar()) {
+    const Axes axes = axes_of(spec_.normal);
+    add(0, kAxis[axes.first], "m");
+    add(1, kAxis[axes.second], "m");
+    add(2, "angle", "rad");
+    return;
+  }
+  for (size_t k = 0; k < 3; ++k) add(k, kAxis[k], "m");
+}
+
+void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
+  static constexpr const char* kPlanes[] = {"yz", "zx", "xy"};
+  effects.add("rigid " + spec_.name, true,
+              is_planar() ? fmt::format("large motion in the plane {}, 3 coordinates",
+                                        kPlanes[spec_.normal])
+                          : "large motion in space, 10 coordinates",
+              is_planar() ? "" : spec_.name + " rotation");
+}
+
+void RigidBodyComponent::record(const System&, const StageState& state, History& history) const {
+  for (const Recorded& one : recorded_) history.put(one.name, one.unit, state.y(one.coordinate));
+  if (is_planar()) return;
+  static constexpr const char* kParts[] = {"_qw", "_qx", "_qy", "_qz"};
+  const Eigen::Vector4d quaternion = spatial_.quaternion(state);
+  for (int k = 0; k < 4; ++k) history.put(spec_.name + kParts[k], "1", quaternion(k));
+}
+
+ComponentList read_rigid_bodies(const Config& root) {
+  ComponentList bodies;
+  for (const Config& table : root.tables("rigid_body"))
+    bodies.push_back(std::make_shared<RigidBodyComponent>(read_rigid_body(table)));
+  return bodies;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/component/spring_component.hpp"
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/force/port_element.hpp"
+
+namespace clatter::dynamics {
+
+void SpringComponent::add_elements(ModelBuilder& model) {
+  for (const SpringSpec& spring : springs_) {
+    const Eigen::Vector3d from = model.position(spring.a, std::nullopt);
+    if ((model.position(spring.b, from) - from).norm() < 1e-9)
+      throw InputError(spring.b.where +
+                       ": is the same point as a, expected another one: the spring acts along the "
+                       "line between them");
+    PairPorts ports = ports_of(spring, model);
+    model.system.add_element(std::make_unique<LineSpring>(spring.name, std::move(ports.a),
+                                                          std::move(ports.b), spring.stiffness,
+                                                          spring.damping, spring.length));
+  }
+}
+
+void SpringComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
+  if (!springs_.empty()) effects.add("springs", true, "[[spring]]", "spring");
+}
+
+ComponentList read_springs(const Config& root) {
+  std::vector<SpringSpec> springs;
+  for (const Config& table : root.tables("spring")) {
+    SpringSpec spring{read_pair(table, "spring", springs.size() + 1)};
+    spring.length = table.number("length_mm", Range::between(0.0, 1e6)) * kMilli;
+    springs.push_back(spring);
+  }
+  return {std::make_shared<SpringComponent>(std::move(springs))};
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// [engine] ... [contact] or [[cylinder]]: a slider-crank with piston, rod, joints, guide, contact
+// and gas.
+#include <optional>
+#include <utility>
+
+#include "dynamics/component/component.hpp"
+#include "dynamics/cylinder/cylinder_elements.hpp"
+#include "dynamics/cylinder/cylinder_spec.hpp"
+#include "dynamics/given/spline.hpp"
+
+namespace clatter::dynamics {
+
+/// One cylinder. Its bodies are "piston", with a reduced model, and "rod"; its elements "pin",
+/// "crank_pin", "pin_guide" and "piston_liner"; its histories those of the elements and
+/// piston_lateral [m], piston_tilt [rad] (against the liner) and gas_pressure [Pa]. All names of a
+/// named cylinder "c1" begin with "c1_".
+class CylinderComponent : public Component {
+ public:
+  explicit CylinderComponent(CylinderSpec spec)
+      : spec_(std::move(spec)), crank_(spec_.engine.crank()) {}
+  std::unique_ptr<Component> clone() const override {
+    return std::make_unique<CylinderComponent>(*this);
+  }
+  std::string name() const override { return spec_.name; }
+  std::vector<BodySpec> reduced_bodies() const override;
+  std::vector<std::filesystem::path> inputs() const override;
+  ComponentSize size() const override;
+  bool has_film() const override { return spec_.contact && spec_.contact->effects.film; }
+
+  void add_bodies(ModelBuilder& model) override;
+  /// InputError for sets and grids that a body lacks and for inconsistent geometry.
+  void add_elements(ModelBuilder& model) override;
+  void add_loads(ModelBuilder& model) override;
+  void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
+  void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
+
+  void record(const System& system, const StageState& state, History& history) const override;
+  bool has_secondary_motion() const override { return true; }
+  Eigen::Vector2d secondary_motion(double time, const Eigen::VectorXd& y) const override;
+  const film::PistonLiner* contact() const override { return contact_; }
+
+  const CylinderSpec& spec() const { return spec_; }
+  const SliderCrank& crank() const { return crank_; }
+  /// y indices of the pin's node, in a model.
+  const PinNode& pin() const { return pin_; }
+
+ private:
+  CylinderSpec spec_;
+  SliderCrank crank_;
+  std::optional<Spline> gas_;
+  PinNode pin_{-1, -1, -1, -1, -1, -1};
+  const film::PistonLiner* contact_ = nullptr;
+  std::optional<LinerFit> liner_;
+};
+
+/// The cylinder of an engine scene, or those of its [[cylinder]] tables.
+ComponentList read_cylinders(const Config& root);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/cylinder/cylinder_effects.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+/// Adds rows under the cylinder's name.
+class CylinderRows {
+ public:
+  CylinderRows(const CylinderSpec& cylinder, EffectTable& table)
+      : cylinder_(cylinder), table_(table) {}
+  void add(const std::string& effect, bool on, const std::string& why,
+           const std::string& element = "") {
+    table_.add(cylinder_.name.empty() ? effect : cylinder_.name + ": " + effect, on, why,
+               element.empty() ? "" : cylinder_.name_of(element));
+  }
+
+ private:
+  const CylinderSpec& cylinder_;
+  EffectTable& table_;
+};
+
+void add_contact(const CylinderSpec& cylinder, const std::string& ends, CylinderRows& table) {
+  const bool contact = cylinder.contact.has_value();
+  const auto effects = contact ? cylinder.contact->effects : film::ContactEffects{};
+  const std::string absent = "no [contact]";
+  const std::string name = contact ? cylinder.contact->name : "";
+  table.add("oil film", contact && effects.film,
+            !contact       ? absent
+            : effects.film ? "contact.lubrication = \"film\" (all of the contact)"
+                           : "contact.lubrication = \"none\"",
+            contact && effects.film ? name : "");
+  table.add("cavitation", contact && effects.film && effects.cavitation,
+            !contact             ? absent
+            : !effects.film      ? "no film"
+            : effects.cavitation ? cylinder.contact->cavity == film::Cavity::kLayer
+                                       ? "contact.cavitation, oil in layers on the walls"
+                                       : "contact.cavitation, oil in streamers across the gap"
+                                 : "contact.cavitation = false: every cell is full; "
+                                   "oil_thickness_um, initial_fill, supply_fill are not used");
+  table.add("asperity contact", contact && effects.asperities, "contact.asperities",
+            contact && !effects.film ? name : "");
+  const bool damped = contact && effects.asperities && cylinder.contact->damping.loss_factor > 0.0;
+  table.add("damping of the contact", damped,
+            contact && !effects.asperities ? "no asperities" : "contact.asperity_loss_factor");
+  table.add("friction", contact && effects.friction, "contact.friction");
+  table.add("ends of the liner", !ends.empty(),
+            !contact       ? absent
+            : ends.empty() ? "no contact.liner_bottom_mm, liner_top_mm, no elastic liner"
+                           : ends);
+}
+
+}  // namespace
+
+void add_cylinder_effects(const CylinderSpec& cylinder, bool on_block, const std::string& ends,
+                          EffectTable& effects) {
+  CylinderRows table(cylinder, effects);
+  table.add("inertia of the piston", true, "eq. (10): frame moves with z_B(t), does not turn");
+  table.add("inertia of the rod", true, "moving and turning frame, exact in the plane");
+  table.add("inertia of the block", false, "p* = 0: its frame is at rest");
+  const bool balanced = cylinder.engine.balanced && on_block;
+  table.add("balance by other cylinders", balanced,
+            !balanced && cylinder.engine.balanced ? "no elastic block"
+                                                  : "engine.balanced, on the block's rigid modes");
+  table.add("gas pressure", cylinder.gas.has_value(), cylinder.gas ? "[gas]" : "no [gas]");
+  table.add("rod joint at the pin", true, "[small_end]", "pin");
+  table.add("rod joint at the crank", true, "[big_end]", "crank_pin");
+  table.add("pin guide", true, "[pin_guide]: along the pin and about y, z", "pin_guide");
+  add_contact(cylinder, ends, table);
+}
+
+}  // namespace clatter::dynamics

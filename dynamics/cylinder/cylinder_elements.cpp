@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/cylinder/cylinder_elements.hpp"
+
+#include "core/base/error.hpp"
+#include "dynamics/cylinder/crank_centre.hpp"
+#include "dynamics/force/joint.hpp"
+#include "dynamics/force/pin_guide.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+/// An end of the rod at `arm` from its centre of mass.
+std::unique_ptr<RodAnchor> rod_end(const CylinderBodies& bodies, const SliderCrank& crank,
+                                   double arm) {
+  System& system = bodies.model.system;
+  const int rod = bodies.rod_index();
+  const std::vector<int> y{system.coordinate(rod, 0), system.coordinate(rod, 1),
+                           system.coordinate(rod, 2)};
+  return std::make_unique<RodAnchor>(y, crank, arm);
+}
+
+/// A contact grid with the y indices of its patches and of the rigid motion that fits them.
+struct GridOfBody {
+  film::ElasticSurface surface;
+  std::vector<int> coordinates, fit;
+};
+
+GridOfBody grid_of(const LoadedBody& loaded, int body, const std::string& grid, System& system) {
+  const rom::DofSet& set = loaded.model.set(grid);
+  GridOfBody found{{loaded.model.grid(grid), {}}, {}, {}};
+  found.surface.rigid.resize(static_cast<Eigen::Index>(set.dofs.size()), 6);
+  for (size_t i = 0; i < set.dofs.size(); ++i) {
+    found.surface.rigid.row(static_cast<Eigen::Index>(i)) =
+        loaded.model.row_of(set.dofs[i]) * loaded.model.rigid;
+    found.coordinates.push_back(system.coordinate(body, set.dofs[i]));
+  }
+  const Eigen::MatrixXd fit = film::rigid_fit(found.surface);
+  for (int k = 0; k < film::kFits; ++k) {
+    WeightedDofs sum{{set.dofs.begin(), set.dofs.end()}, {}, k >= 2};
+    for (Eigen::Index i = 0; i < fit.cols(); ++i) sum.weights.push_back(fit(k, i));
+    found.fit.push_back(system.combined_coordinate(body, sum));
+  }
+  return found;
+}
+
+/// The coordinate that takes axial forces on the liner, and (x, y) of their line of action [m].
+struct AxialCoordinate {
+  int coordinate;
+  Eigen::Vector2d at;
+};
+
+AxialCoordinate liner_axial(const CylinderBodies& bodies, const CylinderAxes& cylinder) {
+  System& system = bodies.model.system;
+  const std::string& set = bodies.spec.bore->liner_axial;
+  const int block = bodies.block_index();
+  if (set.empty()) {
+    const Eigen::Vector3d on_axis(cylinder.bore.x(), cylinder.bore.y(), 0.0);
+    return {system.frame_coordinate(block, 2, on_axis), cylinder.bore};
+  }
+  const rom::ReducedModel& model = bodies.block()->model;
+  const int dof = set_dof(model, set, 2, false);
+  const Eigen::RowVectorXd motion = model.row_of(dof) * model.rigid;
+  return {system.coordinate(block, dof), {-motion(4), motion(3)}};
+}
+
+}  // namespace
+
+PinNode pin_node(const CylinderBodies& bodies) {
+  const CylinderSpec& spec = bodies.spec;
+  PinNode pin{};
+  for (size_t d = 0; d < 6; ++d)
+    pin[d] =
+        bodies.model.y(spec.name_of("piston"), spec.piston.pin, static_cast<int>(d % 3), d >= 3);
+  return pin;
+}
+
+std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin) {
+  PointWeights centre;
+  centre.add(pin[1], 1.0, 0.0);
+  centre.add(pin[2], 0.0, 1.0);
+  return std::make_unique<Joint>(
+      bodies.spec.name_of("pin"), std::make_unique<LinearAnchor>(std::move(centre)),
+      rod_end(bodies, crank, bodies.spec.engine.rod.small_arm()), bodies.spec.small_end);
+}
+
+std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
+  auto rod = rod_end(bodies, crank, bodies.spec.engine.rod.big_arm());
+  PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies) : PointWeights{};
+  return std::make_unique<Joint>(bodies.spec.name_of("crank_pin"), std::move(rod),
+                                 std::make_unique<LinearAnchor>(std::move(centre)),
+                                 bodies.spec.big_end);
+}
+
+std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin) {
+  std::optional<std::array<int, 3>> block;
+  if (bodies.block() != nullptr) {
+    System& system = bodies.model.system;
+    const int b = bodies.block_index();
+    block = {system.frame_coordinate(b, 0), system.frame_coordinate(b, 4),
+             system.frame_coordinate(b, 5)};
+  }
+  return std::make_unique<PinGuide>(bodies.spec.name_of("pin_guide"), bodies.spec.guide, crank,
+                                    std::array{pin[0], pin[4], pin[5]}, block);
+}
+
+LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,
+                           const PinNode& pin) {
+  System& system = bodies.model.system;
+  const CylinderSpec& spec = bodies.spec;
+  film::PistonLinerBodies surfaces;
+  std::optional<LinerFit> fit;
+  std::vector<int> coordinates;
+  const auto append = [&](const auto& more) {
+    coordinates.insert(coordinates.end(), more.begin(), more.end());
+  };
+  if (spec.piston.elastic) {
+    const GridOfBody skirt =
+        grid_of(bodies.piston(), bodies.piston_index(), spec.piston.skirt, system);
+    surfaces.piston = skirt.surface;
+    append(skirt.coordinates);
+    append(skirt.fit);
+  }
+  if (bodies.block() != nullptr) {
+    const GridOfBody liner =
+        grid_of(*bodies.block(), bodies.block_index(), spec.bore->liner, system);
+    surfaces.liner = liner.surface;
+    fit = LinerFit{liner.fit[1], liner.fit[2]};
+    append(liner.coordinates);
+    append(liner.fit);
+  }
+  append(pin);
+  const CylinderAxes cylinder = bodies.axes();
+  surfaces.bore_axis = cylinder.bore - cylinder.pin;
+  if (bodies.block() != nullptr) {
+    const AxialCoordinate axial = liner_axial(bodies, cylinder);
+    surfaces.liner_axial = axial.at - cylinder.pin;
+    coordinates.push_back(axial.coordinate);
+  }
+  surfaces.stroke = [crank](double time) {
+    const auto motion = crank.piston_pin(time);
+    return film::StrokeState{motion.position, motion.velocity};
+  };
+  film::PistonLinerOptions options = *spec.contact;
+  options.name = spec.name_of(options.name);
+  auto element = with_context(spec.contact_where, [&] {
+    return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
+  });
+  return {std::move(element), fit};
+}
+
+}  // namespace clatter::dynamics

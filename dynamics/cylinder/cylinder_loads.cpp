@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/cylinder/cylinder_loads.hpp"
+
+#include <utility>
+
+#include "dynamics/cylinder/balance.hpp"
+#include "dynamics/given/load_table.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& crank,
+                            const Spline& gas) {
+  const CylinderSpec& spec = bodies.spec;
+  const auto pressure =
+      ramped(bodies.model.time, [crank, gas, ambient = spec.gas->ambient](double t) {
+        return gas(crank.angle(t)) - ambient;
+      });
+  std::vector<Load> loads;
+  const auto add = [&](const LoadedBody& body, int index, const std::string& load,
+                       const std::string& term) {
+    if (load.empty()) return;
+    const Eigen::VectorXd modal = body.modal.shapes.transpose() * unit_load(body.model, load);
+    loads.push_back({term, index, modal, pressure});
+  };
+  add(bodies.piston(), bodies.piston_index(), spec.piston.gas_load,
+      "gas on " + spec.name_of("piston"));
+  if (bodies.block() != nullptr)
+    add(*bodies.block(), bodies.block_index(), spec.bore->gas_load,
+        spec.name.empty() ? "gas on block" : spec.name + " gas on block");
+  return loads;
+}
+
+/// -M r a(t) for the accelerated frames of piston (translation, eq. (10)) and rod.
+std::vector<Load> frame_inertia(const CylinderBodies& bodies, const SliderCrank& crank) {
+  const std::string& name = bodies.spec.name;
+  const std::string term = name.empty() ? "inertia frame" : name + " inertia frame";
+  const auto load = [&](int body, int direction, TimeFunction acceleration) {
+    return Load{term, body, frame_force(bodies.model.system, body, direction),
+                ramped(bodies.model.time, std::move(acceleration))};
+  };
+  const int piston = bodies.piston_index(), rod = bodies.rod_index();
+  const double centre = bodies.spec.engine.rod.centre;
+  return {load(piston, 2, [crank](double t) { return crank.piston_pin(t).acceleration; }),
+          load(rod, 1,
+               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.x(); }),
+          load(rod, 2,
+               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.y(); }),
+          load(rod, 3, [crank](double t) { return crank.rod_angle(t).acceleration; })};
+}
+
+}  // namespace
+
+std::optional<Spline> gas_pressure(const CylinderSpec& spec) {
+  if (!spec.gas) return std::nullopt;
+  return read_gas_table(spec.gas->table, spec.gas->column, spec.gas->interpolation);
+}
+
+std::vector<Load> cylinder_loads(const CylinderBodies& bodies, const SliderCrank& crank,
+                                 const std::optional<Spline>& gas) {
+  std::vector<Load> all;
+  const auto append = [&](std::vector<Load> loads) {
+    for (Load& load : loads) all.push_back(std::move(load));
+  };
+  if (gas) append(gas_loads(bodies, crank, *gas));
+  append(frame_inertia(bodies, crank));
+  std::vector<Load> balance = balance_loads(bodies, crank);
+  for (Load& load : balance) load.value = ramped(bodies.model.time, std::move(load.value));
+  append(std::move(balance));
+  return all;
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The known forces of a cylinder: gas, inertia of moving frames.
+#include <optional>
+#include <vector>
+
+#include "dynamics/cylinder/cylinder_bodies.hpp"
+#include "dynamics/given/crank.hpp"
+#include "dynamics/given/spline.hpp"
+
+namespace clatter::dynamics {
+
+/// Absolute pressure over the crank angle from firing TDC [Pa] of a cylinder with [gas].
+std::optional<Spline> gas_pressure(const CylinderSpec& spec);
+
+/// Gas on piston and head, inertia of the frames of piston and rod, and the balance. All of them
+/// grow over the ramp of the start. InputError for unit loads that do not exist.
+/// @param gas the cylinder's pressure, when it has one.
+std::vector<Load> cylinder_loads(const CylinderBodies& bodies, const SliderCrank& crank,
+                                 const std::optional<Spline>& gas);
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What a scene says of a cylinder; values are SI.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/body/rigid_rod.hpp"
+#include "dynamics/component/loaded_body.hpp"
+#include "dynamics/film/piston_liner_options.hpp"
+#include "dynamics/force/pin_guide.hpp"
+#include "dynamics/force/radial_law.hpp"
+#include "dynamics/given/crank.hpp"
+#include "dynamics/given/spline.hpp"
+
+namespace clatter::dynamics {
+
+/// [engine] and [rod].
+struct EngineSpec {
+  double speed = 0.0;       // omega [rad/s]
+  double stroke = 0.0;      // [m]
+  double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
+  /// The block's rigid modes get no resultant, neither force nor moment, of this cylinder's inertia
+  /// forces; its elastic modes get them all (balance.hpp).
+  bool balanced = false;
+  RodProperties rod;
+  double firing = 0.0;  // angle of the crankshaft at this cylinder's firing TDC [rad]
+
+  SliderCrank crank() const {
+    return SliderCrank(0.5 * stroke, rod.length, pin_offset, speed, firing);
+  }
+};
+
+/// [gas]: pressure over the crank angle from the cylinder's firing TDC.
+struct GasSpec {
+  std::filesystem::path table;
+  std::string column;
+  Spline::Kind interpolation = Spline::Kind::kMonotoneCubic;
+  double ambient = 1e5;  // subtracted from the table's absolute pressure [Pa]
+};
+
+/// [piston].
+struct PistonSpec : BodySpec {
+  std::string pin = "pin";       // set of the pin's node, 6 DoFs
+  std::string skirt = "skirt";   // contact grid
+  std::string gas_load = "gas";  // unit load, per Pa; empty: none
+};
+
+/// Where a cylinder is on the block: keys of [block].
+struct BoreSpec {
+  std::string liner = "liner";        // contact grid of the bore
+  std::string liner_axial;            // set of its mean axial displacement; empty: rigid frame
+  std::vector<std::string> bearings;  // main bearings next to the crank; empty: rigid frame
+  std::string gas_load;               // unit load on the head, per Pa; empty: none
+};
+
+/// A cylinder with piston, rod and joints; absent tables: none of it.
+struct CylinderSpec {
+  std::string name;  // empty: the only one of its scene
+  EngineSpec engine;
+  PistonSpec piston;
+  std::optional<BoreSpec> bore;  // of a scene with a block, which may be rigid
+  std::optional<GasSpec> gas;
+  std::optional<film::PistonLinerOptions> contact;
+  std::string contact_where;     // "file:line: contact", for messages
+  std::string pin_offset_where;  // "file:line: engine.pin_offset_mm"
+  RadialLaw small_end, big_end;
+  GuideLaw guide;  // [pin_guide]
+
+  /// The name of one of its bodies, elements or histories in files: "piston", or of a named
+  /// cylinder "c1_piston".
+  std::string name_of(const std::string& what) const {
+    return name.empty() ? what : name + "_" + what;
+  }
+};
+
+}  // namespace clatter::dynamics

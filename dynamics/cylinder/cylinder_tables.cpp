@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tables of cylinders.
+#include <fmt/format.h>
+
+#include <numbers>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/component/component_keys.hpp"
+#include "dynamics/cylinder/contact_table.hpp"
+#include "dynamics/cylinder/cylinder_component.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+void read_rod(const Config& rod, RodProperties& out) {
+  out.length = rod.number("length_mm", Range::between(1.0, 1e5)) * kMilli;
+  out.mass = rod.number("mass_kg", Range::between(1e-6, 1e6));
+  // Beyond these the radius of gyration is over the length, or under a thousandth of it.
+  const double largest = out.mass * out.length * out.length;
+  out.inertia = rod.number("inertia_kg_m2", Range::positive());
+  if (!(out.inertia >= 1e-6 * largest && out.inertia <= largest))
+    rod.fail("inertia_kg_m2",
+             fmt::format("found {:g}, expected at least {:.3g} and at most {:.3g}, mass x length^2",
+                         out.inertia, 1e-6 * largest, largest));
+  out.centre = rod.number("centre_mm", Range::between(0.0, out.length / kMilli)) * kMilli;
+}
+
+/// @param speed of the crankshaft [rad/s]; @param tables of the cylinder.
+EngineSpec read_engine(const Config& tables, double speed, double firing) {
+  const Config table = tables.table("engine");
+  EngineSpec engine;
+  engine.speed = speed;
+  engine.firing = firing;
+  engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
+  engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
+  engine.balanced = table.flag_or("balanced", false);
+  const Config rod = tables.table("rod");
+  read_rod(rod, engine.rod);
+  const bool by_offset = engine.rod.length > 0.5 * engine.stroke;
+  with_context(by_offset ? table.where("pin_offset_mm") : rod.where("length_mm"),
+               [&] { engine.crank(); });
+  return engine;
+}
+
+RadialLaw read_law(const Config& tables, std::string_view key) {
+  RadialLaw law;
+  const auto table = tables.find_table(key);
+  if (!table) return law;
+  law.clearance =
+      table->number_or("clearance_um", law.clearance / kMicro, Range::between(0.0, 1e5)) * kMicro;
+  law.soft_stiffness =
+      table->number_or("soft_stiffness_n_m", law.soft_stiffness, Range::between(0.0, 1e15));
+  law.exponent = table->number_or("exponent", law.exponent, Range{1.0, 3.0, false});
+  law.stiffness = table->number_or("stiffness", law.stiffness, Range::between(1.0, 1e27));
+  law.damping = table->number_or("damping_n_s_m", law.damping, Range::between(0.0, 1e12));
+  return law;
+}
+
+GuideLaw read_guide(const Config& tables) {
+  GuideLaw guide;
+  const auto table = tables.find_table("pin_guide");
+  if (!table) return guide;
+  const Range any = Range::between(0.0, 1e15);
+  guide.axial_stiffness = table->number_or("axial_stiffness_n_m", guide.axial_stiffness, any);
+  guide.axial_damping = table->number_or("axial_damping_n_s_m", guide.axial_damping, any);
+  guide.tilt_stiffness = table->number_or("tilt_stiffness_n_m", guide.tilt_stiffness, any);
+  guide.tilt_damping = table->number_or("tilt_damping_n_m_s", guide.tilt_damping, any);
+  return guide;
+}
+
+GasSpec read_gas(const Config& table) {
+  GasSpec gas;
+  gas.table = table.path("table");
+  gas.column = table.text_or("column", "pressure");
+  gas.interpolation = read_interpolation(table, "cubic");
+  gas.ambient = table.number_or("ambient_bar", 1.0, Range::between(0.0, 1e4)) * 1e5;
+  return gas;
+}
+
+PistonSpec read_piston(const Config& table) {
+  PistonSpec piston;
+  read_body(table, "piston", piston);
+  piston.pin = table.text_or("pin", piston.pin);
+  piston.skirt = table.text_or("skirt", piston.skirt);
+  piston.gas_load = table.text_or("gas_load", piston.gas_load);
+  return piston;
+}
+
+BoreSpec read_bore(const Config& table) {
+  BoreSpec bore;
+  bore.liner = table.text_or("liner", bore.liner);
+  bore.liner_axial = table.text_or("liner_axial", "");
+  bore.bearings = table.texts_or("bearings", {});
+  bore.gas_load = table.text_or("gas_load", "");
+  return bore;
+}
+
+/// @param tables of the cylinder: the scene's own, or those of a [[cylinder]] over them.
+CylinderSpec read_cylinder(const Config& tables, double speed, double firing) {
+  const auto piston = tables.find_table("piston");
+  if (!piston) tables.fail("piston", "found nothing, expected [piston]");
+  CylinderSpec cylinder;
+  cylinder.engine = read_engine(tables, speed, firing);
+  cylinder.piston = read_piston(*piston);
+  if (const auto table = tables.find_table("block")) cylinder.bore = read_bore(*table);
+  if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
+  if (const auto table = tables.find_table("contact")) cylinder.contact = read_contact(*table);
+  cylinder.contact_where = tables.where("contact");
+  cylinder.pin_offset_where = tables.table("engine").where("pin_offset_mm");
+  cylinder.small_end = read_law(tables, "small_end");
+  cylinder.big_end = read_law(tables, "big_end");
+  cylinder.guide = read_guide(tables);
+  return cylinder;
+}
+
+}  // namespace
+
+ComponentList read_cylinders(const Config& root) {
+  const auto engine = root.find_table("engine");
+  if (!engine) return {};
+  const double speed =
+      engine->number("speed_rpm", Range::between(0.01, 1e5)) * std::numbers::pi / 30.0;
+  if (!root.has("cylinder"))
+    return {std::make_shared<CylinderComponent>(read_cylinder(root, speed, 0.0))};
+  ComponentList cylinders;
+  std::set<std::string> names;
+  for (const Config& table : root.tables("cylinder")) {
+    const std::string name = read_name(table);
+    if (!names.insert(name).second)
+      table.fail("name", fmt::format("found a second \"{}\", expected each name once", name));
+    const double firing = table.number_or("firing_deg", 0.0, Range::between(-720.0, 720.0));
+    CylinderSpec spec = read_cylinder(table.with_fallback(root), speed, firing * kDegree);
+    spec.name = name;
+    cylinders.push_back(std::make_shared<CylinderComponent>(std::move(spec)));
+  }
+  return cylinders;
+}
+
+}  // namespace clatter::dynamics

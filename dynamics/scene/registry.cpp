@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/scene/registry.hpp"
+
+#include "dynamics/component/body_component.hpp"
+#include "dynamics/component/bushing_component.hpp"
+#include "dynamics/component/drive_component.hpp"
+#include "dynamics/component/gravity_component.hpp"
+#include "dynamics/component/load_component.hpp"
+#include "dynamics/component/mount_component.hpp"
+#include "dynamics/component/rigid_body_component.hpp"
+#include "dynamics/component/spring_component.hpp"
+#include "dynamics/cylinder/cylinder_component.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+/// "body" of "[[body]]".
+std::string key_of(const std::string& table) {
+  const size_t brackets = table.find_first_not_of('[');
+  return table.substr(brackets, table.size() - 2 * brackets);
+}
+
+}  // namespace
+
+const std::vector<ComponentKind>& component_kinds() {
+  static const std::vector<ComponentKind> kinds{
+      {{"[engine]", "[rod]", "[piston]", "[gas]", "[contact]", "[small_end]", "[big_end]",
+        "[pin_guide]", "[[cylinder]]"},
+       "slider-crank at constant speed with piston, rod, joints, guide, skirt in its liner, gas",
+       read_cylinders},
+      {{"[block]"}, "the engine block, a reduced part; rigid: the ground", read_block},
+      {{"[[body]]"}, "a reduced part whose frame is at rest", read_bodies},
+      {{"[[rigid_body]]"},
+       "a rigid body with large motion, in a plane or in space",
+       read_rigid_bodies},
+      {{"[[drive]]"}, "a shaft that turns as prescribed", read_drives},
+      {{"[[mount]]"},
+       "springs and dampers between nodes of a reduced part and the ground",
+       read_mounts},
+      {{"[[bushing]]"}, "a joint of two points with the elasticity of its bearing", read_bushings},
+      {{"[[spring]]"}, "a spring and damper along the line between two points", read_springs},
+      {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
+      {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
+  return kinds;
+}
+
+void check_known(const Config& root) {
+  for (const char* key : {"title", "time", "accuracy"}) static_cast<void>(root.has(key));
+  for (const ComponentKind& kind : component_kinds())
+    for (const std::string& table : kind.tables) static_cast<void>(root.has(key_of(table)));
+  root.finish_table();
+}
+
+ComponentList read_components(const Config& root) {
+  ComponentList components;
+  for (const ComponentKind& kind : component_kinds())
+    for (auto& component : kind.read(root)) components.push_back(std::move(component));
+  return components;
+}
+
+}  // namespace clatter::dynamics
