@@ -165,7 +165,7 @@ gas_load = "head_4_gas"
   size_t count = 0;
   for (const auto* cylinder : cylinders) {
     const std::vector<int>& coordinates = cylinder->contact()->coordinates();
-    EXPECT_EQ(coordinates.size(), 48U + 6U + 1U);
+    EXPECT_EQ(coordinates.size(), 48U + 4U + 6U + 1U);  // patches, their fit, pin, axial
     patches.insert(coordinates.begin(), coordinates.end());
     count += coordinates.size();
   }
