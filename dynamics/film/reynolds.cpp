@@ -132,7 +132,7 @@ void Reynolds::guess_split() {
   if (!partial_) return;
   for (int c = 0; c < grid_.size(); ++c) {
     if (outside(c)) full_[static_cast<size_t>(c)] = 1;
-    end_limited_[static_cast<size_t>(c)] = 2.0 * film_->content[c] * fill_[c] > film_->carry[c];
+    end_limited_[static_cast<size_t>(c)] = 2.0 * film_.content[c] * fill_[c] > film_.carry[c];
   }
 }
 
@@ -168,7 +168,7 @@ bool Reynolds::update_split() {
     char& limited = end_limited_[static_cast<size_t>(c)];
     if (is_full(c)) limited = 1;
     if (covered_[c] >= 0.0 || is_full(c)) continue;
-    const double excess = 2.0 * value(c) * film_->content[c] / film_->carry[c] - 1.0;
+    const double excess = 2.0 * value(c) * film_.content[c] / film_.carry[c] - 1.0;
     if (limited != 0 ? excess < -kBorder : excess > kBorder)
       violated_.push_back(n + n_faces + n_rims + c);
   }
@@ -202,7 +202,7 @@ bool Reynolds::violates_limit(size_t face, double theta) const {
 
 int Reynolds::solve(const FilmCells& film, const Eigen::ArrayXd& content_before,
                     const FilmStage& stage) {
-  film_ = &film;
+  film_ = film;
   stage_ = stage;
   weigh(film, content_before, stage);
   if (cavitation_) guess_split();

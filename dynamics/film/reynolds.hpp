@@ -248,7 +248,7 @@ class Reynolds {
   Eigen::ArrayXd covered_;  // volume per thickness that the stage covers at the end, by cell [1/m]
   std::vector<double> ratio_, rim_ratio_;  // of layers, 2 (1 + l) s / c, on faces and open edges
   double volume_scale_ = 1.0, pressure_scale_ = 1.0;
-  const FilmCells* film_ = nullptr;
+  FilmCells film_;  // of the last solve
   FilmStage stage_;
   Eigen::VectorXd x_;
   RowMatrix work_;

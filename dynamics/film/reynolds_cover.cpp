@@ -82,7 +82,7 @@ Reynolds::FaceFill Reynolds::end_law(int cell) const {
     const double brought = 0.5 * entering(edges_.liner_end, cell).value;
     return {-brought, -brought};
   }
-  const double half = 0.5 * film_->carry[cell], rest = film_->content[cell] - half;
+  const double half = 0.5 * film_.carry[cell], rest = film_.content[cell] - half;
   if (!layers()) return {0.0, rest};
   if (is_full(cell) || end_limited_[static_cast<size_t>(cell)] != 0) return {-half, rest};
   return {0.0, 0.0};
@@ -92,7 +92,7 @@ double Reynolds::end_thickness(int cell) const {
   const FaceFill law = end_law(cell);
   const double theta = fill_[cell];
   const double squeezed = covered_[cell] < 0.0 && stage_.bulk_modulus > 0.0
-                              ? film_->content[cell] * pressure_[cell] / stage_.bulk_modulus
+                              ? film_.content[cell] * pressure_[cell] / stage_.bulk_modulus
                               : 0.0;
   return law.empty + (law.full - law.empty) * theta + squeezed;
 }
@@ -100,7 +100,7 @@ double Reynolds::end_thickness(int cell) const {
 // By the gap.
 double Reynolds::end_thickness_slope(int cell) const {
   if (covered_[cell] > 0.0) return -0.5 * entering(edges_.liner_end, cell).slope;
-  const double d_half = 0.5 * film_->d_carry[cell], d_content = film_->d_content[cell];
+  const double d_half = 0.5 * film_.d_carry[cell], d_content = film_.d_content[cell];
   const double squeezed = stage_.bulk_modulus > 0.0 ? pressure_[cell] / stage_.bulk_modulus : 0.0;
   if (!layers()) return fill_[cell] * (d_content - d_half) + squeezed * d_content;
   if (is_full(cell) || end_limited_[static_cast<size_t>(cell)] != 0)
@@ -110,7 +110,7 @@ double Reynolds::end_thickness_slope(int cell) const {
 
 // Derivative of each cell's balance by the pad's height at fixed unknowns and gaps.
 Eigen::ArrayXd Reynolds::height_slopes() const {
-  const FilmCells& film = *film_;
+  const FilmCells& film = film_;
   const Cover& cover = *stage_.cover;
   const double mobility = stage_.kappa / (12.0 * stage_.viscosity) / volume_scale_;
   Eigen::ArrayXd slopes = density() * film.content * grid_.area() / volume_scale_;

@@ -56,14 +56,14 @@ double Reynolds::fill_on_rim(size_t rim) const {
 
 // Thickness that U_m carries in over an edge [m], with its slope by the gap.
 ValueSlope Reynolds::entering(const Edge& edge, int cell) const {
-  const double carry = film_->carry[cell], d_carry = film_->d_carry[cell];
+  const double carry = film_.carry[cell], d_carry = film_.d_carry[cell];
   ValueSlope least{edge.fill * carry, edge.fill * d_carry};
   auto bound = [&least](double value, double slope) {
     if (value < least.value) least = {value, slope};
   };
   if (layers()) {
     least = {carry, d_carry};
-    bound(2.0 * edge.fill * film_->content[cell], 2.0 * edge.fill * film_->d_content[cell]);
+    bound(2.0 * edge.fill * film_.content[cell], 2.0 * edge.fill * film_.d_content[cell]);
   }
   bound(2.0 * edge.layer, 0.0);
   return least;
@@ -71,7 +71,7 @@ ValueSlope Reynolds::entering(const Edge& edge, int cell) const {
 
 Eigen::ArrayXd Reynolds::profile() const {
   if (!layers()) return fill_;
-  return (fill_ * film_->content).min(0.5 * film_->carry);
+  return (fill_ * film_.content).min(0.5 * film_.carry);
 }
 
 ValueSlope Reynolds::sheared(int cell) const {

@@ -8,7 +8,7 @@
 namespace clatter::film {
 void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
                              const Eigen::VectorXd* height) {
-  const FilmCells& film = *film_;
+  const FilmCells& film = film_;
   const int k = static_cast<int>(dh.cols());
   const double kappa = stage_.steady ? 1.0 : stage_.kappa;
   const double mobility = kappa / (12.0 * stage_.viscosity) / volume_scale_;

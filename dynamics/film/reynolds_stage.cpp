@@ -125,7 +125,7 @@ void Reynolds::assemble() {
     if (!is_full(c))
       add(c, c, area * (law.full - law.empty));
     else if (covered_[c] < 0.0 && stage_.bulk_modulus > 0.0)
-      add(c, c, area * film_->content[c] * pressure_scale_ / stage_.bulk_modulus);
+      add(c, c, area * film_.content[c] * pressure_scale_ / stage_.bulk_modulus);
   }
 }
 

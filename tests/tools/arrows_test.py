@@ -40,7 +40,7 @@ HEADER_OWNERS = {
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
     r"CLI/.*": ["core/base/command_line"],
     r"nlohmann/.*": ["core/base/json_line"],
-    r"lapack\.h": ["core/sparse/dense_eigen", "core/sparse/factor/front"],
+    r"lapack\.h": ["core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")

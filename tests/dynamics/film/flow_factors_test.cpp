@@ -106,7 +106,11 @@ void expect_smooth_into_contact(const RoughnessOptions& options) {
   const int n = 801;
   FilmCells film;
   film.resize(n);
-  rough.thicknesses(Eigen::ArrayXd::LinSpaced(n, -3.0 * sigma, 5.0 * sigma), film);
+  const Eigen::ArrayXd gaps = Eigen::ArrayXd::LinSpaced(n, -3.0 * sigma, 5.0 * sigma);
+  rough.thicknesses(gaps, film);
+  const auto reaches = [&](int i, double end) {  // to rounding
+    return std::abs(gaps[i] / sigma - end) < 1.01e-2;
+  };
   using Pair = std::pair<const Eigen::ArrayXd*, const Eigen::ArrayXd*>;
   for (const auto& [values, slopes] :
        {Pair{&film.content, &film.d_content}, Pair{&film.flow_axial, &film.d_flow_axial},
@@ -118,7 +122,7 @@ void expect_smooth_into_contact(const RoughnessOptions& options) {
       ASSERT_LT(rise, 2.0 * step) << options.peklenik << " cell " << i;
       // The mean of the slopes, except across the end of a range, where they jump.
       const double low = (*slopes)[i - 1], high = (*slopes)[i];
-      if (std::abs(high - low) < 0.05) {
+      if (std::abs(high - low) < 0.05 && !reaches(i, 0.5) && !reaches(i, 1.0)) {
         ASSERT_NEAR(rise / step, 0.5 * (low + high), 1e-3) << options.peklenik << " cell " << i;
       }
     }
