@@ -32,7 +32,6 @@ SCENES = {
     "chain": (("cvode", 1e-10), ("ida", 1e-9), (10.0, 1.0, 0.1)),
     "damped-chain": (("cvode", 1e-10), ("ida", 1e-9), (10.0, 1.0, 0.1)),
     "slap": (("ida", 1e-8), ("cvode-2", 1e-8), (1.0, 0.1, 0.02)),
-    "tumbling": (("cvode", 1e-11), ("ida", 1e-11), (1e-2, 1e-3, 1e-4)),
     "bounces": (("ida", 1e-12), ("cvode", 1e-11), (10.0, 0.1, 1e-3)),
 }
 WANTED = 5.0  # times faster than IDA at equal error

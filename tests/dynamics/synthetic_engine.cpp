@@ -22,7 +22,7 @@ film::PistonLinerOptions contact_of(const EngineVariant& variant) {
   film::PistonLinerOptions contact;
   contact.bore_radius = kRadius;
   contact.effects = {variant.film, true, true, true};
-  contact.clearance = variant.film ? 12e-6 : 0.5e-6;
+  contact.clearance = variant.film ? 12e-6 : variant.dry_clearance;
   contact.skirt.barrel_top = 10e-6;
   contact.cells_around = contact.cells_along = 6;
   film::LinerShape widening;  // slopes along the stroke: an axial part of the pressure

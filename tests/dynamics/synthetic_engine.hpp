@@ -18,7 +18,8 @@ struct EngineVariant {
   bool liner_axial = true;
   bool film = true;
   bool balanced = false;
-  double pin_offset = 0.0;  // [m]
+  double pin_offset = 0.0;        // [m]
+  double dry_clearance = 0.5e-6;  // without film [m]
   std::vector<std::string> bearings{"main_4", "main_5"};
 };
 
