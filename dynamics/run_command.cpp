@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 
+#include "core/base/blas_kernel.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
@@ -101,6 +102,7 @@ void declare_run(CommandLine& line) {
       a->output = std::filesystem::path(a->scene).replace_extension(".h5");
       will_write("--output by default", a->output);
     }
+    set_blas_threads(1);  // the matrices of a stage are too small for more
     run_scene(*a, common);
   });
 }

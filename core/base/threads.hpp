@@ -16,7 +16,8 @@ void parallel_pieces(int64_t n, const std::function<void(int64_t begin, int64_t 
 
 /// Calls task(0) .. task(count - 1). A waiting thread takes what the caller has not begun, so short
 /// tasks (tens of microseconds) gain on an idle machine and lose little on a busy one. Of several
-/// exceptions that of the first task is rethrown.
+/// exceptions that of the first task is rethrown. The number of threads is that of the first call,
+/// or one.
 void parallel_tasks(int count, const std::function<void(int task)>& task);
 
 }  // namespace clatter

@@ -8,7 +8,6 @@
 #include <map>
 #include <numbers>
 
-#include "core/base/blas_kernel.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/progress.hpp"
@@ -164,7 +163,6 @@ std::map<std::string, double> seconds_by_element(const Model& model) {
 }  // namespace
 
 RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunControl& control) {
-  const BlasThreads one(1);  // matrices of a stage are too small for more
   RunResult result;
   Checkpoint point = control.resume_from ? *control.resume_from : first_state(scene);
   const int cycles = cycles_of(scene);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -29,12 +30,7 @@ class Components : public ::testing::Test {
     return test::refusal_of([&] { build_model(scene(text), {}); });
   }
   H5File recorded(const Scene& scene) {
-    RunControl control;
-    control.output = folder_ / "mechanism.run.h5";
-    const LoadedBodies bodies = load_bodies(scene);
-    result_ = simulate(scene, bodies, control);
-    EXPECT_TRUE(result_.complete) << result_.failure;
-    return testing::finished_file(scene, bodies, result_);
+    return testing::complete_file(scene, folder_ / "mechanism.run.h5", result_);
   }
   fs::path folder_ = testing::test_folder();
   RunResult result_;
@@ -110,6 +106,28 @@ TEST_F(Components, APendulumSwingsTheSameInEveryPlaneAndInSpace) {
   EXPECT_NEAR(reaction, 3.0 * (9.81 + upward), 1e-3 * 3.0 * 9.81);
   EXPECT_NEAR(heights("zx", "[500, 0, 0]"), down, 1e-5);
   EXPECT_NEAR(heights("space", "[300, 400, 0]"), down, 1e-4);
+}
+
+TEST_F(Components, ABodyThatSpinsInSpaceRecordsItsAttitude) {
+  // 10 rad/s about its z axis, which the start turns onto the engine's x axis.
+  const H5File file = recorded(
+      scene("[time]\nend_s = 0.2\n[[rigid_body]]\nname = \"top\"\nmotion = \"space\"\n"
+            "mass_kg = 2\ninertia_kg_m2 = [0.01, 0.01, 0.015]\nstart_spin_rad_s = [0, 0, 10]\n"
+            "quaternion = [0.70710678118654757, 0, 0.70710678118654757, 0]\n"));
+  const auto time = file.read_doubles("history/time");
+  const Eigen::Quaterniond start(std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0);
+  const auto q = [&](const char* part) {
+    return file.read_doubles(std::string("history/top_q") + part);
+  };
+  const auto w = q("w"), x = q("x"), y = q("y"), z = q("z");
+  ASSERT_GT(time.size(), 3U);
+  for (size_t i = 0; i < time.size(); ++i) {
+    const Eigen::Quaterniond turned =
+        start * Eigen::AngleAxisd(10.0 * time[i], Eigen::Vector3d::UnitZ());
+    // Equal rotations may have quaternions of opposite sign.
+    EXPECT_NEAR(std::abs(turned.dot(Eigen::Quaterniond(w[i], x[i], y[i], z[i]))), 1.0, 1e-9) << i;
+  }
+  EXPECT_GT(std::abs(x.back() - x.front()), 0.1);
 }
 
 TEST_F(Components, AFourBarLinkageFollowsItsDrive) {

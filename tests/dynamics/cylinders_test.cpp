@@ -36,12 +36,7 @@ class Cylinders : public ::testing::Test {
     return testing::scene_refusal(folder_, changes);
   }
   H5File recorded(const Scene& scene, const std::string& name) {
-    RunControl control;
-    control.output = folder_ / (name + ".run.h5");
-    const LoadedBodies bodies = load_bodies(scene);
-    result_ = simulate(scene, bodies, control);
-    EXPECT_TRUE(result_.complete) << result_.failure;
-    return testing::finished_file(scene, bodies, result_);
+    return testing::complete_file(scene, folder_ / (name + ".run.h5"), result_);
   }
   fs::path folder_ = testing::test_folder();
   RunResult result_;

@@ -80,4 +80,13 @@ H5File finished_file(const Scene& scene, const LoadedBodies& bodies, RunResult& 
   return open_artefact(path, "clatter/run/1");
 }
 
+H5File complete_file(const Scene& scene, const std::filesystem::path& output, RunResult& result) {
+  RunControl control;
+  control.output = output;
+  const LoadedBodies bodies = load_bodies(scene);
+  result = simulate(scene, bodies, control);
+  EXPECT_TRUE(result.complete) << result.failure;
+  return finished_file(scene, bodies, result);
+}
+
 }  // namespace clatter::dynamics::testing

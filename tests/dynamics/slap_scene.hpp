@@ -25,4 +25,7 @@ std::string scene_refusal(const std::filesystem::path& folder, const std::string
 /// Completes the file of a result and reads it.
 H5File finished_file(const Scene& scene, const LoadedBodies& bodies, RunResult& result);
 
+/// Runs the scene to its end, which is expected, and reads the file.
+H5File complete_file(const Scene& scene, const std::filesystem::path& output, RunResult& result);
+
 }  // namespace clatter::dynamics::testing

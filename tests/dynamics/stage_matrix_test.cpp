@@ -73,28 +73,29 @@ TEST(StageMatrix, SolvesAsTheDenseMatrixOfItsDefinitionDoes) {
   }
 }
 
-/// Springs between chosen coordinates of a body with many.
+/// A linear force on chosen coordinates of a body with many.
 class FewSprings : public ForceElement {
  public:
-  FewSprings(std::vector<int> coordinates, std::vector<int> touched)
-      : ForceElement(std::move(coordinates)), touched_(std::move(touched)) {}
+  FewSprings(std::vector<int> coordinates, std::vector<int> touched, MatrixXd tangent)
+      : ForceElement(std::move(coordinates)),
+        touched_(std::move(touched)),
+        tangent_(std::move(tangent)) {}
   std::string name() const override { return "springs"; }
   void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool,
                 Response& response) override {
-    const auto n = static_cast<Eigen::Index>(touched_.size());
     response.touched = touched_;
-    response.tangent = -MatrixXd::Identity(n, n) * 3.0 - MatrixXd::Ones(n, n);
+    response.tangent = tangent_;
     response.force.setZero(y.size());
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j)
-        response.force(touched_[static_cast<size_t>(i)]) +=
-            response.tangent(i, j) * y(touched_[static_cast<size_t>(j)]);
+    response.force(touched_) = tangent_ * y(touched_);
   }
   Power power(const VectorXd&, const VectorXd&) const override { return {}; }
 
  private:
   std::vector<int> touched_;
+  MatrixXd tangent_;
 };
+
+MatrixXd coupled(int n) { return -MatrixXd::Identity(n, n) * 3.0 - MatrixXd::Ones(n, n); }
 
 /// A body of n coupled coordinates, all of them requested from `system`.
 std::vector<int> add_plate(System& system, int n) {
@@ -115,30 +116,60 @@ std::vector<int> add_plate(System& system, int n) {
   return all;
 }
 
-TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
-  // A body of 30 coupled coordinates, of which two elements touch 3 and 4 (one of them the same).
-  System system;
-  const int n = 30;
-  const std::vector<int> all = add_plate(system, n);
-  const std::vector<int> one{2, 7, 11}, other{7, 20, 21, 29};
-  system.add_element(std::make_unique<FewSprings>(all, one));
-  system.add_element(std::make_unique<FewSprings>(all, other));
+/// The rows that a matrix factors, once it is seen to solve as that of its definition.
+int factored(const System& system, int expected_touched) {
+  const int n = system.interface_size();
   const StageOperator op(system, 0.3);
-  VectorXd f;
-  system.evaluate({0.0, 0.3, 1, {}}, VectorXd::Ones(n), VectorXd::Ones(n), true, f);
-  MatrixXd T = MatrixXd::Zero(n, n);
-  for (int e = 0; e < 2; ++e) {
-    const auto& touched = system.response(e).touched;
-    T(touched, touched) += system.response(e).tangent;
-  }
   StageMatrix matrix(system);
-  ASSERT_TRUE(matrix.form(op));
-  EXPECT_EQ(matrix.touched(), 6);
+  EXPECT_TRUE(matrix.form(op));
+  EXPECT_EQ(matrix.touched(), expected_touched);
+  MatrixXd T = MatrixXd::Zero(n, n);
+  for (int e = 0; e < system.elements(); ++e)
+    T(system.tangent_rows(e), system.tangent_rows(e)) += system.response(e).tangent;
   const VectorXd right = VectorXd::LinSpaced(n, -1.0, 2.0);
   VectorXd x = right;
   matrix.solve(op, x);
   const MatrixXd J = MatrixXd::Identity(n, n) - op.S(0) * T;
   EXPECT_LT((J * x - right).norm(), 1e-12 * right.norm());
+  return matrix.factored();
+}
+
+void evaluate(System& system) {
+  const VectorXd ones = VectorXd::Ones(system.interface_size());
+  VectorXd f;
+  system.evaluate({0.0, 0.3, 1, {}}, ones, ones, true, f);
+}
+
+TEST(StageMatrix, RowsThatNothingTouchesFollowFromTheOthers) {
+  // A body of 30 coupled coordinates, of which two elements touch 3 and 4 (one of them the same).
+  System system;
+  const std::vector<int> all = add_plate(system, 30);
+  system.add_element(std::make_unique<FewSprings>(all, std::vector{2, 7, 11}, coupled(3)));
+  system.add_element(std::make_unique<FewSprings>(all, std::vector{7, 20, 21, 29}, coupled(4)));
+  evaluate(system);
+  EXPECT_EQ(factored(system, 6), 6);
+}
+
+TEST(StageMatrix, ColumnsWithoutLoadAreNotFactored) {
+  // Of five touched coordinates one has neither force nor effect, as beside an unloaded pad, and
+  // one only a force that depends on another, as friction does.
+  MatrixXd tangent = MatrixXd::Zero(5, 5);
+  tangent.topLeftCorner(3, 3) = coupled(3);
+  tangent(3, 0) = 2.0;
+  System system;
+  const std::vector<int> all = add_plate(system, 30);
+  system.add_element(
+      std::make_unique<FewSprings>(all, std::vector{2, 7, 11, 20, 29}, std::move(tangent)));
+  evaluate(system);
+  EXPECT_EQ(factored(system, 5), 3);
+}
+
+TEST(StageMatrix, NoLoadAtAllLeavesNothingToFactor) {
+  System system;
+  const std::vector<int> all = add_plate(system, 30);
+  system.add_element(std::make_unique<FewSprings>(all, std::vector{2, 7}, MatrixXd::Zero(2, 2)));
+  evaluate(system);
+  EXPECT_EQ(factored(system, 2), 0);
 }
 
 /// A spring to a support that runs along the coordinates: it is between two of them at a time.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/threads.hpp"
 #include "film_march.hpp"
 #include "piston_scene.hpp"
 #include "tests/refusal.hpp"
@@ -132,6 +133,20 @@ TEST(PistonLiner, PowerBalancesForceTimesVelocity) {
   EXPECT_GT(std::abs(rate), 1e-3);
   EXPECT_NEAR(work, power.input - power.lost - rate,
               5e-12 * (std::abs(power.lost) + std::abs(rate)));  // rounding of the difference
+}
+
+TEST(PistonLiner, ForceAndTangentDoNotDependOnTheNumberOfThreads) {
+  dynamics::Response response[2];
+  for (const int threads : {1, 2}) {
+    set_thread_count(threads);
+    const auto element = make_element(small_scene(), true, 1e-3);
+    const Eigen::VectorXd y = pushed(*element, true, 6.5e-6, 2e-5);
+    settle(*element, y, Eigen::VectorXd::Constant(y.size(), 1e-3), response[threads - 1]);
+  }
+  set_thread_count(0);
+  EXPECT_GT(response[0].force.norm(), 1.0);
+  EXPECT_EQ(response[0].force, response[1].force);
+  EXPECT_EQ(response[0].tangent, response[1].tangent);
 }
 
 TEST(PistonLiner, DryContactTakesNoFilmMemoryAndIsConservativeWithoutFrictionAndDamping) {
