@@ -44,7 +44,7 @@ check: setup-check build-tests
 validate: setup-check build-tests
 	@$(CTEST)
 
-# Every file by itself, with the address and undefined behaviour sanitizers and warnings as errors.
+# With the address and undefined behaviour sanitizers and warnings as errors.
 sanitize:
 	@$(MAKE) --no-print-directory check PRESET=dev
 

@@ -35,7 +35,7 @@ endif()
 
 # Neighbouring sources of a library or a test program are compiled as one file, so that what they
 # instantiate (Eigen, fmt, containers) is compiled once. Errors keep file and line. For repeated edits of
-# one file -DCLATTER_UNITY=OFF is faster; `make sanitize` compiles every file by itself.
+# one file -DCLATTER_UNITY=OFF is faster; it also finds includes that are missing.
 option(CLATTER_UNITY "compile neighbouring sources as one file" ON)
 set(CMAKE_UNITY_BUILD ${CLATTER_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
