@@ -44,7 +44,9 @@ check: setup-check build-tests
 validate: setup-check build-tests
 	@$(CTEST)
 
-# With the address and undefined behaviour sanitizers and warnings as errors.
+# With the address and undefined behaviour sanitizers and warnings as errors. gmsh deletes arrays as single objects.
+sanitize: export LSAN_OPTIONS = suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0
+sanitize: export ASAN_OPTIONS = alloc_dealloc_mismatch=0
 sanitize:
 	@$(MAKE) --no-print-directory check PRESET=dev
 

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "mesh/part/metis_partition.hpp"
+#include "tests/plain_faults.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::mesh {
@@ -118,6 +119,7 @@ TEST(HardM4, MetisThatDiesIsAnErrorHere) {
   CellNeighbours broken;
   broken.start = {0, 1000000000, 2000000000};
   broken.neighbour = {1, 0};
+  const test::PlainFaults plain;
   test::expect_parts(test::refusal_of<NumericsError>([&] { metis_parts(broken, 2); }),
                      {"partition: METIS ended with signal 11"});
 }

@@ -23,6 +23,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/wire.hpp"
+#include "tests/plain_faults.hpp"
 #include "tests/random_matrix.hpp"
 #include "tests/refusal.hpp"
 
@@ -61,6 +62,7 @@ TEST(HardN17_ChildProcess, AbortAndSegmentationFaultAreReportedWithTheStep) {
   EXPECT_EQ(aborted.kind, Kind::kCrashed);
   EXPECT_EQ(aborted.describe({}), "crashed (signal 6, Aborted)");
   EXPECT_EQ(aborted.step, "falling");
+  const test::PlainFaults plain;
   const ChildEnd faulted = child([]() -> std::string {
     ::raise(SIGSEGV);
     return "never";
@@ -152,6 +154,7 @@ TEST(HardN17_ChildProcess, AChildThatExhaustsMemoryIsStoppedAtTheLimit) {
 }
 
 TEST(HardN17_ChildProcess, LibrariesThatPrintDoNotReachOurStdoutAndItsLinesDo) {
+  const test::PlainFaults plain;
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   const ChildEnd end = child([]() -> std::string {
