@@ -14,21 +14,18 @@ void PointWeights::add(int coordinate, double lateral, double stroke) {
 LinearAnchor::LinearAnchor(PointWeights point)
     : Anchor(std::move(point.coordinates)), G_(std::move(point.G)) {}
 
-AnchorState LinearAnchor::state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
-  AnchorState state;
+void LinearAnchor::find(double, const Values& y, const Values& v, AnchorState& state) const {
   state.G = G_;
   state.B.setZero(2, G_.cols());
-  state.d = state.G * y;
-  state.rate = state.G * v;
+  state.d.noalias() = G_ * y;
+  state.rate.noalias() = G_ * v;
   state.prescribed.setZero();
-  return state;
 }
 
 RodAnchor::RodAnchor(std::vector<int> coordinates, const SliderCrank& crank, double arm)
     : Anchor(std::move(coordinates)), crank_(crank), arm_(arm) {}
 
-AnchorState RodAnchor::state(double time, const Eigen::VectorXd& y,
-                             const Eigen::VectorXd& v) const {
+void RodAnchor::find(double time, const Values& y, const Values& v, AnchorState& state) const {
   const auto ideal = crank_.rod_angle(time);
   const double small = y(2), phi = ideal.position + small;
   // u(phi) - u(ideal) by the half-angle form: no cancellation at micrometre deviations.
@@ -38,24 +35,20 @@ AnchorState RodAnchor::state(double time, const Eigen::VectorXd& y,
     return Eigen::Vector2d(-std::cos(angle), -std::sin(angle));  // du/dphi
   };
   const Eigen::Vector2d along = rod_direction(phi);
-  AnchorState state;
   state.d = y.head<2>() + arm_ * turned;
   state.prescribed = arm_ * ideal.velocity * (across(phi) - across(ideal.position));
   state.G.setZero(2, 3);
   state.G.leftCols<2>().setIdentity();
   state.G.col(2) = arm_ * across(phi);
-  state.rate = state.G * v + state.prescribed;
+  state.rate = v.head<2>() + state.G.col(2) * v(2) + state.prescribed;
   state.B.setZero(2, 3);
   state.B.col(2) = -arm_ * (v(2) + ideal.velocity) * along;
-  return state;
 }
 
-Eigen::MatrixXd RodAnchor::curvature(double time, const Eigen::VectorXd& y,
-                                     const Eigen::Vector2d& force) const {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, 3);
+void RodAnchor::add_curvature(double time, const Values& y, const Eigen::Vector2d& force,
+                              Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const double phi = crank_.rod_angle(time).position + y(2);
-  result(2, 2) = -arm_ * rod_direction(phi).dot(force);
-  return result;
+  tangent(2, 2) -= arm_ * rod_direction(phi).dot(force);
 }
 
 }  // namespace clatter::dynamics

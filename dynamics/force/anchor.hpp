@@ -10,24 +10,28 @@
 
 namespace clatter::dynamics {
 
+/// Two rows, by coordinates of an anchor.
+using PlanarRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
 /// Data of a point for a joint: displacement d [m] from its ideal position, rate d' [m/s],
 /// and derivatives by the n_a coordinates of the anchor.
 struct AnchorState {
   Eigen::Vector2d d, rate;
   Eigen::Vector2d prescribed;  // part of the rate that is not G v: prescribed motion [m/s]
-  Eigen::Matrix<double, 2, Eigen::Dynamic> G;  // dd/dy = dd'/dv
-  Eigen::Matrix<double, 2, Eigen::Dynamic> B;  // dd'/dy
+  PlanarRows G;                // dd/dy = dd'/dv
+  PlanarRows B;                // dd'/dy
 };
 
 class Anchor {
  public:
   virtual ~Anchor() = default;
   const std::vector<int>& coordinates() const { return coordinates_; }
-  virtual AnchorState state(double time, const Eigen::VectorXd& y,
-                            const Eigen::VectorXd& v) const = 0;
-  /// d(G^T F)/dy for a force F on the point, n_a x n_a; empty when G is constant.
-  virtual Eigen::MatrixXd curvature(double time, const Eigen::VectorXd& y,
-                                    const Eigen::Vector2d& force) const = 0;
+  using Values = Eigen::Ref<const Eigen::VectorXd>;  // n_a, of its coordinates
+  /// Writes the data at (y, v); takes no memory when `state` was written before.
+  virtual void find(double time, const Values& y, const Values& v, AnchorState& state) const = 0;
+  /// tangent += d(G^T F)/dy for a force F on the point, n_a x n_a; nothing when G is constant.
+  virtual void add_curvature(double /*time*/, const Values& /*y*/, const Eigen::Vector2d& /*force*/,
+                             Eigen::Ref<Eigen::MatrixXd> /*tangent*/) const {}
 
  protected:
   explicit Anchor(std::vector<int> coordinates) : coordinates_(std::move(coordinates)) {}
@@ -37,7 +41,7 @@ class Anchor {
 /// Weights of coordinates in the displacement (lateral, stroke) of a point.
 struct PointWeights {
   std::vector<int> coordinates;  // y indices, n_a
-  Eigen::Matrix<double, 2, Eigen::Dynamic> G = Eigen::Matrix<double, 2, Eigen::Dynamic>(2, 0);
+  PlanarRows G = PlanarRows(2, 0);
 
   void add(int coordinate, double lateral, double stroke);
 };
@@ -47,13 +51,10 @@ struct PointWeights {
 class LinearAnchor : public Anchor {
  public:
   explicit LinearAnchor(PointWeights point);
-  AnchorState state(double, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
-  Eigen::MatrixXd curvature(double, const Eigen::VectorXd&, const Eigen::Vector2d&) const override {
-    return {};
-  }
+  void find(double, const Values& y, const Values& v, AnchorState& state) const override;
 
  private:
-  Eigen::Matrix<double, 2, Eigen::Dynamic> G_;
+  PlanarRows G_;
 };
 
 /// An end of the rod at `arm` from its centre of mass: d = (dy, dz) + arm (u(phi + dphi) - u(phi)),
@@ -62,9 +63,9 @@ class RodAnchor : public Anchor {
  public:
   /// `coordinates`: y indices of the rod's (dy, dz, dphi).
   RodAnchor(std::vector<int> coordinates, const SliderCrank& crank, double arm);
-  AnchorState state(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
-  Eigen::MatrixXd curvature(double time, const Eigen::VectorXd& y,
-                            const Eigen::Vector2d& force) const override;
+  void find(double time, const Values& y, const Values& v, AnchorState& state) const override;
+  void add_curvature(double time, const Values& y, const Eigen::Vector2d& force,
+                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
 
  private:
   SliderCrank crank_;

@@ -32,26 +32,27 @@ void Joint::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::
                      bool with_tangent, Response& response) {
   const auto n_a = static_cast<Eigen::Index>(a_->coordinates().size());
   const auto n_b = static_cast<Eigen::Index>(b_->coordinates().size());
-  const auto A = a_->state(stage.time, y.head(n_a), v.head(n_a));
-  const auto B = b_->state(stage.time, y.tail(n_b), v.tail(n_b));
-  const Eigen::Vector2d d = A.d - B.d, rate = A.rate - B.rate;
+  a_->find(stage.time, y.head(n_a), v.head(n_a), at_a_);
+  b_->find(stage.time, y.tail(n_b), v.tail(n_b), at_b_);
+  const Eigen::Vector2d d = at_a_.d - at_b_.d, rate = at_a_.rate - at_b_.rate;
   const double e = d.norm();
   Eigen::Vector2d force = -law_.damping * rate;
   if (e > 0.0) force -= law_.force(e) / e * d;
-  last_ = {force, rate, A.prescribed - B.prescribed, e};
+  last_ = {force, rate, at_a_.prescribed - at_b_.prescribed, e};
 
-  Eigen::Matrix<double, 2, Eigen::Dynamic> G(2, n_a + n_b), dG(2, n_a + n_b);
-  G << A.G, -B.G;
-  response.force = G.transpose() * force;
+  G_.resize(2, n_a + n_b);
+  G_.leftCols(n_a) = at_a_.G;
+  G_.rightCols(n_b) = -at_b_.G;
+  response.force.noalias() = G_.transpose() * force;
   if (!with_tangent) return;
-  dG << A.B, -B.B;
-  const Eigen::Matrix<double, 2, Eigen::Dynamic> dF =
-      -planar_stiffness(law_, d, e) * G - law_.damping * (dG + G / stage.kappa);
-  response.tangent = G.transpose() * dF;
-  const Eigen::MatrixXd at_a = a_->curvature(stage.time, y.head(n_a), force);
-  const Eigen::MatrixXd at_b = b_->curvature(stage.time, y.tail(n_b), -force);
-  if (at_a.size() > 0) response.tangent.topLeftCorner(n_a, n_a) += at_a;
-  if (at_b.size() > 0) response.tangent.bottomRightCorner(n_b, n_b) += at_b;
+  dF_.resize(2, n_a + n_b);
+  dF_.noalias() = -planar_stiffness(law_, d, e) * G_;
+  dF_ -= law_.damping / stage.kappa * G_;
+  dF_.leftCols(n_a) -= law_.damping * at_a_.B;
+  dF_.rightCols(n_b) += law_.damping * at_b_.B;
+  response.tangent.noalias() = G_.transpose().lazyProduct(dF_);
+  a_->add_curvature(stage.time, y.head(n_a), force, response.tangent.topLeftCorner(n_a, n_a));
+  b_->add_curvature(stage.time, y.tail(n_b), -force, response.tangent.bottomRightCorner(n_b, n_b));
 }
 
 Power Joint::power(const Eigen::VectorXd&, const Eigen::VectorXd&) const {

@@ -38,6 +38,8 @@ class Joint : public ForceElement {
   std::string name_;
   std::unique_ptr<Anchor> a_, b_;
   RadialLaw law_;
+  AnchorState at_a_, at_b_;
+  PlanarRows G_, dF_;  // dd/dy and dF/dy, 2 x n_e
   Instant last_, finished_, accepted_;
 };
 

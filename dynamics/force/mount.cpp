@@ -18,7 +18,8 @@ void Mount::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::
                      bool with_tangent, Response& response) {
   response.force = -stiffness_.cwiseProduct(y) - damping_.cwiseProduct(v);
   if (with_tangent) {
-    response.tangent = (-stiffness_ - damping_ / stage.kappa).asDiagonal().toDenseMatrix();
+    response.tangent.setZero(y.size(), y.size());
+    response.tangent.diagonal() = -stiffness_ - damping_ / stage.kappa;
   }
 }
 

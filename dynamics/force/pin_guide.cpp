@@ -18,7 +18,7 @@ PinGuide::PinGuide(std::string name, const GuideLaw& law, const SliderCrank& cra
       crank_(crank),
       stiffness_(law.axial_stiffness, law.tilt_stiffness, law.tilt_stiffness),
       damping_(law.axial_damping, law.tilt_damping, law.tilt_damping),
-      G_(Eigen::Matrix<double, 3, Eigen::Dynamic>::Identity(3, 3)),
+      G_(Rows::Identity(3, 3)),
       on_block_(block.has_value()) {
   if (!block) return;
   coordinates_.insert(coordinates_.end(), block->begin(), block->end());
@@ -39,9 +39,10 @@ void PinGuide::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eige
   if (on_block_) G_(0, kTilt) = -stroke.position;
   const Motion3 at = motion(y, v);
   const Eigen::Vector3d force = -stiffness_.cwiseProduct(at.d) - damping_.cwiseProduct(at.rate);
-  response.force = G_.transpose() * force;
+  response.force.noalias() = G_.transpose() * force;
   if (!with_tangent) return;
-  response.tangent = G_.transpose() * (-stiffness_ - damping_ / stage.kappa).asDiagonal() * G_;
+  const Rows scaled = (-stiffness_ - damping_ / stage.kappa).asDiagonal() * G_;
+  response.tangent.noalias() = G_.transpose().lazyProduct(scaled);
   if (on_block_) {
     response.tangent.col(kTilt) += G_.row(0).transpose() * (damping_.x() * stroke_rate_);
   }

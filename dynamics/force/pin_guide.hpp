@@ -42,8 +42,10 @@ class PinGuide : public ForceElement {
   std::string name_;
   SliderCrank crank_;
   Eigen::Vector3d stiffness_, damping_;
-  Eigen::Matrix<double, 3, Eigen::Dynamic> G_;  // dd/dy at the last evaluated height
-  double stroke_rate_ = 0.0;                    // z_B' there [m/s]
+  /// Three rows, by the pin's coordinates and, with a block, its own.
+  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 6>;
+  Rows G_;                    // dd/dy at the last evaluated height
+  double stroke_rate_ = 0.0;  // z_B' there [m/s]
   bool on_block_;
 };
 

@@ -27,8 +27,8 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
     for (Eigen::Index i = 0; i < all.size(); ++i)
       if (all(i) > 0.0) moving_share_(rows[static_cast<size_t>(i)]) = moving(i) / all(i);
   }
-  part_.resize(system.bodies().size());
-  modal_.resize(system.bodies().size());
+  for (auto* scratch : {&part_, &modal_}) scratch->resize(system.bodies().size());
+  for (auto* scratch : {&picked_, &scaled_}) scratch->resize(system.bodies().size());
 }
 
 void StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
@@ -44,11 +44,13 @@ void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd&
 void StageOperator::form_S(int body, const std::vector<int>& rows, MatrixXd& S) const {
   const MatrixXd& P = system_->P(body);
   const auto n = static_cast<Eigen::Index>(rows.size());
-  picked_.resize(n, P.cols());
-  for (Eigen::Index i = 0; i < n; ++i) picked_.row(i) = P.row(rows[static_cast<size_t>(i)]);
-  scaled_ = picked_ * H_.segment(system_->mode_offset(body), P.cols()).asDiagonal();
+  MatrixXd &picked = picked_[static_cast<size_t>(body)],
+           &scaled = scaled_[static_cast<size_t>(body)];
+  picked.resize(n, P.cols());
+  for (Eigen::Index i = 0; i < n; ++i) picked.row(i) = P.row(rows[static_cast<size_t>(i)]);
+  scaled = picked * H_.segment(system_->mode_offset(body), P.cols()).asDiagonal();
   S.resize(n, n);
-  S.noalias() = scaled_ * picked_.transpose();
+  S.noalias() = scaled * picked.transpose();
 }
 
 MatrixXd StageOperator::S(int body) const {

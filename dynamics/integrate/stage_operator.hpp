@@ -47,8 +47,8 @@ class StageOperator {
   Eigen::VectorXd from_eta_;      // H (mu / kappa^2 + delta / kappa)
   Eigen::VectorXd from_v_;        // H mu / kappa
   Eigen::VectorXd moving_share_;
-  mutable std::vector<Eigen::VectorXd> part_, modal_;  // per body: its rows, its modes
-  mutable Eigen::MatrixXd picked_, scaled_;            // rows of P, and times H
+  mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes
+  mutable std::vector<Eigen::MatrixXd> picked_, scaled_;  // per body: rows of P, and times H
 };
 
 }  // namespace clatter::dynamics

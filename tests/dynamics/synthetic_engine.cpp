@@ -46,7 +46,7 @@ SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
   block.name = "block";
   cylinder.bore =
       BoreSpec{"liner_4", variant.liner_axial ? "liner_4_axial" : "", variant.bearings, ""};
-  cylinder.contact = contact_of(variant);
+  if (variant.contact) cylinder.contact = contact_of(variant);
   const MountSpec mount{"block", "", {"mounts"}, {1e5, 1e5, 2e5}, {1e3, 1e3, 2e3}};
   scene.components = {std::make_shared<CylinderComponent>(cylinder),
                       std::make_shared<BlockComponent>(block),
@@ -58,12 +58,13 @@ SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
   load(block, elastic_block(kRadius, 8, 6, {2e-3, -1e-3}), bodies);
 }
 
-Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time) {
+Eigen::MatrixXd modal_rigid_motions(const Model& model, const SyntheticEngine& engine,
+                                    double time) {
   const SliderCrank& crank = cylinder_of(model).crank();
   const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
   const Eigen::Vector2d rod = crank.rod_point(time, engine.cylinder.engine.rod.centre).position;
   const System& system = model.system;
-  Eigen::MatrixXd V(system.interface_size(), 6);
+  Eigen::MatrixXd motions(system.modes(), 6);
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -72,8 +73,15 @@ Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine,
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
     for (int k = 0; k < 3; ++k)
       motion.topRightCorner<3, 3>().col(k) = Eigen::Vector3d::Unit(k).cross(place);
-    V(system.rows(b), Eigen::all) = system.P(b) * body.rigid * motion;
+    motions.middleRows(system.mode_offset(b), body.modes()) = body.rigid * motion;
   }
+  return motions;
+}
+
+Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time) {
+  const Eigen::MatrixXd motions = modal_rigid_motions(model, engine, time);
+  Eigen::MatrixXd V(model.system.interface_size(), 6);
+  for (int k = 0; k < 6; ++k) V.col(k) = model.system.interface(Eigen::VectorXd(motions.col(k)));
   return V;
 }
 

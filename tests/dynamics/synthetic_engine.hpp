@@ -16,6 +16,7 @@ struct EngineVariant {
   std::string name;
   bool elastic_piston = true;
   bool liner_axial = true;
+  bool contact = true;  // between piston and liner
   bool film = true;
   bool balanced = false;
   double pin_offset = 0.0;        // [m]
@@ -40,9 +41,10 @@ inline const CylinderComponent& cylinder_of(const Model& model) {
   return *components_of<CylinderComponent>(model).at(0);
 }
 
-/// Velocities of all interface coordinates (n_y x 6) when block, rod and piston, ideally placed at
-/// `time`, move together as one rigid body: unit motions x, y, z, rx, ry, rz about the engine's
-/// origin.
+/// Modal coordinates (N x 6) when block, rod and piston, ideally placed at `time`, move together as
+/// one rigid body: unit motions x, y, z, rx, ry, rz about the engine's origin.
+Eigen::MatrixXd modal_rigid_motions(const Model& model, const SyntheticEngine& engine, double time);
+/// The same of all interface coordinates, n_y x 6.
 Eigen::MatrixXd rigid_motions(const Model& model, const SyntheticEngine& engine, double time);
 
 }  // namespace clatter::dynamics::testing
