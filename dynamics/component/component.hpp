@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +56,8 @@ class Component {
   virtual ComponentSize size() const { return {}; }
   /// It has an oil film, whose rates jump where a cell fills.
   virtual bool has_film() const { return false; }
+  /// What it prescribes is the same after a time `cycle` [s].
+  virtual bool repeats(double /*cycle*/) const { return true; }
 
   /// Adds bodies without a reduced model, and points where elements may act.
   virtual void add_bodies(ModelBuilder&) {}
@@ -74,6 +77,8 @@ class Component {
   virtual Eigen::Vector2d secondary_motion(double /*time*/, const Eigen::VectorXd& /*y*/) const {
     return Eigen::Vector2d::Zero();
   }
+  /// Of its bodies in a model whose frames do not rest at the origin: where they are [m], by index.
+  virtual std::map<int, Eigen::Vector3d> frames(double /*time*/) const { return {}; }
   /// The contact whose fields are recorded; owned by the model's system.
   virtual const film::PistonLiner* contact() const { return nullptr; }
 

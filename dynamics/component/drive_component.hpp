@@ -25,6 +25,7 @@ class DriveComponent : public Component {
     return std::make_unique<DriveComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
+  bool repeats(double cycle) const override { return spec_.drive.repeats(cycle); }
   void add_bodies(ModelBuilder& model) override;
   void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
 

@@ -33,16 +33,28 @@ const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name)
   return nullptr;
 }
 
-int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {
+std::vector<int> set_dofs(const rom::ReducedModel& model, const std::string& set, int axis,
+                          bool rotation) {
   const rom::DofSet& dofs = model.set(set);
+  std::vector<int> found;
   for (size_t i = 0; i < dofs.dofs.size(); ++i) {
     // A direction within half a degree of the axis counts as the axis.
     const bool along = std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996;
-    if (along && (dofs.is_rotation[i] != 0) == rotation) return dofs.dofs[i];
+    if (along && (dofs.is_rotation[i] != 0) == rotation) found.push_back(dofs.dofs[i]);
   }
+  if (!found.empty()) return found;
   throw InputError(fmt::format("{}: set \"{}\" has no {} {}, found: {}", model.name, set,
                                rotation ? "rotation about" : "displacement along", "xyz"[axis],
                                fmt::join(dofs.labels, ", ")));
+}
+
+int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {
+  const std::vector<int> found = set_dofs(model, set, axis, rotation);
+  if (found.size() == 1) return found.front();
+  throw InputError(fmt::format("{}: set \"{}\" has {} {}s {} {}, expected one: a set of one node",
+                               model.name, set, found.size(),
+                               rotation ? "rotation" : "displacement", rotation ? "about" : "along",
+                               "xyz"[axis]));
 }
 
 const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load) {

@@ -36,8 +36,11 @@ LoadedBody load_body(const BodySpec& spec);
 /// The body of that name, or nullptr.
 const LoadedBody* find_body(const LoadedBodies& bodies, const std::string& name);
 
-/// The coordinate of a set along (or, for rotations, about) axis 0, 1 or 2.
+/// The coordinates of a set along (or, for rotations, about) axis 0, 1 or 2, one per node.
 /// InputError naming the set when it has none.
+std::vector<int> set_dofs(const rom::ReducedModel& model, const std::string& set, int axis,
+                          bool rotation);
+/// The only one. InputError when there are none or several.
 int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation);
 /// The vector of a unit load; InputError listing the available names.
 const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load);

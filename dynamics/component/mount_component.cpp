@@ -10,15 +10,17 @@
 namespace clatter::dynamics {
 namespace {
 
-/// Springs to the ground at the nodes of a mount.
+/// Springs to the ground at each node of the sets of a mount.
 std::vector<GroundSpring> springs_of(const MountSpec& mount, ModelBuilder& model) {
   std::vector<GroundSpring> springs;
   for (const auto& set : mount.sets) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<size_t>(axis);
       if (mount.stiffness[a] == 0.0 && mount.damping[a] == 0.0) continue;
-      springs.push_back(
-          {model.y(mount.body, set, axis, false), mount.stiffness[a], mount.damping[a]});
+      const LoadedBody& body = *find_body(model.loaded, mount.body);
+      for (const int dof : set_dofs(body.model, set, axis, false))
+        springs.push_back({model.system.coordinate(model.body(mount.body), dof), mount.stiffness[a],
+                           mount.damping[a]});
     }
   }
   return springs;

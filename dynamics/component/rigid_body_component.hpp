@@ -36,6 +36,8 @@ class RigidBodyComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   ComponentSize size() const override;
+  /// In a plane; attitudes in space are states whose clock goes on.
+  bool repeats(double) const override { return is_planar(); }
   /// InputError for masses and moments that no body has.
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;

@@ -36,6 +36,9 @@ void CylinderComponent::add_bodies(ModelBuilder& model) {
 void CylinderComponent::add_elements(ModelBuilder& model) {
   const CylinderBodies bodies{spec_, model};
   check_piston_axis(bodies);
+  piston_ = bodies.piston_index();
+  rod_ = bodies.rod_index();
+  pin_axis_ = bodies.axes().pin;
   pin_ = pin_node(bodies);
   model.system.add_element(pin_joint(bodies, crank_, pin_));
   model.system.add_element(crank_joint(bodies, crank_));
@@ -61,6 +64,12 @@ void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effe
   const bool on_block = spec_.bore && model.has_body("block");
   const std::string ends = contact_ != nullptr ? liner_ends_text(crank_, contact_->options()) : "";
   add_cylinder_effects(spec_, on_block, ends, effects);
+}
+
+std::map<int, Eigen::Vector3d> CylinderComponent::frames(double time) const {
+  const Eigen::Vector2d rod = crank_.rod_point(time, spec_.engine.rod.centre).position;
+  return {{piston_, {pin_axis_.x(), pin_axis_.y(), crank_.piston_pin(time).position}},
+          {rod_, {pin_axis_.x(), rod.x(), rod.y()}}};
 }
 
 Eigen::Vector2d CylinderComponent::secondary_motion(double time, const Eigen::VectorXd& y) const {

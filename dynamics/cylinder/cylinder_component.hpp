@@ -39,6 +39,7 @@ class CylinderComponent : public Component {
   void record(const System& system, const StageState& state, History& history) const override;
   bool has_secondary_motion() const override { return true; }
   Eigen::Vector2d secondary_motion(double time, const Eigen::VectorXd& y) const override;
+  std::map<int, Eigen::Vector3d> frames(double time) const override;
   const film::PistonLiner* contact() const override { return contact_; }
 
   const CylinderSpec& spec() const { return spec_; }
@@ -50,6 +51,8 @@ class CylinderComponent : public Component {
   CylinderSpec spec_;
   SliderCrank crank_;
   std::optional<Spline> gas_;
+  int piston_ = -1, rod_ = -1;                          // indices in a model
+  Eigen::Vector2d pin_axis_ = Eigen::Vector2d::Zero();  // (x, y) of the pin's centre [m]
   PinNode pin_{-1, -1, -1, -1, -1, -1};
   const film::PistonLiner* contact_ = nullptr;
   std::optional<LinerFit> liner_;

@@ -20,6 +20,9 @@ class Mount : public ForceElement {
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+  /// By coordinate.
+  const Eigen::VectorXd& stiffness() const { return stiffness_; }
+  const Eigen::VectorXd& damping() const { return damping_; }
 
  private:
   std::string name_;

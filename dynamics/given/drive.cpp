@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -28,6 +30,15 @@ Motion<double> Drive::at(double time) const {
     motion.acceleration -= one.amplitude * frequency * std::sin(angle);
   }
   return motion;
+}
+
+bool Drive::repeats(double cycle) const {
+  constexpr double kRounding = 1e-6;  // of a turn
+  const double turns = mean_ * cycle / (2.0 * std::numbers::pi);
+  const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < kRounding; };
+  return is_whole(turns) && std::all_of(orders_.begin(), orders_.end(), [&](const auto& one) {
+           return is_whole(one.order * turns);
+         });
 }
 
 }  // namespace clatter::dynamics

@@ -23,6 +23,8 @@ class Drive {
   explicit Drive(double mean, double start = 0.0, std::vector<SpeedOrder> orders = {});
   /// Angle [rad], speed [rad/s], acceleration [rad/s2].
   Motion<double> at(double time) const;
+  /// After `cycle` [s] it and each of its orders have made whole turns.
+  bool repeats(double cycle) const;
 
  private:
   double mean_, start_;

@@ -18,6 +18,8 @@ struct Accuracy {
   double displacement_scale = 1e-5;  // of every interface coordinate, so of every gap [m]
   double velocity_scale = 0.1;       // of every body as a rigid body [m/s]
   double arm = 0.05;                 // converts rotations to displacements [m]
+  /// Of every element's force [N] and every body's acceleration [m/s2]; 0: not tested.
+  double force_scale = 0.0, acceleration_scale = 0.0;
 };
 
 /// The largest absolute entry of a vector and its index.

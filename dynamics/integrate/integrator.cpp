@@ -42,6 +42,7 @@ Integrator::Integrator(System& system, const StepOptions& options)
       solver_(system, weights_, statistics_),
       stages_(static_cast<size_t>(options.method->stages)),
       estimate_(system),
+      derived_(system, options.accuracy),
       events_(system) {}
 
 double Integrator::ladder_step(int rung) const {
@@ -108,8 +109,10 @@ double Integrator::measure(const VectorXd& e_y) {
   const LargestEntry largest = largest_entry(e_y.cwiseProduct(weights_.displacement));
   worst_ = largest.at;
   const double modal = modal_error(system_, weights_, e_eta_, e_v_);
-  if (!std::isfinite(largest.value + modal)) return std::numeric_limits<double>::infinity();
-  return std::max(largest.value, modal);
+  const double derived = derived_.measure(e_eta_, e_v_, e_y);
+  if (!std::isfinite(largest.value + modal + derived))
+    return std::numeric_limits<double>::infinity();
+  return std::max({largest.value, modal, derived});
 }
 
 void Integrator::step(double limit) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
+#include "dynamics/integrate/derived_error.hpp"
 #include "dynamics/integrate/error_estimate.hpp"
 #include "dynamics/integrate/event_search.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
@@ -92,7 +93,8 @@ class Integrator {
 
   /// Solves stage `index` and finishes it (elements, observer) if `finish`.
   Verdict failed() const;
-  /// Largest of e_y and the errors of the bodies over their limits; infinite when not finite.
+  /// Largest of e_y, the errors of the bodies, and where asked for those of forces and
+  /// accelerations, over their limits; infinite when not finite.
   double measure(const Eigen::VectorXd& e_y);
   const StageState& end() const { return stages_[static_cast<size_t>(tableau_->stages - 1)]; }
 
@@ -122,6 +124,7 @@ class Integrator {
   [[noreturn]] void give_up(double dt) const;
 
   ErrorEstimate estimate_;
+  DerivedError derived_;
   EventSearch events_;
   std::optional<Event> event_;  // in the step under way: it ends there
   double last_event_ = -std::numeric_limits<double>::infinity();  // [s]

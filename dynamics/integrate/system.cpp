@@ -126,6 +126,8 @@ void System::add_element(std::unique_ptr<ForceElement> element) {
   tangent_rows_.emplace_back();
   y_of_.emplace_back();
   v_of_.emplace_back();
+  moved_.emplace_back();
+  change_.emplace_back();
   elements_.push_back(std::move(element));
 }
 
@@ -283,18 +285,26 @@ void System::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v, 
   }
 }
 
+int System::tangent_row(int element, Eigen::Index row) const {
+  const auto e = static_cast<size_t>(element), i = static_cast<size_t>(row);
+  const auto& at = elements_[e]->coordinates();
+  const auto& touched = tangent_rows_[e];
+  return at[touched.empty() ? i : static_cast<size_t>(touched[i])];
+}
+
+const VectorXd& System::tangent_forces(int element, const VectorXd& dy) const {
+  const auto e = static_cast<size_t>(element);
+  const Eigen::Index count = responses_[e].tangent.rows();
+  moved_[e].resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) moved_[e](i) = dy(tangent_row(element, i));
+  change_[e].noalias() = responses_[e].tangent * moved_[e];
+  return change_[e];
+}
+
 void System::add_tangent_forces(const VectorXd& dy, VectorXd& f) const {
-  for (size_t e = 0; e < elements_.size(); ++e) {
-    const auto& at = elements_[e]->coordinates();
-    const auto& touched = tangent_rows_[e];
-    const size_t count = touched.empty() ? at.size() : touched.size();
-    const auto index = [&](size_t i) {
-      return at[touched.empty() ? i : static_cast<size_t>(touched[i])];
-    };
-    y_of_[e].resize(static_cast<Eigen::Index>(count));
-    for (size_t i = 0; i < count; ++i) y_of_[e](static_cast<Eigen::Index>(i)) = dy(index(i));
-    v_of_[e].noalias() = responses_[e].tangent * y_of_[e];
-    for (size_t i = 0; i < count; ++i) f(index(i)) += v_of_[e](static_cast<Eigen::Index>(i));
+  for (int e = 0; e < elements(); ++e) {
+    const VectorXd& forces = tangent_forces(e, dy);
+    for (Eigen::Index i = 0; i < forces.size(); ++i) f(tangent_row(e, i)) += forces(i);
   }
 }
 

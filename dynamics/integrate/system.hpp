@@ -115,6 +115,10 @@ class System {
   /// Sums the elements' forces f (n_y) at a trial state and, if requested, updates their tangents.
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Eigen::VectorXd& f);
+  /// T dy of one element with its last tangent, for its tangent rows; valid until the next call.
+  const Eigen::VectorXd& tangent_forces(int element, const Eigen::VectorXd& dy) const;
+  /// The y index of a tangent row of an element.
+  int tangent_row(int element, Eigen::Index row) const;
   /// f += T dy with the elements' last tangents.
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
   /// An element's last response.
@@ -151,11 +155,12 @@ class System {
   std::vector<Load> loads_;
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
-  std::vector<Response> responses_;                   // per element
-  std::vector<std::vector<int>> tangent_rows_;        // per element
-  mutable std::vector<Eigen::VectorXd> y_of_, v_of_;  // per element: its coordinates
-  mutable std::vector<Eigen::VectorXd> part_;         // per body: its rows
-  mutable std::vector<double> row_sums_;              // of one body's rows, for some vectors
+  std::vector<Response> responses_;                      // per element
+  std::vector<std::vector<int>> tangent_rows_;           // per element
+  mutable std::vector<Eigen::VectorXd> y_of_, v_of_;     // per element: its coordinates
+  mutable std::vector<Eigen::VectorXd> moved_, change_;  // per element: its tangent rows
+  mutable std::vector<Eigen::VectorXd> part_;            // per body: its rows
+  mutable std::vector<double> row_sums_;                 // of one body's rows, for some vectors
 };
 
 /// all(indices) += values.

@@ -22,8 +22,7 @@ constexpr double kBytesOfFilmCell = 4.0 * 4.0;
 }  // namespace
 
 RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
-  const double whole = scene.time.end - scene.time.begin;
-  const double span = scene.clock ? whole / scene.time.cycles : whole;
+  const double span = scene.clock ? scene.clock->cycle() : scene.time.end - scene.time.begin;
   RunSize size;
   size.samples = sample_count(span, scene.time.output_step);
   int64_t modes = 0, film_cells = 0;

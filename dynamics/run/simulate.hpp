@@ -44,7 +44,8 @@ struct RunControl {
 
 /// Starts from rest at the ideal position of every body (all deviations zero, so every gap is the
 /// clearance) at TDC of gas exchange, with loads growing from zero over `time.ramp`: a consistent
-/// state. Integrates `cycles` cycles of 720 deg, or the span of a scene without an engine.
+/// state. Integrates `cycles` cycles of 720 deg, or until they repeat to within `settle_to`, or the
+/// span of a scene without an engine.
 /// When steps fall below the floor the result ends there, with the reason in `failure`. Memory does
 /// not grow with the number of steps or samples. FileError when a file cannot be written.
 RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunControl& control);

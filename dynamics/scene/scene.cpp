@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -41,6 +43,18 @@ void list_inputs(const Config& root, Scene& scene) {
     for (const BodySpec& body : component->reduced_bodies()) add(body.rom);
   for (const auto& component : scene.components)
     for (const auto& path : component->inputs()) add(path);
+  if (!scene.time.start.empty()) add(scene.time.start);
+}
+
+/// What settles must repeat.
+void check_repeats(const Config& root, const Scene& scene) {
+  if (scene.time.settle == 0.0) return;
+  for (const auto& component : scene.components)
+    if (!component->repeats(scene.clock->cycle()))
+      root.table("time").fail(
+          "settle_to", fmt::format("found {:g}, but \"{}\" does not repeat its motion each cycle, "
+                                   "expected a scene of which all parts do, or no settle_to",
+                                   scene.time.settle, component->name()));
 }
 
 }  // namespace
@@ -59,6 +73,7 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   read_time(root, scene);
   scene.components = read_components(root);
   read_steps(root, scene);
+  check_repeats(root, scene);
   root.finish();
   scene.resolved = root.resolved();
   list_inputs(root, scene);

@@ -39,6 +39,11 @@ void read_accuracy(const Config& table, Accuracy& accuracy) {
       kMicro;
   accuracy.velocity_scale =
       table.number_or("velocity_m_s", accuracy.velocity_scale, kVelocityScale);
+  accuracy.force_scale =
+      table.has("force_n") ? table.number("force_n", Range::between(1e-9, 1e12)) : 0.0;
+  accuracy.acceleration_scale = table.has("acceleration_m_s2")
+                                    ? table.number("acceleration_m_s2", Range::between(1e-9, 1e12))
+                                    : 0.0;
   accuracy.arm =
       table.number_or("arm_mm", accuracy.arm / kMilli, Range::between(1e-3, 1e5)) * kMilli;
 }
@@ -67,10 +72,18 @@ void read_time(const Config& root, Scene& scene) {
     read_output(time, scene);
     return;
   }
-  scene.time.cycles = static_cast<int>(time.integer_or("cycles", 2, Range::between(1.0, 1000.0)));
-  const double ramp_deg = time.number_or("ramp_deg", 60.0, Range::between(0.0, 360.0));
+  if (time.has("settle_to"))
+    scene.time.settle = time.number("settle_to", Range::between(1e-9, 1.0));
+  const bool settles = scene.time.settle > 0.0;
+  scene.time.cycles = static_cast<int>(
+      time.integer_or("cycles", settles ? 30 : 2, Range::between(settles ? 2.0 : 1.0, 1000.0)));
+  if (time.has("start_from")) scene.time.start = time.path("start_from");
+  const double rest_deg = scene.time.start.empty() ? 60.0 : 0.0;
+  const double ramp_deg = time.number_or("ramp_deg", rest_deg, Range::between(0.0, 360.0));
   const double omega = scene.clock->speed;
-  scene.time.begin = -(2.0 + 4.0 * (scene.time.cycles - 1)) * std::numbers::pi / omega;
+  // While it settles each cycle has the same times; what repeats each cycle allows that.
+  const int before = settles ? 0 : scene.time.cycles - 1;
+  scene.time.begin = -(2.0 + 4.0 * before) * std::numbers::pi / omega;
   scene.time.end = 2.0 * std::numbers::pi / omega;
   scene.time.ramp = ramp_deg * kDegree / omega;
   read_output(time, scene);

@@ -103,5 +103,28 @@ TEST_F(SceneRefusals, HardN10_ACentredPistonOnAnOffsetPinIsRefused) {
   EXPECT_EQ(refusal(""), "accepted");
 }
 
+TEST_F(SceneRefusals, ASetOfSeveralNodesIsNoPointButEachOfItsNodesIsMounted) {
+  const std::string block = R"(
+[block]
+model = "elastic"
+liner = "liner_4"
+bearings = ["main_4", "main_5"]
+[[mount]]
+sets = ["mounts"]
+stiffness_n_m = [1e5, 1e5, 2e5]
+)";
+  test::expect_parts(
+      refusal(block +
+              "[[load]]\nbody = \"block\"\nset = \"mounts\"\ncomponent = \"z\"\nvalue = 1.0\n"),
+      {"set \"mounts\" has 4 displacements along z, expected one"});
+  const Scene scene = testing::changed_scene(folder_, block);
+  const auto model = build_model(scene, load_bodies(scene));
+  int mounted = 0;
+  for (int e = 0; e < model->system.elements(); ++e)
+    if (model->system.element(e).name() == "mount 1")
+      mounted = static_cast<int>(model->system.element(e).coordinates().size());
+  EXPECT_EQ(mounted, 12);
+}
+
 }  // namespace
 }  // namespace clatter::dynamics

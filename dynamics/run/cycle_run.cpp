@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/cycle_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/units.hpp"
+#include "dynamics/run/mounted_motion.hpp"
+#include "dynamics/run/run_end.hpp"
+#include "dynamics/run/run_file.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+Span cycle_span(const Scene& scene, int cycle) {
+  if (!scene.clock || scene.time.settle > 0.0) return {scene.time.begin, scene.time.end};
+  const double length = scene.clock->cycle();
+  const double begin = scene.time.end - length * (scene.time.cycles - cycle);
+  return {begin, cycle + 1 == scene.time.cycles ? scene.time.end : begin + length};
+}
+
+/// Cycles that all have the same times begin with the ramp of the first one only.
+std::unique_ptr<Model> model_of(const Scene& scene, const LoadedBodies& bodies, int cycle) {
+  if (scene.time.settle == 0.0 || cycle == 0) return build_model(scene, bodies);
+  Scene later = scene;
+  later.time.ramp = 0.0;
+  return build_model(later, bodies);
+}
+
+}  // namespace
+
+int most_cycles(const Scene& scene) { return scene.clock ? scene.time.cycles : 1; }
+
+CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpoint& from,
+                   const std::filesystem::path& output)
+    : scene_(scene),
+      bodies_(bodies),
+      cycle_(from.cycle),
+      span_(cycle_span(scene, from.cycle)),
+      model_(model_of(scene, bodies, from.cycle)),
+      file_(std::make_unique<H5File>(H5File::create(output))),
+      energy_(model_->system, *scene.steps.method),
+      method_(make_integrator(model_->system, scene.steps)),
+      recorder_(*model_, {span_.begin, span_.end, scene.time.output_step, scene.film_every}, *file_,
+                [this](const SampleBlock& block) { pass_on(block); }) {
+  method_->set_observer(&energy_);
+  const std::filesystem::path point = checkpoint_path(output);
+  if (from.cycle == 0) {
+    start();
+  } else {
+    from_checkpoint(point, [&] {
+      restore(from);
+      before_.emplace(*model_, H5File::open(point),
+                      sample_count(span_.end - span_.begin, scene.time.output_step));
+    });
+  }
+  if (from.cycle + 1 < most_cycles(scene)) next_.emplace(point);
+  begin_ = method_->state();
+}
+
+/// From rest, or from the end of another run.
+void CycleRun::start() {
+  const auto& other = scene_.time.start;
+  const ModalStart at = other.empty()
+                            ? ModalStart{model_->system.eta_start(), model_->system.v_start()}
+                            : read_end(other, *model_, bodies_);
+  method_->start(span_.begin, at.eta, at.v);
+}
+
+void CycleRun::restore(const Checkpoint& from) {
+  const auto& system = model_->system;
+  const auto require = [](const char* name, Eigen::Index found, Eigen::Index expected) {
+    if (found != expected)
+      throw InputError(fmt::format("{}: found {} numbers, expected {}", name, found, expected));
+  };
+  require("elements", std::ssize(from.elements), system.elements());
+  for (const auto* values : {&from.state.eta, &from.state.v, &from.state.a})
+    require("state", values->size(), system.modes());
+  for (const auto* values : {&from.state.y, &from.state.v_y})
+    require("state", values->size(), system.interface_size());
+  for (int e = 0; e < system.elements(); ++e)
+    model_->system.element(e).restore(from.elements[static_cast<size_t>(e)]);
+  if (scene_.time.settle > 0.0) {  // the state was moved: its rates and forces are others
+    method_->start(span_.begin, from.state.eta, from.state.v);
+    return;
+  }
+  energy_.restore(from.energy, from.state.time);
+  method_->resume(from.state, from.rung);
+}
+
+bool CycleRun::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
+  recorder_.start(method_->state());
+  while (method_->state().time < span_.end) {
+    if (stop != nullptr && stop->load()) return false;
+    method_->step(span_.end);
+    recorder_.record(method_->previous(), method_->state(), energy_);
+    pressure_.look(*model_, recorder_.last(), method_->state().time);
+    most_held_ = std::max(most_held_, recorder_.held());
+    progress(method_->state().time);
+  }
+  return true;
+}
+
+void CycleRun::pass_on(const SampleBlock& block) {
+  append_samples(*file_, *model_, bodies_, block);
+  if (next_) next_->add(block);
+  if (before_) before_->add(block);
+}
+
+Checkpoint CycleRun::next() const {
+  Checkpoint point;
+  point.cycle = cycle_ + 1;
+  point.state = method_->state();
+  point.rung = method_->rung();
+  for (int e = 0; e < model_->system.elements(); ++e)
+    point.elements.push_back(model_->system.element(e).save());
+  point.energy = energy_.save();
+  if (scene_.time.settle > 0.0) settle(point);
+  return point;
+}
+
+void CycleRun::settle(Checkpoint& point) const {
+  if (const auto mounted = MountedMotion::of(*model_, span_.end)) {
+    const double moved = mounted->predict(begin_, span_.end - span_.begin, point.state);
+    say(fmt::format("  on its mounts the engine starts the next cycle {:.3g} um further on",
+                    moved / kMicro));
+  }
+  point.state.time = span_.begin;
+}
+
+void CycleRun::commit(const Checkpoint& point, const std::string& mark) {
+  if (next_) next_->commit(point, mark);
+}
+
+void CycleRun::write_end() {
+  if (scene_.clock) dynamics::write_end(*file_, *model_, method_->state());
+}
+
+double CycleRun::change() const {
+  if (!before_) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (const auto& [body, value] : before_->difference().velocity)
+    largest = std::max(largest, value);
+  return largest;
+}
+
+void CycleRun::report(RunResult& result) const {
+  result.energy_residue = energy_.residue();
+  result.energy_exchanged = energy_.now().exchanged;
+  result.periodicity = before_ ? before_->difference() : CycleDifference{};
+  result.samples = recorder_.samples();
+  result.most_held = std::max(result.most_held, most_held_);
+  result.warnings = accuracy_warnings(method_->estimate().bodies(method_->weights()),
+                                      scene_.steps.accuracy, method_->estimate().steps());
+  for (const std::string& warning : pressure_.warnings()) result.warnings.push_back(warning);
+}
+
+}  // namespace clatter::dynamics
