@@ -5,8 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <memory>
+#include <utility>
 
+#include "bench/integrate/exponential.hpp"
 #include "bench/integrate/first_order.hpp"
+#include "bench/integrate/generalised_alpha.hpp"
 #include "bench/integrate/sundials_run.hpp"
 #include "core/base/error.hpp"
 
@@ -31,6 +35,10 @@ constexpr std::array<SundialsMethod, 5> kSundials{
 const std::array<const dynamics::Tableau*, 3> kKernel{&dynamics::tr_bdf2(), &dynamics::sdirk2(),
                                                       &dynamics::predictor_corrector()};
 
+/// Generalised-alpha by its spectral radius at infinite frequency.
+constexpr std::array<std::pair<const char*, double>, 2> kTried{
+    {{"generalised-alpha-0.8", 0.8}, {"generalised-alpha-0.4", 0.4}}};
+
 /// Impulses change the velocities at the end of a step, so that no cubic leads there.
 bool has_events(const dynamics::System& system) {
   for (int e = 0; e < system.elements(); ++e)
@@ -38,11 +46,13 @@ bool has_events(const dynamics::System& system) {
   return false;
 }
 
-Motion by_kernel(const BenchScene& scene, const dynamics::Tableau& table, double tolerance) {
+dynamics::StepOptions options_of(const BenchScene& scene, double tolerance) {
   dynamics::StepOptions options = scene.options;
-  options.method = &table;
   options.accuracy.tolerance = tolerance;
-  const auto method = dynamics::make_integrator(*scene.system, options);
+  return options;
+}
+
+Motion run(const BenchScene& scene, std::unique_ptr<dynamics::Integrator> method) {
   method->start(scene.begin, scene.eta, scene.v);
   Motion motion;
   const bool steps_to_samples = has_events(*scene.system);
@@ -63,6 +73,12 @@ Motion by_kernel(const BenchScene& scene, const dynamics::Tableau& table, double
   motion.matrices = count.factorizations;
   motion.events = count.events;
   return motion;
+}
+
+Motion by_kernel(const BenchScene& scene, const dynamics::Tableau& table, double tolerance) {
+  dynamics::StepOptions options = options_of(scene, tolerance);
+  options.method = &table;
+  return run(scene, dynamics::make_integrator(*scene.system, options));
 }
 
 /// The kernel's limits of errors (ErrorWeights), for each x.
@@ -114,6 +130,8 @@ const std::vector<std::string>& method_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const dynamics::Tableau* table : kKernel) all.push_back(table->name);
+    for (const auto& [name, rho] : kTried) all.emplace_back(name);
+    all.emplace_back("exponential");
     for (const SundialsMethod& method : kSundials) all.emplace_back(method.name);
     return all;
   }();
@@ -123,6 +141,12 @@ const std::vector<std::string>& method_names() {
 Motion integrate(const BenchScene& scene, const std::string& method, double tolerance) {
   for (const dynamics::Tableau* table : kKernel)
     if (table->name == method) return by_kernel(scene, *table, tolerance);
+  for (const auto& [name, rho] : kTried)
+    if (name == method)
+      return run(scene, std::make_unique<GeneralisedAlpha>(*scene.system,
+                                                           options_of(scene, tolerance), rho));
+  if (method == "exponential")
+    return run(scene, std::make_unique<Exponential>(*scene.system, options_of(scene, tolerance)));
   for (const SundialsMethod& own : kSundials)
     if (own.name == method) return by_sundials(scene, own, tolerance);
   throw InputError(fmt::format("bench: found method {}, expected one of {}", method,

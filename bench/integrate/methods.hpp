@@ -15,8 +15,8 @@ struct Motion {
   long long steps = 0, rejected = 0, evaluations = 0, matrices = 0, events = 0;
 };
 
-/// The kernel's three methods; CVODE and IDA with orders to 5 and to 2; IDA without velocities in
-/// its error test.
+/// The kernel's three methods; generalised-alpha and the exponential trapezoidal rule; CVODE and
+/// IDA with orders to 5 and to 2; IDA without velocities in its error test.
 const std::vector<std::string>& method_names();
 /// Integrates the scene. InputError for other names, NumericsError when the method fails.
 Motion integrate(const BenchScene& scene, const std::string& method, double tolerance);
