@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from clatter_tools.plots import style  # noqa: E402
@@ -12,6 +13,9 @@ SERIES = {  # colour, marker, line
     "tr-bdf2": (0, "o", "-"),
     "sdirk2": (5, "s", "-"),
     "predictor-corrector": (2, "^", "-"),
+    "generalised-alpha-0.8": (6, "<", "-."),
+    "generalised-alpha-0.4": (6, "1", ":"),
+    "exponential": (6, "P", "--"),
     "cvode": (4, "v", "--"),
     "cvode-2": (4, "2", ":"),
     "ida": (1, "D", "--"),
@@ -32,11 +36,12 @@ def draw(results, path):
             axis.plot([p[1] for p in shown], [p[0] for p in shown], color=style.COLOURS[colour], marker=marker, markersize=4,
                       linestyle=line, label=method)
         axis.set(xscale="log", yscale="log", title=scene, ylabel=f"error [{result['unit']}]", xlabel="CPU seconds")
+        axis.xaxis.set_minor_formatter(NullFormatter())
         least, most = axis.get_xlim()
         if most < 10 * least:  # at least one decade, whose ends are labelled
             axis.set_xlim(10 ** np.floor(np.log10(least)), 10 ** np.ceil(np.log10(most)))
     for axis in axes.ravel()[len(results):]:
         axis.remove()
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper left", ncol=4, columnspacing=1.2)
-    figure.suptitle(" \n ")  # keeps room for the legend
+    figure.suptitle(" \n \n ")  # keeps room for the legend
     style.save(figure, path)

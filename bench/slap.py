@@ -28,7 +28,7 @@ from clatter_tools import fields, slap  # noqa: E402
 
 AT = "analysis/cycle"
 TOLERANCES = [2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]
-GRIDS = [(6, 8), (8, 12), (10, 16), (10, 24), (10, 36), (14, 48), (20, 64)]
+GRIDS = [(10, 16), (10, 24), (10, 36), (10, 48), (6, 64), (10, 64), (20, 64), (10, 96), (10, 128), (10, 192)]
 EFFECTS = {
     "rigid piston, rigid liner": '[piston]\nmodel = "rigid"\n[block]\nmodel = "rigid"\n',
     "rigid piston": '[piston]\nmodel = "rigid"\n',

@@ -37,8 +37,8 @@ struct PistonLinerOptions {
   double skirt_bottom = -45e-3;  // lower end of the pads, z from the pin centre [m]
   double skirt_top = 25e-3;      // upper end of the pads, z from the pin centre [m]
   double pad_span = 80.0 * std::numbers::pi / 180.0;  // angle that each pad covers [rad], under pi
-  int cells_around = 14;                              // cells of a pad along the circumference
-  int cells_along = 16;                               // cells of a pad along the axis
+  int cells_around = 10;                              // cells of a pad along the circumference
+  int cells_along = 40;                               // cells of a pad along the axis
   SkirtShape skirt;
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
   LinerEnds
