@@ -28,19 +28,7 @@ name = "b"
 firing_deg = 360
 )";
 
-class Cylinders : public ::testing::Test {
- protected:
-  void SetUp() override { testing::write_slap_scene(folder_); }
-  Scene scene(const std::string& changes) { return testing::changed_scene(folder_, changes); }
-  std::string refusal(const std::string& changes) {
-    return testing::scene_refusal(folder_, changes);
-  }
-  H5File recorded(const Scene& scene, const std::string& name) {
-    return testing::complete_file(scene, folder_ / (name + ".run.h5"), result_);
-  }
-  fs::path folder_ = testing::test_folder();
-  RunResult result_;
-};
+using Cylinders = testing::SlapScenes;
 
 TEST_F(Cylinders, ANamedOneIsTheOnlyOneToTheBit) {
   const std::string one = std::string("[time]\ncycles = 1\n") + kFull;

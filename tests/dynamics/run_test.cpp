@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -23,16 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// An elastic block on its mounts for one cycle.
-constexpr const char* kElasticBlock = R"(
+const std::string kElasticBlock = std::string(testing::kElasticBlock) + R"(
 [time]
 cycles = 1
-[block]
-model = "elastic"
-liner = "liner_4"
-liner_axial = "liner_4_axial"
-bearings = ["main_4", "main_5"]
-gas_load = "head_4_gas"
-mode_limit_hz = 8000.0
 [[mount]]
 sets = ["mounts"]
 stiffness_n_m = [1e5, 1e5, 2e5]

@@ -118,16 +118,9 @@ TEST(MountedMotions, AnEngineThatIsNotHeldHasNone) {
   EXPECT_FALSE(MountedMotion::of(*engine.model(), 0.03).has_value());
 }
 
-/// An elastic block on soft mounts, of which the slowest loses 2 % of its amplitude in a cycle.
-/// What rattles in it never repeats.
-constexpr const char* kOnMounts = R"(
-[block]
-model = "elastic"
-liner = "liner_4"
-liner_axial = "liner_4_axial"
-bearings = ["main_4", "main_5"]
-gas_load = "head_4_gas"
-mode_limit_hz = 8000.0
+/// Soft mounts, of which the slowest mode loses 2 % of its amplitude in a cycle. What rattles in
+/// the block never repeats.
+constexpr const char* kSoftMounts = R"(
 [[mount]]
 sets = ["mounts"]
 stiffness_n_m = [1e5, 1e5, 2e5]
@@ -137,19 +130,11 @@ balanced = true
 [time]
 )";
 
-class Settling : public ::testing::Test {
+class Settling : public testing::SlapScenes {
  protected:
-  void SetUp() override { testing::write_slap_scene(folder_); }
-  Scene scene(const std::string& changes) { return testing::changed_scene(folder_, changes); }
-  Scene on_mounts(const std::string& time) { return scene(kOnMounts + time); }
-  std::string refusal(const std::string& changes) {
-    return testing::scene_refusal(folder_, changes);
+  Scene on_mounts(const std::string& time) {
+    return scene(testing::kElasticBlock + std::string(kSoftMounts) + time);
   }
-  H5File recorded(const Scene& scene, const std::string& name) {
-    return testing::complete_file(scene, folder_ / (name + ".run.h5"), result_);
-  }
-  fs::path folder_ = testing::test_folder();
-  RunResult result_;
 };
 
 /// How far the block is from where it was a cycle before, the largest of its displacements [m].

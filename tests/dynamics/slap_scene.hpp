@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // A lubricated piston slap of synthetic bodies, as files.
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
 
@@ -27,5 +29,30 @@ H5File finished_file(const Scene& scene, const LoadedBodies& bodies, RunResult& 
 
 /// Runs the scene to its end, which is expected, and reads the file.
 H5File complete_file(const Scene& scene, const std::filesystem::path& output, RunResult& result);
+
+/// The table of an elastic block, instead of the rigid one.
+inline constexpr const char* kElasticBlock = R"(
+[block]
+model = "elastic"
+liner = "liner_4"
+liner_axial = "liner_4_axial"
+bearings = ["main_4", "main_5"]
+gas_load = "head_4_gas"
+mode_limit_hz = 8000.0
+)";
+
+/// Tests of scenes that change that of write_slap_scene().
+class SlapScenes : public ::testing::Test {
+ protected:
+  void SetUp() override { write_slap_scene(folder_); }
+  Scene scene(const std::string& changes) { return changed_scene(folder_, changes); }
+  std::string refusal(const std::string& changes) { return scene_refusal(folder_, changes); }
+  /// Runs the scene to the end; its file is `name`.run.h5.
+  H5File recorded(const Scene& scene, const std::string& name) {
+    return complete_file(scene, folder_ / (name + ".run.h5"), result_);
+  }
+  std::filesystem::path folder_ = test_folder();
+  RunResult result_;
+};
 
 }  // namespace clatter::dynamics::testing

@@ -47,6 +47,23 @@ class Command(unittest.TestCase):
         for expected in ("slap_dry", "block.mesh.h5", "total", "2.00", "0.44", "417", "12.5"):
             self.assertIn(expected, done.stdout)
 
+    def test_named_cylinders_have_lines_and_rows_of_their_own(self):
+        synthetic.write_run(self.folder / "four.run.h5", cylinder="c1")
+        with h5py.File(self.folder / "four.run.h5", "a") as file:
+            for name in list(file["history"]):
+                if name.startswith("c1_"):
+                    file.copy(f"history/{name}", f"history/{name.replace('c1_', 'c3_')}")
+            file["certificate"].attrs["periodicity_lateral_c3"] = 3.3e-7
+        done = clatter("report", ".", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = {line.split()[1]: line for line in done.stdout.splitlines() if line.split()[:1] == ["four"]}
+        self.assertEqual(sorted(rows), ["c1", "c3"])
+        self.assertIn("-19.9 .. 19.9", rows["c1"])
+        self.assertEqual(rows["c3"].split()[-1], "0.33")
+        for kind in ("piston", "film"):
+            done = clatter("plot", kind, "four.run.h5", "-o", f"{kind}.png", folder=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_each_picture_is_drawn_and_is_not_blank(self):
         runs = ["slap.run.h5", "slap_dry.run.h5"]
         fields = ["slap.field.h5"]
@@ -61,9 +78,11 @@ class Command(unittest.TestCase):
 
     def test_a_wrong_file_gets_one_line_and_exit_code_2(self):
         (self.folder / "broken.run.h5").write_bytes(b"not HDF5")
+        synthetic.new_file(self.folder / "no_piston.run.h5", "run").close()
         for arguments, expected in ((("info", "absent.h5"), "no such file"),
                                     (("info", "broken.run.h5"), "not a readable HDF5 file"),
                                     (("plot", "piston", "block.mesh.h5"), "expected clatter/run/1"),
+                                    (("plot", "piston", "no_piston.run.h5"), "none of these runs has a piston"),
                                     (("plot", "poem", "slap.run.h5"), "no picture named poem"),
                                     (("report", "nowhere"), "no artefacts"),
                                     (("run", "."), "no Makefile")):

@@ -84,11 +84,12 @@ def slap_signal(time, amplitude, ring_hz=1800.0):
     return amplitude * np.sin(2 * np.pi * ring_hz * after) * np.exp(-after / 0.9e-3) * (after > 0)
 
 
-def write_run(path, clearance=20e-6, film=True):
+def write_run(path, clearance=20e-6, film=True, cylinder=""):
+    prefix = f"{cylinder}_" if cylinder else ""
     angle = np.arange(0, 1440.5, 0.5)
     wrapped = np.radians((angle + 360) % 720 - 360)
     with new_file(path, "run") as file:
-        put = lambda name, values, unit: history(file, name, values, unit)  # noqa: E731
+        put = lambda name, values, unit: history(file, prefix + name, values, unit)  # noqa: E731
         file["history/crank_angle_deg"] = angle
         put("piston_lateral", clearance * np.tanh(3 * np.sin(wrapped)), "m")
         put("piston_tilt", 4e-4 * np.cos(wrapped / 2) * np.sin(2 * wrapped), "rad")

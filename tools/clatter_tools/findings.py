@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 
 from . import artefact, fields, slap
-from .histories import last_cycle
+from .histories import cylinders, last_cycle, of
 
 RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min gap [µm]", "side force [kN]", "energy residue", "from cycle to cycle [µm]"]
 NOTHING = "-"
@@ -38,19 +38,24 @@ def spread(run, name, scale, window):
     return f"{values.min():.1f} .. {values.max():.1f}"
 
 
-def run_row(run):
-    """The cells of RUN_HEAD."""
+def run_rows(run):
+    """(cylinder, the cells of RUN_HEAD) for each cylinder; the name is empty where there is one without a name."""
     window = slice(None)
     if "history/crank_angle_deg" in run:
         window = last_cycle(artefact.dataset(run, "history/crank_angle_deg"))
-    gap = NOTHING
-    if "history/film_min" in run:
-        gap = f"{run['history/film_min'][()][window].min() * 1e6:.2f}"
     proved = artefact.certificate(run)
     residue = f"{proved['energy_residue']:.2e}" if "energy_residue" in proved else NOTHING
-    change = f"{proved['periodicity_lateral'] * 1e6:.2f}" if "periodicity_lateral" in proved else NOTHING
-    return [spread(run, "piston_lateral", 1e6, window), spread(run, "piston_tilt", 1e3, window), gap,
-            spread(run, "side_force", 1e-3, window), residue, change]
+    rows = []
+    for cylinder in cylinders(run, "piston_lateral") or [""]:
+        gap = NOTHING
+        if f"history/{of(cylinder, 'film_min')}" in run:
+            gap = f"{run['history/' + of(cylinder, 'film_min')][()][window].min() * 1e6:.2f}"
+        change = proved.get(f"periodicity_lateral_{cylinder}" if cylinder else "periodicity_lateral")
+        rows.append((cylinder, [spread(run, of(cylinder, "piston_lateral"), 1e6, window),
+                                spread(run, of(cylinder, "piston_tilt"), 1e3, window), gap,
+                                spread(run, of(cylinder, "side_force"), 1e-3, window), residue,
+                                NOTHING if change is None else f"{change * 1e6:.2f}"]))
+    return rows
 
 
 FIELD_HEAD = ["slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]",

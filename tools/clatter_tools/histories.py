@@ -23,6 +23,20 @@ def has(run, name):
     return f"history/{name}" in run
 
 
+def cylinders(run, history_name):
+    """Names of the cylinders that have a history, alphabetically; [""] where the run has a single one without a name."""
+    if "history" not in run:
+        return []
+    ending = "_" + history_name
+    named = sorted(name.removesuffix(ending) for name in run["history"] if name.endswith(ending))
+    return [""] if has(run, history_name) else named
+
+
+def of(cylinder, name):
+    """The name of a cylinder's history."""
+    return f"{cylinder}_{name}" if cylinder else name
+
+
 def last_cycle(angle):
     """Slice of the last complete cycle of 720 deg (the periodic one), or everything when the run is shorter."""
     first = int(np.searchsorted(angle, angle[-1] - 720.0 - 1e-6))

@@ -67,7 +67,7 @@ def print_runs(paths):
     rows = []
     for path in paths:
         with artefact.open_artefact(path, "run") as file:
-            rows.append([stem(path), *findings.run_row(file)])
+            rows += [[f"{stem(path)} {cylinder}".rstrip(), *cells] for cylinder, cells in findings.run_rows(file)]
     print_table("runs (last cycle)", ["run", *findings.RUN_HEAD], rows)
 
 

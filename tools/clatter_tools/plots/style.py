@@ -45,8 +45,10 @@ def open_all(paths, kind):
     return [open_artefact(path, kind) for path in paths]
 
 
-def label(file):
-    """Name of a run in a legend: its scene's title, also for its field file; else the file's stem."""
+def label(file, cylinder=""):
+    """Name of a run in a legend: its scene's title, also for its field file; else the file's stem; with the cylinder's name."""
+    if cylinder:
+        return f"{label(file)}, {cylinder}"
     if "title" in file.attrs:
         return text(file.attrs["title"])
     own = pathlib.Path(file.filename)
