@@ -72,13 +72,7 @@ TEST(Allocation, TheCounterCounts) {
 }
 
 class StepLoop : public ::testing::TestWithParam<const Tableau*> {};
-INSTANTIATE_TEST_SUITE_P(Allocation, StepLoop,
-                         ::testing::Values(&tr_bdf2(), &sdirk2(), &predictor_corrector()),
-                         [](const auto& info) {
-                           std::string name = info.param->name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Allocation, StepLoop, testing::all_methods(), testing::name_of_method);
 
 TEST_P(StepLoop, TakesNoMemoryForBodiesInContact) {
   System system;

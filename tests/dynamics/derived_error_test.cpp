@@ -43,13 +43,7 @@ Impact impact(const Tableau& method, const Accuracy& accuracy) {
 }
 
 class Derived : public ::testing::TestWithParam<const Tableau*> {};
-INSTANTIATE_TEST_SUITE_P(Methods, Derived,
-                         ::testing::Values(&tr_bdf2(), &sdirk2(), &predictor_corrector()),
-                         [](const auto& info) {
-                           std::string name = info.param->name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Methods, Derived, testing::all_methods(), testing::name_of_method);
 
 TEST_P(Derived, AForceIsAsAccurateAsItWasAskedFor) {
   const Impact plain = impact(*GetParam(), {});

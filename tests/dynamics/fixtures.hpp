@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Small bodies and elements for the dynamics tests.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -14,6 +16,16 @@
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics::testing {
+
+/// Parameters and names of tests that run by every method.
+inline auto all_methods() {
+  return ::testing::Values(&tr_bdf2(), &sdirk2(), &predictor_corrector());
+}
+inline std::string name_of_method(const ::testing::TestParamInfo<const Tableau*>& info) {
+  std::string name = info.param->name;
+  std::erase(name, '-');
+  return name;
+}
 
 /// A mass on a line, q = position [m], on a spring to the ground (k = 0: free).
 inline ModalBody point_mass(double mass, double k = 0.0, double damping = 0.0) {
