@@ -13,6 +13,12 @@ BUILD := build/$(PRESET)
 BIN := $(CURDIR)/$(BUILD)/bin
 CTEST := ctest --test-dir $(BUILD) -j$(JOBS) --output-on-failure --no-tests=error
 
+# The sanitizers do not report what libraries leak, nor that gmsh deletes arrays as single objects.
+ifeq ($(PRESET),dev)
+export LSAN_OPTIONS := suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0
+export ASAN_OPTIONS := alloc_dealloc_mismatch=0
+endif
+
 .NOTPARALLEL:
 .PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs deb levels install clean
 help:
@@ -44,9 +50,7 @@ check: setup-check build-tests
 validate: setup-check build-tests
 	@$(CTEST)
 
-# With the address and undefined behaviour sanitizers and warnings as errors. gmsh deletes arrays as single objects.
-sanitize: export LSAN_OPTIONS = suppressions=$(CURDIR)/tests/leaks.txt:print_suppressions=0
-sanitize: export ASAN_OPTIONS = alloc_dealloc_mismatch=0
+# With the address and undefined behaviour sanitizers and warnings as errors.
 sanitize:
 	@$(MAKE) --no-print-directory check PRESET=dev
 

@@ -36,7 +36,9 @@ Eigen::VectorXd modal_force(const LoadedBody& body, const LoadSpec& load) {
         fmt::format("{}: load.set: found nothing, expected a set of the reduced model "
                     "of \"{}\"",
                     load.where, load.body));
-  const int dof = set_dof(body.model, load.set, load.component % 3, load.component >= 3);
+  const int dof = with_context(load.where + ": load.set", [&] {
+    return set_dof(body.model, load.set, load.component % 3, load.component >= 3);
+  });
   return body.modal.row_of(dof).transpose();
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/artefact.hpp"
@@ -43,9 +44,14 @@ std::vector<int> set_dofs(const rom::ReducedModel& model, const std::string& set
     if (along && (dofs.is_rotation[i] != 0) == rotation) found.push_back(dofs.dofs[i]);
   }
   if (!found.empty()) return found;
-  throw InputError(fmt::format("{}: set \"{}\" has no {} {}, found: {}", model.name, set,
-                               rotation ? "rotation about" : "displacement along", "xyz"[axis],
-                               fmt::join(dofs.labels, ", ")));
+  constexpr size_t kShown = 12;  // two nodes; a grid has hundreds
+  const size_t shown = std::min(kShown, dofs.labels.size());
+  throw InputError(fmt::format(
+      "{}: set \"{}\" has no {} {}, found: {}{}", model.name, set,
+      rotation ? "rotation about" : "displacement along", "xyz"[axis],
+      fmt::join(dofs.labels.begin(), dofs.labels.begin() + static_cast<std::ptrdiff_t>(shown),
+                ", "),
+      shown < dofs.labels.size() ? fmt::format(", ... ({} in all)", dofs.labels.size()) : ""));
 }
 
 int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bool rotation) {

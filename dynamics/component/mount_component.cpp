@@ -18,7 +18,8 @@ std::vector<GroundSpring> springs_of(const MountSpec& mount, ModelBuilder& model
       const auto a = static_cast<size_t>(axis);
       if (mount.stiffness[a] == 0.0 && mount.damping[a] == 0.0) continue;
       const LoadedBody& body = *find_body(model.loaded, mount.body);
-      for (const int dof : set_dofs(body.model, set, axis, false))
+      for (const int dof : with_context(mount.where + ": mount.sets",
+                                        [&] { return set_dofs(body.model, set, axis, false); }))
         springs.push_back({model.system.coordinate(model.body(mount.body), dof), mount.stiffness[a],
                            mount.damping[a]});
     }

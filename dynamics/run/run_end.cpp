@@ -77,8 +77,8 @@ void write_end(H5File& file, const Model& model, const StageState& state) {
 }
 
 ModalStart read_end(const std::filesystem::path& path, Model& model, const LoadedBodies& bodies) {
+  const H5File file = open_artefact(path, run::kSchema);
   return with_context(path.string(), [&]() -> ModalStart {
-    const H5File file = open_artefact(path, run::kSchema);
     if (!file.has(kEnd))
       throw InputError(
           "found no state to start from, expected a complete run of an engine by this version");

@@ -48,6 +48,14 @@ void read_accuracy(const Config& table, Accuracy& accuracy) {
       table.number_or("arm_mm", accuracy.arm / kMilli, Range::between(1e-3, 1e5)) * kMilli;
 }
 
+std::filesystem::path read_start(const Config& time) {
+  const std::filesystem::path path = time.path("start_from");
+  if (!std::filesystem::exists(path))
+    time.fail("start_from", fmt::format("found \"{}\", which does not exist, expected a run file",
+                                        path.string()));
+  return path;
+}
+
 void read_output(const Config& time, Scene& scene) {
   const double span_us = recorded_span(scene) / kMicro;
   scene.time.output_step = number_within(time, "output_step_us", std::min(20.0, span_us),
@@ -77,7 +85,7 @@ void read_time(const Config& root, Scene& scene) {
   const bool settles = scene.time.settle > 0.0;
   scene.time.cycles = static_cast<int>(
       time.integer_or("cycles", settles ? 30 : 2, Range::between(settles ? 2.0 : 1.0, 1000.0)));
-  if (time.has("start_from")) scene.time.start = time.path("start_from");
+  if (time.has("start_from")) scene.time.start = read_start(time);
   const double rest_deg = scene.time.start.empty() ? 60.0 : 0.0;
   const double ramp_deg = time.number_or("ramp_deg", rest_deg, Range::between(0.0, 360.0));
   const double omega = scene.clock->speed;

@@ -116,7 +116,8 @@ stiffness_n_m = [1e5, 1e5, 2e5]
   test::expect_parts(
       refusal(block +
               "[[load]]\nbody = \"block\"\nset = \"mounts\"\ncomponent = \"z\"\nvalue = 1.0\n"),
-      {"set \"mounts\" has 4 displacements along z, expected one"});
+      {"changed.run.toml:", "load.set: ",
+       "set \"mounts\" has 4 displacements along z, expected one"});
   const Scene scene = testing::changed_scene(folder_, block);
   const auto model = build_model(scene, load_bodies(scene));
   int mounted = 0;

@@ -215,6 +215,9 @@ TEST_F(Settling, ARunGoesOnFromTheEndOfAnother) {
 }
 
 TEST_F(Settling, AStartThatDoesNotFitIsRefused) {
+  test::expect_parts(
+      refusal("[time]\nstart_from = \"nowhere.run.h5\"\n"),
+      {"changed.run.toml:3: time.start_from: found", "nowhere.run.h5", "which does not exist"});
   recorded(scene("[time]\ncycles = 1\n"), "run");
   const auto from = [&](const std::string& changes) {
     const Scene later = scene(changes + "[time]\ncycles = 1\nstart_from = \"run.run.h5\"\n");
