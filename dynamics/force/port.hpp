@@ -17,6 +17,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 struct PortState {
   Eigen::Vector3d position, velocity;  // [m], [m/s]
   Eigen::Vector3d spin;                // angular velocity [rad/s]
+  Eigen::Matrix3d rotation;            // from the body's axes to those of the engine
   Matrix6X by_y;                       // d(position, rotation)/dy
   Matrix6X rate_by_y, rate_by_v;       // d(velocity, spin)/dy, /dv
   Matrix6X work;                       // force on the coordinates = work^T (force, moment)
@@ -100,8 +101,8 @@ class PlanarPort : public Port {
                      Eigen::Ref<Eigen::MatrixXd> tangent) const override;
 
  private:
-  /// The arm in the engine's axes.
-  Eigen::Vector3d turned_arm(double angle) const;
+  /// A vector of the body in the engine's axes.
+  Eigen::Vector3d turned(const Eigen::Vector2d& arm, double angle) const;
   Eigen::Vector2d arm_;
   PlaneAxes plane_;
 };

@@ -41,6 +41,7 @@ void SpatialPort::motion(double time, const VectorXd& y, const VectorXd& v,
   state.position = y.segment<3>(kCentre) + out_;
   state.velocity = v.segment<3>(kCentre) + spin.cross(out_) + moved;
   state.spin = spin + bent;
+  state.rotation = A + A * skew(slope_ * y.tail(n));
 
   const Matrix3d across = skew(out_);
   auto by_y = state.by_y.topRows<3>();

@@ -55,6 +55,32 @@ TEST(PortElement, TangentsAreTheDifferenceQuotientsOfTheForces) {
   }
 }
 
+TEST(Port, RotationTurnsTheBodysAxesByItsSpin) {
+  const double h = 1e-6;
+  const DrivenPort driven(Drive(3.0, 0.4), {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, {0.6, 0.0, 0.8});
+  const NodePort node({0.2, 0.1, 0.0}, {0, 1, 2, 3, 4, 5});
+  const auto planar = planar_port(0, {0.4, 0.1});
+  for (const Port* port : std::initializer_list<const Port*>{&driven, planar.get(), &node}) {
+    VectorXd y = arbitrary(port->size(), 1), v = arbitrary(port->size(), 2);
+    if (port == &node) y *= 1e-6;  // its rotations are small ones
+    PortState at, before, after;
+    port->motion(0.0, y, v, at);
+    port->motion(-h, y - h * v, v, before);
+    port->motion(h, y + h * v, v, after);
+    const Eigen::Matrix3d rate = (after.rotation - before.rotation) / (2.0 * h);
+    EXPECT_LT((rate - skew(at.spin) * at.rotation).norm(), 1e-5 * at.spin.norm());
+  }
+}
+
+TEST(Port, RotationTurnsTheArmsOfABody) {
+  const VectorXd y = arbitrary(10, 1), v = arbitrary(10, 2);
+  PortState first, second;
+  spatial_port(0, {0.3, -0.2, 0.5})->motion(0.3, y, v, first);
+  spatial_port(0, {-0.1, 0.7, 0.2})->motion(0.3, y, v, second);
+  const Vector3d arm = first.rotation * Vector3d(0.4, -0.9, 0.3);
+  EXPECT_LT((first.position - second.position - arm).norm(), 1e-14);
+}
+
 TEST(PortElement, ForceAndMomentOfAPairBalance) {
   // Two spatial bodies: the sum of forces, and of moments about the origin, vanishes.
   Bushing bushing("bushing", spatial_port(0, {0.3, -0.2, 0.5}), spatial_port(10, {0.4, 0.1, 0.2}),
