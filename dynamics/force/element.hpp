@@ -21,6 +21,12 @@ struct Stage {
   std::vector<double> weights;  // dt * a_ij, j < index [s]
 };
 
+/// A part of an element's tangent that couples few of its coordinates: those of its group, n_g.
+struct TangentBlock {
+  bool active = false;     // else zero, whatever the values
+  Eigen::MatrixXd values;  // n_g x n_g; df/dy + df/dv / kappa at fixed stage
+};
+
 /// Force on the element's coordinates and its derivative.
 struct Response {
   Eigen::VectorXd force;    // n_e; works on y: [N] on displacements, [N m] on rotations
@@ -28,6 +34,8 @@ struct Response {
   /// The n_t of the element's coordinates on which its force depends at this state and acts, where
   /// it touches few of them; ascending. Empty: all, n_t = n_e. Set by every evaluation.
   std::vector<int> touched;
+  /// One per group, of an element that has groups; then `tangent` and `touched` have no meaning.
+  std::vector<TangentBlock> blocks;
 };
 
 /// Energy and power of an element.
@@ -66,6 +74,14 @@ class ForceElement {
 
   /// Indices of the element's coordinates in the system's y; n_e of them.
   const std::vector<int>& coordinates() const { return coordinates_; }
+
+  /// Groups of the element's coordinates (places in coordinates(), n_g each) where its tangent is a
+  /// sum of small blocks, each in one group: a chain couples each link with its neighbours and with
+  /// what it touches. Fixed; a group may have no block at the moment. Empty: one dense tangent.
+  virtual const std::vector<std::vector<int>>& groups() const {
+    static const std::vector<std::vector<int>> none;
+    return none;
+  }
 
   /// Forces at a trial state. `y`, `v`: n_e displacements and velocities; `response.tangent` is
   /// computed only if `with_tangent`. Resizes the response. Throws StepRefused.

@@ -2,8 +2,6 @@
 #include "dynamics/integrate/stage_matrix.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace clatter::dynamics {
@@ -24,73 +22,10 @@ constexpr double kNegligible = 1e-14;
 }  // namespace
 
 StageMatrix::StageMatrix(const System& system) : system_(&system) {
-  order();
-  for (int e = 0; e < system.elements(); ++e)
-    for (Part& part : parts_of(e)) parts_.push_back(std::move(part));
-  find_pattern();
-}
-
-void StageMatrix::order() {
-  position_.resize(static_cast<size_t>(system_->interface_size()));
-  int next = 0;
-  for (int b = 0; b < static_cast<int>(system_->bodies().size()); ++b) {
-    first_.push_back(next);
-    for (const int y : system_->rows(b)) position_[static_cast<size_t>(y)] = next++;
-  }
-}
-
-std::vector<StageMatrix::Part> StageMatrix::parts_of(int element) const {
-  const std::vector<int>& at = system_->element(element).coordinates();
-  std::map<int, Part> by_body;
-  std::vector<int> columns;
-  for (size_t i = 0; i < at.size(); ++i) {
-    const int body = system_->owner(at[i]), position = position_[static_cast<size_t>(at[i])];
-    columns.push_back(position);
-    by_body[body].rows.push_back(static_cast<int>(i));
-    by_body[body].body_rows.push_back(position - first_[static_cast<size_t>(body)]);
-  }
-  std::vector<Part> parts;
-  for (auto& [body, part] : by_body) {
-    part.element = element;
-    part.body = body;
-    part.columns = columns;
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-void StageMatrix::find_pattern() {
-  const int n = system_->interface_size();
-  const int bodies = static_cast<int>(system_->bodies().size());
-  const auto rows_of = [&](int body) { return static_cast<int>(system_->rows(body).size()); };
-  std::vector<std::set<int>> blocks(static_cast<size_t>(n));  // column: bodies whose rows it has
-  for (int b = 0; b < bodies; ++b)
-    for (int i = 0; i < rows_of(b); ++i)
-      blocks[static_cast<size_t>(first_[static_cast<size_t>(b)] + i)].insert(b);
-  for (const Part& part : parts_)
-    for (const int column : part.columns) blocks[static_cast<size_t>(column)].insert(part.body);
-  for (const auto& block : blocks)
-    for (const int b : block) nonzeros_ += rows_of(b);
-  if (n <= kSmall || nonzeros_ > kFew * static_cast<double>(n) * n) return;
-
-  std::vector<int> starts{0}, rows;
-  std::vector<std::map<int, int>> begin(static_cast<size_t>(n));
-  for (int j = 0; j < n; ++j) {
-    for (const int b : blocks[static_cast<size_t>(j)]) {
-      const int first = first_[static_cast<size_t>(b)];
-      begin[static_cast<size_t>(j)][b] = static_cast<int>(rows.size());
-      for (int i = first; i < first + rows_of(b); ++i) {
-        if (i == j) diagonal_.push_back(static_cast<int>(rows.size()));
-        rows.push_back(i);
-      }
-    }
-    starts.push_back(static_cast<int>(rows.size()));
-  }
-  values_.resize(rows.size());
-  for (Part& part : parts_)
-    for (const int column : part.columns)
-      part.starts.push_back(begin[static_cast<size_t>(column)].at(part.body));
-  sparse_.emplace(std::move(starts), std::move(rows));
+  SparseStage sparse(system);
+  const auto n = static_cast<double>(system.interface_size());
+  nonzeros_ = sparse.nonzeros();
+  if (n > kSmall && nonzeros_ <= kFew * n * n) sparse_ = std::move(sparse);
 }
 
 /// Rows that the elements touch at the moment, body by body.
@@ -101,7 +36,7 @@ void StageMatrix::list_touched() {
   if (same) return;
   kappa_ = 0.0;
   touched_.resize(static_cast<size_t>(system_->elements()));
-  row_.assign(position_.size(), -1);
+  row_.assign(static_cast<size_t>(system_->interface_size()), -1);
   for (int e = 0; e < system_->elements(); ++e) {
     const std::vector<int>& at = system_->element(e).coordinates();
     touched_[static_cast<size_t>(e)] = system_->tangent_rows(e);
@@ -132,19 +67,17 @@ void StageMatrix::form_S(const StageOperator& op) {
   if (kappa_ == op.kappa()) return;
   kappa_ = op.kappa();
   S_.resize(system_->bodies().size());
-  for (size_t b = 0; b < S_.size(); ++b) {
-    const int body = static_cast<int>(b);
-    if (sparse_)
-      S_[b] = op.S(body);
-    else
-      op.form_S(body, body_rows_[b], S_[b]);
-  }
+  for (size_t b = 0; b < S_.size(); ++b) op.form_S(static_cast<int>(b), body_rows_[b], S_[b]);
 }
 
 /// T_ of the elements' last tangents.
 void StageMatrix::add_tangents() {
   T_.setZero();
   for (int e = 0; e < system_->elements(); ++e) {
+    if (system_->has_groups(e)) {
+      add_blocks(e);
+      continue;
+    }
     const std::vector<int>& at = system_->element(e).coordinates();
     const std::vector<int>& touched = touched_[static_cast<size_t>(e)];
     const MatrixXd& T = system_->response(e).tangent;
@@ -157,6 +90,20 @@ void StageMatrix::add_tangents() {
       double* column = T_.col(row(j)).data();
       for (Index i = 0; i < T.rows(); ++i) column[row(i)] += T(i, j);
     }
+  }
+}
+
+/// The same of an element with groups.
+void StageMatrix::add_blocks(int element) {
+  const auto& groups = system_->groups(element);
+  const std::vector<TangentBlock>& blocks = system_->response(element).blocks;
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!blocks[g].active) continue;
+    const std::vector<int>& at = groups[g];
+    for (size_t j = 0; j < at.size(); ++j)
+      for (size_t i = 0; i < at.size(); ++i)
+        T_(row_[static_cast<size_t>(at[i])], row_[static_cast<size_t>(at[j])]) +=
+            blocks[g].values(static_cast<Index>(i), static_cast<Index>(j));
   }
 }
 
@@ -181,8 +128,8 @@ void StageMatrix::pick_significant() {
 }
 
 bool StageMatrix::form(const StageOperator& op) {
-  if (position_.empty()) return true;
-  return sparse_ ? form_sparse(op) : form_dense(op);
+  if (system_->interface_size() == 0) return true;
+  return sparse_ ? sparse_->form(op) : form_dense(op);
 }
 
 bool StageMatrix::form_dense(const StageOperator& op) {
@@ -216,26 +163,6 @@ bool StageMatrix::form_dense(const StageOperator& op) {
     column = columns_end;
   }
   return lu_.factor();
-}
-
-bool StageMatrix::form_sparse(const StageOperator& op) {
-  form_S(op);
-  std::fill(values_.begin(), values_.end(), 0.0);
-  for (const int at : diagonal_) values_[static_cast<size_t>(at)] = 1.0;
-  for (const Part& part : parts_) {
-    const MatrixXd& S = S_[static_cast<size_t>(part.body)];
-    const MatrixXd& T = system_->response(part.element).tangent;
-    for (size_t k = 0; k < part.rows.size(); ++k) {
-      const auto column_of_S = S.col(part.body_rows[k]);
-      for (Index j = 0; j < T.cols(); ++j) {
-        const double t = T(part.rows[k], j);
-        if (t == 0.0) continue;
-        double* column = values_.data() + part.starts[static_cast<size_t>(j)];
-        for (Index i = 0; i < S.rows(); ++i) column[i] -= t * column_of_S(i);
-      }
-    }
-  }
-  return sparse_->factor(values_);
 }
 
 bool StageMatrix::covers(const StageOperator& op) const {
@@ -273,12 +200,9 @@ void StageMatrix::solve_touched(VectorXd& x) const {
 }
 
 void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
-  if (position_.empty()) return;
+  if (x.size() == 0) return;
   if (sparse_) {
-    right_.resize(x.size());
-    for (size_t y = 0; y < position_.size(); ++y) right_(position_[y]) = x(static_cast<Index>(y));
-    sparse_->solve(right_.data());
-    for (size_t y = 0; y < position_.size(); ++y) x(static_cast<Index>(y)) = right_(position_[y]);
+    sparse_->solve(x);
     return;
   }
   gather(x, touched_y_, right_);
@@ -289,7 +213,7 @@ void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {
   forces_.setZero(x.size());
   system_->add_tangent_forces(x, forces_);
   op.apply_S(forces_, moved_);
-  for (size_t y = 0; y < position_.size(); ++y)
+  for (size_t y = 0; y < row_.size(); ++y)
     if (row_[y] < 0) x(static_cast<Index>(y)) += moved_(static_cast<Index>(y));
 }
 

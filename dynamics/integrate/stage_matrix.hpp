@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/integrate/dense_lu.hpp"
-#include "dynamics/integrate/sparse_lu.hpp"
+#include "dynamics/integrate/sparse_stage.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/system.hpp"
 
@@ -14,12 +14,11 @@ namespace clatter::dynamics {
 
 /// J = I - S T in the interface coordinates, T = sum of the elements' tangents, factored.
 ///
-/// S couples the coordinates of one body, a tangent those of one element: the rows of a body are
-/// full in the columns of all elements that touch it and empty elsewhere. Where that leaves most of
-/// J empty, as in a chain, it is factored as a sparse matrix whose pattern is analysed once. Else J
-/// is formed in the rows that elements touch at the moment (the others follow from them), and
-/// factored in the columns c in which T is not negligible: x_c = J_cc^-1 b_c, and x = b + S T x_c
-/// in the rest, as on a skirt's pad that carries no load.
+/// S couples the coordinates of one body, a tangent those of one element or of its groups. Where
+/// that leaves most of J empty, as in a chain, it is factored as a sparse matrix whose pattern is
+/// analysed once (sparse_stage.hpp). Else J is formed in the rows that elements touch at the moment
+/// (the others follow from them), and factored in the columns c in which T is not negligible: x_c =
+/// J_cc^-1 b_c, and x = b + S T x_c in the rest, as on a skirt's pad that carries no load.
 class StageMatrix {
  public:
   /// `system` with all its bodies and elements.
@@ -34,6 +33,7 @@ class StageMatrix {
   bool is_sparse() const { return sparse_.has_value(); }
   /// Entries of J that may differ from 0.
   int nonzeros() const { return nonzeros_; }
+  const SparseStage* sparse() const { return sparse_ ? &*sparse_ : nullptr; }
   /// Rows that the elements of the last form() touch; 0: sparse.
   int touched() const { return static_cast<int>(touched_y_.size()); }
   /// Rows of the dense factor.
@@ -49,34 +49,17 @@ class StageMatrix {
   void solve_touched(Eigen::VectorXd& x) const;
 
  private:
-  /// One element's part in the rows of one body.
-  struct Part {
-    int element = 0, body = 0;
-    std::vector<int> rows;       // of the tangent: those of this body
-    std::vector<int> body_rows;  // the same as rows of the body's P
-    std::vector<int> columns;    // y positions of the tangent's columns
-    std::vector<int> starts;     // where the body's rows of those columns begin in values_
-  };
-  void order();
-  std::vector<Part> parts_of(int element) const;
-  void find_pattern();
   void list_touched();
   bool form_dense(const StageOperator& op);
-  bool form_sparse(const StageOperator& op);
   void form_S(const StageOperator& op);
   void add_tangents();
+  void add_blocks(int element);
   void pick_significant();
   void add_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
 
   const System* system_;
-  std::vector<int> position_;  // of a y in J: bodies one after the other
-  std::vector<int> first_;     // position of a body's first row
-  std::vector<Part> parts_;    // of entire elements
+  std::optional<SparseStage> sparse_;
   int nonzeros_ = 0;
-
-  std::optional<SparseLu> sparse_;
-  std::vector<double> values_;
-  std::vector<int> diagonal_;  // positions in values_
 
   std::vector<std::vector<int>> touched_;    // per element, as in the form before
   std::vector<int> touched_y_;               // k

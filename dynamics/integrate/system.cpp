@@ -46,6 +46,16 @@ VectorXd second_order_of(const ModalBody& body) {
   return flags;
 }
 
+/// The y indices of an element's groups.
+std::vector<std::vector<int>> groups_of(const ForceElement& element) {
+  const std::vector<int>& at = element.coordinates();
+  if (element.groups().empty()) return {at};
+  std::vector<std::vector<int>> groups = element.groups();
+  for (std::vector<int>& group : groups)
+    for (int& i : group) i = at[static_cast<size_t>(i)];
+  return groups;
+}
+
 VectorXd or_zero(const VectorXd& values, int size) {
   return values.size() > 0 ? values : VectorXd::Zero(size);
 }
@@ -124,6 +134,7 @@ void System::add_element(std::unique_ptr<ForceElement> element) {
   costs_.push_back({element->name()});
   responses_.emplace_back();
   tangent_rows_.emplace_back();
+  groups_.push_back(groups_of(*element));
   y_of_.emplace_back();
   v_of_.emplace_back();
   moved_.emplace_back();
@@ -292,8 +303,30 @@ int System::tangent_row(int element, Eigen::Index row) const {
   return at[touched.empty() ? i : static_cast<size_t>(touched[i])];
 }
 
+/// Those of an element with groups, in all its coordinates.
+void System::add_block_forces(size_t element, const VectorXd& dy) const {
+  const std::vector<std::vector<int>>& groups = elements_[element]->groups();
+  const std::vector<TangentBlock>& blocks = responses_[element].blocks;
+  VectorXd &moved = moved_[element], &change = change_[element];
+  gather(dy, elements_[element]->coordinates(), moved);
+  change.setZero(moved.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!blocks[g].active) continue;
+    const std::vector<int>& at = groups[g];
+    for (size_t j = 0; j < at.size(); ++j)
+      for (size_t i = 0; i < at.size(); ++i)
+        change(at[i]) +=
+            blocks[g].values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+            moved(at[j]);
+  }
+}
+
 const VectorXd& System::tangent_forces(int element, const VectorXd& dy) const {
   const auto e = static_cast<size_t>(element);
+  if (has_groups(element)) {
+    add_block_forces(e, dy);
+    return change_[e];
+  }
   const Eigen::Index count = responses_[e].tangent.rows();
   moved_[e].resize(count);
   for (Eigen::Index i = 0; i < count; ++i) moved_[e](i) = dy(tangent_row(element, i));

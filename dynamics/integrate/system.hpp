@@ -119,6 +119,11 @@ class System {
   const Eigen::VectorXd& tangent_forces(int element, const Eigen::VectorXd& dy) const;
   /// The y index of a tangent row of an element.
   int tangent_row(int element, Eigen::Index row) const;
+  /// The y indices of each of an element's groups; one who has none is one group of all.
+  const std::vector<std::vector<int>>& groups(int element) const {
+    return groups_[static_cast<size_t>(element)];
+  }
+  bool has_groups(int element) const { return !this->element(element).groups().empty(); }
   /// f += T dy with the elements' last tangents.
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
   /// An element's last response.
@@ -141,6 +146,7 @@ class System {
   };
   static constexpr int kFrame = -1, kMode = -2, kSum = -3;
   int find_or_add(int body, const Place& place);
+  void add_block_forces(size_t element, const Eigen::VectorXd& dy) const;
   const Place& place_of(int y_index) const;
 
   std::vector<ModalBody> bodies_;
@@ -157,6 +163,7 @@ class System {
   int modes_ = 0;
   std::vector<Response> responses_;                      // per element
   std::vector<std::vector<int>> tangent_rows_;           // per element
+  std::vector<std::vector<std::vector<int>>> groups_;    // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;     // per element: its coordinates
   mutable std::vector<Eigen::VectorXd> moved_, change_;  // per element: its tangent rows
   mutable std::vector<Eigen::VectorXd> part_;            // per body: its rows
