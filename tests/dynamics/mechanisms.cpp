@@ -37,20 +37,27 @@ Eigen::VectorXd arbitrary(int n, unsigned seed) {
   return values;
 }
 
-double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v) {
-  const Stage stage{0.1, 0.03, 1, {0.03}};
+double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                     double step, double kappa) {
+  const Stage stage{0.1, kappa, 1, {kappa}};
   Response at, low, high;
   element.evaluate(stage, y, v, true, at);
-  Eigen::MatrixXd differences(at.tangent.rows(), at.tangent.cols());
+  Eigen::MatrixXd tangent = at.tangent;
+  if (!element.groups().empty()) {
+    tangent.setZero(y.size(), y.size());
+    for (size_t g = 0; g < at.blocks.size(); ++g)
+      if (at.blocks[g].active)
+        tangent(element.groups()[g], element.groups()[g]) += at.blocks[g].values;
+  }
+  Eigen::MatrixXd differences(tangent.rows(), tangent.cols());
   for (int j = 0; j < y.size(); ++j) {
-    const double step = 1e-6;
     Eigen::VectorXd dy = Eigen::VectorXd::Zero(y.size());
     dy(j) = step;
-    element.evaluate(stage, y + dy, v + dy / stage.kappa, false, high);
-    element.evaluate(stage, y - dy, v - dy / stage.kappa, false, low);
+    element.evaluate(stage, y + dy, v + dy / kappa, false, high);
+    element.evaluate(stage, y - dy, v - dy / kappa, false, low);
     differences.col(j) = (high.force - low.force) / (2.0 * step);
   }
-  return (at.tangent - differences).cwiseAbs().maxCoeff() / at.tangent.cwiseAbs().maxCoeff();
+  return (tangent - differences).cwiseAbs().maxCoeff() / tangent.cwiseAbs().maxCoeff();
 }
 
 Andrews::Andrews(double stiffness, double damping) {

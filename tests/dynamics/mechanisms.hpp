@@ -49,8 +49,9 @@ inline std::unique_ptr<Integrator> started(System& system, const StepOptions& op
 Eigen::VectorXd arbitrary(int n, unsigned seed);
 
 /// The largest difference of an element's tangent from central differences, relative to its largest
-/// entry.
-double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v);
+/// entry. @param step of the differences. @param kappa of the stage [s].
+double tangent_error(ForceElement& element, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                     double step = 1e-6, double kappa = 0.03);
 
 /// A moment on coordinates, constant.
 class Moment : public ForceElement {

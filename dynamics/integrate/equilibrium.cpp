@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/integrate/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/integrate/stage_matrix.hpp"
+#include "dynamics/integrate/stage_operator.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// Bounds of the change of the pseudo-time step from one iteration to the next.
+constexpr double kSlower = 0.3, kFaster = 2.0;
+/// Longest pseudo-time step: inertia has no effect.
+constexpr double kLongest = 1e3;
+
+class Search {
+ public:
+  Search(System& system, double time, const VectorXd& eta, const EquilibriumOptions& options)
+      : system_(system), options_(options), time_(time), matrix_(system), tau_(options.first_time) {
+    found_.eta = eta;
+    unit_.setZero(system.modes());
+    for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+      const Eigen::MatrixXd& P = system.P(b);
+      for (Eigen::Index k = 0; k < P.cols(); ++k)
+        if (P.rows() > 0) unit_(system.mode_offset(b) + k) = P.col(k).cwiseAbs().maxCoeff();
+    }
+  }
+
+  Equilibrium run() {
+    double previous = 0.0;
+    for (; found_.iterations < options_.most_iterations; ++found_.iterations) {
+      if (!evaluate()) return found_;
+      if (found_.residual <= options_.residual) {
+        found_.found = true;
+        return found_;
+      }
+      if (previous > 0.0)
+        tau_ = std::min(kLongest,
+                        tau_ * std::clamp(std::sqrt(previous / found_.residual), kSlower, kFaster));
+      previous = found_.residual;
+      if (!move()) return found_;
+    }
+    return found_;
+  }
+
+ private:
+  /// Forces at rest and what they leave unbalanced.
+  bool evaluate() {
+    y_ = system_.interface(found_.eta);
+    v_.setZero(y_.size());
+    system_.begin_step(time_);
+    system_.evaluate({time_, tau_, 1, {}}, y_, v_, true, f_);
+    system_.load_force(time_, F_);
+    system_.add_interface_force(f_, F_);
+    unbalanced_ = F_ - system_.omega_squared().cwiseProduct(found_.eta);
+    found_.residual = 0.0;
+    for (Eigen::Index k = 0; k < unbalanced_.size(); ++k) {
+      if (unit_(k) == 0.0) continue;
+      const double force = std::abs(unbalanced_(k)) / unit_(k);
+      if (force <= found_.residual) continue;
+      found_.residual = force;
+      found_.worst = static_cast<int>(k);
+    }
+    if (std::isfinite(unbalanced_.sum())) return true;
+    found_.worst = -1;
+    return false;
+  }
+
+  /// One linearised step of the pseudo-time.
+  bool move() {
+    const StageOperator op(system_, tau_);
+    if (!matrix_.form(op)) return false;
+    change_ = op.H().cwiseProduct(unbalanced_);
+    system_.interface(change_, dy_);
+    matrix_.solve(op, dy_);
+    f_.setZero();
+    system_.add_tangent_forces(dy_, f_);
+    system_.add_interface_force(f_, unbalanced_);
+    change_ = op.H().cwiseProduct(unbalanced_);
+    const double longest =
+        change_.cwiseProduct(unit_).cwiseProduct(system_.second_order()).lpNorm<Eigen::Infinity>();
+    if (longest > options_.longest_move) change_ *= options_.longest_move / longest;
+    found_.eta += change_;
+    return true;
+  }
+
+  System& system_;
+  const EquilibriumOptions& options_;
+  double time_;
+  StageMatrix matrix_;
+  double tau_;
+  Equilibrium found_;
+  VectorXd unit_;  // of each mode: the largest displacement of a y
+  VectorXd y_, v_, f_, F_, unbalanced_, change_, dy_;
+};
+
+}  // namespace
+
+Equilibrium find_equilibrium(System& system, double time, const VectorXd& eta,
+                             const EquilibriumOptions& options) {
+  system.start_frames(time);
+  return Search(system, time, eta, options).run();
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Static equilibrium of a system.
+#include <Eigen/Core>
+#include <string>
+
+#include "dynamics/integrate/system.hpp"
+
+namespace clatter::dynamics {
+
+struct EquilibriumOptions {
+  double residual = 1e-6;      // largest unbalanced force [N], moment [N m]
+  double longest_move = 3e-5;  // of a coordinate in one iteration [m], [rad]
+  double first_time = 1e-5;    // pseudo-time step of the first iteration [s]
+  int most_iterations = 3000;
+};
+
+struct Equilibrium {
+  bool found = false;
+  int iterations = 0;
+  double residual = 0.0;  // largest unbalanced force [N], moment [N m]
+  int worst = -1;         // modal coordinate where it is; -1: it is not finite
+  Eigen::VectorXd eta;    // N
+};
+
+/// Finds the state near `eta` (N) at which nothing moves at `time`: forces of all elements at rest
+/// and loads balance, and states of first order have no rate.
+///
+/// Pseudo-transient continuation (Kelley and Keyes 1998): implicit Euler steps with the bodies'
+/// masses, of which only the first Newton iteration is done and whose velocity is forgotten,
+///   (M / tau^2 - df/dq) dq = f,
+/// no longer than `longest_move`, with tau grown as the residual falls (switched evolution
+/// relaxation). It follows the way of the bodies through contacts that close and open, where
+/// Newton's method alone jumps, and ends in Newton's method.
+///
+/// Prescribed motions have to rest: elements see the velocities of what is driven.
+Equilibrium find_equilibrium(System& system, double time, const Eigen::VectorXd& eta,
+                             const EquilibriumOptions& options = {});
+
+}  // namespace clatter::dynamics
