@@ -17,9 +17,10 @@ void require(const Config& table, bool holds, const char* key, const std::string
 }
 
 void check_block(const Config& t, const BlockParameters& p) {
-  require(t, p.cylinder_pitch > 2.0 * p.liner_radius(), "cylinder_pitch",
-          fmt::format("found {}, expected more than the liners' outer diameter {}",
-                      p.cylinder_pitch, 2.0 * p.liner_radius()));
+  const double apart = p.parent_bores ? p.bore : 2.0 * p.liner_radius();
+  require(t, p.cylinder_pitch > apart, "cylinder_pitch",
+          fmt::format("found {}, expected more than the {} {}", p.cylinder_pitch,
+                      p.parent_bores ? "bore" : "liners' outer diameter", apart));
   require(t, p.cylinder_pitch - p.bearing_wall > p.bore, "bearing_wall",
           fmt::format("found {}, expected less than pitch - bore = {}: the piston passes",
                       p.bearing_wall, p.cylinder_pitch - p.bore));
@@ -109,6 +110,20 @@ double inner_slope(const BlockParameters& p, double z) {
   return outer - p.crankcase_wall * std::hypot(dy, dz) / dz;
 }
 
+Solid jacket(GmshSession& s, const BlockParameters& p, int i) {
+  return upright(s, p.x_of_cylinder(i), p.jacket_radius(), p.jacket_bottom(), p.jacket_top());
+}
+
+// The jacket of a parent bore: in pieces where walls of neighbours meet.
+Solids jacket_around_walls(GmshSession& s, const BlockParameters& p, int i) {
+  Solids walls;
+  for (int j = std::max(i - 1, 0); j <= std::min(i + 1, p.cylinders - 1); ++j) {
+    walls.push_back(
+        upright(s, p.x_of_cylinder(j), p.liner_radius(), p.jacket_bottom(), p.jacket_top()));
+  }
+  return s.cut({jacket(s, p, i)}, walls);
+}
+
 Solids hollows(GmshSession& s, const BlockParameters& p) {
   const double w = p.crankcase_half_width - p.crankcase_wall, roof = p.roof();
   // Where the vertical inner wall meets the inner slope.
@@ -118,18 +133,27 @@ Solids hollows(GmshSession& s, const BlockParameters& p) {
   const double below = -p.skirt_depth;
   Solids tools;
   const double half = 0.5 * (p.cylinder_pitch - p.bearing_wall);
+  const double bore = p.parent_bores ? 0.5 * p.bore : p.liner_radius();
+  const double bore_top = p.timing ? p.deck_height : p.deck_height + 1.0;  // closed by the head
   for (int i = 0; i < p.cylinders; ++i) {
     const double x = p.x_of_cylinder(i);
     tools.push_back(symmetric_prism(s, {{w, below}, {w, bend}, {inner_slope(p, roof), roof}},
                                     x - half, x + half));
-    tools.push_back(upright(s, x, p.jacket_radius(), p.jacket_bottom(), p.jacket_top()));
-    tools.push_back(upright(s, x, p.liner_radius(), roof, p.deck_height + 1.0));
+    if (p.parent_bores) {
+      const Solids water = jacket_around_walls(s, p, i);
+      tools.insert(tools.end(), water.begin(), water.end());
+    } else {
+      tools.push_back(jacket(s, p, i));
+    }
+    tools.push_back(upright(s, x, bore, roof, bore_top));
   }
-  // The bearing walls are open around the liners' free lower ends: they connect the chambers.
-  const double reach = p.x_of_cylinder(p.cylinders - 1) + p.liner_radius() + p.liner_wall;
-  const double window = kWindow * p.liner_radius();
-  tools.push_back(
-      s.box({-reach, -window, p.liner_bottom() - p.liner_protrusion}, {reach, window, roof}));
+  if (!p.parent_bores) {
+    // The bearing walls are open around the liners' free lower ends: they connect the chambers.
+    const double reach = p.x_of_cylinder(p.cylinders - 1) + p.liner_radius() + p.liner_wall;
+    const double window = kWindow * p.liner_radius();
+    tools.push_back(
+        s.box({-reach, -window, p.liner_bottom() - p.liner_protrusion}, {reach, window, roof}));
+  }
   const double end = p.half_length() - 1.5 * p.end_wall;
   tools.push_back(s.box({-end, -w, below}, {end, w, p.bearing_wall_bottom}));
   return tools;
@@ -200,6 +224,9 @@ NamedSurface outer_surface(const BlockParameters& p) {
       {{-kFar, -kFar, pan}, {kFar, kFar, pan}},                           // pan flange
       {{-kFar, -kFar, deck}, {kFar, kFar, deck}},                         // deck
   };
+  if (p.timing) {
+    for (const BoxFilter& box : under_timing_covers(p)) filter.outside.push_back(box);
+  }
   return {"outer", {filter}};
 }
 
@@ -210,6 +237,7 @@ std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
     SurfaceFilter bore;
     bore.cylinder = CylinderFilter{0.5 * p.bore, {x, 0.0, 0.0}, Vector3d::UnitZ()};
     surfaces.push_back({fmt::format("liner_{}_bore", i + 1), {bore}});
+    if (p.parent_bores && !p.timing) continue;
     surfaces.push_back(in_plane(fmt::format("head_{}", i + 1), Vector3d::UnitZ(), p.deck_height,
                                 {{x - r, -r, -kFar}, {x + r, r, kFar}}));
   }
@@ -231,7 +259,12 @@ std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
   }
   const BoxFilter anywhere{Vector3d::Constant(-kFar), Vector3d::Constant(kFar)};
   surfaces.push_back(in_plane("pan_flange", Vector3d::UnitZ(), -p.skirt_depth, anywhere));
-  surfaces.push_back(in_plane("deck", Vector3d::UnitZ(), p.deck_height, anywhere));
+  if (p.timing) {
+    const auto timing = timing_surfaces(p);
+    surfaces.insert(surfaces.end(), timing.begin(), timing.end());
+  } else {
+    surfaces.push_back(in_plane("deck", Vector3d::UnitZ(), p.deck_height, anywhere));
+  }
   surfaces.push_back(outer_surface(p));
   return surfaces;
 }
@@ -241,6 +274,7 @@ std::vector<NamedSurface> block_surfaces(const BlockParameters& p) {
 BlockParameters read_block(const Config& t) {
   BlockParameters p;
   p.cylinders = static_cast<int>(t.integer_or("cylinders", p.cylinders, {1, 8}));
+  p.parent_bores = t.choice("bores", {"wet_liner", "parent"}) == "parent";
   const auto length = [&](const char* key, double& value) {
     value = t.number_or(key, value, Range::positive());
   };
@@ -253,7 +287,10 @@ BlockParameters read_block(const Config& t) {
   length("deck_overhang", p.deck_overhang);
   length("liner_wall", p.liner_wall);
   length("liner_length", p.liner_length);
-  length("liner_protrusion", p.liner_protrusion);
+  if (p.parent_bores && t.has("liner_protrusion")) {
+    t.fail("liner_protrusion", "found a value, expected none: parent bores end at the roof");
+  }
+  if (!p.parent_bores) length("liner_protrusion", p.liner_protrusion);
   length("jacket_thickness", p.jacket_thickness);
   length("jacket_depth", p.jacket_depth);
   length("outer_wall", p.outer_wall);
@@ -276,19 +313,31 @@ BlockParameters read_block(const Config& t) {
   length("mount_height", p.mount_height);
   length("mount_thickness", p.mount_thickness);
   check_block(t, p);
+  if (const auto timing = t.find_table("timing")) p.timing = read_timing_side(*timing, p);
   return p;
 }
 
 PartGeometry build_block(GmshSession& s, const BlockParameters& p) {
   Solid block = outer_shell(s, p);
-  block = require_one(s.cut({block}, hollows(s, p)), "block: hollows");
+  Solids openings = hollows(s, p);
+  if (p.timing) {
+    block = require_one(s.fuse({block}, timing_walls(s, p)), "block: head and front plate");
+    const Solids timing = timing_openings(s, p);
+    openings.insert(openings.end(), timing.begin(), timing.end());
+  }
+  block = require_one(s.cut({block}, openings), "block: hollows");
   Solids added = bearing_bosses(s, p);
   const Solids pads = mount_pads(s, p);
   added.insert(added.end(), pads.begin(), pads.end());
   block = require_one(s.fuse({block}, added), "block: bearing bosses and mounts");
   const double l = p.half_length() + 1.0;
-  const Solid bore = s.cylinder({-l, 0.0, 0.0}, {2.0 * l, 0.0, 0.0}, 0.5 * p.bearing_bore);
-  block = require_one(s.cut({block}, {bore}), "block: bearing bore");
+  Solids bores = {s.cylinder({-l, 0.0, 0.0}, {2.0 * l, 0.0, 0.0}, 0.5 * p.bearing_bore)};
+  if (p.timing) {
+    const Solids seals = crank_seals(s, p);
+    bores.insert(bores.end(), seals.begin(), seals.end());
+  }
+  block = require_one(s.cut({block}, bores), "block: bearing bore");
+  if (p.parent_bores) return {{{"block", {block}}}, block_surfaces(p)};
 
   Solids all = {block};
   const Solids sleeves = liners(s, p);

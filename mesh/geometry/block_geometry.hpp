@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The block of an inline truck diesel with wet liners, from its main dimensions.
+// The block of an inline engine from its main dimensions: with wet liners like a truck diesel's, or
+// with the bores in the casting like a passenger car's; on request with a timing side and a head.
 //
 // Engine frame: x along the crankshaft, y toward the thrust side, z up; origin on the crank axis in
 // the middle between the first and the last cylinder. Cylinder 1 has the most negative x.
@@ -15,12 +16,18 @@
 //        +---- crank axis   |   walls with bosses    |
 //                           |                        |
 //                       ====|                        |==== pan flange at -skirt_depth
+#include <optional>
+
 #include "mesh/geometry/part_geometry.hpp"
+#include "mesh/geometry/timing_side.hpp"
 
 namespace clatter::mesh {
 
 struct BlockParameters {
   int cylinders = 4;
+  // Parent bores: walls of thickness liner_wall are part of the casting, joined where those of two
+  // cylinders meet, and end at the crankcase's roof. Key bores = "wet_liner" (default) or "parent".
+  bool parent_bores = false;
   double bore = 107, stroke = 130, rod_length = 210;  // diameter; full stroke; centre to centre
   double cylinder_pitch = 130;                        // distance between neighbouring cylinder axes
   double deck_height = 345, deck_thickness = 16;      // above the crank axis; of the top plate
@@ -37,6 +44,7 @@ struct BlockParameters {
   double bearing_wall = 20, bearing_wall_bottom = -20;  // thickness; lower edge (z) of inner walls
   double bearing_bore = 84, bearing_boss = 124, bearing_width = 30;   // diameters; length along x
   double mount_length = 70, mount_height = 60, mount_thickness = 14;  // pads along x, z, y
+  std::optional<TimingSide> timing = {};                              // table [block.timing]
 
   double x_of_cylinder(int i) const { return (i - 0.5 * (cylinders - 1)) * cylinder_pitch; }
   double x_of_bearing(int k) const { return (k - 0.5 * cylinders) * cylinder_pitch; }
@@ -45,7 +53,9 @@ struct BlockParameters {
   double housing_radius() const { return jacket_radius() + outer_wall; }
   double half_length() const { return x_of_cylinder(cylinders - 1) + jacket_radius() + end_wall; }
   double liner_bottom() const { return deck_height - liner_length; }
-  double roof() const { return liner_bottom() + liner_protrusion; }  // of the crankcase chambers
+  double roof() const {  // of the crankcase chambers
+    return parent_bores ? liner_bottom() : liner_bottom() + liner_protrusion;
+  }
   double jacket_top() const { return deck_height - deck_thickness; }
   double jacket_bottom() const { return jacket_top() - jacket_depth; }
 };
@@ -53,10 +63,12 @@ struct BlockParameters {
 /// Reads table [block]; InputError for dimensions that do not fit together.
 BlockParameters read_block(const Config& table);
 
-/// Regions "block" and "liner" (conformal). Surfaces liner_i_bore, head_i (top face of liner i,
-/// where the gasket presses), bearing_k, mount_1..4 (front thrust, front antithrust, rear thrust,
-/// rear antithrust), pan_flange, deck, outer (exposed to air: without deck, pan flange,
-/// jackets, bores and crankcase).
+/// Regions "block" and "liner" (conformal; without it where bores are parent). Surfaces
+/// liner_i_bore, head_i (top face of liner i, where the gasket presses), bearing_k, mount_1..4
+/// (front thrust, front antithrust, rear thrust, rear antithrust), pan_flange, deck, outer (exposed
+/// to air: without deck, pan flange, jackets, bores and crankcase). Parent bores have no head_i.
+/// With a timing side the head is part of the block: head_i is the roof of cylinder i, there is no
+/// deck, and timing_surfaces() are added.
 PartGeometry build_block(GmshSession& session, const BlockParameters& p);
 
 }  // namespace clatter::mesh
