@@ -154,6 +154,7 @@ TimingSide read_timing_side(const Config& table, const BlockParameters& p) {
   length("cam_bore", t.cam_bore);
   length("cam_boss", t.cam_boss);
   length("cam_bearing_width", t.cam_bearing_width);
+  t.cam_seal = 0.5 * (t.cam_bore + t.cam_boss);
   length("cam_seal", t.cam_seal);
   t.crank_seal = 0.5 * (p.bearing_bore + p.bearing_boss);
   length("crank_seal", t.crank_seal);

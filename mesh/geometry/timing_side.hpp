@@ -35,14 +35,17 @@ struct TimingSide {
   // Centres in the front view (X, Y).
   Eigen::Vector2d cam_intake, cam_exhaust, guide_bolt_1, guide_bolt_2, arm_pivot, tensioner;
   double cam_bore = 24, cam_boss = 44, cam_bearing_width = 16;  // diameters; length along x
-  double cam_seal = 34, crank_seal = 0;  // diameters of the openings before the end bearings
-  double head_half_width = 0, head_wall = 7;
+  // Diameters of the openings before the end bearings; default: between bore and boss.
+  double cam_seal = 0, crank_seal = 0;
+  double head_half_width = 0, head_wall = 7;  // default: head_wall beside the cam bosses
   double fire_deck = 14, head_jacket = 50, cam_deck = 10;  // heights of the head's decks and hollow
   double plug_tower = 28;                                  // diameter, between the two decks
-  double plate_half_width = 0, plate_thickness = 12;       // from the pan flange to head_top
-  double bolt_boss = 18, pivot_boss = 24;                  // diameters
-  double tensioner_width = 40, tensioner_height = 36;      // of its seat
-  double boss_length = 5;                                  // of all seats before the front face
+  // From the pan flange to head_top; default: half a thickness beside the seats, at least a whole
+  // one beside the head.
+  double plate_half_width = 0, plate_thickness = 12;
+  double bolt_boss = 18, pivot_boss = 24;              // diameters
+  double tensioner_width = 40, tensioner_height = 36;  // of its seat
+  double boss_length = 5;                              // of all seats before the front face
 
   /// The head ends at the lower of both camshaft axes.
   double head_top() const { return std::min(cam_intake.y(), cam_exhaust.y()); }

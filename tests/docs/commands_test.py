@@ -22,6 +22,7 @@ import stages  # noqa: E402
 ELSEWHERE = [("README.md", "make demo", "TruckDiesel"),
              ("README.md", "make check", None),  # this test is part of it
              ("samples/beam/README.md", "make CLATTER_BIN", "Beam"),
+             ("samples/timing_drive/README.md", "make CLATTER_BIN", "TimingDriveBlock"),
              ("samples/truck_diesel/README.md", "make CLATTER_BIN", "TruckDiesel"),
              ("samples/truck_diesel/README.md", "../../tools/clatter report", "TruckDiesel")]
 # Names of the user's part in a README, and the corresponding names of the beam.
