@@ -21,9 +21,18 @@ void check_block(const Config& t, const BlockParameters& p) {
   require(t, p.cylinder_pitch > apart, "cylinder_pitch",
           fmt::format("found {}, expected more than the {} {}", p.cylinder_pitch,
                       p.parent_bores ? "bore" : "liners' outer diameter", apart));
-  require(t, p.cylinder_pitch - p.bearing_wall > p.bore, "bearing_wall",
-          fmt::format("found {}, expected less than pitch - bore = {}: the piston passes",
-                      p.bearing_wall, p.cylinder_pitch - p.bore));
+  const double free_wall = p.parent_bores ? 0.4 * p.cylinder_pitch : p.cylinder_pitch - p.bore;
+  require(t, p.bearing_wall < free_wall, "bearing_wall",
+          fmt::format("found {}, expected less than {} = {}: the {}", p.bearing_wall,
+                      p.parent_bores ? "0.4 pitch" : "pitch - bore", free_wall,
+                      p.parent_bores ? "crank's webs pass" : "piston passes"));
+  require(t, !p.has_relief() || 2.0 * p.relief_radius() < p.cylinder_pitch, "bearing_wall",
+          fmt::format("found {}, expected less than pitch - bore = {}: a pitch below {} leaves no "
+                      "wall where the pistons pass",
+                      p.bearing_wall, p.cylinder_pitch - p.bore, 2.0 * p.relief_radius()));
+  require(t, !p.has_relief() || 0.5 * p.bearing_boss < p.relief_bottom(), "bearing_boss",
+          fmt::format("found {}, expected less than {}: the piston passes", p.bearing_boss,
+                      2.0 * p.relief_bottom()));
   require(t, p.deck_height > 0.5 * p.stroke + p.rod_length, "deck_height",
           fmt::format("found {}, expected above the pin at top dead centre, {}", p.deck_height,
                       0.5 * p.stroke + p.rod_length));
@@ -146,6 +155,9 @@ Solids hollows(GmshSession& s, const BlockParameters& p) {
       tools.push_back(jacket(s, p, i));
     }
     tools.push_back(upright(s, x, bore, roof, bore_top));
+    if (p.has_relief()) {
+      tools.push_back(upright(s, x, p.relief_radius(), p.relief_bottom(), roof));
+    }
   }
   if (!p.parent_bores) {
     // The bearing walls are open around the liners' free lower ends: they connect the chambers.

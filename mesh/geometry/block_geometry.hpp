@@ -26,7 +26,8 @@ namespace clatter::mesh {
 struct BlockParameters {
   int cylinders = 4;
   // Parent bores: walls of thickness liner_wall are part of the casting, joined where those of two
-  // cylinders meet, and end at the crankcase's roof. Key bores = "wet_liner" (default) or "parent".
+  // cylinders meet, and end at the crankcase's roof. Bearing walls that reach below the bores are
+  // relieved where the pistons pass. Key bores = "wet_liner" (default) or "parent".
   bool parent_bores = false;
   double bore = 107, stroke = 130, rod_length = 210;  // diameter; full stroke; centre to centre
   double cylinder_pitch = 130;                        // distance between neighbouring cylinder axes
@@ -55,6 +56,12 @@ struct BlockParameters {
   double liner_bottom() const { return deck_height - liner_length; }
   double roof() const {  // of the crankcase chambers
     return parent_bores ? liner_bottom() : liner_bottom() + liner_protrusion;
+  }
+  // Relief of the bearing walls around parent bores: its radius; where the piston is lowest.
+  double relief_radius() const { return 0.52 * bore; }
+  double relief_bottom() const { return rod_length - 0.5 * stroke - 0.5 * bore; }
+  bool has_relief() const {
+    return parent_bores && cylinder_pitch - bearing_wall <= bore && relief_bottom() < roof();
   }
   double jacket_top() const { return deck_height - deck_thickness; }
   double jacket_bottom() const { return jacket_top() - jacket_depth; }

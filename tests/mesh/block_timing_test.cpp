@@ -91,6 +91,20 @@ TEST_F(Twin, ParentBoresAreInOneCastingOfWhichTheJacketLeavesTheJoinedWalls) {
   EXPECT_NEAR(volume_within(block, jacket.front()) / expected, 1.0, kRounding);
 }
 
+std::string with(std::string text, const std::string& key, const std::string& value) {
+  const size_t at = text.find("\n" + key + " =") + 1;
+  return text.replace(at, text.find('\n', at) - at, key + " = " + value);
+}
+
+TEST_F(Twin, ThickBearingWallsAreRelievedWhereThePistonsPass) {
+  const Solids block = build(with(kTwin, "bearing_wall", "20"));
+  // From the piston's lowest skirt, 130 - 40 - 40, to the roof; the chambers end 35 from each
+  // bore's axis.
+  const double expected = (20 * 60 - 2 * segment_area(0.52 * 80, 35)) * (80 - 50);
+  EXPECT_NEAR(volume_within(block, session_.box({-10, -30, 50}, {10, 30, 80})) / expected, 1.0,
+              kRounding);
+}
+
 // Quadratic facets of 30 degrees: the area of a cylinder is off by 2e-4.
 constexpr double kFacets = 5e-4;
 
@@ -186,6 +200,17 @@ TEST(TimingSide, DimensionsThatDoNotFitAreRefusedWithFileLineAndKey) {
   refused("tensioner", "[-80, 200]", {"expected a gap between its seat and arm_pivot"});
   refused("guide_bolt_1", "[30, 20]", {"expected a gap between its seat and the crankshaft"});
   refused("boss_length", "0", {"expected"});
+  const auto block_refused = [](const std::string& key, const std::string& value,
+                                const std::string& part) {
+    const Config config =
+        Config::parse(with(with(kTwin, "bearing_wall", "20"), key, value), "twin.toml");
+    test::expect_parts(test::refusal_of([&] { read_block(config.table("block")); }),
+                       {"twin.toml:", part});
+  };
+  block_refused("bearing_wall", "40", "found 40, expected less than 0.4 pitch = 36");
+  block_refused("cylinder_pitch", "82", "a pitch below 83.2 leaves no wall where the pistons pass");
+  block_refused("bearing_boss", "104", "bearing_boss: found 104, expected less than 100");
+  block_refused("cylinder_pitch", "79", "found 79, expected more than the bore 80");
   const Config protruding = Config::parse(std::string(kTwin) + "liner_protrusion = 5\n", "t.toml");
   test::expect_parts(test::refusal_of([&] { read_block(protruding.table("block")); }),
                      {"t.toml:34: block.liner_protrusion: found a value, expected none"});
