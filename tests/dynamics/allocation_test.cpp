@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "dynamics/profile/mattress.hpp"
+#include "dynamics/profile/tooth_gap.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
@@ -69,6 +71,24 @@ TEST(Allocation, TheCounterCounts) {
   counting = false;
   taken.setZero();
   EXPECT_GE(allocations, 1);
+}
+
+TEST(Allocation, ContactsOfLinksTakeNoMemory) {
+  const Profile wheel = sprocket(iso606_gap(8e-3, 5e-3, 20));
+  const Profile curve({BezierSegment{{{{0.02, 0.0}, {0.01, 1e-3}, {-0.01, 1e-3}, {-0.02, 0.0}}}}});
+  const MattressLaw law{5e12, 4.6e-3, 0.5, 0.1};
+  const MattressContact bush(wheel, LinkOutline::circle(0.0, 2.5e-3), law);
+  const MattressContact plate(curve, LinkOutline::plate(-4e-3, 4e-3, 3.6e-3), law);
+  MattressForce on_bush, on_plate;
+  ContactHint bush_hint, plate_hint;
+  counting = true;
+  allocations = 0;
+  bush.evaluate({{25.48e-3, 0.0}, 1.0, 0.0}, {{0.1, 0.2}, 3.0}, true, bush_hint, on_bush);
+  plate.evaluate({{0.0, 4.3e-3}, 1.0, 0.0}, {{0.1, 0.2}, 3.0}, true, plate_hint, on_plate);
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(on_bush.depth, 0.0);
+  EXPECT_GT(on_plate.depth, 0.0);
 }
 
 class StepLoop : public ::testing::TestWithParam<const Tableau*> {};
