@@ -39,26 +39,6 @@ TEST(HardTD14_AnglesModuloAGap, AllGapsGiveTheSameContact) {
   }
 }
 
-TEST(HardTD14_AnglesModuloAGap, HoursOfRevolutionsLeaveTheContact) {
-  // Three hours at 6000 rpm: the angle is kept as a count of gaps and a rest.
-  const Profile profile = crank_sprocket();
-  const MattressContact contact(profile, bush(), bush_law());
-  TouchingPoses poses(contact, 1e-5, 42);
-  const Vector3d q = poses.at(0.45 * profile.part_length(), 0.3);
-  const MattressForce first = force_at(contact, q);
-  const double sector = 2.0 * kPi / 20;
-  for (const long gaps : {1L, 20L * 100 * 3600 * 3, 20L * 100 * 3600 * 3 + 7}) {
-    // The sprocket turns by whole gaps and a rest; the link stays in its gap in the plane.
-    const double rest = 0.01, turned = sector * static_cast<double>(gaps % 20) + rest;
-    const Eigen::Rotation2Dd back(-turned), with(rest + sector * static_cast<double>(gaps % 20));
-    Vector3d in_plane;
-    in_plane << with * Vector2d(q.head<2>()), q.z() + with.angle();
-    Vector3d relative;
-    relative << back * Vector2d(in_plane.head<2>()), in_plane.z() - turned;
-    EXPECT_LT(shift_of(first, force_at(contact, relative)), 1e-11);
-  }
-}
-
 TEST(HardProfile, ABushAsLargeAsItsSeatAndLargerIsCarried) {
   ToothGap gap = iso606_gap(kPitch, kBush, 20);
   for (const double radius : {2.4999e-3, 2.5e-3, 2.5001e-3, 2.49e-3}) {

@@ -2,6 +2,7 @@
 #pragma once
 // Profiles, outlines and laws of the timing drive, and random poses that touch.
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
