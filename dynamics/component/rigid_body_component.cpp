@@ -71,7 +71,7 @@ RigidBodySpec read_rigid_body(const Config& table) {
   if (motion == "space") spec.motion = Freedom::kSpace;
   if (motion == "slide") spec.motion = Freedom::kSlide;
   spec.mass = table.number("mass_kg", Range::between(1e-9, 1e9));
-  spec.centre = three("centre_mm", 1e6) * kMilli;
+  if (spec.motion != Freedom::kSlide) spec.centre = three("centre_mm", 1e6) * kMilli;
   spec.velocity = three("start_velocity_m_s", 1e4);
   if (spec.motion == Freedom::kSlide) {
     read_slide(table, spec);

@@ -32,7 +32,7 @@ OilSpec dry_air(double polytropic);
 /// exact sum of volumes, and below p0 (a / (1 + a))^k, 0.7 kPa, softer than air. Air: E = k p.
 class ChamberFluid {
  public:
-  /// InputError is the caller's: all values of the oil are positive.
+  /// All values of the oil are positive, its polytropic exponent is above 1.
   static ChamberFluid oil(const OilSpec& oil);
   static ChamberFluid air(const OilSpec& air);
 

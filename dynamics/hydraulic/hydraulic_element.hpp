@@ -51,13 +51,12 @@ class HydraulicElement : public ForceElement {
   /// `<name>_pressure` [Pa], `_travel` [m], `_force` [N]; of the hydraulic model also `_content`
   /// [kg], `_leak_flow`, `_valve_flow`, `_relief_flow` [m3/s, into the chamber] and `_lift` [m].
   void record(History& history) const override;
-  /// Of the last accepted state.
   struct Instant {
     ChamberState chamber;
     double travel = 0.0, force = 0.0, content = 0.0;
   };
+  /// The last accepted state, and the last finished stage.
   const Instant& accepted() const { return accepted_; }
-  /// Of the last finished stage.
   const Instant& finished() const { return finished_; }
   const Chamber& chamber() const { return chamber_; }
 

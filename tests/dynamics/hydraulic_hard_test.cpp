@@ -44,9 +44,9 @@ TEST_P(Cavitating, HardTD5_TheChambersPressureStaysPositiveAndNoOilIsLost) {
     ASSERT_NEAR(fluid.density(rig.pressure()) * at.chamber.volume / at.content, 1.0, 1e-12);
     const double swept =
         GetParam() == Ball::kMoving ? spec.valve.seat_area() * at.chamber.lift : 0.0;
-    // A ball on its seat is less than 1 um in it.
+    // A ball is up to 21 um in its seat, at 290 bar; the plunger sweeps 1.3 cm3.
     ASSERT_NEAR(at.chamber.volume, spec.volume + spec.area() * at.travel - swept,
-                1e-6 * spec.valve.seat_area());
+                3e-5 * spec.valve.seat_area());
   }
   EXPECT_LT(lowest, 0.1e5);
   EXPECT_GT(highest, 20e5);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/body/rigid_body.hpp"
+#include "dynamics/force/port_element.hpp"
+
 namespace clatter::dynamics::testing {
 
 using Eigen::Vector3d;
@@ -48,6 +51,36 @@ void HydraulicRig::start(const StepOptions& options) {
 
 void HydraulicRig::run_to(double time) {
   while (method->state().time < time * (1.0 - 1e-12)) method->step(time);
+}
+
+ShakenPlunger::ShakenPlunger(CheckValveSpec::Ball ball) {
+  const int plunger = system.add_body(make_sliding_body("plunger", 0.02, Vector3d::UnitX(), 0.0));
+  const int s = system.coordinate(plunger, 0);
+  ChamberSpec spec;
+  spec.valve.ball = ball;
+  spec.relief = {12e5, 1e-11};
+  const Chamber chamber(spec, [](double) { return 3.5e5; });
+  const int body = system.add_body(make_chamber_body("chamber", chamber, 0.0, 0.0, 3.5e5, 1e4));
+  std::vector<int> own{system.coordinate(body, 0)};
+  if (ball == CheckValveSpec::Ball::kMoving) own.push_back(system.coordinate(body, 1));
+  const auto port = [&] {
+    return std::make_unique<SlidePort>(s, Vector3d::UnitX(), Vector3d::Zero(),
+                                       std::make_unique<GroundPort>(Vector3d::Zero()),
+                                       Vector3d::Zero());
+  };
+  PlungerAxis axis(std::make_unique<GroundPort>(Vector3d(-0.01, 0.0, 0.0)), port(),
+                   Vector3d::UnitX(), 0.01);
+  auto made = std::make_unique<HydraulicElement>("tensioner", std::move(axis), chamber,
+                                                 PlungerSpring{90.0, 2000.0},
+                                                 HydraulicModel::kHydraulic, own, 0.0, 0.0);
+  element = made.get();
+  system.add_element(std::move(made));
+  // Without force at the start: 109.6 N of the tensioner on 1e5 N/m.
+  system.add_element(std::make_unique<LineSpring>(
+      "chain", port(), std::make_unique<GroundPort>(Vector3d(0.1, 0.0, 0.0)), 1e5, 5.0,
+      0.1 + 109.635e-5));
+  system.add_load({"shake", plunger, system.bodies()[0].shapes.row(0).transpose(),
+                   [](double t) { return 80.0 * std::sin(2.0 * std::numbers::pi * 85.0 * t); }});
 }
 
 StepOptions equal_steps(double dt, const Tableau* method) {

@@ -47,6 +47,13 @@ struct HydraulicRig {
   double pressure() const { return element->accepted().chamber.pressure.value; }
 };
 
+/// A plunger of 20 g on a spring to the ground, shaken at 85 Hz, with a tensioner behind it.
+struct ShakenPlunger {
+  System system;
+  HydraulicElement* element = nullptr;
+  explicit ShakenPlunger(CheckValveSpec::Ball ball);
+};
+
 /// Steps of equal length.
 StepOptions equal_steps(double dt, const Tableau* method = &tr_bdf2());
 /// Speed from time 0 on, before at rest.

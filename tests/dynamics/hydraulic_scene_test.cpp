@@ -168,12 +168,14 @@ TEST_F(HydraulicScenes, ASlidingBodyFallsAlongItsObliqueAxis) {
   EXPECT_NEAR(file.read_doubles("history/bob_travel").back(), expected, 1e-6);
 }
 
-TEST_F(HydraulicScenes, TheHousingOnABodyTurnsTheAxis) {
-  // A planar housing with a start angle: travel is measured along the axis given at the start.
+TEST_F(HydraulicScenes, ATensionerOnABodyPushesItBackAndMeasuresAlongTheAxisOfTheStart) {
+  // The body is turned in its plane at the start, the axis is given as it is then.
   write_shake(folder_);
   std::string text = chain("");
   text.replace(text.find("a = { at_mm = [-20, 0, 0] }"), 27,
                "a = { body = \"block\", at_mm = [-20, 0, 0] }");
+  const std::string mass = "mass_kg = 0.02\n";
+  text.insert(text.find(mass), "guide = { body = \"block\" }\n");
   const H5File file = recorded(text +
                                "[[rigid_body]]\nname = \"block\"\nmass_kg = 50\ninertia_kg_m2 = 1\n"
                                "centre_mm = [-100, 0, 0]\nangle_deg = 30\n");
@@ -183,9 +185,35 @@ TEST_F(HydraulicScenes, TheHousingOnABodyTurnsTheAxis) {
   for (size_t i = 0; i < travel.size(); ++i)
     EXPECT_NEAR(travel[i], plunger[i] - (block[i] + 0.1), 1e-9) << i;
   EXPECT_LT(block.back(), -0.1);  // the reaction pushes it back
-  // Momentum: the block gets what plunger and chain get.
+  // All forces are on the line through its centre.
   EXPECT_LT(std::abs(file.read_doubles("history/block_angle").back() - std::numbers::pi / 6.0),
             1e-9);
+}
+
+TEST_F(HydraulicScenes, MeaninglessNumbersAreRefusedWithFileLineAndKey) {
+  write_shake(folder_);
+  const auto expect = [&](const std::string& table, const std::string& key) {
+    for (const char* value : {"nan", "inf", "-inf", "1e30", "-1e30", "\"1\"", "true", "{}"}) {
+      const std::string ball = table == "check_valve." ? "ball = \"moving\"\n" : "";
+      const std::string head =
+          table.empty() ? "" : "[tensioner." + table.substr(0, table.size() - 1) + "]\n" + ball;
+      const std::string said = refusal(chain(head + key + " = " + value + "\n"));
+      EXPECT_NE(said.find("drive.run.toml:"), std::string::npos) << key << value << said;
+      EXPECT_NE(said.find("." + table + key + ": found "), std::string::npos)
+          << key << " = " << value << ": " << said;
+    }
+  };
+  for (const char* key : {"diameter_mm", "volume_cm3", "start_travel_mm", "start_bar",
+                          "outside_bar", "spring_force_n", "spring_rate_n_m", "gap_um",
+                          "gap_length_mm", "eccentricity", "viscosity_mpa_s", "density_kg_m3",
+                          "modulus_gpa", "free_air", "polytropic_exponent", "supply_bar"})
+    expect("", key);
+  for (const char* key :
+       {"seat_mm", "lift_mm", "discharge", "laminar_below_pa", "opening_bar", "full_opening_bar",
+        "ball_mm", "ball_density_kg_m3", "spring_force_n", "spring_rate_n_m",
+        "contact_stiffness_n_m", "contact_damping_s_m", "drag_n_s_m"})
+    expect("check_valve.", key);
+  expect("relief.", "opening_bar");
 }
 
 TEST_F(HydraulicScenes, AreRefusedWithPlaceAndReason) {
