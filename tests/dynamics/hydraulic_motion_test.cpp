@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 
+#include "dynamics/integrate/equilibrium.hpp"
 #include "dynamics/run/energy.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/hydraulic_rig.hpp"
@@ -249,6 +250,24 @@ TEST(SlidePort, FollowsItsGuideAcrossTheAxisAndItsOwnCoordinateAlongIt) {
   const VectorXd across = at.work.transpose() * wrench;
   EXPECT_NEAR(across(0), 0.0, 1e-15);
   EXPECT_LT((across.tail(3) - of_guide.work.transpose() * wrench).norm(), 1e-14);
+}
+
+TEST(Hydraulic, AtRestTheValveFeedsTheLeakAndSpringsBalanceThePressure) {
+  testing::ShakenPlunger held(Ball::kQuasiStatic);
+  VectorXd eta = held.system.eta_start();
+  eta(0) += 1e-4 * std::sqrt(0.02);  // the plunger 0.1 mm out
+  const Equilibrium rest = find_equilibrium(held.system, 0.0, eta);
+  ASSERT_TRUE(rest.found) << rest.iterations << " " << rest.residual;
+  held.system.finish_stage({0.0, 1.0, 1, {}});
+  const HydraulicElement::Instant& at = held.element->finished();
+  // 3.0 ml/s leak over 2.5 bar. The ball is open from 2 kPa on, where it passes 6.0 ml/s.
+  EXPECT_LT(at.chamber.pressure.value, 3.5e5);
+  EXPECT_GT(at.chamber.pressure.value, 3.48e5);
+  EXPECT_NEAR(at.chamber.valve_flow, -at.chamber.leak_flow, 1e-3 * at.chamber.valve_flow);
+  const double area = held.element->chamber().spec().area();
+  // 1e5 N/m and 2000 N/m hold what the start has of 109.635 N.
+  EXPECT_NEAR(at.travel, (90.0 + area * (at.chamber.pressure.value - 1e5) - 109.635) / 1.02e5,
+              1e-10);
 }
 
 class ShakenTensioner : public ::testing::TestWithParam<Ball> {};
