@@ -41,6 +41,25 @@ ModalBody make_planar_body(const std::string& name, double mass, double inertia,
   return body;
 }
 
+ModalBody make_sliding_body(const std::string& name, double mass, const Eigen::Vector3d& axis,
+                            double velocity) {
+  require_positive(name, "mass", mass);
+  const double root = std::sqrt(mass);
+  ModalBody body;
+  body.name = name;
+  body.shapes = Eigen::MatrixXd::Constant(1, 1, 1.0 / root);
+  body.omega_squared = body.damping = Eigen::VectorXd::Zero(1);
+  body.inertia = Eigen::VectorXd::Ones(1);
+  body.rigid = Eigen::MatrixXd::Zero(1, 6);
+  body.rigid.leftCols<3>() = root * axis.transpose();
+  body.is_rotation = {0};
+  body.rigid_modes = 1;
+  body.mass = mass;
+  body.eta_start = Eigen::VectorXd::Zero(1);
+  body.v_start = Eigen::VectorXd::Constant(1, root * velocity);
+  return body;
+}
+
 ModalBody make_spatial_body(const std::string& name, double mass, const Eigen::Vector3d& inertia,
                             const SpatialMotion& start) {
   require_positive(name, "mass", mass);

@@ -25,6 +25,13 @@ struct PlanarMotion {
 ModalBody make_planar_body(const std::string& name, double mass, double inertia,
                            const PlanarMotion& start);
 
+/// A body with one coordinate, its displacement along an axis fixed in space. What guides it is not
+/// part of it: see SlidePort.
+/// @param mass [kg]; InputError unless positive. @param axis unit vector. @param velocity at the
+/// start along the axis [m/s].
+ModalBody make_sliding_body(const std::string& name, double mass, const Eigen::Vector3d& axis,
+                            double velocity);
+
 /// Where a rigid body moves in space.
 struct SpatialMotion {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();              // of mass [m]

@@ -41,6 +41,13 @@ Eigen::Vector3d read_vector(const Config& table, std::string_view key, double li
   return {values[0], values[1], values[2]};
 }
 
+Eigen::Vector3d read_direction(const Config& table, std::string_view key) {
+  const Eigen::Vector3d direction = read_vector(table, key, 1e6);
+  if (!(direction.norm() >= 1e-6))
+    table.fail(key, "found a vector without length, expected a direction");
+  return direction.normalized();
+}
+
 PointSpec read_point(const Config& table, std::string_view key) {
   const Config at = table.table(key);
   PointSpec point;

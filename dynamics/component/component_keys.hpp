@@ -40,6 +40,9 @@ std::string read_name(const Config& table);
 /// Three numbers, each at most `limit` in size.
 Eigen::Vector3d read_vector(const Config& table, std::string_view key, double limit);
 
+/// A direction: three numbers that are not all 0, scaled to length 1.
+Eigen::Vector3d read_direction(const Config& table, std::string_view key);
+
 /// The sub-table `key` of an element, a point: body, and set or at_mm.
 PointSpec read_point(const Config& table, std::string_view key);
 

@@ -58,7 +58,9 @@ Eigen::VectorXd force_at_centre(const ModalBody& body, const LoadSpec& load) {
         fmt::format("{}: load.component: found \"{}\", expected one that \"{}\" "
                     "follows as a single coordinate",
                     load.where, component, load.body));
-  return body.shapes.row(moved).transpose();
+  // A coordinate along an oblique axis gets the component of the force along it.
+  return body.shapes(moved, moved) * body.rigid(moved, load.component) *
+         body.shapes.row(moved).transpose();
 }
 
 LoadSpec read_load(const Config& table) {

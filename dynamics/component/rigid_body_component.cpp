@@ -17,6 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using Freedom = RigidBodySpec::Freedom;
 
 constexpr double kOffPlane = 1e-6;  // [m]: points of a body in a plane may be so far beside it
 
@@ -44,6 +45,19 @@ void set_scales(const RigidBodySpec& spec, ModalBody& body) {
   body.velocity_scale = spec.velocity_scale;
 }
 
+/// axis and guide of a body that slides, and its velocity, which is along the axis.
+void read_slide(const Config& table, RigidBodySpec& spec) {
+  spec.axis = read_direction(table, "axis");
+  if (table.has("guide")) spec.guide = read_point(table, "guide");
+  if (spec.guide.body == spec.name)
+    table.fail("guide", fmt::format("found \"{}\" itself, expected another body", spec.name));
+  const Vector3d across = spec.velocity - spec.axis.dot(spec.velocity) * spec.axis;
+  if (across.norm() > 1e-6 * spec.velocity.norm())
+    table.fail(
+        "start_velocity_m_s",
+        fmt::format("found {:g} m/s across the axis, expected a velocity along it", across.norm()));
+}
+
 RigidBodySpec read_rigid_body(const Config& table) {
   const Range moment = Range::between(1e-15, 1e12);
   const auto three = [&](const char* key, double limit) -> Vector3d {
@@ -52,12 +66,16 @@ RigidBodySpec read_rigid_body(const Config& table) {
   RigidBodySpec spec;
   spec.name = read_name(table);
   spec.where = table.where();
-  const std::string motion = table.choice("motion", {"xy", "yz", "zx", "space"});
-  spec.normal = motion == "xy" ? 2 : motion == "yz" ? 0 : motion == "zx" ? 1 : -1;
+  const std::string motion = table.choice("motion", {"xy", "yz", "zx", "space", "slide"});
+  spec.normal = motion == "yz" ? 0 : motion == "zx" ? 1 : 2;
+  if (motion == "space") spec.motion = Freedom::kSpace;
+  if (motion == "slide") spec.motion = Freedom::kSlide;
   spec.mass = table.number("mass_kg", Range::between(1e-9, 1e9));
-  spec.centre = three("centre_mm", 1e6) * kMilli;
+  if (spec.motion != Freedom::kSlide) spec.centre = three("centre_mm", 1e6) * kMilli;
   spec.velocity = three("start_velocity_m_s", 1e4);
-  if (spec.normal >= 0) {
+  if (spec.motion == Freedom::kSlide) {
+    read_slide(table, spec);
+  } else if (spec.motion == Freedom::kPlane) {
     spec.inertia(0) = table.number("inertia_kg_m2", moment);
     spec.angle = table.number_or("angle_deg", 0.0, Range::between(-1e6, 1e6)) * kDegree;
     spec.spin(0) = table.number_or("start_spin_rad_s", 0.0, Range::between(-1e6, 1e6));
@@ -79,15 +97,47 @@ RigidBodySpec read_rigid_body(const Config& table) {
 }  // namespace
 
 ComponentSize RigidBodyComponent::size() const {
-  return {.modes = is_planar() ? 3 : kSpatial, .film_cells = 0};
+  const int modes = spec_.motion == Freedom::kSlide   ? 1
+                    : spec_.motion == Freedom::kPlane ? 3
+                                                      : kSpatial;
+  return {.modes = modes, .film_cells = 0};
 }
 
 void RigidBodyComponent::add_bodies(ModelBuilder& model) {
-  if (is_planar()) {
-    add_planar(model);
-  } else {
-    add_spatial(model);
+  switch (spec_.motion) {
+    case Freedom::kPlane:
+      return add_planar(model);
+    case Freedom::kSpace:
+      return add_spatial(model);
+    case Freedom::kSlide:
+      return add_slide(model);
   }
+}
+
+void RigidBodyComponent::add_slide(ModelBuilder& model) {
+  ModalBody body = with_context(spec_.where, [&] {
+    return make_sliding_body(spec_.name, spec_.mass, spec_.axis, spec_.axis.dot(spec_.velocity));
+  });
+  set_scales(spec_, body);
+  const int index = model.add_body(std::move(body), spec_.where);
+  // Bodies that guide each other in a circle would ask for each other's ports without end.
+  const auto asked = std::make_shared<bool>(false);
+  const auto port = [&model, spec = spec_, index, asked](System& system, const Vector3d& at) {
+    if (*asked)
+      throw InputError(
+          fmt::format("{}: the guides of \"{}\" lead back to it", spec.where, spec.name));
+    *asked = true;
+    std::unique_ptr<Port> guide = model.port(spec.guide, at);
+    *asked = false;
+    if (guide->is_driven())
+      throw InputError(
+          fmt::format("{}: found \"{}\", which is driven, expected a body or the ground",
+                      spec.guide.where, spec.guide.body));
+    const Vector3d guide_at = model.position(spec.guide, at);
+    return std::make_unique<SlidePort>(system.coordinate(index, 0), spec.axis, at, std::move(guide),
+                                       guide_at);
+  };
+  model.add_ports(spec_.name, port, spec_.where);
 }
 
 void RigidBodyComponent::add_planar(ModelBuilder& model) {
@@ -143,12 +193,13 @@ void RigidBodyComponent::add_spatial(ModelBuilder& model) {
 void RigidBodyComponent::add_elements(ModelBuilder& model) {
   static constexpr const char* kAxis[] = {"x", "y", "z"};
   const int body = model.body(spec_.name);
-  if (!is_planar()) spatial_ = add_rotation(model.system, body);
+  if (spec_.motion == Freedom::kSpace) spatial_ = add_rotation(model.system, body);
   const std::vector<int> y = all_coordinates(model.system, body);
   const auto add = [&](size_t k, const char* what, const char* unit) {
     recorded_.push_back({spec_.name + "_" + what, unit, y[k]});
   };
-  if (is_planar()) {
+  if (spec_.motion == Freedom::kSlide) return add(0, "travel", "m");
+  if (spec_.motion == Freedom::kPlane) {
     const Axes axes = axes_of(spec_.normal);
     add(0, kAxis[axes.first], "m");
     add(1, kAxis[axes.second], "m");
@@ -160,16 +211,19 @@ void RigidBodyComponent::add_elements(ModelBuilder& model) {
 
 void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
   static constexpr const char* kPlanes[] = {"yz", "zx", "xy"};
-  effects.add("rigid " + spec_.name, true,
-              is_planar() ? fmt::format("large motion in the plane {}, 3 coordinates",
-                                        kPlanes[spec_.normal])
-                          : "large motion in space, 10 coordinates",
-              is_planar() ? "" : spec_.name + " rotation");
+  if (spec_.motion == Freedom::kSlide)
+    return effects.add("rigid " + spec_.name, true, "slides along an axis, 1 coordinate");
+  const bool is_planar = spec_.motion == Freedom::kPlane;
+  effects.add(
+      "rigid " + spec_.name, true,
+      is_planar ? fmt::format("large motion in the plane {}, 3 coordinates", kPlanes[spec_.normal])
+                : "large motion in space, 10 coordinates",
+      is_planar ? "" : spec_.name + " rotation");
 }
 
 void RigidBodyComponent::record(const System&, const StageState& state, History& history) const {
   for (const Recorded& one : recorded_) history.put(one.name, one.unit, state.y(one.coordinate));
-  if (is_planar()) return;
+  if (spec_.motion != Freedom::kSpace) return;
   static constexpr const char* kParts[] = {"_qw", "_qx", "_qy", "_qz"};
   const Eigen::Vector4d quaternion = spatial_.quaternion(state);
   for (int k = 0; k < 4; ++k) history.put(spec_.name + kParts[k], "1", quaternion(k));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/model_builder.hpp"
 #include "dynamics/integrate/spatial_body.hpp"
 
 namespace clatter::dynamics {
@@ -13,21 +14,24 @@ namespace clatter::dynamics {
 /// One [[rigid_body]]; vectors in the scene's axes.
 struct RigidBodySpec {
   std::string name, where;
-  /// The axis about which a body in a plane turns, 0 to 2; -1: it moves in space.
-  int normal = 2;
-  double mass = 0.0;                                      // [kg]
+  enum class Freedom : char { kPlane, kSpace, kSlide };
+  Freedom motion = Freedom::kPlane;
+  int normal = 2;     // in a plane: the axis about which it turns, 0 to 2
+  double mass = 0.0;  // [kg]
   Eigen::Vector3d inertia = Eigen::Vector3d::Zero();      // principal; in a plane only inertia(0)
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();       // of mass at the start [m]
   double angle = 0.0;                                     // in a plane, at the start [rad]
   Eigen::Vector4d quaternion = {1.0, 0.0, 0.0, 0.0};      // in space: w, x, y, z
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();        // of a slide, of length 1
+  PointSpec guide;                                        // of a slide; no body: the ground
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     // at the start [m/s]
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();         // [rad/s]; in a plane only spin(0)
   double displacement_scale = 0.0, velocity_scale = 0.0;  // of the error test; 0: those of the run
 };
 
-/// A rigid body: three coordinates in a plane, ten in space. Elements may act on each of its
-/// points, forces on its centre of mass. Its histories are those of its centre [m] and of its angle
-/// [rad] or quaternion.
+/// A rigid body: three coordinates in a plane, ten in space, one on a slide. Elements may act on
+/// each of its points, forces on its centre of mass. Its histories are those of its centre [m] and
+/// of its angle [rad] or quaternion; of a slide its displacement along the axis [m].
 class RigidBodyComponent : public Component {
  public:
   explicit RigidBodyComponent(RigidBodySpec spec) : spec_(std::move(spec)) {}
@@ -36,8 +40,8 @@ class RigidBodyComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   ComponentSize size() const override;
-  /// In a plane; attitudes in space are states whose clock goes on.
-  bool repeats(double) const override { return is_planar(); }
+  /// Unless in space: attitudes are states whose clock goes on.
+  bool repeats(double) const override { return spec_.motion != RigidBodySpec::Freedom::kSpace; }
   /// InputError for masses and moments that no body has.
   void add_bodies(ModelBuilder& model) override;
   void add_elements(ModelBuilder& model) override;
@@ -45,8 +49,8 @@ class RigidBodyComponent : public Component {
   void record(const System& system, const StageState& state, History& history) const override;
 
  private:
-  bool is_planar() const { return spec_.normal >= 0; }
   void add_planar(ModelBuilder& model);
+  void add_slide(ModelBuilder& model);
   void add_spatial(ModelBuilder& model);
   RigidBodySpec spec_;
   struct Recorded {

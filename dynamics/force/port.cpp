@@ -61,8 +61,7 @@ void NodePort::motion(double, const VectorXd& y, const VectorXd& v, PortState& s
   state.rate_by_v = state.work = state.by_y;
 }
 
-PlanarPort::PlanarPort(std::vector<int> coordinates, const Vector2d& arm,
-                       const PlaneAxes& plane)
+PlanarPort::PlanarPort(std::vector<int> coordinates, const Vector2d& arm, const PlaneAxes& plane)
     : Port(std::move(coordinates)), arm_(arm), plane_(plane) {}
 
 Vector3d PlanarPort::turned(const Vector2d& arm, double angle) const {
@@ -89,6 +88,51 @@ void PlanarPort::motion(double, const VectorXd& y, const VectorXd& v, PortState&
 void PlanarPort::add_curvature(const VectorXd& y, const Vector6& wrench,
                                Eigen::Ref<Eigen::MatrixXd> tangent) const {
   tangent(2, 2) -= turned(arm_, y(2)).dot(wrench.head<3>());
+}
+
+SlidePort::SlidePort(int coordinate, const Vector3d& axis, const Vector3d& start,
+                     std::unique_ptr<Port> guide, const Vector3d& guide_start)
+    : Port({coordinate}),
+      axis_(axis),
+      start_(start),
+      guide_start_(guide_start),
+      across_(Eigen::Matrix3d::Identity() - axis * axis.transpose()),
+      guide_(std::move(guide)) {
+  const std::vector<int>& more = guide_->coordinates();
+  coordinates_.insert(coordinates_.end(), more.begin(), more.end());
+}
+
+void SlidePort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) const {
+  const int n = guide_->size();
+  guide_y_ = y.tail(n);
+  guide_v_ = v.tail(n);
+  guide_->motion(time, guide_y_, guide_v_, at_guide_);
+  clear(state, size());
+  state.position = start_ + y(0) * axis_ + across_ * (at_guide_.position - guide_start_);
+  state.velocity = v(0) * axis_ + across_ * at_guide_.velocity;
+  state.spin = at_guide_.spin;
+  state.rotation = at_guide_.rotation;
+  const auto follow = [&](const Matrix6X& guide, Matrix6X& own) {
+    for (int j = 0; j < n; ++j) {
+      own.col(j + 1).head<3>() = across_ * guide.col(j).head<3>();
+      own.col(j + 1).tail<3>() = guide.col(j).tail<3>();
+    }
+  };
+  follow(at_guide_.by_y, state.by_y);
+  follow(at_guide_.rate_by_y, state.rate_by_y);
+  follow(at_guide_.rate_by_v, state.rate_by_v);
+  follow(at_guide_.work, state.work);
+  for (Matrix6X* matrix : {&state.by_y, &state.rate_by_v, &state.work})
+    matrix->col(0).head<3>() = axis_;
+}
+
+void SlidePort::add_curvature(const VectorXd& y, const Vector6& wrench,
+                              Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  const int n = guide_->size();
+  guide_y_ = y.tail(n);
+  Vector6 on_guide = wrench;
+  on_guide.head<3>() = across_ * wrench.head<3>();
+  guide_->add_curvature(guide_y_, on_guide, tangent.bottomRightCorner(n, n));
 }
 
 }  // namespace clatter::dynamics

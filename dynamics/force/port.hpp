@@ -107,4 +107,27 @@ class PlanarPort : public Port {
   PlaneAxes plane_;
 };
 
+/// A point of a body that slides along an axis fixed in space (make_sliding_body). Its motion along
+/// the axis is the body's own; across it the point follows the guide, which therefore gets all
+/// other forces and all moments: by virtual work, without a constraint.
+class SlidePort : public Port {
+ public:
+  /// @param coordinate y index of the displacement along the axis [m]. @param axis unit vector.
+  /// @param start position of the point at displacement 0 [m]. @param guide a port of the guide at
+  /// that point, which is not driven. @param guide_start its position then [m].
+  SlidePort(int coordinate, const Eigen::Vector3d& axis, const Eigen::Vector3d& start,
+            std::unique_ptr<Port> guide, const Eigen::Vector3d& guide_start);
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
+  void add_curvature(const Eigen::VectorXd& y, const Vector6& wrench,
+                     Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+
+ private:
+  Eigen::Vector3d axis_, start_, guide_start_;
+  Eigen::Matrix3d across_;  // removes the part along the axis
+  std::unique_ptr<Port> guide_;
+  mutable PortState at_guide_;
+  mutable Eigen::VectorXd guide_y_, guide_v_;
+};
+
 }  // namespace clatter::dynamics

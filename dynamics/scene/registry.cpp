@@ -10,6 +10,7 @@
 #include "dynamics/component/rigid_body_component.hpp"
 #include "dynamics/component/spring_component.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
+#include "dynamics/hydraulic/hydraulic_component.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -39,6 +40,12 @@ const std::vector<ComponentKind>& component_kinds() {
        read_mounts},
       {{"[[bushing]]"}, "a joint of two points with the elasticity of its bearing", read_bushings},
       {{"[[spring]]"}, "a spring and damper along the line between two points", read_springs},
+      {{"[[tensioner]]"},
+       "a plunger on an oil chamber with leak gap and check valve, and its spring",
+       read_tensioners},
+      {{"[[lash_adjuster]]"},
+       "the same with the sizes of a valve train's hydraulic lash adjuster",
+       read_lash_adjusters},
       {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
       {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
   return kinds;

@@ -8,6 +8,7 @@
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
 #include "tests/dynamics/fixtures.hpp"
+#include "tests/dynamics/hydraulic_rig.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 
@@ -117,6 +118,16 @@ TEST_P(StepLoop, TakesNoMemoryForMechanismsAndChains) {
   options.accuracy = {1e-4, 1e-3, 1.0, 1e-3};
   const auto method = testing::started(mechanism.system, options);
   expect_no_allocations(*method, 300);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForATensioner) {
+  testing::ShakenPlunger shaken(CheckValveSpec::Ball::kMoving);
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 2e-6;
+  options.fixed = true;
+  const auto method = testing::started(shaken.system, options);
+  expect_no_allocations(*method, 1000);
 }
 
 TEST_P(StepLoop, TakesNoMemoryForAnEngineOnItsMounts) {

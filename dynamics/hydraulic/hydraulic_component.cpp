@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/hydraulic/hydraulic_component.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/base/error.hpp"
+#include "dynamics/given/csv_table.hpp"
+#include "dynamics/given/load_table.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+const char* text_of(CheckValveSpec::Ball ball) {
+  switch (ball) {
+    case CheckValveSpec::Ball::kQuasiStatic:
+      return "ball without mass";
+    case CheckValveSpec::Ball::kMoving:
+      return "ball with mass, seat and stop";
+    case CheckValveSpec::Ball::kStuckShut:
+      return "stuck shut: no oil comes in";
+    case CheckValveSpec::Ball::kStuckOpen:
+      return "stuck open: no pressure is held";
+  }
+  return "";
+}
+
+/// y of a port at the start of the run, and its motion there.
+PortState at_start(const ModelBuilder& model, const Port& port) {
+  const Eigen::VectorXd y = model.system.interface(model.system.eta_start());
+  const Eigen::VectorXd v = model.system.interface(model.system.v_start());
+  PortState state;
+  port.motion(model.time.begin, gather(y, port.coordinates()), gather(v, port.coordinates()),
+              state);
+  return state;
+}
+
+/// The fluid's law needs a pressure above 0.
+void require_pressures(const SupplySpec& supply) {
+  const CsvColumns rows = read_csv(supply.table, supply.column);
+  for (size_t i = 0; i < rows.y.size(); ++i)
+    if (!(rows.y[i] >= 100.0 && rows.y[i] <= 1e9))
+      throw InputError(fmt::format(
+          "{}:{}: {}: found {:g} bar, expected an absolute pressure from 0.001 to 10000 bar",
+          supply.table.string(), rows.lines[i], rows.name, 1e-5 * rows.y[i]));
+}
+
+ComponentList read_all(const Config& root, const std::string& kind, HydraulicSpec defaults) {
+  ComponentList list;
+  defaults.kind = kind;
+  for (const Config& table : root.tables(kind))
+    list.push_back(std::make_shared<HydraulicComponent>(read_hydraulic(table, defaults)));
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> HydraulicComponent::inputs() const {
+  if (spec_.supply.table.empty()) return {};
+  return {spec_.supply.table};
+}
+
+ComponentSize HydraulicComponent::size() const {
+  return {.modes = !is_hydraulic() ? 0 : has_moving_ball() ? 2 : 1, .film_cells = 0};
+}
+
+TimeFunction HydraulicComponent::supply(const ModelBuilder& model) const {
+  const SupplySpec& given = spec_.supply;
+  if (given.table.empty()) return [p = given.pressure](double) { return p; };
+  if (model.clock) {
+    const Spline table = read_cycle_table(given.table, given.column, "Pa", given.interpolation);
+    require_pressures(given);
+    return [table, clock = *model.clock](double t) { return table(clock.speed * t); };
+  }
+  Spline table = read_time_table(given.table, given.column, "Pa", given.interpolation,
+                                 model.time.begin, model.time.end);
+  require_pressures(given);
+  return table;
+}
+
+PlungerAxis HydraulicComponent::axis(ModelBuilder& model) const {
+  auto housing = model.port(spec_.a);
+  auto plunger = model.port(spec_.b, model.position(spec_.a, std::nullopt));
+  const PortState a = at_start(model, *housing), b = at_start(model, *plunger);
+  const double offset = spec_.axis.dot(b.position - a.position) - spec_.travel;
+  return {std::move(housing), std::move(plunger), a.rotation.transpose() * spec_.axis, offset};
+}
+
+void HydraulicComponent::add_bodies(ModelBuilder& model) {
+  if (!is_hydraulic()) return;
+  const TimeFunction pressure = supply(model);
+  const double start = spec_.start_pressure.value_or(pressure(model.time.begin));
+  model.add_body(make_chamber_body(spec_.name + "_chamber", Chamber(spec_.chamber, pressure),
+                                   model.time.begin, spec_.travel, start),
+                 spec_.where);
+}
+
+void HydraulicComponent::add_elements(ModelBuilder& model) {
+  std::vector<int> own;
+  if (is_hydraulic()) {
+    const int body = model.body(spec_.name + "_chamber");
+    for (int k = 0; k < (has_moving_ball() ? 2 : 1); ++k)
+      own.push_back(model.system.coordinate(body, k));
+  }
+  PlungerAxis along = axis(model);
+  model.system.add_element(std::make_unique<HydraulicElement>(
+      element_name(), std::move(along), Chamber(spec_.chamber, supply(model)), spec_.spring,
+      spec_.model, own, spec_.travel, model.time.begin));
+}
+
+void HydraulicComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
+  switch (spec_.model) {
+    case HydraulicModel::kHydraulic:
+      return effects.add(element_name(), true, "model = \"hydraulic\": content of the chamber",
+                         element_name());
+    case HydraulicModel::kConstantPressure:
+      return effects.add(element_name(), true, "model = \"constant_pressure\": that of the supply",
+                         element_name());
+    case HydraulicModel::kConstantForce:
+      return effects.add(element_name(), true, "model = \"constant_force\": that of the start",
+                         element_name());
+  }
+}
+
+void HydraulicComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
+  const ChamberSpec& chamber = spec_.chamber;
+  using Ball = CheckValveSpec::Ball;
+  effects.add(element_name() + " oil", is_hydraulic() && !chamber.dry,
+              chamber.dry ? "dry: chamber and supply are full of air" : "free air, leak gap");
+  effects.add(element_name() + " check valve",
+              is_hydraulic() && chamber.valve.ball != Ball::kStuckShut,
+              text_of(chamber.valve.ball));
+  effects.add(element_name() + " relief valve", is_hydraulic() && chamber.relief.opening > 0.0,
+              "relief");
+}
+
+ComponentList read_tensioners(const Config& root) { return read_all(root, "tensioner", {}); }
+
+ComponentList read_lash_adjusters(const Config& root) {
+  return read_all(root, "lash_adjuster", lash_adjuster_defaults());
+}
+
+}  // namespace clatter::dynamics
