@@ -53,6 +53,8 @@ struct ModalBody {
   Eigen::VectorXd eta_start, v_start;   // n_m, the state at the start; empty: zero
   /// Scales of the error test for this body; 0: those of the run (Accuracy).
   double displacement_scale = 0.0, velocity_scale = 0.0;  // [m], [m/s]
+  double arm = 0.0;    // by which rotations become displacements there [m]
+  std::string family;  // of bodies that messages name together: the links of a chain
 
   int modes() const { return static_cast<int>(omega_squared.size()); }
   int size() const { return static_cast<int>(shapes.rows()); }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "dynamics/chain/plane_vector.hpp"
 
 namespace clatter::dynamics {
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-Vector2d left_of(const Vector2d& a) { return {-a.y(), a.x()}; }
 double signed_radius(const BeltCircle& circle) {
   return static_cast<double>(circle.turn) * circle.radius;
 }
@@ -35,7 +35,7 @@ Vector2d span_direction(const BeltCircle& a, const BeltCircle& b,
         names[static_cast<size_t>(a.owner)], names[static_cast<size_t>(b.owner)], D.norm() * 1e3,
         std::abs(e) * 1e3));
   const double l = std::sqrt(std::max(0.0, squared));
-  return ((l * D - e * left_of(D)) / D.squaredNorm()).normalized();
+  return ((l * D - e * across(D)) / D.squaredNorm()).normalized();
 }
 
 /// Angle from one direction to another in the circle's own sense of turning.
@@ -84,7 +84,7 @@ Belt taut_belt(std::vector<BeltCircle> circles, const std::vector<std::string>& 
   Belt belt;
   const size_t n = circles.size();
   const auto touch = [&](size_t i, const Vector2d& direction) -> Vector2d {
-    return circles[i].centre - signed_radius(circles[i]) * left_of(direction);
+    return circles[i].centre - signed_radius(circles[i]) * across(direction);
   };
   const auto add = [&](BeltPart part) {
     part.begin = belt.length;

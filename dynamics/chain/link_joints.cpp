@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/chain/link_joints.hpp"
+#include "dynamics/chain/plane_vector.hpp"
 
 #include <cmath>
 #include <utility>
@@ -14,10 +15,6 @@ namespace {
 
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Matrix26 = Eigen::Matrix<double, 2, 6>;
-
-/// a turned by 90 degrees.
-Vector2d across(const Vector2d& a) { return {-a.y(), a.x()}; }
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// s(x) of friction and its derivative.
 double saturated(double x) {
@@ -73,7 +70,7 @@ void LinkJoints::evaluate(const Stage& stage, const VectorXd& y, const VectorXd&
     response.force(3 * j + 2) += cross(at.front + at.d, force) + moment;
     response.force.segment<2>(3 * k) -= force;
     response.force(3 * k + 2) -= cross(at.rear, force) + moment;
-    last_[static_cast<size_t>(j)] = -force.dot(at.rear) / make_.half(k);
+    last_[static_cast<size_t>(j)] = std::copysign(force.norm(), -force.dot(at.rear));
     if (!with_tangent) continue;
     TangentBlock& block = response.blocks[static_cast<size_t>(j)];
     block.active = true;

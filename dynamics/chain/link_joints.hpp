@@ -41,8 +41,7 @@ class LinkJoints : public ForceElement {
   void accept_step(double) override { accepted_ = finished_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
 
-  /// Force along link j + 1, positive where it is pulled, in joint j at the last accepted state, n
-  /// [N].
+  /// Force in joint j at the last accepted state, positive where it pulls link j + 1, n [N].
   const std::vector<double>& tensions() const { return accepted_; }
 
  private:

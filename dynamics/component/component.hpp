@@ -56,6 +56,11 @@ class Component {
   virtual ComponentSize size() const { return {}; }
   /// It has an oil film, whose rates jump where a cell fills.
   virtual bool has_film() const { return false; }
+  /// A run starts from static equilibrium: at the places that bodies are given its forces do not
+  /// balance.
+  virtual bool needs_equilibrium() const { return false; }
+  /// Where on it a body of a model is, for messages; empty: not on it.
+  virtual std::string place_of(int /*body*/) const { return ""; }
   /// What it prescribes is the same after a time `cycle` [s].
   virtual bool repeats(double /*cycle*/) const { return true; }
 

@@ -37,7 +37,9 @@ DriveSpec read_drive(const Config& table) {
 }  // namespace
 
 void DriveComponent::add_bodies(ModelBuilder& model) {
-  const auto port = [spec = spec_, begin = model.time.begin](System&, const Eigen::Vector3d& at) {
+  DriveSpec given = spec_;
+  if (model.at_rest) given.drive = Drive(0.0, given.drive.at(model.time.begin).position);
+  const auto port = [spec = given, begin = model.time.begin](System&, const Eigen::Vector3d& at) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(spec.axis);
     const Eigen::AngleAxisd back(-spec.drive.at(begin).position, axis);
     return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis);

@@ -38,6 +38,8 @@ class ModelBuilder {
   const LoadedBodies& loaded;
   const TimeSpec& time;
   const std::optional<CrankClock>& clock;
+  /// What is driven rests where it is at the beginning: for a static equilibrium.
+  bool at_rest = false;
 
   /// Adds a body without a reduced model. InputError at `where` when its name is taken.
   int add_body(ModalBody body, const std::string& where);

@@ -10,25 +10,25 @@ namespace {
 
 /// Limits of one body's errors.
 struct Limits {
-  double displacement, velocity;  // [m], [m/s]
+  double displacement, velocity, arm;  // [m], [m/s], [m]
 };
 
 Limits limits_of(const ModalBody& body, const Accuracy& accuracy) {
   const auto own = [](double value, double general) { return value > 0.0 ? value : general; };
   return {accuracy.tolerance * own(body.displacement_scale, accuracy.displacement_scale),
-          accuracy.tolerance * own(body.velocity_scale, accuracy.velocity_scale)};
+          accuracy.tolerance * own(body.velocity_scale, accuracy.velocity_scale),
+          own(body.arm, accuracy.arm)};
 }
 
-double state_limit(const ModalBody& body, int mode, const Limits& limits,
-                   const Accuracy& accuracy) {
+double state_limit(const ModalBody& body, int mode, const Limits& limits, double tolerance) {
   const double scale = body.state_scale(mode);
   switch (body.state_error[static_cast<size_t>(mode)]) {
     case StateError::kRotation:
-      return scale * limits.displacement / accuracy.arm;
+      return scale * limits.displacement / limits.arm;
     case StateError::kSpin:
-      return scale * limits.velocity / accuracy.arm;
+      return scale * limits.velocity / limits.arm;
     default:
-      return scale * accuracy.tolerance;
+      return scale * tolerance;
   }
 }
 
@@ -59,12 +59,12 @@ ErrorWeights error_weights(const System& system, const Accuracy& accuracy) {
       Eigen::Index state = 0;
       P.cwiseAbs().maxCoeff(&state);
       if (body.is_state(static_cast<int>(state))) {
-        w.displacement(y) = 1.0 / (std::abs(P(state)) *
-                                   state_limit(body, static_cast<int>(state), limits, accuracy));
+        w.displacement(y) = 1.0 / (std::abs(P(state)) * state_limit(body, static_cast<int>(state),
+                                                                    limits, accuracy.tolerance));
         continue;
       }
       const double per_metre = system.mode_of(y) >= 0  ? 1.0 / root
-                               : system.is_rotation(y) ? accuracy.arm
+                               : system.is_rotation(y) ? limits.arm
                                                        : 1.0;
       w.displacement(y) = per_metre / limits.displacement;
       // The smallest |v| with P_i v = u is |u| / |P_i|.

@@ -11,6 +11,8 @@ namespace clatter::dynamics {
 namespace {
 
 constexpr double kWanted = 0.01;
+/// A body that is slower than this part of the velocity scale is at rest.
+constexpr double kAtRest = 1e-9;
 
 }  // namespace
 
@@ -45,7 +47,8 @@ std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const 
   for (size_t b = 0; b < velocity_.size(); ++b) {
     if (velocity_[b] <= 0.0 || system_->bodies()[b].mass <= 0.0) continue;
     const ModalBody& body = system_->bodies()[b];
-    found.push_back({body.name, velocity_[b] / std::sqrt(body.mass), largest_[b] / velocity_[b],
+    const std::string& name = body.family.empty() ? body.name : body.family;
+    found.push_back({name, velocity_[b] / std::sqrt(body.mass), largest_[b] / velocity_[b],
                      weights.velocity_limit[b] / velocity_[b], body.velocity_scale});
   }
   return found;
@@ -54,8 +57,19 @@ std::vector<BodyError> ErrorEstimate::bodies(const ErrorWeights& weights) const 
 std::vector<std::string> accuracy_warnings(const std::vector<BodyError>& bodies,
                                            const Accuracy& accuracy, long long steps) {
   std::vector<std::string> lines;
+  const auto inaccurate = [&](const BodyError& body) {
+    return body.step_limit > kWanted && body.estimate > kWanted &&
+           body.speed > kAtRest * accuracy.velocity_scale;
+  };
+  const auto worst = [&](const BodyError& body) {  // of its name, the first of equals
+    for (const BodyError& other : bodies)
+      if (other.name == body.name && inaccurate(other) &&
+          (other.estimate > body.estimate || (other.estimate == body.estimate && &other < &body)))
+        return false;
+    return true;
+  };
   for (const BodyError& body : bodies) {
-    if (body.step_limit <= kWanted || body.estimate <= kWanted) continue;
+    if (!inaccurate(body) || !worst(body)) continue;
     // Local errors fall with the third power of the step, so their sum falls with the second.
     const double more_steps = static_cast<double>(steps) * std::sqrt(body.estimate / kWanted);
     const bool own = body.velocity_scale > 0.0;

@@ -63,10 +63,14 @@ MatrixXd StageOperator::S(int body) const {
 
 void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {
   result.resize(f.size());
+  const SingleRows& singles = system_->single_rows();
+  for (size_t i = 0; i < singles.y.size(); ++i)
+    result(singles.y[i]) =
+        singles.scale[i] * singles.scale[i] * H_(singles.mode[i]) * f(singles.y[i]);
   for (size_t b = 0; b < part_.size(); ++b) {
     const int body = static_cast<int>(b);
     const auto& rows = system_->rows(body);
-    if (rows.empty()) continue;
+    if (rows.empty() || system_->has_single_rows(body)) continue;
     const MatrixXd& P = system_->P(body);
     gather(f, rows, part_[b]);
     modal_[b].noalias() = P.transpose() * part_[b];

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/base/stopwatch.hpp"
 #include "dynamics/force/spatial_frame.hpp"
@@ -75,6 +77,7 @@ int System::add_body(ModalBody body) {
   places_.emplace_back();
   P_.emplace_back(0, body.modes());
   part_.emplace_back();
+  single_.push_back(1);
   bodies_.push_back(std::move(body));
   return static_cast<int>(bodies_.size()) - 1;
 }
@@ -121,7 +124,34 @@ int System::find_or_add(int body, const Place& place) {
   places_[b].push_back(place);
   P_[b].conservativeResize(P_[b].rows() + 1, Eigen::NoChange);
   P_[b].bottomRows(1) = row;
+  find_singles(body);
   return index;
+}
+
+/// Looks at a body that has got a row.
+void System::find_singles(int body) {
+  const auto b = static_cast<size_t>(body);
+  if (single_[b] == 0) return;
+  const Eigen::Index row = P_[b].rows() - 1;
+  Eigen::Index mode = 0;
+  const double scale = P_[b].row(row).cwiseAbs().maxCoeff(&mode);
+  const bool single =
+      (P_[b].row(row).array() != 0.0).count() <= 1 && (P_[b].col(mode).array() != 0.0).count() <= 1;
+  if (single) {
+    singles_.y.push_back(rows_[b].back());
+    singles_.mode.push_back(offsets_[b] + static_cast<int>(mode));
+    singles_.scale.push_back(std::copysign(scale, P_[b](row, mode)));
+    return;
+  }
+  single_[b] = 0;
+  SingleRows others;
+  for (size_t i = 0; i < singles_.y.size(); ++i) {
+    if (owner(singles_.y[i]) == body) continue;
+    others.y.push_back(singles_.y[i]);
+    others.mode.push_back(singles_.mode[i]);
+    others.scale.push_back(singles_.scale[i]);
+  }
+  singles_ = std::move(others);
 }
 
 const System::Place& System::place_of(int y_index) const {
@@ -211,7 +241,10 @@ void System::restart_frames(StageState& before, StageState& now) const {
 
 void System::interface(const VectorXd& modal, VectorXd& y) const {
   y.resize(interface_size());
+  for (size_t i = 0; i < singles_.y.size(); ++i)
+    y(singles_.y[i]) = singles_.scale[i] * modal(singles_.mode[i]);
   for (size_t b = 0; b < bodies_.size(); ++b) {
+    if (single_[b] != 0) continue;
     part_[b].noalias() = P_[b] * modal.segment(offsets_[b], bodies_[b].modes());
     for (size_t i = 0; i < rows_[b].size(); ++i)
       y(rows_[b][i]) = part_[b](static_cast<Eigen::Index>(i));
@@ -221,8 +254,13 @@ void System::interface(const VectorXd& modal, VectorXd& y) const {
 template <size_t kCount>
 void System::interface(const std::array<const VectorXd*, kCount>& modal,
                        const std::array<VectorXd*, kCount>& y) const {
-  for (VectorXd* result : y) result->resize(interface_size());
+  for (size_t k = 0; k < kCount; ++k) {
+    y[k]->resize(interface_size());
+    for (size_t i = 0; i < singles_.y.size(); ++i)
+      (*y[k])(singles_.y[i]) = singles_.scale[i] * (*modal[k])(singles_.mode[i]);
+  }
   for (size_t b = 0; b < bodies_.size(); ++b) {
+    if (single_[b] != 0) continue;
     const MatrixXd& P = P_[b];
     const Eigen::Index n = P.rows(), first = offsets_[b];
     row_sums_.assign(kCount * static_cast<size_t>(n), 0.0);
@@ -253,8 +291,10 @@ VectorXd System::interface(const VectorXd& modal) const {
 }
 
 void System::add_interface_force(const VectorXd& f_y, VectorXd& g) const {
+  for (size_t i = 0; i < singles_.y.size(); ++i)
+    g(singles_.mode[i]) += singles_.scale[i] * f_y(singles_.y[i]);
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    if (rows_[b].empty()) continue;
+    if (rows_[b].empty() || single_[b] != 0) continue;
     gather(f_y, rows_[b], part_[b]);
     g.segment(offsets_[b], bodies_[b].modes()).noalias() += P_[b].transpose() * part_[b];
   }

@@ -30,6 +30,13 @@ struct WeightedDofs {
   bool operator==(const WeightedDofs&) const = default;
 };
 
+/// Coordinates that are each a multiple of a mode of their own, y = scale * eta: those of rigid
+/// bodies in a plane. Many bodies of three such rows each are handled in one loop.
+struct SingleRows {
+  std::vector<int> y, mode;  // mode: in eta
+  std::vector<double> scale;
+};
+
 /// Computing time of an element.
 struct ElementCost {
   std::string name;
@@ -75,6 +82,9 @@ class System {
   /// Interface rows of a body (indices in y), and P of that body (rows x its modes).
   const std::vector<int>& rows(int body) const { return rows_[static_cast<size_t>(body)]; }
   const Eigen::MatrixXd& P(int body) const { return P_[static_cast<size_t>(body)]; }
+  /// The rows of the bodies that have only such rows.
+  const SingleRows& single_rows() const { return singles_; }
+  bool has_single_rows(int body) const { return single_[static_cast<size_t>(body)] != 0; }
   /// 1 where a y is a rotation.
   bool is_rotation(int y_index) const;
   /// The modal coordinate that a y is; -1: it is a DoF.
@@ -146,6 +156,7 @@ class System {
   };
   static constexpr int kFrame = -1, kMode = -2, kSum = -3;
   int find_or_add(int body, const Place& place);
+  void find_singles(int body);
   void add_block_forces(size_t element, const Eigen::VectorXd& dy) const;
   const Place& place_of(int y_index) const;
 
@@ -155,6 +166,8 @@ class System {
   std::vector<std::vector<Place>> places_;  // per body, parallel to rows_
   std::vector<WeightedDofs> sums_;
   std::vector<Eigen::MatrixXd> P_;
+  std::vector<char> single_;  // per body: it has single rows only
+  SingleRows singles_;
   std::vector<int> owner_;  // per y: body
   std::vector<std::unique_ptr<ForceElement>> elements_;
   std::vector<ElementCost> costs_;

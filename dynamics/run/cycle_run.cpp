@@ -12,6 +12,7 @@
 #include "dynamics/run/mounted_motion.hpp"
 #include "dynamics/run/run_end.hpp"
 #include "dynamics/run/run_file.hpp"
+#include "dynamics/run/start_state.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -62,12 +63,11 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
   begin_ = method_->state();
 }
 
-/// From rest, or from the end of another run.
+/// From the places given, from static equilibrium, or from the end of another run.
 void CycleRun::start() {
   const auto& other = scene_.time.start;
-  const ModalStart at = other.empty()
-                            ? ModalStart{model_->system.eta_start(), model_->system.v_start()}
-                            : read_end(other, *model_, bodies_);
+  const ModalStart at =
+      other.empty() ? start_state(scene_, bodies_, *model_) : read_end(other, *model_, bodies_);
   method_->start(span_.begin, at.eta, at.v);
 }
 

@@ -5,11 +5,12 @@
 
 namespace clatter::dynamics {
 
-std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded) {
+std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded, bool at_rest) {
   auto model = std::make_unique<Model>();
   for (const auto& component : scene.components) model->components.push_back(component->clone());
   const auto& components = model->components;
   ModelBuilder builder(loaded, scene.time, scene.clock);
+  builder.at_rest = at_rest;
   for (const auto& component : components) component->add_bodies(builder);
   for (const auto& component : components) {
     const int first = builder.system.elements();

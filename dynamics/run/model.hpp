@@ -25,8 +25,10 @@ struct Model {
 };
 
 /// Builds a new model from the data read; cheap compared with load_bodies. InputError for names
-/// that are not in a reduced model and for inconsistent geometry.
-std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded);
+/// that are not in a reduced model and for inconsistent geometry. @param at_rest what is driven
+/// rests where it is at the beginning.
+std::unique_ptr<Model> build_model(const Scene& scene, const LoadedBodies& loaded,
+                                   bool at_rest = false);
 
 /// The components of class C.
 template <class C>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/scene/registry.hpp"
 
+#include "dynamics/chain/chain_component.hpp"
 #include "dynamics/component/body_component.hpp"
 #include "dynamics/component/bushing_component.hpp"
 #include "dynamics/component/drive_component.hpp"
@@ -35,6 +36,9 @@ const std::vector<ComponentKind>& component_kinds() {
        "a rigid body with large motion, in a plane or in space",
        read_rigid_bodies},
       {{"[[drive]]"}, "a shaft that turns as prescribed", read_drives},
+      {{"[[chain]]"},
+       "a chain of links that runs over sprockets and guides, closed and set in equilibrium",
+       read_chains},
       {{"[[mount]]"},
        "springs and dampers between nodes of a reduced part and the ground",
        read_mounts},

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/chain/chain_component.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "dynamics/body/rigid_body.hpp"
+#include "dynamics/chain/plane_vector.hpp"
+
+namespace clatter::dynamics {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+/// A part of a body at the start: the motion of its port there.
+PortState at_start(ModelBuilder& model, const Port& port) {
+  const VectorXd y = model.system.interface(model.system.eta_start()),
+                 v = model.system.interface(model.system.v_start());
+  PortState state;
+  port.motion(model.time.begin, gather(y, port.coordinates()), gather(v, port.coordinates()),
+              state);
+  return state;
+}
+
+}  // namespace
+
+ChainComponent::ChainComponent(ChainSpec spec) : spec_(std::move(spec)), layout_(lay_out(spec_)) {
+  for (const char* what : {"_tension_min", "_tension_max", "_jumps"})
+    recorded_.push_back(spec_.name + what);
+  for (const BeltPart& part : layout_.belt.parts) {
+    if (!part.straight || part.owner == part.next) continue;
+    const auto name = [&](int owner) { return spec_.over[static_cast<size_t>(owner)].name; };
+    spans_.push_back(
+        {fmt::format("{}_tension_{}_{}", spec_.name, name(part.owner), name(part.next)),
+         0.5 * (part.from + part.to), (part.to - part.from).normalized()});
+  }
+}
+
+/// Of the chain, as the first sprocket drives it [m/s].
+double ChainComponent::start_speed(ModelBuilder& model) const {
+  const ChainOver& first = spec_.over.front();
+  const PortState state = at_start(model, *model.port(first.on));
+  const double spin = state.spin(spec_.normal) * static_cast<double>(first.turn);
+  return spin * first.belt.front().per_angle;
+}
+
+void ChainComponent::add_bodies(ModelBuilder& model) {
+  const double speed = start_speed(model);
+  const std::vector<LinkPlace> places = links_between(layout_.pins);
+  const size_t n = places.size();
+  for (size_t j = 0; j < n; ++j) {
+    const Vector2d rear = speed * layout_.along[j], front = speed * layout_.along[(j + 1) % n];
+    const Vector2d line = layout_.pins[(j + 1) % n] - layout_.pins[j];
+    PlanarMotion start;
+    start.centre = places[j].centre;
+    start.angle = places[j].angle;
+    start.velocity = 0.5 * (rear + front);
+    start.spin = across(line).dot(front - rear) / line.squaredNorm();
+    const LinkMass& mass = spec_.make.mass(static_cast<int>(j));
+    const int body = model.add_body(make_planar_body(fmt::format("{} link {}", spec_.name, j + 1),
+                                                     mass.mass, mass.inertia, start),
+                                    spec_.where);
+    if (j == 0) first_body_ = body;
+  }
+}
+
+/// The profile of a sprocket is about the point of its port, with a gap where the layout has one;
+/// that of a guide is given in the scene's axes.
+ProfileCarrier ChainComponent::carrier(ModelBuilder& model, size_t index) const {
+  const ChainOver& over = spec_.over[index];
+  ProfileCarrier carrier;
+  carrier.port = model.port(over.on);
+  carrier.plane = spec_.plane();
+  const PortState state = at_start(model, *carrier.port);
+  const Vector2d axis = spec_.in_plane(state.rotation * carrier.plane.first);
+  const double body = std::atan2(axis.y(), axis.x());
+  if (over.teeth > 0) {
+    carrier.angle = layout_.gaps[index] - body;
+  } else {
+    carrier.angle = -body;
+    carrier.origin = spec_.in_plane(state.position);
+  }
+  return carrier;
+}
+
+void ChainComponent::add_elements(ModelBuilder& model) {
+  System& system = model.system;
+  y_.clear();
+  for (int j = 0; j < spec_.make.links(); ++j)
+    for (int k = 0; k < 3; ++k) y_.push_back(system.coordinate(first_body_ + j, k));
+  auto joints = std::make_unique<LinkJoints>(spec_.name + " joints", y_, spec_.make, spec_.joint);
+  joints_ = joints.get();
+  system.add_element(std::move(joints));
+  contacts_.clear();
+  for (size_t i = 0; i < spec_.over.size(); ++i) {
+    const ChainOver& over = spec_.over[i];
+    // Links differ by micrometres in their pitch: the outlines are those of the mean link.
+    const double half = 0.5 * spec_.make.length() / spec_.make.links();
+    LinkOutlines outlines;
+    if (over.teeth > 0) {
+      for (const double at : {-half, half})
+        outlines.inner.push_back(LinkOutline::circle(at, spec_.bush_radius));
+    } else {
+      outlines.inner = outlines.outer = {LinkOutline::plate(-half, half, spec_.half_height)};
+    }
+    auto contact = std::make_unique<ProfileContact>(fmt::format("{} {}", spec_.name, over.name), y_,
+                                                    spec_.make, over.profile, outlines, over.law,
+                                                    carrier(model, i));
+    contacts_.push_back(contact.get());
+    system.add_element(std::move(contact));
+  }
+}
+
+void ChainComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
+  effects.add(
+      "chain " + spec_.name, true,
+      fmt::format("[[chain]]: {} links in the plane, 3 coordinates each", spec_.make.links()),
+      spec_.name + " joints");
+}
+
+void ChainComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
+  for (const ChainOver& over : spec_.over)
+    effects.add(fmt::format("chain on {}", over.name), true,
+                over.teeth > 0 ? fmt::format("sprocket of {} teeth", over.teeth) : "guide",
+                fmt::format("{} {}", spec_.name, over.name));
+}
+
+std::string ChainComponent::place_of(int body) const {
+  const int link = body - first_body_;
+  if (link < 0 || link >= spec_.make.links()) return "";
+  return place_on_belt(spec_, layout_, link);
+}
+
+/// Between the two joints beside the place of a span, linearly.
+double ChainComponent::tension_at(const SpanPoint& span, const StageState& state) const {
+  const std::vector<double>& tensions = joints_->tensions();
+  const size_t n = tensions.size();
+  double before = -std::numeric_limits<double>::infinity(), after = -before;
+  size_t last = 0, next = 0;
+  for (size_t j = 0; j < n; ++j) {
+    const Vector2d centre(state.y(y_[3 * j]), state.y(y_[3 * j + 1]));
+    const double angle = state.y(y_[3 * j + 2]);
+    const Vector2d front =
+        centre + spec_.make.half(static_cast<int>(j)) * Vector2d(std::cos(angle), std::sin(angle));
+    const Vector2d from = front - span.middle;
+    if (std::abs(across(span.along).dot(from)) > 4.0 * spec_.half_height) continue;
+    const double at = span.along.dot(from);
+    if (at <= 0.0 && at > before) {
+      before = at;
+      last = j;
+    }
+    if (at > 0.0 && at < after) {
+      after = at;
+      next = j;
+    }
+  }
+  if (!std::isfinite(before) || !std::isfinite(after)) return 0.0;
+  return (tensions[last] * after - tensions[next] * before) / (after - before);
+}
+
+void ChainComponent::record(const System& system, const StageState& state, History& history) const {
+  const auto [least, most] =
+      std::minmax_element(joints_->tensions().begin(), joints_->tensions().end());
+  history.put(recorded_[0], "N", *least);
+  history.put(recorded_[1], "N", *most);
+  int jumps = 0;
+  for (const ProfileContact* contact : contacts_) jumps += contact->jumps();
+  history.put(recorded_[2], "1", jumps);
+  for (const SpanPoint& span : spans_) history.put(span.recorded, "N", tension_at(span, state));
+  Component::record(system, state, history);
+}
+
+ComponentList read_chains(const Config& root) {
+  ComponentList chains;
+  for (ChainSpec& spec : read_chain_specs(root))
+    chains.push_back(std::make_shared<ChainComponent>(std::move(spec)));
+  return chains;
+}
+
+}  // namespace clatter::dynamics

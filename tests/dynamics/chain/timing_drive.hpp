@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The timing drive of the reference, as a scene: crank, arm, intake, exhaust, guide.
+#include <string>
+
+namespace clatter::dynamics::testing {
+
+struct TimingDrive {
+  double rpm = 0.0;             // of the crank, clockwise
+  double gap_deg = -20.94;      // of a tooth gap of the crank that is wrapped
+  std::string first = "outer";  // link from there in running direction
+  double joint_n_m = 1e7;
+  double joint_clearance_um = 0.0;
+  double plunger_n_m = 2000.0;   // rate of the tensioner, softening outwards
+  double plunger_back_mm = 0.0;  // by which its force is that of a plunger farther back
+  double bearing_n_m = 1e10;     // of wheels and arm
+  double friction = 0.0;         // in all contacts
+  bool mirrored = false;         // about the y axis: left is right
+  double end_s = 1e-3;
+  double tolerance = 1e-3;
+  double output_us = 20.0;
+  std::string more;  // further tables
+
+  /// The scene's text.
+  std::string scene() const;
+};
+
+}  // namespace clatter::dynamics::testing

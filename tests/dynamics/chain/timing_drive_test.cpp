@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The timing drive of the reference: equilibrium, linear modes, running.
+#include "tests/dynamics/chain/timing_drive.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "dynamics/integrate/stage_operator.hpp"
+#include "dynamics/run/start_state.hpp"
+#include "tests/dynamics/mechanisms.hpp"
+#include "tests/dynamics/slap_scene.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::TimingDrive;
+
+class TimingDriveScene : public ::testing::Test {
+ protected:
+  Scene scene(const TimingDrive& drive) {
+    std::ofstream(folder_ / "drive.run.toml") << drive.scene();
+    return read_scene(folder_ / "drive.run.toml");
+  }
+  H5File recorded(const TimingDrive& drive) {
+    const Scene read = scene(drive);
+    return testing::complete_file(read, folder_ / "drive.run.h5", result_);
+  }
+  std::filesystem::path folder_ = testing::test_folder();
+  RunResult result_;
+};
+
+/// The drive at rest.
+struct Rest {
+  std::unique_ptr<Model> model;
+  VectorXd eta, y;
+
+  explicit Rest(const Scene& scene) : model(build_model(scene, {}, true)) {
+    eta = start_state(scene, {}, *model).eta;
+    y = model->system.interface(eta);
+    VectorXd f;
+    // Without rates: of a stage so long that dampers have no tangent.
+    model->system.evaluate({0.0, 1e9, 1, {}}, y, VectorXd::Zero(y.size()), true, f);
+    model->system.finish_stage({0.0, 1e9, 1, {}});
+    model->system.accept_step(0.0);
+  }
+  double angle(const std::string& body) const { return y(coordinate(body, 2)); }
+  int coordinate(const std::string& body, int k) const {
+    System& system = model->system;
+    for (int b = 0;; ++b)
+      if (system.bodies()[static_cast<size_t>(b)].name == body) return system.coordinate(b, k);
+  }
+  double history(const std::string& name) const {
+    StageState state;
+    state.y = y;
+    state.eta = eta;
+    History history;
+    model->record(state, history);
+    for (const History::Entry& entry : history.entries())
+      if (entry.name == name) return entry.value;
+    return std::nan("");
+  }
+  /// Frequencies [Hz] of small motions without damping, ascending, with the modes' shapes in y.
+  std::pair<VectorXd, MatrixXd> modes() const {
+    const System& system = model->system;
+    const auto n = static_cast<Eigen::Index>(system.interface_size());
+    MatrixXd K(n, n);
+    VectorXd unit = VectorXd::Zero(n), force(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      unit(j) = 1.0;
+      force.setZero();
+      system.add_tangent_forces(unit, force);
+      K.col(j) = -force;
+      unit(j) = 0.0;
+    }
+    VectorXd root(n);  // of the mobility: all bodies have coordinates of one mode each
+    for (Eigen::Index i = 0; i < n; ++i)
+      root(i) = std::sqrt(system.mobility({static_cast<int>(i)})(0, 0));
+    const MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
+    const VectorXd hertz =
+        solver.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+    return {hertz, root.asDiagonal() * solver.eigenvectors()};
+  }
+};
+
+/// The first mode in which both cams turn the same way and the chain only follows: the one with the
+/// largest part of its energy in the wheels below 150 Hz [Hz].
+double first_mode(const Rest& rest) {
+  const auto [hertz, shapes] = rest.modes();
+  const int a = rest.coordinate("intake", 2), b = rest.coordinate("exhaust", 2);
+  double found = 0.0, most = 0.0;
+  for (Eigen::Index k = 0; k < hertz.size() && hertz(k) < 350.0; ++k) {
+    std::printf("%.3f %.3g\n", hertz(k),
+                1.3e-3 * (std::pow(shapes(a, k), 2) + std::pow(shapes(b, k), 2)));
+    const double share = 1.3e-3 * (std::pow(shapes(a, k), 2) + std::pow(shapes(b, k), 2));
+    if (share < most || shapes(a, k) * shapes(b, k) < 0.0) continue;
+    most = share;
+    found = hertz(k);
+  }
+  return found;
+}
+
+TEST_F(TimingDriveScene, OracleAtRest) {
+  // The reference gives forces of contacts by depth^1.5, here they are integrated over the seat: a
+  // micrometre of way, or 1e-4 of the tension.
+  TimingDrive drive;
+  const Rest rest(scene(drive));
+  EXPECT_NEAR(rest.history("chain_tension_guide_crank"), 184.705, 0.03);
+  EXPECT_NEAR(rest.history("chain_tension_intake_exhaust"), 184.972, 0.03);
+  EXPECT_NEAR(rest.history("chain_tension_crank_arm"), 185.312, 0.03);
+  EXPECT_NEAR(rest.history("chain_tension_min"), 37.47, 0.5);
+  EXPECT_NEAR(rest.angle("arm"), 0.0082176, 1e-5);
+  EXPECT_NEAR(rest.history("spring_tensioner_force_x"), -108.240, 0.005);
+}
+
+TEST_F(TimingDriveScene, OracleOfItsFirstModes) {
+  TimingDrive drive;
+  EXPECT_NEAR(first_mode(Rest(scene(drive))), 60.50, 0.1);
+  drive.plunger_n_m = 1e9;
+  drive.plunger_back_mm = -0.69748e-3;
+  EXPECT_NEAR(first_mode(Rest(scene(drive))), 102.04, 0.3);
+}
+
+TEST_F(TimingDriveScene, OtherMeshPhasesHaveTheTensionsOfTheReference) {
+  for (const double turn : {4.5, 9.0, 13.5}) {
+    TimingDrive drive;
+    drive.gap_deg -= turn;
+    const Rest rest(scene(drive));
+    EXPECT_GT(rest.history("chain_tension_crank_arm"), 184.5) << turn;
+    EXPECT_LT(rest.history("chain_tension_crank_arm"), 186.9) << turn;
+  }
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
