@@ -9,7 +9,7 @@ NAVIGATION = {
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("dynamics/film/README.md", "dynamics/film"), ("dynamics/hydraulic/README.md", "dynamics/hydraulic"),
-                 ("recover/README.md", "recover")],
+                 ("dynamics/shaft/README.md", "dynamics/shaft"), ("recover/README.md", "recover")],
     "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"),
                 ("samples/timing_drive/README.md", "timing_drive"), ("samples/truck_diesel/README.md", "truck_diesel")],
     "Documents": [("docs/design.md", "Design"), ("docs/formats.md", "File formats"), ("docs/accuracy.md", "Accuracy"),

@@ -30,6 +30,14 @@ void ModelBuilder::add_ports(const std::string& body, PortMaker maker, const std
         fmt::format("{}: a second body named \"{}\", expected each name once", where, body));
 }
 
+const TurningBody& ModelBuilder::turn(const std::string& name, const std::string& where) const {
+  const auto found = turns_.find(name);
+  if (found == turns_.end())
+    throw InputError(fmt::format("{}: no body \"{}\" that turns about an axis, found: {}", where,
+                                 name, names_of(turns_)));
+  return found->second;
+}
+
 int ModelBuilder::y(const std::string& body, const std::string& set, int axis, bool rotation) {
   return system.coordinate(index_.at(body),
                            set_dof(find_body(loaded, body)->model, set, axis, rotation));

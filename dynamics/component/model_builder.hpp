@@ -25,6 +25,12 @@ struct PointSpec {
   std::string where;                  // "file:line: bushing[0].a", for messages
 };
 
+/// A body that turns about one of the scene's axes: torques may act on its angle.
+struct TurningBody {
+  int body = 0, dof = 0;  // in the system; the DoF that is the angle [rad]
+  int axis = 0;           // 0, 1 or 2: x, y or z, right-handed
+};
+
 class ModelBuilder {
  public:
   /// A port of a body at a point, given in the scene's axes at the start [m].
@@ -46,6 +52,10 @@ class ModelBuilder {
   /// Elements may act on any point of `body`, a body of the system or a driven shaft. InputError at
   /// `where` when the name has ports.
   void add_ports(const std::string& body, PortMaker maker, const std::string& where);
+  /// `name`, a body of the system or a part of one, turns about a fixed direction.
+  void add_turn(const std::string& name, const TurningBody& turn) { turns_[name] = turn; }
+  /// InputError at `where` when no body of that name turns.
+  const TurningBody& turn(const std::string& name, const std::string& where) const;
   /// The reference frame of a body with a reduced model moves: points of it are no ports.
   void set_moving_frame(const std::string& body) { moving_.insert(body); }
 
@@ -70,6 +80,7 @@ class ModelBuilder {
   std::unique_ptr<Port> node_port(const LoadedBody& body, const PointSpec& point);
   std::map<std::string, int> index_;
   std::map<std::string, PortMaker> ports_;
+  std::map<std::string, TurningBody> turns_;
   std::set<std::string> moving_;
 };
 

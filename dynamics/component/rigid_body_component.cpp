@@ -156,6 +156,7 @@ void RigidBodyComponent::add_planar(ModelBuilder& model) {
   body.rigid(2, 3 + normal) = std::sqrt(spec_.inertia(0));
   set_scales(spec_, body);
   const int index = model.add_body(std::move(body), spec_.where);
+  model.add_turn(spec_.name, {index, 2, normal});
   const auto port = [spec = spec_, axes, index](System& system, const Vector3d& at) {
     const Vector3d arm = at - spec.centre;
     if (std::abs(arm(spec.normal)) > kOffPlane)

@@ -12,6 +12,9 @@
 #include "dynamics/component/spring_component.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
+#include "dynamics/shaft/cam_torque_component.hpp"
+#include "dynamics/shaft/shaft_component.hpp"
+#include "dynamics/shaft/torque_component.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -35,6 +38,7 @@ const std::vector<ComponentKind>& component_kinds() {
       {{"[[rigid_body]]"},
        "a rigid body with large motion, in a plane or in space",
        read_rigid_bodies},
+      {{"[[shaft]]"}, "an elastic shaft with discs in journal bearings: camshafts", read_shafts},
       {{"[[drive]]"}, "a shaft that turns as prescribed", read_drives},
       {{"[[chain]]"},
        "a chain of links that runs over sprockets and guides, closed and set in equilibrium",
@@ -50,6 +54,8 @@ const std::vector<ComponentKind>& component_kinds() {
       {{"[[lash_adjuster]]"},
        "the same with the sizes of a valve train's hydraulic lash adjuster",
        read_lash_adjusters},
+      {{"[[torque]]"}, "a torque over the angle of the body on which it acts", read_torques},
+      {{"[[cam_torque]]"}, "the torque of valves on their cams, quasi-static", read_cam_torques},
       {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
       {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
   return kinds;

@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
+#include "dynamics/shaft/turn_torque.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/hydraulic_rig.hpp"
 #include "tests/dynamics/mechanisms.hpp"
+#include "tests/dynamics/shaft_model.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which has an allocator of its own
@@ -128,6 +131,42 @@ TEST_P(StepLoop, TakesNoMemoryForATensioner) {
   options.fixed = true;
   const auto method = testing::started(shaken.system, options);
   expect_no_allocations(*method, 1000);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForACamshaftInItsBearings) {
+  testing::ShaftModelOf shaft(
+      testing::steel_shaft("speed_rpm = 1700\nslices = 4\nloss_time_us = 1\n") +
+      R"(
+[[shaft.bearing]]
+name = "a"
+at_mm = 50
+diameter_mm = 24
+width_mm = 16
+clearance = 2e-3
+viscosity_mpa_s = 10
+thrust_stiffness_n_m = 1e6
+[[shaft.bearing]]
+name = "b"
+at_mm = 280
+model = "moes"
+diameter_mm = 24
+width_mm = 16
+clearance = 2e-3
+viscosity_mpa_s = 10
+)");
+  const auto one = [](double) { return 1.0; };
+  shaft.system().add_element(std::make_unique<CamTorque>(
+      "cam", shaft.y("shaft.a", 5), std::nullopt,
+      CamTrain{CamLaw::polynomial(7.5e-3, 1.2), {0.3}, 2.0, 150.0, 22214.0, 0.08}, one));
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(6);
+  weight(1) = 1.0;
+  shaft.system().add_load(
+      {"load", 1, weight, [](double time) { return 50.0 * std::sin(300 * time); }});
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 1e-5;
+  const auto method = testing::started(shaft.system(), options);
+  expect_no_allocations(*method, 300);
 }
 
 TEST_P(StepLoop, TakesNoMemoryForAnEngineOnItsMounts) {

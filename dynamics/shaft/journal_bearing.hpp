@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Bearings of shafts.
+#include <memory>
+#include <string>
+
+#include "dynamics/force/port_element.hpp"
+#include "dynamics/shaft/bearing_film.hpp"
+#include "dynamics/shaft/shaft_axes.hpp"
+
+namespace clatter::dynamics {
+
+/// A spring and damper along the axis: the thrust collar.
+struct ThrustLaw {
+  double stiffness = 0.0, damping = 0.0;  // [N/m], [N s/m]
+};
+
+/// What all bearings have in common: a journal (port a) in a housing (port b) that may move and
+/// turn, and the thrust collar. The bearing's axis is the shaft's; its tilt has no moment.
+class ShaftBearing : public PortElement {
+ public:
+  /// @param offset of the journal's centre from the housing's point where the bearing is centred
+  /// [m].
+  ShaftBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
+               const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust);
+
+ protected:
+  /// The law of the thrust collar, zero across the axis.
+  PairForce thrust_force(const PairMotion& motion) const;
+  JournalMotion journal(const PairMotion& motion) const;
+  ShaftAxes axes_;
+
+ private:
+  Eigen::Vector3d offset_;
+  ThrustLaw thrust_;
+};
+
+/// A plain bearing with an oil film (bearing_film.hpp). All power that it takes is lost.
+class JournalBearing : public ShaftBearing {
+ public:
+  JournalBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
+                 const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust,
+                 const BearingFilm& film);
+  void finish_stage(const Stage& stage) override;
+  void accept_step(double time) override;
+  /// Also `<name>_eccentricity`, relative, and `<name>_friction` [N m], the moment on the journal.
+  void record(History& history) const override;
+
+ protected:
+  PairForce force(double time, const PairMotion& motion) const override;
+
+ private:
+  struct State {
+    double eccentricity = 0.0, friction = 0.0;
+  };
+  BearingFilm film_;
+  std::string eccentricity_name_, friction_name_;
+  mutable State last_;
+  State finished_, accepted_;
+};
+
+/// A bearing of constant stiffness and damping in all directions across the axis, without friction.
+class LinearBearing : public ShaftBearing {
+ public:
+  /// @param stiffness [N/m]. @param damping [N s/m].
+  LinearBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
+                const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust,
+                double stiffness, double damping);
+
+ protected:
+  PairForce force(double time, const PairMotion& motion) const override;
+
+ private:
+  double stiffness_, damping_;
+};
+
+}  // namespace clatter::dynamics
