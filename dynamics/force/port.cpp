@@ -22,6 +22,8 @@ void clear(PortState& state, int size) {
 
 }  // namespace
 
+Vector6 Port::driven(const PortState& at) const { return wrench(at.velocity, at.spin); }
+
 void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& state) const {
   clear(state, 0);
   state.position = position_;

@@ -10,6 +10,7 @@
 #include "dynamics/component/mount_component.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
 #include "dynamics/component/spring_component.hpp"
+#include "dynamics/component/stop_component.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
 
@@ -50,6 +51,7 @@ const std::vector<ComponentKind>& component_kinds() {
       {{"[[lash_adjuster]]"},
        "the same with the sizes of a valve train's hydraulic lash adjuster",
        read_lash_adjusters},
+      {{"[[stop]]"}, "contact of a point with a plane, rigid by impacts or compliant", read_stops},
       {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
       {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
   return kinds;
