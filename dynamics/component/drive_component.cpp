@@ -45,6 +45,7 @@ void DriveComponent::add_bodies(ModelBuilder& model) {
     return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis);
   };
   model.add_ports(spec_.name, port, spec_.where);
+  model.add_shaft(spec_.name, {spec_.drive, spec_.centre, Eigen::Vector3d::Unit(spec_.axis)});
 }
 
 void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {

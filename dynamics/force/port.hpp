@@ -92,6 +92,27 @@ class NodePort : public Port {
   Eigen::Vector3d position_;
 };
 
+/// A node of a body with small motion in a frame that a drive turns.
+class TurningNodePort : public Port {
+ public:
+  /// @param shaft that turns the frame. @param centre a point of its axis [m]. @param axis unit
+  /// vector. @param start angle of the shaft at which the frame has the engine's axes [rad].
+  /// @param position of the node there, without deformation [m]. @param coordinates y indices of
+  /// x, y, z and, for a node that rotates, rx, ry, rz, in the frame's axes.
+  TurningNodePort(Drive shaft, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
+                  double start, const Eigen::Vector3d& position, std::vector<int> coordinates);
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
+  bool is_driven() const override { return true; }
+  Vector6 driven(const PortState& at) const override;
+
+ private:
+  Drive shaft_;
+  Eigen::Vector3d centre_, axis_, arm_;
+  double start_;
+  mutable Eigen::Vector3d spin_ = Eigen::Vector3d::Zero();  // of the frame, at the last motion()
+};
+
 /// The plane in which a planar body moves.
 struct PlaneAxes {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
