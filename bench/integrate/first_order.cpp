@@ -211,12 +211,14 @@ int FirstOrder::pass_event(int event, double time, double* x) {
   ForceElement& element = system_->element(which.element);
   const auto& at = element.coordinates();
   VectorXd impulse = VectorXd::Zero(static_cast<Index>(at.size()));
-  element.at_event(which.index, time, gather(y_, at), gather(v_y_, at), system_->mobility(at),
+  const dynamics::StageState now{time, eta_, v_, {}, y_, v_y_};
+  element.at_event(which.index, time, gather(y_, at), gather(v_y_, at), system_->mobility(now, at),
                    impulse);
-  VectorXd f = VectorXd::Zero(system_->interface_size()), jump = VectorXd::Zero(modes());
+  VectorXd f = VectorXd::Zero(system_->interface_size()), eta_jump, v_jump;
   for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Index>(i));
-  system_->add_interface_force(f, jump);
-  v_ += system_->inertia().cwiseProduct(jump);
+  system_->jump(now, f, eta_jump, v_jump);
+  eta_ += eta_jump;
+  v_ += v_jump;
   Eigen::Map<VectorXd>(x, size()) = state(VectorXd(eta_), VectorXd(v_));
   return side(event, time, x);
 }

@@ -58,7 +58,7 @@ Motion run(const BenchScene& scene, std::unique_ptr<dynamics::Integrator> method
   const bool steps_to_samples = has_events(*scene.system);
   for (int sample = 1; sample <= scene.samples;) {
     method->step(steps_to_samples ? scene.sample_time(sample) : scene.end);
-    const StageState &from = method->previous(), &to = method->state();
+    const StageState &from = method->previous(), &to = method->arrived();
     const double length = to.time - from.time;
     for (; sample <= scene.samples && scene.sample_time(sample) <= to.time; ++sample) {
       const double t = (scene.sample_time(sample) - from.time) / length;

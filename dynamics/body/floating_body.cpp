@@ -103,8 +103,10 @@ ElasticShapes mean_axis_shapes(const ModalBody& free, const rom::InertiaInvarian
                     "supports, which moves freely",
                     free.name, free.rigid_modes));
   if (invariants.empty())
-    throw InputError(
-        fmt::format("{}: found no inertia invariants: condense the part again", free.name));
+    throw InputError(fmt::format(
+        "{}: found no inertia invariants, expected those of a body that turns: condense "
+        "the part with inertia_invariants = true",
+        free.name));
   const int n = free.modes() - 6;
   ElasticShapes shapes;
   // The mass matrix of the six rigid motions about the origin.

@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/component/rigid_body_component.hpp"
+#include "dynamics/force/moving_frame.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -16,12 +19,76 @@ std::string body_size(const LoadedBody& body) {
                      std::sqrt(body.modal.omega_squared.maxCoeff()) / 6.283185307179586);
 }
 
+/// motion, drive, and the start in space.
+void read_motion(const Config& table, BodySpec& spec) {
+  const bool free = table.choice("motion", {"rest", "space"}) == "space";
+  const std::string drive = table.text_or("drive", "");
+  if (free && !drive.empty())
+    table.fail("drive", "found with motion = \"space\", expected one of both");
+  if (!drive.empty()) {
+    spec.motion = BodyMotion::kDrive;
+    spec.drive = drive;
+  }
+  if (!free) {
+    for (const char* key : {"centre_mm", "quaternion", "start_velocity_m_s", "start_spin_rad_s"})
+      if (table.has(key)) table.fail(key, "found without motion = \"space\"");
+    return;
+  }
+  spec.motion = BodyMotion::kSpace;
+  if (!spec.elastic)
+    table.fail("model", "found \"rigid\" with motion = \"space\", expected [[rigid_body]] instead");
+  if (spec.mode_limit_hz > 0.0)
+    table.fail("mode_limit_hz",
+               "found with motion = \"space\", whose modes all keep their inertia: condense fewer");
+  spec.is_placed = table.has("centre_mm");
+  if (spec.is_placed) spec.start.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
+  const Eigen::Vector4d q = read_quaternion(table);
+  spec.start.rotation = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
+  if (table.has("start_velocity_m_s"))
+    spec.start.velocity = read_vector(table, "start_velocity_m_s", 1e4);
+  if (table.has("start_spin_rad_s")) spec.start.spin = read_vector(table, "start_spin_rad_s", 1e6);
+}
+
 }  // namespace
 
 void add_body_effect(const LoadedBody& body, EffectTable& effects) {
   const BodySpec& spec = body.spec;
   effects.add(fmt::format("elastic {}", spec.name), spec.elastic,
               spec.elastic ? body_size(body) : spec.name + ".model = \"rigid\": 6 modes");
+  if (spec.motion == BodyMotion::kSpace)
+    effects.add("large motion of " + spec.name, true, "motion = \"space\": eq. (9), mean axes",
+                spec.name + " rotation");
+  if (spec.motion == BodyMotion::kDrive)
+    effects.add("large motion of " + spec.name, true,
+                fmt::format("drive = \"{}\": eq. (9), prescribed", spec.drive),
+                spec.name + " frame");
+}
+
+ComponentSize BodyComponent::size() const {
+  constexpr int kRigid = 6;
+  return {.modes = spec_.motion == BodyMotion::kSpace ? kSpatial - kRigid : 0, .film_cells = 0};
+}
+
+void BodyComponent::add_elements(ModelBuilder& model) {
+  if (spec_.motion == BodyMotion::kGiven) return;
+  const int index = model.body(spec_.name);
+  if (spec_.motion == BodyMotion::kSpace) {
+    spatial_ = add_rotation(model.system, index);
+    return;
+  }
+  const Shaft& shaft = *model.shaft_of(spec_);
+  const LoadedBody& body = *find_body(model.loaded, spec_.name);
+  std::vector<int> y;
+  for (int k = 0; k < body.modal.modes(); ++k) y.push_back(model.system.modal_coordinate(index, k));
+  model.system.add_element(
+      std::make_unique<MovingFrame>(spec_.name, y, body.model.inertia.in(body.modal.shapes),
+                                    turning_frame(shaft.drive, shaft.axis, -shaft.centre)));
+}
+
+void BodyComponent::record(const System& system, const StageState& state, History& history) const {
+  Component::record(system, state, history);
+  if (spec_.motion != BodyMotion::kSpace) return;
+  record_attitude(spec_.name, spatial_, state, history);
 }
 
 void BodyComponent::add_body_effects(const ModelBuilder& model, EffectTable& effects) const {
@@ -50,6 +117,7 @@ ComponentList read_bodies(const Config& root) {
     if (root.has("engine") && name == "rod")
       table.fail("name", "found \"rod\", which is the rod of [rod]: expected another name");
     read_body(table, name, spec);
+    read_motion(table, spec);
     bodies.push_back(std::make_shared<BodyComponent>(spec));
   }
   return bodies;

@@ -32,6 +32,16 @@ std::string read_name(const Config& table) {
   return name;
 }
 
+Eigen::Vector4d read_quaternion(const Config& table) {
+  const std::vector<double> q = table.numbers_or("quaternion", {1.0, 0.0, 0.0, 0.0});
+  if (q.size() != 4)
+    table.fail("quaternion", fmt::format("found {} numbers, expected 4: w, x, y, z", q.size()));
+  const Eigen::Vector4d found(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(found.norm() - 1.0) < 1e-3))
+    table.fail("quaternion", fmt::format("found length {:g}, expected 1", found.norm()));
+  return found;
+}
+
 Eigen::Vector3d read_vector(const Config& table, std::string_view key, double limit) {
   const std::vector<double> values = table.numbers(key, 3);
   for (const double value : values)

@@ -37,6 +37,9 @@ Spline::Kind read_interpolation(const Config& table, std::string_view fallback);
 /// The name of a body or cylinder: a group of the run file. InputError for "", "." and one with /.
 std::string read_name(const Config& table);
 
+/// The key "quaternion", w, x, y, z of length 1; the identity without it.
+Eigen::Vector4d read_quaternion(const Config& table);
+
 /// Three numbers, each at most `limit` in size.
 Eigen::Vector3d read_vector(const Config& table, std::string_view key, double limit);
 

@@ -23,8 +23,17 @@ DriveSpec read_drive(const Config& table) {
   if (table.has("centre_mm")) spec.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
   const std::string axis = table.choice("axis", {"x", "y", "z"});
   spec.axis = axis[0] - 'x';
-  const double mean = table.number("speed_rpm", speed) * kRpm;
   const double start = table.number_or("start_deg", 0.0, angle) * kDegree;
+  if (table.has("table")) {
+    for (const char* key : {"speed_rpm", "order"})
+      if (table.has(key)) table.fail(key, "found with table, expected one of both");
+    spec.table = table.path("table");
+    spec.column = table.text_or("column", "");
+    spec.start = start;
+    return spec;
+  }
+  if (table.has("column")) table.fail("column", "found without table");
+  const double mean = table.number("speed_rpm", speed) * kRpm;
   std::vector<SpeedOrder> orders;
   for (const Config& one : table.tables("order"))
     orders.push_back({one.number("order", Range::between(1e-6, 1e6)),
@@ -36,7 +45,15 @@ DriveSpec read_drive(const Config& table) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> DriveComponent::inputs() const {
+  if (spec_.table.empty()) return {};
+  return {spec_.table};
+}
+
 void DriveComponent::add_bodies(ModelBuilder& model) {
+  if (!spec_.table.empty())
+    spec_.drive = Drive(
+        read_turn_table(spec_.table, spec_.column, model.time.begin, model.time.end), spec_.start);
   DriveSpec given = spec_;
   if (model.at_rest) given.drive = Drive(0.0, given.drive.at(model.time.begin).position);
   const auto port = [spec = given, begin = model.time.begin](System&, const Eigen::Vector3d& at) {
@@ -45,6 +62,7 @@ void DriveComponent::add_bodies(ModelBuilder& model) {
     return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis);
   };
   model.add_ports(spec_.name, port, spec_.where);
+  model.add_shaft(spec_.name, {given.drive, spec_.centre, Eigen::Vector3d::Unit(spec_.axis)});
 }
 
 void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {

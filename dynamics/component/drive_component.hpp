@@ -13,6 +13,9 @@ namespace clatter::dynamics {
 struct DriveSpec {
   std::string name, where;
   Drive drive{0.0};
+  std::filesystem::path table;  // of its speed or angle over time; empty: `drive` is complete
+  std::string column;
+  double start = 0.0;                                // added to the angle of the table [rad]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // a point of the axis [m]
   int axis = 0;                                      // it turns about x, y or z, right-handed
 };
@@ -25,7 +28,11 @@ class DriveComponent : public Component {
     return std::make_unique<DriveComponent>(*this);
   }
   std::string name() const override { return spec_.name; }
-  bool repeats(double cycle) const override { return spec_.drive.repeats(cycle); }
+  bool repeats(double cycle) const override {
+    return spec_.table.empty() && spec_.drive.repeats(cycle);
+  }
+  std::vector<std::filesystem::path> inputs() const override;
+  /// InputError for a table that does not cover the run.
   void add_bodies(ModelBuilder& model) override;
   void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
 

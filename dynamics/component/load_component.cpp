@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/force/spatial_frame.hpp"
 #include "dynamics/given/load_table.hpp"
 
 namespace clatter::dynamics {
@@ -42,15 +43,15 @@ Eigen::VectorXd modal_force(const LoadedBody& body, const LoadSpec& load) {
   return body.modal.row_of(dof).transpose();
 }
 
-/// At the centre of mass of a body without a reduced model: unit forces and moments move one of its
+/// At the centre of mass of a body with large motion: unit forces and moments move one of its
 /// coordinates.
 Eigen::VectorXd force_at_centre(const ModalBody& body, const LoadSpec& load) {
   const std::string component(kComponents[static_cast<size_t>(load.component)]);
   if (!load.load.empty() || !load.set.empty())
-    throw InputError(
-        fmt::format("{}: load.{}: \"{}\" has no reduced model, expected component "
-                    "only, at its centre of mass",
-                    load.where, load.load.empty() ? "set" : "load", load.body));
+    throw InputError(fmt::format(
+        "{}: load.{}: \"{}\" {}, expected component only, at its centre of mass", load.where,
+        load.load.empty() ? "set" : "load", load.body,
+        body.frame && body.frame->modes() > 0 ? "moves in space" : "has no reduced model"));
   Eigen::Index moved = 0;
   const double size = body.rigid.col(load.component).cwiseAbs().maxCoeff(&moved);
   if (size == 0.0)
@@ -107,8 +108,9 @@ void LoadComponent::add_loads(ModelBuilder& model) {
     const int body = model.body(load.body);
     const LoadedBody* loaded = find_body(model.loaded, load.body);
     const Eigen::VectorXd modal =
-        loaded != nullptr ? modal_force(*loaded, load)
-                          : force_at_centre(model.system.bodies()[static_cast<size_t>(body)], load);
+        loaded != nullptr && !loaded->shapes
+            ? modal_force(*loaded, load)
+            : force_at_centre(model.system.bodies()[static_cast<size_t>(body)], load);
     model.system.add_load({fmt::format("load {} on {}", ++count, load.body), body, modal,
                            ramped(model.time, load_value(model, load))});
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
@@ -13,17 +14,37 @@
 #include "core/rom/certificate_warning.hpp"
 
 namespace clatter::dynamics {
-LoadedBody load_body(const BodySpec& spec) {
+
+LoadedBody make_loaded_body(const BodySpec& spec, rom::ReducedModel model) {
   LoadedBody body;
   body.spec = spec;
-  body.model = rom::read_reduced_model(spec.rom, false);
-  const std::string warning = rom::certificate_warning(body.model);
-  if (!warning.empty()) warn(fmt::format("{}: {}", spec.rom.string(), warning));
-  body.sha256 = sha256_of_file(spec.rom);
+  body.model = std::move(model);
   body.modal = make_modal_body(body.model, {spec.elastic, spec.mode_limit_hz});
   body.modal.name = spec.name;
   body.modal.displacement_scale = spec.displacement_scale;
   body.modal.velocity_scale = spec.velocity_scale;
+  body.sampled = body.modal.shapes;
+  if (spec.motion == BodyMotion::kSpace) {
+    body.shapes =
+        with_context(spec.where, [&] { return mean_axis_shapes(body.modal, body.model.inertia); });
+    const FloatingBody floating = make_floating_body(spec.name, *body.shapes, {});
+    body.sampled = body.modal.shapes.rightCols(floating.W.rows()) * floating.W;
+    body.first_sampled = kSpatial;
+  }
+  if (spec.motion == BodyMotion::kDrive && body.model.inertia.empty())
+    throw InputError(
+        fmt::format("{}: {}: found no inertia invariants, expected those of a frame that turns: "
+                    "condense the part with inertia_invariants = true",
+                    spec.where, spec.rom.string()));
+  return body;
+}
+
+LoadedBody load_body(const BodySpec& spec) {
+  rom::ReducedModel model = rom::read_reduced_model(spec.rom, false);
+  const std::string warning = rom::certificate_warning(model);
+  if (!warning.empty()) warn(fmt::format("{}: {}", spec.rom.string(), warning));
+  LoadedBody body = make_loaded_body(spec, std::move(model));
+  body.sha256 = sha256_of_file(spec.rom);
   return body;
 }
 
@@ -61,6 +82,23 @@ int set_dof(const rom::ReducedModel& model, const std::string& set, int axis, bo
                                model.name, set, found.size(),
                                rotation ? "rotation" : "displacement", rotation ? "about" : "along",
                                "xyz"[axis]));
+}
+
+Node node_of(const rom::ReducedModel& model, const std::string& set) {
+  const rom::DofSet& dofs = model.set(set);
+  Node node{dofs.position.row(0), {}};
+  for (int axis = 0; axis < 3; ++axis) node.dofs.push_back(set_dof(model, set, axis, false));
+  bool turns = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    bool found = false;
+    for (size_t i = 0; i < dofs.dofs.size(); ++i)
+      found = found || (dofs.is_rotation[i] != 0 &&
+                        std::abs(dofs.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996);
+    turns = turns && found;
+  }
+  for (int axis = 0; turns && axis < 3; ++axis)
+    node.dofs.push_back(set_dof(model, set, axis, true));
+  return node;
 }
 
 const Eigen::VectorXd& unit_load(const rom::ReducedModel& model, const std::string& load) {

@@ -3,17 +3,44 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "dynamics/force/spatial_port.hpp"
+#include "dynamics/integrate/spatial_body.hpp"
 
 namespace clatter::dynamics {
 
 ModelBuilder::ModelBuilder(const LoadedBodies& bodies, const TimeSpec& span,
                            const std::optional<CrankClock>& crank)
     : loaded(bodies), time(span), clock(crank) {
-  for (const LoadedBody& one : loaded) index_[one.spec.name] = system.add_body(one.modal);
+  for (const LoadedBody& one : loaded)
+    index_[one.spec.name] = system.add_body(one.shapes ? add_floating(one) : one.modal);
+}
+
+ModalBody ModelBuilder::add_floating(const LoadedBody& body) {
+  const BodySpec& spec = body.spec;
+  const Eigen::Vector3d& centre = body.shapes->centre;
+  const Eigen::Matrix3d A = spec.start.rotation.toRotationMatrix();
+  ElasticStart start;
+  start.frame = spec.start;
+  start.frame.centre = (spec.is_placed ? spec.start.centre : centre) - A * centre;
+  start.frame.velocity -= A * spec.start.spin.cross(centre);
+  const FloatingBody made = make_floating_body(spec.name, *body.shapes, start);
+  ModalBody modal = made.body;
+  modal.displacement_scale = spec.displacement_scale;
+  modal.velocity_scale = spec.velocity_scale;
+  floating_.emplace(spec.name, Floating{made, start.frame});
+  return modal;
+}
+
+const Shaft* ModelBuilder::shaft_of(const BodySpec& body) const {
+  if (body.motion != BodyMotion::kDrive) return nullptr;
+  const auto found = shafts_.find(body.drive);
+  if (found == shafts_.end())
+    throw InputError(fmt::format("{}: drive: no [[drive]] \"{}\" in the scene, found: {}",
+                                 body.where, body.drive, names_of(shafts_)));
+  return &found->second;
 }
 
 int ModelBuilder::add_body(ModalBody body, const std::string& where) {
@@ -51,7 +78,11 @@ Eigen::Vector3d ModelBuilder::position(const PointSpec& point,
     if (body == nullptr)
       throw InputError(fmt::format("{}.set: no body \"{}\" with a reduced model in the scene",
                                    point.where, point.body));
-    return body->model.set(point.set).position.row(0);
+    const Eigen::Vector3d at = body->model.set(point.set).position.row(0);
+    const auto floating = floating_.find(point.body);
+    if (floating == floating_.end()) return at;
+    const SpatialMotion& start = floating->second.start;
+    return start.centre + start.rotation * at;
   }
   if (fallback) return *fallback;
   throw InputError(point.where + ": found no point, expected at_mm, or set of a reduced model");
@@ -80,20 +111,33 @@ std::unique_ptr<Port> ModelBuilder::node_port(const LoadedBody& body, const Poin
         fmt::format("{}.set: found nothing, expected a set of the reduced model of "
                     "\"{}\"",
                     point.where, point.body));
-  const rom::DofSet& set = body.model.set(point.set);
+  const Node node = node_of(body.model, point.set);
+  if (body.shapes) return floating_port(body, node);
   std::vector<int> coordinates;
-  for (int axis = 0; axis < 3; ++axis) coordinates.push_back(y(point.body, point.set, axis, false));
-  bool turns = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    bool found = false;
-    for (size_t i = 0; i < set.dofs.size(); ++i)
-      found = found || (set.is_rotation[i] != 0 &&
-                        std::abs(set.direction(static_cast<Eigen::Index>(i), axis)) > 0.99996);
-    turns = turns && found;
-  }
-  for (int axis = 0; turns && axis < 3; ++axis)
-    coordinates.push_back(y(point.body, point.set, axis, true));
-  return std::make_unique<NodePort>(set.position.row(0).transpose(), coordinates);
+  for (const int dof : node.dofs)
+    coordinates.push_back(system.coordinate(index_.at(point.body), dof));
+  const Shaft* shaft = shaft_of(body.spec);
+  if (shaft == nullptr) return std::make_unique<NodePort>(node.position, coordinates);
+  return std::make_unique<TurningNodePort>(shaft->drive, shaft->centre, shaft->axis,
+                                           shaft->drive.at(time.begin).position, node.position,
+                                           coordinates);
+}
+
+std::unique_ptr<Port> ModelBuilder::floating_port(const LoadedBody& body, const Node& node) {
+  const FloatingBody& floating = floating_.at(body.spec.name).body;
+  const Eigen::Index n = floating.W.rows();
+  const auto rows = [&](size_t first) {
+    Matrix3X N(3, n);
+    for (size_t k = 0; k < 3; ++k)
+      N.row(static_cast<Eigen::Index>(k)) = body.modal.row_of(node.dofs[first + k]).tail(n);
+    return N;
+  };
+  const int index = index_.at(body.spec.name);
+  Matrix3X slope;
+  if (node.dofs.size() == 6) slope = rows(3) * floating.W;
+  return std::make_unique<SpatialPort>(coordinates_in_space(system, index),
+                                       system.bodies()[static_cast<size_t>(index)].frame,
+                                       floating.arm(node.position), floating.shape(rows(0)), slope);
 }
 
 Eigen::VectorXd frame_force(const System& system, int body, int direction) {

@@ -13,6 +13,7 @@
 #include "dynamics/component/run_time.hpp"
 #include "dynamics/force/port.hpp"
 #include "dynamics/given/crank_clock.hpp"
+#include "dynamics/given/drive.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
@@ -29,6 +30,12 @@ struct PointSpec {
 struct TurningBody {
   int body = 0, dof = 0;  // in the system; the DoF that is the angle [rad]
   int axis = 0;           // 0, 1 or 2: x, y or z, right-handed
+};
+
+/// A shaft that a drive turns.
+struct Shaft {
+  Drive drive;
+  Eigen::Vector3d centre, axis;  // a point of its axis [m]; unit vector
 };
 
 class ModelBuilder {
@@ -58,6 +65,11 @@ class ModelBuilder {
   const TurningBody& turn(const std::string& name, const std::string& where) const;
   /// The reference frame of a body with a reduced model moves: points of it are no ports.
   void set_moving_frame(const std::string& body) { moving_.insert(body); }
+  /// Bodies may turn with this shaft.
+  void add_shaft(const std::string& name, Shaft shaft) { shafts_.emplace(name, std::move(shaft)); }
+  /// The shaft that turns the frame of a body with a reduced model, nullptr: none does. InputError
+  /// when the scene lacks it.
+  const Shaft* shaft_of(const BodySpec& body) const;
 
   /// Indices in the system by name, in alphabetical order.
   const std::map<std::string, int>& bodies() const { return index_; }
@@ -78,10 +90,18 @@ class ModelBuilder {
 
  private:
   std::unique_ptr<Port> node_port(const LoadedBody& body, const PointSpec& point);
+  std::unique_ptr<Port> floating_port(const LoadedBody& body, const Node& node);
+  ModalBody add_floating(const LoadedBody& body);
+  struct Floating {
+    FloatingBody body;
+    SpatialMotion start;  // of its frame
+  };
   std::map<std::string, int> index_;
   std::map<std::string, PortMaker> ports_;
   std::map<std::string, TurningBody> turns_;
   std::set<std::string> moving_;
+  std::map<std::string, Shaft> shafts_;
+  std::map<std::string, Floating> floating_;
 };
 
 /// Modal force of gravity or of an accelerated frame per unit acceleration along (or, for 3 to 5,

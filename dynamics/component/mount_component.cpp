@@ -61,6 +61,12 @@ void MountComponent::add_elements(ModelBuilder& model) {
       throw InputError(
           fmt::format("{}: mount.body: no body \"{}\" in the scene", mount.where, mount.body));
     }
+    if (find_body(model.loaded, mount.body)->spec.motion != BodyMotion::kGiven)
+      throw InputError(
+          fmt::format("{}: mount.body: \"{}\" has large motion, expected one whose frame is at "
+                      "rest; [[bushing]] "
+                      "holds points of it",
+                      mount.where, mount.body));
     auto springs = springs_of(mount, model);
     model.system.add_element(std::make_unique<Mount>(fmt::format("mount {}", ++count), springs));
   }

@@ -82,13 +82,7 @@ RigidBodySpec read_rigid_body(const Config& table) {
   } else {
     spec.inertia = read_vector(table, "inertia_kg_m2", moment.max);
     spec.spin = three("start_spin_rad_s", 1e6);
-    const std::vector<double> q = table.numbers_or("quaternion", {1.0, 0.0, 0.0, 0.0});
-    if (q.size() != 4)
-      table.fail("quaternion", fmt::format("found {} numbers, expected 4: w, x, y, z", q.size()));
-    spec.quaternion = {q[0], q[1], q[2], q[3]};
-    if (!(std::abs(spec.quaternion.norm() - 1.0) < 1e-3))
-      table.fail("quaternion",
-                 fmt::format("found length {:g}, expected 1", spec.quaternion.norm()));
+    spec.quaternion = read_quaternion(table);
   }
   read_error_scales(table, spec);
   return spec;
@@ -194,20 +188,28 @@ void RigidBodyComponent::add_spatial(ModelBuilder& model) {
 void RigidBodyComponent::add_elements(ModelBuilder& model) {
   static constexpr const char* kAxis[] = {"x", "y", "z"};
   const int body = model.body(spec_.name);
-  if (spec_.motion == Freedom::kSpace) spatial_ = add_rotation(model.system, body);
+  if (spec_.motion == Freedom::kSpace) {
+    spatial_ = add_rotation(model.system, body);
+    return;
+  }
   const std::vector<int> y = all_coordinates(model.system, body);
   const auto add = [&](size_t k, const char* what, const char* unit) {
     recorded_.push_back({spec_.name + "_" + what, unit, y[k]});
   };
   if (spec_.motion == Freedom::kSlide) return add(0, "travel", "m");
-  if (spec_.motion == Freedom::kPlane) {
-    const Axes axes = axes_of(spec_.normal);
-    add(0, kAxis[axes.first], "m");
-    add(1, kAxis[axes.second], "m");
-    add(2, "angle", "rad");
-    return;
-  }
-  for (size_t k = 0; k < 3; ++k) add(k, kAxis[k], "m");
+  const Axes axes = axes_of(spec_.normal);
+  add(0, kAxis[axes.first], "m");
+  add(1, kAxis[axes.second], "m");
+  add(2, "angle", "rad");
+}
+
+void record_attitude(const std::string& name, const SpatialBody& body, const StageState& state,
+                     History& history) {
+  static constexpr const char* kAxes[] = {"_x", "_y", "_z"};
+  static constexpr const char* kParts[] = {"_qw", "_qx", "_qy", "_qz"};
+  for (size_t k = 0; k < 3; ++k) history.put(name + kAxes[k], "m", state.y(body.coordinates[k]));
+  const Eigen::Vector4d quaternion = body.quaternion(state);
+  for (int k = 0; k < 4; ++k) history.put(name + kParts[k], "1", quaternion(k));
 }
 
 void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
@@ -224,10 +226,7 @@ void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effe
 
 void RigidBodyComponent::record(const System&, const StageState& state, History& history) const {
   for (const Recorded& one : recorded_) history.put(one.name, one.unit, state.y(one.coordinate));
-  if (spec_.motion != Freedom::kSpace) return;
-  static constexpr const char* kParts[] = {"_qw", "_qx", "_qy", "_qz"};
-  const Eigen::Vector4d quaternion = spatial_.quaternion(state);
-  for (int k = 0; k < 4; ++k) history.put(spec_.name + kParts[k], "1", quaternion(k));
+  if (spec_.motion == Freedom::kSpace) record_attitude(spec_.name, spatial_, state, history);
 }
 
 ComponentList read_rigid_bodies(const Config& root) {

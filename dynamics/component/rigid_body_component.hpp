@@ -61,6 +61,10 @@ class RigidBodyComponent : public Component {
   SpatialBody spatial_;  // in space
 };
 
+/// Histories of the centre of mass and the quaternion of a spatial body.
+void record_attitude(const std::string& name, const SpatialBody& body, const StageState& state,
+                     History& history);
+
 ComponentList read_rigid_bodies(const Config& root);
 
 }  // namespace clatter::dynamics

@@ -45,6 +45,12 @@ struct Power {
   double input = 0;   // power from prescribed motion or supply [W]
 };
 
+/// What unit impulses on an element's coordinates change at once, n_e x n_e, column by impulse.
+struct Mobility {
+  Eigen::MatrixXd v;  // velocities [1/kg] and the like; of states: 0, their rates follow from y
+  Eigen::MatrixXd y;  // coordinates that are states, as angular momenta; of others: 0
+};
+
 /// A trial state is not admissible (film thickness <= 0, inner solve failed): the step is reduced.
 class StepRefused : public std::exception {
  public:
@@ -103,10 +109,13 @@ class ForceElement {
                                 const Eigen::VectorXd& /*v*/) const {
     return 1.0;
   }
-  /// The event happens at this state. `impulse` (n_e, zero) may be set [N s], [N m s]; it changes v
-  /// by mobility * impulse, n_e x n_e.
+  /// The function may not be negative, as the gap of a rigid contact: after its event it counts as
+  /// positive whatever rounding left, so that a motion into the forbidden side is the next event.
+  virtual bool is_one_sided(int /*index*/) const { return false; }
+  /// The event happens at this state. `impulse` (n_e, zero) may be set [N s], [N m s], on the
+  /// coordinates on which forces act; it changes y and v as `mobility` says.
   virtual void at_event(int /*index*/, double /*time*/, const Eigen::VectorXd& /*y*/,
-                        const Eigen::VectorXd& /*v*/, const Eigen::MatrixXd& /*mobility*/,
+                        const Eigen::VectorXd& /*v*/, const Mobility& /*mobility*/,
                         Eigen::VectorXd& /*impulse*/) {}
   /// Events of this function follow each other without end, as the impacts of a bouncing ball do.
   /// True when the element takes a mode in which they do not; false ends the run.

@@ -22,6 +22,8 @@ void clear(PortState& state, int size) {
 
 }  // namespace
 
+Vector6 Port::driven(const PortState& at) const { return wrench(at.velocity, at.spin); }
+
 void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& state) const {
   clear(state, 0);
   state.position = position_;
@@ -59,6 +61,41 @@ void NodePort::motion(double, const VectorXd& y, const VectorXd& v, PortState& s
   }
   state.by_y.diagonal().setOnes();
   state.rate_by_v = state.work = state.by_y;
+}
+
+TurningNodePort::TurningNodePort(Drive shaft, const Vector3d& centre, const Vector3d& axis,
+                                 double start, const Vector3d& position,
+                                 std::vector<int> coordinates)
+    : Port(std::move(coordinates)),
+      shaft_(std::move(shaft)),
+      centre_(centre),
+      axis_(axis),
+      arm_(position - centre),
+      start_(start) {}
+
+void TurningNodePort::motion(double time, const VectorXd& y, const VectorXd& v,
+                             PortState& state) const {
+  clear(state, size());
+  const Motion<double> turn = shaft_.at(time);
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.position - start_, axis_).toRotationMatrix();
+  spin_ = turn.velocity * axis_;
+  const Vector3d out = R * (arm_ + y.head<3>());
+  state.position = centre_ + out;
+  state.velocity = spin_.cross(out) + R * v.head<3>();
+  state.spin = spin_;
+  state.rotation = R;
+  state.by_y.topLeftCorner<3, 3>() = R;
+  state.rate_by_y.topLeftCorner<3, 3>() = skew(spin_) * R;
+  if (size() == 6) {
+    state.spin += R * v.tail<3>();
+    state.rotation += R * skew(y.tail<3>());
+    state.by_y.bottomRightCorner<3, 3>() = R;
+  }
+  state.rate_by_v = state.work = state.by_y;
+}
+
+Vector6 TurningNodePort::driven(const PortState& at) const {
+  return wrench(spin_.cross(at.position - centre_), spin_);
 }
 
 PlanarPort::PlanarPort(std::vector<int> coordinates, const Vector2d& arm, const PlaneAxes& plane)

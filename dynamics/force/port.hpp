@@ -12,6 +12,13 @@ namespace clatter::dynamics {
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+/// A force [N] and a moment [N m], or the rates that go with them, in one vector.
+inline Vector6 wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& moment) {
+  Vector6 both;
+  both << force, moment;
+  return both;
+}
+
 /// Motion of a port in the engine's axes and its derivatives by the n_p coordinates of the port.
 /// Rows of the matrices: three of the position, three of a small rotation about it.
 struct PortState {
@@ -34,6 +41,8 @@ class Port {
                       PortState& state) const = 0;
   /// It moves as prescribed: forces on it do work on what drives it.
   virtual bool is_driven() const { return false; }
+  /// The prescribed part of the velocity and angular velocity at a state of a driven port.
+  virtual Vector6 driven(const PortState& at) const;
   /// tangent += d(work^T wrench)/dy at a constant wrench (force, moment), n_p x n_p.
   virtual void add_curvature(const Eigen::VectorXd& /*y*/, const Vector6& /*wrench*/,
                              Eigen::Ref<Eigen::MatrixXd> /*tangent*/) const {}
@@ -81,6 +90,27 @@ class NodePort : public Port {
 
  private:
   Eigen::Vector3d position_;
+};
+
+/// A node of a body with small motion in a frame that a drive turns.
+class TurningNodePort : public Port {
+ public:
+  /// @param shaft that turns the frame. @param centre a point of its axis [m]. @param axis unit
+  /// vector. @param start angle of the shaft at which the frame has the engine's axes [rad].
+  /// @param position of the node there, without deformation [m]. @param coordinates y indices of
+  /// x, y, z and, for a node that rotates, rx, ry, rz, in the frame's axes.
+  TurningNodePort(Drive shaft, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis,
+                  double start, const Eigen::Vector3d& position, std::vector<int> coordinates);
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
+  bool is_driven() const override { return true; }
+  Vector6 driven(const PortState& at) const override;
+
+ private:
+  Drive shaft_;
+  Eigen::Vector3d centre_, axis_, arm_;
+  double start_;
+  mutable Eigen::Vector3d spin_ = Eigen::Vector3d::Zero();  // of the frame, at the last motion()
 };
 
 /// The plane in which a planar body moves.

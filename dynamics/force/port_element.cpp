@@ -20,12 +20,6 @@ std::vector<int> joined(const Port& a, const Port& b) {
   return all;
 }
 
-Vector6 wrench(const Vector3d& force, const Vector3d& moment) {
-  Vector6 both;
-  both << force, moment;
-  return both;
-}
-
 }  // namespace
 
 PortElement::PortElement(std::string name, std::unique_ptr<Port> a, std::unique_ptr<Port> b)
@@ -91,10 +85,9 @@ Power PortElement::power(const VectorXd& y, const VectorXd& v) const {
   const PairMotion pair = move(time_, y, v);
   const PairForce law = force(time_, pair);
   double input = 0.0;
-  if (a_->is_driven()) input -= law.force.dot(at_a_.velocity) + law.moment.dot(at_a_.spin);
+  if (a_->is_driven()) input -= wrench(law.force, law.moment).dot(a_->driven(at_a_));
   if (b_->is_driven())
-    input += law.force.dot(at_b_.velocity) +
-             (law.moment + pair.distance.cross(law.force)).dot(at_b_.spin);
+    input += wrench(law.force, law.moment + pair.distance.cross(law.force)).dot(b_->driven(at_b_));
   return {law.stored, law.lost, input};
 }
 

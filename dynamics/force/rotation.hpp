@@ -7,6 +7,7 @@ namespace clatter::dynamics {
 
 using Matrix43 = Eigen::Matrix<double, 4, 3>;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
+using Matrix3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// a x b = skew(a) b.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {

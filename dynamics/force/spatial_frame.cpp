@@ -154,6 +154,15 @@ Vector4d SpatialFrame::turn_rate(double time, const VectorXd& y, const Vector3d&
   return rate * p;
 }
 
+VectorXd SpatialFrame::rate_jump(double time, const VectorXd& y, const Vector3d& moment,
+                                 const VectorXd& impulse) const {
+  SpatialState at;
+  rotate(time, y, VectorXd::Zero(y.size()), at);
+  const Matrix3d held = at.J - at.H * at.H.transpose();
+  const Vector3d w_jump = held.inverse() * (at.A.transpose() * moment - at.H * impulse);
+  return impulse - at.H.transpose() * w_jump;
+}
+
 Vector4d SpatialFrame::quaternion(double time, const Vector4d& p) const {
   return times(p.normalized(), free_.at(time).q);
 }

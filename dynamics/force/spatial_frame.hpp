@@ -20,8 +20,6 @@ namespace clatter::dynamics {
 /// of Munthe-Kaas (1998). A body on which no moment acts keeps p and L exactly.
 inline constexpr int kCentre = 0, kTurn = 3, kMomentum = 7, kSpatial = 10;
 
-using Matrix3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
 /// Rotation of a spatial body at an instant, with the derivatives by its 10 + n coordinates.
 struct SpatialState {
   Eigen::Matrix3d A;              // from the body's axes to those of the engine
@@ -79,6 +77,11 @@ class SpatialFrame {
     free_.restart(time, quaternion, spin);
   }
   const FreeRotation& free() const { return free_; }
+  /// The change of the modes' rates, n, by an impulsive moment about the centre of mass in the
+  /// engine's axes [N m s] and impulses on the modes, n. The momenta L and eta' + H^T w take the
+  /// impulses; w and eta' follow from the mass matrix of both, (J, H; H^T, 1).
+  Eigen::VectorXd rate_jump(double time, const Eigen::VectorXd& y, const Eigen::Vector3d& moment,
+                            const Eigen::VectorXd& impulse) const;
   /// J(eta) about the centre of mass [kg m2].
   Eigen::Matrix3d inertia(const Eigen::VectorXd& eta) const;
   /// A^T L = J w + H eta' in the body's axes [N m s].

@@ -24,6 +24,8 @@ struct Unit {
 const std::map<std::string, Unit>& units() {
   static const std::map<std::string, Unit> table{{"deg", {"rad", std::numbers::pi / 180.0}},
                                                  {"rad", {"rad", 1.0}},
+                                                 {"rad/s", {"rad/s", 1.0}},
+                                                 {"rpm", {"rad/s", std::numbers::pi / 30.0}},
                                                  {"s", {"s", 1.0}},
                                                  {"ms", {"s", 1e-3}},
                                                  {"us", {"s", 1e-6}},

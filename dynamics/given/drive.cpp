@@ -21,7 +21,15 @@ Drive::Drive(double mean, double start, std::vector<SpeedOrder> orders)
       throw InputError(fmt::format("drive: found order {}, expected a positive one", one.order));
 }
 
+Drive::Drive(TurnTable table, double start)
+    : mean_(0.0), start_(start), table_(std::make_shared<const TurnTable>(std::move(table))) {}
+
 Motion<double> Drive::at(double time) const {
+  if (table_) {
+    Motion<double> motion = table_->at(time);
+    motion.position += start_;
+    return motion;
+  }
   Motion<double> motion{start_ + mean_ * time, mean_, 0.0};
   for (const SpeedOrder& one : orders_) {
     const double frequency = one.order * mean_, angle = frequency * time + one.phase;
@@ -33,6 +41,7 @@ Motion<double> Drive::at(double time) const {
 }
 
 bool Drive::repeats(double cycle) const {
+  if (table_) return false;
   constexpr double kRounding = 1e-6;  // of a turn
   const double turns = mean_ * cycle / (2.0 * std::numbers::pi);
   const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < kRounding; };

@@ -16,6 +16,18 @@ double harmonic_slope(double h0, double s0, double h1, double s1) {
 
 }  // namespace
 
+std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
+  const size_t n = x.size();
+  const auto h = [&](size_t i) { return x[i + 1] - x[i]; };
+  const auto secant = [&](size_t i) { return (y[i + 1] - y[i]) / h(i); };
+  std::vector<double> slope(n);
+  slope.front() = secant(0);
+  slope.back() = secant(n - 2);
+  for (size_t i = 1; i + 1 < n; ++i)
+    slope[i] = harmonic_slope(h(i - 1), secant(i - 1), h(i), secant(i));
+  return slope;
+}
+
 Spline::Spline(Kind kind, std::vector<double> x, std::vector<double> y, double period)
     : kind_(kind), x_(std::move(x)), y_(std::move(y)), period_(period) {
   if (period_ > 0.0) {
@@ -25,17 +37,11 @@ Spline::Spline(Kind kind, std::vector<double> x, std::vector<double> y, double p
   const size_t n = x_.size();
   slope_.assign(n, 0.0);
   if (kind_ == Kind::kLinear || n < 2) return;
-  const auto h = [&](size_t i) { return x_[i + 1] - x_[i]; };
-  const auto secant = [&](size_t i) { return (y_[i + 1] - y_[i]) / h(i); };
-  for (size_t i = 1; i + 1 < n; ++i) {
-    slope_[i] = harmonic_slope(h(i - 1), secant(i - 1), h(i), secant(i));
-  }
-  if (period_ > 0.0) {
-    slope_.front() = slope_.back() = harmonic_slope(h(n - 2), secant(n - 2), h(0), secant(0));
-  } else {
-    slope_.front() = secant(0);
-    slope_.back() = secant(n - 2);
-  }
+  slope_ = monotone_slopes(x_, y_);
+  if (period_ <= 0.0) return;
+  const double first = x_[1] - x_[0], last = x_[n - 1] - x_[n - 2];
+  slope_.front() = slope_.back() =
+      harmonic_slope(last, (y_[n - 1] - y_[n - 2]) / last, first, (y_[1] - y_[0]) / first);
 }
 
 double Spline::operator()(double at) const {

@@ -24,4 +24,8 @@ class Spline {
   double period_;
 };
 
+/// The slopes of the monotone cubic at all points, those of the secants at both ends; not periodic,
+/// at least two points.
+std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y);
+
 }  // namespace clatter::dynamics

@@ -43,14 +43,20 @@ double EventSearch::direction(const Function& function, const StageState& state)
 void EventSearch::start(const StageState& state) {
   for (Function& function : functions_) {
     const double now = value(function, state.time, state.y, state.v_y);
-    function.side = now == 0.0 ? direction(function, state) : std::copysign(1.0, now);
+    function.side = is_one_sided(function) ? 1.0
+                    : now == 0.0           ? direction(function, state)
+                                           : std::copysign(1.0, now);
   }
 }
 
 void EventSearch::passed(const Event& event, const StageState& state) {
   for (Function& function : functions_)
     if (function.element == event.element && function.index == event.index)
-      function.side = direction(function, state);
+      function.side = is_one_sided(function) ? 1.0 : direction(function, state);
+}
+
+bool EventSearch::is_one_sided(const Function& function) const {
+  return system_->element(function.element).is_one_sided(function.index);
 }
 
 Eigen::VectorXd EventSearch::interface_acceleration(const StageState& state) const {

@@ -39,6 +39,7 @@ class EventSearch {
   };
   double value(const Function& function, double time, const Eigen::VectorXd& y,
                const Eigen::VectorXd& v) const;
+  bool is_one_sided(const Function& function) const;
   /// The side to which a function moves.
   double direction(const Function& function, const StageState& state) const;
   Eigen::VectorXd interface_acceleration(const StageState& state) const;

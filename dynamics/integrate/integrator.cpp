@@ -23,7 +23,7 @@ constexpr double kOrder = 3.0;  // of the local error in dt
 constexpr int kLongestHold = 64;
 /// Part of a step within which an event counts as one at its end, or at its beginning.
 constexpr double kNear = 1e-9;
-/// Events accumulate when this many in a row follow within so many smallest steps.
+/// Events of a function accumulate when so many in a row each follow within so many smallest steps.
 constexpr int kMostClose = 4;
 constexpr double kClose = 1e4;
 
@@ -90,6 +90,8 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
 
 void Integrator::resume(const StageState& state, int rung) {
   now_ = before_ = state;
+  jumped_ = false;
+  if (events_.any()) events_.start(now_);
   rung_ = rung;
   forget_history();
 }
@@ -156,7 +158,11 @@ void Integrator::take_step(double dt, double time) {
   statistics_.largest_step = std::max(statistics_.largest_step, dt);
   after_acceptance(dt);
   accepted();
-  if (event_ && now_.time >= event_->time) pass_event();
+  const bool ends_by_event = event_ && now_.time >= event_->time;
+  jumped_ = ends_by_event;
+  if (!ends_by_event) return;
+  arrived_ = now_;
+  pass_event();
 }
 
 /// Looks for an event in the step that was just accepted; true when that step is not taken, because
@@ -167,7 +173,8 @@ bool Integrator::find_event() {
   const double near = std::max(kNear * dt, 1e-15 * std::abs(end().time));
   event_ = events_.first(now_, end());
   if (!event_) return false;
-  if (event_->time <= now_.time + near) {
+  // No step to an event is shorter than the floor.
+  if (event_->time <= now_.time + std::max(near, options_.smallest)) {
     pass_event();
     return true;
   }
@@ -184,25 +191,29 @@ void Integrator::pass_event() {
   ForceElement& element = system_.element(event.element);
   const auto& at = element.coordinates();
   ++statistics_.events;
-  close_events_ = now_.time - last_event_ <= kClose * options_.smallest ? close_events_ + 1 : 0;
-  last_event_ = now_.time;
+  CloseEvents& close = close_events_[{event.element, event.index}];
+  close.count = now_.time - close.last <= kClose * options_.smallest ? close.count + 1 : 0;
+  close.last = now_.time;
   VectorXd impulse = VectorXd::Zero(static_cast<Eigen::Index>(at.size()));
-  if (close_events_ < kMostClose) {
+  if (close.count < kMostClose) {
     element.at_event(event.index, now_.time, gather(now_.y, at), gather(now_.v_y, at),
-                     system_.mobility(at), impulse);
+                     system_.mobility(now_, at), impulse);
   } else if (element.at_accumulation(event.index)) {
-    close_events_ = 0;
+    close.count = 0;
   } else {
     throw NumericsError(fmt::format("time {:.9g} s: events of {} follow each other without end",
                                     now_.time, element.name()));
   }
   VectorXd f = VectorXd::Zero(system_.interface_size());
   for (size_t i = 0; i < at.size(); ++i) f(at[i]) += impulse(static_cast<Eigen::Index>(i));
-  VectorXd jump = VectorXd::Zero(system_.modes());
-  system_.add_interface_force(f, jump);
-  now_.v += system_.inertia().cwiseProduct(jump);
+  VectorXd eta_jump, v_jump;
+  system_.jump(now_, f, eta_jump, v_jump);
+  now_.eta += eta_jump;
+  now_.v += v_jump;
+  system_.interface(now_.eta, now_.y);
   system_.interface(now_.v, now_.v_y);
   refresh_rates();
+  system_.restart_frames(before_, now_);  // a spatial body goes on freely with its new spin
   forget_history();
   events_.passed(event, now_);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/integrate/accuracy.hpp"
@@ -68,7 +69,10 @@ class Integrator {
   virtual void forget_history();
 
   const StageState& state() const { return now_; }
+  /// Both ends of the last step: where it began, and where it arrived before an event changed the
+  /// velocities there.
   const StageState& previous() const { return before_; }
+  const StageState& arrived() const { return jumped_ ? arrived_ : now_; }
   const StepStatistics& statistics() const { return statistics_; }
   StepStatistics& statistics() { return statistics_; }
   /// The accumulated velocity error of each body, of steps with an error test.
@@ -127,8 +131,13 @@ class Integrator {
   DerivedError derived_;
   EventSearch events_;
   std::optional<Event> event_;  // in the step under way: it ends there
-  double last_event_ = -std::numeric_limits<double>::infinity();  // [s]
-  int close_events_ = 0;  // in a row that follow within a few smallest steps
+  StageState arrived_;          // at the event that ended the last step
+  bool jumped_ = false;         // it ended by an event
+  struct CloseEvents {
+    double last = -std::numeric_limits<double>::infinity();  // [s]
+    int count = 0;  // in a row that follow within a few smallest steps
+  };
+  std::map<std::pair<int, int>, CloseEvents> close_events_;  // of element and function
   std::map<int, std::unique_ptr<StageOperator>> operators_;
   int worst_ = -1;
   int rung_ = 0;

@@ -26,14 +26,18 @@ Vector3d SpatialBody::spin(const StageState& state) const {
   return at.w;
 }
 
+std::vector<int> coordinates_in_space(System& system, int body) {
+  const int modes = system.bodies()[static_cast<size_t>(body)].frame->modes();
+  std::vector<int> y;
+  for (int k = 0; k < kSpatial; ++k) y.push_back(system.coordinate(body, k));
+  for (int k = 0; k < modes; ++k) y.push_back(system.modal_coordinate(body, kSpatial + k));
+  return y;
+}
+
 SpatialBody add_rotation(System& system, int body) {
   const ModalBody& owner = system.bodies()[static_cast<size_t>(body)];
-  SpatialBody added{body, {}, owner.frame};
-  const int modes = owner.frame->modes();
-  for (int k = 0; k < kSpatial; ++k) added.coordinates.push_back(system.coordinate(body, k));
-  for (int k = 0; k < modes; ++k)
-    added.coordinates.push_back(system.modal_coordinate(body, kSpatial + k));
-  const int own = kSpatial - kTurn + modes;
+  const SpatialBody added{body, coordinates_in_space(system, body), owner.frame};
+  const int own = kSpatial - kTurn + owner.frame->modes();
   system.add_element(std::make_unique<SpinElement>(
       owner.name, std::vector<int>(added.coordinates.begin() + kTurn, added.coordinates.end()),
       owner.frame, owner.eta_start.tail(own), owner.v_start.tail(own)));

@@ -27,6 +27,8 @@ struct SpatialBody {
   Eigen::Vector3d spin(const StageState& state) const;
 };
 
+/// y indices of the 10 + n coordinates of a spatial body.
+std::vector<int> coordinates_in_space(System& system, int body);
 /// Adds a spatial body, rigid or floating, with its coordinates and its SpinElement.
 SpatialBody add_spatial_body(System& system, ModalBody body);
 /// Adds coordinates and SpinElement of a body that the system has.

@@ -300,16 +300,34 @@ void System::add_interface_force(const VectorXd& f_y, VectorXd& g) const {
   }
 }
 
-MatrixXd System::mobility(const std::vector<int>& coordinates) const {
-  MatrixXd rows = MatrixXd::Zero(static_cast<Eigen::Index>(coordinates.size()), modes_);
-  for (size_t i = 0; i < coordinates.size(); ++i) {
-    const int body = owner(coordinates[i]);
-    const auto& of_body = rows_[static_cast<size_t>(body)];
-    const auto at = std::find(of_body.begin(), of_body.end(), coordinates[i]) - of_body.begin();
-    rows.row(static_cast<Eigen::Index>(i))
-        .segment(mode_offset(body), bodies_[static_cast<size_t>(body)].modes()) = P(body).row(at);
+void System::jump(const StageState& state, const VectorXd& impulse, VectorXd& eta,
+                  VectorXd& v) const {
+  eta.setZero(modes_);
+  v.setZero(modes_);
+  add_interface_force(impulse, v);
+  for (Eigen::Index k = 0; k < modes_; ++k)
+    if (second_order_(k) == 0.0) eta(k) = v(k) / damping_(k);
+  v.array() *= inertia_.array();
+  for (size_t b = 0; b < bodies_.size(); ++b) {
+    const auto& frame = bodies_[b].frame;
+    if (!frame || frame->modes() == 0) continue;
+    const Eigen::Index at = offsets_[b], n = frame->modes();
+    v.segment(at + kSpatial, n) =
+        frame->rate_jump(state.time, state.eta.segment(at, kSpatial + n),
+                         eta.segment<3>(at + kMomentum), v.segment(at + kSpatial, n));
   }
-  return rows * inertia_.asDiagonal() * rows.transpose();
+}
+
+Mobility System::mobility(const StageState& state, const std::vector<int>& coordinates) const {
+  const auto n = static_cast<Eigen::Index>(coordinates.size());
+  Mobility found{MatrixXd(n, n), MatrixXd(n, n)};
+  VectorXd eta, v;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    jump(state, VectorXd::Unit(interface_size(), coordinates[static_cast<size_t>(k)]), eta, v);
+    found.y.col(k) = gather(interface(eta), coordinates);
+    found.v.col(k) = gather(interface(v), coordinates);
+  }
+  return found;
 }
 
 void System::load_force(double time, VectorXd& g) const {

@@ -117,8 +117,13 @@ class System {
                  const std::array<Eigen::VectorXd*, kCount>& y) const;
   /// g += P^T f_y.
   void add_interface_force(const Eigen::VectorXd& f_y, Eigen::VectorXd& g) const;
-  /// Change of v of some coordinates by unit impulses on them, P mu P^T.
-  Eigen::MatrixXd mobility(const std::vector<int>& coordinates) const;
+  /// What impulses on interface coordinates, n_y, change at once: states take them as they are (an
+  /// angular momentum), velocities by their inertia, the modes of a spatial body by the mass matrix
+  /// that they share with its rotation. `eta`, `v`: the changes, N.
+  void jump(const StageState& state, const Eigen::VectorXd& impulse, Eigen::VectorXd& eta,
+            Eigen::VectorXd& v) const;
+  /// The same for unit impulses on some coordinates, of these coordinates.
+  Mobility mobility(const StageState& state, const std::vector<int>& coordinates) const;
   /// Modal force of all loads at `time` (N).
   void load_force(double time, Eigen::VectorXd& g) const;
 

@@ -97,7 +97,7 @@ bool CycleRun::run(const std::function<void(double)>& progress, const std::atomi
   while (method_->state().time < span_.end) {
     if (stop != nullptr && stop->load()) return false;
     method_->step(span_.end);
-    recorder_.record(method_->previous(), method_->state(), energy_);
+    recorder_.record(*method_, energy_);
     pressure_.look(*model_, recorder_.last(), method_->state().time);
     most_held_ = std::max(most_held_, recorder_.held());
     progress(method_->state().time);

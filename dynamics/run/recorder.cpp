@@ -38,9 +38,9 @@ void Recorder::add_clock(double time) {
   if (model_.clock) row_.push_back(model_.clock->angle_deg(time));
 }
 
-void Recorder::record(const StageState& previous, const StageState& now,
-                      const EnergyBalance& energy) {
-  samples_.add(previous, now);
+void Recorder::record(const Integrator& method, const EnergyBalance& energy) {
+  const StageState& now = method.state();
+  samples_.add(method.previous(), method.arrived());
   last_.clear();
   model_.record(now, last_);
   if (history_.rows() == 0)

@@ -28,7 +28,7 @@ class Recorder {
   /// The state that the span starts from: a sample, no history (elements were not evaluated there).
   void start(const StageState& state) { samples_.start(state); }
   /// After each accepted step.
-  void record(const StageState& previous, const StageState& now, const EnergyBalance& energy);
+  void record(const Integrator& method, const EnergyBalance& energy);
   /// Writes what is left, also of a span that ends early.
   void finish();
 

@@ -13,6 +13,8 @@ void write_body(H5File& file, const LoadedBody& body) {
   file.set(group, run::kRom, rom.lexically_proximate(folder).string());
   file.set(group, run::kRomHash, body.sha256);
   file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
+  static constexpr const char* kFrames[] = {"given", "space", "drive"};
+  file.set(group, "frame", kFrames[static_cast<int>(body.spec.motion)]);
 }
 
 void write_statistics(H5File& file, const StepStatistics& s) {
@@ -70,10 +72,11 @@ void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies
   if (model.clock) clock(run::kCrankAngle, angle, "deg");
   int index = 0;
   for (const auto& body : bodies) {
-    const auto at = model.system.mode_offset(index++), n = body.modal.modes();
+    const auto at = model.system.mode_offset(index++) + body.first_sampled;
+    const Eigen::Index n = body.sampled.cols();
     const std::string group = run::path(run::kBodies, body.spec.name);
     const auto physical = [&](const RowMatrix& modal) -> RowMatrix {
-      return modal.block(0, at, block.count, n) * body.modal.shapes.transpose();
+      return modal.block(0, at, block.count, n) * body.sampled.transpose();
     };
     file.append(run::path(group, run::kPosition), physical(block.eta));
     file.append(run::path(group, run::kVelocity), physical(block.v));

@@ -10,6 +10,7 @@
 #include "dynamics/component/mount_component.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
 #include "dynamics/component/spring_component.hpp"
+#include "dynamics/component/stop_component.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
 #include "dynamics/shaft/cam_torque_component.hpp"
@@ -34,7 +35,9 @@ const std::vector<ComponentKind>& component_kinds() {
        "slider-crank at constant speed with piston, rod, joints, guide, skirt in its liner, gas",
        read_cylinders},
       {{"[block]"}, "the engine block, a reduced part; rigid: the ground", read_block},
-      {{"[[body]]"}, "a reduced part whose frame is at rest", read_bodies},
+      {{"[[body]]"},
+       "a reduced part whose frame is at rest, moves in space, or turns with a drive",
+       read_bodies},
       {{"[[rigid_body]]"},
        "a rigid body with large motion, in a plane or in space",
        read_rigid_bodies},
@@ -56,6 +59,7 @@ const std::vector<ComponentKind>& component_kinds() {
        read_lash_adjusters},
       {{"[[torque]]"}, "a torque over the angle of the body on which it acts", read_torques},
       {{"[[cam_torque]]"}, "the torque of valves on their cams, quasi-static", read_cam_torques},
+      {{"[[stop]]"}, "contact of a point with a plane, rigid by impacts or compliant", read_stops},
       {{"gravity_m_s2"}, "the weight of all bodies, along -z", read_gravity},
       {{"[[load]]"}, "a known force over time or crank angle", read_loads}};
   return kinds;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "dynamics/force/stop.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
 #include "dynamics/shaft/turn_torque.hpp"
@@ -108,6 +109,25 @@ TEST_P(StepLoop, TakesNoMemoryForBodiesInContact) {
   options.largest = 1e-4;
   const auto method = make_integrator(system, options);
   method->start(0.0, testing::vector(-1e-4), testing::vector(0.0));
+  expect_no_allocations(*method, 2000);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForABallThatSlidesOnAStop) {
+  System system;
+  PlanarMotion start;
+  start.centre = {0.0, -3e-5};  // in contact, and so it stays
+  start.velocity = {0.5, -0.01};
+  const auto ball = testing::add_planar(system, "ball", 1.0, 1e-3, start);
+  PointOnPlane pair(std::make_unique<PlanarPort>(ball, Eigen::Vector2d::Zero()),
+                    std::make_unique<GroundPort>(Eigen::Vector3d::Zero()),
+                    Eigen::Vector3d::UnitY());
+  system.add_element(std::make_unique<CompliantStop>("stop", std::move(pair), 1e8, 1.5, 0.1,
+                                                     FrictionLaw{0.1, 0.2, 1e-3}));
+  system.add_element(std::make_unique<testing::Moment>(ball[1], -20.0));
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 1e-4;
+  const auto method = testing::started(system, options);
   expect_no_allocations(*method, 2000);
 }
 

@@ -135,9 +135,7 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   scene.components = {std::make_shared<CylinderComponent>(cylinder)};
   const double area = 8.992e-3;
   LoadedBodies bodies;
-  bodies.push_back({piston, "", testing::rigid_piston(1.916, 4e-3, area), {}});
-  bodies[0].modal = make_modal_body(bodies[0].model, {false, 0.0});
-  bodies[0].modal.name = "piston";
+  bodies.push_back(make_loaded_body(piston, testing::rigid_piston(1.916, 4e-3, area)));
 
   for (const double gap : {20e-6, 50e-6, 100e-6}) {
     const auto model = build_model(scene, bodies);

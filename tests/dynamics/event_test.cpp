@@ -34,8 +34,8 @@ class Gate : public ForceElement {
                         const Eigen::VectorXd&) const override {
     return level_ - y(0);
   }
-  void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd&,
-                const Eigen::MatrixXd&, Eigen::VectorXd&) override {
+  void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd&, const Mobility&,
+                Eigen::VectorXd&) override {
     times.push_back(time);
   }
   std::vector<double> times;

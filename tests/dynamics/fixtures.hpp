@@ -86,9 +86,9 @@ class Floor : public ForceElement {
     return resting_ ? 1.0 : y(0);
   }
   void at_event(int, double time, const Eigen::VectorXd&, const Eigen::VectorXd& v,
-                const Eigen::MatrixXd& mobility, Eigen::VectorXd& impulse) override {
+                const Mobility& mobility, Eigen::VectorXd& impulse) override {
     impacts.push_back(time);
-    impulse(0) = -(1.0 + restitution_) * v(0) / mobility(0, 0);
+    impulse(0) = -(1.0 + restitution_) * v(0) / mobility.v(0, 0);
   }
   bool at_accumulation(int) override { return resting_ = may_rest_; }
 

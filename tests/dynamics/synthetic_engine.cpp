@@ -14,8 +14,7 @@ namespace {
 constexpr double kRadius = 0.0535;
 
 void load(const BodySpec& spec, const rom::ReducedModel& model, LoadedBodies& bodies) {
-  bodies.push_back({spec, "", model, make_modal_body(model, {spec.elastic, 0.0})});
-  bodies.back().modal.name = spec.name;
+  bodies.push_back(make_loaded_body(spec, model));
 }
 
 film::PistonLinerOptions contact_of(const EngineVariant& variant) {

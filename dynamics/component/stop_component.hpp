@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// [[stop]]: contacts of a point of one body with a plane of another.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/component/component.hpp"
+#include "dynamics/component/model_builder.hpp"
+#include "dynamics/force/stop.hpp"
+
+namespace clatter::dynamics {
+
+/// One [[stop]].
+struct StopSpec {
+  std::string name, where;            // "stop 1", or with its own name, "stop table"
+  PointSpec a, b;                     // the point; a point of the plane
+  Eigen::Vector3d normal;             // at the start, to the side of a
+  std::optional<double> restitution;  // a rigid contact; else a compliant one
+  double rest_stiffness = 0.0;        // of a rigid contact, where it comes to rest [N/m]
+  double stiffness = 0.0;             // [N/m^exponent]
+  double exponent = 1.0, chi = 0.0;   // [1], [s/m]
+  FrictionLaw friction;
+};
+
+/// All stops of a scene.
+class StopComponent : public Component {
+ public:
+  explicit StopComponent(std::vector<StopSpec> stops) : stops_(std::move(stops)) {}
+  std::unique_ptr<Component> clone() const override {
+    return std::make_unique<StopComponent>(*this);
+  }
+  /// InputError for a contact of two points that no force moves, and for a rigid one whose point is
+  /// behind the plane at the start.
+  void add_elements(ModelBuilder& model) override;
+  void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
+
+ private:
+  std::vector<StopSpec> stops_;
+};
+
+ComponentList read_stops(const Config& root);
+
+}  // namespace clatter::dynamics

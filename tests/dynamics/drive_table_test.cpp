@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shafts that turn by a table of speed or angle.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "dynamics/given/drive.hpp"
+#include "tests/dynamics/slap_scene.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+/// Largest difference of speed and acceleration from central differences of the angle and the
+/// speed, relative to the largest values.
+double inconsistency(const TurnTable& table, double begin, double end) {
+  const double h = 1e-5;
+  double worst = 0.0, speed = 0.0, acceleration = 0.0;
+  for (double t = begin + h; t < end - h; t += 7.3e-3) {
+    const auto low = table.at(t - h), at = table.at(t), high = table.at(t + h);
+    speed = std::max(speed, std::abs(at.velocity));
+    acceleration = std::max(acceleration, std::abs(at.acceleration));
+    worst = std::max(
+        {worst, std::abs((high.position - low.position) / (2 * h) - at.velocity) / speed,
+         std::abs((high.velocity - low.velocity) / (2 * h) - at.acceleration) / acceleration});
+  }
+  return worst;
+}
+
+TEST(TurnTable, OfSpeedGoesThroughItsRowsAndIsTheDerivativeOfItsAngle) {
+  const std::vector<double> time{0.0, 0.1, 0.25, 0.3, 0.6, 1.0},
+      speed{0.0, 20.0, 90.0, 95.0, 95.0, 60.0};
+  const TurnTable table = TurnTable::of_speed(time, speed);
+  double angle = 0.0;
+  for (size_t i = 0; i < time.size(); ++i) {
+    EXPECT_NEAR(table.at(time[i]).velocity, speed[i], 1e-12 * 95.0);
+    EXPECT_NEAR(table.at(time[i]).position, angle, 1e-12 * 70.0);
+    if (i + 1 == time.size()) break;
+    // Simpson's rule is exact for a cubic.
+    const double h = time[i + 1] - time[i], middle = table.at(time[i] + 0.5 * h).velocity;
+    angle += h / 6.0 * (speed[i] + 4.0 * middle + speed[i + 1]);
+    EXPECT_GE(middle, std::min(speed[i], speed[i + 1]));
+    EXPECT_LE(middle, std::max(speed[i], speed[i + 1]));
+    if (i == 0) continue;
+    // No jump of the acceleration at a row.
+    EXPECT_NEAR(table.at(time[i] - 1e-9).acceleration, table.at(time[i] + 1e-9).acceleration, 1e-4);
+  }
+  // Differences over 1e-5 s: their error is (1e-5)^2 / 6 of the third derivative, and rounding.
+  EXPECT_LT(inconsistency(table, 0.0, 1.0), 1e-4);
+  // Beyond the last row the speed stays.
+  EXPECT_NEAR(table.at(1.5).position, angle + 0.5 * 60.0, 1e-10);
+  EXPECT_EQ(table.at(1.5).acceleration, 0.0);
+}
+
+TEST(TurnTable, OfAngleTendsToTheMotionThatItSamples) {
+  // sin(3 t) from 0 to pi / 3: its second derivative is zero at both ends, as the spline's.
+  const auto errors = [](int rows) {
+    std::vector<double> time, angle;
+    for (int i = 0; i <= rows; ++i) {
+      time.push_back(std::numbers::pi / 3.0 * i / rows);
+      angle.push_back(std::sin(3.0 * time.back()));
+    }
+    const TurnTable table = TurnTable::of_angle(time, angle);
+    EXPECT_LT(inconsistency(table, 0.0, time.back()), 1e-4);
+    Motion<double> worst{0.0, 0.0, 0.0};
+    for (double t = 0.0; t < time.back(); t += 1e-3) {
+      const Motion<double> at = table.at(t);
+      worst.position = std::max(worst.position, std::abs(at.position - std::sin(3 * t)));
+      worst.velocity = std::max(worst.velocity, std::abs(at.velocity - 3 * std::cos(3 * t)));
+      worst.acceleration =
+          std::max(worst.acceleration, std::abs(at.acceleration + 9 * std::sin(3 * t)));
+    }
+    return worst;
+  };
+  const Motion<double> coarse = errors(10), fine = errors(20);
+  // Orders 4, 3 and 2.
+  EXPECT_NEAR(std::log2(coarse.position / fine.position), 4.0, 0.3);
+  EXPECT_NEAR(std::log2(coarse.velocity / fine.velocity), 3.0, 0.3);
+  EXPECT_NEAR(std::log2(coarse.acceleration / fine.acceleration), 2.0, 0.3);
+}
+
+TEST(TurnTable, TheMotionOfADriveByATableNeverRepeats) {
+  const Drive drive(TurnTable::of_speed({0.0, 1.0}, {10.0, 10.0}), 0.5);
+  EXPECT_FALSE(drive.repeats(2.0 * std::numbers::pi / 10.0));
+  EXPECT_DOUBLE_EQ(drive.at(0.25).position, 3.0);
+}
+
+class DriveTables : public ::testing::Test {
+ protected:
+  /// A mass on a spring from a point of the shaft.
+  Scene scene(const std::string& drive) {
+    std::ofstream(folder_ / "drive.run.toml")
+        << "[time]\nend_s = 0.5\noutput_step_us = 1000\n[[drive]]\nname = \"motor\"\naxis = \"z\"\n"
+        << drive
+        << "[[rigid_body]]\nname = \"mass\"\nmotion = \"space\"\nmass_kg = 1\n"
+           "inertia_kg_m2 = [1, 1, 1]\ncentre_mm = [100, 0, 0]\n[[bushing]]\n"
+           "a = { body = \"mass\", at_mm = [100, 0, 0] }\nb = { body = \"motor\" }\n"
+           "stiffness_n_m = 1e4\ndamping_n_s_m = 50\n";
+    return read_scene(folder_ / "drive.run.toml");
+  }
+  double last_y(const std::string& drive) {
+    RunResult result;
+    const H5File file = testing::complete_file(scene(drive), folder_ / "drive.run.h5", result);
+    EXPECT_LT(result.energy_residue, 1e-4);
+    return file.read_doubles("history/mass_y").back();
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::filesystem::path folder_ = testing::test_folder();
+};
+
+TEST_F(DriveTables, OfASteadySpeedAndOfItsAngleTurnLikeTheSpeedItself) {
+  write("speed.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n1, 90\n");
+  write("angle.csv", "time [s], other [m], angle [deg]\n0, 1, 0\n0.4, 1, 216\n1, 1, 540\n");
+  const double expected = last_y("speed_rpm = 90\n");
+  EXPECT_GT(std::abs(expected), 0.01);
+  EXPECT_NEAR(last_y("table = \"speed.csv\"\n"), expected, 1e-9);
+  EXPECT_NEAR(last_y("table = \"angle.csv\"\ncolumn = \"angle\"\n"), expected, 1e-9);
+}
+
+TEST_F(DriveTables, AreRefusedByPlace) {
+  write("speed.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n1, 90\n");
+  write("short.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n");
+  write("force.csv", "time [s], force [N]\n0, 90\n1, 90\n");
+  write("turn.csv", "angle [deg], speed [rpm]\n0, 90\n1, 90\n");
+  write("one.csv", "time [s], speed [rpm]\n0, 90\n");
+  const auto expect = [&](const std::string& drive, const std::string& said) {
+    const std::string found = test::refusal_of([&] { build_model(scene(drive), {}); });
+    EXPECT_NE(found.find(said), std::string::npos) << found;
+  };
+  expect("table = \"speed.csv\"\n", "accepted");
+  expect("table = \"speed.csv\"\nspeed_rpm = 90\n",
+         "drive.run.toml:8: drive[0].speed_rpm: found with table, expected one of both");
+  expect("speed_rpm = 90\ncolumn = \"speed\"\n", "drive[0].column: found without table");
+  expect("table = \"short.csv\"\n",
+         "short.csv:3: the table covers 0 to 0.2 s, expected 0 to 0.5 s");
+  expect("table = \"force.csv\"\n",
+         "force.csv:1: force: found [N], expected a speed in [rpm] or [rad/s], or an angle");
+  expect("table = \"turn.csv\"\n", "turn.csv:1: angle: found [rad], expected a time");
+  expect("table = \"one.csv\"\n", "one.csv:2: found one row, expected at least two");
+  expect("", "drive[0].speed_rpm: ");
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
