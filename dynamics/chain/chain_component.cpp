@@ -52,7 +52,7 @@ double ChainComponent::start_speed(ModelBuilder& model) const {
 }
 
 void ChainComponent::add_bodies(ModelBuilder& model) {
-  const double speed = start_speed(model);
+  const double speed = speed_ = start_speed(model);
   const std::vector<LinkPlace> places = links_between(layout_.pins);
   const size_t n = places.size();
   for (size_t j = 0; j < n; ++j) {
@@ -136,6 +136,13 @@ std::string ChainComponent::place_of(int body) const {
   const int link = body - first_body_;
   if (link < 0 || link >= spec_.make.links()) return "";
   return place_on_belt(spec_, layout_, link);
+}
+
+int ChainComponent::body_before(int body, double cycle) const {
+  const int n = spec_.make.links(), link = body - first_body_;
+  if (link < 0 || link >= n) return body;
+  const auto moved = static_cast<int>(std::lround(speed_ * cycle * n / spec_.make.length()) % n);
+  return first_body_ + (link + moved + n) % n;
 }
 
 /// Between the two joints beside the place of a span, linearly.

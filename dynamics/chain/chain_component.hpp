@@ -29,6 +29,7 @@ class ChainComponent : public Component {
   void add_body_effects(const ModelBuilder& model, EffectTable& effects) const override;
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
   std::string place_of(int body) const override;
+  int body_before(int body, double cycle) const override;
   /// `<chain>_tension_min`, `_max` of all joints, `<chain>_tension_<a>_<b>` in the middle of each
   /// span [N]; what the contacts record; `<chain>_jumps` of teeth.
   void record(const System& system, const StageState& state, History& history) const override;
@@ -48,6 +49,7 @@ class ChainComponent : public Component {
   std::vector<SpanPoint> spans_;
   std::vector<std::string> recorded_;
   int first_body_ = 0;
+  double speed_ = 0.0;                           // at the start [m/s]
   std::vector<int> y_;                           // of all links, 3 n
   const LinkJoints* joints_ = nullptr;           // owned by the model's system
   std::vector<const ProfileContact*> contacts_;  // the same

@@ -64,6 +64,7 @@ class ProfileContact : public ForceElement {
     Eigen::Vector2d position, velocity;
     double cosine = 1.0, sine = 0.0, angle = 0.0, spin = 0.0;
     Eigen::Vector2d middle;  // of the profile
+    Eigen::Vector3d driven;  // prescribed part of velocity and spin, of a driven port
     Planar by_y, rate_by_y, rate_by_v, work;
   };
   struct Totals {

@@ -76,6 +76,9 @@ class Component {
 
   /// Histories of an accepted state; those of its elements, where it has no others.
   virtual void record(const System& system, const StageState& state, History& history) const;
+  /// The body that in the cycle before was where `body` is now, after a time `cycle` [s]: chains move
+  /// on by some links.
+  virtual int body_before(int body, double /*cycle*/) const { return body; }
   /// It has a motion by which successive cycles are compared: secondary_motion().
   virtual bool has_secondary_motion() const { return false; }
   /// (lateral [m], tilt [rad]) of a piston against its liner, linear in `y`.

@@ -23,6 +23,7 @@ DriveSpec read_drive(const Config& table) {
   if (table.has("centre_mm")) spec.centre = read_vector(table, "centre_mm", 1e6) * kMilli;
   const std::string axis = table.choice("axis", {"x", "y", "z"});
   spec.axis = axis[0] - 'x';
+  if (table.has("on")) spec.bearing = read_point(table, "on");
   const double start = table.number_or("start_deg", 0.0, angle) * kDegree;
   if (table.has("table")) {
     for (const char* key : {"speed_rpm", "order"})
@@ -43,6 +44,20 @@ DriveSpec read_drive(const Config& table) {
   return spec;
 }
 
+/// The bearing of a shaft; nullptr: on the ground.
+std::unique_ptr<NodePort> bearing_port(ModelBuilder& model, const PointSpec& bearing) {
+  if (bearing.body.empty()) return nullptr;
+  auto port = model.port(bearing);
+  auto* node = dynamic_cast<NodePort*>(port.get());
+  if (node == nullptr)
+    throw InputError(
+        fmt::format("{}.body: found \"{}\", expected a reduced part whose frame is at "
+                    "rest",
+                    bearing.where, bearing.body));
+  static_cast<void>(port.release());
+  return std::unique_ptr<NodePort>(node);
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> DriveComponent::inputs() const {
@@ -56,10 +71,12 @@ void DriveComponent::add_bodies(ModelBuilder& model) {
         read_turn_table(spec_.table, spec_.column, model.time.begin, model.time.end), spec_.start);
   DriveSpec given = spec_;
   if (model.at_rest) given.drive = Drive(0.0, given.drive.at(model.time.begin).position);
-  const auto port = [spec = given, begin = model.time.begin](System&, const Eigen::Vector3d& at) {
+  const auto port = [spec = given, begin = model.time.begin, &model](System&,
+                                                                     const Eigen::Vector3d& at) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(spec.axis);
     const Eigen::AngleAxisd back(-spec.drive.at(begin).position, axis);
-    return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis);
+    return std::make_unique<DrivenPort>(spec.drive, spec.centre, back * (at - spec.centre), axis,
+                                        bearing_port(model, spec.bearing));
   };
   model.add_ports(spec_.name, port, spec_.where);
   model.add_shaft(spec_.name, {given.drive, spec_.centre, Eigen::Vector3d::Unit(spec_.axis)});

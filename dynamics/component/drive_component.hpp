@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/component/model_builder.hpp"
 #include "dynamics/given/drive.hpp"
 
 namespace clatter::dynamics {
@@ -18,9 +19,11 @@ struct DriveSpec {
   double start = 0.0;                                // added to the angle of the table [rad]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // a point of the axis [m]
   int axis = 0;                                      // it turns about x, y or z, right-handed
+  PointSpec bearing;                                 // a node that it follows; without body: none
 };
 
-/// A shaft without mass on whose points elements may act; what drives it bears all forces.
+/// A shaft without mass on whose points elements may act. What drives it bears their moment about
+/// its axis, its bearing or the ground all others.
 class DriveComponent : public Component {
  public:
   explicit DriveComponent(DriveSpec spec) : spec_(std::move(spec)) {}

@@ -33,18 +33,51 @@ void GroundPort::motion(double, const VectorXd&, const VectorXd&, PortState& sta
 }
 
 DrivenPort::DrivenPort(Drive drive, const Vector3d& centre, const Vector3d& arm,
-                       const Vector3d& axis)
-    : Port({}), drive_(std::move(drive)), centre_(centre), arm_(arm), axis_(axis) {}
+                       const Vector3d& axis, std::unique_ptr<NodePort> bearing)
+    : Port(bearing ? bearing->coordinates() : std::vector<int>{}),
+      drive_(std::move(drive)),
+      centre_(centre),
+      arm_(arm),
+      axis_(axis),
+      bearing_(std::move(bearing)) {}
 
-void DrivenPort::motion(double time, const VectorXd&, const VectorXd&, PortState& state) const {
-  clear(state, 0);
+void DrivenPort::motion(double time, const VectorXd& y, const VectorXd& v, PortState& state) const {
+  clear(state, size());
   const Motion<double> turn = drive_.at(time);
   state.rotation = Eigen::AngleAxisd(turn.position, axis_).toRotationMatrix();
-  const Vector3d arm = state.rotation * arm_;
-  state.position = centre_ + arm;
-  state.spin = turn.velocity * axis_;
-  state.velocity = state.spin.cross(arm);
+  out_ = state.rotation * arm_;
+  spin_ = turn.velocity * axis_;
+  state.position = centre_ + out_;
+  state.spin = spin_;
+  state.velocity = spin_.cross(out_);
+  if (bearing_) add_bearing(y, v, state);
 }
+
+/// The shaft follows its bearing, with the centre c of the shaft as it is on the bearing's body, in
+/// all but the rotation about its axis a, which is the drive's: a force F at p and a moment M act
+/// on the bearing as F at c and (1 - a a^T) ((p - c) x F + M).
+void DrivenPort::add_bearing(const VectorXd& y, const VectorXd& v, PortState& state) const {
+  bearing_->motion(0.0, y, v, at_bearing_);
+  const Vector3d centre = centre_ - bearing_->place();
+  const Eigen::Matrix3d held = Eigen::Matrix3d::Identity() - axis_ * axis_.transpose();
+  const Eigen::Matrix3d turn = at_bearing_.rotation - Eigen::Matrix3d::Identity();
+  const Vector3d turned(turn(2, 1), turn(0, 2), turn(1, 0)), tilted = held * turned;
+  state.position +=
+      at_bearing_.position - bearing_->place() + turned.cross(centre) + tilted.cross(out_);
+  state.rotation += skew(tilted) * state.rotation;
+  const Vector3d spin = held * at_bearing_.spin;
+  state.velocity += at_bearing_.velocity + at_bearing_.spin.cross(centre) + spin.cross(out_);
+  state.spin += spin;
+  for (int j = 0; j < size(); ++j) {
+    const Vector3d by_turn = at_bearing_.by_y.col(j).tail<3>(), by_tilt = held * by_turn;
+    state.by_y.col(j) << at_bearing_.by_y.col(j).head<3>() + by_turn.cross(centre) +
+                             by_tilt.cross(out_),
+        by_tilt;
+  }
+  state.rate_by_v = state.work = state.by_y;
+}
+
+Vector6 DrivenPort::driven(const PortState&) const { return wrench(spin_.cross(out_), spin_); }
 
 NodePort::NodePort(const Vector3d& position, std::vector<int> coordinates)
     : Port(std::move(coordinates)), position_(position) {}

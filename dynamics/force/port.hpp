@@ -63,22 +63,6 @@ class GroundPort : public Port {
   Eigen::Vector3d position_;
 };
 
-/// A point of a shaft that a drive turns.
-class DrivenPort : public Port {
- public:
-  /// @param drive of the shaft. @param centre a point of its axis [m]. @param arm from there to the
-  /// point at the angle 0 [m]. @param axis unit vector, about which it turns right-handed.
-  DrivenPort(Drive drive, const Eigen::Vector3d& centre, const Eigen::Vector3d& arm,
-             const Eigen::Vector3d& axis);
-  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
-              PortState& state) const override;
-  bool is_driven() const override { return true; }
-
- private:
-  Drive drive_;
-  Eigen::Vector3d centre_, arm_, axis_;
-};
-
 /// A node of a body with small motion: position + (x, y, z), with or without rotations.
 class NodePort : public Port {
  public:
@@ -87,9 +71,35 @@ class NodePort : public Port {
   NodePort(const Eigen::Vector3d& position, std::vector<int> coordinates);
   void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
               PortState& state) const override;
+  const Eigen::Vector3d& place() const { return position_; }
 
  private:
   Eigen::Vector3d position_;
+};
+
+/// A point of a shaft that a drive turns in a bearing on the ground or on a body with small motion.
+///
+/// Forces act on the bearing as on a body fixed to it; their moment about the shaft's axis is held
+/// by the drive.
+class DrivenPort : public Port {
+ public:
+  /// @param drive of the shaft. @param centre a point of its axis [m]. @param arm from there to the
+  /// point at the angle 0 [m]. @param axis unit vector, about which it turns right-handed.
+  /// @param bearing nullptr: on the ground.
+  DrivenPort(Drive drive, const Eigen::Vector3d& centre, const Eigen::Vector3d& arm,
+             const Eigen::Vector3d& axis, std::unique_ptr<NodePort> bearing = nullptr);
+  void motion(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+              PortState& state) const override;
+  bool is_driven() const override { return true; }
+  Vector6 driven(const PortState& at) const override;
+
+ private:
+  void add_bearing(const Eigen::VectorXd& y, const Eigen::VectorXd& v, PortState& state) const;
+  Drive drive_;
+  Eigen::Vector3d centre_, arm_, axis_;
+  std::unique_ptr<NodePort> bearing_;
+  mutable Eigen::Vector3d spin_ = Eigen::Vector3d::Zero(), out_ = spin_;  // at the last motion()
+  mutable PortState at_bearing_;
 };
 
 /// A node of a body with small motion in a frame that a drive turns.

@@ -24,11 +24,11 @@ bool DenseLu::factor() {
   return info == 0 && matrix.allFinite();
 }
 
-void DenseLu::solve(Eigen::VectorXd& x) const {
+void DenseLu::solve(double* x) const {
   if (n_ == 0) return;
   const int one = 1;
   int info = 0;
-  LAPACK_dgetrs("N", &n_, &one, memory_.data(), &n_, pivots_.data(), x.data(), &n_, &info);
+  LAPACK_dgetrs("N", &n_, &one, memory_.data(), &n_, pivots_.data(), x, &n_, &info);
 }
 
 }  // namespace clatter::dynamics

@@ -13,8 +13,8 @@ class DenseLu {
   Eigen::Map<Eigen::MatrixXd> matrix(Eigen::Index n);
   /// Factors it in place; false when a pivot is zero or not finite.
   [[nodiscard]] bool factor();
-  /// x <- A^-1 x, n.
-  void solve(Eigen::VectorXd& x) const;
+  /// x <- A^-1 x, n numbers.
+  void solve(double* x) const;
 
  private:
   int n_ = 0;

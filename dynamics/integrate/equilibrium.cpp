@@ -25,9 +25,15 @@ class Search {
     found_.eta = eta;
     unit_.setZero(system.modes());
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+      const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
       const Eigen::MatrixXd& P = system.P(b);
-      for (Eigen::Index k = 0; k < P.cols(); ++k)
-        if (P.rows() > 0) unit_(system.mode_offset(b) + k) = P.col(k).cwiseAbs().maxCoeff();
+      for (int k = 0; k < body.modes(); ++k) {
+        double& unit = unit_(system.mode_offset(b) + k);
+        if (body.is_state(k))
+          unit = options.rate / options.residual * body.damping(k) * body.state_scale(k);
+        else if (P.rows() > 0)
+          unit = P.col(k).cwiseAbs().maxCoeff();
+      }
     }
   }
 
@@ -95,7 +101,7 @@ class Search {
   StageMatrix matrix_;
   double tau_;
   Equilibrium found_;
-  VectorXd unit_;  // of each mode: the largest displacement of a y
+  VectorXd unit_;  // of each mode: the largest displacement of a y; of a state in the same measure
   VectorXd y_, v_, f_, F_, unbalanced_, change_, dy_;
 };
 

@@ -10,6 +10,7 @@ namespace clatter::dynamics {
 
 struct EquilibriumOptions {
   double residual = 1e-6;      // largest unbalanced force [N], moment [N m]
+  double rate = 1e-3;          // largest rate of a state, in its scale [1/s]
   double longest_move = 3e-5;  // of a coordinate in one iteration [m], [rad]
   double first_time = 1e-5;    // pseudo-time step of the first iteration [s]
   int most_iterations = 3000;

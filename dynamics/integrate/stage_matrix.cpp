@@ -187,16 +187,15 @@ void StageMatrix::apply_S(const VectorXd& f, VectorXd& result) const {
 }
 
 void StageMatrix::solve_touched(VectorXd& x) const {
-  solved_.resize(static_cast<Index>(columns_.size()));
-  for (size_t c = 0; c < columns_.size(); ++c) solved_(static_cast<Index>(c)) = x(columns_[c]);
-  lu_.solve(solved_);
+  solved_.resize(columns_.size());
+  for (size_t c = 0; c < columns_.size(); ++c) solved_[c] = x(columns_[c]);
+  lu_.solve(solved_.data());
   if (columns_.size() < touched_y_.size()) {
     forces_.setZero(x.size());
-    for (size_t c = 0; c < columns_.size(); ++c)
-      forces_ += T_.col(columns_[c]) * solved_(static_cast<Index>(c));
+    for (size_t c = 0; c < columns_.size(); ++c) forces_ += T_.col(columns_[c]) * solved_[c];
     add_S(forces_, x);
   }
-  for (size_t c = 0; c < columns_.size(); ++c) x(columns_[c]) = solved_(static_cast<Index>(c));
+  for (size_t c = 0; c < columns_.size(); ++c) x(columns_[c]) = solved_[c];
 }
 
 void StageMatrix::solve(const StageOperator& op, VectorXd& x) const {

@@ -56,7 +56,8 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
     from_checkpoint(point, [&] {
       restore(from);
       before_.emplace(*model_, H5File::open(point),
-                      sample_count(span_.end - span_.begin, scene.time.output_step));
+                      sample_count(span_.end - span_.begin, scene.time.output_step),
+                      span_.end - span_.begin);
     });
   }
   if (from.cycle + 1 < most_cycles(scene)) next_.emplace(point);

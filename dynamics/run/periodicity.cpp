@@ -5,19 +5,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "dynamics/run/checkpoint.hpp"
 
 namespace clatter::dynamics {
 
-CycleComparison::CycleComparison(const Model& model, H5File before, int64_t samples)
+CycleComparison::CycleComparison(const Model& model, H5File before, int64_t samples, double cycle)
     : model_(model),
       before_(std::move(before)),
       samples_(samples),
       all_(model.system.bodies().size(), 0.0),
       change_(all_),
       largest_(model.components.size()) {
+  for (int b = 0; b < static_cast<int>(model.system.bodies().size()); ++b) {
+    int body = b;
+    for (const auto& component : model.components) body = component->body_before(body, cycle);
+    before_body_.push_back(body);
+  }
   const std::vector<int64_t> expected{samples, model.system.modes()};
   for (const char* name : {kCycleEta, kCycleVelocity}) {
     if (before_.shape(name) == expected) continue;
@@ -33,7 +41,8 @@ void CycleComparison::add(const SampleBlock& now) {
     const auto n = model_.system.bodies()[b].modes();
     const auto v = now.v.block(0, at, now.count, n);
     all_[b] += v.squaredNorm();
-    change_[b] += (v - v_before.middleCols(at, n)).squaredNorm();
+    const auto was = model_.system.mode_offset(before_body_[b]);
+    change_[b] += (v - v_before.middleCols(was, n)).squaredNorm();
   }
   compared_ += now.count;
   if (std::none_of(model_.components.begin(), model_.components.end(),
@@ -54,9 +63,15 @@ void CycleComparison::add(const SampleBlock& now) {
 CycleDifference CycleComparison::difference() const {
   CycleDifference result;
   if (compared_ != samples_) return result;
-  for (size_t b = 0; b < all_.size(); ++b)
-    result.velocity[model_.system.bodies()[b].name] =
-        all_[b] > 0.0 ? std::sqrt(change_[b] / all_[b]) : 0.0;
+  std::map<std::string, std::pair<double, double>> sums;  // of bodies that are named together
+  for (size_t b = 0; b < all_.size(); ++b) {
+    const ModalBody& body = model_.system.bodies()[b];
+    auto& [all, change] = sums[body.family.empty() ? body.name : body.family];
+    all += all_[b];
+    change += change_[b];
+  }
+  for (const auto& [name, sum] : sums)
+    result.velocity[name] = sum.first > 0.0 ? std::sqrt(sum.second / sum.first) : 0.0;
   for (size_t c = 0; c < largest_.size(); ++c) {
     if (!largest_[c]) continue;
     const std::string name = model_.components[c]->name();

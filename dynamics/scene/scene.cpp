@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "dynamics/scene/registry.hpp"
@@ -12,8 +13,32 @@
 namespace clatter::dynamics {
 namespace {
 
+/// The clock of the drive that [time] names: engine cycles without an [engine].
+CrankClock read_drive_clock(const Config& root, const Config& time) {
+  const std::string name = time.text("cycle_of");
+  for (const Config& drive : root.tables("drive")) {
+    if (drive.text_or("name", "") != name) continue;
+    if (!drive.has("speed_rpm"))
+      time.fail("cycle_of",
+                fmt::format("found \"{}\", whose speed is a table, expected a drive with "
+                            "speed_rpm",
+                            name));
+    const double speed = std::abs(drive.number("speed_rpm"));
+    if (!(speed >= 0.01))
+      time.fail("cycle_of", fmt::format("found \"{}\" with {:g} rpm, expected a drive that turns",
+                                        name, speed));
+    return {speed * std::numbers::pi / 30.0};
+  }
+  time.fail("cycle_of", fmt::format("found \"{}\", expected the name of a [[drive]]", name));
+}
+
 std::optional<CrankClock> read_clock(const Config& root) {
   const auto engine = root.find_table("engine");
+  if (const auto time = root.find_table("time"); time && time->has("cycle_of")) {
+    if (engine)
+      time->fail("cycle_of", "found with [engine], whose crank is the clock, expected one of both");
+    return read_drive_clock(root, *time);
+  }
   if (!engine) return std::nullopt;
   return CrankClock{engine->number("speed_rpm", Range::between(0.01, 1e5)) * std::numbers::pi /
                     30.0};

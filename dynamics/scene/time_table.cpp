@@ -86,7 +86,9 @@ void read_time(const Config& root, Scene& scene) {
   scene.time.cycles = static_cast<int>(
       time.integer_or("cycles", settles ? 30 : 2, Range::between(settles ? 2.0 : 1.0, 1000.0)));
   if (time.has("start_from")) scene.time.start = read_start(time);
-  const double rest_deg = scene.time.start.empty() ? 60.0 : 0.0;
+  // An engine starts at its ideal places and loads grow from nothing; other scenes start in the
+  // state that they are given.
+  const double rest_deg = scene.time.start.empty() && root.has("engine") ? 60.0 : 0.0;
   const double ramp_deg = time.number_or("ramp_deg", rest_deg, Range::between(0.0, 360.0));
   const double omega = scene.clock->speed;
   // While it settles each cycle has the same times; what repeats each cycle allows that.

@@ -82,7 +82,7 @@ struct Rest {
     }
     VectorXd root(n);  // of the mobility: all bodies have coordinates of one mode each
     for (Eigen::Index i = 0; i < n; ++i)
-      root(i) = std::sqrt(system.mobility({static_cast<int>(i)})(0, 0));
+      root(i) = std::sqrt(system.mobility({}, {static_cast<int>(i)}).v(0, 0));
     const MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
     const VectorXd hertz =
