@@ -168,7 +168,7 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
                            bool with_tangent, MattressForce& sum) {
   const auto index = static_cast<size_t>(link);
   PlanarPose pose;
-  pose.position = at.position - carrier_.origin;
+  pose.position = at.position + carrier_.origin;
   gap_[index] = kNear;
   const double c = std::cos(angle), s = std::sin(angle);
   pose.cosine = c * motion.cosine + s * motion.sine;

@@ -15,6 +15,10 @@ namespace {
 
 /// Bounds of the change of the pseudo-time step from one iteration to the next.
 constexpr double kSlower = 0.3, kFaster = 2.0;
+/// The pseudo-time step grows by so much while the residual stays: slow states go on.
+constexpr double kGrowth = 1.1;
+/// Halvings of an iteration whose end an element refuses.
+constexpr int kMostHalvings = 20;
 /// Longest pseudo-time step: inertia has no effect.
 constexpr double kLongest = 1e3;
 
@@ -24,15 +28,22 @@ class Search {
       : system_(system), options_(options), time_(time), matrix_(system), tau_(options.first_time) {
     found_.eta = eta;
     unit_.setZero(system.modes());
+    reach_.setZero(system.modes());
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
       const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
       const Eigen::MatrixXd& P = system.P(b);
+      const double arm = body.arm > 0.0 ? body.arm : options.arm;
       for (int k = 0; k < body.modes(); ++k) {
         double& unit = unit_(system.mode_offset(b) + k);
         if (body.is_state(k))
           unit = options.rate / options.residual * body.damping(k) * body.state_scale(k);
         else if (P.rows() > 0)
           unit = P.col(k).cwiseAbs().maxCoeff();
+        double& reach = reach_(system.mode_offset(b) + k);
+        for (Eigen::Index i = 0; !body.is_state(k) && i < P.rows(); ++i) {
+          const bool turns = system.is_rotation(system.rows(b)[static_cast<size_t>(i)]);
+          reach = std::max(reach, std::abs(P(i, k)) * (turns ? arm : 1.0));
+        }
       }
     }
   }
@@ -40,14 +51,12 @@ class Search {
   Equilibrium run() {
     double previous = 0.0;
     for (; found_.iterations < options_.most_iterations; ++found_.iterations) {
-      if (!evaluate()) return found_;
+      if (!evaluate_or_retreat()) return found_;
       if (found_.residual <= options_.residual) {
         found_.found = true;
         return found_;
       }
-      if (previous > 0.0)
-        tau_ = std::min(kLongest,
-                        tau_ * std::clamp(std::sqrt(previous / found_.residual), kSlower, kFaster));
+      if (previous > 0.0) grow(previous);
       previous = found_.residual;
       if (!move()) return found_;
     }
@@ -55,6 +64,31 @@ class Search {
   }
 
  private:
+  /// A move that had to be shortened was of a too long pseudo-time: moves grow with its square.
+  void grow(double previous) {
+    const double factor =
+        shortened_ < 1.0 ? std::sqrt(shortened_) : kGrowth * std::sqrt(previous / found_.residual);
+    tau_ = std::min(kLongest, tau_ * std::clamp(factor, kSlower, kFaster));
+  }
+
+  /// Goes half of the way back, up to the first state, from states that an element refuses.
+  bool evaluate_or_retreat() {
+    for (int halvings = 0;; ++halvings) {
+      try {
+        return evaluate();
+      } catch (const StepRefused& refusal) {
+        if (found_.iterations == 0 || halvings == kMostHalvings) {
+          found_.worst = -1;
+          found_.refused = refusal.kind();
+          return false;
+        }
+        change_ *= 0.5;
+        found_.eta -= change_;
+        tau_ = std::max(options_.first_time, kSlower * tau_);
+      }
+    }
+  }
+
   /// Forces at rest and what they leave unbalanced.
   bool evaluate() {
     y_ = system_.interface(found_.eta);
@@ -88,9 +122,9 @@ class Search {
     system_.add_tangent_forces(dy_, f_);
     system_.add_interface_force(f_, unbalanced_);
     change_ = op.H().cwiseProduct(unbalanced_);
-    const double longest =
-        change_.cwiseProduct(unit_).cwiseProduct(system_.second_order()).lpNorm<Eigen::Infinity>();
-    if (longest > options_.longest_move) change_ *= options_.longest_move / longest;
+    const double longest = change_.cwiseProduct(reach_).lpNorm<Eigen::Infinity>();
+    shortened_ = longest > options_.longest_move ? options_.longest_move / longest : 1.0;
+    change_ *= shortened_;
     found_.eta += change_;
     return true;
   }
@@ -99,9 +133,10 @@ class Search {
   const EquilibriumOptions& options_;
   double time_;
   StageMatrix matrix_;
-  double tau_;
+  double tau_, shortened_ = 1.0;
   Equilibrium found_;
-  VectorXd unit_;  // of each mode: the largest displacement of a y; of a state in the same measure
+  VectorXd reach_;  // of each mode: the largest displacement, of a y or by a rotation; of states 0
+  VectorXd unit_;   // of each mode: the largest displacement of a y; of a state in the same measure
   VectorXd y_, v_, f_, F_, unbalanced_, change_, dy_;
 };
 

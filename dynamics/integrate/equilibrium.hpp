@@ -11,7 +11,8 @@ namespace clatter::dynamics {
 struct EquilibriumOptions {
   double residual = 1e-6;      // largest unbalanced force [N], moment [N m]
   double rate = 1e-3;          // largest rate of a state, in its scale [1/s]
-  double longest_move = 3e-5;  // of a coordinate in one iteration [m], [rad]
+  double longest_move = 1e-4;  // of a coordinate in one iteration, by rotations with their arm [m]
+  double arm = 0.05;           // of bodies that have none of their own [m]
   double first_time = 1e-5;    // pseudo-time step of the first iteration [s]
   int most_iterations = 3000;
 };
@@ -21,6 +22,7 @@ struct Equilibrium {
   int iterations = 0;
   double residual = 0.0;  // largest unbalanced force [N], moment [N m]
   int worst = -1;         // modal coordinate where it is; -1: it is not finite
+  std::string refused;    // why an element refused the last state; empty: none did
   Eigen::VectorXd eta;    // N
 };
 

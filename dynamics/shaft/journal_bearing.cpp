@@ -43,7 +43,7 @@ JournalMotion ShaftBearing::journal(const PairMotion& motion) const {
   const int u = axes_.first(), v = axes_.second();
   return {{motion.distance(u) - offset_(u), motion.distance(v) - offset_(v)},
           {motion.velocity(u), motion.velocity(v)},
-          motion.spin(axes_.axis)};
+          motion.spin(axes_.axis) + assumed_spin_};
 }
 
 JournalBearing::JournalBearing(std::string name, std::unique_ptr<Port> journal,

@@ -23,6 +23,9 @@ class ShaftBearing : public PortElement {
   /// [m].
   ShaftBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
                const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust);
+  /// The bearing sees the journal turn at `spin` [rad/s] besides its own motion: in a system at
+  /// rest, where it would not bear.
+  void assume_spin(double spin) { assumed_spin_ = spin; }
 
  protected:
   /// The law of the thrust collar, zero across the axis.
@@ -33,6 +36,7 @@ class ShaftBearing : public PortElement {
  private:
   Eigen::Vector3d offset_;
   ThrustLaw thrust_;
+  double assumed_spin_ = 0.0;  // [rad/s]
 };
 
 /// A plain bearing with an oil film (bearing_film.hpp). All power that it takes is lost.

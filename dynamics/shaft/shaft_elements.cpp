@@ -102,9 +102,11 @@ void add_bearing(const ShaftSpec& shaft, const ShaftBodies& bodies, size_t index
                                         offset, spec.thrust, spec.stiffness, spec.damping));
     return;
   }
-  model.system.add_element(
+  auto bearing =
       std::make_unique<JournalBearing>(name, std::move(journal), std::move(housing), shaft.axes,
-                                       offset, spec.thrust, BearingFilm(spec.size, *spec.film)));
+                                       offset, spec.thrust, BearingFilm(spec.size, *spec.film));
+  if (model.at_rest) bearing->assume_spin(shaft.start.speed);
+  model.system.add_element(std::move(bearing));
 }
 
 }  // namespace
