@@ -15,6 +15,9 @@ namespace {
 
 /// Bounds of the change of the pseudo-time step from one iteration to the next.
 constexpr double kSlower = 0.3, kFaster = 2.0;
+/// It also grows by this much while the residual falls however little: friction, which damps each
+/// step, would hold it.
+constexpr double kSteady = 1.2;
 /// Longest pseudo-time step: inertia has no effect.
 constexpr double kLongest = 1e3;
 
@@ -24,24 +27,31 @@ class Search {
       : system_(system), options_(options), time_(time), matrix_(system), tau_(options.first_time) {
     found_.eta = eta;
     unit_.setZero(system.modes());
+    length_.setZero(system.modes());
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
       const Eigen::MatrixXd& P = system.P(b);
-      for (Eigen::Index k = 0; k < P.cols(); ++k)
-        if (P.rows() > 0) unit_(system.mode_offset(b) + k) = P.col(k).cwiseAbs().maxCoeff();
+      const double mass = system.bodies()[static_cast<size_t>(b)].mass;
+      if (P.rows() == 0) continue;
+      for (Eigen::Index k = 0; k < P.cols(); ++k) {
+        const Eigen::Index at = system.mode_offset(b) + k;
+        unit_(at) = P.col(k).cwiseAbs().maxCoeff();
+        length_(at) = system.second_order()(at) * (mass > 0.0 ? 1.0 / std::sqrt(mass) : unit_(at));
+      }
     }
   }
 
   Equilibrium run() {
     double previous = 0.0;
     for (; found_.iterations < options_.most_iterations; ++found_.iterations) {
-      if (!evaluate()) return found_;
+      if (!evaluate()) {
+        if (!step_back()) return found_;
+        continue;
+      }
       if (found_.residual <= options_.residual) {
         found_.found = true;
         return found_;
       }
-      if (previous > 0.0)
-        tau_ = std::min(kLongest,
-                        tau_ * std::clamp(std::sqrt(previous / found_.residual), kSlower, kFaster));
+      if (previous > 0.0) tau_ = std::min(kLongest, tau_ * growth(previous));
       previous = found_.residual;
       if (!move()) return found_;
     }
@@ -49,8 +59,34 @@ class Search {
   }
 
  private:
-  /// Forces at rest and what they leave unbalanced.
+  /// Of the pseudo-time step.
+  double growth(double previous) const {
+    double factor = std::sqrt(previous / found_.residual);
+    if (factor > 1.0 && !limited_) factor *= kSteady;
+    return std::clamp(factor, kSlower, kFaster);
+  }
+
+  /// To the state before one that is refused, for a shorter step; false: there is none.
+  bool step_back() {
+    if (found_.refused.empty() || before_.size() == 0) return false;
+    found_.eta = before_;
+    tau_ *= kSlower;
+    return true;
+  }
+
+  /// False where a state is refused or not finite.
   bool evaluate() {
+    found_.refused.clear();
+    try {
+      return balance();
+    } catch (const StepRefused& refused) {
+      found_.refused = std::string(refused.what()) + ", " + refused.detail();
+      return false;
+    }
+  }
+
+  /// Forces at rest and what they leave unbalanced; false where that is not finite.
+  bool balance() {
     y_ = system_.interface(found_.eta);
     v_.setZero(y_.size());
     system_.begin_step(time_);
@@ -82,9 +118,10 @@ class Search {
     system_.add_tangent_forces(dy_, f_);
     system_.add_interface_force(f_, unbalanced_);
     change_ = op.H().cwiseProduct(unbalanced_);
-    const double longest =
-        change_.cwiseProduct(unit_).cwiseProduct(system_.second_order()).lpNorm<Eigen::Infinity>();
-    if (longest > options_.longest_move) change_ *= options_.longest_move / longest;
+    const double longest = change_.cwiseProduct(length_).lpNorm<Eigen::Infinity>();
+    limited_ = longest > options_.longest_move;
+    if (limited_) change_ *= options_.longest_move / longest;
+    before_ = found_.eta;
     found_.eta += change_;
     return true;
   }
@@ -94,8 +131,11 @@ class Search {
   double time_;
   StageMatrix matrix_;
   double tau_;
+  bool limited_ = false;  // the last move, to longest_move
   Equilibrium found_;
-  VectorXd unit_;  // of each mode: the largest displacement of a y
+  VectorXd before_;  // eta
+  VectorXd unit_;    // of each mode: the largest displacement of a y
+  VectorXd length_;  // of each mode: its displacement, of rotations at the radius of gyration
   VectorXd y_, v_, f_, F_, unbalanced_, change_, dy_;
 };
 

@@ -9,9 +9,10 @@
 namespace clatter::dynamics {
 
 struct EquilibriumOptions {
-  double residual = 1e-6;      // largest unbalanced force [N], moment [N m]
-  double longest_move = 3e-5;  // of a coordinate in one iteration [m], [rad]
-  double first_time = 1e-5;    // pseudo-time step of the first iteration [s]
+  double residual = 1e-6;  // largest unbalanced force [N], moment [N m]
+  double longest_move =
+      3e-5;  // of a coordinate in one iteration; rotations at the radius of gyration [m]
+  double first_time = 1e-5;  // pseudo-time step of the first iteration [s]
   int most_iterations = 3000;
 };
 
@@ -20,6 +21,7 @@ struct Equilibrium {
   int iterations = 0;
   double residual = 0.0;  // largest unbalanced force [N], moment [N m]
   int worst = -1;         // modal coordinate where it is; -1: it is not finite
+  std::string refused;    // why an element refused the last state; empty: none did
   Eigen::VectorXd eta;    // N
 };
 
@@ -30,8 +32,9 @@ struct Equilibrium {
 /// masses, of which only the first Newton iteration is done and whose velocity is forgotten,
 ///   (M / tau^2 - df/dq) dq = f,
 /// no longer than `longest_move`, with tau grown as the residual falls (switched evolution
-/// relaxation). It follows the way of the bodies through contacts that close and open, where
-/// Newton's method alone jumps, and ends in Newton's method.
+/// relaxation) and reduced before a state that an element refuses. It follows the way of the bodies
+/// through contacts that close and open, where Newton's method alone jumps, and ends in Newton's
+/// method.
 ///
 /// Prescribed motions have to rest: elements see the velocities of what is driven.
 Equilibrium find_equilibrium(System& system, double time, const Eigen::VectorXd& eta,

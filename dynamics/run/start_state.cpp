@@ -33,6 +33,9 @@ ModalStart start_state(const Scene& scene, const LoadedBodies& bodies, const Mod
   if (std::none_of(model.components.begin(), model.components.end(), needs)) return start;
   const auto resting = build_model(scene, bodies, true);
   const Equilibrium found = find_equilibrium(resting->system, scene.time.begin, start.eta);
+  if (!found.refused.empty())
+    throw NumericsError(fmt::format("no static equilibrium after {} iterations: {}",
+                                    found.iterations, found.refused));
   if (!found.found)
     throw NumericsError(fmt::format(
         "no static equilibrium after {} iterations: {:.3g} N unbalanced, most of it on {}",

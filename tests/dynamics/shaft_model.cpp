@@ -20,7 +20,7 @@ LinearMotion linearised(System& system, const Eigen::VectorXd& y, const Eigen::V
   LinearMotion motion{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   std::vector<int> all(static_cast<size_t>(n));
   for (int i = 0; i < n; ++i) all[static_cast<size_t>(i)] = i;
-  motion.M = system.mobility(all).diagonal().cwiseInverse();
+  motion.M = system.mobility({}, all).v.diagonal().cwiseInverse();
   Eigen::VectorXd f;
   // df/dy alone, then with df/dv / kappa.
   for (const double kappa : {1e300, 1.0}) {
