@@ -78,9 +78,10 @@ function(clatter_test name)
   clatter_use_precompiled(${name} clatter_test_headers)
   target_compile_definitions(${name} PRIVATE ${ARG_DEFINES})
   target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-*Hard??_*:*Hard???_*"
+  set(hard "*Hard??_*:*Hard???_*:*HardTD??_*")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "-${hard}"
     PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
   # Tests named after a hard case get the label `hard` in every program.
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "*Hard??_*:*Hard???_*"
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${hard}"
     TEST_LIST ${name}_hard PROPERTIES LABELS hard TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -112,7 +113,7 @@ void ChainComponent::add_elements(ModelBuilder& model) {
     }
     auto contact = std::make_unique<ProfileContact>(fmt::format("{} {}", spec_.name, over.name), y_,
                                                     spec_.make, over.profile, outlines, over.law,
-                                                    carrier(model, i));
+                                                    carrier(model, i), over.turn);
     contacts_.push_back(contact.get());
     system.add_element(std::move(contact));
   }
@@ -178,10 +179,25 @@ void ChainComponent::record(const System& system, const StageState& state, Histo
   history.put(recorded_[0], "N", *least);
   history.put(recorded_[1], "N", *most);
   int jumps = 0;
-  for (const ProfileContact* contact : contacts_) jumps += contact->jumps();
+  for (const ProfileContact* contact : contacts_) jumps += contact->teeth().jumped();
   history.put(recorded_[2], "1", jumps);
   for (const SpanPoint& span : spans_) history.put(span.recorded, "N", tension_at(span, state));
   Component::record(system, state, history);
+}
+
+std::vector<std::string> ChainComponent::warnings() const {
+  std::vector<std::string> warnings;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ToothCount& teeth = contacts_[i]->teeth();
+    if (!teeth.has_jumped()) continue;
+    const int ahead = teeth.ahead();
+    warnings.push_back(fmt::format(
+        "chain \"{}\" jumped on sprocket \"{}\" at {:.6g} s, by {} teeth in all; at the end it is "
+        "{} teeth {} where it was",
+        spec_.name, spec_.over[i].name, teeth.first_time(), teeth.jumped(), std::abs(ahead),
+        ahead < 0 ? "behind" : "ahead of"));
+  }
+  return warnings;
 }
 
 ComponentList read_chains(const Config& root) {

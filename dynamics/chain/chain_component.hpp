@@ -30,6 +30,8 @@ class ChainComponent : public Component {
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
   std::string place_of(int body) const override;
   int body_before(int body, double cycle) const override;
+  /// Sprockets on which it jumped, with the time.
+  std::vector<std::string> warnings() const override;
   /// `<chain>_tension_min`, `_max` of all joints, `<chain>_tension_<a>_<b>` in the middle of each
   /// span [N]; what the contacts record; `<chain>_jumps` of teeth.
   void record(const System& system, const StageState& state, History& history) const override;

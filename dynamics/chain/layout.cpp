@@ -43,6 +43,49 @@ double first_gap(const ChainOver& sprocket, const BeltPart& wrap) {
   return begin + turn * after;
 }
 
+/// Places along the belt of the rear pins of all links, from `s` on, and of the first one again
+/// behind the last. Links on sprockets have the pitch of the teeth, the others their own
+/// times 1 + `stretch`.
+std::vector<double> places_of_pins(const ChainSpec& chain, const Belt& belt, double s,
+                                   double stretch) {
+  std::vector<double> places{s};
+  size_t part = 0;
+  double lap = 0.0;
+  const auto end = [&] { return lap + belt.parts[part].begin + belt.parts[part].length; };
+  const auto go_on = [&] {
+    if (++part < belt.parts.size()) return;
+    part = 0;
+    lap += belt.length;
+  };
+  for (const double own : chain.make.pitches) {
+    for (double share = 1.0; share > 0.0;) {
+      while (end() <= s) go_on();
+      const ChainOver& over = chain.over[static_cast<size_t>(belt.parts[part].owner)];
+      const bool seated = over.teeth > 0 && !belt.parts[part].straight;
+      const double pitch =
+          seated ? over.belt.front().per_angle * pitch_angle(over) : own * (1.0 + stretch);
+      const double rest = (end() - s) / pitch;
+      s += std::min(share, rest) * pitch;
+      if (rest < share) s = end();
+      share -= rest;
+    }
+    places.push_back(s);
+  }
+  return places;
+}
+
+/// The stretch of the spans at which the chain is closed, by bisection.
+std::vector<double> closed_places(const ChainSpec& chain, const Belt& belt, double s) {
+  double least = -1.0, most = 1.0;
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (least + most);
+    const bool short_of = places_of_pins(chain, belt, s, middle).back() < s + belt.length;
+    (short_of ? least : most) = middle;
+  }
+  return places_of_pins(chain, belt, s, most);
+}
+
 }  // namespace
 
 ChainLayout lay_out(const ChainSpec& chain) {
@@ -54,25 +97,27 @@ ChainLayout lay_out(const ChainSpec& chain) {
   layout.belt = with_context(chain.where, [&] { return taut_belt(circles, names); });
   const Belt& belt = layout.belt;
   const double length = chain.make.length();
+  const double longest = length + chain.make.links() * chain.joint.clearance;
   layout.stretch = belt.length / length - 1.0;
-  if (!(std::abs(layout.stretch) <= kMostStretch)) {
-    const double pitch = length / chain.make.links();
-    throw InputError(
-        fmt::format("{}: the way around {} is {:.6g} mm long, the chain {:.6g} mm, expected within "
-                    "3 %: {} links "
-                    "are nearest",
-                    chain.where, fmt::join(names, ", "), belt.length * 1e3, length * 1e3,
-                    2 * std::lround(0.5 * belt.length / pitch)));
+  if (!(belt.length >= (1.0 - kMostStretch) * length &&
+        belt.length <= (1.0 + kMostStretch) * longest)) {
+    const double pitch = longest / chain.make.links();
+    throw InputError(fmt::format(
+        "{}: the way around {} is {:.6g} mm long, the chain {:.6g} mm{}, expected "
+        "within 3 %: {} links are nearest",
+        chain.where, fmt::join(names, ", "), belt.length * 1e3, length * 1e3,
+        longest > length ? fmt::format(", to the end of its play {:.6g} mm", 1e3 * longest) : "",
+        2 * std::lround(0.5 * belt.length / pitch)));
   }
   const BeltPart& first = wrap_of(belt, 0);
   const double gap = first_gap(chain.over.front(), first);
   const double share = (gap - polar(first.from - first.centre)) / first.angle;
-  double s = first.begin + share * first.length;
+  std::vector<double> places = closed_places(chain, belt, first.begin + share * first.length);
+  places.pop_back();
   constexpr double kNear = 1e-7;  // [m]
-  for (const double pitch : chain.make.pitches) {
+  for (const double s : places) {
     layout.pins.push_back(belt.at(s));
     layout.along.push_back((belt.at(s + kNear) - belt.at(s - kNear)).normalized());
-    s += pitch * (1.0 + layout.stretch);
   }
   for (size_t i = 0; i < chain.over.size(); ++i) {
     const ChainOver& over = chain.over[i];

@@ -8,7 +8,8 @@
 namespace clatter::dynamics {
 
 /// A chain on its sprockets before it is in equilibrium: its pins are on the taut belt around pitch
-/// circles and guides, the pitches all stretched or compressed alike to its length.
+/// circles and guides, on sprockets at the pitch of their teeth, elsewhere with the pitches all
+/// stretched or compressed alike.
 struct ChainLayout {
   Belt belt;
   std::vector<Eigen::Vector2d> pins;   // n: the rear pin of each link, its place [m]
@@ -20,7 +21,8 @@ struct ChainLayout {
 /// The first sprocket has a tooth gap at its `gap`, or in the middle of its wrap; the rear pin of
 /// link 0 is in that gap, or in the one nearest to it that is wrapped. The others have a gap at the
 /// pin nearest to the middle of their wraps, if they name none. InputError naming the chain where
-/// its parts overlap and where its length differs from the belt's by more than 3 %.
+/// its parts overlap and where its length, from that without play to that at the end of the play of
+/// all joints, differs from the belt's by more than 3 %.
 ChainLayout lay_out(const ChainSpec& chain);
 
 /// "between crank and arm", "on intake": where a link is on its belt.

@@ -15,9 +15,10 @@ double ChainMake::mass_per_length() const {
   return sum / length();
 }
 
-std::vector<LinkPlace> links_between(const std::vector<Eigen::Vector2d>& pins) {
+std::vector<LinkPlace> links_between(const std::vector<Eigen::Vector2d>& pins, bool closed) {
   std::vector<LinkPlace> links;
-  for (size_t j = 0; j < pins.size(); ++j) {
+  const size_t count = closed ? pins.size() : pins.size() - 1;
+  for (size_t j = 0; j < count; ++j) {
     const Eigen::Vector2d& rear = pins[j];
     const Eigen::Vector2d& front = pins[(j + 1) % pins.size()];
     const Eigen::Vector2d along = front - rear;

@@ -18,14 +18,17 @@ struct LinkMass {
 /// Which plates and pins a link has: a bush belongs to an inner link.
 enum class LinkKind : char { kInner, kOuter };
 
-/// The chain as made: links 0 .. n - 1 in running direction, closed. Link j has its rear pin at
+/// The chain as made: links 0 .. n - 1 in running direction. Link j has its rear pin at
 /// (-p_j / 2, 0) and its front pin at (p_j / 2, 0) of its own axes; joint j is that of the front
-/// pin of link j with the rear pin of link j + 1.
+/// pin of link j with the rear pin of link j + 1, of a closed chain that of the last link with the
+/// first one too.
 struct ChainMake {
   std::vector<LinkKind> kinds;  // n
   std::vector<double> pitches;  // p_j, with errors and wear [m]
   LinkMass inner, outer;
+  bool closed = true;
 
+  int joints() const { return closed ? links() : links() - 1; }
   int links() const { return static_cast<int>(kinds.size()); }
   const LinkMass& mass(int link) const {
     return kinds[static_cast<size_t>(link)] == LinkKind::kInner ? inner : outer;
@@ -43,8 +46,8 @@ struct LinkPlace {
   double angle = 0.0;      // of the line from its rear to its front pin [rad]
 };
 
-/// The links that join pins at the given places, n of each: pin j is the rear pin of link j.
-/// Angles are continuous from one link to the next.
-std::vector<LinkPlace> links_between(const std::vector<Eigen::Vector2d>& pins);
+/// The links that join pins at the given places: pin j is the rear pin of link j; of an open chain
+/// there is one pin more than links. Angles are continuous from one link to the next.
+std::vector<LinkPlace> links_between(const std::vector<Eigen::Vector2d>& pins, bool closed = true);
 
 }  // namespace clatter::dynamics

@@ -31,11 +31,11 @@ LinkJoints::LinkJoints(std::string name, std::vector<int> coordinates, ChainMake
       name_(std::move(name)),
       make_(std::move(make)),
       law_(law) {
-  for (int j = 0; j < make_.links(); ++j) {
+  for (int j = 0; j < make_.joints(); ++j) {
     const int a = 3 * j, b = 3 * next(j);
     groups_.push_back({a, a + 1, a + 2, b, b + 1, b + 2});
   }
-  last_ = finished_ = accepted_ = std::vector<double>(static_cast<size_t>(make_.links()), 0.0);
+  last_ = finished_ = accepted_ = std::vector<double>(static_cast<size_t>(make_.joints()), 0.0);
 }
 
 LinkJoints::Joint LinkJoints::joint(int j, const VectorXd& y, const VectorXd& v) const {
@@ -60,7 +60,7 @@ void LinkJoints::evaluate(const Stage& stage, const VectorXd& y, const VectorXd&
   response.force.setZero(y.size());
   response.blocks.resize(groups_.size());
   const double friction = law_.friction * law_.radius * law_.stiffness;
-  for (int j = 0; j < make_.links(); ++j) {
+  for (int j = 0; j < make_.joints(); ++j) {
     const int k = next(j);
     const Joint at = joint(j, y, v);
     const Vector2d force = law_.stiffness * at.pressed * at.direction + law_.damping * at.rate;
@@ -120,7 +120,7 @@ void LinkJoints::tangent(const Joint& at, const Vector2d& force, double kappa, d
 Power LinkJoints::power(const VectorXd& y, const VectorXd& v) const {
   Power power;
   const double friction = law_.friction * law_.radius * law_.stiffness;
-  for (int j = 0; j < make_.links(); ++j) {
+  for (int j = 0; j < make_.joints(); ++j) {
     const Joint at = joint(j, y, v);
     power.stored += 0.5 * law_.stiffness * at.pressed * at.pressed;
     power.lost +=

@@ -20,7 +20,7 @@ struct JointLaw {
   double slip_speed = 0.02;  // friction is less than full below [m/s]
 };
 
-/// All joints of a closed chain, with d = A - B from the front pin B of link j to the rear pin A of
+/// All joints of a chain, with d = A - B from the front pin B of link j to the rear pin A of
 /// link j + 1 and d' its rate as seen from link j,
 ///
 ///   F = k <|d| - c> d / |d| + c_d d'   on link j at A, -F on link j + 1 at A,
@@ -41,7 +41,7 @@ class LinkJoints : public ForceElement {
   void accept_step(double) override { accepted_ = finished_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
 
-  /// Force in joint j at the last accepted state, positive where it pulls link j + 1, n [N].
+  /// Force in joint j at the last accepted state, positive where it pulls link j + 1 [N].
   const std::vector<double>& tensions() const { return accepted_; }
 
  private:

@@ -23,8 +23,8 @@ namespace {
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Instead of a gap: too far for a contact; between the teeth without contact.
-constexpr int kAway = -1, kNear = -2;
+/// Instead of a gap: no contact.
+constexpr int kNone = -1;
 
 std::vector<int> joined(const std::vector<int>& links, const Port& port) {
   std::vector<int> all = links;
@@ -37,13 +37,14 @@ std::vector<int> joined(const std::vector<int>& links, const Port& port) {
 ProfileContact::ProfileContact(std::string name, const std::vector<int>& links,
                                const ChainMake& make, std::shared_ptr<const Profile> profile,
                                const LinkOutlines& outlines, const MattressLaw& law,
-                               ProfileCarrier carrier)
+                               ProfileCarrier carrier, Turn turn)
     : ForceElement(joined(links, *carrier.port)),
       name_(std::move(name)),
       links_(make.links()),
       kinds_(make.kinds),
       profile_(std::move(profile)),
-      carrier_(std::move(carrier)) {
+      carrier_(std::move(carrier)),
+      teeth_(make.links(), profile_->repeats(), turn) {
   const char* const what[] = {"_force_x", "_force_y", "_depth", "_contacts"};
   for (size_t k = 0; k < recorded_.size(); ++k) {
     recorded_[k] = name_ + what[k];
@@ -67,8 +68,7 @@ ProfileContact::ProfileContact(std::string name, const std::vector<int>& links,
     group.insert(group.end(), port.begin(), port.end());
   }
   if (ports > 0) groups_.push_back(port);
-  gap_.assign(kinds_.size(), kAway);
-  last_gap_ = gap_;
+  gap_.assign(kinds_.size(), kNone);
 }
 
 /// A circle around the profile: that of its box, or about the origin where it repeats there.
@@ -142,7 +142,7 @@ bool ProfileContact::is_far(int link, const Motion& motion, const VectorXd& y) {
   const auto index = static_cast<size_t>(link);
   const Vector2d from = y.segment<2>(3 * link) - motion.middle;
   if (from.squaredNorm() > reach_ * reach_) {
-    gap_[index] = kAway;
+    gap_[index] = kNone;
     return true;
   }
   const Clear& clear = clear_[index];
@@ -153,7 +153,7 @@ bool ProfileContact::is_far(int link, const Motion& motion, const VectorXd& y) {
   const double turned = std::abs(y(3 * link + 2) - motion.angle - clear.angle);
   const double left = clear.distance - size_ * turned;
   if (!(left > 0.0 && (at - clear.position).squaredNorm() < left * left)) return false;
-  gap_[index] = kNear;
+  gap_[index] = kNone;
   return true;
 }
 
@@ -169,7 +169,7 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
   const auto index = static_cast<size_t>(link);
   PlanarPose pose;
   pose.position = at.position + carrier_.origin;
-  gap_[index] = kNear;
+  gap_[index] = kNone;
   const double c = std::cos(angle), s = std::sin(angle);
   pose.cosine = c * motion.cosine + s * motion.sine;
   pose.sine = s * motion.cosine - c * motion.sine;
@@ -305,15 +305,7 @@ void ProfileContact::fill_tangent(const Motion& motion, const Relative& at,
 
 void ProfileContact::accept_step(double time) {
   accepted_ = finished_;
-  if (profile_->repeats() == 1) return;
-  for (size_t j = 0; j < gap_.size(); ++j) {
-    if (gap_[j] == kNear) continue;
-    if (gap_[j] >= 0 && last_gap_[j] >= 0 && gap_[j] != last_gap_[j]) {
-      if (jumps_ == 0) first_jump_ = time;
-      ++jumps_;
-    }
-    last_gap_[j] = gap_[j];
-  }
+  if (profile_->repeats() > 1) teeth_.update(time, gap_);
 }
 
 Power ProfileContact::power(const VectorXd&, const VectorXd&) const {

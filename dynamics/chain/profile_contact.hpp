@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/chain/link.hpp"
+#include "dynamics/chain/tooth_count.hpp"
 #include "dynamics/force/element.hpp"
 #include "dynamics/force/port.hpp"
 #include "dynamics/profile/mattress.hpp"
@@ -33,12 +34,13 @@ struct LinkOutlines {
 /// Refuses a state in which a contact is deeper than its law bears.
 class ProfileContact : public ForceElement {
  public:
-  /// @param links y indices of u, v, angle of all links, 3 n. @param name of its histories
+  /// @param links y indices of u, v, angle of all links, 3 n. @param turn of the chain around the
+  /// profile, by which jumps on a sprocket are counted. @param name of its histories
   /// `<name>_force_x`, `_force_y` [N] on the body in the plane's axes, `<name>_depth` [m],
   /// `<name>_contacts`.
   ProfileContact(std::string name, const std::vector<int>& links, const ChainMake& make,
                  std::shared_ptr<const Profile> profile, const LinkOutlines& outlines,
-                 const MattressLaw& law, ProfileCarrier carrier);
+                 const MattressLaw& law, ProfileCarrier carrier, Turn turn);
 
   std::string name() const override { return name_; }
   const std::vector<std::vector<int>>& groups() const override { return groups_; }
@@ -48,13 +50,13 @@ class ProfileContact : public ForceElement {
   void accept_step(double time) override;
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
+  std::vector<double> save() const override { return teeth_.save(); }
+  void restore(const std::vector<double>& state) override { teeth_.restore(state); }
 
   /// Links in contact at the last accepted state.
   int contacts() const { return accepted_.contacts; }
-  /// Times that a link on the sprocket was found in another tooth gap than before: the chain has
-  /// jumped by a tooth.
-  int jumps() const { return jumps_; }
-  double first_jump() const { return first_jump_; }  // [s]
+  /// Jumps of the chain on a sprocket.
+  const ToothCount& teeth() const { return teeth_; }
 
  private:
   using Planar = Eigen::Matrix<double, 3, Eigen::Dynamic>;
@@ -113,9 +115,8 @@ class ProfileContact : public ForceElement {
   mutable Eigen::VectorXd y_port_, v_port_;
   Motion motion_;
   Totals last_, finished_, accepted_;
-  std::vector<int> gap_, last_gap_;  // per link: the tooth gap that it touches, or what follows
-  int jumps_ = 0;
-  double first_jump_ = 0.0;
+  std::vector<int> gap_;  // per link: the tooth gap that it touches, negative: none
+  ToothCount teeth_;
 };
 
 }  // namespace clatter::dynamics

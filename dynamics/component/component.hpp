@@ -79,6 +79,8 @@ class Component {
   /// The body that in the cycle before was where `body` is now, after a time `cycle` [s]: chains move
   /// on by some links.
   virtual int body_before(int body, double /*cycle*/) const { return body; }
+  /// What the user has to know at the end of a run or cycle, one line each.
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// It has a motion by which successive cycles are compared: secondary_motion().
   virtual bool has_secondary_motion() const { return false; }
   /// (lateral [m], tilt [rad]) of a piston against its liner, linear in `y`.

@@ -25,7 +25,8 @@ class Drive {
   explicit Drive(double mean, double start = 0.0, std::vector<SpeedOrder> orders = {});
   /// By a table of its own. @param start is added to its angle [rad].
   explicit Drive(TurnTable table, double start = 0.0);
-  /// Angle [rad], speed [rad/s], acceleration [rad/s2].
+  /// Angle less whole turns [rad], so that it keeps its digits over hours (hard case TD14); speed
+  /// [rad/s], acceleration [rad/s2].
   Motion<double> at(double time) const;
   /// After `cycle` [s] it and each of its orders have made whole turns; never by a table.
   bool repeats(double cycle) const;

@@ -79,7 +79,7 @@ class Search {
       } catch (const StepRefused& refusal) {
         if (found_.iterations == 0 || halvings == kMostHalvings) {
           found_.worst = -1;
-          found_.refused = refusal.kind();
+          found_.refused = refusal.kind() + ", " + refusal.detail();
           return false;
         }
         change_ *= 0.5;

@@ -30,7 +30,7 @@ struct RunResult {
   double energy_residue = 0.0;        // of the reported cycle
   double energy_exchanged = 0.0;      // [J]
   CycleDifference periodicity;        // of the reported cycle
-  std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure
+  std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure, components
 };
 
 struct RunControl {

@@ -11,7 +11,7 @@
 namespace clatter::dynamics {
 namespace {
 
-TEST(HardTD8, AJournalThatTouchesItsBearingIsRefusedAndNoForceIsNotANumber) {
+TEST(HardTD8_ZeroClearance, AJournalThatTouchesItsBearingIsRefusedAndNoForceIsNotANumber) {
   const BearingSize size{24e-3, 16e-3, 2e-3, 10e-3};
   const double c = size.radial_clearance();
   for (const BearingModel model : {BearingModel::kButenschoen, BearingModel::kMoes}) {

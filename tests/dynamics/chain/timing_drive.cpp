@@ -30,8 +30,10 @@ velocity_m_s = 0.1
 name = "crank"
 speed_rpm = {}
 axis = "z"
+start_deg = {}
 )",
-                         drive_.end_s, drive_.output_us, drive_.tolerance, -side_ * drive_.rpm);
+                         drive_.end_s, drive_.output_us, drive_.tolerance, -side_ * drive_.rpm,
+                         -side_ * 360.0 * drive_.start_turns);
   }
 
   void body(const std::string& name, double x, double y, double mass, double inertia, double spin) {
@@ -42,6 +44,7 @@ motion = "xy"
 mass_kg = {3}
 inertia_kg_m2 = {4}
 centre_mm = [{1}, {2}, 0]
+angle_deg = {7}
 start_spin_rad_s = {5}
 [[bushing]]
 name = "{0}"
@@ -50,7 +53,8 @@ b = {{ }}
 stiffness_n_m = {6}
 damping_n_s_m = 1e4
 )",
-                         name, side_ * x, y, mass, inertia, side_ * spin, drive_.bearing_n_m);
+                         name, side_ * x, y, mass, inertia, side_ * spin, drive_.bearing_n_m,
+                         spin == 0.0 ? 0.0 : -side_ * 180.0 * drive_.start_turns);
   }
 
   /// Pushes the arm along x with 109.635 N at its place of 0 deg, as a long spring.
@@ -69,20 +73,21 @@ length_mm = {:.9f}
   }
 
   void chain() {
-    text_ +=
-        fmt::format(R"(
+    text_ += fmt::format(
+        R"(
 [[chain]]
 name = "chain"
-links = 130
+links = {}
 first = "{}"
 pitch_mm = 8
 bush_mm = 5.0
 plate_half_height_mm = 3.6
 inner = {{ mass_kg = 2.2e-3, inertia_kg_m2 = 4.0e-8 }}
 outer = {{ mass_kg = 2.6e-3, inertia_kg_m2 = 4.8e-8 }}
-joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = 3.3 }}
+joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = 3.3{} }}
 )",
-                    drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction);
+        drive_.links, drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction,
+        drive_.friction > 0.0 ? fmt::format(", slip_speed_m_s = {}", drive_.slip_speed_m_s) : "");
   }
 
   void sprocket(const std::string& name, double x, double y, int teeth) {
@@ -92,10 +97,10 @@ sprocket = "{0}"
 on = {{ body = "{0}", at_mm = [{1}, {2}, 0] }}
 turn = "{3}"
 teeth = {4}
-contact = {{ bed_n_m3 = 5e12, width_mm = 4.6, damping_s_m = 0.5, friction = {5} }}
+contact = {{ bed_n_m3 = 5e12, width_mm = 4.6, damping_s_m = 0.5, friction = {5}, slip_speed_m_s = {6} }}
 )",
                          name, side_ * x, y, drive_.mirrored ? "counter-clockwise" : "clockwise",
-                         teeth, drive_.friction);
+                         teeth, drive_.friction, drive_.slip_speed_m_s);
     if (name != "crank") return;
     const double gap = drive_.mirrored ? 180.0 - drive_.gap_deg : drive_.gap_deg;
     text_ += fmt::format("gap_deg = {}\n", gap);
@@ -108,17 +113,18 @@ contact = {{ bed_n_m3 = 5e12, width_mm = 4.6, damping_s_m = 0.5, friction = {5} 
       const double rise = std::asin((at - y) / radius) * kDegrees;
       return side_ * x < 0.0 ? rise : 180.0 - rise;
     };
-    text_ += fmt::format(R"(
+    text_ +=
+        fmt::format(R"(
 [[chain.over]]
 guide = "{}"
 on = {{ {} }}
 turn = "{}"
-contact = {{ bed_n_m3 = 5.357e11, width_mm = 2.4, damping_s_m = 0.5, friction = {} }}
+contact = {{ bed_n_m3 = 5.357e11, width_mm = 2.4, damping_s_m = 0.5, friction = {}, slip_speed_m_s = {} }}
 [[chain.over.segment]]
 arc = {{ centre_mm = [{}, {}], radius_mm = {}, from_deg = {}, to_deg = {} }}
 )",
-                         name, on, drive_.mirrored ? "clockwise" : "counter-clockwise",
-                         drive_.friction, side_ * x, y, radius, angle(from), angle(to));
+                    name, on, drive_.mirrored ? "clockwise" : "counter-clockwise", drive_.friction,
+                    drive_.slip_speed_m_s, side_ * x, y, radius, angle(from), angle(to));
   }
 
   std::string text() const { return text_; }
@@ -136,7 +142,7 @@ std::string TimingDrive::scene() const {
   const double spin = -rpm * std::numbers::pi / 60.0;
   text.head();
   text.body("intake", -60.0, 326.0, 1.0, 1.30e-3, spin);
-  text.body("exhaust", 60.0, 326.0, 1.0, 1.30e-3, spin);
+  text.body("exhaust", 60.0, 326.0, 1.0, 1.30e-3, spin + exhaust_spin);
   // The plunger, 20 g, moves with the arm.
   text.body("arm", -85.0, 245.0, 0.2, 4.5e-4 + 0.02 * 0.085 * 0.085, 0.0);
   text.tensioner();

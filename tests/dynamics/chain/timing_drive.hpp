@@ -9,12 +9,16 @@ struct TimingDrive {
   double rpm = 0.0;             // of the crank, clockwise
   double gap_deg = -20.94;      // of a tooth gap of the crank that is wrapped
   std::string first = "outer";  // link from there in running direction
+  int links = 130;
   double joint_n_m = 1e7;
   double joint_clearance_um = 0.0;
   double plunger_n_m = 2000.0;   // rate of the tensioner, softening outwards
   double plunger_back_mm = 0.0;  // by which its force is that of a plunger farther back
   double bearing_n_m = 1e10;     // of wheels and arm
   double friction = 0.0;         // in all contacts
+  double slip_speed_m_s = 0.02;  // of all friction
+  double start_turns = 0.0;      // of the crank and the cams at the start
+  double exhaust_spin = 0.0;     // of that cam more than the chain's, against running [rad/s]
   bool mirrored = false;         // about the y axis: left is right
   double end_s = 1e-3;
   double tolerance = 1e-3;

@@ -5,21 +5,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
-#include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/run/start_state.hpp"
-#include "tests/dynamics/mechanisms.hpp"
+#include "tests/dynamics/chain/small_motion.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::TimingDrive;
 
@@ -67,28 +64,7 @@ struct Rest {
       if (entry.name == name) return entry.value;
     return std::nan("");
   }
-  /// Frequencies [Hz] of small motions without damping, ascending, with the modes' shapes in y.
-  std::pair<VectorXd, MatrixXd> modes() const {
-    const System& system = model->system;
-    const auto n = static_cast<Eigen::Index>(system.interface_size());
-    MatrixXd K(n, n);
-    VectorXd unit = VectorXd::Zero(n), force(n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      unit(j) = 1.0;
-      force.setZero();
-      system.add_tangent_forces(unit, force);
-      K.col(j) = -force;
-      unit(j) = 0.0;
-    }
-    VectorXd root(n);  // of the mobility: all bodies have coordinates of one mode each
-    for (Eigen::Index i = 0; i < n; ++i)
-      root(i) = std::sqrt(system.mobility({}, {static_cast<int>(i)}).v(0, 0));
-    const MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
-    const VectorXd hertz =
-        solver.eigenvalues().cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
-    return {hertz, root.asDiagonal() * solver.eigenvectors()};
-  }
+  testing::SmallMotion modes() const { return testing::small_motion(model->system, y); }
 };
 
 /// The first mode in which both cams turn the same way and the chain only follows: the one with the
@@ -98,8 +74,6 @@ double first_mode(const Rest& rest) {
   const int a = rest.coordinate("intake", 2), b = rest.coordinate("exhaust", 2);
   double found = 0.0, most = 0.0;
   for (Eigen::Index k = 0; k < hertz.size() && hertz(k) < 150.0; ++k) {
-    std::printf("%.3f %.3g\n", hertz(k),
-                1.3e-3 * (std::pow(shapes(a, k), 2) + std::pow(shapes(b, k), 2)));
     const double share = 1.3e-3 * (std::pow(shapes(a, k), 2) + std::pow(shapes(b, k), 2));
     if (share < most || shapes(a, k) * shapes(b, k) < 0.0) continue;
     most = share;
