@@ -250,6 +250,22 @@ void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const Vecto
   carrier_.port->add_curvature(y_port_, wrench, own.values);
 }
 
+void ProfileContact::find_gaps(double time, const VectorXd& y, const VectorXd& v,
+                               std::span<double> gaps) {
+  move(time, y, v, motion_);
+  MattressForce contact;
+  for (int j = 0; j < links_; ++j) {
+    double& gap = gaps[static_cast<size_t>(j)];
+    gap = (y.segment<2>(3 * j) - motion_.middle).norm() - reach_;
+    if (gap > 0.0) continue;
+    const Relative at = relative(j, motion_, y, v);
+    gap = touch(j, motion_, at, y(3 * j + 2), false, contact)
+              ? -contact.depth
+              : std::max(clear_[static_cast<size_t>(j)].distance,
+                         std::numeric_limits<double>::min());
+  }
+}
+
 /// Forces (on the link; on the port) are W = (F, m; -F, -m - r x F), F = R f, and depend on the
 /// relative position r = R^T (x - o) and angle and on their rates.
 void ProfileContact::fill_tangent(const Motion& motion, const Relative& at,

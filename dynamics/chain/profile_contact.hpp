@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,12 @@ class ProfileContact : public ForceElement {
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
 
+  int links() const { return links_; }
+  /// The gap of each link from the profile, n [m]: negative by its depth where it touches, else a
+  /// lower bound of the distance, above 0. For integrators that look for the instants at which
+  /// contacts begin and end; with forces that are continuous there the kernel's do not.
+  void find_gaps(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                 std::span<double> gaps);
   /// Links in contact at the last accepted state.
   int contacts() const { return accepted_.contacts; }
   /// Times that a link on the sprocket was found in another tooth gap than before: the chain has
