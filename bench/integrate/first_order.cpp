@@ -47,7 +47,7 @@ FirstOrder::FirstOrder(dynamics::System& system, bool events_of_contacts) : syst
     auto* contact = dynamic_cast<dynamics::ProfileContact*>(&system.element(e));
     if (contact == nullptr || !events_of_contacts) continue;
     contacts_.push_back(contact);
-    gaps_ += contact->links();
+    gaps_ += contact->outlines();
   }
   find_pattern();
 }
@@ -235,8 +235,9 @@ void FirstOrder::event_functions(double time, const double* x, double* values) {
     const auto& at = contact->coordinates();
     gather(y_, at, y_contact_);
     gather(v_y_, at, v_contact_);
-    contact->find_gaps(time, y_contact_, v_contact_, {gaps, static_cast<size_t>(contact->links())});
-    gaps += contact->links();
+    contact->find_gaps(time, y_contact_, v_contact_,
+                       {gaps, static_cast<size_t>(contact->outlines())});
+    gaps += contact->outlines();
   }
 }
 

@@ -18,8 +18,8 @@ namespace clatter::bench {
 /// Forces are those of the elements, the Jacobian is from their tangents. A tangent is df/dy +
 /// df/dv / kappa, so two evaluations, with kappa = 1 s and 2 s, give both parts.
 ///
-/// Contacts of links with profiles have event functions if asked for: the gap of each link, negative
-/// where it touches. Nothing changes at these events.
+/// Contacts of links with profiles have event functions if asked for: the gap of each outline,
+/// negative where it touches. Nothing changes at these events.
 ///
 /// InputError for bodies with quasi-static modes. Elements with internal states under the
 /// integrator's tableau (the oil film) do not fit: they have no meaning outside of a step.

@@ -36,12 +36,12 @@ struct BenchScene {
 
 /// Names of all scenes.
 const std::vector<std::string>& scene_names();
-/// A new scene: one of these, or the scene of a file, *.run.toml, with a chain (chain_scene). InputError
-/// for other names.
+/// A new scene: one of these, or the scene of a file, *.run.toml, with a chain (chain_scene).
+/// InputError for other names.
 BenchScene make_scene(const std::string& name);
 
-/// The scene of a file with a [[chain]], sampled at its output steps. Compared are the tensions of all
-/// joints [N] and, last, the spin of the body "intake" [rad/s].
+/// The scene of a file with a [[chain]], sampled at its output steps. Compared are the tensions of
+/// all joints [N] and, last, the spin of the body "intake" [rad/s].
 BenchScene chain_scene(const std::filesystem::path& file);
 
 }  // namespace clatter::bench

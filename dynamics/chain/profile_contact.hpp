@@ -50,10 +50,11 @@ class ProfileContact : public ForceElement {
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
 
-  int links() const { return links_; }
-  /// The gap of each link from the profile, n [m]: negative by its depth where it touches, else a
+  /// Outlines of all links: bushes or plates.
+  int outlines() const;
+  /// The gap of each of them from the profile [m]: negative by its depth where it touches, else a
   /// lower bound of the distance, above 0. For integrators that look for the instants at which
-  /// contacts begin and end; with forces that are continuous there the kernel's do not.
+  /// contacts begin and end; forces are continuous there, so the kernel's do not.
   void find_gaps(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                  std::span<double> gaps);
   /// Links in contact at the last accepted state.
@@ -96,6 +97,7 @@ class ProfileContact : public ForceElement {
   bool is_far(int link, const Motion& motion, const Eigen::VectorXd& y);
   Relative relative(int link, const Motion& motion, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v) const;
+  PlanarPose pose_of(const Motion& motion, const Relative& at, double angle) const;
   bool touch(int link, const Motion& motion, const Relative& at, double angle, bool with_tangent,
              MattressForce& sum);
   void fill_tangent(const Motion& motion, const Relative& at, const MattressForce& contact,
