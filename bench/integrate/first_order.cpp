@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "core/base/error.hpp"
 
@@ -25,7 +27,7 @@ constexpr double kMoment = 1e-9;
 
 }  // namespace
 
-FirstOrder::FirstOrder(dynamics::System& system) : system_(&system) {
+FirstOrder::FirstOrder(dynamics::System& system, bool events_of_contacts) : system_(&system) {
   const int N = system.modes();
   int next = N;
   for (int k = 0; k < N; ++k) {
@@ -39,8 +41,13 @@ FirstOrder::FirstOrder(dynamics::System& system) : system_(&system) {
     if (v_at_[static_cast<size_t>(k)] < 0) D_(k) = system.damping()(k);
   v_.setZero(N);
   for (int e = 0; e < system.elements(); ++e) {
-    blocks_.push_back(block_of(e));
+    const int groups = static_cast<int>(system.groups(e).size());
+    for (int g = 0; g < groups; ++g) blocks_.push_back(block_of(e, g));
     for (int i = 0; i < system.element(e).events(); ++i) events_.push_back({e, i});
+    auto* contact = dynamic_cast<dynamics::ProfileContact*>(&system.element(e));
+    if (contact == nullptr || !events_of_contacts) continue;
+    contacts_.push_back(contact);
+    gaps_ += contact->outlines();
   }
   find_pattern();
 }
@@ -50,20 +57,34 @@ int FirstOrder::row_of(int mode) const {
   return v < 0 ? mode : v;
 }
 
-FirstOrder::Block FirstOrder::block_of(int element) const {
-  const std::vector<int>& at = system_->element(element).coordinates();
-  MatrixXd all = MatrixXd::Zero(static_cast<Index>(at.size()), modes());
-  for (size_t i = 0; i < at.size(); ++i) {
-    const int body = system_->owner(at[i]);
-    const auto& rows = system_->rows(body);
-    const auto row = std::find(rows.begin(), rows.end(), at[i]) - rows.begin();
-    const MatrixXd& P = system_->P(body);
-    all.row(static_cast<Index>(i)).segment(system_->mode_offset(body), P.cols()) = P.row(row);
-  }
+FirstOrder::Block FirstOrder::block_of(int element, int group) const {
+  const std::vector<int>& at = system_->groups(element)[static_cast<size_t>(group)];
   Block block;
-  for (int k = 0; k < modes(); ++k)
-    if ((all.col(k).array() != 0.0).any()) block.modes.push_back(k);
-  block.P = all(Eigen::all, block.modes);
+  block.element = element;
+  block.group = group;
+  std::map<int, int> column;  // of a mode
+  const auto row_of_P = [&](int y) {
+    const int body = system_->owner(y);
+    const auto& rows = system_->rows(body);
+    const auto row = std::find(rows.begin(), rows.end(), y) - rows.begin();
+    return std::pair(system_->mode_offset(body), Eigen::RowVectorXd(system_->P(body).row(row)));
+  };
+  for (const int y : at) {
+    const auto [first, row] = row_of_P(y);
+    for (Index k = 0; k < row.size(); ++k)
+      if (row(k) != 0.0) column[first + static_cast<int>(k)] = 0;
+  }
+  for (auto& [mode, place] : column) {
+    place = static_cast<int>(block.modes.size());
+    block.modes.push_back(mode);
+  }
+  block.P = MatrixXd::Zero(static_cast<Index>(at.size()), static_cast<Index>(block.modes.size()));
+  for (size_t i = 0; i < at.size(); ++i) {
+    const auto [first, row] = row_of_P(at[i]);
+    for (Index k = 0; k < row.size(); ++k)
+      if (row(k) != 0.0)
+        block.P(static_cast<Index>(i), column.at(first + static_cast<int>(k))) = row(k);
+  }
   return block;
 }
 
@@ -117,6 +138,13 @@ VectorXd FirstOrder::state(const VectorXd& eta, const VectorXd& v) const {
   return x;
 }
 
+VectorXd FirstOrder::velocities(const VectorXd& x) const {
+  VectorXd v = VectorXd::Zero(modes());
+  for (int k = 0; k < modes(); ++k)
+    if (v_at_[static_cast<size_t>(k)] >= 0) v(k) = x(v_at_[static_cast<size_t>(k)]);
+  return v;
+}
+
 void FirstOrder::set_state(const double* x) {
   eta_ = Eigen::Map<const VectorXd>(x, modes());
   for (int k = 0; k < modes(); ++k)
@@ -142,11 +170,19 @@ void FirstOrder::evaluate(double time, const double* x, double* g) {
   }
 }
 
+/// nullptr: zero.
+const MatrixXd* FirstOrder::tangent_of(const Block& block) const {
+  const dynamics::Response& response = system_->response(block.element);
+  if (!system_->has_groups(block.element)) return &response.tangent;
+  const dynamics::TangentBlock& own = response.blocks[static_cast<size_t>(block.group)];
+  return own.active ? &own.values : nullptr;
+}
+
 void FirstOrder::jacobian(double time, const double* x, double* values) {
   set_state(x);
   system_->evaluate(instant(time, 1.0), y_, v_y_, true, f_);
-  for (size_t e = 0; e < blocks_.size(); ++e)
-    blocks_[e].T_1 = system_->response(static_cast<int>(e)).tangent;
+  for (Block& block : blocks_)
+    if (const MatrixXd* T = tangent_of(block); T != nullptr) block.T_1 = *T;
   system_->evaluate(instant(time, 2.0), y_, v_y_, true, f_);
   std::fill(values, values + rows_.size(), 0.0);
   for (int k = 0; k < modes(); ++k) {
@@ -156,16 +192,18 @@ void FirstOrder::jacobian(double time, const double* x, double* values) {
     values[omega_at_[i]] -= system_->omega_squared()(k);
     values[damping_at_[i]] -= system_->damping()(k);
   }
-  for (size_t e = 0; e < blocks_.size(); ++e)
-    add_block(blocks_[e], system_->response(static_cast<int>(e)), values);
+  for (Block& block : blocks_) add_block(block, values);
 }
 
 /// Adds P^T A P and P^T B P of the tangents T_1 = A + B (kappa = 1) and T_2 = A + B / 2.
-void FirstOrder::add_block(Block& block, const dynamics::Response& response, double* values) const {
-  block.B = 2.0 * (block.T_1 - response.tangent);
+void FirstOrder::add_block(Block& block, double* values) const {
+  const MatrixXd* T_2 = tangent_of(block);
+  if (T_2 == nullptr) return;
+  const std::vector<int>& touched = system_->response(block.element).touched;
+  block.B = 2.0 * (block.T_1 - *T_2);
   block.A = block.T_1 - block.B;
-  const bool all = response.touched.empty();
-  if (!all) block.P_touched = block.P(response.touched, Eigen::all);
+  const bool all = touched.empty();
+  if (!all) block.P_touched = block.P(touched, Eigen::all);
   const MatrixXd& P = all ? block.P : block.P_touched;
   block.product.noalias() = block.A * P;
   block.by_eta.noalias() = P.transpose() * block.product;
@@ -191,6 +229,15 @@ void FirstOrder::event_functions(double time, const double* x, double* values) {
     const ForceElement& element = system_->element(events_[i].element);
     const auto& at = element.coordinates();
     values[i] = element.event_function(events_[i].index, time, gather(y_, at), gather(v_y_, at));
+  }
+  double* gaps = values + events_.size();
+  for (dynamics::ProfileContact* contact : contacts_) {
+    const auto& at = contact->coordinates();
+    gather(y_, at, y_contact_);
+    gather(v_y_, at, v_contact_);
+    contact->find_gaps(time, y_contact_, v_contact_,
+                       {gaps, static_cast<size_t>(contact->outlines())});
+    gaps += contact->outlines();
   }
 }
 

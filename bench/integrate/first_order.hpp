@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "dynamics/chain/profile_contact.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::bench {
@@ -17,17 +18,22 @@ namespace clatter::bench {
 /// Forces are those of the elements, the Jacobian is from their tangents. A tangent is df/dy +
 /// df/dv / kappa, so two evaluations, with kappa = 1 s and 2 s, give both parts.
 ///
+/// Contacts of links with profiles have event functions if asked for: the gap of each outline,
+/// negative where it touches. Nothing changes at these events.
+///
 /// InputError for bodies with quasi-static modes. Elements with internal states under the
 /// integrator's tableau (the oil film) do not fit: they have no meaning outside of a step.
 class FirstOrder {
  public:
-  explicit FirstOrder(dynamics::System& system);
+  explicit FirstOrder(dynamics::System& system, bool events_of_contacts = false);
 
   int size() const { return static_cast<int>(D_.size()); }
   int modes() const { return system_->modes(); }
   const Eigen::VectorXd& D() const { return D_; }
   /// x of modal displacements and velocities, N each.
   Eigen::VectorXd state(const Eigen::VectorXd& eta, const Eigen::VectorXd& v) const;
+  /// Modal velocities of x, N; 0 of states.
+  Eigen::VectorXd velocities(const Eigen::VectorXd& x) const;
   /// g(t, x), n. Throws StepRefused.
   void evaluate(double time, const double* x, double* g);
 
@@ -40,17 +46,19 @@ class FirstOrder {
   /// a state. Throws StepRefused.
   void jacobian(double time, const double* x, double* values);
 
-  /// Event functions of all elements.
-  int events() const { return static_cast<int>(events_.size()); }
+  /// Event functions of all elements, then those of contacts.
+  int events() const { return own_events() + gaps_; }
+  int own_events() const { return static_cast<int>(events_.size()); }
   void event_functions(double time, const double* x, double* values);
-  /// The event happens: the element changes its mode, its impulse changes x. The side of zero to
-  /// which the function then moves, 1 or -1.
+  /// An element's own event happens: it changes its mode, its impulse changes x. The side of zero
+  /// to which the function then moves, 1 or -1.
   int pass_event(int event, double time, double* x);
-  /// The side of zero on which an event function is or, at a root, to which it moves.
+  /// The side of zero on which an own event function is or, at a root, to which it moves.
   int side(int event, double time, const double* x);
 
  private:
-  struct Block {                        // one element's part of the Jacobian
+  struct Block {  // the part of the Jacobian of an element, or of a group of its coordinates
+    int element, group;
     std::vector<int> modes;             // on which it acts, ascending
     Eigen::MatrixXd P;                  // n_e x modes
     std::vector<int64_t> at_eta, at_v;  // positions in the pattern, modes x modes; -1: none
@@ -59,10 +67,11 @@ class FirstOrder {
   struct EventFunction {
     int element, index;
   };
-  Block block_of(int element) const;
+  Block block_of(int element, int group) const;
   void find_pattern();
   void set_state(const double* x);
-  void add_block(Block& block, const dynamics::Response& response, double* values) const;
+  void add_block(Block& block, double* values) const;
+  const Eigen::MatrixXd* tangent_of(const Block& block) const;
   int row_of(int mode) const;  // of the equation that has the force on this mode
 
   dynamics::System* system_;
@@ -72,7 +81,9 @@ class FirstOrder {
   std::vector<int64_t> starts_, rows_, diagonal_;
   std::vector<int64_t> eta_of_v_, omega_at_, damping_at_;  // per mode, in the pattern
   std::vector<EventFunction> events_;
-  Eigen::VectorXd eta_, v_, y_, v_y_, f_, F_;
+  std::vector<dynamics::ProfileContact*> contacts_;  // that have event functions
+  int gaps_ = 0;                                     // event functions of contacts
+  Eigen::VectorXd eta_, v_, y_, v_y_, f_, F_, y_contact_, v_contact_;
 };
 
 }  // namespace clatter::bench

@@ -2,6 +2,8 @@
 // One scene by one integrator at one tolerance: CPU seconds of the integration, counts, and the
 // values that are compared at equal distances in time, as one line of JSON.
 //   integrate_scene SCENE METHOD TOLERANCE [RUNS]
+// SCENE is a name or a file, *.run.toml; TOLERANCE of a method with fixed steps is their length
+// [s].
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

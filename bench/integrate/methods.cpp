@@ -25,9 +25,11 @@ struct SundialsMethod {
   const char* name;
   SundialsOptions options;
 };
-constexpr std::array<SundialsMethod, 5> kSundials{
+constexpr std::array<SundialsMethod, 7> kSundials{
     {{"cvode", {SundialsSolver::kCvode, 5, true}},
+     {"cvode-roots", {SundialsSolver::kCvode, 5, true, true}},
      {"cvode-2", {SundialsSolver::kCvode, 2, true}},
+     {"cvode-2-roots", {SundialsSolver::kCvode, 2, true, true}},
      {"ida", {SundialsSolver::kIda, 5, true}},
      {"ida-2", {SundialsSolver::kIda, 2, true}},
      {"ida-displacements", {SundialsSolver::kIda, 5, false}}}};
@@ -46,6 +48,9 @@ bool has_events(const dynamics::System& system) {
   return false;
 }
 
+/// The kernel's methods with steps of one length: its name with this.
+constexpr const char* kFixed = "-fixed";
+
 dynamics::StepOptions options_of(const BenchScene& scene, double tolerance) {
   dynamics::StepOptions options = scene.options;
   options.accuracy.tolerance = tolerance;
@@ -62,8 +67,12 @@ Motion run(const BenchScene& scene, std::unique_ptr<dynamics::Integrator> method
     const double length = to.time - from.time;
     for (; sample <= scene.samples && scene.sample_time(sample) <= to.time; ++sample) {
       const double t = (scene.sample_time(sample) - from.time) / length;
-      motion.states.push_back(
-          steps_to_samples ? to.eta : dynamics::hermite(from.eta, from.v, to.eta, to.v, length, t));
+      if (steps_to_samples) {
+        motion.states.push_back({to.eta, to.v});
+        continue;
+      }
+      motion.states.push_back({dynamics::hermite(from.eta, from.v, to.eta, to.v, length, t),
+                               dynamics::hermite(from.v, from.a, to.v, to.a, length, t)});
     }
   }
   const dynamics::StepStatistics& count = method->statistics();
@@ -78,6 +87,15 @@ Motion run(const BenchScene& scene, std::unique_ptr<dynamics::Integrator> method
 Motion by_kernel(const BenchScene& scene, const dynamics::Tableau& table, double tolerance) {
   dynamics::StepOptions options = options_of(scene, tolerance);
   options.method = &table;
+  return run(scene, dynamics::make_integrator(*scene.system, options));
+}
+
+/// Newton's iteration is as exact as for the scene's own tolerance.
+Motion by_fixed_steps(const BenchScene& scene, const dynamics::Tableau& table, double length) {
+  dynamics::StepOptions options = scene.options;
+  options.method = &table;
+  options.fixed = true;
+  options.largest = length;
   return run(scene, dynamics::make_integrator(*scene.system, options));
 }
 
@@ -108,13 +126,15 @@ VectorXd limits(const BenchScene& scene, const FirstOrder& system, double tolera
 }
 
 Motion by_sundials(const BenchScene& scene, const SundialsMethod& method, double tolerance) {
-  FirstOrder system(*scene.system);
+  FirstOrder system(*scene.system, method.options.roots_of_contacts);
   scene.system->begin_step(scene.begin);
   SundialsRun run(system, method.options, scene.begin, system.state(scene.eta, scene.v),
                   limits(scene, system, tolerance));
   Motion motion;
-  for (int sample = 1; sample <= scene.samples; ++sample)
-    motion.states.push_back(run.advance(scene.sample_time(sample), scene.end).head(system.modes()));
+  for (int sample = 1; sample <= scene.samples; ++sample) {
+    const VectorXd& x = run.advance(scene.sample_time(sample), scene.end);
+    motion.states.push_back({x.head(system.modes()), system.velocities(x)});
+  }
   const SundialsCounts count = run.counts();
   motion.steps = count.steps;
   motion.rejected = count.rejected;
@@ -130,6 +150,7 @@ const std::vector<std::string>& method_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const dynamics::Tableau* table : kKernel) all.push_back(table->name);
+    for (const dynamics::Tableau* table : kKernel) all.push_back(table->name + kFixed);
     for (const auto& [name, rho] : kTried) all.emplace_back(name);
     all.emplace_back("exponential");
     for (const SundialsMethod& method : kSundials) all.emplace_back(method.name);
@@ -139,8 +160,10 @@ const std::vector<std::string>& method_names() {
 }
 
 Motion integrate(const BenchScene& scene, const std::string& method, double tolerance) {
-  for (const dynamics::Tableau* table : kKernel)
+  for (const dynamics::Tableau* table : kKernel) {
     if (table->name == method) return by_kernel(scene, *table, tolerance);
+    if (table->name + kFixed == method) return by_fixed_steps(scene, *table, tolerance);
+  }
   for (const auto& [name, rho] : kTried)
     if (name == method)
       return run(scene, std::make_unique<GeneralisedAlpha>(*scene.system,

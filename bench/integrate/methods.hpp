@@ -11,14 +11,16 @@ namespace clatter::bench {
 
 /// What an integrator found and what it took.
 struct Motion {
-  std::vector<Eigen::VectorXd> states;  // modal displacements at the samples' times, N each
+  std::vector<ModalState> states;  // at the samples' times
   long long steps = 0, rejected = 0, evaluations = 0, matrices = 0, events = 0;
 };
 
-/// The kernel's three methods; generalised-alpha and the exponential trapezoidal rule; CVODE and
-/// IDA with orders to 5 and to 2; IDA without velocities in its error test.
+/// The kernel's three methods, adaptive and with fixed steps; generalised-alpha and the exponential
+/// trapezoidal rule; CVODE and IDA with orders to 5 and to 2; CVODE with roots of contacts; IDA
+/// without velocities in its error test.
 const std::vector<std::string>& method_names();
-/// Integrates the scene. InputError for other names, NumericsError when the method fails.
+/// Integrates the scene. @param tolerance of the error test; of fixed steps their length [s].
+/// InputError for other names, NumericsError when the method fails.
 Motion integrate(const BenchScene& scene, const std::string& method, double tolerance);
 
 }  // namespace clatter::bench

@@ -35,9 +35,9 @@ BenchScene scene_of(std::shared_ptr<Owner> model, System& system, double end) {
 }
 
 /// All interface coordinates, times `factor`.
-std::function<VectorXd(double, const VectorXd&)> all_of(const System& system, double factor) {
-  return [&system, factor](double, const VectorXd& eta) -> VectorXd {
-    return factor * system.interface(eta);
+std::function<VectorXd(double, const ModalState&)> all_of(const System& system, double factor) {
+  return [&system, factor](double, const ModalState& state) -> VectorXd {
+    return factor * system.interface(state.eta);
   };
 }
 
@@ -49,8 +49,8 @@ BenchScene andrews(double stiffness) {
   scene.options.accuracy = {1.0, 1e-3, 1.0, 1e-3};
   scene.unit = "rad";
   const Andrews* mechanism = model.get();
-  scene.observe = [mechanism](double, const VectorXd& eta) -> VectorXd {
-    return mechanism->angles(mechanism->system.interface(eta));
+  scene.observe = [mechanism](double, const ModalState& state) -> VectorXd {
+    return mechanism->angles(mechanism->system.interface(state.eta));
   };
   return scene;
 }
@@ -90,8 +90,8 @@ BenchScene slap() {
   scene.options.accuracy = {1.0, 1e-5, 0.1, 0.05};
   scene.unit = "um";
   const dynamics::Model* model = owner->model.get();
-  scene.observe = [model](double time, const VectorXd& eta) -> VectorXd {
-    const VectorXd y = model->system.interface(eta);
+  scene.observe = [model](double time, const ModalState& state) -> VectorXd {
+    const VectorXd y = model->system.interface(state.eta);
     return 1e6 * cylinder_of(*model).secondary_motion(time, y).head(1);
   };
   return scene;
@@ -134,6 +134,7 @@ const std::vector<std::string>& scene_names() {
 }
 
 BenchScene make_scene(const std::string& name) {
+  if (name.ends_with(".run.toml")) return chain_scene(name);
   for (const auto& [own, make] : kScenes)
     if (own == name) return make();
   throw InputError(fmt::format("bench: found scene {}, expected one of {}", name,

@@ -2,6 +2,7 @@
 #pragma once
 // The motions on which bench/integrators.py compares integrators.
 #include <Eigen/Core>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,6 +12,11 @@
 
 namespace clatter::bench {
 
+/// Modal displacements and velocities, N each.
+struct ModalState {
+  Eigen::VectorXd eta, v;
+};
+
 /// A motion from `begin` to `end` and what is compared of it.
 struct BenchScene {
   std::shared_ptr<dynamics::System> system;
@@ -19,8 +25,8 @@ struct BenchScene {
   int samples = 200;              // equidistant, the last one at `end`
   dynamics::StepOptions options;  // of the kernel; tolerance 1: `accuracy` has the scales
   std::string unit;               // of what is compared
-  /// The compared values of a state: of the time and the modal displacements, N.
-  std::function<Eigen::VectorXd(double time, const Eigen::VectorXd& eta)> observe;
+  /// The compared values of a state.
+  std::function<Eigen::VectorXd(double time, const ModalState& state)> observe;
 
   /// Time of a sample, 1 to `samples`.
   double sample_time(int sample) const {
@@ -30,7 +36,12 @@ struct BenchScene {
 
 /// Names of all scenes.
 const std::vector<std::string>& scene_names();
-/// A new scene; InputError for other names.
+/// A new scene: one of these, or the scene of a file, *.run.toml, with a chain (chain_scene).
+/// InputError for other names.
 BenchScene make_scene(const std::string& name);
+
+/// The scene of a file with a [[chain]], sampled at its output steps. Compared are the tensions of
+/// all joints [N] and, last, the spin of the body "intake" [rad/s].
+BenchScene chain_scene(const std::filesystem::path& file);
 
 }  // namespace clatter::bench

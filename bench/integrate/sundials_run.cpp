@@ -153,8 +153,9 @@ struct SundialsRun::Impl {
       if (system.events() > 0)
         check(CVodeRootInit(memory, system.events(), cvode_roots), "CVodeRootInit");
     }
-    sides.resize(static_cast<size_t>(system.events()));
-    for (int e = 0; e < system.events(); ++e)
+    // Contacts may begin and end: 0, both directions.
+    sides.resize(static_cast<size_t>(system.events()), 0);
+    for (int e = 0; e < system.own_events(); ++e)
       sides[static_cast<size_t>(e)] = -system.side(e, time, N_VGetArrayPointer(x));
     look_for_changes();
   }
@@ -184,6 +185,7 @@ struct SundialsRun::Impl {
     for (size_t e = 0; e < found.size(); ++e) {
       if (found[e] == 0) continue;
       ++earlier.events;
+      if (static_cast<int>(e) >= system.own_events()) continue;
       sides[e] = -system.pass_event(static_cast<int>(e), time, N_VGetArrayPointer(x));
     }
     rates(time, x, rate);

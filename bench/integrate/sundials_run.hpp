@@ -12,8 +12,9 @@ enum class SundialsSolver { kCvode, kIda };
 
 struct SundialsOptions {
   SundialsSolver solver = SundialsSolver::kIda;
-  int max_order = 5;            // of the BDF; those above 2 are not A-stable
-  bool test_velocities = true;  // IDA: false leaves them out of the error test (suppressalg)
+  int max_order = 5;               // of the BDF; those above 2 are not A-stable
+  bool test_velocities = true;     // IDA: false leaves them out of the error test (suppressalg)
+  bool roots_of_contacts = false;  // starts again where a link begins or ends a contact
 };
 
 /// Counts since the start.

@@ -35,14 +35,23 @@ LinkJoints::LinkJoints(std::string name, std::vector<int> coordinates, ChainMake
     const int a = 3 * j, b = 3 * next(j);
     groups_.push_back({a, a + 1, a + 2, b, b + 1, b + 2});
   }
+  halves_.resize(static_cast<size_t>(make_.links()));
   last_ = finished_ = accepted_ = std::vector<double>(static_cast<size_t>(make_.joints()), 0.0);
+}
+
+/// Each link has two joints: its sine and cosine serve both.
+void LinkJoints::turn(const VectorXd& y) const {
+  for (int j = 0; j < make_.links(); ++j) {
+    const double angle = y(3 * j + 2);
+    halves_[static_cast<size_t>(j)] = make_.half(j) * Vector2d(std::cos(angle), std::sin(angle));
+  }
 }
 
 LinkJoints::Joint LinkJoints::joint(int j, const VectorXd& y, const VectorXd& v) const {
   const int k = next(j);
   Joint at;
-  at.front = make_.half(j) * Vector2d(std::cos(y(3 * j + 2)), std::sin(y(3 * j + 2)));
-  at.rear = -make_.half(k) * Vector2d(std::cos(y(3 * k + 2)), std::sin(y(3 * k + 2)));
+  at.front = halves_[static_cast<size_t>(j)];
+  at.rear = -halves_[static_cast<size_t>(k)];
   at.d = y.segment<2>(3 * k) - y.segment<2>(3 * j) + at.rear - at.front;
   at.rate = v.segment<2>(3 * k) - v.segment<2>(3 * j) + v(3 * k + 2) * across(at.rear) -
             v(3 * j + 2) * across(at.front + at.d);
@@ -60,6 +69,7 @@ void LinkJoints::evaluate(const Stage& stage, const VectorXd& y, const VectorXd&
   response.force.setZero(y.size());
   response.blocks.resize(groups_.size());
   const double friction = law_.friction * law_.radius * law_.stiffness;
+  turn(y);
   for (int j = 0; j < make_.joints(); ++j) {
     const int k = next(j);
     const Joint at = joint(j, y, v);
@@ -120,6 +130,7 @@ void LinkJoints::tangent(const Joint& at, const Vector2d& force, double kappa, d
 Power LinkJoints::power(const VectorXd& y, const VectorXd& v) const {
   Power power;
   const double friction = law_.friction * law_.radius * law_.stiffness;
+  turn(y);
   for (int j = 0; j < make_.joints(); ++j) {
     const Joint at = joint(j, y, v);
     power.stored += 0.5 * law_.stiffness * at.pressed * at.pressed;

@@ -45,7 +45,7 @@ class LinkJoints : public ForceElement {
   const std::vector<double>& tensions() const { return accepted_; }
 
  private:
-  /// One joint at a state.
+  /// One joint at the state of the last turn().
   struct Joint {
     Eigen::Vector2d front, rear;  // from the centres of links j and j + 1 to B and A [m]
     Eigen::Vector2d d, rate;      // [m], [m/s] as seen from link j
@@ -54,6 +54,7 @@ class LinkJoints : public ForceElement {
     double pressed = 0.0;                                 // <|d| - c> [m]
     double length = 0.0;                                  // |d| [m]
   };
+  void turn(const Eigen::VectorXd& y) const;
   Joint joint(int j, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   void tangent(const Joint& at, const Eigen::Vector2d& force, double kappa, double spin_front,
                double spin_rear, Eigen::MatrixXd& values) const;
@@ -63,6 +64,7 @@ class LinkJoints : public ForceElement {
   ChainMake make_;
   JointLaw law_;
   std::vector<std::vector<int>> groups_;
+  mutable std::vector<Eigen::Vector2d> halves_;     // from the centre of each link to its front pin
   std::vector<double> last_, finished_, accepted_;  // tensions
 };
 

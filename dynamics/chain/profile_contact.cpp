@@ -136,6 +136,13 @@ ProfileContact::Relative ProfileContact::relative(int link, const Motion& motion
   return at;
 }
 
+/// Of a link in the axes of the profile's part.
+PlanarPose ProfileContact::pose_of(const Motion& motion, const Relative& at, double angle) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {at.position - carrier_.origin, c * motion.cosine + s * motion.sine,
+          s * motion.cosine - c * motion.sine};
+}
+
 /// A link that cannot touch, by its distance from the profile's middle or by how little it has
 /// moved since it was clear of the profile.
 bool ProfileContact::is_far(int link, const Motion& motion, const VectorXd& y) {
@@ -167,12 +174,8 @@ int ProfileContact::gap_of(const Vector2d& position) const {
 bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, double angle,
                            bool with_tangent, MattressForce& sum) {
   const auto index = static_cast<size_t>(link);
-  PlanarPose pose;
-  pose.position = at.position + carrier_.origin;
+  const PlanarPose pose = pose_of(motion, at, angle);
   gap_[index] = kNone;
-  const double c = std::cos(angle), s = std::sin(angle);
-  pose.cosine = c * motion.cosine + s * motion.sine;
-  pose.sine = s * motion.cosine - c * motion.sine;
   bool touches = false;
   MattressForce one;
   double distance = std::numeric_limits<double>::infinity();
@@ -248,6 +251,32 @@ void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const Vecto
   const PlaneAxes& plane = carrier_.plane;
   wrench << last_.force.x() * plane.first + last_.force.y() * plane.second, Vector3d::Zero();
   carrier_.port->add_curvature(y_port_, wrench, own.values);
+}
+
+void ProfileContact::find_gaps(double time, const VectorXd& y, const VectorXd& v,
+                               std::span<double> gaps) {
+  move(time, y, v, motion_);
+  MattressForce contact;
+  auto gap = gaps.begin();
+  for (int j = 0; j < links_; ++j) {
+    const auto index = static_cast<size_t>(j);
+    const double beyond = (y.segment<2>(3 * j) - motion_.middle).norm() - reach_;
+    const Relative at = relative(j, motion_, y, v);
+    const PlanarPose pose = pose_of(motion_, at, y(3 * j + 2));
+    for (size_t i = 0; i < contacts_[index].size(); ++i, ++gap) {
+      *gap = beyond;
+      if (beyond > 0.0) continue;
+      contacts_[index][i].evaluate(pose, {at.velocity, at.spin}, false, hints_[index][i], contact);
+      *gap = contact.depth > 0.0 ? -contact.depth
+                                 : std::max(-contact.depth, std::numeric_limits<double>::min());
+    }
+  }
+}
+
+int ProfileContact::outlines() const {
+  size_t sum = 0;
+  for (const auto& contacts : contacts_) sum += contacts.size();
+  return static_cast<int>(sum);
 }
 
 /// Forces (on the link; on the port) are W = (F, m; -F, -m - r x F), F = R f, and depend on the

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,13 @@ class ProfileContact : public ForceElement {
   std::vector<double> save() const override { return teeth_.save(); }
   void restore(const std::vector<double>& state) override { teeth_.restore(state); }
 
+  /// Outlines of all links: bushes or plates.
+  int outlines() const;
+  /// The gap of each of them from the profile [m]: negative by its depth where it touches, else a
+  /// lower bound of the distance, above 0. For integrators that look for the instants at which
+  /// contacts begin and end; forces are continuous there, so the kernel's do not.
+  void find_gaps(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                 std::span<double> gaps);
   /// Links in contact at the last accepted state.
   int contacts() const { return accepted_.contacts; }
   /// Jumps of the chain on a sprocket.
@@ -91,6 +99,7 @@ class ProfileContact : public ForceElement {
   bool is_far(int link, const Motion& motion, const Eigen::VectorXd& y);
   Relative relative(int link, const Motion& motion, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v) const;
+  PlanarPose pose_of(const Motion& motion, const Relative& at, double angle) const;
   bool touch(int link, const Motion& motion, const Relative& at, double angle, bool with_tangent,
              MattressForce& sum);
   void fill_tangent(const Motion& motion, const Relative& at, const MattressForce& contact,

@@ -371,11 +371,11 @@ void System::add_block_forces(size_t element, const VectorXd& dy) const {
   for (size_t g = 0; g < groups.size(); ++g) {
     if (!blocks[g].active) continue;
     const std::vector<int>& at = groups[g];
-    for (size_t j = 0; j < at.size(); ++j)
-      for (size_t i = 0; i < at.size(); ++i)
-        change(at[i]) +=
-            blocks[g].values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-            moved(at[j]);
+    const double* value = blocks[g].values.data();  // column by column
+    for (const int j : at) {
+      const double by = moved(j);
+      for (const int i : at) change(i) += *value++ * by;
+    }
   }
 }
 
