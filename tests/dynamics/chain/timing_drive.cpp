@@ -69,8 +69,7 @@ length_mm = {:.9f}
   }
 
   void chain() {
-    text_ +=
-        fmt::format(R"(
+    text_ += fmt::format(R"(
 [[chain]]
 name = "chain"
 links = 130
@@ -81,8 +80,10 @@ plate_half_height_mm = 3.6
 inner = {{ mass_kg = 2.2e-3, inertia_kg_m2 = 4.0e-8 }}
 outer = {{ mass_kg = 2.6e-3, inertia_kg_m2 = 4.8e-8 }}
 joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = 3.3 }}
+{}
 )",
-                    drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction);
+                         drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction,
+                         drive_.chain_keys);
   }
 
   void sprocket(const std::string& name, double x, double y, int teeth) {
