@@ -34,8 +34,8 @@ class ChainComponent : public Component {
   /// span [N]; `<chain>_<sprocket>_speed`, positive where it moves the chain forwards [rad/s]; what
   /// the contacts record; `<chain>_jumps` of teeth.
   void record(const System& system, const StageState& state, History& history) const override;
-  /// Group `chain/<chain>`; fields `links` (centre u, v [m], angle [rad] of each), `tension` of the
-  /// joints [N], `over/<name>/place` of each sprocket's and guide's axes as the links'.
+  /// Group `chain/<chain>`; fields `x`, `y` [m], `angle` [rad] of the links, `tension` of the
+  /// joints [N], `over/<name>/place` of each sprocket's and guide's axes.
   FieldPlan field_plan() const override;
   void write_outlines(H5File& file) const override;
   void record_fields(const StageState& state, FieldStream& fields) const override;

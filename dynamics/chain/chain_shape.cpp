@@ -58,15 +58,17 @@ void ChainComponent::write_outlines(H5File& file) const {
 void ChainComponent::record_fields(const StageState& state, FieldStream& fields) const {
   const std::string group = run::path("chain", spec_.name);
   const int n = spec_.make.links();
-  RowMatrix links(n, 3);
-  Eigen::VectorXd tension(n);
+  Eigen::VectorXd x(n), y(n), angle(n), tension(n);
   for (int j = 0; j < n; ++j) {
     const auto at = static_cast<size_t>(j);
-    links.row(j) << state.y(y_[3 * at]), state.y(y_[3 * at + 1]),
-        within_half_turn(state.y(y_[3 * at + 2]));
+    x(j) = state.y(y_[3 * at]);
+    y(j) = state.y(y_[3 * at + 1]);
+    angle(j) = within_half_turn(state.y(y_[3 * at + 2]));
     tension(j) = joints_->tensions()[at];
   }
-  fields.add(run::path(group, "links"), links);
+  fields.add(run::path(group, "x"), x);
+  fields.add(run::path(group, "y"), y);
+  fields.add(run::path(group, "angle"), angle);
   fields.add(run::path(group, "tension"), tension);
   for (size_t i = 0; i < contacts_.size(); ++i)
     fields.add(run::path(group, "over/" + spec_.over[i].name + "/place"),

@@ -8,6 +8,7 @@ from .artefact import BadArtefact, dataset, text
 from .histories import has, history
 
 CYCLE_DEG = 720.0
+FIRST_STEP_DEG = 1.0  # a recorded cycle begins after the first step, which is not longer
 
 
 @dataclasses.dataclass
@@ -55,18 +56,26 @@ class Chain:
 
     def last_cycle(self):
         """Indices of the instants of the last complete cycle; of all, where the run is shorter or has no crank."""
-        if np.isnan(self.angle).any() or self.angle[-1] - self.angle[0] < CYCLE_DEG:
+        if np.isnan(self.angle).any():
             return np.arange(len(self.time))
         return np.flatnonzero(self.angle > self.angle[-1] - CYCLE_DEG)
+
+    def seen_from_behind(self):
+        """The same with x reversed."""
+        links = self.links * [-1.0, 1.0, -1.0] + [0.0, 0.0, np.pi]
+        over = [dataclasses.replace(one, turn=-one.turn, outline=one.outline * [-1.0, 1.0], place=one.place * [-1.0, 1.0, -1.0])
+                for one in self.over]
+        return dataclasses.replace(self, links=links, over=over)
 
 
 def names(run):
     """Chains of a run with shapes."""
-    return sorted(name for name in run.get("chain", {}) if "links" in run[f"chain/{name}"])
+    return sorted(name for name in run.get("chain", {}) if "tension" in run[f"chain/{name}"])
 
 
 def read_chain(run, name=None):
-    """A chain of the run, by default its only one or the first by name."""
+    """A chain of the run, by default its only one or the first by name; seen from where its first sprocket turns clockwise,
+    as front views of engines are drawn."""
     present = names(run)
     if not present:
         raise BadArtefact(f"{run.filename}: chain: found no shapes of a chain, expected a scene with [[chain]] whose "
@@ -79,10 +88,11 @@ def read_chain(run, name=None):
     time = dataset(run, f"{group}/time")
     over = [read_over(run, f"{group}/over/{one}", one)
             for one in sorted(run[f"{group}/over"], key=lambda one: run[f"{group}/over/{one}"].attrs["order"])]
-    links = dataset(run, f"{group}/links").astype(float)
-    return Chain(name, time, crank_at(run, time), links, dataset(run, f"{group}/tension").astype(float),
+    links = np.stack([dataset(run, f"{group}/{part}").astype(float) for part in ("x", "y", "angle")], axis=-1)
+    chain = Chain(name, time, crank_at(run, time), links, dataset(run, f"{group}/tension").astype(float),
                  dataset(run, f"{group}/inner") != 0, dataset(run, f"{group}/pitch"),
                  float(run[group].attrs["bush_radius"]), float(run[group].attrs["plate_half_height"]), over)
+    return chain.seen_from_behind() if over[0].turn > 0.0 else chain
 
 
 def read_over(run, group, name):
@@ -129,10 +139,13 @@ def crank_at(run, time):
 def mean_rpm(run):
     """Mean speed of the crank over the last cycle, or over a shorter run [1/min]."""
     time, angle = dataset(run, "history/time"), crank_angle(run)
-    first = int(np.searchsorted(angle, angle[-1] - CYCLE_DEG)) if angle[-1] - angle[0] > CYCLE_DEG else 0
-    if not angle[-1] > angle[first]:
-        return 0.0
-    return (angle[-1] - angle[first]) / (time[-1] - time[first]) / 6.0
+    first = int(np.searchsorted(angle, angle[-1] - CYCLE_DEG))
+    return (angle[-1] - angle[first]) / (time[-1] - time[first]) / 6.0 if first + 1 < len(time) else 0.0
+
+
+def complete_cycles(angle):
+    """Whole cycles of 720 deg in recorded crank angles."""
+    return int((angle[-1] - angle[0] + FIRST_STEP_DEG) / CYCLE_DEG)
 
 
 class Loop:
@@ -147,19 +160,21 @@ class Loop:
         self.begins = np.concatenate([[0.0], np.cumsum(self.lengths)[:-1]])
         self.along = steps / self.lengths[:, None]
         self.length = float(self.lengths.sum())
-        self.zones = [(one.name, *zone) for one in chain.over
-                      for zone in self.runs_of(np.roll(near(chain, one, instant, pins), -exit_))]
+        self.zones = []  # (name, begin, end [m]) of what the chain runs over, in that order
+        for one in chain.over:
+            on = np.flatnonzero(np.roll(near(chain, one, instant, pins), -exit_)[1:]) + 1
+            if len(on):
+                self.zones.append((one.name, self.begins[on[0]], self.begins[on[-1]]))
+        self.zones.sort(key=lambda zone: zone[1])
 
-    def runs_of(self, touching):
-        """(begin, end) [m] of each row of joints that touch; those of one part that are a joint or two apart are one."""
-        found = []
-        for at in np.flatnonzero(touching):
-            if found and at - found[-1][1] <= 3:
-                found[-1][1] = at
-            else:
-                found.append([at, at])
-        ends = np.concatenate([self.begins, [self.length]])
-        return [(ends[first], ends[min(last, len(self.begins))]) for first, last in found if last > first]
+    def where(self, place):
+        """"on crank", "between intake and exhaust"; of a place along the loop [m]."""
+        for name, begin, end in self.zones:
+            if begin <= place <= end:
+                return f"on {name}"
+        before = [name for name, _, end in self.zones if end < place] or [self.zones[-1][0]]
+        after = [name for name, begin, _ in self.zones if begin > place] or [self.zones[0][0]]
+        return f"between {before[-1]} and {after[0]}"
 
     def place(self, points):
         """Place along the loop of points beside it [m]."""
@@ -179,11 +194,12 @@ def leaving(touching):
 
 
 def near(chain, over, instant, pins):
-    """Which joints run on a sprocket or guide at an instant."""
+    """Which joints run on a sprocket, or pass a guide, at an instant."""
     pitch = chain.pitch.mean()
     if over.teeth:
         radius = 0.5 * pitch / np.sin(np.pi / over.teeth)
         return np.abs(np.linalg.norm(pins - over.place[instant, :2], axis=1) - radius) < 0.1 * pitch
     line = over.at(instant)
-    gap = np.array([np.linalg.norm(line - pin, axis=1).min() for pin in pins])
-    return gap < chain.half_height + 0.06 * pitch
+    gap = np.linalg.norm(pins[:, None] - line, axis=2)
+    closest = gap.argmin(axis=1)
+    return (gap.min(axis=1) < chain.half_height + pitch) & (closest > 0) & (closest < len(line) - 1)

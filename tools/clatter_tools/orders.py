@@ -3,7 +3,7 @@
 import numpy as np
 
 from .artefact import BadArtefact, dataset, text
-from .chains import CYCLE_DEG, crank_angle
+from .chains import CYCLE_DEG, complete_cycles, crank_angle
 
 # References of levels in dB (ISO 1683); quantities of other units are shown as they are.
 REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9}
@@ -11,7 +11,7 @@ REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9}
 
 def whole_cycles(angle, wanted=None):
     """How many of the complete cycles at the end to analyse: the last third of them, at least one; 0: there is none."""
-    complete = int((angle[-1] - angle[0]) / CYCLE_DEG + 1e-6)
+    complete = complete_cycles(angle)
     return min(complete, wanted or max(1, complete // 3))
 
 
@@ -46,8 +46,8 @@ def of_run(run, name, cycles=None):
     if count == 0:
         raise BadArtefact(f"{run.filename}: found {(angle[-1] - angle[0]) / CYCLE_DEG:.2g} cycles of {CYCLE_DEG:g} deg, "
                           "expected at least one for orders")
-    begin = np.interp(angle[-1] - count * CYCLE_DEG, angle, time)
-    rpm = count * CYCLE_DEG / (time[-1] - begin) / 6.0
+    first = int(np.searchsorted(angle, angle[-1] - count * CYCLE_DEG - 1e-6))
+    rpm = (angle[-1] - angle[first]) / (time[-1] - time[first]) / 6.0
     return rpm, *half_orders(angle, values, count), text(run[f"history/{name}"].attrs.get("unit", ""))
 
 

@@ -41,22 +41,14 @@ class ChainShape : public ::testing::Test {
   RunResult result_;
 };
 
-/// Row `instant` of a dataset of instants x rows x columns in single precision.
-RowMatrix instant(const H5File& file, const std::string& name, int64_t index) {
-  const auto shape = file.shape(name);
-  const std::vector<double> all = file.read_doubles(name);
-  const int64_t rows = shape.size() > 2 ? shape[1] : 1, columns = shape.back();
-  return Eigen::Map<const RowMatrix>(all.data() + index * rows * columns, rows, columns);
-}
-
 Vector2d turned(double angle, const Vector2d& a) {
   return {std::cos(angle) * a.x() - std::sin(angle) * a.y(),
           std::sin(angle) * a.x() + std::cos(angle) * a.y()};
 }
 
 /// A point in the axes of a place (x, y, angle).
-Vector2d moved(const RowMatrix& place, const Vector2d& a) {
-  return Vector2d(place(0), place(1)) + turned(place(2), a);
+Vector2d moved(const Eigen::Vector3d& place, const Vector2d& a) {
+  return place.head<2>() + turned(place(2), a);
 }
 
 TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
@@ -68,8 +60,9 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
     EXPECT_GE(time[k], 5e-5 * static_cast<double>(k));
     EXPECT_LE(time[k], 5e-5 * static_cast<double>(k) + 2.0e-5);
   }
-  EXPECT_EQ(file.shape("chain/chain/links"), (std::vector<int64_t>{8, kLinks, 3}));
-  EXPECT_EQ(file.shape("chain/chain/tension"), (std::vector<int64_t>{8, kLinks}));
+  const std::vector<int64_t> expected{8, kLinks};
+  for (const char* field : {"x", "y", "angle", "tension"})
+    EXPECT_EQ(file.shape(std::string("chain/chain/") + field), expected);
   EXPECT_EQ(file.get_string("chain/chain", "plane"), "xy");
   const auto inner = file.read_ints("chain/chain/inner");
   const auto pitch = file.read_doubles("chain/chain/pitch");
@@ -78,13 +71,15 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
   EXPECT_EQ(pitch[0], 8e-3);
 
   // Neighbours are joined, and the joint's force stretches it by 0.1 um per newton.
-  const RowMatrix links = instant(file, "chain/chain/links", 7),
-                  tension = instant(file, "chain/chain/tension", 7);
+  const RowMatrix x = file.read_rows("chain/chain/x"), y = file.read_rows("chain/chain/y"),
+                  angle = file.read_rows("chain/chain/angle"),
+                  tension = file.read_rows("chain/chain/tension");
+  const auto link = [&](int j) { return Eigen::Vector3d(x(7, j), y(7, j), angle(7, j)); };
   for (int j = 0; j < kLinks; ++j) {
     const int next = (j + 1) % kLinks;
-    const Vector2d gap = moved(links.row(next), {-4e-3, 0.0}) - moved(links.row(j), {4e-3, 0.0});
+    const Vector2d gap = moved(link(next), {-4e-3, 0.0}) - moved(link(j), {4e-3, 0.0});
     // Single precision resolves 3e-8 m; damping of 200 N s/m adds some newtons.
-    EXPECT_NEAR(gap.norm(), 1e-7 * std::abs(tension(j)), 3e-6) << j;
+    EXPECT_NEAR(gap.norm(), 1e-7 * std::abs(tension(7, j)), 3e-6) << j;
   }
   // Both ends of the tensions are those of the histories at that step.
   const auto steps = file.read_doubles("history/time"),
@@ -92,8 +87,8 @@ TEST_F(ChainShape, IsThatOfTheLinksAndOfWhatTheyRunOver) {
              least = file.read_doubles("history/chain_tension_min");
   const auto step = std::find(steps.begin(), steps.end(), time[7]) - steps.begin();
   ASSERT_LT(step, std::ssize(steps));
-  EXPECT_NEAR(tension.maxCoeff(), most[static_cast<size_t>(step)], 1e-4);
-  EXPECT_NEAR(tension.minCoeff(), least[static_cast<size_t>(step)], 1e-4);
+  EXPECT_NEAR(tension.row(7).maxCoeff(), most[static_cast<size_t>(step)], 1e-4);
+  EXPECT_NEAR(tension.row(7).minCoeff(), least[static_cast<size_t>(step)], 1e-4);
 }
 
 TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
@@ -108,7 +103,7 @@ TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
   // The crank turns by its speed about its centre; a tooth gap was at the angle given.
   const double speed = -3400.0 * std::numbers::pi / 30.0;
   for (const int64_t k : {0, 2}) {
-    const RowMatrix place = instant(file, over + "crank/place", k);
+    const Eigen::Vector3d place = file.read_rows(over + "crank/place").row(k);
     EXPECT_NEAR(place(0), 0.0, 1e-9);
     EXPECT_NEAR(place(1), 0.0, 1e-9);
     const double turn = -20.94 * std::numbers::pi / 180.0 + speed * time[static_cast<size_t>(k)];
@@ -121,8 +116,8 @@ TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
   EXPECT_NEAR(crank.rowwise().norm().minCoeff(), 25.569815e-3 - 2.58399e-3, 1e-5);
   EXPECT_NEAR((crank.row(0) - crank.bottomRows(1)).norm(), 0.0, 1e-9);
   // The guide is on the ground: an arc of 1200 mm in the scene's axes, from y = 250 to 60 mm.
-  const RowMatrix guide = file.read_rows(over + "guide/outline"),
-                  place = instant(file, over + "guide/place", 2);
+  const RowMatrix guide = file.read_rows(over + "guide/outline");
+  const Eigen::Vector3d place = file.read_rows(over + "guide/place").row(2);
   for (Eigen::Index i = 0; i < guide.rows(); ++i) {
     const Vector2d point = moved(place, guide.row(i).transpose());
     EXPECT_NEAR((point - Vector2d(1.2218, -0.1525)).norm(), 1.2, 1e-7);
@@ -139,13 +134,16 @@ TEST_F(ChainShape, HasOutlinesWithTheirPlaces) {
 }
 
 TEST_F(ChainShape, IsRecordedAsOftenAsAsked) {
-  // 5.1 deg of the crank at 3400 rpm take 250 us.
-  EXPECT_EQ(recorded(running("shape_every_deg = 5.1", 1e-3)).shape("chain/chain/links")[0], 4);
+  // 5.2 deg of the crank at 3400 rpm take 255 us: after 0, 255, 510, 765 us.
+  EXPECT_EQ(recorded(running("shape_every_deg = 5.2", 1e-3)).shape("chain/chain/x")[0], 4);
   const H5File none = recorded(running("shape_every_us = 0", 1e-4));
-  EXPECT_FALSE(none.has("chain/chain/links"));
-  // Of a short run each step: there are fewer of them than 300.
-  const H5File each = recorded(running("", 1e-4));
-  EXPECT_EQ(each.shape("chain/chain/links")[0], each.shape("history/time")[0]);
+  EXPECT_FALSE(none.has("chain"));
+  // Without a key 300 of a span.
+  const auto model = build_model(scene(running("", 1e-3)), {});
+  double interval = 0.0;
+  for (const auto& component : model->components)
+    if (component->name() == "chain") interval = component->field_plan().interval(0.03);
+  EXPECT_DOUBLE_EQ(interval, 1e-4);
 }
 
 TEST_F(ChainShape, IntervalsThatMeanNothingAreRefused) {
