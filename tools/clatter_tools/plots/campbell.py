@@ -71,5 +71,5 @@ def draw_cuts(axis, spectra, speeds, unit, cuts):
         axis.set_ylim(bottom=max(axis.get_ylim()[0], max(whole) - 70.0))
     else:
         axis.set_yscale("log")
-        axis.set_ylim(bottom=max(axis.get_ylim()[0], max(whole) / (3.0 * SHOWN_RATIO)))
+        axis.set_ylim(bottom=max(axis.get_ylim()[0], max(whole) / SHOWN_RATIO**2))
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=len(cuts) + 1)

@@ -24,7 +24,8 @@ def write_frames(chain, title, rpm, folder, count):
     folder.mkdir(parents=True, exist_ok=True)
     # Programs that make videos need even numbers of pixels.
     dots = 100.0
-    picture.figure.set_size_inches(*[2.0 * np.ceil(0.5 * dots * size) / dots for size in picture.figure.get_size_inches()])
+    pixels = 2.0 * np.ceil(0.5 * dots * picture.figure.get_size_inches())
+    picture.figure.set_size_inches(*(pixels + 0.5) / dots)  # of which the integer part counts
     for number, instant in enumerate(chosen, 1):
         picture.show(instant).savefig(folder / f"frame_{number:04d}.png", dpi=dots)
     style.plt.close(picture.figure)

@@ -17,10 +17,11 @@ def sprockets(run, name):
 
 def draw(files):
     """Fluctuation of the speed of all sprockets over the last cycle, one row per run, by speed (run files with a chain)."""
-    runs = sorted(style.open_all(files, "run"), key=chains.mean_rpm)
+    runs = style.open_all(files, "run")
     for run in runs:
         if not chains.names(run):
             raise BadArtefact(f"{run.filename}: chain: found no shapes of a chain, whose sprockets this picture shows")
+    runs.sort(key=chains.mean_rpm)
     figure, axes = style.figure(len(runs), height=ROW_IN, sharex=True, sharey=True)
     for axis, run in zip(axes[:, 0], runs):
         cycle, name = LastCycle(run), chains.names(run)[0]
