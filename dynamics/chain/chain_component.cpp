@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/chain/plane_vector.hpp"
 
@@ -35,6 +37,8 @@ PortState at_start(ModelBuilder& model, const Port& port) {
 ChainComponent::ChainComponent(ChainSpec spec) : spec_(std::move(spec)), layout_(lay_out(spec_)) {
   for (const char* what : {"_tension_min", "_tension_max", "_jumps"})
     recorded_.push_back(spec_.name + what);
+  for (const ChainOver& over : spec_.over)
+    speeds_.push_back(fmt::format("{}_{}_speed", spec_.name, over.name));
   for (const BeltPart& part : layout_.belt.parts) {
     if (!part.straight || part.owner == part.next) continue;
     const auto name = [&](int owner) { return spec_.over[static_cast<size_t>(owner)].name; };
@@ -52,8 +56,22 @@ double ChainComponent::start_speed(ModelBuilder& model) const {
   return spin * first.belt.front().per_angle;
 }
 
+/// Between the instants of shapes [s].
+double ChainComponent::shape_interval(double speed) const {
+  if (!spec_.shape_every_deg) return spec_.shape_every.value_or(0.0);
+  const double spin = std::abs(speed) / spec_.over.front().belt.front().per_angle;
+  if (*spec_.shape_every_deg == 0.0) return 0.0;
+  if (!(spin > 0.0))
+    throw InputError(
+        fmt::format("{}: shape_every_deg: {} does not turn at the start, expected "
+                    "shape_every_us",
+                    spec_.where, spec_.over.front().name));
+  return *spec_.shape_every_deg * kDegree / spin;
+}
+
 void ChainComponent::add_bodies(ModelBuilder& model) {
   const double speed = speed_ = start_speed(model);
+  if (!model.at_rest) shape_every_ = shape_interval(speed);
   const std::vector<LinkPlace> places = links_between(layout_.pins);
   const size_t n = places.size();
   for (size_t j = 0; j < n; ++j) {
@@ -182,6 +200,11 @@ void ChainComponent::record(const System& system, const StageState& state, Histo
   for (const ProfileContact* contact : contacts_) jumps += contact->teeth().jumped();
   history.put(recorded_[2], "1", jumps);
   for (const SpanPoint& span : spans_) history.put(span.recorded, "N", tension_at(span, state));
+  for (size_t i = 0; i < contacts_.size(); ++i)
+    if (spec_.over[i].teeth > 0)
+      history.put(speeds_[i], "rad/s",
+                  static_cast<double>(spec_.over[i].turn) *
+                      contacts_[i]->spin(state.time, state.y, state.v_y));
   Component::record(system, state, history);
 }
 

@@ -33,8 +33,14 @@ class ChainComponent : public Component {
   /// Sprockets on which it jumped, with the time.
   std::vector<std::string> warnings() const override;
   /// `<chain>_tension_min`, `_max` of all joints, `<chain>_tension_<a>_<b>` in the middle of each
-  /// span [N]; what the contacts record; `<chain>_jumps` of teeth.
+  /// span [N]; `<chain>_<sprocket>_speed`, positive where it moves the chain forwards [rad/s]; what
+  /// the contacts record; `<chain>_jumps` of teeth.
   void record(const System& system, const StageState& state, History& history) const override;
+  /// Group `chain/<chain>`; fields `x`, `y` [m], `angle` [rad] of the links, `tension` of the
+  /// joints [N], `over/<name>/place` of each sprocket's and guide's axes.
+  FieldPlan field_plan() const override;
+  void write_outlines(H5File& file) const override;
+  void record_fields(const StageState& state, FieldStream& fields) const override;
 
  private:
   /// A straight span of the layout between two sprockets or guides.
@@ -44,12 +50,14 @@ class ChainComponent : public Component {
   };
   ProfileCarrier carrier(ModelBuilder& model, size_t over) const;
   double start_speed(ModelBuilder& model) const;
+  double shape_interval(double speed) const;
   double tension_at(const SpanPoint& span, const StageState& state) const;
 
   ChainSpec spec_;
   ChainLayout layout_;
   std::vector<SpanPoint> spans_;
-  std::vector<std::string> recorded_;
+  std::vector<std::string> recorded_, speeds_;
+  double shape_every_ = 0.0;  // [s]
   int first_body_ = 0;
   double speed_ = 0.0;                           // at the start [m/s]
   std::vector<int> y_;                           // of all links, 3 n

@@ -38,6 +38,10 @@ struct ChainSpec {
   double bush_radius = 0.0;     // [m]
   double half_height = 0.0;     // of the plates from the line of the pins [m]
   std::vector<ChainOver> over;  // in running order; the first is a sprocket
+  /// Its shape is recorded every so many seconds, or degrees of the first sprocket at its speed at
+  /// the start; without both kShapes times in the run, with 0 never.
+  std::optional<double> shape_every, shape_every_deg;
+  static constexpr int kShapes = 300;
 
   std::vector<std::string> over_names() const;
   /// A vector of the scene in the plane of the chain.

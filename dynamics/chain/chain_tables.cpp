@@ -147,6 +147,17 @@ ChainOver read_over(const Config& table, const ChainSpec& chain, double pitch) {
   return over;
 }
 
+/// Between the instants at which the shape is recorded.
+void read_shapes(const Config& table, ChainSpec& chain) {
+  const Range none_or_more = Range::between(0.0, 1e9);
+  if (table.has("shape_every_us"))
+    chain.shape_every = table.number("shape_every_us", none_or_more) * kMicro;
+  if (!table.has("shape_every_deg")) return;
+  if (chain.shape_every)
+    table.fail("shape_every_deg", "found shape_every_us too, expected one of them");
+  chain.shape_every_deg = table.number("shape_every_deg", none_or_more);
+}
+
 ChainSpec read_chain(const Config& table) {
   ChainSpec chain;
   chain.name = read_name(table);
@@ -160,10 +171,18 @@ ChainSpec read_chain(const Config& table) {
   chain.bush_radius = 0.5 * table.number("bush_mm", Range::between(1e-3, 999.0 * pitch)) * kMilli;
   chain.half_height = table.number("plate_half_height_mm", kLength) * kMilli;
   for (const Config& one : table.tables("over")) {
-    chain.over.push_back(read_over(one, chain, pitch));
+    ChainOver over = read_over(one, chain, pitch);
+    const char* const key = over.teeth > 0 ? "sprocket" : "guide";
+    if (over.name.empty() || over.name == "." || over.name.find('/') != std::string::npos)
+      one.fail(key, fmt::format("found \"{}\", expected a name without /", over.name));
+    for (const ChainOver& before : chain.over)
+      if (before.name == over.name)
+        one.fail(key, fmt::format("found \"{}\" for the second time", over.name));
+    chain.over.push_back(std::move(over));
     for (BeltCircle& circle : chain.over.back().belt)
       circle.owner = static_cast<int>(chain.over.size()) - 1;
   }
+  read_shapes(table, chain);
   if (chain.over.empty() || chain.over.front().teeth == 0)
     throw InputError(chain.where + ": found " +
                      (chain.over.empty() ? "no over" : "a guide as the first over") +

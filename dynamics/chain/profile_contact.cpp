@@ -123,6 +123,25 @@ void ProfileContact::move(double time, const VectorXd& y, const VectorXd& v, Mot
   planar(at_.work, motion.work);
 }
 
+ProfileContact::Motion ProfileContact::motion_at(double time, const VectorXd& y,
+                                                 const VectorXd& v) const {
+  const std::vector<int>& own = carrier_.port->coordinates();
+  Motion motion;
+  move(time, gather(y, own), gather(v, own), motion);
+  return motion;
+}
+
+Vector3d ProfileContact::place(double time, const VectorXd& y, const VectorXd& v) const {
+  const Motion motion = motion_at(time, y, v);
+  const Vector2d arm = -carrier_.origin;
+  const Vector2d origin = motion.position + motion.cosine * arm + motion.sine * across(arm);
+  return {origin.x(), origin.y(), motion.angle};
+}
+
+double ProfileContact::spin(double time, const VectorXd& y, const VectorXd& v) const {
+  return motion_at(time, y, v).spin;
+}
+
 ProfileContact::Relative ProfileContact::relative(int link, const Motion& motion, const VectorXd& y,
                                                   const VectorXd& v) const {
   const auto back = [&](const Vector2d& a) -> Vector2d {
@@ -139,7 +158,7 @@ ProfileContact::Relative ProfileContact::relative(int link, const Motion& motion
 /// Of a link in the axes of the profile's part.
 PlanarPose ProfileContact::pose_of(const Motion& motion, const Relative& at, double angle) const {
   const double c = std::cos(angle), s = std::sin(angle);
-  return {at.position - carrier_.origin, c * motion.cosine + s * motion.sine,
+  return {at.position + carrier_.origin, c * motion.cosine + s * motion.sine,
           s * motion.cosine - c * motion.sine};
 }
 

@@ -61,6 +61,13 @@ class ProfileContact : public ForceElement {
   /// contacts begin and end; forces are continuous there, so the kernel's do not.
   void find_gaps(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                  std::span<double> gaps);
+  /// Where the profile's axes are: origin [m] and angle [rad, -pi to pi], in the plane's axes.
+  /// @param y, v of the system.
+  Eigen::Vector3d place(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+  /// Angular velocity of what carries the profile, counter-clockwise in the plane [rad/s].
+  double spin(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
+  const Profile& profile() const { return *profile_; }
+
   /// Links in contact at the last accepted state.
   int contacts() const { return accepted_.contacts; }
   /// Jumps of the chain on a sprocket.
@@ -94,6 +101,7 @@ class ProfileContact : public ForceElement {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();  // relative to the port
     double angle = 0.0, distance = 0.0;
   };
+  Motion motion_at(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   void find_reach();
   int gap_of(const Eigen::Vector2d& position) const;
   bool is_far(int link, const Motion& motion, const Eigen::VectorXd& y);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "core/base/h5_file.hpp"
 #include "dynamics/component/effects.hpp"
 #include "dynamics/component/loaded_body.hpp"
 #include "dynamics/force/history.hpp"
@@ -21,6 +22,7 @@ class PistonLiner;
 
 namespace clatter::dynamics {
 
+class FieldStream;
 class ModelBuilder;
 class System;
 
@@ -33,6 +35,16 @@ struct ElementRange {
 struct ComponentSize {
   int modes = 0;           // of bodies without a reduced model, which the run file does not contain
   int64_t film_cells = 0;  // of all pads
+};
+
+/// Where in the run file a component records fields, and how often.
+struct FieldPlan {
+  std::string group;   // empty: it has none
+  double every = 0.0;  // between instants [s]
+  int instants = 0;    // if `every` is 0: so many of a span, equally spaced
+
+  /// Between instants of a span, both in [s].
+  double interval(double span) const { return every > 0.0 ? every : span / instants; }
 };
 
 /// One entry of a scene: it reads its own TOML table, adds bodies, elements and loads to a model,
@@ -91,6 +103,12 @@ class Component {
   virtual std::map<int, Eigen::Vector3d> frames(double /*time*/) const { return {}; }
   /// The contact whose fields are recorded; owned by the model's system.
   virtual const film::PistonLiner* contact() const { return nullptr; }
+
+  /// Fields of a model's component at intervals, for pictures. The group gets what does not change
+  /// by write_outlines() and the fields of an accepted state by record_fields().
+  virtual FieldPlan field_plan() const { return {}; }
+  virtual void write_outlines(H5File&) const {}
+  virtual void record_fields(const StageState&, FieldStream&) const {}
 
   void set_elements(const ElementRange& elements) { elements_ = elements; }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Film fields of some instants, which go to the run file block by block.
+// Film fields of some instants.
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/h5_file.hpp"
+#include "dynamics/component/field_stream.hpp"
 #include "dynamics/film/piston_liner.hpp"
 
 namespace clatter::dynamics {
@@ -18,26 +17,20 @@ class FilmStream {
   /// `file` and `contact` outlive the stream. @param group `film`, or that of one of several
   /// contacts.
   FilmStream(H5File& file, const film::PistonLiner& contact, std::string group)
-      : file_(&file), contact_(&contact), group_(std::move(group)) {}
+      : file_(&file), contact_(&contact), group_(std::move(group)), fields_(file) {}
   /// The fields of all pads of the last accepted state.
   void add();
   /// Writes what is left.
-  void finish();
+  void finish() { fields_.finish(); }
   /// Numbers in memory.
-  int64_t held() const;
+  int64_t held() const { return fields_.held(); }
 
  private:
-  struct Field {
-    std::vector<float> values;  // frames x cells
-    int64_t around = 0, along = 0;
-    int64_t cells() const { return around * along; }
-  };
-  void put(const std::string& name, const RowMatrix& frame);
-  void flush(const std::string& name, Field& field);
   H5File* file_;
   const film::PistonLiner* contact_;
   std::string group_;
-  std::map<std::string, Field> fields_;  // by dataset
+  FieldStream fields_;
+  bool first_ = true;
 };
 
 }  // namespace clatter::dynamics

@@ -23,6 +23,8 @@ Recorder::Recorder(const Model& model, const RecordedSpan& span, H5File& file,
       film_every_(span.film_every),
       next_film_(span.begin) {
   for (const auto& component : model.components) {
+    if (!component->field_plan().group.empty())
+      fields_.emplace_back(model, *component, file, span.begin, span.end);
     if (component->contact() == nullptr) continue;
     const std::string name = component->name();
     films_.emplace_back(file, *component->contact(),
@@ -56,6 +58,7 @@ void Recorder::record(const Integrator& method, const EnergyBalance& energy) {
     for (FilmStream& film : films_) film.add();
     while (next_film_ <= now.time) next_film_ += film_every_;
   }
+  for (ComponentFields& fields : fields_) fields.record(now);
 }
 
 // Appends to the clock in row_.
@@ -77,11 +80,13 @@ void Recorder::finish() {
   energy_.finish();
   if (film_clock_.rows() > 0) film_clock_.finish();
   for (FilmStream& film : films_) film.finish();
+  for (ComponentFields& fields : fields_) fields.finish();
 }
 
 int64_t Recorder::held() const {
   int64_t sum = samples_.held() + history_.held() + energy_.held() + film_clock_.held();
   for (const FilmStream& film : films_) sum += film.held();
+  for (const ComponentFields& fields : fields_) sum += fields.held();
   return sum;
 }
 

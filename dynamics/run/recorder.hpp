@@ -5,6 +5,7 @@
 
 #include "dynamics/force/history.hpp"
 #include "dynamics/run/column_stream.hpp"
+#include "dynamics/run/component_fields.hpp"
 #include "dynamics/run/energy.hpp"
 #include "dynamics/run/film_stream.hpp"
 #include "dynamics/run/model.hpp"
@@ -19,8 +20,9 @@ struct RecordedSpan {
   double film_every = 0.0;        // between film fields [s], 0: none
 };
 
-/// Records one span of a run into the groups `history`, `energy` and `film` of a run file; the
-/// samples go to a sink. What is held in memory does not grow with the span.
+/// Records one span of a run into the groups `history`, `energy` and `film` of a run file, and
+/// those of the components' fields; the samples go to a sink. What is held in memory does not grow
+/// with the span.
 class Recorder {
  public:
   /// `model` and `file` outlive the recorder; `sink` takes the blocks of samples.
@@ -46,6 +48,7 @@ class Recorder {
   History last_;
   ColumnStream history_, energy_, film_clock_;
   std::vector<FilmStream> films_;  // of the contacts
+  std::vector<ComponentFields> fields_;
   std::vector<double> row_;
   double film_every_, next_film_;
 };

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
+#include "dynamics/component/field_stream.hpp"
 #include "dynamics/run/run_size.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
@@ -99,6 +100,33 @@ TEST(Recorder, HardN11_HoldsNoMoreNumbersInALongRun) {
   for (size_t i = 1; i < time.size(); ++i) ASSERT_GT(time[i], time[i - 1]);
   EXPECT_EQ(more.file->read_doubles("energy/terms/modal damping").size(), time.size());
   EXPECT_EQ(more.file->shape("bodies/bar/q")[0], more.samples);
+}
+
+TEST(FieldStream, HardN11_HoldsOneBlockOfAFieldAndWritesAllInstants) {
+  const fs::path path = testing::test_folder() / "fields.h5";
+  constexpr int kInstants = 1000;  // of 130 x 3 numbers: twelve blocks
+  H5File file = H5File::create(path);
+  FieldStream fields(file);
+  int64_t most = 0;
+  for (int k = 0; k < kInstants; ++k) {
+    const RowMatrix links = RowMatrix::Constant(130, 3, k);
+    const Eigen::VectorXd tension = Eigen::VectorXd::LinSpaced(130, k, k + 129.0);
+    fields.add("group/links", links);
+    fields.add("group/tension", tension);
+    fields.add("group/nothing", Eigen::VectorXd());
+    most = std::max(most, fields.held());
+  }
+  fields.finish();
+  EXPECT_LE(most, 2 * 32768);  // both of its fields
+  EXPECT_EQ(fields.held(), 0);
+  EXPECT_EQ(file.shape("group/links"), (std::vector<int64_t>{kInstants, 130, 3}));
+  EXPECT_EQ(file.shape("group/tension"), (std::vector<int64_t>{kInstants, 130}));
+  EXPECT_FALSE(file.has("group/nothing"));
+  const RowMatrix tension = file.read_rows("group/tension");
+  for (int k = 0; k < kInstants; ++k) {
+    ASSERT_EQ(tension(k, 0), k);
+    ASSERT_EQ(tension(k, 129), k + 129.0);
+  }
 }
 
 TEST(Periodicity, IsTheDifferenceOfBothCyclesSampleBySample) {

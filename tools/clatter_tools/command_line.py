@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-from . import info, motored_cycle, report
+from . import drive_command, info, motored_cycle, report
 from .artefact import BadArtefact
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -28,7 +28,8 @@ def parser():
     one = commands.add_parser("plot", help="draw a picture from artefacts")
     one.add_argument("kind", help="kind of picture; 'list' names them")
     one.add_argument("files", nargs="*", metavar="file.h5")
-    one.add_argument("-o", "--output", help="PNG file; default: kind.png")
+    one.add_argument("-o", "--output", help="PNG or SVG file; default: kind.png")
+    drive_command.add_arguments(commands)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
@@ -74,6 +75,10 @@ def main(arguments, rules):
             report.print_report(options.folder)
         elif options.command == "plot":
             return plot(options.kind, options.files, options.output)
+        elif options.command == "drive":
+            drive_command.write_pictures(options)
+        elif options.command == "orders":
+            drive_command.write_orders(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":

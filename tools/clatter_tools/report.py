@@ -2,7 +2,7 @@
 """`clatter report`: results of the runs of a folder, cost of each stage, paths of pictures."""
 import pathlib
 
-from . import artefact, findings, slap
+from . import artefact, chains, drive_findings, findings, slap
 
 STAGES = ["mesh", "fe", "modes", "rom", "run", "field"]
 
@@ -17,6 +17,7 @@ def print_report(folder):
     print_quality(files["mesh"])
     print_comparisons(folder)
     print_runs(files["run"])
+    print_drives(files["run"])
     print_fields(files["field"])
     print_cost([path for stage in STAGES for path in files[stage]])
     print_paths(folder)
@@ -69,6 +70,23 @@ def print_runs(paths):
         with artefact.open_artefact(path, "run") as file:
             rows += [[f"{stem(path)} {cylinder}".rstrip(), *cells] for cylinder, cells in findings.run_rows(file)]
     print_table("runs (last cycle)", ["run", *findings.RUN_HEAD], rows)
+
+
+def print_drives(paths):
+    """Chain drives, run by run, then what runs at several speeds show together."""
+    runs = [(path, file) for path in paths for file in [artefact.open_artefact(path, "run")] if chains.names(file)]
+    for path, file in runs:
+        print(f"\nchain drive of {stem(path)}, {chains.mean_rpm(file):.0f} rpm")
+        for sentence in drive_findings.sentences(file):
+            print(f"  {sentence}")
+    names = sorted({name for _, file in runs for name in chains.names(file)})
+    for name in names:
+        same = [(file, name) for _, file in runs if name in chains.names(file)]
+        found = drive_findings.critical_speed(same) if len(same) > 1 else []
+        if found:
+            print(f"\n{name} at several speeds")
+        for sentence in found:
+            print(f"  {sentence}")
 
 
 def print_fields(paths):

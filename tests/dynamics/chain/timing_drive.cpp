@@ -85,9 +85,11 @@ plate_half_height_mm = 3.6
 inner = {{ mass_kg = 2.2e-3, inertia_kg_m2 = 4.0e-8 }}
 outer = {{ mass_kg = 2.6e-3, inertia_kg_m2 = 4.8e-8 }}
 joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = 3.3{} }}
+{}
 )",
         drive_.links, drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction,
-        drive_.friction > 0.0 ? fmt::format(", slip_speed_m_s = {}", drive_.slip_speed_m_s) : "");
+        drive_.friction > 0.0 ? fmt::format(", slip_speed_m_s = {}", drive_.slip_speed_m_s) : "",
+        drive_.chain_keys);
   }
 
   void sprocket(const std::string& name, double x, double y, int teeth) {

@@ -23,7 +23,8 @@ struct TimingDrive {
   double end_s = 1e-3;
   double tolerance = 1e-3;
   double output_us = 20.0;
-  std::string more;  // further tables
+  std::string chain_keys;  // further keys of [[chain]]
+  std::string more;        // further tables
 
   /// The scene's text.
   std::string scene() const;

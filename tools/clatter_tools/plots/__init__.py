@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures from artefacts: one function per picture, one style for all."""
-from . import accelerations, faces, film, piston, quality, radiation, shape, style
+from . import accelerations, drive, faces, film, loop, piston, quality, radiation, shape, speed, style, tensioner, valves
 
 PICTURES = {
     "piston": piston.draw,
@@ -11,11 +11,16 @@ PICTURES = {
     "faces": faces.draw,
     "quality": quality.draw,
     "shape": shape.draw_deflection,
+    "drive": drive.draw,
+    "loop": loop.draw,
+    "speed": speed.draw,
+    "tensioner": tensioner.draw,
+    "valves": valves.draw,
 }
 
 
 def draw(kind, files, output):
-    """Draws one picture of PICTURES from files into a PNG, which appears only when it is complete."""
+    """Draws one picture of PICTURES from files into a PNG or SVG."""
     style.apply()
     figure = PICTURES[kind](files)
     style.save(figure, output)

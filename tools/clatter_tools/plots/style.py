@@ -7,6 +7,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 from ..artefact import BadArtefact, open_artefact, text  # noqa: E402
 
@@ -30,10 +31,11 @@ def figure(rows=1, columns=1, height=2.6, sharex=False, **options):
 
 
 def save(figure_, output):
+    """Writes a PNG, or an SVG by the name of the file; it appears only when it is complete."""
     output = pathlib.Path(output)
     output.parent.mkdir(parents=True, exist_ok=True)
     part = output.with_name(output.name + ".part")
-    figure_.savefig(part, format="png")
+    figure_.savefig(part, format="svg" if output.suffix.lower() == ".svg" else "png")
     plt.close(figure_)
     os.replace(part, output)
 
@@ -43,6 +45,13 @@ def open_all(paths, kind):
     if not paths:
         raise BadArtefact(f"this picture needs at least one .{kind}.h5 file")
     return [open_artefact(path, kind) for path in paths]
+
+
+def open_one(paths, kind):
+    """The opened artefact of a picture that shows one."""
+    if len(paths) != 1:
+        raise BadArtefact(f"this picture needs one .{kind}.h5 file")
+    return open_artefact(paths[0], kind)
 
 
 def label(file, cylinder=""):
@@ -66,6 +75,11 @@ def legend(axis, columns=2):
 
 def headline(figure_, title):
     figure_.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+
+
+def nice_ticks(low, high, count=6):
+    """Round values from `low` to `high`."""
+    return matplotlib.ticker.MaxNLocator(count).tick_values(low, high)
 
 
 def mark_firing(axis, position=0.0):

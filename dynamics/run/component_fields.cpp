@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dynamics/run/component_fields.hpp"
+
+#include "core/run/run_layout.hpp"
+
+namespace clatter::dynamics {
+
+ComponentFields::ComponentFields(const Model& model, const Component& component, H5File& file,
+                                 double begin, double end)
+    : model_(&model),
+      component_(&component),
+      clock_(file, component.field_plan().group),
+      fields_(file),
+      every_(component.field_plan().interval(end - begin)),
+      next_(begin) {
+  clock_.add_column(run::kTime, "s");
+  if (model.clock) clock_.add_column(run::kCrankAngle, "deg");
+  component.write_outlines(file);
+}
+
+void ComponentFields::record(const StageState& now) {
+  if (now.time < next_) return;
+  if (model_->clock)
+    clock_.add({now.time, model_->clock->angle_deg(now.time)});
+  else
+    clock_.add({now.time});
+  component_->record_fields(now, fields_);
+  while (next_ <= now.time) next_ += every_;
+}
+
+void ComponentFields::finish() {
+  clock_.finish();
+  fields_.finish();
+}
+
+}  // namespace clatter::dynamics

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Fields that a component records at intervals.
+#include <cstdint>
+
+#include "dynamics/component/field_stream.hpp"
+#include "dynamics/run/column_stream.hpp"
+#include "dynamics/run/model.hpp"
+
+namespace clatter::dynamics {
+
+/// The fields of one component over its own clock, `<group>/time` and, with a crank,
+/// `<group>/crank_angle_deg`.
+class ComponentFields {
+ public:
+  /// Of a component of `model` whose plan has a group; model and file outlive this. @param begin,
+  /// end span of the run [s].
+  ComponentFields(const Model& model, const Component& component, H5File& file, double begin,
+                  double end);
+  /// After each accepted step.
+  void record(const StageState& now);
+  /// Writes what is left.
+  void finish();
+  /// Numbers in memory.
+  int64_t held() const { return clock_.held() + fields_.held(); }
+
+ private:
+  const Model* model_;
+  const Component* component_;
+  ColumnStream clock_;
+  FieldStream fields_;
+  double every_, next_;
+};
+
+}  // namespace clatter::dynamics

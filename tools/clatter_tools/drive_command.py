@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter drive` and `clatter orders`: pictures of a chain drive, orders over the speed of several runs."""
+import pathlib
+
+from . import chains, orders
+from .artefact import BadArtefact, open_artefact
+
+ORDERS = (1.5, 3.0, 4.5, 20.0, 40.0)  # of a three-cylinder engine, and the teeth of a crank sprocket with 20
+
+
+def add_arguments(commands):
+    """Declares both commands."""
+    one = commands.add_parser("drive", help="draw all pictures of a chain drive: its run as still, animation, curves")
+    one.add_argument("file", metavar="run.h5")
+    one.add_argument("-o", "--output", metavar="folder", help="folder of the pictures; default: the run's name")
+    one.add_argument("--format", choices=("svg", "png"), default="svg", help="of the pictures; default svg")
+    one.add_argument("--frames", type=int, default=0, metavar="N", help="also write N frames of one cycle as PNG, for a video")
+    one = commands.add_parser("orders", help="draw Campbell diagram and order cuts of runs at several speeds")
+    one.add_argument("files", nargs="+", metavar="file.h5")
+    what = one.add_mutually_exclusive_group(required=True)
+    what.add_argument("--history", metavar="NAME", help="of run files")
+    what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
+    one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
+                     help="orders of the cuts, multiples of 0.5; default %(default)s")
+    one.add_argument("--cycles", type=int, metavar="N", help="cycles at the end that are analysed; default: the last third")
+    one.add_argument("-o", "--output", default="campbell.svg", metavar="picture", help="SVG or PNG; default %(default)s")
+
+
+def write_pictures(options):
+    """`clatter drive`: one file per picture that the run has the data of; prints their paths."""
+    from . import plots
+    from .plots import drive, drive_film, tensioner, valves
+    from .plots.over_cycle import named
+    if options.frames < 0:
+        raise BadArtefact(f"--frames: found {options.frames}, expected a number of frames")
+    with open_artefact(options.file, "run") as run:
+        chain, titled = chains.read_chain(run), drive.titled(run)
+        kinds = ["drive", "loop", "speed"]
+        kinds += ["tensioner"] if tensioner.tensioners(run) else []
+        kinds += ["valves"] if any(named(run, "valve_", end) for end, *_ in valves.ROWS) else []
+    folder = pathlib.Path(options.output or pathlib.Path(options.file).name.split(".")[0])
+    for kind in kinds:
+        path = folder / f"{kind}.{options.format}"
+        plots.draw(kind, [options.file], path)
+        print(path)
+    drive_film.write_page(chain, *titled, folder / "drive.html")
+    print(folder / "drive.html")
+    if options.frames:
+        count = drive_film.write_frames(chain, *titled, folder / "frames", options.frames)
+        print(f"{folder / 'frames'}: {count} frames")
+
+
+def cut_orders(text):
+    """The orders of --orders."""
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        found = []
+    if not found or any(order <= 0.0 or (2.0 * order) % 1.0 for order in found):
+        raise BadArtefact(f"--orders: found {text}, expected multiples of 0.5 separated by commas")
+    return found
+
+
+def write_orders(options):
+    """`clatter orders`: the picture, and a table of levels."""
+    from .plots import campbell, style
+    cuts = cut_orders(options.orders)
+    if options.cycles is not None and options.cycles < 1:
+        raise BadArtefact(f"--cycles: found {options.cycles}, expected at least 1")
+    spectra = []
+    for path in options.files:
+        with open_artefact(path, "field" if options.sensor else "run") as file:
+            spectra.append(orders.of_field(file, options.sensor) if options.sensor
+                           else orders.of_run(file, options.history, options.cycles))
+    style.apply()
+    style.save(campbell.picture(spectra, cuts, f"Orders of {options.sensor or options.history}"), options.output)
+    print_levels(sorted(spectra, key=lambda one: one[0]), cuts)
+    print(options.output)
+
+
+def print_levels(spectra, cuts):
+    """Levels of each order by speed, and the speeds where they are largest."""
+    unit = spectra[0][3]
+    print(orders.level_name(unit).replace("m/s²", "m/s2"))
+    print(f"{'rpm':>8} {'all':>10} " + " ".join(f"{f'order {cut:g}':>10}" for cut in cuts))
+    for speed, order, rms, _ in spectra:
+        values = [orders.fluctuation(rms), *(orders.of_order(order, rms, cut) for cut in cuts)]
+        print(f"{speed:8.0f} " + " ".join(f"{orders.level(value, unit):10.4g}" for value in values))
+    for cut in cuts:
+        values = [orders.of_order(order, rms, cut) for _, order, rms, _ in spectra]
+        if all(value == value for value in values):
+            print(f"order {cut:g} is largest at {orders.peak_of([one[0] for one in spectra], values)[0]:.0f} rpm")

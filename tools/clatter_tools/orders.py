@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Order analysis: amplitudes of a signal over the crank angle, in bands half an engine order wide."""
+import numpy as np
+
+from .artefact import BadArtefact, dataset, text
+from .chains import CYCLE_DEG, complete_cycles, crank_angle
+
+# References of levels in dB (ISO 1683); quantities of other units are shown as they are.
+REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9}
+
+
+def whole_cycles(angle, wanted=None):
+    """How many of the complete cycles at the end to analyse: the last third of them, at least one; 0: there is none."""
+    complete = complete_cycles(angle)
+    return min(complete, wanted or max(1, complete // 3))
+
+
+def over_angle(angle, values, cycles):
+    """The signal at equal steps of crank angle over the last cycles: piecewise linear between its samples, and so finely that
+    each of them counts."""
+    begin = angle[-1] - cycles * CYCLE_DEG
+    samples = np.count_nonzero(angle >= begin)
+    count = 1 << max(10, int(np.ceil(np.log2(2.0 * samples))))
+    return np.interp(begin + np.arange(count) * (cycles * CYCLE_DEG / count), angle, values)
+
+
+def half_orders(angle, values, cycles):
+    """(orders 0, 0.5, 1, ..., RMS of the signal in the band of half an order around each) over the last cycles. A constant is
+    in order 0, whose value is its size."""
+    signal = over_angle(angle, values, cycles)
+    lines = np.abs(np.fft.rfft(signal)) / len(signal)
+    power = 2.0 * lines**2
+    power[0] = lines[0] ** 2
+    band = np.floor(np.arange(len(power)) / cycles + 0.5).astype(int)
+    rms = np.sqrt(np.bincount(band, power))
+    resolved = np.count_nonzero(angle >= angle[-1] - cycles * CYCLE_DEG) // (2 * cycles)  # below the samples' own Nyquist limit
+    rms = rms[:max(2, min(len(rms), resolved))]
+    return 0.5 * np.arange(len(rms)), rms
+
+
+def of_run(run, name, cycles=None):
+    """(speed [1/min], orders, RMS, unit) of a history of a run."""
+    values = dataset(run, f"history/{name}")
+    angle, time = crank_angle(run), dataset(run, "history/time")
+    count = whole_cycles(angle, cycles)
+    if count == 0:
+        raise BadArtefact(f"{run.filename}: found {(angle[-1] - angle[0]) / CYCLE_DEG:.2g} cycles of {CYCLE_DEG:g} deg, "
+                          "expected at least one for orders")
+    first = int(np.searchsorted(angle, angle[-1] - count * CYCLE_DEG - 1e-6))
+    rpm = (angle[-1] - angle[first]) / (time[-1] - time[first]) / 6.0
+    return rpm, *half_orders(angle, values, count), text(run[f"history/{name}"].attrs.get("unit", ""))
+
+
+def of_field(field, label):
+    """The same of the acceleration of a sensor's channel in a field file, by its label."""
+    at = "analysis/cycle"
+    sensors = field[f"{at}/sensors"] if f"{at}/sensors" in field else {}
+    known = {text(name): (sensor, k) for sensor in sensors
+             for k, name in enumerate(dataset(field, f"{at}/sensors/{sensor}/labels"))}
+    if label not in known:
+        raise BadArtefact(f"{field.filename}: {at}/sensors: found {', '.join(sorted(known)) or 'none'}, expected {label}")
+    sensor, channel = known[label]
+    lines = [dataset(field, f"{at}/sensors/{sensor}/spectrum/acceleration_{part}")[:, channel] for part in ("re", "im")]
+    order = dataset(field, f"{at}/order")
+    rms = np.zeros(int(round(2 * order[-1])) + 1)
+    rms[np.rint(2 * order).astype(int)] = np.hypot(*lines) / np.sqrt(2.0)  # amplitudes are peaks
+    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "m/s2"
+
+
+def fluctuation(rms):
+    """RMS of all orders but 0."""
+    return float(np.sqrt(np.sum(rms[1:] ** 2)))
+
+
+def of_order(orders, rms, order):
+    """RMS in the band of an order, a multiple of one half; nan beyond what was resolved."""
+    index = int(round(2 * order))
+    return float(rms[index]) if index < len(orders) else np.nan
+
+
+def level(rms, unit):
+    """In dB where the unit has a reference, else as it is."""
+    return 20.0 * np.log10(np.maximum(rms, 1e-30) / REFERENCE[unit]) if unit in REFERENCE else rms
+
+
+def level_name(unit):
+    """Of an axis: "level [dB re 1e-06 m/s²]"."""
+    pretty = unit.replace("m/s2", "m/s²")
+    return f"level [dB re {REFERENCE[unit]:g} {pretty}, RMS]" if unit in REFERENCE else f"RMS [{pretty}]"
+
+
+def peak_of(speeds, values):
+    """The speed of the largest value, by a parabola through it and its neighbours, and that value."""
+    order = np.argsort(speeds)
+    x, y = np.asarray(speeds, float)[order], np.asarray(values, float)[order]
+    top = int(np.nanargmax(y))
+    if not 0 < top < len(x) - 1:
+        return x[top], y[top]
+    a, b, c = np.polyfit(x[top - 1:top + 2] - x[top], y[top - 1:top + 2], 2)
+    if not a < 0.0:
+        return x[top], y[top]
+    at = float(np.clip(-0.5 * b / a, x[top - 1] - x[top], x[top + 1] - x[top]))
+    return x[top] + at, c + b * at + a * at * at
