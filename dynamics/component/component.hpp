@@ -76,6 +76,8 @@ class Component {
 
   /// Histories of an accepted state; those of its elements, where it has no others.
   virtual void record(const System& system, const StageState& state, History& history) const;
+  /// What a reader of the results should know, one line each, of all until now.
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// It has a motion by which successive cycles are compared: secondary_motion().
   virtual bool has_secondary_motion() const { return false; }
   /// (lateral [m], tilt [rad]) of a piston against its liner, linear in `y`.

@@ -157,6 +157,8 @@ void CycleRun::report(RunResult& result) const {
   result.warnings = accuracy_warnings(method_->estimate().bodies(method_->weights()),
                                       scene_.steps.accuracy, method_->estimate().steps());
   for (const std::string& warning : pressure_.warnings()) result.warnings.push_back(warning);
+  for (const auto& component : model_->components)
+    for (const std::string& warning : component->warnings()) result.warnings.push_back(warning);
 }
 
 }  // namespace clatter::dynamics
