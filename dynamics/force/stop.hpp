@@ -34,6 +34,7 @@ class Stop : public ForceElement {
   void accept_step(double) override { accepted_ = finished_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
+  double normal_force() const { return accepted_[1]; }  // [N]
 
  protected:
   Stop(const std::string& name, PointOnPlane pair, const FrictionLaw& friction);

@@ -65,8 +65,7 @@ ComponentSize HydraulicComponent::size() const {
   return {.modes = !is_hydraulic() ? 0 : has_moving_ball() ? 2 : 1, .film_cells = 0};
 }
 
-TimeFunction HydraulicComponent::supply(const ModelBuilder& model) const {
-  const SupplySpec& given = spec_.supply;
+TimeFunction supply_pressure(const SupplySpec& given, const ModelBuilder& model) {
   if (given.table.empty()) return [p = given.pressure](double) { return p; };
   if (model.clock) {
     const Spline table = read_cycle_table(given.table, given.column, "Pa", given.interpolation);
@@ -89,7 +88,7 @@ PlungerAxis HydraulicComponent::axis(ModelBuilder& model) const {
 
 void HydraulicComponent::add_bodies(ModelBuilder& model) {
   if (!is_hydraulic()) return;
-  const TimeFunction pressure = supply(model);
+  const TimeFunction pressure = supply_pressure(spec_.supply, model);
   const double start = spec_.start_pressure.value_or(pressure(model.time.begin));
   model.add_body(make_chamber_body(spec_.name + "_chamber", Chamber(spec_.chamber, pressure),
                                    model.time.begin, spec_.travel, start),
@@ -104,9 +103,12 @@ void HydraulicComponent::add_elements(ModelBuilder& model) {
       own.push_back(model.system.coordinate(body, k));
   }
   PlungerAxis along = axis(model);
-  model.system.add_element(std::make_unique<HydraulicElement>(
-      element_name(), std::move(along), Chamber(spec_.chamber, supply(model)), spec_.spring,
-      spec_.model, own, spec_.travel, model.time.begin));
+  auto element = std::make_unique<HydraulicElement>(
+      element_name(), std::move(along),
+      Chamber(spec_.chamber, supply_pressure(spec_.supply, model)), spec_.spring, spec_.model, own,
+      spec_.travel, model.time.begin);
+  element->set_stops(spec_.stops);
+  model.system.add_element(std::move(element));
 }
 
 void HydraulicComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {

@@ -32,11 +32,16 @@ struct HydraulicSpec {
   std::optional<double> start_pressure;  // of the chamber [Pa]; else that of the supply
   ChamberSpec chamber;
   PlungerSpring spring{90.0, 2000.0};
+  PlungerStops stops;
   SupplySpec supply;
 };
 
 /// Reads a table of `kind` over the defaults of `spec`.
 HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec);
+/// Its keys without name, points, axis and model.
+void read_hydraulic_sizes(const Config& table, HydraulicSpec& spec);
+/// The pressure of the supply over time. InputError for a table that does not cover the run.
+TimeFunction supply_pressure(const SupplySpec& supply, const ModelBuilder& model);
 /// The defaults of a [[lash_adjuster]] of a roller finger follower.
 HydraulicSpec lash_adjuster_defaults();
 
@@ -61,7 +66,6 @@ class HydraulicComponent : public Component {
   bool is_hydraulic() const { return spec_.model == HydraulicModel::kHydraulic; }
   bool has_moving_ball() const { return spec_.chamber.valve.ball == CheckValveSpec::Ball::kMoving; }
   std::string element_name() const { return spec_.kind + " " + spec_.name; }
-  TimeFunction supply(const ModelBuilder& model) const;
   PlungerAxis axis(ModelBuilder& model) const;
   HydraulicSpec spec_;
 };

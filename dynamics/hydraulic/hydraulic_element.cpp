@@ -71,9 +71,19 @@ double HydraulicElement::own_lift(const VectorXd& y) const {
 
 std::pair<double, double> HydraulicElement::force(double travel, double pressure) const {
   const double pushed = chamber_.spec().area() * (pressure - chamber_.spec().outside);
+  const double depth = in_stop(travel);
+  std::pair<double, double> sum{pushed + stops_.stiffness * depth,
+                                depth != 0.0 ? -stops_.stiffness : 0.0};
   const double spring = spring_.force - spring_.rate * travel;
-  if (spring <= 0.0) return {pushed, 0.0};
-  return {pushed + spring, -spring_.rate};
+  if (spring <= 0.0) return sum;
+  sum.first += spring;
+  sum.second -= spring_.rate;
+  return sum;
+}
+
+double HydraulicElement::in_stop(double travel) const {
+  if (travel < stops_.lowest) return stops_.lowest - travel;
+  return std::min(stops_.highest - travel, 0.0);
 }
 
 void HydraulicElement::move(double time, const VectorXd& y, const VectorXd& v, Instant& at) const {
@@ -149,6 +159,8 @@ Power HydraulicElement::power(const VectorXd& y, const VectorXd& v) const {
   if (spring > 0.0)
     power.stored =
         spring_.rate > 0.0 ? 0.5 * spring * spring / spring_.rate : -spring_.force * at_.travel;
+  const double depth = in_stop(at_.travel);
+  power.stored += 0.5 * stops_.stiffness * depth * depth;
   const double outside = chamber_.spec().outside;
   if (!is_hydraulic()) {
     power.input += chamber_.spec().area() * (at_.chamber.pressure.value - outside) * axis_.rate();

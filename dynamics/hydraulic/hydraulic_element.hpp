@@ -2,6 +2,7 @@
 #pragma once
 // Force of a hydraulic tensioner or lash adjuster.
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ namespace clatter::dynamics {
 struct PlungerSpring {
   double force = 0.0;  // at travel 0 [N]
   double rate = 0.0;   // [N/m]
+};
+
+/// Elastic ends of the plunger's travel.
+struct PlungerStops {
+  double lowest = -std::numeric_limits<double>::infinity();  // [m]
+  double highest = std::numeric_limits<double>::infinity();  // [m]
+  double stiffness = 1e8;                                    // [N/m]
 };
 
 /// How the pressure on the plunger is found.
@@ -42,6 +50,9 @@ class HydraulicElement : public ForceElement {
   HydraulicElement(std::string name, PlungerAxis axis, Chamber chamber, const PlungerSpring& spring,
                    HydraulicModel model, std::vector<int> own, double start, double time);
 
+  /// Without them the travel is free.
+  void set_stops(const PlungerStops& stops) { stops_ = stops; }
+
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                 bool with_tangent, Response& response) override;
@@ -63,6 +74,8 @@ class HydraulicElement : public ForceElement {
  private:
   bool is_hydraulic() const { return model_ == HydraulicModel::kHydraulic; }
   double own_lift(const Eigen::VectorXd& y) const;
+  /// How far the plunger is in a stop, in that of the lowest travel positive [m].
+  double in_stop(double travel) const;
   /// Force on the plunger and its derivative by the travel at a constant pressure.
   std::pair<double, double> force(double travel, double pressure) const;
   void move(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v, Instant& at) const;
@@ -73,6 +86,7 @@ class HydraulicElement : public ForceElement {
   mutable PlungerAxis axis_;
   Chamber chamber_;
   PlungerSpring spring_;
+  PlungerStops stops_;
   HydraulicModel model_;
   double constant_force_ = 0.0, time_ = 0.0;
   int plunger_size_;

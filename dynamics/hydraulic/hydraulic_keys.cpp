@@ -88,6 +88,26 @@ HydraulicModel read_model(const Config& table) {
   return HydraulicModel::kHydraulic;
 }
 
+/// Both ends of the travel, of which the lower one leaves a volume.
+void read_stops(const Config& table, HydraulicSpec& spec) {
+  PlungerStops& stops = spec.stops;
+  if (table.has("stops_mm")) {
+    const std::vector<double> ends = table.numbers("stops_mm", 2);
+    stops.lowest = ends[0] * kMilli;
+    stops.highest = ends[1] * kMilli;
+    if (!(stops.lowest <= spec.travel && spec.travel <= stops.highest && ends[1] <= 1e4))
+      table.fail("stops_mm",
+                 fmt::format("found [{:g}, {:g}], expected the ends of the travel, with the start "
+                             "at {:g} between them",
+                             ends[0], ends[1], spec.travel / kMilli));
+    if (!(spec.chamber.volume + spec.chamber.area() * stops.lowest > 0.0))
+      table.fail("stops_mm", fmt::format("found {:g}, expected a lowest travel that leaves a "
+                                         "volume: travel 0 has {:g} cm3",
+                                         ends[0], 1e6 * spec.chamber.volume));
+  }
+  read_value(table, "stop_stiffness_n_m", 1.0, Range::between(1.0, 1e15), stops.stiffness);
+}
+
 }  // namespace
 
 HydraulicSpec lash_adjuster_defaults() {
@@ -104,15 +124,9 @@ HydraulicSpec lash_adjuster_defaults() {
   return spec;
 }
 
-HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec) {
+void read_hydraulic_sizes(const Config& table, HydraulicSpec& spec) {
   const Range force = Range::between(0.0, 1e6), rate = Range::between(0.0, 1e12);
   ChamberSpec& chamber = spec.chamber;
-  spec.name = read_name(table);
-  spec.where = table.where();
-  spec.a = read_point(table, "a");
-  spec.b = read_point(table, "b");
-  spec.axis = read_direction(table, "axis");
-  spec.model = read_model(table);
   read_value(table, "start_travel_mm", kMilli, Range::between(-1e4, 1e4), spec.travel);
   if (table.has("start_bar")) spec.start_pressure = table.number("start_bar", kPressureBar) * kBar;
   read_value(table, "diameter_mm", kMilli, Range::between(1e-2, 1e4), chamber.diameter);
@@ -138,6 +152,17 @@ HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec) {
     table.fail("start_travel_mm", fmt::format("found {:g}, expected one that leaves a volume: "
                                               "travel 0 has {:g} cm3",
                                               spec.travel / kMilli, 1e6 * chamber.volume));
+  read_stops(table, spec);
+}
+
+HydraulicSpec read_hydraulic(const Config& table, HydraulicSpec spec) {
+  spec.name = read_name(table);
+  spec.where = table.where();
+  spec.a = read_point(table, "a");
+  spec.b = read_point(table, "b");
+  spec.axis = read_direction(table, "axis");
+  spec.model = read_model(table);
+  read_hydraulic_sizes(table, spec);
   return spec;
 }
 

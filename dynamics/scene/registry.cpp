@@ -16,6 +16,9 @@
 #include "dynamics/shaft/cam_torque_component.hpp"
 #include "dynamics/shaft/shaft_component.hpp"
 #include "dynamics/shaft/torque_component.hpp"
+#include "dynamics/valve/follower_component.hpp"
+#include "dynamics/valve/valve_component.hpp"
+#include "dynamics/valve/valve_spring_component.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -57,6 +60,13 @@ const std::vector<ComponentKind>& component_kinds() {
       {{"[[lash_adjuster]]"},
        "the same with the sizes of a valve train's hydraulic lash adjuster",
        read_lash_adjusters},
+      {{"[[valve]]"},
+       "valves of a camshaft: seat, spring, finger follower, lash adjuster, or their torque",
+       read_valves},
+      {{"[[follower]]"}, "a roller finger follower between a cam and a valve", read_followers},
+      {{"[[valve_spring]]"},
+       "a coil spring as masses between springs, whose coils may touch",
+       read_valve_springs},
       {{"[[torque]]"}, "a torque over the angle of the body on which it acts", read_torques},
       {{"[[cam_torque]]"}, "the torque of valves on their cams, quasi-static", read_cam_torques},
       {{"[[stop]]"}, "contact of a point with a plane, rigid by impacts or compliant", read_stops},

@@ -50,10 +50,12 @@ void check_engine(const Config& root) {
     if (root.has(key) && !root.has("engine"))
       root.fail(key, "found without [engine], expected [engine] with speed and stroke");
   }
-  if (!root.has("engine") && !root.has("body") && !root.has("rigid_body") && !root.has("shaft")) {
-    root.fail("body",
-              "found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], "
-              "[[shaft]]");
+  if (!root.has("engine") && !root.has("body") && !root.has("rigid_body") && !root.has("shaft") &&
+      !root.has("valve")) {
+    root.fail(
+        "body",
+        "found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], [[valve]], "
+        "[[shaft]]");
   }
 }
 

@@ -20,7 +20,11 @@ LinearMotion linearised(System& system, const Eigen::VectorXd& y, const Eigen::V
   LinearMotion motion{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   std::vector<int> all(static_cast<size_t>(n));
   for (int i = 0; i < n; ++i) all[static_cast<size_t>(i)] = i;
-  motion.M = system.mobility({}, all).v.diagonal().cwiseInverse();
+  StageState state;
+  state.eta = state.v = Eigen::VectorXd::Zero(system.modes());
+  state.y = y;
+  state.v_y = v;
+  motion.M = system.mobility(state, all).v.diagonal().cwiseInverse();
   Eigen::VectorXd f;
   // df/dy alone, then with df/dv / kappa.
   for (const double kappa : {1e300, 1.0}) {
@@ -28,11 +32,13 @@ LinearMotion linearised(System& system, const Eigen::VectorXd& y, const Eigen::V
     system.evaluate(stage, y, v, true, f);
     Eigen::MatrixXd& sum = kappa > 1.0 ? motion.K : motion.C;
     for (int e = 0; e < system.elements(); ++e) {
-      const auto& at = system.element(e).coordinates();
-      for (size_t i = 0; i < at.size(); ++i)
-        for (size_t j = 0; j < at.size(); ++j)
-          sum(at[i], at[j]) -= system.response(e).tangent(static_cast<Eigen::Index>(i),
-                                                          static_cast<Eigen::Index>(j));
+      const Response& response = system.response(e);
+      for (size_t g = 0; g < system.groups(e).size(); ++g) {
+        const bool whole = !system.has_groups(e);
+        if (whole || response.blocks[g].active)
+          sum(system.groups(e)[g], system.groups(e)[g]) -=
+              whole ? response.tangent : response.blocks[g].values;
+      }
     }
   }
   motion.C -= motion.K;
