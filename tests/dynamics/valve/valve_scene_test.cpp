@@ -12,6 +12,7 @@
 #include "core/base/units.hpp"
 #include "dynamics/given/cam_law.hpp"
 #include "dynamics/integrate/equilibrium.hpp"
+#include "dynamics/integrate/integrator.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
 
@@ -249,6 +250,63 @@ TEST_F(Valves, AStaticEquilibriumLeavesOpenValvesOpen) {
     }
   }
   std::printf("%d iterations\n", found.iterations);
+}
+
+TEST_F(Valves, WhatActsOnHeadCamAndValveBalances) {
+  // Cam and head fly freely: the valve's seat, its spring and its adjuster are on the head.
+  const auto model = build_model(scene(R"(
+[time]
+end_s = 0.02
+output_step_us = 50
+[[rigid_body]]
+name = "head"
+motion = "xy"
+mass_kg = 20
+inertia_kg_m2 = 0.1
+centre_mm = [0, -50, 0]
+[[rigid_body]]
+name = "cam"
+motion = "xy"
+mass_kg = 2
+inertia_kg_m2 = 1e-3
+start_spin_rad_s = 200
+angle_deg = -60
+[[bushing]]
+a = { body = "cam", at_mm = [0, 0, 0] }
+b = { body = "head" }
+stiffness_n_m = 1e8
+damping_n_s_m = 1e3
+[[valve]]
+name = "intake"
+lift_mm = 7.5
+half_angle_deg = 70
+lobe = [{ body = "cam", at_mm = [0, 0, 0], deg = 0, seat = { body = "head" }, spring_seat = { body = "head" }, adjuster = { body = "head" } }]
+)"),
+                                 {});
+  System& system = model->system;
+  const auto momentum = [&](const Eigen::VectorXd& v) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
+      const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
+      sum += body.rigid.leftCols<3>().transpose() * v.segment(system.mode_offset(b), body.modes());
+    }
+    return sum;
+  };
+  StepOptions options;
+  options.largest = 2e-5;
+  const auto method = make_integrator(system, options);
+  method->start(0.0, system.eta_start(), system.v_start());
+  const Eigen::Vector3d before = momentum(method->state().v);
+  double largest = 0.0, head = 0.0;
+  while (method->state().time < 0.02) {
+    method->step(0.02);
+    largest = std::max(largest, (momentum(method->state().v) - before).norm());
+    head = std::max(head, std::abs(system.bodies()[0].rigid.col(1).dot(
+                              method->state().v.head(system.bodies()[0].modes()))));
+  }
+  std::printf("momentum of the head %.3g, of all off by %.1e kg m/s\n", head, largest);
+  EXPECT_GT(head, 0.05);
+  EXPECT_LT(largest, 1e-10);  // rounding of forces of 1000 N over 20 ms
 }
 
 TEST_F(Valves, AFollowerWorksAloneBetweenOtherBodies) {
