@@ -54,7 +54,7 @@ class RollerContact : public ForceElement {
   const Instant& finished() const { return finished_; }
   /// Times at which the roller was off the cam by more than kLostGap.
   const ContactWatch& losses() const { return losses_; }
-  static constexpr double kLostGap = 2e-6;  // [m]
+  static constexpr double kLostGap = 5e-6;  // [m]
 
  private:
   using Planar = Eigen::Matrix<double, 5, Eigen::Dynamic>;

@@ -99,9 +99,7 @@ void ValveComponent::add_train(ModelBuilder& model, const ValveLobe& lobe) {
   Train train{
       spec_.name_of(lobe), place(lobe), {}, 0, nullptr, nullptr, nullptr, nullptr, nullptr, {}};
   train.start = follower_start(model, spec_.follower, *profile_, train.place, lobe.cam);
-  FollowerStart& start = train.start;
-  // A closed valve is pressed into its seat.
-  if (start.lift == 0.0) start.lift = -spec_.spring.force / spec_.seat_stiffness;
+  const FollowerStart& start = train.start;
   ModalBody valve = make_sliding_body(train.name, spec_.mass, spec_.plane.opening, start.rate);
   valve.eta_start(0) = start.lift * std::sqrt(spec_.mass);
   model.add_body(std::move(valve), lobe.where);
@@ -142,11 +140,13 @@ void ValveComponent::add_train_elements(ModelBuilder& model, const ValveLobe& lo
 
   auto seat_port = model.port(lobe.seat, on_axis(train, kValveLength));
   const PortState seat_at = port_at_start(model, *seat_port);
-  auto seat =
-      std::make_unique<CompliantStop>(prefix + " seat" + suffix,
-                                      PointOnPlane(valve(seat_at.position), std::move(seat_port),
-                                                   seat_at.rotation.transpose() * opening),
-                                      spec_.seat_stiffness, 1.0, spec_.seat_damping, FrictionLaw{});
+  // Lift 0 is a valve that its spring presses into the seat.
+  const Vector3d pressed = spec_.spring.force / spec_.seat_stiffness * opening;
+  auto seat = std::make_unique<CompliantStop>(
+      prefix + " seat" + suffix,
+      PointOnPlane(valve(seat_at.position - pressed), std::move(seat_port),
+                   seat_at.rotation.transpose() * opening),
+      spec_.seat_stiffness, 1.0, spec_.seat_damping, FrictionLaw{});
   train.seat = seat.get();
   system.add_element(std::move(seat));
 

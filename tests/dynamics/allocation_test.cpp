@@ -15,6 +15,7 @@
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/shaft_model.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
+#include "tests/dynamics/valve_model.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which has an allocator of its own
 
@@ -187,6 +188,16 @@ viscosity_mpa_s = 10
   options.largest = 1e-5;
   const auto method = testing::started(shaft.system(), options);
   expect_no_allocations(*method, 300);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForValvesOnTheirCams) {
+  // Above the speed at which they float.
+  const auto valves = testing::valves_on_a_shaft("full", 4000.0, 2);
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 2e-6;
+  const auto method = testing::started(valves->system(), options);
+  expect_no_allocations(*method, 2000);
 }
 
 TEST_P(StepLoop, TakesNoMemoryForAnEngineOnItsMounts) {

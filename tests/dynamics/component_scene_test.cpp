@@ -223,7 +223,7 @@ TEST_F(Components, AreRefusedByTableKeyAndName) {
   expect(body + "[small_end]\nexponent = 1\n", "small_end: found without [engine]");
   expect("",
          "body: found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], "
-         "[[shaft]]");
+         "[[valve]], [[shaft]]");
   expect(body + "motion = \"plane\"\n",
          "mechanism.run.toml:7: rigid_body[0].motion: found \"plane\", expected one of: xy, yz");
   expect(body + body, "mechanism.run.toml:7: a second body named \"bar\"");

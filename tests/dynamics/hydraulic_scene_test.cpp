@@ -63,6 +63,20 @@ TEST_F(HydraulicScenes, OracleALashAdjusterLeaksDownByAMillimetre) {
   EXPECT_LT(result_.energy_residue, 1e-4);
 }
 
+TEST_F(HydraulicScenes, AStopEndsTheTravel) {
+  const double area = 0.25 * std::numbers::pi * 81e-6;
+  const std::string start = fmt::format("start_bar = {:.15g}\n", 1.0 + 222.4 / area * 1e-5);
+  // It leaks down to the stop, which then bears the load but for the pressure of the supply.
+  const H5File file = recorded(leak_down(0.5, start + "stops_mm = [-0.1, 1]\n"));
+  const double held = 222.4 - 2.5e5 * area;
+  EXPECT_NEAR(file.read_doubles("history/lash_adjuster_hla_travel").back(), -0.1e-3 - held / 1e8,
+              2e-9);
+  EXPECT_LT(result_.energy_residue, 1e-4);
+  test::expect_parts(refusal(leak_down(0.5, "stops_mm = [0.1, 1]\n")),
+                     {"stops_mm", "[0.1, 1]", "start at 0 between them"});
+  test::expect_parts(refusal(leak_down(0.5, "stops_mm = [-4, 1]\n")), {"stops_mm", "0.15 cm3"});
+}
+
 /// A chain of 1e5 N/m that the tensioner holds, shaken at 85 Hz by `shake` N.
 std::string chain(const std::string& keys, double seconds = 0.1) {
   return fmt::format(
