@@ -33,7 +33,6 @@ def write_pictures(options):
     """`clatter drive`: one file per picture that the run has the data of; prints their paths."""
     from . import plots
     from .plots import drive, drive_film, tensioner, valves
-    from .plots.over_cycle import named
     if options.frames < 0:
         raise BadArtefact(f"--frames: found {options.frames}, expected a number of frames")
     with open_artefact(options.file, "run") as run:
@@ -41,7 +40,7 @@ def write_pictures(options):
         others = [name for name in chains.names(run) if name != chain.name]
         kinds = ["drive", "loop", "speed"]
         kinds += ["tensioner"] if tensioner.tensioners(run) else []
-        kinds += ["valves"] if any(named(run, "valve_", end) for end, *_ in valves.ROWS) else []
+        kinds += ["valves"] if valves.rows(run) else []
     if others:
         print(f"these are of chain {chain.name}; the run also has {', '.join(others)}")
     folder = pathlib.Path(options.output or pathlib.Path(options.file).name.split(".")[0])
