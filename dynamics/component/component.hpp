@@ -88,8 +88,8 @@ class Component {
 
   /// Histories of an accepted state; those of its elements, where it has no others.
   virtual void record(const System& system, const StageState& state, History& history) const;
-  /// The body that in the cycle before was where `body` is now, after a time `cycle` [s]: chains move
-  /// on by some links.
+  /// The body that in the cycle before was where `body` is now, after a time `cycle` [s]: chains
+  /// move on by some links.
   virtual int body_before(int body, double /*cycle*/) const { return body; }
   /// What the user has to know at the end of a run or cycle, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }

@@ -19,7 +19,7 @@ import numpy as np  # noqa: E402
 import synthetic  # noqa: E402
 import synthetic_drive  # noqa: E402
 from clatter_tools import artefact, chains  # noqa: E402
-from clatter_tools.plots import campbell, drive, drive_film, loop, over_cycle, speed, style  # noqa: E402
+from clatter_tools.plots import campbell, drive, drive_film, loop, over_cycle, speed, style, valves  # noqa: E402
 from synthetic_drive import LINKS, PITCH, RADIUS, SLACK, SPAN, SWING, TIGHT  # noqa: E402
 
 CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
@@ -114,6 +114,12 @@ class Pictures(Folder):
         expected = 4.0 * np.sin(np.radians(1.5 * angle)) + 0.4 * np.cos(np.radians(20.0 * angle))
         self.assertLess(np.abs(value - expected).max(), 3e-2)  # the mean is that of uneven steps
         self.assertLess(np.abs(lines["crank × 20/20"].get_ydata()).max(), 1e-9)
+        train = valves.draw([self.folder / "oval.run.h5"])
+        lift, gap = (axis.lines[0] for axis in train.axes)  # that of the tensioner's check valve is no valve lift
+        self.assertEqual((lift.get_label(), gap.get_label()), ("intake 1", "intake 1"))
+        self.assertAlmostEqual(lift.get_ydata().max(), 7.5, delta=1e-3)
+        self.assertAlmostEqual(gap.get_ydata().max(), 0.2, delta=1e-6)
+        style.plt.close(train)
         with artefact.open_artefact(self.folder / "oval.run.h5", "run") as run:
             pressure = over_cycle.LastCycle(run).history("tensioner_t_pressure", "Pa")
         self.assertAlmostEqual(pressure.max() * 1e-5, 19.0, delta=1e-3)
@@ -249,7 +255,7 @@ class Commands(Folder):
                                     (("drive", run, "--frames", "-1"), "--frames: found -1"),
                                     (("plot", "loop", run, run), "this picture needs one .run.h5 file"),
                                     (("plot", "tensioner", "slap.run.h5"), "none of these runs has one"),
-                                    (("plot", "valves", "slap.run.h5"), "found no valve_<name>_lift"),
+                                    (("plot", "valves", "slap.run.h5"), "found no <valve>_coil_gap"),
                                     (("plot", "speed", "slap.run.h5"), "found no shapes of a chain"),
                                     (("orders", run, "--history", "nothing"), "history/nothing: missing"),
                                     (("orders", run, "--history", "chain_cam_speed"), "found runs at 3000 rpm, expected at least two"),

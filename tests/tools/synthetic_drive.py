@@ -53,9 +53,10 @@ def write_drive(path, rpm=3000.0, amplitude=4.0, mirrored=False, shapes=90, turn
             history(file, f"chain_{name}_force_y", 400.0 * (number + 1) * np.sin(angle), "N")
         history(file, "tensioner_t_pressure", 1e5 * (10.0 + 9.0 * np.sin(1.5 * angle)), "Pa")
         history(file, "tensioner_t_travel", 1e-3 * (2.0 + np.cos(1.5 * angle)), "m")
+        history(file, "tensioner_t_lift", np.full(len(time), 4.2e-4), "m")
         history(file, "tensioner_t_force", 150.0 + 100.0 * np.sin(1.5 * angle), "N")
-        history(file, "valve_intake_1_lift", 7.5e-3 * np.maximum(np.cos(0.5 * angle), 0.0) ** 3, "m")
-        history(file, "valve_intake_1_least_gap", 2e-4 * (1.0 - np.maximum(np.cos(0.5 * angle), 0.0)), "m")
+        history(file, "intake_1_lift", 7.5e-3 * np.maximum(np.cos(0.5 * angle), 0.0) ** 3, "m")
+        history(file, "intake_1_coil_gap", 2e-4 * (1.0 - np.maximum(np.cos(0.5 * angle), 0.0)), "m")
         history(file, "bracket_acceleration", 2.0 * np.sin(1.5 * angle) + 0.5 * np.sin(20.0 * angle + 1.0) + 3.0, "m/s2")
 
 

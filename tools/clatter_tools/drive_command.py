@@ -2,9 +2,12 @@
 """`clatter drive` and `clatter orders`: pictures of a chain drive, orders over the speed of several runs."""
 import pathlib
 
+import numpy as np
+
 from . import chains, orders
 from .artefact import BadArtefact, open_artefact
 
+FAINT = 1e-3  # of all orders together: of less no speed is named
 ORDERS = (1.5, 3.0, 4.5, 20.0, 40.0)  # of a three-cylinder engine, and the teeth of a crank sprocket with 20
 
 
@@ -30,14 +33,16 @@ def write_pictures(options):
     """`clatter drive`: one file per picture that the run has the data of; prints their paths."""
     from . import plots
     from .plots import drive, drive_film, tensioner, valves
-    from .plots.over_cycle import named
     if options.frames < 0:
         raise BadArtefact(f"--frames: found {options.frames}, expected a number of frames")
     with open_artefact(options.file, "run") as run:
         chain, titled = chains.read_chain(run), drive.titled(run)
+        others = [name for name in chains.names(run) if name != chain.name]
         kinds = ["drive", "loop", "speed"]
         kinds += ["tensioner"] if tensioner.tensioners(run) else []
-        kinds += ["valves"] if any(named(run, "valve_", end) for end, *_ in valves.ROWS) else []
+        kinds += ["valves"] if valves.rows(run) else []
+    if others:
+        print(f"these are of chain {chain.name}; the run also has {', '.join(others)}")
     folder = pathlib.Path(options.output or pathlib.Path(options.file).name.split(".")[0])
     for kind in kinds:
         path = folder / f"{kind}.{options.format}"
@@ -86,7 +91,8 @@ def print_levels(spectra, cuts):
     for speed, order, rms, _ in spectra:
         values = [orders.fluctuation(rms), *(orders.of_order(order, rms, cut) for cut in cuts)]
         print(f"{speed:8.0f} " + " ".join(f"{orders.level(value, unit):10.4g}" for value in values))
+    largest = max(orders.fluctuation(rms) for _, _, rms, _ in spectra)
     for cut in cuts:
         values = [orders.of_order(order, rms, cut) for _, order, rms, _ in spectra]
-        if all(value == value for value in values):
+        if np.max(values) > FAINT * largest:  # false where the samples do not resolve the order
             print(f"order {cut:g} is largest at {orders.peak_of([one[0] for one in spectra], values)[0]:.0f} rpm")

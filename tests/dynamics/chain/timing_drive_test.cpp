@@ -57,6 +57,7 @@ struct Rest {
   double history(const std::string& name) const {
     StageState state;
     state.y = y;
+    state.v_y = VectorXd::Zero(y.size());
     state.eta = eta;
     History history;
     model->record(state, history);

@@ -67,6 +67,7 @@ def page(chain, title, rpm):
             "place": packed(poses(place, step)), "step": step, "newton": 1.0 / per_newton,
             "caption": [drive.caption(chain, k, rpm) for k in window], "low": low, "high": high, "colours": colours()}
     return PAGE.format(title=escape(title), view=f"{left:.0f} {-top:.0f} {right - left:.0f} {top - bottom:.0f}",
+                       font=0.021 * (top - bottom), line=6e-4 * (top - bottom), mark=2e-3 * (top - bottom),
                        parts=parts(chain), links=links(chain), names=names(chain, window[0]), scale=scale(low, high),
                        data=json.dumps(data, separators=(",", ":")))
 
