@@ -109,6 +109,13 @@ ProfileCarrier ChainComponent::carrier(ModelBuilder& model, size_t index) const 
   return carrier;
 }
 
+ToothCount ChainComponent::tooth_count(size_t index) const {
+  const ChainOver& over = spec_.over[index];
+  if (over.teeth == 0) return {};
+  const SeatedPin& pin = layout_.seated[index];
+  return {spec_.make.links(), over.teeth, over.turn, pin.pin, pin.gap};
+}
+
 void ChainComponent::add_elements(ModelBuilder& model) {
   System& system = model.system;
   y_.clear();
@@ -131,7 +138,7 @@ void ChainComponent::add_elements(ModelBuilder& model) {
     }
     auto contact = std::make_unique<ProfileContact>(fmt::format("{} {}", spec_.name, over.name), y_,
                                                     spec_.make, over.profile, outlines, over.law,
-                                                    carrier(model, i), over.turn);
+                                                    carrier(model, i), tooth_count(i));
     contacts_.push_back(contact.get());
     system.add_element(std::move(contact));
   }
@@ -212,13 +219,13 @@ std::vector<std::string> ChainComponent::warnings() const {
   std::vector<std::string> warnings;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ToothCount& teeth = contacts_[i]->teeth();
-    if (!teeth.has_jumped()) continue;
+    if (teeth.jumped() == 0) continue;
     const int ahead = teeth.ahead();
     warnings.push_back(fmt::format(
         "chain \"{}\" jumped on sprocket \"{}\" at {:.6g} s, by {} teeth in all; at the end it is "
-        "{} teeth {} where it was",
+        "{} {} of where it was",
         spec_.name, spec_.over[i].name, teeth.first_time(), teeth.jumped(), std::abs(ahead),
-        ahead < 0 ? "behind" : "ahead of"));
+        ahead < 0 ? "behind" : "ahead"));
   }
   return warnings;
 }

@@ -49,6 +49,7 @@ class ChainComponent : public Component {
     Eigen::Vector2d middle, along;
   };
   ProfileCarrier carrier(ModelBuilder& model, size_t over) const;
+  ToothCount tooth_count(size_t over) const;
   double start_speed(ModelBuilder& model) const;
   double shape_interval(double speed) const;
   double tension_at(const SpanPoint& span, const StageState& state) const;

@@ -122,16 +122,19 @@ ChainLayout lay_out(const ChainSpec& chain) {
   for (size_t i = 0; i < chain.over.size(); ++i) {
     const ChainOver& over = chain.over[i];
     layout.gaps.push_back(0.0);
+    layout.seated.emplace_back();
     if (over.teeth == 0) continue;
-    layout.gaps.back() = i == 0 ? gap : over.gap.value_or(0.0);
-    if (i == 0 || over.gap) continue;
     const BeltPart& wrap = wrap_of(belt, static_cast<int>(i));
     const Vector2d middle = belt.at(wrap.begin + 0.5 * wrap.length);
     const auto nearest = std::min_element(
         layout.pins.begin(), layout.pins.end(), [&](const Vector2d& a, const Vector2d& b) {
           return (a - middle).squaredNorm() < (b - middle).squaredNorm();
         });
-    layout.gaps.back() = polar(*nearest - wrap.centre);
+    const double angle = polar(*nearest - wrap.centre);
+    layout.gaps.back() = i == 0 ? gap : over.gap.value_or(angle);
+    const double turns = std::remainder(angle - layout.gaps.back(), 2.0 * std::numbers::pi);
+    layout.seated.back() = {static_cast<int>(nearest - layout.pins.begin()),
+                            static_cast<int>(std::lround(turns / pitch_angle(over)))};
   }
   return layout;
 }

@@ -7,6 +7,11 @@
 
 namespace clatter::dynamics {
 
+/// A pin in a tooth gap; gap 0 is the one that a layout names, others follow counter-clockwise.
+struct SeatedPin {
+  int pin = 0, gap = 0;
+};
+
 /// A chain on its sprockets before it is in equilibrium: its pins are on the taut belt around pitch
 /// circles and guides, on sprockets at the pitch of their teeth, elsewhere with the pitches all
 /// stretched or compressed alike.
@@ -15,6 +20,7 @@ struct ChainLayout {
   std::vector<Eigen::Vector2d> pins;   // n: the rear pin of each link, its place [m]
   std::vector<Eigen::Vector2d> along;  // n: unit vectors in running direction there
   std::vector<double> gaps;            // per over: polar angle of a tooth gap [rad]; guides: 0
+  std::vector<SeatedPin> seated;       // per over: in the middle of a sprocket's wrap
   double stretch = 0.0;                // of the belt over the chain's length, minus 1
 };
 

@@ -37,14 +37,14 @@ std::vector<int> joined(const std::vector<int>& links, const Port& port) {
 ProfileContact::ProfileContact(std::string name, const std::vector<int>& links,
                                const ChainMake& make, std::shared_ptr<const Profile> profile,
                                const LinkOutlines& outlines, const MattressLaw& law,
-                               ProfileCarrier carrier, Turn turn)
+                               ProfileCarrier carrier, ToothCount teeth)
     : ForceElement(joined(links, *carrier.port)),
       name_(std::move(name)),
       links_(make.links()),
       kinds_(make.kinds),
       profile_(std::move(profile)),
       carrier_(std::move(carrier)),
-      teeth_(make.links(), profile_->repeats(), turn) {
+      teeth_(std::move(teeth)) {
   const char* const what[] = {"_force_x", "_force_y", "_depth", "_contacts"};
   for (size_t k = 0; k < recorded_.size(); ++k) {
     recorded_[k] = name_ + what[k];
@@ -183,10 +183,14 @@ bool ProfileContact::is_far(int link, const Motion& motion, const VectorXd& y) {
   return true;
 }
 
-/// Between which tooth gaps the middle of a link is.
-int ProfileContact::gap_of(const Vector2d& position) const {
-  const double turns = std::atan2(position.y(), position.x()) / (2.0 * std::numbers::pi);
-  return static_cast<int>(std::floor((turns + 1.0) * profile_->repeats())) % profile_->repeats();
+/// The tooth gap of a link's rear pin, by the gap nearest to a bush that touches.
+int ProfileContact::gap_of(const PlanarPose& pose, const LinkOutline& bush) const {
+  const int count = profile_->repeats();
+  const Vector2d pin = pose.position + bush.from * Vector2d(pose.cosine, pose.sine);
+  const double turns = std::atan2(pin.y(), pin.x()) / (2.0 * std::numbers::pi);
+  const int gap =
+      static_cast<int>(std::lround(turns * count)) - (bush.from > 0.0 ? teeth_.turn() : 0);
+  return (gap + 2 * count) % count;
 }
 
 /// The sum of the contacts of a link; false where it touches nothing.
@@ -197,6 +201,7 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
   gap_[index] = kNone;
   bool touches = false;
   MattressForce one;
+  size_t deepest = 0;
   double distance = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < contacts_[index].size(); ++i) {
     contacts_[index][i].evaluate(pose, {at.velocity, at.spin}, with_tangent, hints_[index][i], one);
@@ -207,7 +212,9 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
     if (!(one.depth > 0.0)) continue;
     if (!touches) {
       sum = one;
+      deepest = i;
     } else {
+      if (one.depth > sum.depth) deepest = i;
       sum.wrench += one.wrench;
       sum.stored += one.stored;
       sum.lost += one.lost;
@@ -219,7 +226,7 @@ bool ProfileContact::touch(int link, const Motion& motion, const Relative& at, d
     }
     touches = true;
   }
-  if (touches) gap_[index] = gap_of(pose.position);
+  if (touches) gap_[index] = gap_of(pose, contacts_[index][deepest].outline());
   clear_[index] = {at.position, angle - motion.angle, distance};
   return touches;
 }

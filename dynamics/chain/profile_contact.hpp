@@ -35,13 +35,13 @@ struct LinkOutlines {
 /// Refuses a state in which a contact is deeper than its law bears.
 class ProfileContact : public ForceElement {
  public:
-  /// @param links y indices of u, v, angle of all links, 3 n. @param turn of the chain around the
-  /// profile, by which jumps on a sprocket are counted. @param name of its histories
+  /// @param links y indices of u, v, angle of all links, 3 n. @param teeth counts the jumps on
+  /// a sprocket. @param name of its histories
   /// `<name>_force_x`, `_force_y` [N] on the body in the plane's axes, `<name>_depth` [m],
   /// `<name>_contacts`.
   ProfileContact(std::string name, const std::vector<int>& links, const ChainMake& make,
                  std::shared_ptr<const Profile> profile, const LinkOutlines& outlines,
-                 const MattressLaw& law, ProfileCarrier carrier, Turn turn);
+                 const MattressLaw& law, ProfileCarrier carrier, ToothCount teeth = {});
 
   std::string name() const override { return name_; }
   const std::vector<std::vector<int>>& groups() const override { return groups_; }
@@ -103,7 +103,7 @@ class ProfileContact : public ForceElement {
   };
   Motion motion_at(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   void find_reach();
-  int gap_of(const Eigen::Vector2d& position) const;
+  int gap_of(const PlanarPose& pose, const LinkOutline& bush) const;
   bool is_far(int link, const Motion& motion, const Eigen::VectorXd& y);
   Relative relative(int link, const Motion& motion, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v) const;
@@ -132,7 +132,7 @@ class ProfileContact : public ForceElement {
   mutable Eigen::VectorXd y_port_, v_port_;
   Motion motion_;
   Totals last_, finished_, accepted_;
-  std::vector<int> gap_;  // per link: the tooth gap that it touches, negative: none
+  std::vector<int> gap_;  // per link that touches: the tooth gap of its rear pin; else negative
   ToothCount teeth_;
 };
 

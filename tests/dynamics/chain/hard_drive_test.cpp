@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard cases of the timing drive.
+// Hard cases of the timing drive of the reference.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <vector>
 
+#include "dynamics/given/drive.hpp"
+#include "dynamics/integrate/equilibrium.hpp"
+#include "dynamics/run/energy.hpp"
 #include "dynamics/run/start_state.hpp"
 #include "tests/dynamics/chain/running_drive.hpp"
 #include "tests/dynamics/slap_scene.hpp"
@@ -14,49 +18,223 @@
 namespace clatter::dynamics {
 namespace {
 
+using test::expect_parts;
+using test::refusal_of;
 using testing::RunningDrive;
 using testing::TimingDrive;
 
-class HardDrive : public ::testing::Test {
- protected:
-  Scene scene(const TimingDrive& drive) {
-    std::ofstream(folder_ / "drive.run.toml") << drive.scene();
-    return read_scene(folder_ / "drive.run.toml");
-  }
-  H5File recorded(const TimingDrive& drive) {
-    const Scene read = scene(drive);
-    return testing::complete_file(read, folder_ / "drive.run.h5", result_);
-  }
-  std::filesystem::path folder_ = testing::test_folder();
-  RunResult result_;
-};
-
-TEST_F(HardDrive, Probe) {
+TimingDrive with_friction_and_play() {
   TimingDrive drive;
-  const char* rpm = getenv("RPM");
-  drive.rpm = rpm ? atof(rpm) : 3400;
-  drive.friction = getenv("MU") ? atof(getenv("MU")) : 0.08;
-  drive.end_s = getenv("END") ? atof(getenv("END")) : 2e-3;
-  drive.exhaust_spin = getenv("SPIN") ? atof(getenv("SPIN")) : 0;
-  drive.start_turns = getenv("TURNS") ? atof(getenv("TURNS")) : 0;
-  drive.plunger_back_mm = getenv("BACK") ? atof(getenv("BACK")) : 0;
-  drive.joint_clearance_um = getenv("CLEAR") ? atof(getenv("CLEAR")) : 0;
-  drive.links = getenv("LINKS") ? atoi(getenv("LINKS")) : 130;
-  drive.output_us = 1;
-  if (getenv("PLUNGER")) drive.plunger_n_m = atof(getenv("PLUNGER"));
-  if (getenv("MORE")) drive.more = getenv("MORE");
-  RunningDrive run(drive);
-  run.start();
-  const double until = drive.end_s;
-  for (int i = 0; i <= 12; ++i) {
-    if (i > 0) run.run(until * i / 12);
-    std::printf("%.5f", run.method->state().time);
-    for (const char* name :
-         {"chain_tension_min", "chain_tension_max", "chain_jumps", "chain_guide_contacts",
-          "chain_arm_contacts", "chain_guide_force_x", "chain_arm_force_x", "chain_crank_contacts",
-          "chain_exhaust_contacts", "chain_intake_contacts"})
-      std::printf(" %9.4g", run.history(name));
-    std::printf(" ex %.5g arm %.5g\n", run.rate("exhaust", 2), run.y("arm", 2));
+  drive.friction = 0.08;
+  drive.joint_clearance_um = 12.5;
+  return drive;
+}
+
+/// Means over the steps from now to a time.
+std::vector<double> means(RunningDrive& drive, double until,
+                          const std::vector<std::string>& names) {
+  std::vector<double> sums(names.size(), 0.0);
+  double before = drive.method->state().time;
+  const double begin = before;
+  drive.run(until, [&] {
+    const double now = drive.method->state().time;
+    for (size_t i = 0; i < names.size(); ++i) sums[i] += (now - before) * drive.history(names[i]);
+    before = now;
+  });
+  for (double& sum : sums) sum /= until - begin;
+  return sums;
+}
+
+TEST(HardTD1_Assembly, APlunger3mmBackIsSlackAtTheStartAndFindsItsEquilibrium) {
+  for (TimingDrive drive : {TimingDrive(), with_friction_and_play()}) {
+    drive.plunger_back_mm = 3.0;
+    RunningDrive one(drive);
+    const auto model = build_model(one.scene, {}, true);
+    const Equilibrium found = find_equilibrium(model->system, 0.0, model->system.eta_start());
+    EXPECT_TRUE(found.found);
+    EXPECT_LT(found.residual, 1e-6);
+    EXPECT_LT(found.iterations, 300);
+  }
+}
+
+TEST(HardTD1_Assembly, AChainWithoutEquilibriumIsAnErrorThatNamesTheSpan) {
+  // A moment of 300 N m on the exhaust wheel: 5.9 kN, against which the slack side holds nothing.
+  TimingDrive drive;
+  drive.more = "[[load]]\nbody = \"exhaust\"\ncomponent = \"rz\"\nvalue = 300\n";
+  RunningDrive one(drive);
+  expect_parts(refusal_of<NumericsError>([&] { one.start(); }),
+               {"no static equilibrium after", "unbalanced, most of it on chain link",
+                "between exhaust and guide"});
+}
+
+TEST(HardTD1_Assembly, AStateThatAnElementRefusesIsAnErrorWithItsReason) {
+  // A wheel in the middle of the other one's teeth: its pins are not in gaps.
+  TimingDrive drive;
+  drive.more = "";
+  const std::string text = drive.scene();
+  std::string shifted = text;
+  const std::string key = "turn = \"clockwise\"\nteeth = 40\n";
+  shifted.replace(shifted.rfind(key), key.size(), key + "gap_deg = 4.5\n");
+  const Scene scene = testing::scene_of(shifted, testing::test_folder());
+  const auto model = build_model(scene, {});
+  const std::string said = refusal_of<NumericsError>([&] { start_state(scene, {}, *model); });
+  std::printf("%s\n", said.c_str());
+}
+
+TEST(HardTD1_Assembly, AChainTooLongOrTooShortAndWheelsThatOverlapAreRefusedByName) {
+  for (const int links : {124, 136}) {
+    TimingDrive drive;
+    drive.links = links;
+    expect_parts(
+        refusal_of([&] { RunningDrive one(drive); }),
+        {"drive.run.toml", "the way around crank, arm, intake, exhaust, guide is 1042.03 mm",
+         fmt::format("the chain {} mm", 8 * links), "130 links are nearest"});
+  }
+  const std::string text = TimingDrive().scene(), exhaust = "at_mm = [60, 326, 0]";
+  std::string near = text;
+  near.replace(near.rfind(exhaust), exhaust.size(), "at_mm = [-60, 326, 0]");
+  expect_parts(refusal_of([&] { testing::scene_of(near, testing::test_folder()); }),
+               {"drive.run.toml", "no straight span joins intake and exhaust"});
+}
+
+TEST(HardTD8_WornChain, RunsWithHalfAMillimetreOfPlayInEveryJoint) {
+  TimingDrive drive = with_friction_and_play();
+  drive.joint_clearance_um = 500.0;
+  drive.links = 124;  // 992 mm, 1054 mm to the end of its play
+  drive.rpm = 3400.0;
+  RunningDrive one(drive);
+  one.start();
+  one.run(2e-3);
+  EXPECT_TRUE(one.method->state().y.allFinite());
+  EXPECT_GT(one.history("chain_tension_max"), 50.0);
+  EXPECT_LT(one.history("chain_tension_max"), 1000.0);
+  EXPECT_EQ(one.history("chain_jumps"), 0.0);
+}
+
+TEST(HardTD9_ReversedRotation, TheMirroredDriveMirrorsTheResultToRounding) {
+  TimingDrive drive = with_friction_and_play();
+  drive.rpm = 3400.0;
+  TimingDrive other = drive;
+  other.mirrored = true;
+  RunningDrive one(drive), mirror(other);
+  one.start();
+  mirror.start();
+  for (int i = 1; i <= 10; ++i) {
+    one.run(i * 1e-4);
+    mirror.run(i * 1e-4);
+    EXPECT_EQ(one.steps, mirror.steps);
+    double worst = 0.0;
+    for (const char* name : {"chain_tension_min", "chain_tension_max", "chain_guide_depth",
+                             "chain_tension_guide_crank", "bushing_exhaust_force_y"})
+      worst = std::max(worst, std::abs(one.history(name) - mirror.history(name)));
+    for (const char* name : {"chain_guide_force_x", "chain_crank_force_x"})
+      worst = std::max(worst, std::abs(one.history(name) + mirror.history(name)));
+    std::printf("%d steps, force %.3g N, angle %.3g\n", one.steps, worst,
+                std::abs(one.y("exhaust", 2) + mirror.y("exhaust", 2)));
+    EXPECT_LT(worst, 1e-5);
+  }
+}
+
+TEST(HardTD10_ChainAt12000Rpm, LeavesTheGuidesWhereThePlungerIsBlocked) {
+  // The tension of the chain at rest, 185 N, holds it on the guides up to v = sqrt(T / m), 24.85
+  // m/s or 9320 rpm; at 8000 rpm with a quarter of the force at rest.
+  TimingDrive drive;
+  drive.plunger_n_m = 1e9;
+  drive.plunger_back_mm = -0.69748;
+  const std::vector<std::string> names{"chain_guide_force_x",   "chain_arm_force_x",
+                                       "chain_crank_contacts",  "chain_exhaust_contacts",
+                                       "chain_intake_contacts", "chain_tension_min"};
+  RunningDrive rest(drive);
+  rest.start();
+  const double guide = rest.history(names[0]), arm = rest.history(names[1]);
+  for (const double rpm : {6000.0, 8000.0, 12000.0}) {
+    drive.rpm = rpm;
+    RunningDrive one(drive);
+    one.start();
+    one.run(2e-3);
+    const std::vector<double> found = means(one, 4e-3, names);
+    std::printf("%g rpm: %d steps, rest %.3g %.3g:", rpm, one.steps, guide, arm);
+    for (double x : found) std::printf(" %.3g", x);
+    std::printf(" jumps %g\n", one.history("chain_jumps"));
+  }
+}
+
+TEST(HardTD10_ChainAt12000Rpm, StaysOnGuidesAndTeethWhereThePlungerIsFree) {
+  TimingDrive drive;
+  drive.rpm = 12000.0;
+  RunningDrive one(drive);
+  one.start();
+  one.run(8e-3);
+  const std::vector<double> found =
+      means(one, 12e-3,
+            {"chain_guide_contacts", "chain_arm_contacts", "chain_crank_contacts",
+             "chain_exhaust_contacts", "chain_intake_contacts", "chain_tension_min"});
+  std::printf("free: %d steps:", one.steps);
+  for (double x : found) std::printf(" %.3g", x);
+  std::printf(" jumps %g\n", one.history("chain_jumps"));
+}
+
+TEST(HardTD11_Friction, TheDriveConvergesAsTheRegularisationSpeedFalls) {
+  std::vector<double> found;
+  for (const double slip_speed : {0.16, 0.08, 0.04, 0.02, 0.01}) {
+    TimingDrive drive = with_friction_and_play();
+    drive.joint_clearance_um = 0.0;
+    drive.rpm = 3400.0;
+    drive.tolerance = 1e-4;
+    drive.slip_speed_m_s = slip_speed;
+    RunningDrive one(drive);
+    one.start();
+    const auto mean = means(one, 5e-4, {"chain_tension_guide_crank", "chain_tension_max"});
+    std::printf("%g: %.6g %.6g (%d)\n", slip_speed, mean[0], mean[1], one.steps);
+    found.push_back(mean[0]);
+  }
+}
+
+TEST(HardTD12_StoppedCrank, EnergyOnlyFalls) {
+  TimingDrive drive = with_friction_and_play();
+  drive.exhaust_spin = 20.0;
+  RunningDrive one(drive);
+  EnergyBalance energy(one.model->system, *one.scene.steps.method);
+  one.method->set_observer(&energy);
+  one.start();
+  const double begin = energy.now().stored();
+  double before = begin, most = 0.0;
+  one.run(4e-3, [&] {
+    const double now = energy.now().stored();
+    most = std::max(most, now - before);
+    before = now;
+  });
+  std::printf("%d steps %.6g J to %.6g J, rise %.3g, residue %.3g input %g\n", one.steps, begin,
+              before, most, energy.residue(), energy.now().input);
+  EXPECT_EQ(energy.now().input, 0.0);
+}
+
+TEST(HardTD14_HoursOfAngle, ADriveKeepsItsDigitsAfterAMillionTurns) {
+  const double speed = 3400.0 * std::numbers::pi / 30.0, step = 3e-6;
+  const Drive drive(-speed);
+  // Five hours; times are multiples of 2^-38 s there, so that their differences are exact.
+  for (double time = 17647.0; time < 17647.0 + 100 * step; time += step) {
+    const double next = time + step;
+    const double turned = drive.at(next).position - drive.at(time).position;
+    EXPECT_NEAR(std::remainder(turned, 2.0 * std::numbers::pi), -speed * (next - time), 1e-14);
+  }
+  const Drive turned(-speed, 2.0e6 * std::numbers::pi);
+  // The argument of a million turns has 5e-10 rad.
+  EXPECT_NEAR(turned.at(1.0).position, drive.at(1.0).position, 1e-9);
+}
+
+TEST(HardTD14_HoursOfAngle, TheDriveStartsAfter2777TurnsAsAfterNone) {
+  TimingDrive drive = with_friction_and_play();
+  drive.rpm = 3400.0;
+  TimingDrive later = drive;
+  later.start_turns = 2776.0;
+  RunningDrive one(drive), other(later);
+  one.start();
+  other.start();
+  one.run(3e-4);
+  other.run(3e-4);
+  for (const char* name : {"chain_tension_max", "chain_crank_force_x", "chain_exhaust_force_y"}) {
+    std::printf("%s %.9g %.9g\n", name, one.history(name), other.history(name));
   }
 }
 

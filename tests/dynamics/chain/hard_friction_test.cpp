@@ -43,14 +43,14 @@ Slid slide(double slope, double slip_speed, double seconds) {
   carrier.port = std::make_unique<GroundPort>(Eigen::Vector3d::Zero());
   LinkOutlines outlines;
   outlines.inner = outlines.outer = {LinkOutline::plate(-4e-3, 4e-3, 3.6e-3)};
-  const auto guide = std::make_shared<const Profile>(
-      std::vector<Segment>{LineSegment{5.0 * along, -0.5 * along}});
-  system.add_element(std::make_unique<ProfileContact>("guide", y, make, guide, outlines, law,
-                                                      std::move(carrier), Turn::kClockwise));
+  const auto guide =
+      std::make_shared<const Profile>(std::vector<Segment>{LineSegment{5.0 * along, -0.5 * along}});
+  system.add_element(
+      std::make_unique<ProfileContact>("guide", y, make, guide, outlines, law, std::move(carrier)));
   Load weight;
   weight.term = "weight";
-  weight.direction = system.bodies()[0].shapes.topRows<2>().transpose() *
-                     Vector2d(0.0, -kMass * kGravity);
+  weight.direction =
+      system.bodies()[0].shapes.topRows<2>().transpose() * Vector2d(0.0, -kMass * kGravity);
   weight.value = [](double) { return 1.0; };
   system.add_load(weight);
   StepOptions options;
@@ -59,7 +59,8 @@ Slid slide(double slope, double slip_speed, double seconds) {
   const auto method = testing::started(system, options);
   while (method->state().time < seconds) method->step(seconds);
   const StageState& state = method->state();
-  return {Vector2d(state.y(0), state.y(1)).dot(along), Vector2d(state.v_y(0), state.v_y(1)).dot(along)};
+  return {Vector2d(state.y(0), state.y(1)).dot(along),
+          Vector2d(state.v_y(0), state.v_y(1)).dot(along)};
 }
 
 TEST(HardTD11_Friction, ALinkThatSticksCreepsInProportionToTheRegularisationSpeed) {

@@ -54,10 +54,9 @@ void OpenChain::pull(int body, const Vector2d& force) {
   system.add_load(load);
 }
 
-VectorXd OpenChain::rest() {
+VectorXd OpenChain::rest(double residual) {
   EquilibriumOptions options;
-  options.residual = 1e-9;
-  options.most_iterations = 20000;
+  options.residual = residual;
   const Equilibrium found = find_equilibrium(system, 0.0, system.eta_start(), options);
   EXPECT_TRUE(found.found) << found.residual << " after " << found.iterations;
   VectorXd at = system.interface(found.eta), force;

@@ -29,8 +29,9 @@ struct OpenChain {
   int pin(const std::string& name, std::unique_ptr<Port> a, std::unique_ptr<Port> b);
   /// Pulls the last link or a body at its centre of mass with a constant force [N].
   void pull(int body, const Eigen::Vector2d& force);
-  /// The state of rest, found to 1e-9 N. Also evaluates the elements there.
-  Eigen::VectorXd rest();
+  /// The state of rest, found to `residual` [N], which cannot be less than the rounding of
+  /// positions times stiffness. Also evaluates the elements there.
+  Eigen::VectorXd rest(double residual);
   /// Force of a joint between links at the state evaluated last [N].
   double tension(int joint) const;
 

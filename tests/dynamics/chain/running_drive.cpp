@@ -11,14 +11,14 @@
 
 namespace clatter::dynamics::testing {
 
-Scene drive_scene(const std::string& text) {
-  const std::filesystem::path path = test_folder() / "drive.run.toml";
+Scene scene_of(const std::string& text, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "drive.run.toml";
   std::ofstream(path) << text;
   return read_scene(path);
 }
 
 RunningDrive::RunningDrive(const TimingDrive& drive)
-    : scene(drive_scene(drive.scene())),
+    : scene(scene_of(drive.scene(), test_folder())),
       model(build_model(scene, {})),
       method(make_integrator(model->system, scene.steps)) {}
 

@@ -12,8 +12,8 @@
 
 namespace clatter::dynamics::testing {
 
-/// The scene's text, read as a file of the current test's folder.
-Scene drive_scene(const std::string& text);
+/// A scene's text, read as a file of a folder.
+Scene scene_of(const std::string& text, const std::filesystem::path& folder);
 
 struct RunningDrive {
   Scene scene;
@@ -26,7 +26,8 @@ struct RunningDrive {
   /// From static equilibrium with the velocities of the drive.
   void start();
   /// To a time [s]; `each` is called after each step.
-  void run(double until, const std::function<void()>& each = [] {});
+  void run(
+      double until, const std::function<void()>& each = [] {});
 
   /// A history at the last accepted state.
   double history(const std::string& name) const;

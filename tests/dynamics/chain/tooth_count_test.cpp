@@ -25,15 +25,14 @@ std::vector<int> gaps(int turned, int ahead, Turn turn) {
 class Turning : public ::testing::TestWithParam<Turn> {};
 
 TEST_P(Turning, CountsNothingWhileTheChainRunsForwardsAndBackwards) {
-  ToothCount count(kLinks, kTeeth, GetParam());
+  ToothCount count(kLinks, kTeeth, GetParam(), 0, 0);
   for (int turned = 0; turned < 300; ++turned) count.update(turned, gaps(turned, 0, GetParam()));
   for (int turned = 300; turned > -300; --turned) count.update(turned, gaps(turned, 0, GetParam()));
-  EXPECT_FALSE(count.has_jumped());
   EXPECT_EQ(count.jumped(), 0);
 }
 
 TEST_P(Turning, CountsTeethByTheirSignWithTheTimeOfTheFirst) {
-  ToothCount count(kLinks, kTeeth, GetParam());
+  ToothCount count(kLinks, kTeeth, GetParam(), 0, 0);
   int turned = 0;
   for (; turned < 50; ++turned) count.update(turned, gaps(turned, 0, GetParam()));
   for (; turned < 100; ++turned) count.update(turned, gaps(turned, -1, GetParam()));
@@ -49,12 +48,11 @@ INSTANTIATE_TEST_SUITE_P(Turns, Turning,
                          ::testing::Values(Turn::kClockwise, Turn::kCounterClockwise));
 
 TEST(ToothCount, AJumpCountsWhenAllLinksHaveJumpedAndIsFoundWithTheFirst) {
-  ToothCount count(kLinks, kTeeth, Turn::kCounterClockwise);
+  ToothCount count(kLinks, kTeeth, Turn::kCounterClockwise, 0, 0);
   count.update(0.0, gaps(0, 0, Turn::kCounterClockwise));
   std::vector<int> one = gaps(0, 0, Turn::kCounterClockwise);
   one[2] = (one[2] + 1) % kTeeth;
   count.update(1.0, one);
-  EXPECT_TRUE(count.has_jumped());
   EXPECT_EQ(count.jumped(), 0);
   for (int& gap : one) gap = gap == kNone ? kNone : (gap + 1) % kTeeth;
   one[2] = (one[2] + kTeeth - 1) % kTeeth;
@@ -63,8 +61,19 @@ TEST(ToothCount, AJumpCountsWhenAllLinksHaveJumpedAndIsFoundWithTheFirst) {
   EXPECT_EQ(count.first_time(), 1.0);
 }
 
+TEST(ToothCount, ALinkThatRidesUpAndFallsBackHasNotJumped) {
+  ToothCount count(kLinks, kTeeth, Turn::kCounterClockwise, 0, 0);
+  const std::vector<int> seated = gaps(0, 0, Turn::kCounterClockwise);
+  std::vector<int> one = seated;
+  one[2] = (one[2] + 1) % kTeeth;
+  count.update(0.0, one);
+  count.update(1.0, seated);
+  EXPECT_EQ(count.jumped(), 0);
+  EXPECT_LT(count.first_time(), 0.0);
+}
+
 TEST(ToothCount, GoesOnFromWhatItSaved) {
-  ToothCount one(kLinks, kTeeth, Turn::kClockwise), two = one;
+  ToothCount one(kLinks, kTeeth, Turn::kClockwise, 0, 0), two = one;
   int turned = 0;
   for (; turned < 50; ++turned)
     one.update(turned, gaps(turned, turned < 20 ? 0 : 1, Turn::kClockwise));
