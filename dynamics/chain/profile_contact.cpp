@@ -249,10 +249,19 @@ void ProfileContact::add_forces(int link, const Motion& motion, const Relative& 
   ++last_.contacts;
 }
 
+/// Of all links: any of them may make contact in a later step, which takes no memory.
+void ProfileContact::make_blocks(Response& response) const {
+  response.blocks.clear();
+  for (const std::vector<int>& group : groups_) {
+    const auto n = static_cast<Eigen::Index>(group.size());
+    response.blocks.push_back({false, MatrixXd::Zero(n, n)});
+  }
+}
+
 void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const VectorXd& v,
                               bool with_tangent, Response& response) {
   response.force.setZero(y.size());
-  response.blocks.resize(groups_.size());
+  if (response.blocks.size() != groups_.size()) make_blocks(response);
   last_ = {};
   move(stage.time, y, v, motion_);
   MattressForce contact;
@@ -281,6 +290,7 @@ void ProfileContact::evaluate(const Stage& stage, const VectorXd& y, const Vecto
 
 void ProfileContact::find_gaps(double time, const VectorXd& y, const VectorXd& v,
                                std::span<double> gaps) {
+  constexpr double kLeast = std::numeric_limits<double>::min();
   move(time, y, v, motion_);
   MattressForce contact;
   auto gap = gaps.begin();
@@ -293,8 +303,7 @@ void ProfileContact::find_gaps(double time, const VectorXd& y, const VectorXd& v
       *gap = beyond;
       if (beyond > 0.0) continue;
       contacts_[index][i].evaluate(pose, {at.velocity, at.spin}, false, hints_[index][i], contact);
-      *gap = contact.depth > 0.0 ? -contact.depth
-                                 : std::max(-contact.depth, std::numeric_limits<double>::min());
+      *gap = contact.depth > 0.0 ? -contact.depth : std::clamp(-contact.depth, kLeast, reach_);
     }
   }
 }

@@ -57,8 +57,8 @@ class ProfileContact : public ForceElement {
   /// Outlines of all links: bushes or plates.
   int outlines() const;
   /// The gap of each of them from the profile [m]: negative by its depth where it touches, else a
-  /// lower bound of the distance, above 0. For integrators that look for the instants at which
-  /// contacts begin and end; forces are continuous there, so the kernel's do not.
+  /// lower bound of the distance, above 0 and finite. For integrators that look for the instants at
+  /// which contacts begin and end; forces are continuous there, so the kernel's do not.
   void find_gaps(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                  std::span<double> gaps);
   /// Where the profile's axes are: origin [m] and angle [rad, -pi to pi], in the plane's axes.
@@ -103,6 +103,7 @@ class ProfileContact : public ForceElement {
   };
   Motion motion_at(double time, const Eigen::VectorXd& y, const Eigen::VectorXd& v) const;
   void find_reach();
+  void make_blocks(Response& response) const;
   int gap_of(const PlanarPose& pose, const LinkOutline& bush) const;
   bool is_far(int link, const Motion& motion, const Eigen::VectorXd& y);
   Relative relative(int link, const Motion& motion, const Eigen::VectorXd& y,

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
+#include "dynamics/chain/profile_contact.hpp"
 #include "dynamics/run/start_state.hpp"
 #include "tests/dynamics/chain/small_motion.hpp"
 #include "tests/dynamics/slap_scene.hpp"
@@ -129,6 +131,33 @@ TEST_F(TimingDriveScene, SpansStretchOnTheWrapsToo) {
   blocked.plunger_back_mm = -0.69748e-3;
   EXPECT_NEAR(first_mode(Rest(scene(blocked))),
               std::sqrt(2.0 * stiffness / 1.163) / (2.0 * std::numbers::pi), 1.0);
+}
+
+TEST_F(TimingDriveScene, GapsAreNegativeWhereLinksTouch) {
+  const Rest rest(scene({}));
+  System& system = rest.model->system;
+  int profiles = 0;
+  for (int e = 0; e < system.elements(); ++e) {
+    auto* contact = dynamic_cast<ProfileContact*>(&system.element(e));
+    if (contact == nullptr) continue;
+    ++profiles;
+    std::vector<double> gaps(static_cast<size_t>(contact->outlines()));
+    const VectorXd y = gather(rest.y, contact->coordinates());
+    contact->find_gaps(0.0, y, VectorXd::Zero(y.size()), gaps);
+    History history;
+    contact->record(history);
+    double depth = 0.0;
+    for (const History::Entry& entry : history.entries())
+      if (entry.name.ends_with("_depth")) depth = entry.value;
+    EXPECT_GT(depth, 0.0);
+    EXPECT_DOUBLE_EQ(*std::min_element(gaps.begin(), gaps.end()), -depth) << contact->name();
+    // An inner link may touch a sprocket with both bushes.
+    const auto touching = std::count_if(gaps.begin(), gaps.end(), [](double g) { return g < 0.0; });
+    EXPECT_LE(touching, 2 * contact->contacts()) << contact->name();
+    EXPECT_GE(touching, contact->contacts()) << contact->name();
+    EXPECT_EQ(std::count(gaps.begin(), gaps.end(), 0.0), 0);
+  }
+  EXPECT_EQ(profiles, 5);
 }
 
 TEST_F(TimingDriveScene, OtherMeshPhasesHaveTheTensionsOfTheReference) {
