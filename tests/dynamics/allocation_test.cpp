@@ -5,15 +5,19 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "dynamics/force/stop.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
+#include "dynamics/run/start_state.hpp"
 #include "dynamics/shaft/turn_torque.hpp"
+#include "tests/dynamics/chain/timing_drive.hpp"
 #include "tests/dynamics/fixtures.hpp"
 #include "tests/dynamics/hydraulic_rig.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 #include "tests/dynamics/shaft_model.hpp"
+#include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 #include "tests/dynamics/valve_model.hpp"
 
@@ -54,9 +58,9 @@ namespace clatter::dynamics {
 namespace {
 
 /// Runs `steps` accepted steps after as many before them. Memory is taken for operators of step
-/// sizes that are new and for what is said of stages that failed, less than 16 times each, and for
-/// nothing else.
-void expect_no_allocations(Integrator& method, int steps) {
+/// sizes that are new and for what is said of stages that failed, less than 16 times each and 4
+/// times for each of `bodies`, where there are many, and for nothing else.
+void expect_no_allocations(Integrator& method, int steps, long long bodies = 0) {
   const auto rare = [&] {
     return method.statistics().operators + method.statistics().rejected_newton;
   };
@@ -66,7 +70,7 @@ void expect_no_allocations(Integrator& method, int steps) {
   counting = true;
   for (int i = 0; i < steps; ++i) method.step(1e9);
   counting = false;
-  EXPECT_LE(allocations, 16 * (rare() - before));
+  EXPECT_LE(allocations, (16 + 4 * bodies) * (rare() - before));
   EXPECT_LE(rare() - before, 20);
 }
 
@@ -152,6 +156,23 @@ TEST_P(StepLoop, TakesNoMemoryForATensioner) {
   options.fixed = true;
   const auto method = testing::started(shaken.system, options);
   expect_no_allocations(*method, 1000);
+}
+
+TEST_P(StepLoop, TakesNoMemoryForARunningTimingDrive) {
+  testing::TimingDrive drive;
+  drive.rpm = 3400.0;
+  drive.friction = 0.1;
+  const auto file = testing::test_folder() / "drive.run.toml";
+  std::ofstream(file) << drive.scene();
+  const Scene scene = read_scene(file);
+  const auto model = build_model(scene, {});
+  const ModalStart start = start_state(scene, {}, *model);
+  StepOptions options = scene.steps;
+  options.method = GetParam();
+  const auto method = make_integrator(model->system, options);
+  method->start(0.0, start.eta, start.v);
+  // By 1.6 ms, in which each link moves on by two pitches.
+  expect_no_allocations(*method, 400, static_cast<long long>(model->system.bodies().size()));
 }
 
 TEST_P(StepLoop, TakesNoMemoryForACamshaftInItsBearings) {
