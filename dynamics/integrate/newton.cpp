@@ -19,24 +19,15 @@ constexpr int kMaxIterations = 24;
 /// nonlinear: then each iteration needs its own matrix, and a few of them decide which cells are
 /// full.
 constexpr int kMaxFresh = 10;
-/// What remains of the Newton error, as a fraction of the error limit, is far below the error that
-/// the step control measures.
+/// Residual and increment below this fraction of the error limit count as converged: the remaining
+/// Newton error is then far below the error that the step control measures.
 constexpr double kConverged = 0.05;
-/// Residual and increment of the last evaluation, at most. The forces passed on are moved along the
-/// tangent by this increment, so that only what the next one would be remains.
-constexpr double kLast = 0.25;
 /// A matrix that contracts slower than this is formed again.
 constexpr double kSlow = 0.3;
 /// Units in the last place of y below which an increment is rounding: a few operations.
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 /// No earlier increment by the same matrix.
 constexpr double kNone = std::numeric_limits<double>::infinity();
-
-/// All later increments of an iteration that goes on to contract by `size` / `previous`, two
-/// increments by one matrix (Hairer and Wanner 1996, section IV.8).
-double remains(double size, double previous) {
-  return size < previous && previous < kNone ? size * size / (previous - size) : kNone;
-}
 
 }  // namespace
 
@@ -131,8 +122,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     const bool slow = size > kSlow * previous;
     // Without a check the matrix of a closed contact would hold the opened one in small steps.
     const bool checked = refresh || (previous < kNone && !slow);
-    const double limit = remains(size, previous) <= kConverged ? kLast : kConverged;
-    if (checked && size <= limit && (imbalance <= limit || is_rounding(y))) {
+    if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(y))) {
       moved_.setZero(y.size());
       scatter_add(dy_, *rows_, moved_);
       system_.add_tangent_forces(moved_, f);

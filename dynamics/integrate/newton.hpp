@@ -17,13 +17,12 @@ namespace clatter::dynamics {
 ///
 /// The state at which the elements were evaluated last is accepted when both its residual
 /// r = y_pred + S f - y, the effect of the unbalanced forces, and the increment dy = J^{-1} r are
-/// below 5 % of what the error test allows, in displacement and, over kappa, in velocity; below
-/// 25 % where the iteration contracts so fast that all increments after this one are below 5 %.
-/// dy alone says nothing where J is kept from a stiff contact that has opened (hard case N1), so a
-/// matrix that was not formed in this stage must have contracted in it. Where y cannot be given
-/// more finely, dy at rounding level suffices. The forces passed on are f + (df/dy) dy: with them
-/// P eta = y + dy exactly, which keeps stiff contacts at rest. Their difference to f changes P eta
-/// by less than |r| + |dy|.
+/// below `kConverged` (5 %) of what the error test allows, in displacement and, over kappa, in
+/// velocity. dy alone says nothing where J is kept from a stiff contact that has opened (hard case
+/// N1), so a matrix that was not formed in this stage must have contracted in it. Where y cannot
+/// be given more finely, dy at rounding level suffices. The forces passed on are f + (df/dy) dy:
+/// with them P eta = y + dy exactly, which keeps stiff contacts at rest. Their difference to f
+/// changes P eta by less than |r| + |dy|.
 /// An iteration that does not converge is a rejected step, never an accepted one.
 class StageNewton {
  public:
