@@ -3,7 +3,7 @@
 import math
 
 CONTENTS = ("force", "hydraulic", "full")
-LINKS = (65, 130, 260, 520)
+LINKS = (78, 130, 260, 520)
 # Torque of a crank with one of three cylinders at full load and of its masses at 3400 rpm: order, amplitude [N m], phase [deg]; phi = 0 at firing TDC.
 GAS = ((1.5, 196.60, -79.44), (3.0, 108.82, -107.08), (4.5, 61.96, -131.59), (6.0, 30.01, -153.78))
 MASSES = (3.0, 79.30, 90.0)
@@ -114,7 +114,7 @@ name = "crank"
 speed_rpm = {-rpm}
 axis = "z"
 """]
-    if content == "full":
+    if content == "full" and rpm > 0:
         text += orders(rpm)
     for cam, x in CAMS.items():
         text.append(bearing(cam, x, 326, f"mass_kg = 1.0\ninertia_kg_m2 = 1.30e-3\nstart_spin_rad_s = {spin!r}"))
@@ -139,7 +139,7 @@ a = { at_mm = [-55, 160, 0] }
 b = { body = "arm", at_mm = [-55, 160, 0] }
 axis = [1, 0, 0]
 """)
-    teeth = links // 65 * 10 if links >= 65 else 10
+    teeth = 20 * links // 130
     text.append(chain(links))
     text.append(sprocket("crank", 0, 0, teeth) + "gap_deg = -20.94\n")
     text.append(guide("arm", 'body = "arm", at_mm = [0, 0, 0]', (-310.1, 88.9), 280.0, (20.0, 240.0)))

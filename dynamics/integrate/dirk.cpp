@@ -10,7 +10,6 @@ Dirk::Dirk(System& system, const StepOptions& options) : Integrator(system, opti
 Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   const Tableau& A = *tableau_;
   const double kappa = A.d * dt;
-  const VectorXd& second_order = system_.second_order();
   system_.begin_step(now_.time);
   const double c = A.c_1 * dt, w_10 = A.a_10 * dt, w_20 = A.a_20 * dt, w_21 = A.a_21 * dt;
   first_.time = now_.time + c;
@@ -19,7 +18,6 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   eta_tilde_ = now_.eta + w_10 * now_.v;
   v_tilde_ = now_.v + w_10 * now_.a;
   eta_guess_ = now_.eta + c * now_.v + 0.5 * c * c * now_.a;
-  if (has_jerk_) eta_guess_ += c * c * c / 6.0 * jerk_;
   StageState& mid = stages_[0];
   if (!solver_.solve(first_, op, eta_tilde_, v_tilde_, eta_guess_, mid)) return failed();
   system_.finish_stage(first_);
@@ -30,9 +28,7 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   second_.weights[1] = w_21;
   eta_tilde_ = now_.eta + w_20 * now_.v + w_21 * mid.v;
   v_tilde_ = now_.v + w_20 * now_.a + w_21 * mid.a;
-  const double rest = dt - c;
-  eta_guess_ = mid.eta + rest * mid.v + 0.5 * rest * rest * mid.a +
-               rest * rest * rest / (6.0 * c) * second_order.cwiseProduct(mid.a - now_.a);
+  eta_guess_ = mid.eta + (dt - c) * mid.v + 0.5 * (dt - c) * (dt - c) * mid.a;
   if (!solver_.solve(second_, op, eta_tilde_, v_tilde_, eta_guess_, stages_[1])) return failed();
   if (!options_.fixed) {
     last_error_ = error(dt, op);
@@ -41,17 +37,6 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   system_.finish_stage(second_);
   if (observer_ != nullptr) observer_->stage(2, stages_[1]);
   return Verdict::kAccepted;
-}
-
-void Dirk::accepted() {
-  const StageState& mid = stages_[0];
-  jerk_ = system_.second_order().cwiseProduct(now_.a - mid.a) / (now_.time - mid.time);
-  has_jerk_ = true;
-}
-
-void Dirk::forget_history() {
-  Integrator::forget_history();
-  has_jerk_ = false;
 }
 
 double Dirk::error(double dt, const StageOperator& op) {

@@ -15,17 +15,13 @@ namespace clatter::dynamics {
 class Dirk : public Integrator {
  public:
   Dirk(System& system, const StepOptions& options);
-  void forget_history() override;
 
  private:
   Verdict attempt(double dt, const StageOperator& op) override;
-  void accepted() override;
   double error(double dt, const StageOperator& op);
 
   Stage first_{0.0, 0.0, 1, {0.0}}, second_{0.0, 0.0, 2, {0.0, 0.0}};
   Eigen::VectorXd eta_tilde_, v_tilde_, eta_guess_, e_y_;
-  bool has_jerk_ = false;  // of a step before this one
-  Eigen::VectorXd jerk_;   // rates of accelerations at its end, N; 0 of states
 };
 
 }  // namespace clatter::dynamics
