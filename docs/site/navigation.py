@@ -10,7 +10,7 @@ NAVIGATION = {
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("dynamics/film/README.md", "dynamics/film"), ("dynamics/profile/README.md", "dynamics/profile"), ("dynamics/chain/README.md", "dynamics/chain"),
                  ("dynamics/hydraulic/README.md", "dynamics/hydraulic"),
-                 ("dynamics/shaft/README.md", "dynamics/shaft"), ("recover/README.md", "recover")],
+                 ("dynamics/shaft/README.md", "dynamics/shaft"), ("dynamics/valve/README.md", "dynamics/valve"), ("recover/README.md", "recover")],
     "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"),
                 ("samples/timing_drive/README.md", "timing_drive"), ("samples/truck_diesel/README.md", "truck_diesel")],
     "Documents": [("docs/design.md", "Design"), ("docs/formats.md", "File formats"), ("docs/accuracy.md", "Accuracy"),

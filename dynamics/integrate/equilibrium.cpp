@@ -99,9 +99,10 @@ class Search {
     system_.add_interface_force(f_, F_);
     unbalanced_ = F_ - system_.omega_squared().cwiseProduct(found_.eta);
     found_.residual = 0.0;
+    found_.unbalanced.setZero(unbalanced_.size());
     for (Eigen::Index k = 0; k < unbalanced_.size(); ++k) {
       if (unit_(k) == 0.0) continue;
-      const double force = std::abs(unbalanced_(k)) / unit_(k);
+      const double force = found_.unbalanced(k) = std::abs(unbalanced_(k)) / unit_(k);
       if (force <= found_.residual) continue;
       found_.residual = force;
       found_.worst = static_cast<int>(k);

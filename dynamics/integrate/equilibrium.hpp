@@ -20,10 +20,11 @@ struct EquilibriumOptions {
 struct Equilibrium {
   bool found = false;
   int iterations = 0;
-  double residual = 0.0;  // largest unbalanced force [N], moment [N m]
-  int worst = -1;         // modal coordinate where it is; -1: it is not finite
-  std::string refused;    // why an element refused the last state; empty: none did
-  Eigen::VectorXd eta;    // N
+  double residual = 0.0;       // largest unbalanced force [N], moment [N m]
+  int worst = -1;              // modal coordinate where it is; -1: it is not finite
+  std::string refused;         // why an element refused the last state; empty: none did
+  Eigen::VectorXd eta;         // N
+  Eigen::VectorXd unbalanced;  // of each modal coordinate, in the measure of `residual`, N
 };
 
 /// Finds the state near `eta` (N) at which nothing moves at `time`: forces of all elements at rest

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWanted = 0.01;
 /// A body that is slower than this part of the velocity scale is at rest.
-constexpr double kAtRest = 1e-9;
+constexpr double kAtRest = 1e-12;
 
 }  // namespace
 

@@ -12,16 +12,41 @@
 namespace clatter::dynamics {
 namespace {
 
-/// "timing link 17, between crank and arm".
-std::string body_text(const Model& model, int mode) {
-  if (mode < 0) return "forces that are not finite";
-  const auto& bodies = model.system.bodies();
+int body_of(const System& system, int mode) {
   int body = 0;
-  while (body + 1 < static_cast<int>(bodies.size()) && model.system.mode_offset(body + 1) <= mode)
+  while (body + 1 < static_cast<int>(system.bodies().size()) &&
+         system.mode_offset(body + 1) <= mode)
     ++body;
-  std::string text = bodies[static_cast<size_t>(body)].name;
+  return body;
+}
+
+std::string place_of(const Model& model, int body) {
   for (const auto& component : model.components)
-    if (const std::string place = component->place_of(body); !place.empty()) text += ", " + place;
+    if (std::string place = component->place_of(body); !place.empty()) return place;
+  return "";
+}
+
+/// Where forces do not balance: "exhaust; chain link 17, between crank and arm". The second part is
+/// the worst of the bodies that have a place on a component, where the worst of all has none.
+std::string unbalanced_text(const Model& model, const Equilibrium& found) {
+  if (found.worst < 0) return "forces that are not finite";
+  const auto& bodies = model.system.bodies();
+  const auto name = [&](int body) { return bodies[static_cast<size_t>(body)].name; };
+  const int worst = body_of(model.system, found.worst);
+  if (const std::string place = place_of(model, worst); !place.empty())
+    return name(worst) + ", " + place;
+  std::string text = name(worst);
+  double most = 0.0;
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+    const double force =
+        found.unbalanced
+            .segment(model.system.mode_offset(b), bodies[static_cast<size_t>(b)].modes())
+            .maxCoeff();
+    const std::string place = force > most ? place_of(model, b) : "";
+    if (place.empty()) continue;
+    most = force;
+    text = fmt::format("{}; {}, {}", name(worst), name(b), place);
+  }
   return text;
 }
 
@@ -39,7 +64,7 @@ ModalStart start_state(const Scene& scene, const LoadedBodies& bodies, const Mod
   if (!found.found)
     throw NumericsError(fmt::format(
         "no static equilibrium after {} iterations: {:.3g} N unbalanced, most of it on {}",
-        found.iterations, found.residual, body_text(*resting, found.worst)));
+        found.iterations, found.residual, unbalanced_text(*resting, found)));
   say(fmt::format("static equilibrium: {} iterations, {:.1e} N unbalanced", found.iterations,
                   found.residual));
   start.eta = found.eta;

@@ -188,9 +188,13 @@ class Run(stages.PipelineTest):
         self.run_blocks("condense/README.md")
 
     def test_dynamics(self):
-        self.named(slap__run__toml="step.run.toml")
+        self.named(slap__run__toml="step.run.toml", cam__run__toml="step.run.toml", drive__run__toml="step.run.toml",
+                   valve__run__toml="step.run.toml")
         self.run_blocks("dynamics/README.md")
         self.run_blocks("dynamics/film/README.md")
+        self.run_blocks("dynamics/chain/README.md")
+        self.run_blocks("dynamics/shaft/README.md")
+        self.run_blocks("dynamics/valve/README.md")
 
     def test_recover(self):
         self.named(slap__run__h5="step.run.h5", slap__field__toml="step.field.toml")

@@ -66,8 +66,9 @@ TEST_F(HydraulicScenes, OracleALashAdjusterLeaksDownByAMillimetre) {
 TEST_F(HydraulicScenes, AStopEndsTheTravel) {
   const double area = 0.25 * std::numbers::pi * 81e-6;
   const std::string start = fmt::format("start_bar = {:.15g}\n", 1.0 + 222.4 / area * 1e-5);
-  // It leaks down to the stop, which then bears the load but for the pressure of the supply.
-  const H5File file = recorded(leak_down(0.5, start + "stops_mm = [-0.1, 1]\n"));
+  // It leaks down to the stop, which then bears the load but for the pressure of the supply, to
+  // which that of the chamber falls with V / (G E), half a second.
+  const H5File file = recorded(leak_down(8.0, start + "stops_mm = [-0.1, 1]\n"));
   const double held = 222.4 - 2.5e5 * area;
   EXPECT_NEAR(file.read_doubles("history/lash_adjuster_hla_travel").back(), -0.1e-3 - held / 1e8,
               2e-9);

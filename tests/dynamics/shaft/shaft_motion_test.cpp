@@ -265,7 +265,8 @@ TEST(ShaftMotion, APhaserRattlesBetweenItsStops) {
     System& system = shaft.system();
     const int hub_dof = std::string(model) == "full" ? 5 : 0;
     const int wheel = shaft.y("cam.wheel", 0), hub = shaft.y("cam.wheel_hub", hub_dof);
-    const double I1 = 1.15e-3, I2 = 1.0 / system.mobility({}, {hub}).v(0, 0);  // of the slice of shaft
+    const double I1 = 1.15e-3,
+                 I2 = 1.0 / system.mobility({}, {hub}).v(0, 0);  // of the slice of shaft
     VectorXd v = VectorXd::Zero(system.modes());
     const double speed = 2.0;  // of the wheel [rad/s]
     v(system.mode_offset(shaft.builder.body("cam.wheel"))) = speed * std::sqrt(I1);
