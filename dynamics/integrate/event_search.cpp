@@ -29,8 +29,25 @@ EventSearch::EventSearch(const System& system) : system_(&system) {
 double EventSearch::value(const Function& function, double time, const VectorXd& y,
                           const VectorXd& v) const {
   const ForceElement& element = system_->element(function.element);
-  return element.event_function(function.index, time, gather(y, element.coordinates()),
-                                gather(v, element.coordinates()));
+  gather(y, element.coordinates(), y_);
+  gather(v, element.coordinates(), v_);
+  return element.event_function(function.index, time, y_, v_);
+}
+
+double EventSearch::value_between(const Function& function, const StageState& from,
+                                  const StageState& to, double t) const {
+  const ForceElement& element = system_->element(function.element);
+  const std::vector<int>& at = element.coordinates();
+  const double h = to.time - from.time;
+  y_.resize(static_cast<Eigen::Index>(at.size()));
+  v_.resize(y_.size());
+  for (size_t i = 0; i < at.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double y_0 = from.y(at[i]), v_0 = from.v_y(at[i]), y_1 = to.y(at[i]), v_1 = to.v_y(at[i]);
+    y_(k) = hermite(y_0, v_0, y_1, v_1, h, t);
+    v_(k) = hermite_rate(y_0, v_0, y_1, v_1, h, t);
+  }
+  return element.event_function(function.index, from.time + t * h, y_, v_);
 }
 
 double EventSearch::direction(const Function& function, const StageState& state) const {
@@ -65,13 +82,10 @@ Eigen::VectorXd EventSearch::interface_acceleration(const StageState& state) con
 
 std::optional<double> EventSearch::root(const Function& function, const StageState& from,
                                         const StageState& to) const {
-  const double h = to.time - from.time;
   // Positive on the side where the function is.
   const auto g = [&](double t) {
     if (t >= 1.0) return function.side * value(function, to.time, to.y, to.v_y);
-    return function.side * value(function, from.time + t * h,
-                                 hermite(from.y, from.v_y, to.y, to.v_y, h, t),
-                                 hermite_rate(from.y, from.v_y, to.y, to.v_y, h, t));
+    return function.side * value_between(function, from, to, t);
   };
   const auto bisect = [&](double low, double high) {
     for (int i = 0; i < kHalvings; ++i) {

@@ -39,6 +39,9 @@ class EventSearch {
   };
   double value(const Function& function, double time, const Eigen::VectorXd& y,
                const Eigen::VectorXd& v) const;
+  /// On the step's cubic at `t`, 0 to 1.
+  double value_between(const Function& function, const StageState& from, const StageState& to,
+                       double t) const;
   bool is_one_sided(const Function& function) const;
   /// The side to which a function moves.
   double direction(const Function& function, const StageState& state) const;
@@ -48,6 +51,7 @@ class EventSearch {
 
   const System* system_;
   std::vector<Function> functions_;
+  mutable Eigen::VectorXd y_, v_;  // of one element
 };
 
 }  // namespace clatter::dynamics

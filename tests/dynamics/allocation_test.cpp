@@ -136,6 +136,28 @@ TEST_P(StepLoop, TakesNoMemoryForABallThatHopsAndSlidesOnAStop) {
   expect_no_allocations(*method, 2000, 1);
 }
 
+TEST_P(StepLoop, TakesNoMemoryWhileEventsAreLookedFor) {
+  // A body on a spring swings above a rigid stop that it does not reach.
+  System system;
+  PlanarMotion start;
+  start.centre = {0.0, 0.02};
+  start.velocity = {0.0, -0.3};
+  const auto ball = testing::add_planar(system, "ball", 1.0, 1e-3, start);
+  PointOnPlane pair(std::make_unique<PlanarPort>(ball, Eigen::Vector2d::Zero()),
+                    std::make_unique<GroundPort>(Eigen::Vector3d::Zero()),
+                    Eigen::Vector3d::UnitY());
+  system.add_element(std::make_unique<RigidStop>("stop", std::move(pair), 0.5, 1e8));
+  system.add_element(std::make_unique<Bushing>(
+      "spring", std::make_unique<PlanarPort>(ball, Eigen::Vector2d::Zero()),
+      std::make_unique<GroundPort>(Eigen::Vector3d(0.0, 0.02, 0.0)), 1e3, 0.0));
+  StepOptions options;
+  options.method = GetParam();
+  options.largest = 1e-4;
+  const auto method = testing::started(system, options);
+  expect_no_allocations(*method, 2000);
+  EXPECT_EQ(method->statistics().events, 0);
+}
+
 TEST_P(StepLoop, TakesNoMemoryForMechanismsAndChains) {
   testing::Andrews mechanism(1e8, 1e4);
   StepOptions options;
