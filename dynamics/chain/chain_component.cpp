@@ -83,9 +83,11 @@ void ChainComponent::add_bodies(ModelBuilder& model) {
     start.velocity = 0.5 * (rear + front);
     start.spin = across(line).dot(front - rear) / line.squaredNorm();
     const LinkMass& mass = spec_.make.mass(static_cast<int>(j));
-    const int body = model.add_body(make_planar_body(fmt::format("{} link {}", spec_.name, j + 1),
-                                                     mass.mass, mass.inertia, start),
-                                    spec_.where);
+    ModalBody link = make_planar_body(fmt::format("{} link {}", spec_.name, j + 1), mass.mass,
+                                      mass.inertia, start);
+    link.family = spec_.name;
+    link.arm = spec_.make.half(static_cast<int>(j));
+    const int body = model.add_body(std::move(link), spec_.where);
     if (j == 0) first_body_ = body;
   }
 }

@@ -32,7 +32,6 @@ class Search {
     for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
       const ModalBody& body = system.bodies()[static_cast<size_t>(b)];
       const Eigen::MatrixXd& P = system.P(b);
-      const double arm = body.arm > 0.0 ? body.arm : options.arm;
       for (int k = 0; k < body.modes(); ++k) {
         double& unit = unit_(system.mode_offset(b) + k);
         if (body.is_state(k))
@@ -42,7 +41,7 @@ class Search {
         double& reach = reach_(system.mode_offset(b) + k);
         for (Eigen::Index i = 0; !body.is_state(k) && i < P.rows(); ++i) {
           const bool turns = system.is_rotation(system.rows(b)[static_cast<size_t>(i)]);
-          reach = std::max(reach, std::abs(P(i, k)) * (turns ? arm : 1.0));
+          reach = std::max(reach, std::abs(P(i, k)) * (turns ? options.arm : 1.0));
         }
       }
     }

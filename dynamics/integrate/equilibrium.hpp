@@ -12,7 +12,7 @@ struct EquilibriumOptions {
   double residual = 1e-6;      // largest unbalanced force [N], moment [N m]
   double rate = 1e-3;          // largest rate of a state, in its scale [1/s]
   double longest_move = 1e-4;  // of a coordinate in one iteration, by rotations with their arm [m]
-  double arm = 0.05;           // of bodies that have none of their own [m]
+  double arm = 0.05;           // of all rotations: links of a chain turn by 2 mrad at most [m]
   double first_time = 1e-5;    // pseudo-time step of the first iteration [s]
   int most_iterations = 3000;
 };

@@ -72,6 +72,34 @@ TEST(Port, RotationTurnsTheBodysAxesByItsSpin) {
   }
 }
 
+TEST(Port, ADrivenShaftFollowsItsBearingButForItsOwnTurn) {
+  const double h = 1e-6;
+  const Vector3d place(0.2, 0.1, 0.0), centre(0.5, -0.3, 0.2), axis(0.6, 0.0, 0.8);
+  const DrivenPort port(Drive(3.0, 0.4), centre, {0.1, 0.2, 0.3}, axis,
+                        std::make_unique<NodePort>(place, std::vector<int>{0, 1, 2, 3, 4, 5}));
+  const VectorXd y = 1e-6 * arbitrary(6, 1), v = 1e-3 * arbitrary(6, 2);
+  PortState at, before, after;
+  port.motion(-h, y - h * v, v, before);
+  port.motion(h, y + h * v, v, after);
+  port.motion(0.0, y, v, at);
+  // Small rotations: their squares, and the bearing's tilt under the shaft's spin, are left out.
+  EXPECT_LT((after.position - before.position - 2.0 * h * at.velocity).norm(), 2.0 * h * 1e-5);
+  const Vector6 drive = port.driven(at);
+  const Vector3d moved = at.velocity - drive.head<3>();
+  EXPECT_LT((at.by_y.topRows<3>() * v - moved).norm(), 1e-15);
+  // A force at the point on the bearing: itself, and its moment but for the part about the axis.
+  const Vector3d force(3.0, -2.0, 5.0), moment(0.3, 0.1, -0.2);
+  Vector6 load;
+  load << force, moment;
+  const VectorXd on_bearing = at.work.transpose() * load;
+  port.motion(0.0, VectorXd::Zero(6), VectorXd::Zero(6), at);
+  const Vector3d about_centre = (at.position - centre).cross(force) + moment;
+  const Vector3d expected =
+      (centre - place).cross(force) + about_centre - axis * axis.dot(about_centre);
+  EXPECT_LT((on_bearing.head<3>() - force).norm(), 1e-14);
+  EXPECT_LT((on_bearing.tail<3>() - expected).norm(), 1e-14);
+}
+
 TEST(Port, RotationTurnsTheArmsOfABody) {
   const VectorXd y = arbitrary(10, 1), v = arbitrary(10, 2);
   PortState first, second;

@@ -64,7 +64,7 @@ TEST(HardTD1_Assembly, AChainWithoutEquilibriumIsAnErrorThatNamesTheSpan) {
   RunningDrive one(drive);
   expect_parts(
       refusal_of<NumericsError>([&] { one.start(); }),
-      {"no static equilibrium after", "unbalanced, most of it on ", "chain link", "between "});
+      {"no static equilibrium after", "unbalanced, most of it on ", "chain link", "guide"});
 }
 
 TEST(HardTD1_Assembly, AStateThatAnElementRefusesIsAnErrorWithItsReason) {

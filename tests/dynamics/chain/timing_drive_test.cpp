@@ -12,6 +12,7 @@
 
 #include "dynamics/chain/profile_contact.hpp"
 #include "dynamics/run/start_state.hpp"
+#include "tests/dynamics/chain/running_drive.hpp"
 #include "tests/dynamics/chain/small_motion.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
@@ -168,6 +169,76 @@ TEST_F(TimingDriveScene, OtherMeshPhasesHaveTheTensionsOfTheReference) {
     EXPECT_GT(rest.history("chain_tension_crank_arm"), 184.5) << turn;
     EXPECT_LT(rest.history("chain_tension_crank_arm"), 186.9) << turn;
   }
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& now) {
+  text.replace(text.find(old), old.size(), now);
+  return text;
+}
+
+TEST_F(TimingDriveScene, AGuideIsWhereItsShapeSaysWhereverItsPortIs) {
+  TimingDrive drive;
+  const Rest origin(scene(drive));
+  const Scene other = testing::scene_of(replaced(drive.scene(), "body = \"arm\", at_mm = [0, 0, 0]",
+                                                 "body = \"arm\", at_mm = [-85, 245, 0]"),
+                                        folder_);
+  const Rest pivot(other);
+  EXPECT_NEAR(pivot.angle("arm"), origin.angle("arm"), 1e-9);
+  for (const char* span : {"chain_tension_crank_arm", "chain_tension_arm_intake"})
+    EXPECT_NEAR(pivot.history(span), origin.history(span), 1e-5) << span;
+}
+
+TEST_F(TimingDriveScene, LinksAreNamedTogetherAndRollOnTheirOwnArm) {
+  const auto model = build_model(scene(TimingDrive()), {});
+  int links = 0;
+  for (const ModalBody& body : model->system.bodies()) {
+    if (body.family != "chain") continue;
+    EXPECT_EQ(body.arm, 4e-3);
+    ++links;
+  }
+  EXPECT_EQ(links, 130);
+}
+
+TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {
+  TimingDrive drive;
+  drive.rpm = 3400.0;
+  for (const bool mirrored : {false, true}) {
+    drive.mirrored = mirrored;
+    const auto model = build_model(scene(drive), {});
+    const double cycle = 120.0 / drive.rpm;
+    const auto link = [&](int number) {
+      const auto& bodies = model->system.bodies();
+      int b = 0;
+      while (bodies[static_cast<size_t>(b)].name != fmt::format("chain link {}", number)) ++b;
+      return b;
+    };
+    const auto before = [&](int body) {
+      for (const auto& component : model->components) body = component->body_before(body, cycle);
+      return body;
+    };
+    EXPECT_EQ(before(link(5)), link(45));
+    EXPECT_EQ(before(link(100)), link(10));
+    EXPECT_EQ(before(0), 0);  // a cam
+  }
+}
+
+TEST_F(TimingDriveScene, CyclesAreThoseOfADriveThatTurns) {
+  TimingDrive drive;
+  drive.rpm = 3400.0;
+  const auto with = [&](const std::string& name) {
+    return testing::scene_of(
+        replaced(drive.scene(), "end_s = 0.001", "cycles = 2\ncycle_of = \"" + name + "\""),
+        folder_);
+  };
+  const Scene read = with("crank");
+  ASSERT_TRUE(read.clock);
+  EXPECT_NEAR(read.clock->cycle(), 120.0 / 3400.0, 1e-15);  // it turns backwards
+  EXPECT_EQ(read.time.ramp, 0.0);
+  test::expect_parts(test::refusal_of([&] { with("arm"); }),
+                     {"time.cycle_of: found \"arm\", expected the name of a [[drive]]"});
+  drive.rpm = 0.0;
+  test::expect_parts(test::refusal_of([&] { with("crank"); }),
+                     {"time.cycle_of: found \"crank\" with 0 rpm, expected a drive that turns"});
 }
 
 }  // namespace
