@@ -6,8 +6,8 @@ import signal
 import subprocess
 import sys
 
-from . import drive_command, info, motored_cycle, report
-from .artefact import BadArtefact
+from . import drive_command, info, motored_cycle, report, sweep
+from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
@@ -30,6 +30,8 @@ def parser():
     one.add_argument("files", nargs="*", metavar="file.h5")
     one.add_argument("-o", "--output", help="PNG or SVG file; default: kind.png")
     drive_command.add_arguments(commands)
+    one = commands.add_parser("sweep", help="write scenes of all combinations of some values, and make rules of their runs")
+    sweep.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
@@ -79,6 +81,8 @@ def main(arguments, rules):
             drive_command.write_pictures(options)
         elif options.command == "orders":
             drive_command.write_orders(options)
+        elif options.command == "sweep":
+            sweep.write_sweep(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":
@@ -86,7 +90,7 @@ def main(arguments, rules):
     except BadArtefact as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 2
-    except motored_cycle.CannotWrite as error:
+    except CannotWrite as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 4
     except BrokenPipeError:
