@@ -236,6 +236,42 @@ TEST_F(TimingDriveScene, LinksAreNamedTogetherAndRollOnTheirOwnArm) {
   EXPECT_EQ(links, 130);
 }
 
+TEST_F(TimingDriveScene, PitchesByTableAreThoseOfTheLinksInTurn) {
+  const auto write = [&](int rows, const char* head, int shift) {
+    std::ofstream file(folder_ / "pitches.csv");
+    file << head << "\n";
+    for (int j = 0; j < rows; ++j)
+      file << j + (j > 60 ? shift : 0) << ", " << (j % 2 == 0 ? 20 : 10) << "\n";
+  };
+  write(130, "link [1], error [um]", 0);
+  TimingDrive drive;
+  drive.chain_keys = "pitch_table = \"pitches.csv\"\n";
+  const Scene by_table = scene(drive);
+  EXPECT_EQ(by_table.inputs.back(), folder_ / "pitches.csv");
+  const double arm = Rest(by_table).angle("arm");
+  drive.chain_keys = "";
+  EXPECT_GT(std::abs(Rest(scene(drive)).angle("arm") - arm), 1e-3);
+  drive.chain_keys = "outer_wear_um = 20\ninner_wear_um = 10\n";
+  EXPECT_NEAR(Rest(scene(drive)).angle("arm"), arm, 1e-9);
+
+  const auto expect = [&](const std::string& keys, const std::string& said) {
+    drive.chain_keys = keys;
+    const std::string found = test::refusal_of([&] { scene(drive); });
+    EXPECT_NE(found.find(said), std::string::npos) << found;
+  };
+  const std::string table = "pitch_table = \"pitches.csv\"\n";
+  expect(table + "pitch_errors_um = [1]\n",
+         "chain[0].pitch_errors_um: found with pitch_table, expected one of both");
+  write(129, "link [1], error [um]", 0);
+  expect(table, "pitches.csv:130: found 129 rows, expected 130, a row for each link");
+  write(130, "link [1], error [um]", 1);
+  expect(table, "pitches.csv:63: found link 62, expected 61: a row for each link from 0 on");
+  write(130, "link [1], error [s]", 0);
+  expect(table, "pitches.csv:1: error: found [s], expected a length");
+  write(130, "link [1], error [m]", 0);
+  expect(table, "chain[0].pitch_table: found 2e+07 um, expected less than a quarter of the pitch");
+}
+
 TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {
   TimingDrive drive;
   drive.rpm = 3400.0;
