@@ -99,6 +99,8 @@ def main(arguments, rules):
         return 4
     except BrokenPipeError:
         return 0
+    except KeyboardInterrupt:
+        return 3
     except (OSError, RuntimeError, KeyError) as error:
         if "checksum" not in str(error):
             raise

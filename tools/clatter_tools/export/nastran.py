@@ -31,7 +31,7 @@ def head(motion, quantity, step):
     """Lines of the head of one step, without their sequence numbers."""
     format_ = "$REAL-IMAGINARY OUTPUT" if motion.is_complex else "$REAL OUTPUT"
     axis = "$FREQUENCY =" if motion.is_complex else "$TIME ="
-    phase = "PEAK, EXP(+I 2 PI F T), SI" if motion.is_complex else "TIME FROM FIRING TDC, SI"
+    phase = "PEAK, EXP(+I 2 PI F T), SI" if motion.is_complex else "REAL VALUES, SI"
     return [f"$TITLE   ={line(motion.origin.body, 60)}", f"$SUBTITLE={line(motion.origin.file, 60)}",
             f"$LABEL   ={phase}, {QUANTITIES[quantity].unit}", REQUEST[quantity], format_,
             f"$SUBCASE ID ={1:>12d}", f"{axis}{motion.at[step]:16.7E}"]

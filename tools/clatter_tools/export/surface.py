@@ -87,7 +87,7 @@ class Motion:
 
     def convention(self):
         """One line on phase or time, for the head of a file."""
-        return f"peak amplitudes, {self.origin.phase}" if self.is_complex else "real values, time from firing TDC"
+        return f"peak amplitudes, {self.origin.phase}" if self.is_complex else "real values, time from firing TDC (from the first sample when nothing turns)"
 
     def parts(self, quantity):
         """Names of the real arrays that hold a quantity, with the functions that form them."""
