@@ -2,6 +2,7 @@
 """`clatter export`: choices, tables, invalid input, and files that are complete or absent."""
 import csv
 import pathlib
+import resource
 import shutil
 import tempfile
 import unittest
@@ -9,9 +10,7 @@ import unittest
 import h5py
 import numpy as np
 import synthetic_surface as ball
-from clatter_tools.artefact import CannotWrite
 from clatter_tools.export import derived, field_source
-from clatter_tools.export.whole_files import WholeFiles
 
 
 def table(path):
@@ -160,14 +159,14 @@ class Command(unittest.TestCase):
         _, message = ball.export(self.folder, "-o", "no/where/a.unv", code=4)
         self.assertEqual(message, "clatter: error: no/where/a.unv: cannot be written: No such file or directory\n")
 
-    def test_a_disk_error_removes_what_was_begun(self):
-        with self.assertRaisesRegex(CannotWrite, "b.txt: cannot be written: No space left on device"):
-            with WholeFiles() as files:
-                for name in ("a.txt", "b.txt"):
-                    with files.text(self.folder / name) as stream:
-                        stream.write("x")
-                raise OSError(28, "No space left on device")
-        self.assertEqual([path.name for path in self.folder.iterdir()], ["ball.field.h5"])
+    def test_a_full_disk_is_reported_in_one_line_and_leaves_nothing(self):
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, before)
+        for arguments in (["-o", "x.unv"], ["-o", "x.pvd"], ["-o", "x.cfs"], ["-o", "x.pch"], ["-o", "x", "--format", "numcalc"]):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (5000, before[1]))
+            _, message = ball.export(self.folder, *arguments, code=4)
+            self.assertRegex(message, r"^clatter: error: x\S*: cannot be written: File too large\n$")
+            self.assertEqual([path.name for path in self.folder.iterdir()], ["ball.field.h5"])
 
 
 if __name__ == "__main__":

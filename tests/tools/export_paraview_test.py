@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter export` for ParaView: .pvd and .vtu as VTK reads them."""
+"""`clatter export` for ParaView: .pvd and .vtu as VTK and meshio read them."""
 import pathlib
 import tempfile
 import unittest
@@ -13,14 +13,17 @@ try:
     from vtk.util.numpy_support import vtk_to_numpy
 except ImportError:
     vtk = None
+try:
+    import meshio
+except ImportError:
+    meshio = None
 
 
 def arrays(data):
     return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
 
 
-@unittest.skipIf(vtk is None, "VTK (package python3-vtk9) is not installed")
-class ParaView(unittest.TestCase):
+class Exported(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         scratch = tempfile.TemporaryDirectory()
@@ -29,6 +32,9 @@ class ParaView(unittest.TestCase):
         ball.write(cls.folder / "ball.field.h5")
         cls.nodes, cls.triangles = ball.sphere()
 
+
+@unittest.skipIf(vtk is None, "VTK (package python3-vtk9) is not installed")
+class ParaView(Exported):
     def grids(self, name, *arguments):
         """[(value of the time slider, grid)] of an exported series."""
         ball.export(self.folder, "-o", f"{name}.pvd", *arguments)
@@ -75,6 +81,17 @@ class ParaView(unittest.TestCase):
             points = arrays(grid.GetPointData())
             self.assertEqual(sorted(points), ["velocity"])
             np.testing.assert_array_equal(points["velocity"], ball.frame_velocity(self.nodes, step))
+
+
+@unittest.skipIf(meshio is None, "meshio (package python3-meshio) is not installed")
+class Meshio(Exported):
+    def test_meshio_reads_the_same_numbers(self):
+        ball.export(self.folder, "-o", "m.pvd", "--at", "250")
+        mesh = meshio.read(self.folder / "m_1.vtu")
+        np.testing.assert_array_equal(mesh.points, self.nodes)
+        np.testing.assert_array_equal(mesh.cells_dict["triangle6"], self.triangles)
+        np.testing.assert_array_equal(mesh.point_data["velocity_re"] + 1j * mesh.point_data["velocity_im"], ball.line_velocity(self.nodes, 1))
+        self.assertEqual(mesh.field_data["frequency_hz"], [250.0])
 
 
 if __name__ == "__main__":

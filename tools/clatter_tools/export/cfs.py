@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 
+from .patient_file import PatientFile
 from .surface import QUANTITIES
 
 TYPE_CODE = {3: 4, 6: 5}        # nodes of a triangle: openCFS's TRIA3, TRIA6
@@ -72,14 +73,24 @@ def write_step(results, motion, quantities, step):
             group[f"{where}/Imag"] = values.imag
 
 
+def write_results(file, motion, quantities, progress, check):
+    """All steps; `check` raises the error of a full disk."""
+    results = file.create_group("Results/Mesh/MultiStep_1")
+    file["Results/Mesh"].attrs["ExternalFiles"] = np.uint32(0)
+    results.attrs["AnalysisType"] = "harmonic" if motion.is_complex else "transient"
+    results.attrs["LastStepNum"], results.attrs["LastStepValue"] = np.uint32(len(motion.at)), float(motion.at[-1])
+    describe(results, motion, quantities)
+    for step in progress(len(motion.at)):
+        write_step(results, motion, quantities, step)
+        check()
+
+
 def write(files, path, surface, motion, options, progress):
-    with h5py.File(files.part(path), "w") as file:
-        write_file_info(file, motion)
-        write_mesh(file, surface)
-        results = file.create_group("Results/Mesh/MultiStep_1")
-        file["Results/Mesh"].attrs["ExternalFiles"] = np.uint32(0)
-        results.attrs["AnalysisType"] = "harmonic" if motion.is_complex else "transient"
-        results.attrs["LastStepNum"], results.attrs["LastStepValue"] = np.uint32(len(motion.at)), float(motion.at[-1])
-        describe(results, motion, options.quantities)
-        for step in progress(len(motion.at)):
-            write_step(results, motion, options.quantities, step)
+    with PatientFile(files.part(path)) as stream:
+        try:
+            with h5py.File(stream, "w") as file:
+                write_file_info(file, motion)
+                write_mesh(file, surface)
+                write_results(file, motion, options.quantities, progress, stream.check)
+        finally:
+            stream.check()

@@ -72,5 +72,4 @@ class WholeFiles:
             for part in parts:
                 remove(part)
         if isinstance(error, OSError) and error.errno:  # without a number: HDF5 on data that it reads
-            raise CannotWrite(f"{self.paths[-1] if self.paths else 'output'}: cannot be written: "
-                              f"{error.strerror or error}") from error
+            raise CannotWrite(f"{self.paths[-1]}: cannot be written: {os.strerror(error.errno)}") from error
