@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, info, motored_cycle, report, sweep
+from . import collect, drive_command, export_command, info, motored_cycle, report, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -34,6 +34,8 @@ def parser():
     sweep.add_arguments(one)
     one = commands.add_parser("collect", help="put levels, orders and cost of all runs of a sweep into one file")
     collect.add_arguments(one)
+    one = commands.add_parser("export", help="write a field file's surface motion for acoustic programs")
+    export_command.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
@@ -87,6 +89,8 @@ def main(arguments, rules):
             sweep.write_sweep(options)
         elif options.command == "collect":
             collect.write_collection(options)
+        elif options.command == "export":
+            export_command.write_export(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":
@@ -99,6 +103,8 @@ def main(arguments, rules):
         return 4
     except BrokenPipeError:
         return 0
+    except KeyboardInterrupt:
+        return 3
     except (OSError, RuntimeError, KeyError) as error:
         if "checksum" not in str(error):
             raise
