@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements of the page.
+
+/** An element with attributes (functions become listeners: onclick) and children (elements or texts). */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (typeof value === "function") made.addEventListener(name.slice(2), value);
+    else if (name === "style") made.style.cssText = value;
+    else made.setAttribute(name, value === true ? "" : value);
+  }
+  made.append(...children.flat().filter(child => child !== null && child !== undefined));
+  return made;
+}
+
+/** A section of the page with its place in the navigation. */
+function section(id, title, lead) {
+  const made = element("section", { id, "aria-label": title }, element("h2", {}, title), lead ? element("p", { class: "lead" }, lead) : null);
+  document.getElementById("main").append(made);
+  return made;
+}
+
+function grid(...children) {
+  return element("div", { class: "grid" }, ...children);
+}
+
+function card(title, ...children) {
+  return element("div", { class: "card" }, title ? element("h3", {}, title) : null, ...children);
+}
+
+/** Buttons of which one is pressed; `choose` gets its value. Returns { element, set(value) }. */
+function choices(name, options, first, choose) {
+  const buttons = options.map(([value, label]) => element("button", { type: "button", class: "choice", "data-value": value,
+    onclick: () => { set(value); choose(value); } }, label));
+  function set(value) {
+    for (const button of buttons) button.setAttribute("aria-pressed", button.dataset.value === String(value));
+  }
+  set(first);
+  return { element: element("span", { class: "choices", role: "group", "aria-label": name }, buttons), set };
+}
+
+/** A list to select from, with its label; options are [value, label]. */
+function selection(label, options, choose) {
+  const list = element("select", { onchange: () => choose(list.value) }, options.map(([value, text]) => element("option", { value }, text)));
+  return { element: element("label", {}, label, list), list };
+}
+
+/** A slider with its label; `move` gets the number. */
+function slider(label, { min, max, step = 1, value = min }, move, more = {}) {
+  const input = element("input", { type: "range", min, max, step, ...more, oninput: () => move(Number(input.value)) });
+  input.value = value;
+  return { element: element("label", { class: "wide" }, label, input), input };
+}
+
+function checkbox(label, checked, change) {
+  const input = element("input", { type: "checkbox", onchange: () => change(input.checked) });
+  input.checked = checked;
+  return { element: element("label", {}, input, label), input };
+}
+
+function table(head, rows, textColumns = 1) {
+  const kind = column => (column < textColumns ? { class: "text" } : {});
+  return element("div", { class: "scroll" }, element("table", {},
+    element("thead", {}, element("tr", {}, head.map((cell, k) => element("th", { scope: "col", ...kind(k) }, cell)))),
+    element("tbody", {}, rows.map(row => element("tr", {}, row.map((cell, k) => (cell instanceof Element ? cell
+      : element("td", kind(k), cell === null ? "–" : String(cell)))))))));
+}

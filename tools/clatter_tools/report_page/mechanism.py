@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Histories of runs over the crank angle of their last cycle: motion, forces, gaps."""
+import numpy as np
+
+from ..artefact import dataset, text
+from ..plots.over_cycle import LastCycle
+
+# Curves that are drawn first: end of the history's name, title, factor, unit, less its mean.
+SHOWN = [
+    ("piston_lateral", "Lateral position of the piston pin, positive toward the thrust side", 1e6, "µm", False),
+    ("piston_tilt", "Tilt of the piston", 1e3, "mrad", False),
+    ("side_force", "Side force of the piston", 1e-3, "kN", False),
+    ("film_min", "Smallest gap between skirt and liner", 1e6, "µm", False),
+    ("film_pressure_max", "Largest pressure of the oil film", 1e-6, "MPa", False),
+    ("contact_pressure_max", "Largest pressure of asperity contact", 1e-6, "MPa", False),
+    ("friction_force", "Friction force of the piston", 1.0, "N", False),
+    ("gas_pressure", "Gas pressure", 1e-5, "bar", False),
+    ("tension_max", "Largest tension of a chain joint", 1.0, "N", False),
+    ("_speed", "Speed fluctuation", 1.0, "rad/s", True),
+    ("_pressure", "Pressure of hydraulic chambers, absolute", 1e-5, "bar", False),
+    ("_travel", "Travel of plungers", 1e3, "mm", False),
+    ("_coil_gap", "Least gap between coils of valve springs", 1e3, "mm", False),
+]
+NOT_HISTORIES = ("time", "crank_angle_deg")
+LINES = 6  # of a curve with several histories of one run
+
+
+def collect(folder, pack):
+    """Every history of every run, and the list of those that are drawn first."""
+    runs = [read(one, pack) for one in folder.with_run() if "history" in one.run]
+    names = sorted({name for one in runs for name in one["histories"]})
+    return {"runs": runs, "names": names, "shown": shown(names)} if names else None
+
+
+def read(one, pack):
+    cycle = LastCycle(one.run)
+    x = np.asarray(cycle.x, float)
+    histories = {}
+    for name in one.run["history"]:
+        values = dataset(one.run, f"history/{name}")
+        if name in NOT_HISTORIES or values.ndim != 1:
+            continue
+        histories[name] = {"unit": text(one.run[f"history/{name}"].attrs.get("unit", "")),
+                           "values": pack.add("histories", values[cycle.window][cycle.order])}
+    return {"run": one.number, "x": pack.add("histories", x), "axis": cycle.label, "histories": histories}
+
+
+def shown(names):
+    """Groups of histories with title, factor and unit; each history is in the first group that its name fits."""
+    groups, taken = [], set()
+    for ending, title, factor, unit, less_mean in SHOWN:
+        own = [name for name in names if name not in taken and fits(name, ending)][:LINES]
+        taken.update(own)
+        if own:
+            groups.append({"title": title, "names": own, "factor": factor, "unit": unit, "less_mean": less_mean})
+    return groups
+
+
+def fits(name, ending):
+    """Of a single body or of a named cylinder; of parts of a mechanism only sprockets, tensioners, adjusters and springs."""
+    if ending == "_speed":
+        return name.endswith("_speed") and "." not in name
+    if ending == "_pressure":
+        return name.endswith("_pressure") and name.startswith(("tensioner_", "lash_adjuster_"))
+    if ending.startswith("_"):
+        return name.endswith(ending)
+    return name == ending or name.endswith(f"_{ending}")

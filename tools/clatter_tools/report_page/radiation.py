@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Radiated power: panels with their spectra, third octaves and share."""
+from .. import fields
+from ..artefact import dataset, text
+from ..plots.octaves import short
+
+# What is shown of each panel: dataset of lines, dataset of third octaves, A-weighted ones, attribute of the total, name and
+# reference. A further measure of the sound, once field files have one, is a further row.
+MEASURES = [
+    {"key": "erp", "name": "equivalent radiated power (ERP)", "lines": "erp", "bands": "third_octave/erp_db",
+     "bands_dba": "third_octave/erp_dba", "total": "erp_dba", "total_db": "erp_db", "reference": "1 pW"},
+]
+
+
+def collect(folder, pack):
+    """Runs with their panels over the cycle, or the first window of a file without one."""
+    runs = [read(one, pack) for one in folder.with_field()]
+    return {"runs": runs, "measures": MEASURES} if runs else None
+
+
+def read(one, pack):
+    field = one.field
+    at = fields.piece(field, "cycle", *fields.pieces(field))
+    curve = lambda name: pack.add("curves", dataset(field, f"{at}/{name}"))  # noqa: E731
+    panels = []
+    for name in sorted(field[f"{at}/panels"]) if f"{at}/panels" in field else []:
+        panel = field[f"{at}/panels/{name}"]
+        panels.append({"name": name, "label": name.replace("_", " "),
+                       "area_m2": panel.attrs.get("area_m2"), "share": panel.attrs.get("share_of_skin"),
+                       "measures": {row["key"]: measure(pack, panel, row) for row in MEASURES if row["lines"] in panel}})
+    return {"run": one.number, "piece": at.rpartition("/")[2], "panels": panels, "frequency": curve("frequency_hz"),
+            "rpm": field[at].attrs.get("speed_rpm"),
+            "bands": {"lower": curve("third_octave/lower_hz"), "upper": curve("third_octave/upper_hz"),
+                      "names": [short(text(name)) for name in dataset(field, f"{at}/third_octave/nominal")]}}
+
+
+def measure(pack, panel, row):
+    """Power of each line [W], levels of bands, totals of a panel."""
+    found = {"lines": pack.add("curves", panel[row["lines"]][()])}
+    for key in ("bands", "bands_dba"):
+        if row[key] in panel:
+            found[key] = pack.add("curves", panel[row[key]][()])
+    return {**found, "dba": panel.attrs.get(row["total"]), "db": panel.attrs.get(row["total_db"])}

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first section: what was found, in sentences and in the tables of `clatter report`."""
+from .. import artefact, chains, drive_findings, fields, findings, report, slap
+from .certificates import GOOD
+
+
+def collect(folder, cards):
+    """Sentences, tables, and how many certificates have something to say."""
+    return {"sentences": sound(folder) + drives(folder), "tables": tables(folder),
+            "checks": {state: sum(card["state"] == state for card in cards) for state in ("good", "note", "bad")},
+            "worries": [f"{card['title']}: {text}" for card in cards for state, text in card["sentences"] if state != GOOD],
+            "stale": stale(folder)}
+
+
+def sound(folder):
+    """The loudest and the quietest run, and the panel that radiates most of the loudest."""
+    levels = []
+    for one in folder.with_field():
+        at = fields.piece(one.field, "cycle", *fields.pieces(one.field))
+        panel = fields.panel(one.field, at, "exposed", "skin")
+        levels.append((float(one.field[panel].attrs["erp_dba"]), one, at, panel.rpartition("/")[2]))
+    if not levels:
+        return []
+    levels.sort(key=lambda row: row[0])
+    level, one, at, name = levels[-1]
+    found = [f"{one.label}: {level:.1f} dB(A) of equivalent radiated power, panel “{name}”, re 1 pW."]
+    if len(levels) > 1:
+        found[0] = f"Loudest: {found[0]}"
+        found.append(f"Quietest: {levels[0][1].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
+    others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in one.field[f"{at}/panels"].items()
+                     if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
+    if others:
+        found.append(f"Its strongest panel is “{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
+    if "lines/frequency_hz" in one.field and len(one.field["lines/frequency_hz"]):
+        hz = ", ".join(f"{value:.0f}" for value in one.field["lines/frequency_hz"])
+        found.append(f"Its whole-skin lines are at {hz} Hz.")
+    return found
+
+
+def drives(folder):
+    found = []
+    for one in folder.with_run():
+        if chains.names(one.run):
+            found += [f"{one.label}: {sentence}." for sentence in drive_findings.sentences(one.run)]
+    return found
+
+
+def tables(folder):
+    """(title, head, rows); a table without figures is left out."""
+    rows, sensors, parts = [], [], []
+    for one in folder.runs:
+        if one.run is not None:
+            rows += [[f"{one.label}, {cylinder}".rstrip(", "), *cells] for cylinder, cells in findings.run_rows(one.run)]
+        if one.field is not None:
+            sensors.append([one.label, *findings.field_row(one.field)])
+    for path in folder.files["fe"]:
+        with artefact.open_artefact(path, "fe") as file:
+            parts.append([report.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
+    found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
+             (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
+             ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts)]
+    return [{"title": title, "head": head, "rows": rows} for title, head, rows in found
+            if any(cell != findings.NOTHING for row in rows for cell in row[1:])]
+
+
+def stale(folder):
+    """Inputs that have changed since an artefact was made of them."""
+    found = []
+    for paths in folder.files.values():
+        for path in paths:
+            with artefact.open_artefact(path) as file:
+                found += [f"{path.name} was made of another {name}" for name, state in artefact.inputs(file) if state == "changed since"]
+    return found
