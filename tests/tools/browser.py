@@ -116,7 +116,7 @@ class Browser:
         """Opens a file of this computer and waits until the page says that it is drawn."""
         self.loaded = False
         self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
-        self.wait_for("document.documentElement.dataset.drawn")
+        self.wait_for("document.documentElement?.dataset.drawn")
 
     def wait_for(self, condition):
         until = time.monotonic() + WAIT_S

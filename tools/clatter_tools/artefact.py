@@ -10,6 +10,10 @@ class BadArtefact(Exception):
     """A file that is missing, damaged or of another kind: one line for the user."""
 
 
+class CannotWrite(Exception):
+    """A file or disk error: one line for the user."""
+
+
 def text(value):
     """An attribute or element that may be bytes as str."""
     return value.decode() if isinstance(value, bytes) else str(value)

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 from . import drive_command, info, motored_cycle, report
-from .artefact import BadArtefact
+from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
@@ -63,9 +63,14 @@ def plot(kind, files, output):
     return 0
 
 
-def write_page(folder, output):
+def write_report(options):
+    if not options.html:
+        if options.output:
+            raise BadArtefact(f"--output: found {options.output}, expected it with --html only")
+        report.print_report(options.folder)
+        return
     from . import report_page  # which loads matplotlib
-    path = report_page.write_page(folder, output)
+    path = report_page.write_page(options.folder, options.output)
     print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
 
 
@@ -80,10 +85,7 @@ def main(arguments, rules):
         elif options.command == "run":
             return run_make(options.folder, options.jobs)
         elif options.command == "report":
-            if options.html:
-                write_page(options.folder, options.output)
-            else:
-                report.print_report(options.folder)
+            write_report(options)
         elif options.command == "plot":
             return plot(options.kind, options.files, options.output)
         elif options.command == "drive":
@@ -97,7 +99,7 @@ def main(arguments, rules):
     except BadArtefact as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 2
-    except motored_cycle.CannotWrite as error:
+    except CannotWrite as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 4
     except BrokenPipeError:

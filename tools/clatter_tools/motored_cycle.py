@@ -5,13 +5,9 @@ import math
 import os
 import pathlib
 
-from .artefact import BadArtefact
+from .artefact import BadArtefact, CannotWrite
 
 DEGREE = math.pi / 180.0
-
-
-class CannotWrite(Exception):
-    """A file or disk error: one line for the user."""
 
 
 @dataclasses.dataclass

@@ -3,7 +3,7 @@
 
 async function driveSection() {
   if (!page.drive) return;
-  const host = section("drive", "Chain drive", "One engine cycle of the drive, links in the colour of their tension.");
+  const host = section("drive", "Chain", "Chain drive", "One engine cycle of the drive, links in the colour of their tension.");
   for (const { run, name, page: film, loop, first } of page.drive) {
     const frame = element("iframe", { title: `animation of ${name}`, loading: "lazy", sandbox: "allow-scripts" });
     const show = whenVisible(frame, () => { if (!frame.srcdoc) frame.srcdoc = film; });

@@ -14,15 +14,23 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/** A section of the page with its place in the navigation. */
-function section(id, title, lead) {
-  const made = element("section", { id, "aria-label": title }, element("h2", {}, title), lead ? element("p", { class: "lead" }, lead) : null);
+/** A section of the page; `short` is its name in the navigation. */
+function section(id, short, title, lead) {
+  const made = element("section", { id, "aria-label": title, "data-short": short }, element("h2", {}, title), lead ? element("p", { class: "lead" }, lead) : null);
   document.getElementById("main").append(made);
   return made;
 }
 
 function grid(...children) {
   return element("div", { class: "grid" }, ...children);
+}
+
+/** Sentences as a list: [state, text] or text. A number stays with its unit. */
+function wordList(sentences) {
+  return element("ul", { class: "words" }, sentences.map(one => {
+    const [state, text] = Array.isArray(one) ? one : ["good", one];
+    return element("li", { class: { note: "note-state", bad: "bad" }[state] }, text.replace(/ (%|dB|Hz|rpm|N|µm)(?![a-z])/g, "\u00a0$1"));
+  }));
 }
 
 function card(title, ...children) {
@@ -59,8 +67,9 @@ function checkbox(label, checked, change) {
   return { element: element("label", {}, input, label), input };
 }
 
-function table(head, rows, textColumns = 1) {
-  const kind = column => (column < textColumns ? { class: "text" } : {});
+/** A table; cells of the named columns are texts, of the others numbers. */
+function table(head, rows, texts = [0]) {
+  const kind = column => (texts.includes(column) ? { class: "text" } : {});
   return element("div", { class: "scroll" }, element("table", {},
     element("thead", {}, element("tr", {}, head.map((cell, k) => element("th", { scope: "col", ...kind(k) }, cell)))),
     element("tbody", {}, rows.map(row => element("tr", {}, row.map((cell, k) => (cell instanceof Element ? cell

@@ -20,17 +20,19 @@ class Heat {
   constructor(spec) {
     this.spec = spec;
     this.at = null;
-    this.canvas = element("canvas", { tabindex: 0, role: "img", style: `height: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
+    this.canvas = element("canvas", { tabindex: 0, role: "img", style: `flex-basis: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
       "aria-label": `${spec.title}. Arrow keys move from cell to cell.` });
     this.legend = element("div", { class: "legend" });
     this.element = element("figure", { class: "plot" }, element("figcaption", {}, element("h3", {}, spec.title),
-      saveButtons(spec.title, () => this.picture(), () => this.columns())), this.legend, this.canvas, spec.note ? element("p", { class: "note" }, spec.note) : null);
+      saveButtons(spec.title, () => this.picture(), () => this.columns())), this.legend, this.canvas, this.note = element("p", { class: "note" }));
     this.redraw = whenVisible(this.canvas, () => this.draw());
+    this.update({});
     this.listen();
   }
 
   update(changes) {
     Object.assign(this.spec, changes);
+    this.note.textContent = this.spec.note ?? "";
     if (changes.title) this.element.querySelector("h3").textContent = changes.title;
     this.redraw();
   }

@@ -9,7 +9,7 @@ function head() {
 function navigation() {
   const nav = document.querySelector("header nav"), links = new Map();
   for (const one of document.querySelectorAll("main > section")) {
-    links.set(one, element("a", { href: `#${one.id}` }, one.getAttribute("aria-label")));
+    links.set(one, element("a", { href: `#${one.id}` }, one.dataset.short));
     nav.append(links.get(one));
   }
   const watch = new IntersectionObserver(entries => {

@@ -25,11 +25,11 @@ function words(name) {
 
 async function mechanismSection() {
   if (!page.mechanism) return;
-  const host = section("mechanism", "Motion and forces", "Histories of the mechanism over the crank angle of the last cycle.");
+  const host = section("mechanism", "Motion", "Motion and forces", "Histories of the mechanism over the crank angle of the last cycle.");
   const { runs, names, shown } = page.mechanism, axis = { label: runs[0].axis, angles: runs[0].axis.includes("angle") };
   const plots = [];
-  for (const { title, names: own, factor, unit, less_mean: lessMean } of shown)
-    plots.push(new Plot({ title, x: axis, y: { label: `[${unit}]` }, marks: axis.angles ? [0] : [], lines: await historyLines(own, factor, lessMean) }).element);
+  for (const { title, label, names: own, factor, unit, less_mean: lessMean } of shown)
+    plots.push(new Plot({ title, x: axis, y: { label: `${label} [${unit}]` }, marks: axis.angles ? [0] : [], lines: await historyLines(own, factor, lessMean) }).element);
   host.append(grid(plots), await historyBrowser(names, axis));
 }
 

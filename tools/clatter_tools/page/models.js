@@ -3,7 +3,7 @@
 
 function modelsSection() {
   if (!page.models) return;
-  const host = section("models", "Reduced against full models", "Free modes of the reduced part beside those of its full finite element model.");
+  const host = section("models", "Models", "Reduced against full models", "Free modes of the reduced part beside those of its full finite element model.");
   for (const { name, rows, conclusion } of page.models) {
     const [number, full, , error, mac] = [0, 1, 2, 3, 4].map(k => Float32Array.from(rows, row => row[k]));
     host.append(element("div", { class: "card" }, element("h3", {}, name), element("p", { class: "note" }, conclusion), grid(

@@ -12,21 +12,23 @@ class Plot {
     this.cursor = null;
     this.zoom = null;
     this.drag = null;
-    this.canvas = element("canvas", { tabindex: 0, role: "img", style: `height: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
+    this.canvas = element("canvas", { tabindex: 0, role: "img", style: `flex-basis: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
       "aria-label": `${spec.title}. Arrow keys move the cursor, plus and minus magnify, Escape shows everything.` });
     this.legend = element("div", { class: "legend" });
     const save = saveButtons(spec.title, () => this.picture(), () => this.columns());
     this.reset = element("button", { type: "button", hidden: true, onclick: () => this.show(null) }, "all");
     save.prepend(this.reset);
     this.element = element("figure", { class: "plot" }, element("figcaption", {}, element("h3", {}, spec.title), save),
-      this.legend, this.canvas, spec.note ? element("p", { class: "note" }, spec.note) : null);
+      this.legend, this.canvas, this.note = element("p", { class: "note" }));
     this.redraw = whenVisible(this.canvas, () => this.draw());
+    this.update({});
     this.listen();
   }
 
   /** Replaces parts of the specification and draws again. */
   update(changes) {
     Object.assign(this.spec, changes);
+    this.note.textContent = this.spec.note ?? "";
     if (changes.title) this.element.querySelector("h3").textContent = changes.title;
     this.redraw();
   }
@@ -54,7 +56,9 @@ class Plot {
       if (this.spec.x.max === undefined) max = Math.max(max ?? -Infinity, first, last);
     }
     if (this.spec.x.log && !(min > 0)) min = max / 1e3;
+    if (lines.some(line => line.kind === "points")) [min, max] = [min - 0.02 * (max - min), max + 0.02 * (max - min)];
     const whole = { min: min ?? 0, max: max > min ? max : (min ?? 0) + 1, log: this.spec.x.log };
+    if (this.spec.x.angles && whole.max - whole.min > 300) Object.assign(whole, { min: 90 * Math.round(whole.min / 90), max: 90 * Math.round(whole.max / 90) });
     return this.zoom ? { ...whole, ...this.zoom } : whole;
   }
 
@@ -90,7 +94,7 @@ class Plot {
     const stepY = ticksY.length > 1 ? ticksY[1] - ticksY[0] : 1;
     const labelsY = ticksY.map(tick => tickText(tick, stepY));
     const box = { left: left + 1.9 * size + Math.max(...labelsY.map(label => context.measureText(label).width), size),
-      right: left + width - 0.9 * size, top: top + 0.7 * size, bottom: top + height - 3.1 * size };
+      right: left + width - 1.7 * size, top: top + 0.7 * size, bottom: top + height - 3.1 * size };
     const sx = axisScale(x, box.left, box.right), sy = axisScale(y, box.bottom, box.top);
     this.paintAxes(context, { x, y, sx, sy, box, ticksY, labelsY, colours, size });
     context.save();
@@ -164,7 +168,7 @@ class Plot {
     const values = this.cursor === null ? [] : [element("span", {}, `${this.spec.x.name ?? "at"} `, element("b", {}, this.cursorText(lines)))];
     this.legend.replaceChildren(...values, ...lines.filter(line => line.name).map(line => {
       const k = lines.indexOf(line);
-      return element("span", {}, element("i", { style: `--colour: ${this.colour(line, k)}` }), line.name,
+      return element("span", {}, element("i", { class: line.dash ? "dashed" : null, style: `--colour: ${this.colour(line, k)}` }), line.name,
         this.cursor === null ? null : element("b", {}, figure(line.y[nearest(line, this.cursor)])));
     }));
   }

@@ -18,19 +18,22 @@ async function readBands(bands) {
 
 async function radiationSection() {
   if (!page.radiation) return;
-  const host = section("radiation", "Radiated power", "Equivalent radiated power takes every face as a piston in an infinite wall: an upper estimate at low frequencies.");
+  const host = section("radiation", "Power", "Radiated power", "Equivalent radiated power takes every face as a piston in an infinite wall: an upper estimate at low frequencies.");
   const { runs, measures } = page.radiation;
   for (const run of runs) {
     run.axis = await readBands(run.bands);
-    run.hz = await numbers(run.frequency);
-    for (const panel of run.panels)
+    [run.hz, run.deg] = await allNumbers(run.frequency, run.angle);
+    for (const panel of run.panels) {
+      panel.rms = (await numbers(panel.instants))?.map(one => 1e3 * Math.sqrt(one));
       for (const measure of Object.values(panel.measures)) [measure.power, measure.db_bands, measure.dba_bands] = await allNumbers(measure.lines, measure.bands, measure.bands_dba);
+    }
   }
   const names = [...new Set(runs.flatMap(run => run.panels.map(panel => panel.name)))];
   const state = { panel: names.includes("exposed") ? "exposed" : names[0], run: 0, weighted: true, measure: measures[0] };
   const bands = new Plot({ title: "Third octaves", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 70 }, lines: [] });
   const lines = new Plot({ title: "Lines", x: { label: "frequency [Hz]" }, y: { range: 90 }, lines: [] });
   const perPanel = new Plot({ title: "Third octaves of the panels", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 70 }, lines: [] });
+  const over = new Plot({ title: "Velocity over the cycle", x: { label: "crank angle [deg], 0 = firing TDC", angles: true }, y: { min: 0 }, marks: [0], lines: [] });
   const ranking = element("div", { class: "card" });
   const refresh = () => {
     const { measure, weighted } = state, weight = weighted ? "A-weighted" : "unweighted", unit = weighted ? "dB(A)" : "dB";
@@ -46,13 +49,15 @@ async function radiationSection() {
     const run = runs[state.run], own = run.panels.filter(panel => panel.name !== "skin" && panel.name !== "exposed");
     perPanel.update({ title: `Panels in third octaves, ${weight}: ${runName(run.run)}`, x: { ...perPanel.spec.x, ticks: run.axis.ticks, names: run.axis.names }, y: { label: level, range: 70 },
       lines: own.map((panel, k) => stairs(run, panel, { number: k, name: panel.label, dash: k > 5 ? [5, 3] : undefined })) });
+    over.update({ title: `Normal velocity of panel “${label}” over the cycle`, y: { label: "RMS over the panel [mm/s]", min: 0 },
+      lines: runs.map(one => ({ run: one.run, name: runName(one.run), wide: 1.1, x: one.deg ?? [], y: panelOf(one)?.rms ?? [] })) });
     ranking.replaceChildren(...panelRanking(run, own, measure, weighted));
   };
   const panelList = selection("panel", names.map(name => [name, name.replaceAll("_", " ")]), value => { state.panel = value; refresh(); });
   panelList.list.value = state.panel;
-  const runList = selection("run", runs.map((run, k) => [k, runName(run.run)]), value => { state.run = Number(value); refresh(); });
-  host.append(element("div", { class: "controls" }, choices("weighting", [["a", "A-weighted"], ["none", "unweighted"]], "a", value => { state.weighted = value === "a"; refresh(); }).element, panelList.element),
-    grid(bands.element, lines.element), element("div", { class: "controls" }, runs.length > 1 ? runList.element : null), grid(perPanel.element, ranking));
+  const runList = selection("panels of", runs.map((run, k) => [k, runName(run.run)]), value => { state.run = Number(value); refresh(); });
+  host.append(element("div", { class: "controls" }, choices("weighting", [["a", "A-weighted"], ["none", "unweighted"]], "a", value => { state.weighted = value === "a"; refresh(); }).element, panelList.element, runs.length > 1 ? runList.element : null),
+    grid(bands.element, lines.element, perPanel.element, ranking, over.element));
   refresh();
 }
 

@@ -3,35 +3,36 @@
 
 const SURFACE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 point;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 re;
-layout(location = 3) in vec3 im;
+layout(location = 1) in vec3 re;
+layout(location = 2) in vec3 im;
 uniform mat4 view, projection;
 uniform vec2 phase;
 uniform float enlargement;
-uniform int shown;
-out vec3 eye;
-out float value;
+out vec3 eye, rest, real, imaginary;
 void main() {
-  vec3 velocity = re * phase.x - im * phase.y;
-  vec4 at = view * vec4(point + enlargement * velocity, 1.0);
+  vec4 at = view * vec4(point + enlargement * (re * phase.x - im * phase.y), 1.0);
   eye = at.xyz;
-  vec3 n = normalize(normal);
-  value = shown == 0 ? dot(velocity, n) : shown == 1 ? length(velocity) : length(vec2(dot(re, n), dot(im, n)));
+  rest = point;
+  real = re;
+  imaginary = im;
   gl_Position = projection * at;
 }`;
 
 const SURFACE_FRAGMENT = `#version 300 es
 precision highp float;
-in vec3 eye;
-in float value;
+in vec3 eye, rest, real, imaginary;
 uniform sampler2D colours;
+uniform vec2 phase;
+uniform int shown;
 uniform vec2 range;
 uniform vec4 plain;
 out vec4 colour;
 void main() {
   vec3 n = normalize(cross(dFdx(eye), dFdy(eye)));
   float light = 0.55 + 0.45 * clamp(dot(n, normalize(vec3(-0.35, 0.5, 0.8))), 0.0, 1.0);
+  vec3 outward = normalize(cross(dFdx(rest), dFdy(rest))) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 velocity = real * phase.x - imaginary * phase.y;
+  float value = shown == 0 ? dot(velocity, outward) : shown == 1 ? length(velocity) : length(vec2(dot(real, outward), dot(imaginary, outward)));
   vec3 base = plain.a > 0.5 ? plain.rgb : texture(colours, vec2(clamp((value - range.x) / (range.y - range.x), 0.002, 0.998), 0.5)).rgb;
   colour = vec4(base * (gl_FrontFacing ? light : 0.45 * light), 1.0);
 }`;
@@ -57,15 +58,14 @@ class Renderer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Takes a skin { points, normals, triangles, edges, owner }; owner: the panel of each face of four triangles, or null. */
+  /** Takes a skin { points, triangles, edges, owner }; owner: the panel of each face of four triangles, or null. */
   load(skin) {
     const { gl } = this;
     this.skin = skin;
     this.array = gl.createVertexArray();
     gl.bindVertexArray(this.array);
-    attribute(gl, 0, skin.points, gl.FLOAT, false);
-    attribute(gl, 1, skin.normals, gl.BYTE, true);
-    this.buffers = [2, 3].map(location => attribute(gl, location, new Float32Array(skin.points.length), gl.FLOAT, false));
+    attribute(gl, 0, skin.points);
+    this.buffers = [1, 2].map(location => attribute(gl, location, new Float32Array(skin.points.length)));
     const groups = new Map();
     skin.owner?.forEach((owner, face) => { if (!groups.has(owner)) groups.set(owner, []); groups.get(owner).push(face); });
     const Index = skin.triangles.constructor;
@@ -168,12 +168,12 @@ function program(gl, vertex, fragment) {
   return made;
 }
 
-function attribute(gl, location, values, kind, normalized) {
+function attribute(gl, location, values) {
   const buffer = gl.createBuffer();
   gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
   gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
   gl.enableVertexAttribArray(location);
-  gl.vertexAttribPointer(location, 3, kind, normalized, 0, 0);
+  gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 0, 0);
   return buffer;
 }
 

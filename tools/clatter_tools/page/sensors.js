@@ -3,14 +3,14 @@
 
 async function sensorsSection() {
   if (!page.sensors) return;
-  const host = section("sensors", "Sensors", "Motion at the sensors of the part over one cycle.");
+  const host = section("sensors", "Sensors", "Sensors", "Motion at the sensors of the part over one cycle.");
   const { runs } = page.sensors;
   for (const run of runs) {
     [run.t, run.deg, run.hz] = await allNumbers(run.time, run.angle, run.frequency);
     run.axis = await readBands(run.bands);
   }
   const labels = [...new Set(runs.flatMap(run => run.channels.map(channel => channel.label)))];
-  const state = { label: runs[0].channels.find(channel => channel.thrust)?.label ?? labels[0], quantity: "acceleration", over: "angle", run: 0 };
+  const state = { label: runs[0].channels.find(channel => channel.thrust)?.label ?? labels[0], quantity: "acceleration", over: "angle", run: 0, limited: false };
   const channelOf = run => run.channels.find(channel => channel.label === state.label);
   const signal = new Plot({ title: "Signal", x: {}, y: {}, lines: [] });
   const spectrum = new Plot({ title: "Spectrum", x: { label: "frequency [Hz]" }, y: { log: true, range: 1e5 }, lines: [] });
@@ -22,11 +22,12 @@ async function sensorsSection() {
     for (const run of runs) {
       const data = channelOf(run)?.[quantity];
       if (!data) continue;
-      const [values, re, im, levels] = await allNumbers(data.signal, data.lines?.[0], data.lines?.[1], data.bands);
+      const [whole, re, im, levels] = await allNumbers(data.signal, data.lines?.[0], data.lines?.[1], data.bands);
+      const values = state.limited && re && run.cycle ? limited(run, re, im) : whole;
       drawn.push({ run, data, values, levels, size: re && re.map((one, k) => Math.hypot(one, im[k])) });
     }
     const unit = drawn[0]?.data.unit ?? "";
-    signal.update({ title: `${capital(quantity)} of ${state.label} over the cycle`, x: angled ? { label: "crank angle [deg], 0 = firing TDC", angles: true } : { label: "time after firing TDC [ms]" },
+    signal.update({ title: `${capital(quantity)} of ${state.label} over the cycle${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`, x: angled ? { label: "crank angle [deg], 0 = firing TDC", angles: true } : { label: "time after firing TDC [ms]" },
       y: { label: `${quantity} [${unit}]` }, marks: [0], lines: drawn.map(({ run, values }) => ({ run: run.run, name: runName(run.run), wide: 1, x: angled ? run.deg : Float32Array.from(run.t, one => 1e3 * one), y: values })) });
     spectrum.update({ title: `Spectrum of the ${quantity} of ${state.label}`, y: { label: `amplitude of each line [${unit}], peak`, log: true, range: 1e5 },
       lines: drawn.map(({ run, size }) => ({ run: run.run, name: runName(run.run), wide: 1, x: run.hz, y: size ?? [] })) });
@@ -37,12 +38,33 @@ async function sensorsSection() {
   };
   const list = selection("channel", labels.map(label => [label, label]), value => { state.label = value; refresh(); });
   list.list.value = state.label;
-  const runList = selection("run", runs.map((run, k) => [k, runName(run.run)]), value => { state.run = Number(value); refresh(); });
-  host.append(element("div", { class: "controls" }, list.element,
+  const runList = selection("spectrogram and sound of", runs.map((run, k) => [k, runName(run.run)]), value => { state.run = Number(value); refresh(); });
+  const firing = checkbox("only around firing TDC", false, on => signal.show(on ? aroundFiring(runs[0], state) : null));
+  host.append(element("div", { class: "controls" }, list.element, runs.length > 1 ? runList.element : null,
     choices("quantity", [["acceleration", "acceleration"], ["velocity", "velocity"]], state.quantity, value => { state.quantity = value; refresh(); }).element,
-    choices("axis", [["angle", "over crank angle"], ["time", "over time"]], state.over, value => { state.over = value; signal.show(null); refresh(); }).element),
-  grid(signal.element, spectrum.element, bands.element), element("div", { class: "controls" }, runs.length > 1 ? runList.element : null), grid(map.element, player));
+    choices("axis", [["angle", "over crank angle"], ["time", "over time"]], state.over, value => { state.over = value; refresh(); signal.show(firing.input.checked ? aroundFiring(runs[0], state) : null); }).element,
+    firing.element, checkbox(`above ${page.sensors.from_hz} Hz`, false, on => { state.limited = on; refresh(); }).element),
+  grid(signal.element, spectrum.element, bands.element, map.element), player);
   await refresh();
+}
+
+/** A window of the signal's axis in which the slap and its ringing are. */
+function aroundFiring(run, { over }) {
+  const [from, to] = [-0.5, 5];  // ms
+  const degrees = run.deg ? (run.deg[1] - run.deg[0]) / (1e3 * (run.t[1] - run.t[0])) : 1;
+  return over === "angle" && run.deg ? { min: from * degrees, max: to * degrees } : { min: from, max: to };
+}
+
+/** The part of a periodic signal above page.sensors.from_hz, as a sum of its lines. */
+function limited(run, re, im) {
+  const found = new Float32Array(run.t.length), begin = run.t[0], step = (run.t.at(-1) - begin) / (run.t.length - 1);
+  for (let line = 0; line < run.hz.length; ++line) {
+    if (run.hz[line] < page.sensors.from_hz) continue;
+    const turn = 2 * Math.PI * run.hz[line], [c, s] = [Math.cos(turn * step), Math.sin(turn * step)], [c0, s0] = [Math.cos(turn * begin), Math.sin(turn * begin)];
+    let [a, b] = [re[line] * c0 - im[line] * s0, re[line] * s0 + im[line] * c0];
+    for (let k = 0; k < found.length; ++k) { found[k] += a; [a, b] = [a * c - b * s, a * s + b * c]; }
+  }
+  return found;
 }
 
 function capital(text) {

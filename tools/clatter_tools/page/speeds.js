@@ -7,7 +7,7 @@ const CUTS = 5;
 
 async function speedsSection() {
   if (!page.speeds) return;
-  const host = section("speeds", "Orders over speed", "Runs at several speeds together: which engine orders excite which frequencies.");
+  const host = section("speeds", "Orders", "Orders over speed", "Runs at several speeds together: which engine orders excite which frequencies.");
   const map = new Heat({ title: "Campbell diagram", x: { edges: [0, 1], label: "crank speed [rpm]" }, y: { edges: [0, 1], label: "frequency [Hz]" }, z: { label: "", colours: "viridis" }, cells: new Float32Array(1) });
   const cuts = new Plot({ title: "Order cuts", x: { label: "crank speed [rpm]" }, y: {}, lines: [] });
   const choose = async number => {

@@ -3,7 +3,7 @@
 
 function summarySection() {
   const { sentences, tables, checks, worries, stale } = page.summary;
-  const host = section("summary", "Summary");
+  const host = section("summary", "Summary", "Summary");
   const keys = element("div", { class: "keys" });
   for (const run of page.radiation?.runs ?? []) {
     const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
@@ -15,12 +15,11 @@ function summarySection() {
     keys.append(box);
   }
   if (keys.children.length) host.append(keys);
-  const words = element("ul", { class: "words" }, sentences.map(text => element("li", {}, text)));
   const state = checks.bad ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`] : checks.note ? ["note-state", "!", `certificates: ${checks.good} without remarks, ${checks.note} with remarks`]
     : ["good", "✓", `all ${checks.good} certificates are good`];
   const verdict = card("Can it be trusted?", element("p", { class: `state ${state[0]}` }, element("span", { "aria-hidden": "true" }, state[1]), state[2]),
-    element("ul", { class: "words" }, [...worries, ...stale].map(text => element("li", {}, text))), element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")));
-  host.append(grid(sentences.length ? card("What was found", words) : null, verdict));
+    wordList([...worries, ...stale]), element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")));
+  host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
   for (const { title, head, rows } of tables) host.append(card(title, table(head, rows)));
 }
 
@@ -28,10 +27,9 @@ const STATES = { good: ["good", "✓ good"], note: ["note-state", "! remarks"], 
 
 function certificatesSection() {
   if (!page.certificates.length) return;
-  const host = section("certificates", "Certificates in words", "What each program proved or estimated about its result, and what it did not.");
+  const host = section("certificates", "Certificates", "Certificates in words", "What each program proved or estimated about its result, and what it did not.");
   host.append(grid(page.certificates.map(({ title, run, state, sentences, table: rows }) => card(run === undefined ? title : `${title}: ${page.runs[run].label}`,
     element("span", { class: `state ${STATES[state][0]}` }, STATES[state][1]),
-    element("ul", { class: "words" }, sentences.map(([one, text]) => element("li", { class: one === "good" ? null : STATES[one][0] }, text))),
-    rows.length ? element("details", {}, element("summary", {}, "all figures"), table(["group", "figure", "value", "meaning"], rows.map(([group, key, value, meaning]) =>
-      [group, element("td", { class: "text" }, key), value, element("td", { class: "text" }, meaning)]), 2)) : null))));
+    wordList(sentences),
+    rows.length ? element("details", {}, element("summary", {}, "all figures"), table(["group", "figure", "value", "meaning"], rows, [0, 1, 3])) : null))));
 }

@@ -7,16 +7,17 @@ const SHOWN = { normal: ["normal velocity", "diverging"], whole: ["magnitude", "
 
 class Surface {
   constructor(host, data) {
-    Object.assign(this, { data, kind: "line", withRigid: false, outline: true, edges: true, shown: "normal", enlargement: 1, speed: 1, phase: 0, common: true });
+    Object.assign(this, { data, kind: "line", withRigid: false, outline: true, edges: true, shown: "normal", enlargement: 1, speed: 1, phase: 0, common: true, contrast: 1 });
     this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.canvas = element("canvas", { tabindex: 0, role: "img", id: "skin", "aria-label": "The skin in three dimensions. Arrow keys turn it, plus and minus magnify, space plays, page up and down step." });
     this.caption = element("div", { class: "caption", "aria-live": "off" });
     this.bar = element("canvas");
+    this.ruler = element("div", { class: "ruler" });
     this.beside = element("div");
     this.controls = element("div");
     host.append(element("div", { class: "spread" }, element("figure", {},
       element("figcaption", {}, element("h3", {}, "The skin"), saveButtons("skin", () => this.picture(), () => this.columns())),
-      element("div", { class: "view" }, this.canvas, this.caption, element("div", { class: "bar" }, this.bar)), this.controls), this.beside));
+      this.caption, element("div", { class: "view" }, this.canvas, element("div", { class: "bar" }, this.bar), this.ruler)), element("div", {}, element("div", { class: "card" }, this.controls), this.beside)));
     this.renderer = new Renderer(this.canvas);
     this.view = new View(this.canvas, () => this.draw(), { " ": () => this.play(!this.playing), PageUp: () => this.step(1), PageDown: () => this.step(-1) });
     this.part = data.parts[0];
@@ -74,7 +75,8 @@ class Surface {
       element("div", { class: "controls" }, this.kindButtons.element, this.data.parts.length > 1 ? parts.element : null, this.part.runs.length > 1 ? runs.element : null),
       this.steps,
       element("div", { class: "controls" }, this.playButton, slider("speed", { min: -3, max: 3, step: 0.1, value: 0 }, value => { this.speed = 2 ** value; }).element,
-        slider("enlargement", { min: -3, max: 4, step: 0.1, value: 0 }, value => { this.enlargement = 2 ** value; this.draw(); }).element),
+        slider("enlargement", { min: -3, max: 4, step: 0.1, value: 0 }, value => { this.enlargement = 2 ** value; this.draw(); }).element,
+        slider("contrast", { min: 0, max: 5, step: 0.1, value: 0 }, value => { this.contrast = 2 ** value; this.draw(); }).element),
       element("div", { class: "controls" }, shown.element,
         checkbox("rigid motion", this.withRigid, on => { this.withRigid = on; this.update(); }).element,
         checkbox("outline at rest", this.outline, on => { this.outline = on; this.draw(); }).element,
@@ -198,12 +200,13 @@ class Surface {
       mode: () => [`elastic mode ${this.mode + 1}: ${figure(this.part.modes.hz[this.mode], 5)} Hz`, "free reduced part; relative to its largest motion"],
       panels: () => ["panels", "each face in the colour of the smallest panel that has it"],
     }[this.kind]();
+    this.words = lines[1];
     this.caption.replaceChildren(element("strong", {}, `${this.part.name}${run && this.kind !== "mode" && page.runs.length > 1 ? `, ${runName(run.run)}` : ""}: ${lines[0]}`), element("small", {}, lines[1]));
   }
 
   scene() {
     const [name, colours] = SHOWN[this.shown], [factor, unit] = this.unit();
-    const limit = this.shown === "whole" ? this.limit.whole : this.limit.normal, low = colours === "diverging" ? -limit : 0;
+    const limit = (this.shown === "whole" ? this.limit.whole : this.limit.normal) / this.contrast, low = colours === "diverging" ? -limit : 0;
     const size = Math.max(...this.part.high.map((one, k) => one - this.part.low[k]));
     return { ...this.view.matrices(this.part.low, this.part.high), phase: this.phase, enlargement: this.enlargement * DRAWN_SHARE * size / this.limit.whole,
       shown: Object.keys(SHOWN).indexOf(this.shown), range: [low, limit], colours, outline: this.outline && this.kind !== "panels", edges: this.edges,
@@ -222,10 +225,22 @@ class Surface {
     const scene = this.scene();
     this.renderer.draw(scene);
     paintBar(this.bar, scene.bar);
+    this.writeRuler(scene);
+  }
+
+  /** A length, and how long a velocity is drawn. */
+  writeRuler({ enlargement }) {
+    const length = niceStep(120 * this.view.metresPerPixel, 1), [factor, unit] = this.unit();
+    this.ruler.style.width = `${length / this.view.metresPerPixel}px`;
+    const drawn = this.kind === "panels" || this.kind === "mode" ? "" : `, 1 ${unit} drawn as ${figure(1e3 * enlargement / factor)} mm`;
+    this.ruler.textContent = `${figure(1e3 * length)} mm`;
+    this.ruler.title = `${figure(1e3 * length)} mm${drawn}`;
+    this.caption.lastChild.textContent = this.words + drawn;
   }
 
   buildBeside() {
-    const makers = { line: () => this.spectrumPlot(), instant: () => this.instantPlot(), mode: () => this.macPlot(), panels: () => this.panelTable() };
+    this.plot = null;
+    const makers = { line: () => [this.spectrumPlot(), this.run.mac ? this.macPlot() : null], instant: () => this.instantPlot(), mode: () => this.macPlot(), panels: () => this.panelTable() };
     this.beside.replaceChildren(...[makers[this.kind]()].flat().filter(Boolean));
   }
 
@@ -244,18 +259,16 @@ class Surface {
   }
 
   macPlot() {
-    this.plot = null;
     const { mac } = this.run ?? {}, { hz } = this.part.modes;
     if (!mac) return card("Modes", element("p", { class: "note" }, `${hz.length} elastic modes up to ${figure(hz.at(-1), 4)} Hz; this part has no field whose shapes could be compared.`));
     const heat = new Heat({ title: "Which modes the strongest lines are made of", height: 22, x: { label: "mode number", edges: evenEdges(0.5, 1, hz.length), names: hz.map((one, k) => `${k + 1}, ${figure(one, 4)} Hz`) },
       y: { label: "line [Hz]", edges: evenEdges(-0.5, 1, mac.hz.length), ticks: mac.hz.map((one, k) => [k, one.toFixed(0)]), names: mac.hz.map(one => `${one.toFixed(0)} Hz`) },
       z: { label: "MAC", colours: "viridis", min: 0, max: 1 }, cells: mac.values.flat(), pick: (i, j) => this.goTo("mode", i),
-      note: "Modal assurance criterion of the operating shape (elastic part) and the mode shapes; 1: the same shape. Click a cell to see the mode." });
+      note: "MAC: modal assurance criterion of the operating shape (elastic part) and the mode shapes; 1: the same shape. Click a cell to see the mode." });
     return heat.element;
   }
 
   panelTable() {
-    this.plot = null;
     const { names, labels } = this.part.panels, run = page.radiation?.runs.find(one => one.run === this.run?.run);
     const rows = names.map((name, k) => {
       const panel = run?.panels.find(one => one.name === name), power = panel?.measures.erp;
@@ -299,7 +312,7 @@ class Surface {
 }
 
 function shapesText(shapes, error, before = "") {
-  return `${shapes.count - RIGID} shapes hold it to ${before}${figure(100 * error, 2)} %`;
+  return `made of ${shapes.count - RIGID} shapes, which miss ${before}${figure(100 * error, 2)} %`;
 }
 
 function nearestIndex(values, wanted) {
@@ -325,7 +338,7 @@ function strongestLine(run, frequency) {
 
 async function surfaceSection() {
   if (!page.surface) return;
-  const host = section("surface", "Surface in motion", "The skin as it moves at a spectral line, at an instant of the cycle or in a mode, and its panels.");
+  const host = section("surface", "Surface", "Surface in motion", "The skin as it moves at a spectral line, at an instant of the cycle or in a mode, and its panels.");
   try {
     const surface = new Surface(host, page.surface);
     await surface.loaded;

@@ -27,10 +27,14 @@ def write_page(folder, output=None):
     """Writes the page, by default report.html in the folder, complete or not at all; returns its path."""
     found = Folder(folder)
     output = pathlib.Path(output) if output else found.path / "report.html"
-    output.parent.mkdir(parents=True, exist_ok=True)
+    text = page(found)
     part = output.with_name(output.name + ".part")
-    part.write_text(page(found), encoding="utf-8")
-    os.replace(part, output)
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, output)
+    except OSError as error:
+        raise artefact.CannotWrite(f"{output}: cannot be written: {error.strerror}") from error
     return output
 
 

@@ -5,21 +5,21 @@ import numpy as np
 from ..artefact import dataset, text
 from ..plots.over_cycle import LastCycle
 
-# Curves that are drawn first: end of the history's name, title, factor, unit, less its mean.
+# Curves that are drawn first: end of the history's name, title, label of the axis, factor, unit, less its mean.
 SHOWN = [
-    ("piston_lateral", "Lateral position of the piston pin, positive toward the thrust side", 1e6, "µm", False),
-    ("piston_tilt", "Tilt of the piston", 1e3, "mrad", False),
-    ("side_force", "Side force of the piston", 1e-3, "kN", False),
-    ("film_min", "Smallest gap between skirt and liner", 1e6, "µm", False),
-    ("film_pressure_max", "Largest pressure of the oil film", 1e-6, "MPa", False),
-    ("contact_pressure_max", "Largest pressure of asperity contact", 1e-6, "MPa", False),
-    ("friction_force", "Friction force of the piston", 1.0, "N", False),
-    ("gas_pressure", "Gas pressure", 1e-5, "bar", False),
-    ("tension_max", "Largest tension of a chain joint", 1.0, "N", False),
-    ("_speed", "Speed fluctuation", 1.0, "rad/s", True),
-    ("_pressure", "Pressure of hydraulic chambers, absolute", 1e-5, "bar", False),
-    ("_travel", "Travel of plungers", 1e3, "mm", False),
-    ("_coil_gap", "Least gap between coils of valve springs", 1e3, "mm", False),
+    ("piston_lateral", "Lateral position of the piston pin, positive toward the thrust side", "lateral position", 1e6, "µm", False),
+    ("piston_tilt", "Tilt of the piston", "tilt", 1e3, "mrad", False),
+    ("side_force", "Side force of the piston", "side force", 1e-3, "kN", False),
+    ("film_min", "Smallest gap between skirt and liner", "smallest gap", 1e6, "µm", False),
+    ("film_pressure_max", "Largest pressure of the oil film", "pressure", 1e-6, "MPa", False),
+    ("contact_pressure_max", "Largest pressure of asperity contact", "pressure", 1e-6, "MPa", False),
+    ("friction_force", "Friction force of the piston", "friction force", 1.0, "N", False),
+    ("gas_pressure", "Gas pressure", "pressure", 1e-5, "bar", False),
+    ("tension_max", "Largest tension of a chain joint", "tension", 1.0, "N", False),
+    ("_speed", "Speed fluctuation", "speed less its mean", 1.0, "rad/s", True),
+    ("_pressure", "Pressure of hydraulic chambers, absolute", "pressure", 1e-5, "bar", False),
+    ("_travel", "Travel of plungers", "travel", 1e3, "mm", False),
+    ("_coil_gap", "Least gap between coils of valve springs", "gap", 1e3, "mm", False),
 ]
 NOT_HISTORIES = ("time", "crank_angle_deg")
 LINES = 6  # of a curve with several histories of one run
@@ -48,11 +48,11 @@ def read(one, pack):
 def shown(names):
     """Groups of histories with title, factor and unit; each history is in the first group that its name fits."""
     groups, taken = [], set()
-    for ending, title, factor, unit, less_mean in SHOWN:
+    for ending, title, label, factor, unit, less_mean in SHOWN:
         own = [name for name in names if name not in taken and fits(name, ending)][:LINES]
         taken.update(own)
         if own:
-            groups.append({"title": title, "names": own, "factor": factor, "unit": unit, "less_mean": less_mean})
+            groups.append({"title": title, "label": label, "names": own, "factor": factor, "unit": unit, "less_mean": less_mean})
     return groups
 
 

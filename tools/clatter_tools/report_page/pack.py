@@ -60,4 +60,4 @@ def plain(value):
 
 def json_text(value):
     """JSON that may be written between the tags of a page."""
-    return json.dumps(plain(value), separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    return json.dumps(plain(value), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")

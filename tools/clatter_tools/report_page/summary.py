@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first section: what was found, in sentences and in the tables of `clatter report`."""
+import numpy as np
+
 from .. import artefact, chains, drive_findings, fields, findings, report, slap
+from ..plots.shape import a_weight
 from .certificates import GOOD
+
+PEAKS = 5  # of the power, that are named
 
 
 def collect(folder, cards):
@@ -30,18 +35,26 @@ def sound(folder):
     others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in one.field[f"{at}/panels"].items()
                      if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
     if others:
-        found.append(f"Its strongest panel is “{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
-    if "lines/frequency_hz" in one.field and len(one.field["lines/frequency_hz"]):
-        hz = ", ".join(f"{value:.0f}" for value in one.field["lines/frequency_hz"])
-        found.append(f"Its whole-skin lines are at {hz} Hz.")
-    return found
+        found.append(f"The strongest panel{' of the loudest run' if len(levels) > 1 else ''} is “{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
+    peaks = ", ".join(f"{hz:.0f}" for hz in strongest_lines(one.field, at, name))
+    return found + ([f"Its A-weighted power is highest at {peaks} Hz, the strongest first."] if peaks else [])
+
+
+def strongest_lines(field, at, panel):
+    """Frequencies of the highest peaks among the A-weighted lines of a panel's power."""
+    frequency = artefact.dataset(field, f"{at}/frequency_hz")
+    power = artefact.dataset(field, f"{at}/panels/{panel}/erp") * a_weight(np.maximum(frequency, 1e-3))
+    around = np.concatenate([[0.0], power, [0.0]])
+    peaks = np.flatnonzero((power > around[:-2]) & (power >= around[2:]))
+    return frequency[peaks[np.argsort(-power[peaks])[:PEAKS]]]
 
 
 def drives(folder):
     found = []
     for one in folder.with_run():
         if chains.names(one.run):
-            found += [f"{one.label}: {sentence}." for sentence in drive_findings.sentences(one.run)]
+            before = f"{one.label}: " if len(folder.runs) > 1 else ""
+            found += [f"{before}{sentence}." for sentence in drive_findings.sentences(one.run)]
     return found
 
 
@@ -59,8 +72,13 @@ def tables(folder):
     found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
              (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
              ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts)]
-    return [{"title": title, "head": head, "rows": rows} for title, head, rows in found
-            if any(cell != findings.NOTHING for row in rows for cell in row[1:])]
+    return [one for one in (without_gaps(*table) for table in found) if len(one["head"]) > 1]
+
+
+def without_gaps(title, head, rows):
+    """A table without the columns in which no row has a figure."""
+    kept = [k for k in range(len(head)) if k == 0 or any(row[k] != findings.NOTHING for row in rows)]
+    return {"title": title, "head": [head[k] for k in kept], "rows": [[row[k] for k in kept] for row in rows]}
 
 
 def stale(folder):
