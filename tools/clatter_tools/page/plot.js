@@ -29,6 +29,7 @@ class Plot {
   update(changes) {
     Object.assign(this.spec, changes);
     this.note.textContent = this.spec.note ?? "";
+    if (changes.lines) this.legend.style.minHeight = "";
     if (changes.title) this.element.querySelector("h3").textContent = changes.title;
     this.redraw();
   }
@@ -171,6 +172,8 @@ class Plot {
       return element("span", {}, element("i", { class: line.dash ? "dashed" : null, style: `--colour: ${this.colour(line, k)}` }), line.name,
         this.cursor === null ? null : element("b", {}, figure(line.y[nearest(line, this.cursor)])));
     }));
+    // With values the legend may need one more row: it keeps it, so that the plot does not jump.
+    if (this.cursor !== null) this.legend.style.minHeight = `${this.legend.offsetHeight}px`;
   }
 
   cursorText(lines) {

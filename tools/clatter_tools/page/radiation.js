@@ -2,6 +2,7 @@
 // Radiated power: runs against each other, panels against each other.
 
 const PICO_WATT = 1e-12;
+const SILENCE_DB = -900;  // the level of nothing at all is lower
 
 /** Ticks of third octaves: every third band by its name. */
 function bandAxis({ lower, upper, names }) {
@@ -22,18 +23,19 @@ async function radiationSection() {
   const { runs, measures } = page.radiation;
   for (const run of runs) {
     run.axis = await readBands(run.bands);
-    [run.hz, run.deg] = await allNumbers(run.frequency, run.angle);
+    [run.hz, run.deg, run.ms] = await allNumbers(run.frequency, run.angle, run.time);
     for (const panel of run.panels) {
       panel.rms = (await numbers(panel.instants))?.map(one => 1e3 * Math.sqrt(one));
       for (const measure of Object.values(panel.measures)) [measure.power, measure.db_bands, measure.dba_bands] = await allNumbers(measure.lines, measure.bands, measure.bands_dba);
     }
   }
+  const turning = runs.every(run => run.deg);
   const names = [...new Set(runs.flatMap(run => run.panels.map(panel => panel.name)))];
   const state = { panel: names.includes("exposed") ? "exposed" : names[0], run: 0, weighted: true, measure: measures[0] };
   const bands = new Plot({ title: "Third octaves", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 70 }, lines: [] });
   const lines = new Plot({ title: "Lines", x: { label: "frequency [Hz]" }, y: { range: 90 }, lines: [] });
   const perPanel = new Plot({ title: "Third octaves of the panels", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 70 }, lines: [] });
-  const over = new Plot({ title: "Velocity over the cycle", x: { label: "crank angle [deg], 0 = firing TDC", angles: true }, y: { min: 0 }, marks: [0], lines: [] });
+  const over = new Plot({ title: "Velocity over the cycle", x: { label: "crank angle [deg], 0 = firing TDC", angles: true }, y: { min: 0 }, marks: turning ? [0] : [], lines: [] });
   const ranking = element("div", { class: "card" });
   const refresh = () => {
     const { measure, weighted } = state, weight = weighted ? "A-weighted" : "unweighted", unit = weighted ? "dB(A)" : "dB";
@@ -49,8 +51,8 @@ async function radiationSection() {
     const run = runs[state.run], own = run.panels.filter(panel => panel.name !== "skin" && panel.name !== "exposed");
     perPanel.update({ title: `Panels in third octaves, ${weight}: ${runName(run.run)}`, x: { ...perPanel.spec.x, ticks: run.axis.ticks, names: run.axis.names }, y: { label: level, range: 70 },
       lines: own.map((panel, k) => stairs(run, panel, { number: k, name: panel.label, dash: k > 5 ? [5, 3] : undefined })) });
-    over.update({ title: `Normal velocity of panel “${label}” over the cycle`, y: { label: "RMS over the panel [mm/s]", min: 0 },
-      lines: runs.map(one => ({ run: one.run, name: runName(one.run), wide: 1.1, x: one.deg ?? [], y: panelOf(one)?.rms ?? [] })) });
+    over.update({ title: `Normal velocity of panel “${label}” over ${runs.every(one => one.piece === "cycle") ? "the cycle" : "time"}`, x: turning ? over.spec.x : { label: "time [ms]" }, y: { label: "RMS over the panel [mm/s]", min: 0 },
+      lines: runs.map(one => ({ run: one.run, name: runName(one.run), wide: 1.1, x: turning ? one.deg : one.ms, y: panelOf(one)?.rms ?? [] })) });
     ranking.replaceChildren(...panelRanking(run, own, measure, weighted));
   };
   const panelList = selection("panel", names.map(name => [name, name.replaceAll("_", " ")]), value => { state.panel = value; refresh(); });
@@ -63,11 +65,11 @@ async function radiationSection() {
 
 /** Panels by falling power, with bars and their share of the power of the entire skin. */
 function panelRanking(run, panels, measure, weighted) {
-  const level = panel => panel.measures[measure.key]?.[weighted ? "dba" : "db"] ?? NaN, whole = run.panels.find(panel => panel.name === "skin");
+  const level = panel => { const found = panel.measures[measure.key]?.[weighted ? "dba" : "db"]; return found > SILENCE_DB ? found : NaN; }, whole = run.panels.find(panel => panel.name === "skin");
   const share = panel => 100 * 10 ** (0.1 * (level(panel) - level(whole ?? panels[0])));
-  const sorted = panels.slice().sort((a, b) => level(b) - level(a)), most = Math.max(...sorted.map(share), 1e-9);
-  const rows = sorted.map(panel => [panel.label, element("td", { class: "bar-cell" }, element("i", { style: `width:${100 * share(panel) / most}%; --colour:${colourOf(panels.indexOf(panel))}` })),
-    level(panel).toFixed(1), `${figure(share(panel), 2)} %`, figure(1e4 * panel.area_m2)]);
+  const sorted = panels.slice().sort((a, b) => (level(b) || -Infinity) - (level(a) || -Infinity)), most = Math.max(...sorted.map(panel => share(panel) || 0), 1e-9);
+  const rows = sorted.map(panel => [panel.label, element("td", { class: "bar-cell" }, element("i", { style: `width:${100 * (share(panel) || 0) / most}%; --colour:${colourOf(panels.indexOf(panel))}` })),
+    level(panel) ? level(panel).toFixed(1) : "–", level(panel) ? `${figure(share(panel), 2)} %` : "–", figure(1e4 * panel.area_m2)]);
   return [element("h3", {}, `Panels by their power, ${weighted ? "A-weighted" : "unweighted"}: ${runName(run.run)}`),
     table(["panel", "", `[${weighted ? "dB(A)" : "dB"} re ${measure.reference}]`, "of the entire skin", "area [cm²]"], rows),
     element("p", { class: "note" }, "Panels are groups of exposed faces. The entire skin also has faces inside, which cannot radiate outward.")];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Axes: ticks, and values as texts.
 
+const SETTLED_MS = 250;
+
 function niceStep(span, count) {
   const raw = span / Math.max(1, count), power = 10 ** Math.floor(Math.log10(raw));
   return power * [1, 2, 5, 10].find(factor => factor * power >= 0.999 * raw);
@@ -70,11 +72,18 @@ function drawingFont(weight = "") {
 /** Calls back when a drawing comes near the window, and again whenever it must be drawn again while it is there. */
 function whenVisible(host, draw) {
   let near = false, stale = true, waiting = false;
+  // Plots in a row have one height, which legends change while others are drawn: no observer reports what changes and changes back.
+  const paint = () => {
+    const [width, height] = [host.clientWidth, host.clientHeight];
+    stale = false;
+    draw();
+    setTimeout(() => { if (host.clientWidth !== width || host.clientHeight !== height) request(); }, SETTLED_MS);
+  };
   const request = () => {
     stale = true;
     if (!near || waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; if (stale && host.isConnected) { stale = false; draw(); } });
+    requestAnimationFrame(() => { waiting = false; if (stale && host.isConnected) paint(); });
   };
   new IntersectionObserver(entries => { near = entries[entries.length - 1].isIntersecting; if (near && stale) request(); }, { rootMargin: "300px" }).observe(host);
   new ResizeObserver(request).observe(host);

@@ -17,8 +17,11 @@ async function sensorsSection() {
   const bands = new Plot({ title: "Third octaves", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 80 }, lines: [] });
   const map = new Heat({ title: "Spectrogram", x: { edges: [0, 1], label: "" }, y: { edges: [0, 1], label: "" }, z: { label: "", colours: "viridis" }, cells: new Float32Array(1) });
   const player = element("div", { class: "card" });
+  const turning = runs.every(run => run.deg);
+  let angled = turning;
   const refresh = async () => {
-    const { quantity } = state, angled = state.over === "angle" && runs.every(run => run.deg), drawn = [];
+    const { quantity } = state, drawn = [], span = runs.every(run => run.cycle) ? "over the cycle" : "over time";
+    angled = state.over === "angle" && turning;
     for (const run of runs) {
       const data = channelOf(run)?.[quantity];
       if (!data) continue;
@@ -27,8 +30,8 @@ async function sensorsSection() {
       drawn.push({ run, data, values, levels, size: re && re.map((one, k) => Math.hypot(one, im[k])) });
     }
     const unit = drawn[0]?.data.unit ?? "";
-    signal.update({ title: `${capital(quantity)} of ${state.label} over the cycle${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`, x: angled ? { label: "crank angle [deg], 0 = firing TDC", angles: true } : { label: "time after firing TDC [ms]" },
-      y: { label: `${quantity} [${unit}]` }, marks: [0], lines: drawn.map(({ run, values }) => ({ run: run.run, name: runName(run.run), wide: 1, x: angled ? run.deg : Float32Array.from(run.t, one => 1e3 * one), y: values })) });
+    signal.update({ title: `${capital(quantity)} of ${state.label} ${span}${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`, x: angled ? { label: "crank angle [deg], 0 = firing TDC", angles: true } : { label: turning ? "time after firing TDC [ms]" : "time [ms]" },
+      y: { label: `${quantity} [${unit}]` }, marks: turning ? [0] : [], lines: drawn.map(({ run, values }) => ({ run: run.run, name: runName(run.run), wide: 1, x: angled ? run.deg : Float32Array.from(run.t, one => 1e3 * one), y: values })) });
     spectrum.update({ title: `Spectrum of the ${quantity} of ${state.label}`, y: { label: `amplitude of each line [${unit}], peak`, log: true, range: 1e5 },
       lines: drawn.map(({ run, size }) => ({ run: run.run, name: runName(run.run), wide: 1, x: run.hz, y: size ?? [] })) });
     bands.update({ title: `Third octaves of the ${quantity} of ${state.label}`, x: { ...bands.spec.x, ticks: runs[0].axis.ticks, names: runs[0].axis.names }, y: { label: `level [dB re ${drawn[0]?.data.reference}]`, range: 80 },
@@ -42,9 +45,9 @@ async function sensorsSection() {
   const firing = checkbox("only around firing TDC", false, on => signal.show(on ? aroundFiring(runs[0], state) : null));
   host.append(element("div", { class: "controls" }, list.element, runs.length > 1 ? runList.element : null,
     choices("quantity", [["acceleration", "acceleration"], ["velocity", "velocity"]], state.quantity, value => { state.quantity = value; refresh(); }).element,
-    choices("axis", [["angle", "over crank angle"], ["time", "over time"]], state.over, value => { state.over = value; refresh(); signal.show(firing.input.checked ? aroundFiring(runs[0], state) : null); }).element,
-    firing.element, checkbox(`above ${page.sensors.from_hz} Hz`, false, on => { state.limited = on; refresh(); }).element),
-  grid(signal.element, spectrum.element, bands.element, map.element), player);
+    !turning ? null : choices("axis", [["angle", "over crank angle"], ["time", "over time"]], state.over, value => { state.over = value; refresh(); signal.show(firing.input.checked ? aroundFiring(runs[0], state) : null); }).element,
+    turning ? firing.element : null, !runs.every(run => run.cycle) ? null : checkbox(`above ${page.sensors.from_hz} Hz`, false, on => { state.limited = on; refresh(); }).element),
+  grid(signal.element, spectrum.element, bands.element, map.element, player));
   await refresh();
 }
 

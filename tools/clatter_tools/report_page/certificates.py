@@ -45,8 +45,10 @@ def model_sentences(found):
     certified = bool(found) and found.get("certified", 1.0)
     sentences = [(GOOD if certified and found.get("count_proved") else BAD, f"{verdict(found)[0].upper()}{verdict(found)[1:]}.")]
     if "rigid_modes" in found:
-        sentences.append((GOOD, f"It moves freely as a rigid body: {found['rigid_modes']:.0f} modes without stiffness; its mass agrees with "
-                          f"the full model's to {found.get('mass_error', 0.0):.0e}."))
+        free = f"It moves freely as a rigid body: {found['rigid_modes']:.0f} modes without stiffness" if found["rigid_modes"] else \
+            "It is held: no rigid motion is free"
+        mass = f"; its mass agrees with the full model's to {found['mass_error']:.0e}" if found.get("mass_error") else ""
+        sentences.append((GOOD, f"{free}{mass}."))
     if "frequency_error_estimate" in found and "accurate_to_hz" in found:
         sentences.append((GOOD, f"Its own frequencies up to {found['accurate_to_hz']:.0f} Hz are wrong by at most about "
                           f"{100.0 * found['frequency_error_estimate']:.2g} %."))

@@ -33,8 +33,9 @@ def read(one, pack):
                        "area_m2": panel.attrs.get("area_m2"), "share": panel.attrs.get("share_of_skin"),
                        "instants": instants(pack, panel, every),
                        "measures": {row["key"]: measure(pack, panel, row) for row in MEASURES if row["lines"] in panel}})
-    return {"run": one.number, "angle": None if angle is None else pack.add("curves", means(angle, every)), "piece": at.rpartition("/")[2], "panels": panels, "frequency": curve("frequency_hz"),
-            "rpm": field[at].attrs.get("speed_rpm"),
+    return {"run": one.number, "piece": at.rpartition("/")[2], "panels": panels, "frequency": curve("frequency_hz"),
+            "angle": None if angle is None else pack.add("curves", means(angle, every)),
+            "time": pack.add("curves", 1e3 * means(dataset(field, f"{at}/time"), every)),
             "bands": {"lower": curve("third_octave/lower_hz"), "upper": curve("third_octave/upper_hz"),
                       "names": [short(text(name)) for name in dataset(field, f"{at}/third_octave/nominal")]}}
 

@@ -123,7 +123,7 @@ def field_part(pack, one):
     instants = np.array(read("frames/velocity"), float)
     lines = np.array(read("lines/velocity_re"), float) + 1j * np.array(read("lines/velocity_im"), float)
     kept = [rows for rows in (instants, lines) if len(rows)]
-    found.update(name=text(field.attrs.get("body", one.stem)), modes=None, runs=[], panels=skin.panels(pack, block, field))
+    found.update(name=f"{text(field.attrs.get('body', 'body'))}, {one.stem}", modes=None, runs=[], panels=skin.panels(pack, block, field))
     if not kept:
         return found
     # The velocities themselves are the coordinates: their expansion is the matrix of all of them.
