@@ -102,6 +102,13 @@ class Page(unittest.TestCase):
         self.page.press("Home")
         self.assertEqual(self.shown("#skin"), before)
 
+    def test_a_click_shows_the_spectrum_of_that_point(self):
+        self.pause()
+        left, top, width, height = self.page.rectangle("#skin")
+        for kind in ("mousePressed", "mouseReleased"):
+            self.page.call("Input.dispatchMouseEvent", type=kind, x=left + 0.5 * width, y=top + 0.5 * height, button="left", clickCount=1)
+        self.page.wait_for("document.querySelector('#surface').textContent.includes('Velocity at (')")
+
     def test_sliders_change_shape_and_film(self):
         self.pause()
         seen = [self.shown("#skin")]

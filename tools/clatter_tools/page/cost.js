@@ -14,5 +14,5 @@ function costSection() {
   }
   const { stages } = page.cost, most = Math.max(...stages.map(stage => stage.seconds ?? 0), 1e-9), sum = key => stages.reduce((total, stage) => total + (stage[key] ?? 0), 0);
   const rows = stages.map(({ name, seconds, peak_gib: peak, mb, steps }) => [name, barCell(seconds ?? 0, most), figure(seconds), figure(peak, 2), figure(mb), steps.slice(0, 3).map(([step, spent]) => `${step} ${figure(spent, 2)} s`).join(", ")]);
-  host.append(card("Cost of each stage", table(["artefact", "", "seconds", "peak GiB", "file MB", "longest steps"], [...rows, ["total", "", figure(sum("seconds")), "", figure(sum("mb"), 4), ""]], [0, 5])));
+  host.append(tableCard("Cost of each stage", ["artefact", "", "seconds", "peak GiB", "file MB", "longest steps"], [...rows, ["total", "", figure(sum("seconds")), "", figure(sum("mb"), 4), ""]], [0, 5]));
 }

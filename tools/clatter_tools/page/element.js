@@ -37,6 +37,17 @@ function card(title, ...children) {
   return element("div", { class: "card" }, title ? element("h3", {}, title) : null, ...children);
 }
 
+/** A card with a table, whose cells are saved as CSV; further children are below it. */
+function tableCard(title, head, rows, texts, ...children) {
+  const made = table(head, rows, texts);
+  const cells = row => [...row.children].map(cell => cell.textContent);
+  const columns = () => {
+    const lines = [...made.querySelectorAll("tbody tr")].map(cells);
+    return cells(made.querySelector("thead tr")).map((name, k) => ({ name, values: lines.map(line => line[k]) })).filter(one => one.name || one.values.some(Boolean));
+  };
+  return element("div", { class: "card" }, element("div", { class: "title" }, element("h3", {}, title), saveButtons(title, null, columns)), made, ...children);
+}
+
 /** Buttons of which one is pressed; `choose` gets its value. Returns { element, set(value) }. */
 function choices(name, options, first, choose) {
   const buttons = options.map(([value, label]) => element("button", { type: "button", class: "choice", "data-value": value,

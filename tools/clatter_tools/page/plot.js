@@ -238,7 +238,7 @@ class Plot {
     const found = [];
     let before = null;
     for (const line of this.lines()) {
-      if (line.x !== before) found.push({ name: line.kind === "stairs" ? `${this.spec.x.label}, lower edge` : this.spec.x.label, values: line.kind === "stairs" ? line.x.subarray?.(0, line.y.length) ?? line.x.slice(0, -1) : line.x });
+      if (!sameValues(line.x, before)) found.push({ name: line.kind === "stairs" ? `${this.spec.x.label}, lower edge` : this.spec.x.label, values: line.kind === "stairs" ? line.x.subarray?.(0, line.y.length) ?? line.x.slice(0, -1) : line.x });
       before = line.x;
       const name = line.name ? `${line.name}: ${this.spec.y.label}` : this.spec.y.label;
       if (line.low) found.push({ name: `${name}, lowest`, values: line.low });
@@ -288,6 +288,11 @@ function stroke(context, points, width) {
   context.beginPath();
   points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
   context.stroke();
+}
+
+/** Whether two axes are the same, so that a table has them once. */
+function sameValues(a, b) {
+  return a === b || (b !== null && a.length === b.length && a.every((one, k) => one === b[k]));
 }
 
 /** Of labelled ticks as many as there is space for. */

@@ -36,7 +36,7 @@ async function radiationSection() {
   const lines = new Plot({ title: "Lines", x: { label: "frequency [Hz]" }, y: { range: 90 }, lines: [] });
   const perPanel = new Plot({ title: "Third octaves of the panels", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 70 }, lines: [] });
   const over = new Plot({ title: "Velocity over the cycle", x: { label: "crank angle [deg], 0 = firing TDC", angles: true }, y: { min: 0 }, marks: turning ? [0] : [], lines: [] });
-  const ranking = element("div", { class: "card" });
+  const ranking = element("div");
   const refresh = () => {
     const { measure, weighted } = state, weight = weighted ? "A-weighted" : "unweighted", unit = weighted ? "dB(A)" : "dB";
     const level = `${measure.name.replace(/.*\((.*)\)/, "$1")} [${unit} re ${measure.reference}]`, label = state.panel.replaceAll("_", " ");
@@ -53,7 +53,7 @@ async function radiationSection() {
       lines: own.map((panel, k) => stairs(run, panel, { number: k, name: panel.label, dash: k > 5 ? [5, 3] : undefined })) });
     over.update({ title: `Normal velocity of panel “${label}” over ${runs.every(one => one.piece === "cycle") ? "the cycle" : "time"}`, x: turning ? over.spec.x : { label: "time [ms]" }, y: { label: "RMS over the panel [mm/s]", min: 0 },
       lines: runs.map(one => ({ run: one.run, name: runName(one.run), wide: 1.1, x: turning ? one.deg : one.ms, y: panelOf(one)?.rms ?? [] })) });
-    ranking.replaceChildren(...panelRanking(run, own, measure, weighted));
+    ranking.replaceChildren(panelRanking(run, own, measure, weighted));
   };
   const panelList = selection("panel", names.map(name => [name, name.replaceAll("_", " ")]), value => { state.panel = value; refresh(); });
   panelList.list.value = state.panel;
@@ -70,7 +70,7 @@ function panelRanking(run, panels, measure, weighted) {
   const sorted = panels.slice().sort((a, b) => (level(b) || -Infinity) - (level(a) || -Infinity)), most = Math.max(...sorted.map(panel => share(panel) || 0), 1e-9);
   const rows = sorted.map(panel => [panel.label, element("td", { class: "bar-cell" }, element("i", { style: `width:${100 * (share(panel) || 0) / most}%; --colour:${colourOf(panels.indexOf(panel))}` })),
     level(panel) ? level(panel).toFixed(1) : "–", level(panel) ? `${figure(share(panel), 2)} %` : "–", figure(1e4 * panel.area_m2)]);
-  return [element("h3", {}, `Panels by their power, ${weighted ? "A-weighted" : "unweighted"}: ${runName(run.run)}`),
-    table(["panel", "", `[${weighted ? "dB(A)" : "dB"} re ${measure.reference}]`, "of the entire skin", "area [cm²]"], rows),
-    element("p", { class: "note" }, "Panels are groups of exposed faces. The entire skin also has faces inside, which cannot radiate outward.")];
+  return tableCard(`Panels by their power, ${weighted ? "A-weighted" : "unweighted"}: ${runName(run.run)}`,
+    ["panel", "", `[${weighted ? "dB(A)" : "dB"} re ${measure.reference}]`, "of the entire skin", "area [cm²]"], rows, [0],
+    element("p", { class: "note" }, "Panels are groups of exposed faces. The entire skin also has faces inside, which cannot radiate outward."));
 }

@@ -16,6 +16,7 @@ void main() {
   real = re;
   imaginary = im;
   gl_Position = projection * at;
+  gl_PointSize = 11.0;
 }`;
 
 const SURFACE_FRAGMENT = `#version 300 es
@@ -62,6 +63,7 @@ class Renderer {
   load(skin) {
     const { gl } = this;
     this.skin = skin;
+    this.marked = null;
     this.array = gl.createVertexArray();
     gl.bindVertexArray(this.array);
     attribute(gl, 0, skin.points);
@@ -85,6 +87,11 @@ class Renderer {
     this.edges = indexBuffer(gl, skin.edges);
     this.triangleCount = sorted.length;
     this.edgeCount = skin.edges.length;
+  }
+
+  /** The node that is drawn as a dot, or null. */
+  mark(node) {
+    this.marked = node;
   }
 
   /** The complex velocity of all nodes; `im` may be absent. */
@@ -117,6 +124,7 @@ class Renderer {
     gl.disable(gl.POLYGON_OFFSET_FILL);
     if (picture.edges) this.paintEdges(picture, picture.enlargement, [...(dark() ? [0, 0, 0] : colour), 0.65]);
     if (picture.outline) this.paintEdges(picture, 0, [...rgb(picture.ink.quiet), 0.5]);
+    if (this.marked !== null) this.paintMark(picture);
   }
 
   paintSurface(picture) {
@@ -141,6 +149,14 @@ class Renderer {
     gl.uniform4f(at("plain"), ...colour);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.edges);
     gl.drawElements(gl.LINES, this.edgeCount, this.indexType, 0);
+  }
+
+  paintMark(picture) {
+    const { gl } = this, at = this.use(this.edge, picture, picture.enlargement);
+    gl.disable(gl.DEPTH_TEST);
+    gl.uniform4f(at("plain"), ...rgb(picture.ink.accent), 1);
+    gl.drawArrays(gl.POINTS, this.marked, 1);
+    gl.enable(gl.DEPTH_TEST);
   }
 
   use(own, picture, enlargement) {

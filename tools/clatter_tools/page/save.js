@@ -24,11 +24,11 @@ function csvText(columns) {
   return lines.join("\n") + "\n";
 }
 
-/** Buttons that save what a drawing shows: `picture` returns a canvas, `columns` the columns of a table. */
+/** Buttons that save what a drawing shows: `picture` returns a canvas (null: there is none), `columns` the columns of a table. */
 function saveButtons(title, picture, columns) {
   const png = () => picture().toBlob(blob => download(fileName(title, "png"), blob), "image/png");
   const csv = () => download(fileName(title, "csv"), new Blob([csvText(columns())], { type: "text/csv" }));
   return element("span", { class: "save" },
-    element("button", { type: "button", onclick: png, "aria-label": `save the picture: ${title}` }, "PNG"),
+    picture ? element("button", { type: "button", onclick: png, "aria-label": `save the picture: ${title}` }, "PNG") : null,
     element("button", { type: "button", onclick: csv, "aria-label": `save the numbers: ${title}` }, "CSV"));
 }

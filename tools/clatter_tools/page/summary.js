@@ -20,7 +20,7 @@ function summarySection() {
   const verdict = card("Can it be trusted?", element("p", { class: `state ${state[0]}` }, element("span", { "aria-hidden": "true" }, state[1]), state[2]),
     wordList([...worries, ...stale]), element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")));
   host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
-  for (const { title, head, rows } of tables) host.append(card(title, table(head, rows)));
+  for (const { title, head, rows } of tables) host.append(tableCard(title, head, rows));
 }
 
 const STATES = { good: ["good", "✓ good"], note: ["note-state", "! remarks"], bad: ["bad", "✗ not proved"] };

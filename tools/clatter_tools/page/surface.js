@@ -7,7 +7,7 @@ const SHOWN = { normal: ["normal velocity", "diverging"], whole: ["magnitude", "
 
 class Surface {
   constructor(host, data) {
-    Object.assign(this, { data, kind: "line", withRigid: false, outline: true, edges: true, shown: "normal", enlargement: 1, speed: 1, phase: 0, common: true, contrast: 1 });
+    Object.assign(this, { data, kind: "line", withRigid: false, outline: true, edges: true, shown: "normal", enlargement: 1, speed: 1, phase: 0, common: true, contrast: 1, node: null });
     this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.canvas = element("canvas", { tabindex: 0, role: "img", id: "skin", "aria-label": "The skin in three dimensions. Arrow keys turn it, plus and minus magnify, space plays, page up and down step." });
     this.caption = element("div", { class: "caption", "aria-live": "off" });
@@ -19,7 +19,7 @@ class Surface {
       element("figcaption", {}, element("h3", {}, "The skin"), saveButtons("skin", () => this.picture(), () => this.columns())),
       this.caption, element("div", { class: "view" }, this.canvas, element("div", { class: "bar" }, this.bar), this.ruler)), element("div", {}, element("div", { class: "card" }, this.controls), this.beside)));
     this.renderer = new Renderer(this.canvas);
-    this.view = new View(this.canvas, () => this.draw(), { " ": () => this.play(!this.playing), PageUp: () => this.step(1), PageDown: () => this.step(-1) });
+    this.view = new View(this.canvas, () => this.draw(), (x, y) => this.probe(x, y), { " ": () => this.play(!this.playing), PageUp: () => this.step(1), PageDown: () => this.step(-1) });
     this.part = data.parts[0];
     this.loaded = this.choosePart(0);
   }
@@ -29,7 +29,7 @@ class Surface {
     this.skin = await readSkin(this.part);
     this.renderer.load(this.skin);
     this.shapes = this.part.shapes ? await readRows(this.part.shapes) : null;
-    this.modes = null;
+    [this.modes, this.node] = [null, null];
     await this.chooseRun(0);
     const possible = this.kinds().map(([kind]) => kind);
     this.build();
@@ -82,7 +82,7 @@ class Surface {
         checkbox("outline at rest", this.outline, on => { this.outline = on; this.draw(); }).element,
         checkbox("edges", this.edges, on => { this.edges = on; this.draw(); }).element,
         element("span", { class: "choices", role: "group", "aria-label": "direction of view" }, Object.keys(VIEWS).map(name => element("button", { type: "button", onclick: () => this.view.turnTo(name) }, name)))),
-      element("p", { class: "note" }, "Drag turns, shift and drag moves, two fingers or the wheel magnify (the wheel after a click into the picture). Shape and colours are velocities; outward is positive."));
+      element("p", { class: "note" }, "Drag turns, shift and drag moves, two fingers or the wheel magnify (the wheel after a click into the picture). A click chooses a point and shows its spectrum. Shape and colours are velocities; outward is positive."));
     this.play(this.playing);
   }
 
@@ -242,6 +242,40 @@ class Surface {
     this.plot = null;
     const makers = { line: () => [this.spectrumPlot(), this.run.mac ? this.macPlot() : null], instant: () => this.instantPlot(), mode: () => this.macPlot(), panels: () => this.panelTable() };
     this.beside.replaceChildren(...[makers[this.kind]()].flat().filter(Boolean));
+    if (this.node !== null && this.run?.re && this.kind !== "panels") this.beside.prepend(this.nodePlot());
+  }
+
+  /** Chooses the corner nearest to a point of the canvas [pixels], of the face that is seen there. */
+  probe(x, y) {
+    const scene = this.scene(), { clientWidth: width, clientHeight: height } = this.canvas;
+    const [c, s] = [Math.cos(this.phase), Math.sin(this.phase)];
+    const moved = this.skin.points.map((one, k) => one + scene.enlargement * (c * this.re[k] - (this.im ? s * this.im[k] : 0)));
+    const seen = projected(moved, multiplied(scene.projection, scene.view), width, height);
+    const face = faceAt(seen, this.skin.triangles, x, y);
+    const corners = face === null ? [] : [0, 4, 8].map(k => this.skin.triangles[12 * face + k]);  // of its first three parts
+    const away = node => Math.hypot(seen[3 * node] - x, seen[3 * node + 1] - y);
+    this.node = corners.sort((a, b) => away(a) - away(b))[0] ?? null;
+    this.renderer.mark(this.node);
+    this.buildBeside();
+    this.mark();
+    this.draw();
+  }
+
+  /** The spectrum of the chosen node: as exact as the shapes are. */
+  nodePlot() {
+    const { run, node } = this, at = [0, 1, 2].map(k => (1e3 * this.skin.points[3 * node + k]).toFixed(0)).join(", ");
+    const component = k => Float32Array.from({ length: run.frequency.length }, (_, line) => {
+      let [a, b] = [0, 0];
+      const [re, im] = [run.re.row(line), run.im.row(line)];
+      for (let j = this.withRigid ? 0 : RIGID; j < re.length; ++j) {
+        const shape = this.shapes.factor[j] * this.shapes.row(j)[3 * node + k];
+        a += run.re.factor[line] * re[j] * shape;
+        b += run.im.factor[line] * im[j] * shape;
+      }
+      return 1e3 * Math.hypot(a, b);
+    });
+    return new Plot({ title: `Velocity at (${at}) mm`, height: 16, x: { label: "frequency [Hz]" }, y: { label: "amplitude [mm/s], peak", log: true, range: 1e5 }, pick: hz => this.goTo("line", nearestIndex(run.frequency, hz)),
+      lines: ["x", "y", "z"].map((name, k) => ({ name, number: k, wide: 1, x: run.frequency, y: component(k) })), note: this.withRigid ? "With the rigid motion." : "Without the rigid motion." }).element;
   }
 
   spectrumPlot() {
@@ -274,7 +308,7 @@ class Surface {
       const panel = run?.panels.find(one => one.name === name), power = panel?.measures.erp;
       return [element("td", { class: "text" }, element("i", { style: `display:inline-block;width:.9em;height:.9em;border-radius:.2em;margin-right:.5em;background:${this.panelColour(k)}` }), labels[k]), panel ? figure(1e4 * panel.area_m2) : "–", power ? power.dba.toFixed(1) : "–"];
     });
-    return card("Panels", table(["panel", "area [cm²]", "ERP [dB(A) re 1 pW]"], rows));
+    return tableCard("Panels", ["panel", "area [cm²]", "ERP [dB(A) re 1 pW]"], rows);
   }
 
   mark() {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A canvas with a skin that is turned, moved and magnified by pointer, fingers and keys.
 
+const CLICK_PIXELS = 4;  // less is no drag
 const TURN = 0.008;  // rad per pixel
 const VIEWS = { "three-quarter": [40, 25], "along x": [0, 0], "along y": [90, 0], "from above": [0, 89.9] };
 
 class View {
-  /** `paint` is called to draw; `keys` maps further keys to functions. */
-  constructor(canvas, paint, keys) {
+  /** `paint` is called to draw, `choose` with the pixel that is clicked; `keys` maps further keys to functions. */
+  constructor(canvas, paint, choose, keys) {
     this.canvas = canvas;
+    this.choose = choose;
     this.redraw = whenVisible(canvas, paint);
     this.fingers = new Map();
     this.turnTo("three-quarter");
@@ -43,7 +45,8 @@ class View {
 
   listen(keys) {
     const { canvas, fingers } = this;
-    canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); fingers.set(event.pointerId, [event.clientX, event.clientY]); });
+    canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); fingers.set(event.pointerId, [event.clientX, event.clientY]); this.moved = false; });
+    canvas.addEventListener("pointerup", event => { if (!this.moved && fingers.size === 1) this.choose(event.offsetX, event.offsetY); });
     for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, event => fingers.delete(event.pointerId));
     canvas.addEventListener("pointermove", event => this.pointer(event));
     canvas.addEventListener("wheel", event => {
@@ -61,6 +64,8 @@ class View {
     const before = this.fingers.get(event.pointerId);
     if (!before) return;
     const [dx, dy] = [event.clientX - before[0], event.clientY - before[1]];
+    if (!this.moved && Math.hypot(dx, dy) < CLICK_PIXELS) return;
+    this.moved = true;
     if (this.fingers.size === 2) {
       const [other] = [...this.fingers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
       const length = at => Math.hypot(at[0] - other[0], at[1] - other[1]);
