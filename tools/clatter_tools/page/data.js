@@ -4,7 +4,15 @@
 const page = JSON.parse(document.getElementById("page-data").textContent);
 const blocks = new Map();
 const arrays = new WeakMap();
-const KINDS = { f4: Float32Array, u1: Uint8Array, i1: Int8Array, u2: Uint16Array, i2: Int16Array, u4: Uint32Array, f8: Float64Array };
+const KINDS = {
+  f4: Float32Array,
+  u1: Uint8Array,
+  i1: Int8Array,
+  u2: Uint16Array,
+  i2: Int16Array,
+  u4: Uint32Array,
+  f8: Float64Array,
+};
 
 async function readBlock(name) {
   const holder = document.getElementById(`block-${name}`);
@@ -18,7 +26,9 @@ async function readBlock(name) {
 
 /** Bytes in their order again: in a block those of equal weight are together. */
 function joined(block, { at, kind, shape }) {
-  const Kind = KINDS[kind], size = Kind.BYTES_PER_ELEMENT, count = shape.reduce((a, b) => a * b, 1);
+  const Kind = KINDS[kind],
+    size = Kind.BYTES_PER_ELEMENT,
+    count = shape.reduce((a, b) => a * b, 1);
   if (size === 1) return new Kind(block.buffer, at, count);
   const bytes = new Uint8Array(count * size);
   for (let plane = 0; plane < size; ++plane) {
@@ -34,7 +44,8 @@ async function numbers(reference) {
   if (arrays.has(reference)) return arrays.get(reference);
   if (!blocks.has(reference.block)) blocks.set(reference.block, readBlock(reference.block));
   let values = joined(await blocks.get(reference.block), reference);
-  if (reference.scale !== undefined) values = Float32Array.from(values, one => reference.offset + reference.scale * one);
+  if (reference.scale !== undefined)
+    values = Float32Array.from(values, one => reference.offset + reference.scale * one);
   arrays.set(reference, values);
   return values;
 }

@@ -16,7 +16,12 @@ function element(tag, attributes = {}, ...children) {
 
 /** A section of the page; `short` is its name in the navigation. */
 function section(id, short, title, lead) {
-  const made = element("section", { id, "aria-label": title, "data-short": short }, element("h2", {}, title), lead ? element("p", { class: "lead" }, lead) : null);
+  const made = element(
+    "section",
+    { id, "aria-label": title, "data-short": short },
+    element("h2", {}, title),
+    lead ? element("p", { class: "lead" }, lead) : null,
+  );
   document.getElementById("main").append(made);
   return made;
 }
@@ -27,10 +32,18 @@ function grid(...children) {
 
 /** Sentences as a list: [state, text] or text. A number stays with its unit. */
 function wordList(sentences) {
-  return element("ul", { class: "words" }, sentences.map(one => {
-    const [state, text] = Array.isArray(one) ? one : ["good", one];
-    return element("li", { class: { note: "note-state", bad: "bad" }[state] }, text.replace(/ (%|dB|Hz|rpm|N|µm)(?![a-z])/g, "\u00a0$1"));
-  }));
+  return element(
+    "ul",
+    { class: "words" },
+    sentences.map(one => {
+      const [state, text] = Array.isArray(one) ? one : ["good", one];
+      return element(
+        "li",
+        { class: { note: "note-state", bad: "bad" }[state] },
+        text.replace(/ (%|dB|Hz|rpm|N|µm)(?![a-z])/g, "\u00a0$1"),
+      );
+    }),
+  );
 }
 
 function card(title, ...children) {
@@ -43,15 +56,36 @@ function tableCard(title, head, rows, texts, ...children) {
   const cells = row => [...row.children].map(cell => cell.textContent);
   const columns = () => {
     const lines = [...made.querySelectorAll("tbody tr")].map(cells);
-    return cells(made.querySelector("thead tr")).map((name, k) => ({ name, values: lines.map(line => line[k]) })).filter(one => one.name || one.values.some(Boolean));
+    return cells(made.querySelector("thead tr"))
+      .map((name, k) => ({ name, values: lines.map(line => line[k]) }))
+      .filter(one => one.name || one.values.some(Boolean));
   };
-  return element("div", { class: "card" }, element("div", { class: "title" }, element("h3", {}, title), saveButtons(title, null, columns)), made, ...children);
+  return element(
+    "div",
+    { class: "card" },
+    element("div", { class: "title" }, element("h3", {}, title), saveButtons(title, null, columns)),
+    made,
+    ...children,
+  );
 }
 
 /** Buttons of which one is pressed; `choose` gets its value. Returns { element, set(value) }. */
 function choices(name, options, first, choose) {
-  const buttons = options.map(([value, label]) => element("button", { type: "button", class: "choice", "data-value": value,
-    onclick: () => { set(value); choose(value); } }, label));
+  const buttons = options.map(([value, label]) =>
+    element(
+      "button",
+      {
+        type: "button",
+        class: "choice",
+        "data-value": value,
+        onclick: () => {
+          set(value);
+          choose(value);
+        },
+      },
+      label,
+    ),
+  );
   function set(value) {
     for (const button of buttons) button.setAttribute("aria-pressed", button.dataset.value === String(value));
   }
@@ -61,7 +95,11 @@ function choices(name, options, first, choose) {
 
 /** A list to select from, with its label; options are [value, label]. */
 function selection(label, options, choose) {
-  const list = element("select", { onchange: () => choose(list.value) }, options.map(([value, text]) => element("option", { value }, text)));
+  const list = element(
+    "select",
+    { onchange: () => choose(list.value) },
+    options.map(([value, text]) => element("option", { value }, text)),
+  );
   return { element: element("label", {}, label, list), list };
 }
 
@@ -81,8 +119,34 @@ function checkbox(label, checked, change) {
 /** A table; cells of the named columns are texts, of the others numbers. */
 function table(head, rows, texts = [0]) {
   const kind = column => (texts.includes(column) ? { class: "text" } : {});
-  return element("div", { class: "scroll" }, element("table", {},
-    element("thead", {}, element("tr", {}, head.map((cell, k) => element("th", { scope: "col", ...kind(k) }, cell)))),
-    element("tbody", {}, rows.map(row => element("tr", {}, row.map((cell, k) => (cell instanceof Element ? cell
-      : element("td", kind(k), cell === null ? "–" : String(cell)))))))));
+  return element(
+    "div",
+    { class: "scroll" },
+    element(
+      "table",
+      {},
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          head.map((cell, k) => element("th", { scope: "col", ...kind(k) }, cell)),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        rows.map(row =>
+          element(
+            "tr",
+            {},
+            row.map((cell, k) =>
+              cell instanceof Element ? cell : element("td", kind(k), cell === null ? "–" : String(cell)),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }

@@ -2,19 +2,37 @@
 // The page: its head, its sections in order, its navigation.
 
 function head() {
-  const common = page.runs[0]?.label.split(", ").slice(0, page.runs.length > 1 ? commonWords : 0).join(", ");
-  document.getElementById("top").append(element("div", { class: "row" }, element("h1", {}, `${page.title}${common ? `: ${common}` : ""}`), element("nav", { "aria-label": "sections" }), themeSwitch()), runChips());
+  const common = page.runs[0]?.label
+    .split(", ")
+    .slice(0, page.runs.length > 1 ? commonWords : 0)
+    .join(", ");
+  document
+    .getElementById("top")
+    .append(
+      element(
+        "div",
+        { class: "row" },
+        element("h1", {}, `${page.title}${common ? `: ${common}` : ""}`),
+        element("nav", { "aria-label": "sections" }),
+        themeSwitch(),
+      ),
+      runChips(),
+    );
 }
 
 function navigation() {
-  const nav = document.querySelector("header nav"), links = new Map();
+  const nav = document.querySelector("header nav"),
+    links = new Map();
   for (const one of document.querySelectorAll("main > section")) {
     links.set(one, element("a", { href: `#${one.id}` }, one.dataset.short));
     nav.append(links.get(one));
   }
-  const watch = new IntersectionObserver(entries => {
-    for (const { target, isIntersecting } of entries) links.get(target).classList.toggle("here", isIntersecting);
-  }, { rootMargin: "-20% 0px -70% 0px" });
+  const watch = new IntersectionObserver(
+    entries => {
+      for (const { target, isIntersecting } of entries) links.get(target).classList.toggle("here", isIntersecting);
+    },
+    { rootMargin: "-20% 0px -70% 0px" },
+  );
   for (const one of links.keys()) watch.observe(one);
 }
 

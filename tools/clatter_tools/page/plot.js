@@ -12,14 +12,28 @@ class Plot {
     this.cursor = null;
     this.zoom = null;
     this.drag = null;
-    this.canvas = element("canvas", { tabindex: 0, role: "img", style: `flex-basis: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
-      "aria-label": `${spec.title}. Arrow keys move the cursor, plus and minus magnify, Escape shows everything.` });
+    this.canvas = element("canvas", {
+      tabindex: 0,
+      role: "img",
+      style: `flex-basis: ${spec.height ?? PLOT_HEIGHT_REM}rem`,
+      "aria-label": `${spec.title}. Arrow keys move the cursor, plus and minus magnify, Escape shows everything.`,
+    });
     this.legend = element("div", { class: "legend" });
-    const save = saveButtons(spec.title, () => this.picture(), () => this.columns());
+    const save = saveButtons(
+      spec.title,
+      () => this.picture(),
+      () => this.columns(),
+    );
     this.reset = element("button", { type: "button", hidden: true, onclick: () => this.show(null) }, "all");
     save.prepend(this.reset);
-    this.element = element("figure", { class: "plot" }, element("figcaption", {}, element("h3", {}, spec.title), save),
-      this.legend, this.canvas, this.note = element("p", { class: "note" }));
+    this.element = element(
+      "figure",
+      { class: "plot" },
+      element("figcaption", {}, element("h3", {}, spec.title), save),
+      this.legend,
+      this.canvas,
+      (this.note = element("p", { class: "note" })),
+    );
     this.redraw = whenVisible(this.canvas, () => this.draw());
     this.update({});
     this.listen();
@@ -35,7 +49,9 @@ class Plot {
   }
 
   lines() {
-    return this.spec.lines.filter(line => line.y && line.y.length && (line.run === undefined || shownRuns.has(line.run)));
+    return this.spec.lines.filter(
+      line => line.y && line.y.length && (line.run === undefined || shownRuns.has(line.run)),
+    );
   }
 
   colour(line, k) {
@@ -59,19 +75,30 @@ class Plot {
     if (this.spec.x.log && !(min > 0)) min = max / 1e3;
     if (lines.some(line => line.kind === "points")) [min, max] = [min - 0.02 * (max - min), max + 0.02 * (max - min)];
     const whole = { min: min ?? 0, max: max > min ? max : (min ?? 0) + 1, log: this.spec.x.log };
-    if (this.spec.x.angles && whole.max - whole.min > 300) Object.assign(whole, { min: 90 * Math.round(whole.min / 90), max: 90 * Math.round(whole.max / 90) });
+    if (this.spec.x.angles && whole.max - whole.min > 300)
+      Object.assign(whole, { min: 90 * Math.round(whole.min / 90), max: 90 * Math.round(whole.max / 90) });
     return this.zoom ? { ...whole, ...this.zoom } : whole;
   }
 
   limitsY(lines, { min: left, max: right }) {
-    let low = Infinity, high = -Infinity;
-    const take = value => { if (Number.isFinite(value)) { low = Math.min(low, value); high = Math.max(high, value); } };
+    let low = Infinity,
+      high = -Infinity;
+    const take = value => {
+      if (Number.isFinite(value)) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
+    };
     for (const { x, y, low: lower } of lines)
       for (let k = 0; k < y.length; ++k)
-        if (x[Math.min(k + 1, x.length - 1)] >= left && x[k] <= right) { take(y[k]); if (lower) take(lower[k]); }
+        if (x[Math.min(k + 1, x.length - 1)] >= left && x[k] <= right) {
+          take(y[k]);
+          if (lower) take(lower[k]);
+        }
     const { y } = this.spec;
     if (!(low <= high)) [low, high] = [y.log ? 0.1 : 0, 1];
-    if (y.log) return { min: y.min ?? Math.max(low, high / (y.range ?? 1e6)) * 0.8, max: y.max ?? high * 1.25, log: true };
+    if (y.log)
+      return { min: y.min ?? Math.max(low, high / (y.range ?? 1e6)) * 0.8, max: y.max ?? high * 1.25, log: true };
     if (y.range) low = Math.max(low, high - y.range);
     const margin = 0.06 * (high - low) || 0.05 * Math.abs(high) || 1;
     return { min: y.min ?? low - margin, max: y.max ?? high + margin };
@@ -88,15 +115,23 @@ class Plot {
 
   /** Draws axes and lines into a part of a canvas; returns the scales. */
   paint(context, { left, top, width, height }) {
-    const lines = this.lines(), colours = ink(), { size, css } = drawingFont();
-    const x = this.limitsX(lines), y = this.limitsY(lines, x);
+    const lines = this.lines(),
+      colours = ink(),
+      { size, css } = drawingFont();
+    const x = this.limitsX(lines),
+      y = this.limitsY(lines, x);
     context.font = css;
     const ticksY = y.log ? logTicks(y.min, y.max) : linearTicks(y.min, y.max, (height - 4 * size) / (2.8 * size));
     const stepY = ticksY.length > 1 ? ticksY[1] - ticksY[0] : 1;
     const labelsY = ticksY.map(tick => tickText(tick, stepY));
-    const box = { left: left + 1.9 * size + Math.max(...labelsY.map(label => context.measureText(label).width), size),
-      right: left + width - 1.7 * size, top: top + 0.7 * size, bottom: top + height - 3.1 * size };
-    const sx = axisScale(x, box.left, box.right), sy = axisScale(y, box.bottom, box.top);
+    const box = {
+      left: left + 1.9 * size + Math.max(...labelsY.map(label => context.measureText(label).width), size),
+      right: left + width - 1.7 * size,
+      top: top + 0.7 * size,
+      bottom: top + height - 3.1 * size,
+    };
+    const sx = axisScale(x, box.left, box.right),
+      sy = axisScale(y, box.bottom, box.top);
     this.paintAxes(context, { x, y, sx, sy, box, ticksY, labelsY, colours, size });
     context.save();
     context.beginPath();
@@ -105,10 +140,20 @@ class Plot {
     for (const mark of this.spec.marks ?? []) {
       context.strokeStyle = colours.quiet;
       context.setLineDash([2, 3]);
-      stroke(context, [[sx.to(mark), box.top], [sx.to(mark), box.bottom]], 1);
+      stroke(
+        context,
+        [
+          [sx.to(mark), box.top],
+          [sx.to(mark), box.bottom],
+        ],
+        1,
+      );
       context.setLineDash([]);
     }
-    lines.map((line, k) => [line, this.colour(line, k)]).reverse().forEach(([line, colour]) => paintLine(context, line, colour, sx, sy, box));
+    lines
+      .map((line, k) => [line, this.colour(line, k)])
+      .reverse()
+      .forEach(([line, colour]) => paintLine(context, line, colour, sx, sy, box));
     this.paintCursor(context, sx, sy, box, lines, colours);
     context.restore();
     return { sx, sy, box };
@@ -120,28 +165,60 @@ class Plot {
     context.textAlign = "right";
     ticksY.forEach((tick, k) => {
       context.strokeStyle = colours.grid;
-      stroke(context, [[box.left, sy.to(tick)], [box.right, sy.to(tick)]], 1);
+      stroke(
+        context,
+        [
+          [box.left, sy.to(tick)],
+          [box.right, sy.to(tick)],
+        ],
+        1,
+      );
       context.fillStyle = colours.quiet;
       context.fillText(labelsY[k], box.left - 0.5 * size, sy.to(tick));
     });
     const count = (box.right - box.left) / (5.2 * size);
     const own = this.spec.x.ticks;
-    const ticks = own ? thinned(own.filter(([value]) => value >= x.min && value <= x.max), count)
-      : (x.log ? logTicks(x.min, x.max) : linearTicks(x.min, x.max, count, this.spec.x.angles)).map((tick, k, all) => [tick, tickText(tick, all.length > 1 ? all[1] - all[0] : 1)]);
+    const ticks = own
+      ? thinned(
+          own.filter(([value]) => value >= x.min && value <= x.max),
+          count,
+        )
+      : (x.log ? logTicks(x.min, x.max) : linearTicks(x.min, x.max, count, this.spec.x.angles)).map((tick, k, all) => [
+          tick,
+          tickText(tick, all.length > 1 ? all[1] - all[0] : 1),
+        ]);
     context.textAlign = "center";
     context.textBaseline = "top";
     for (const [tick, label] of ticks) {
       context.strokeStyle = colours.grid;
-      stroke(context, [[sx.to(tick), box.top], [sx.to(tick), box.bottom]], 1);
+      stroke(
+        context,
+        [
+          [sx.to(tick), box.top],
+          [sx.to(tick), box.bottom],
+        ],
+        1,
+      );
       context.fillStyle = colours.quiet;
       context.fillText(label, sx.to(tick), box.bottom + 0.4 * size);
     }
     context.strokeStyle = colours.line;
-    stroke(context, [[box.left, box.top], [box.left, box.bottom], [box.right, box.bottom]], 1.2);
+    stroke(
+      context,
+      [
+        [box.left, box.top],
+        [box.left, box.bottom],
+        [box.right, box.bottom],
+      ],
+      1.2,
+    );
     context.fillStyle = colours.text;
     context.fillText(this.spec.x.label, 0.5 * (box.left + box.right), box.bottom + 1.75 * size, box.right - box.left);
     context.save();
-    context.translate(box.left - (1.9 * size + Math.max(...labelsY.map(label => context.measureText(label).width), size)) + 0.1 * size, 0.5 * (box.top + box.bottom));
+    context.translate(
+      box.left - (1.9 * size + Math.max(...labelsY.map(label => context.measureText(label).width), size)) + 0.1 * size,
+      0.5 * (box.top + box.bottom),
+    );
     context.rotate(-Math.PI / 2);
     context.fillText(this.spec.y.label, 0, 0, box.bottom - box.top + 2 * size);
     context.restore();
@@ -150,11 +227,23 @@ class Plot {
   paintCursor(context, sx, sy, box, lines, colours) {
     if (this.drag?.moved) {
       context.fillStyle = colours.accent + "33";
-      context.fillRect(sx.to(this.drag.from), box.top, sx.to(this.drag.to) - sx.to(this.drag.from), box.bottom - box.top);
+      context.fillRect(
+        sx.to(this.drag.from),
+        box.top,
+        sx.to(this.drag.to) - sx.to(this.drag.from),
+        box.bottom - box.top,
+      );
     }
     if (this.cursor === null) return;
     context.strokeStyle = colours.text;
-    stroke(context, [[sx.to(this.cursor), box.top], [sx.to(this.cursor), box.bottom]], 1);
+    stroke(
+      context,
+      [
+        [sx.to(this.cursor), box.top],
+        [sx.to(this.cursor), box.bottom],
+      ],
+      1,
+    );
     lines.forEach((line, k) => {
       const at = nearest(line, this.cursor);
       context.fillStyle = this.colour(line, k);
@@ -166,32 +255,53 @@ class Plot {
 
   writeLegend() {
     const lines = this.lines();
-    const values = this.cursor === null ? [] : [element("span", {}, `${this.spec.x.name ?? "at"} `, element("b", {}, this.cursorText(lines)))];
-    this.legend.replaceChildren(...values, ...lines.filter(line => line.name).map(line => {
-      const k = lines.indexOf(line);
-      return element("span", {}, element("i", { class: line.dash ? "dashed" : null, style: `--colour: ${this.colour(line, k)}` }), line.name,
-        this.cursor === null ? null : element("b", {}, figure(line.y[nearest(line, this.cursor)])));
-    }));
+    const values =
+      this.cursor === null
+        ? []
+        : [element("span", {}, `${this.spec.x.name ?? "at"} `, element("b", {}, this.cursorText(lines)))];
+    this.legend.replaceChildren(
+      ...values,
+      ...lines
+        .filter(line => line.name)
+        .map(line => {
+          const k = lines.indexOf(line);
+          return element(
+            "span",
+            {},
+            element("i", { class: line.dash ? "dashed" : null, style: `--colour: ${this.colour(line, k)}` }),
+            line.name,
+            this.cursor === null ? null : element("b", {}, figure(line.y[nearest(line, this.cursor)])),
+          );
+        }),
+    );
     // With values the legend may need one more row: it keeps it, so that the plot does not jump.
     if (this.cursor !== null) this.legend.style.minHeight = `${this.legend.offsetHeight}px`;
   }
 
   cursorText(lines) {
-    if (this.spec.x.ticks && lines[0]?.kind === "stairs") return this.spec.x.names?.[nearest(lines[0], this.cursor)] ?? figure(this.cursor);
+    if (this.spec.x.ticks && lines[0]?.kind === "stairs")
+      return this.spec.x.names?.[nearest(lines[0], this.cursor)] ?? figure(this.cursor);
     return figure(lines[0] ? lines[0].x[nearest(lines[0], this.cursor)] : this.cursor, 4);
   }
 
   listen() {
     const { canvas } = this;
     const valueAt = event => {
-      const { sx, box } = this.frame, at = event.clientX - canvas.getBoundingClientRect().left;
+      const { sx, box } = this.frame,
+        at = event.clientX - canvas.getBoundingClientRect().left;
       return sx.from(Math.min(box.right, Math.max(box.left, at)));
     };
-    canvas.addEventListener("pointerdown", event => { if (this.frame) this.drag = { from: valueAt(event), to: valueAt(event), at: event.clientX, moved: false }; });
+    canvas.addEventListener("pointerdown", event => {
+      if (this.frame) this.drag = { from: valueAt(event), to: valueAt(event), at: event.clientX, moved: false };
+    });
     canvas.addEventListener("pointermove", event => {
       if (!this.frame) return;
       this.cursor = valueAt(event);
-      if (this.drag) { this.drag.to = this.cursor; this.drag.moved ||= Math.abs(event.clientX - this.drag.at) > 6; if (this.drag.moved) canvas.setPointerCapture(event.pointerId); }
+      if (this.drag) {
+        this.drag.to = this.cursor;
+        this.drag.moved ||= Math.abs(event.clientX - this.drag.at) > 6;
+        if (this.drag.moved) canvas.setPointerCapture(event.pointerId);
+      }
       this.redraw();
     });
     canvas.addEventListener("pointerup", () => {
@@ -201,7 +311,14 @@ class Plot {
       else if (drag && this.spec.pick) this.spec.pick(drag.from);
       this.redraw();
     });
-    for (const name of ["pointerleave", "pointercancel", "blur"]) canvas.addEventListener(name, () => { if (!this.drag || name !== "pointerleave") { this.drag = null; this.cursor = null; this.redraw(); } });
+    for (const name of ["pointerleave", "pointercancel", "blur"])
+      canvas.addEventListener(name, () => {
+        if (!this.drag || name !== "pointerleave") {
+          this.drag = null;
+          this.cursor = null;
+          this.redraw();
+        }
+      });
     canvas.addEventListener("dblclick", () => this.show(null));
     canvas.addEventListener("keydown", event => this.key(event));
   }
@@ -209,8 +326,10 @@ class Plot {
   key(event) {
     const line = this.lines()[0];
     if (!line || !this.frame) return;
-    const limits = this.limitsX(this.lines()), { sx, box } = this.frame;
-    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key], factor = { "+": 0.5, "-": 2 }[event.key];
+    const limits = this.limitsX(this.lines()),
+      { sx, box } = this.frame;
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key],
+      factor = { "+": 0.5, "-": 2 }[event.key];
     const now = this.cursor ?? sx.from(0.5 * (box.left + box.right));
     if (step) {
       const skip = event.shiftKey ? Math.max(1, Math.round(line.y.length / 40)) : 1;
@@ -230,15 +349,25 @@ class Plot {
 
   /** The plot with its title and legend as a picture. */
   picture() {
-    return picture(this.spec.title, this.canvas, this.lines().filter(line => line.name).map(line => [line.name, this.colour(line, this.lines().indexOf(line))]),
-      (context, box) => this.paint(context, box));
+    return picture(
+      this.spec.title,
+      this.canvas,
+      this.lines()
+        .filter(line => line.name)
+        .map(line => [line.name, this.colour(line, this.lines().indexOf(line))]),
+      (context, box) => this.paint(context, box),
+    );
   }
 
   columns() {
     const found = [];
     let before = null;
     for (const line of this.lines()) {
-      if (!sameValues(line.x, before)) found.push({ name: line.kind === "stairs" ? `${this.spec.x.label}, lower edge` : this.spec.x.label, values: line.kind === "stairs" ? line.x.subarray?.(0, line.y.length) ?? line.x.slice(0, -1) : line.x });
+      if (!sameValues(line.x, before))
+        found.push({
+          name: line.kind === "stairs" ? `${this.spec.x.label}, lower edge` : this.spec.x.label,
+          values: line.kind === "stairs" ? (line.x.subarray?.(0, line.y.length) ?? line.x.slice(0, -1)) : line.x,
+        });
       before = line.x;
       const name = line.name ? `${line.name}: ${this.spec.y.label}` : this.spec.y.label;
       if (line.low) found.push({ name: `${name}, lowest`, values: line.low });
@@ -248,109 +377,7 @@ class Plot {
   }
 }
 
-/** A picture for saving: title, legend of [name, colour], and what `paint` draws. */
-function picture(title, canvas, legend, paint) {
-  const ratio = 2, { size } = drawingFont(), { clientWidth: width, clientHeight: height } = canvas;
-  const rows = [[]];
-  const made = element("canvas"), context = made.getContext("2d");
-  context.font = drawingFont().css;
-  let used = 0;
-  for (const entry of legend) {
-    const wide = context.measureText(entry[0]).width + 4 * size;
-    if (used + wide > width && rows[rows.length - 1].length) { rows.push([]); used = 0; }
-    rows[rows.length - 1].push([...entry, used]);
-    used += wide;
-  }
-  const head = 2.4 * size + 1.5 * size * rows.length;
-  made.width = ratio * width;
-  made.height = ratio * (height + head);
-  context.scale(ratio, ratio);
-  const colours = ink();
-  context.fillStyle = colours.card;
-  context.fillRect(0, 0, width, height + head);
-  context.fillStyle = colours.text;
-  context.textBaseline = "top";
-  context.font = drawingFont("bold").css;
-  context.fillText(title, 0.6 * size, 0.6 * size, width - size);
-  context.font = drawingFont().css;
-  rows.forEach((row, k) => row.forEach(([name, colour, at]) => {
-    context.fillStyle = colour;
-    context.fillRect(0.6 * size + at, (2.75 + 1.5 * k) * size, 1.2 * size, 0.3 * size);
-    context.fillStyle = colours.text;
-    context.fillText(name, 2.3 * size + at, (2.35 + 1.5 * k) * size);
-  }));
-  paint(context, { left: 0, top: head, width, height });
-  return made;
-}
-
-function stroke(context, points, width) {
-  context.lineWidth = width;
-  context.beginPath();
-  points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
-  context.stroke();
-}
-
 /** Whether two axes are the same, so that a table has them once. */
 function sameValues(a, b) {
   return a === b || (b !== null && a.length === b.length && a.every((one, k) => one === b[k]));
-}
-
-/** Of labelled ticks as many as there is space for. */
-function thinned(ticks, count) {
-  const every = Math.max(1, Math.ceil(ticks.length / Math.max(1, count)));
-  return ticks.filter((_, k) => k % every === 0);
-}
-
-/** Index of the value of a line that belongs to x. */
-function nearest({ x, y, kind }, at) {
-  let low = 0, high = x.length - 1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (x[middle] <= at) low = middle; else high = middle;
-  }
-  if (kind === "stairs") return Math.min(low, y.length - 1);
-  return Math.abs(x[high] - at) < Math.abs(x[low] - at) ? high : low;
-}
-
-function paintLine(context, line, colour, sx, sy, box) {
-  context.strokeStyle = context.fillStyle = colour;
-  context.lineJoin = "round";
-  context.setLineDash(line.dash ?? []);
-  context.lineWidth = line.wide ?? 1.5;
-  const { x, y, kind } = line;
-  if (kind === "points") {
-    for (let k = 0; k < y.length; ++k) { context.beginPath(); context.arc(sx.to(x[k]), sy.to(y[k]), 3.4, 0, 7); context.fill(); }
-  } else if (kind === "area") {
-    context.globalAlpha = 0.25;
-    context.beginPath();
-    for (let k = 0; k < y.length; ++k) context.lineTo(sx.to(x[k]), sy.to(y[k]));
-    for (let k = y.length - 1; k >= 0; --k) context.lineTo(sx.to(x[k]), sy.to(line.low[k]));
-    context.fill();
-    context.globalAlpha = 1;
-  } else if (kind === "stairs") {
-    context.beginPath();
-    for (let k = 0; k < y.length; ++k) { const at = Math.min(sy.to(y[k]), box.bottom + 9); context.lineTo(sx.to(x[k]), at); context.lineTo(sx.to(x[k + 1]), at); }
-    context.stroke();
-  } else tracePolyline(context, x, y, sx, sy, box);
-  context.setLineDash([]);
-}
-
-/** A polyline; of many values in one column of pixels only the least and the largest. Values that are not numbers are gaps. */
-function tracePolyline(context, x, y, sx, sy, box) {
-  context.beginPath();
-  let pen = false, column = NaN, low = 0, high = 0, last = 0;
-  const flush = () => { if (low !== high) { context.lineTo(column, low); context.lineTo(column, high); } context.lineTo(column, last); };
-  const clip = value => Math.min(box.bottom + 2000, Math.max(box.top - 2000, value));
-  for (let k = 0; k < y.length; ++k) {
-    const px = sx.to(x[k]);
-    if (!Number.isFinite(y[k])) { if (pen) flush(); pen = false; column = NaN; continue; }
-    if (px < box.left - 50 && sx.to(x[Math.min(k + 1, y.length - 1)]) < box.left - 50) continue;
-    const py = clip(sy.to(y[k])), at = Math.round(2 * px) / 2;
-    if (!pen) { context.moveTo(at, py); pen = true; } else if (at !== column) flush();
-    if (at !== column) { column = at; low = high = py; } else { low = Math.min(low, py); high = Math.max(high, py); }
-    last = py;
-    if (px > box.right + 50) break;
-  }
-  if (pen) flush();
-  context.stroke();
 }

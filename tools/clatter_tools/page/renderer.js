@@ -48,7 +48,7 @@ class Renderer {
   /** Throws where the browser has no WebGL2. */
   constructor(canvas) {
     this.canvas = canvas;
-    const gl = this.gl = canvas.getContext("webgl2", { antialias: true, alpha: true });
+    const gl = (this.gl = canvas.getContext("webgl2", { antialias: true, alpha: true }));
     if (!gl) throw new Error("this browser has no WebGL2, which the 3-D view needs");
     this.surface = program(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
     this.edge = program(gl, SURFACE_VERTEX, EDGE_FRAGMENT);
@@ -69,7 +69,10 @@ class Renderer {
     attribute(gl, 0, skin.points);
     this.buffers = [1, 2].map(location => attribute(gl, location, new Float32Array(skin.points.length)));
     const groups = new Map();
-    skin.owner?.forEach((owner, face) => { if (!groups.has(owner)) groups.set(owner, []); groups.get(owner).push(face); });
+    skin.owner?.forEach((owner, face) => {
+      if (!groups.has(owner)) groups.set(owner, []);
+      groups.get(owner).push(face);
+    });
     const Index = skin.triangles.constructor;
     this.indexType = Index === Uint16Array ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT;
     this.ranges = [];
@@ -79,7 +82,10 @@ class Renderer {
       let at = 0;
       for (const [owner, faces] of groups) {
         const first = at;
-        for (const face of faces) { sorted.set(skin.triangles.subarray(12 * face, 12 * face + 12), at); at += 12; }
+        for (const face of faces) {
+          sorted.set(skin.triangles.subarray(12 * face, 12 * face + 12), at);
+          at += 12;
+        }
         this.ranges.push({ owner, first: first * Index.BYTES_PER_ELEMENT, count: at - first });
       }
     }
@@ -106,7 +112,8 @@ class Renderer {
   /** Draws { view, projection, phase, enlargement, shown, range, colours, panels, outline, edges, ink }: `panels` are colours by panel
       instead of by value. */
   draw(picture) {
-    const { gl } = this, { width, height } = fitCanvas(this.canvas);
+    const { gl } = this,
+      { width, height } = fitCanvas(this.canvas);
     if (!width || !height) return;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(0, 0, 0, 0);
@@ -128,7 +135,8 @@ class Renderer {
   }
 
   paintSurface(picture) {
-    const { gl } = this, at = this.use(this.surface, picture, picture.enlargement);
+    const { gl } = this,
+      at = this.use(this.surface, picture, picture.enlargement);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.indices);
     gl.bindTexture(gl.TEXTURE_2D, this.maps[picture.colours]);
     gl.uniform2f(at("range"), ...picture.range);
@@ -145,14 +153,16 @@ class Renderer {
   }
 
   paintEdges(picture, enlargement, colour) {
-    const { gl } = this, at = this.use(this.edge, picture, enlargement);
+    const { gl } = this,
+      at = this.use(this.edge, picture, enlargement);
     gl.uniform4f(at("plain"), ...colour);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.edges);
     gl.drawElements(gl.LINES, this.edgeCount, this.indexType, 0);
   }
 
   paintMark(picture) {
-    const { gl } = this, at = this.use(this.edge, picture, picture.enlargement);
+    const { gl } = this,
+      at = this.use(this.edge, picture, picture.enlargement);
     gl.disable(gl.DEPTH_TEST);
     gl.uniform4f(at("plain"), ...rgb(picture.ink.accent), 1);
     gl.drawArrays(gl.POINTS, this.marked, 1);
@@ -160,7 +170,8 @@ class Renderer {
   }
 
   use(own, picture, enlargement) {
-    const { gl } = this, at = name => gl.getUniformLocation(own, name);
+    const { gl } = this,
+      at = name => gl.getUniformLocation(own, name);
     gl.useProgram(own);
     gl.uniformMatrix4fv(at("view"), false, picture.view);
     gl.uniformMatrix4fv(at("projection"), false, picture.projection);
@@ -172,7 +183,10 @@ class Renderer {
 
 function program(gl, vertex, fragment) {
   const made = gl.createProgram();
-  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  for (const [kind, source] of [
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
@@ -203,7 +217,17 @@ function indexBuffer(gl, values) {
 function colourTexture(gl, table) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
-  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, Uint8Array.from(table.flatMap(row => [...row, 255])));
+  gl.texImage2D(
+    gl.TEXTURE_2D,
+    0,
+    gl.RGBA,
+    table.length,
+    1,
+    0,
+    gl.RGBA,
+    gl.UNSIGNED_BYTE,
+    Uint8Array.from(table.flatMap(row => [...row, 255])),
+  );
   for (const name of ["TEXTURE_MIN_FILTER", "TEXTURE_MAG_FILTER"]) gl.texParameteri(gl.TEXTURE_2D, gl[name], gl.LINEAR);
   for (const name of ["TEXTURE_WRAP_S", "TEXTURE_WRAP_T"]) gl.texParameteri(gl.TEXTURE_2D, gl[name], gl.CLAMP_TO_EDGE);
   return texture;

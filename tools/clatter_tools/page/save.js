@@ -8,7 +8,11 @@ function download(name, blob) {
 }
 
 function fileName(title, ending) {
-  return `${title.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "").slice(0, 80)}.${ending}`;
+  return `${title
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, "_")
+    .replace(/^_|_$/g, "")
+    .slice(0, 80)}.${ending}`;
 }
 
 function csvCell(value) {
@@ -20,7 +24,8 @@ function csvCell(value) {
 function csvText(columns) {
   const rows = Math.max(0, ...columns.map(column => column.values.length));
   const lines = [columns.map(column => csvCell(column.name)).join(",")];
-  for (let k = 0; k < rows; ++k) lines.push(columns.map(column => (k < column.values.length ? csvCell(column.values[k]) : "")).join(","));
+  for (let k = 0; k < rows; ++k)
+    lines.push(columns.map(column => (k < column.values.length ? csvCell(column.values[k]) : "")).join(","));
   return lines.join("\n") + "\n";
 }
 
@@ -28,7 +33,12 @@ function csvText(columns) {
 function saveButtons(title, picture, columns) {
   const png = () => picture().toBlob(blob => download(fileName(title, "png"), blob), "image/png");
   const csv = () => download(fileName(title, "csv"), new Blob([csvText(columns())], { type: "text/csv" }));
-  return element("span", { class: "save" },
-    picture ? element("button", { type: "button", onclick: png, "aria-label": `save the picture: ${title}` }, "PNG") : null,
-    element("button", { type: "button", onclick: csv, "aria-label": `save the numbers: ${title}` }, "CSV"));
+  return element(
+    "span",
+    { class: "save" },
+    picture
+      ? element("button", { type: "button", onclick: png, "aria-label": `save the picture: ${title}` }, "PNG")
+      : null,
+    element("button", { type: "button", onclick: csv, "aria-label": `save the numbers: ${title}` }, "CSV"),
+  );
 }

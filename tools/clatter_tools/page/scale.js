@@ -4,7 +4,8 @@
 const SETTLED_MS = 250;
 
 function niceStep(span, count) {
-  const raw = span / Math.max(1, count), power = 10 ** Math.floor(Math.log10(raw));
+  const raw = span / Math.max(1, count),
+    power = 10 ** Math.floor(Math.log10(raw));
   return power * [1, 2, 5, 10].find(factor => factor * power >= 0.999 * raw);
 }
 
@@ -20,7 +21,8 @@ function linearTicks(min, max, count, angles = false) {
 }
 
 function logTicks(min, max) {
-  const ticks = [], wide = Math.log10(max / min) > 2.5;
+  const ticks = [],
+    wide = Math.log10(max / min) > 2.5;
   for (let power = Math.floor(Math.log10(min)); power <= Math.ceil(Math.log10(max)); ++power)
     for (const factor of wide ? [1] : [1, 2, 5]) {
       const tick = factor * 10 ** power;
@@ -45,16 +47,30 @@ function tickText(value, step) {
   return String(Number(value.toPrecision(6))).replace("-", "−");
 }
 
+function nearestIndex(values, wanted) {
+  let best = 0;
+  for (let k = 1; k < values.length; ++k) if (Math.abs(values[k] - wanted) < Math.abs(values[best] - wanted)) best = k;
+  return best;
+}
+
 /** Maps values of an axis { min, max, log } to pixels from `begin` to `end` and back. */
 function axisScale({ min, max, log }, begin, end) {
-  const f = log ? Math.log : one => one, low = f(min), span = f(max) - low || 1;
-  return { to: value => begin + (f(value) - low) / span * (end - begin),
-    from: pixel => { const at = low + (pixel - begin) / (end - begin) * span; return log ? Math.exp(at) : at; } };
+  const f = log ? Math.log : one => one,
+    low = f(min),
+    span = f(max) - low || 1;
+  return {
+    to: value => begin + ((f(value) - low) / span) * (end - begin),
+    from: pixel => {
+      const at = low + ((pixel - begin) / (end - begin)) * span;
+      return log ? Math.exp(at) : at;
+    },
+  };
 }
 
 /** A canvas of its element's size and of the screen's resolution. */
 function fitCanvas(canvas, context) {
-  const ratio = devicePixelRatio || 1, { clientWidth: width, clientHeight: height } = canvas;
+  const ratio = devicePixelRatio || 1,
+    { clientWidth: width, clientHeight: height } = canvas;
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
@@ -71,21 +87,34 @@ function drawingFont(weight = "") {
 
 /** Calls back when a drawing comes near the window, and again whenever it must be drawn again while it is there. */
 function whenVisible(host, draw) {
-  let near = false, stale = true, waiting = false;
+  let near = false,
+    stale = true,
+    waiting = false;
   // Plots in a row have one height, which legends change while others are drawn: no observer reports what changes and changes back.
   const paint = () => {
     const [width, height] = [host.clientWidth, host.clientHeight];
     stale = false;
     draw();
-    setTimeout(() => { if (host.clientWidth !== width || host.clientHeight !== height) request(); }, SETTLED_MS);
+    setTimeout(() => {
+      if (host.clientWidth !== width || host.clientHeight !== height) request();
+    }, SETTLED_MS);
   };
   const request = () => {
     stale = true;
     if (!near || waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; if (stale && host.isConnected) paint(); });
+    requestAnimationFrame(() => {
+      waiting = false;
+      if (stale && host.isConnected) paint();
+    });
   };
-  new IntersectionObserver(entries => { near = entries[entries.length - 1].isIntersecting; if (near && stale) request(); }, { rootMargin: "300px" }).observe(host);
+  new IntersectionObserver(
+    entries => {
+      near = entries[entries.length - 1].isIntersecting;
+      if (near && stale) request();
+    },
+    { rootMargin: "300px" },
+  ).observe(host);
   new ResizeObserver(request).observe(host);
   for (const name of ["appearance", "runs"]) document.addEventListener(name, request);
   return request;

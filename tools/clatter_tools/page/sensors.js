@@ -10,17 +10,41 @@ async function sensorsSection() {
     run.axis = await readBands(run.bands);
   }
   const labels = [...new Set(runs.flatMap(run => run.channels.map(channel => channel.label)))];
-  const state = { label: runs[0].channels.find(channel => channel.thrust)?.label ?? labels[0], quantity: "acceleration", over: "angle", run: 0, limited: false };
+  const state = {
+    label: runs[0].channels.find(channel => channel.thrust)?.label ?? labels[0],
+    quantity: "acceleration",
+    over: "angle",
+    run: 0,
+    limited: false,
+  };
   const channelOf = run => run.channels.find(channel => channel.label === state.label);
   const signal = new Plot({ title: "Signal", x: {}, y: {}, lines: [] });
-  const spectrum = new Plot({ title: "Spectrum", x: { label: "frequency [Hz]" }, y: { log: true, range: 1e5 }, lines: [] });
-  const bands = new Plot({ title: "Third octaves", x: { label: "third-octave band [Hz]", log: true, name: "band" }, y: { range: 80 }, lines: [] });
-  const map = new Heat({ title: "Spectrogram", x: { edges: [0, 1], label: "" }, y: { edges: [0, 1], label: "" }, z: { label: "", colours: "viridis" }, cells: new Float32Array(1) });
+  const spectrum = new Plot({
+    title: "Spectrum",
+    x: { label: "frequency [Hz]" },
+    y: { log: true, range: 1e5 },
+    lines: [],
+  });
+  const bands = new Plot({
+    title: "Third octaves",
+    x: { label: "third-octave band [Hz]", log: true, name: "band" },
+    y: { range: 80 },
+    lines: [],
+  });
+  const map = new Heat({
+    title: "Spectrogram",
+    x: { edges: [0, 1], label: "" },
+    y: { edges: [0, 1], label: "" },
+    z: { label: "", colours: "viridis" },
+    cells: new Float32Array(1),
+  });
   const player = element("div", { class: "card" });
   const turning = runs.every(run => run.deg);
   let angled = turning;
   const refresh = async () => {
-    const { quantity } = state, drawn = [], span = runs.every(run => run.cycle) ? "over the cycle" : "over time";
+    const { quantity } = state,
+      drawn = [],
+      span = runs.every(run => run.cycle) ? "over the cycle" : "over time";
     angled = state.over === "angle" && turning;
     for (const run of runs) {
       const data = channelOf(run)?.[quantity];
@@ -30,42 +54,133 @@ async function sensorsSection() {
       drawn.push({ run, data, values, levels, size: re && re.map((one, k) => Math.hypot(one, im[k])) });
     }
     const unit = drawn[0]?.data.unit ?? "";
-    signal.update({ title: `${capital(quantity)} of ${state.label} ${span}${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`, x: angled ? { label: "crank angle [deg], 0 = firing TDC", angles: true } : { label: turning ? "time after firing TDC [ms]" : "time [ms]" },
-      y: { label: `${quantity} [${unit}]` }, marks: turning ? [0] : [], lines: drawn.map(({ run, values }) => ({ run: run.run, name: runName(run.run), wide: 1, x: angled ? run.deg : Float32Array.from(run.t, one => 1e3 * one), y: values })) });
-    spectrum.update({ title: `Spectrum of the ${quantity} of ${state.label}`, y: { label: `amplitude of each line [${unit}], peak`, log: true, range: 1e5 },
-      lines: drawn.map(({ run, size }) => ({ run: run.run, name: runName(run.run), wide: 1, x: run.hz, y: size ?? [] })) });
-    bands.update({ title: `Third octaves of the ${quantity} of ${state.label}`, x: { ...bands.spec.x, ticks: runs[0].axis.ticks, names: runs[0].axis.names }, y: { label: `level [dB re ${drawn[0]?.data.reference}]`, range: 80 },
-      lines: drawn.map(({ run, levels }) => ({ run: run.run, name: runName(run.run), kind: "stairs", x: run.axis.edges, y: levels ?? [] })) });
+    signal.update({
+      title: `${capital(quantity)} of ${state.label} ${span}${state.limited ? `, above ${page.sensors.from_hz} Hz` : ""}`,
+      x: angled
+        ? { label: "crank angle [deg], 0 = firing TDC", angles: true }
+        : { label: turning ? "time after firing TDC [ms]" : "time [ms]" },
+      y: { label: `${quantity} [${unit}]` },
+      marks: turning ? [0] : [],
+      lines: drawn.map(({ run, values }) => ({
+        run: run.run,
+        name: runName(run.run),
+        wide: 1,
+        x: angled ? run.deg : Float32Array.from(run.t, one => 1e3 * one),
+        y: values,
+      })),
+    });
+    spectrum.update({
+      title: `Spectrum of the ${quantity} of ${state.label}`,
+      y: { label: `amplitude of each line [${unit}], peak`, log: true, range: 1e5 },
+      lines: drawn.map(({ run, size }) => ({
+        run: run.run,
+        name: runName(run.run),
+        wide: 1,
+        x: run.hz,
+        y: size ?? [],
+      })),
+    });
+    bands.update({
+      title: `Third octaves of the ${quantity} of ${state.label}`,
+      x: { ...bands.spec.x, ticks: runs[0].axis.ticks, names: runs[0].axis.names },
+      y: { label: `level [dB re ${drawn[0]?.data.reference}]`, range: 80 },
+      lines: drawn.map(({ run, levels }) => ({
+        run: run.run,
+        name: runName(run.run),
+        kind: "stairs",
+        x: run.axis.edges,
+        y: levels ?? [],
+      })),
+    });
     await refreshMap(map, runs[state.run], channelOf(runs[state.run]), state.label);
     refreshPlayer(player, runs[state.run], channelOf(runs[state.run]), state);
   };
-  const list = selection("channel", labels.map(label => [label, label]), value => { state.label = value; refresh(); });
+  const list = selection(
+    "channel",
+    labels.map(label => [label, label]),
+    value => {
+      state.label = value;
+      refresh();
+    },
+  );
   list.list.value = state.label;
-  const runList = selection("spectrogram and sound of", runs.map((run, k) => [k, runName(run.run)]), value => { state.run = Number(value); refresh(); });
+  const runList = selection(
+    "spectrogram and sound of",
+    runs.map((run, k) => [k, runName(run.run)]),
+    value => {
+      state.run = Number(value);
+      refresh();
+    },
+  );
   const firing = checkbox("only around firing TDC", false, on => signal.show(on ? aroundFiring(runs[0], state) : null));
-  host.append(element("div", { class: "controls" }, list.element, runs.length > 1 ? runList.element : null,
-    choices("quantity", [["acceleration", "acceleration"], ["velocity", "velocity"]], state.quantity, value => { state.quantity = value; refresh(); }).element,
-    !turning ? null : choices("axis", [["angle", "over crank angle"], ["time", "over time"]], state.over, value => { state.over = value; refresh(); signal.show(firing.input.checked ? aroundFiring(runs[0], state) : null); }).element,
-    turning ? firing.element : null, !runs.every(run => run.cycle) ? null : checkbox(`above ${page.sensors.from_hz} Hz`, false, on => { state.limited = on; refresh(); }).element),
-  grid(signal.element, spectrum.element, bands.element, map.element, player));
+  host.append(
+    element(
+      "div",
+      { class: "controls" },
+      list.element,
+      runs.length > 1 ? runList.element : null,
+      choices(
+        "quantity",
+        [
+          ["acceleration", "acceleration"],
+          ["velocity", "velocity"],
+        ],
+        state.quantity,
+        value => {
+          state.quantity = value;
+          refresh();
+        },
+      ).element,
+      !turning
+        ? null
+        : choices(
+            "axis",
+            [
+              ["angle", "over crank angle"],
+              ["time", "over time"],
+            ],
+            state.over,
+            value => {
+              state.over = value;
+              refresh();
+              signal.show(firing.input.checked ? aroundFiring(runs[0], state) : null);
+            },
+          ).element,
+      turning ? firing.element : null,
+      !runs.every(run => run.cycle)
+        ? null
+        : checkbox(`above ${page.sensors.from_hz} Hz`, false, on => {
+            state.limited = on;
+            refresh();
+          }).element,
+    ),
+    grid(signal.element, spectrum.element, bands.element, map.element, player),
+  );
   await refresh();
 }
 
 /** A window of the signal's axis in which the slap and its ringing are. */
 function aroundFiring(run, { over }) {
-  const [from, to] = [-0.5, 5];  // ms
+  const [from, to] = [-0.5, 5]; // ms
   const degrees = run.deg ? (run.deg[1] - run.deg[0]) / (1e3 * (run.t[1] - run.t[0])) : 1;
   return over === "angle" && run.deg ? { min: from * degrees, max: to * degrees } : { min: from, max: to };
 }
 
 /** The part of a periodic signal above page.sensors.from_hz, as a sum of its lines. */
 function limited(run, re, im) {
-  const found = new Float32Array(run.t.length), begin = run.t[0], step = (run.t.at(-1) - begin) / (run.t.length - 1);
+  const found = new Float32Array(run.t.length),
+    begin = run.t[0],
+    step = (run.t.at(-1) - begin) / (run.t.length - 1);
   for (let line = 0; line < run.hz.length; ++line) {
     if (run.hz[line] < page.sensors.from_hz) continue;
-    const turn = 2 * Math.PI * run.hz[line], [c, s] = [Math.cos(turn * step), Math.sin(turn * step)], [c0, s0] = [Math.cos(turn * begin), Math.sin(turn * begin)];
+    const turn = 2 * Math.PI * run.hz[line],
+      [c, s] = [Math.cos(turn * step), Math.sin(turn * step)],
+      [c0, s0] = [Math.cos(turn * begin), Math.sin(turn * begin)];
     let [a, b] = [re[line] * c0 - im[line] * s0, re[line] * s0 + im[line] * c0];
-    for (let k = 0; k < found.length; ++k) { found[k] += a; [a, b] = [a * c - b * s, a * s + b * c]; }
+    for (let k = 0; k < found.length; ++k) {
+      found[k] += a;
+      [a, b] = [a * c - b * s, a * s + b * c];
+    }
   }
   return found;
 }
@@ -77,26 +192,59 @@ function capital(text) {
 async function refreshMap(map, run, channel, label) {
   map.element.hidden = !channel?.spectrogram;
   if (!channel?.spectrogram) return;
-  const { levels, columns, rows, frequency_step: step, window_ms: window } = channel.spectrogram, cells = await numbers(levels);
+  const { levels, columns, rows, frequency_step: step, window_ms: window } = channel.spectrogram,
+    cells = await numbers(levels);
   const turned = new Float32Array(cells.length);
   for (let i = 0; i < columns; ++i) for (let j = 0; j < rows; ++j) turned[j * columns + i] = cells[i * rows + j];
-  const axis = run.deg ?? run.t, first = axis[0], span = (axis.at(-1) - first) * axis.length / (axis.length - 1), factor = run.deg ? 1 : 1e3;
-  map.update({ title: `Spectrogram of the acceleration of ${label}: ${runName(run.run)}`, x: { label: run.deg ? "crank angle [deg], 0 = firing TDC" : "time [ms]", angles: Boolean(run.deg), edges: evenEdges(factor * first, factor * span / columns, columns) },
-    y: { label: "frequency [Hz]", edges: evenEdges(-0.5 * step, step, rows) }, z: { label: "level [dB re 1e−6 m/s², RMS]", unit: "dB", colours: "viridis" }, cells: turned, hint: `Hann windows of ${figure(window)} ms` });
+  const axis = run.deg ?? run.t,
+    first = axis[0],
+    span = ((axis.at(-1) - first) * axis.length) / (axis.length - 1),
+    factor = run.deg ? 1 : 1e3;
+  map.update({
+    title: `Spectrogram of the acceleration of ${label}: ${runName(run.run)}`,
+    x: {
+      label: run.deg ? "crank angle [deg], 0 = firing TDC" : "time [ms]",
+      angles: Boolean(run.deg),
+      edges: evenEdges(factor * first, (factor * span) / columns, columns),
+    },
+    y: { label: "frequency [Hz]", edges: evenEdges(-0.5 * step, step, rows) },
+    z: { label: "level [dB re 1e−6 m/s², RMS]", unit: "dB", colours: "viridis" },
+    cells: turned,
+    hint: `Hann windows of ${figure(window)} ms`,
+  });
 }
 
 function refreshPlayer(host, run, channel, state) {
   const data = channel?.[state.quantity];
   const title = element("h3", {}, "To hear");
-  if (!run.cycle || !data?.lines) { host.replaceChildren(title, element("p", { class: "note" }, "This channel has no spectrum over a complete cycle.")); return; }
-  const audio = element("audio", { controls: true, loop: true, preload: "none", style: "width:100%", "aria-label": "signal as sound" });
+  if (!run.cycle || !data?.lines) {
+    host.replaceChildren(title, element("p", { class: "note" }, "This channel has no spectrum over a complete cycle."));
+    return;
+  }
+  const audio = element("audio", {
+    controls: true,
+    loop: true,
+    preload: "none",
+    style: "width:100%",
+    "aria-label": "signal as sound",
+  });
   const link = element("a", {}, "WAV file");
-  host.replaceChildren(title, element("p", {}, `${capital(state.quantity)} of ${state.label}, ${runName(run.run)}.`), audio, link,
-    element("p", { class: "note" }, `The ${state.quantity} of one point of the surface, one cycle (${figure(1e3 * run.duration)} ms) repeated for ${SOUND_SECONDS} s; it is not the sound at a listener's ear. `,
-      `Lines from ${SOUND_FROM_HZ} Hz to ${figure(run.hz.at(-1), 4)} Hz. All runs at the same gain, so that they may be compared.`));
+  host.replaceChildren(
+    title,
+    element("p", {}, `${capital(state.quantity)} of ${state.label}, ${runName(run.run)}.`),
+    audio,
+    link,
+    element(
+      "p",
+      { class: "note" },
+      `The ${state.quantity} of one point of the surface, one cycle (${figure(1e3 * run.duration)} ms) repeated for ${SOUND_SECONDS} s; it is not the sound at a listener's ear. `,
+      `Lines from ${SOUND_FROM_HZ} Hz to ${figure(run.hz.at(-1), 4)} Hz. All runs at the same gain, so that they may be compared.`,
+    ),
+  );
   const make = async () => {
     if (audio.src) return;
-    const [re, im] = await allNumbers(...data.lines), { samples, rate } = cycleSamples(run.hz, re, im, run.duration);
+    const [re, im] = await allNumbers(...data.lines),
+      { samples, rate } = cycleSamples(run.hz, re, im, run.duration);
     const blob = wavFile(samples, rate, Math.ceil(SOUND_SECONDS / run.duration), await loudest(state));
     audio.src = link.href = URL.createObjectURL(blob);
     link.download = fileName(`${state.quantity} ${state.label} ${page.runs[run.run].stem}`, "wav");

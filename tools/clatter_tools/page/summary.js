@@ -8,17 +8,29 @@ function summarySection() {
   for (const run of page.radiation?.runs ?? []) {
     const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
     if (!panel) continue;
-    const box = element("div", {}, element("b", {}, `${panel.measures.erp.dba.toFixed(1)} dB(A)`), element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW`));
+    const box = element(
+      "div",
+      {},
+      element("b", {}, `${panel.measures.erp.dba.toFixed(1)} dB(A)`),
+      element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW`),
+    );
     const paint = () => box.style.setProperty("--colour", colourOf(run.run));
     paint();
     document.addEventListener("appearance", paint);
     keys.append(box);
   }
   if (keys.children.length) host.append(keys);
-  const state = checks.bad ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`] : checks.note ? ["note-state", "!", `certificates: ${checks.good} without remarks, ${checks.note} with remarks`]
-    : ["good", "✓", `all ${checks.good} certificates are good`];
-  const verdict = card("Can it be trusted?", element("p", { class: `state ${state[0]}` }, element("span", { "aria-hidden": "true" }, state[1]), state[2]),
-    wordList([...worries, ...stale]), element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")));
+  const state = checks.bad
+    ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`]
+    : checks.note
+      ? ["note-state", "!", `certificates: ${checks.good} without remarks, ${checks.note} with remarks`]
+      : ["good", "✓", `all ${checks.good} certificates are good`];
+  const verdict = card(
+    "Can it be trusted?",
+    element("p", { class: `state ${state[0]}` }, element("span", { "aria-hidden": "true" }, state[1]), state[2]),
+    wordList([...worries, ...stale]),
+    element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")),
+  );
   host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
   for (const { title, head, rows } of tables) host.append(tableCard(title, head, rows));
 }
@@ -27,9 +39,29 @@ const STATES = { good: ["good", "✓ good"], note: ["note-state", "! remarks"], 
 
 function certificatesSection() {
   if (!page.certificates.length) return;
-  const host = section("certificates", "Certificates", "Certificates in words", "What each program proved or estimated about its result, and what it did not.");
-  host.append(grid(page.certificates.map(({ title, run, state, sentences, table: rows }) => card(run === undefined ? title : `${title}: ${page.runs[run].label}`,
-    element("span", { class: `state ${STATES[state][0]}` }, STATES[state][1]),
-    wordList(sentences),
-    rows.length ? element("details", {}, element("summary", {}, "all figures"), table(["group", "figure", "value", "meaning"], rows, [0, 1, 3])) : null))));
+  const host = section(
+    "certificates",
+    "Certificates",
+    "Certificates in words",
+    "What each program proved or estimated about its result, and what it did not.",
+  );
+  host.append(
+    grid(
+      page.certificates.map(({ title, run, state, sentences, table: rows }) =>
+        card(
+          run === undefined ? title : `${title}: ${page.runs[run].label}`,
+          element("span", { class: `state ${STATES[state][0]}` }, STATES[state][1]),
+          wordList(sentences),
+          rows.length
+            ? element(
+                "details",
+                {},
+                element("summary", {}, "all figures"),
+                table(["group", "figure", "value", "meaning"], rows, [0, 1, 3]),
+              )
+            : null,
+        ),
+      ),
+    ),
+  );
 }

@@ -9,7 +9,7 @@ function remembered(key, value) {
     if (value !== undefined) localStorage.setItem(key, value);
     return localStorage.getItem(key);
   } catch {
-    return null;  // a browser may refuse to remember anything for a file
+    return null; // a browser may refuse to remember anything for a file
   }
 }
 
@@ -25,14 +25,21 @@ function applyTheme() {
 }
 
 function themeSwitch() {
-  const button = element("button", { type: "button", onclick: () => {
-    const names = Object.keys(THEMES);
-    theme = names[(names.indexOf(theme) + 1) % names.length];
-    remembered("clatter-theme", theme);
-    label();
-    applyTheme();
-  } });
-  const label = () => { button.textContent = { auto: "◐", light: "☀", dark: "☾" }[theme]; button.title = `colours: ${THEMES[theme]}`; button.setAttribute("aria-label", button.title); };
+  const button = element("button", {
+    type: "button",
+    onclick: () => {
+      const names = Object.keys(THEMES);
+      theme = names[(names.indexOf(theme) + 1) % names.length];
+      remembered("clatter-theme", theme);
+      label();
+      applyTheme();
+    },
+  });
+  const label = () => {
+    button.textContent = { auto: "◐", light: "☀", dark: "☾" }[theme];
+    button.title = `colours: ${THEMES[theme]}`;
+    button.setAttribute("aria-label", button.title);
+  };
   label();
   return button;
 }
@@ -41,7 +48,15 @@ function themeSwitch() {
 function ink() {
   const style = getComputedStyle(document.documentElement);
   const get = name => style.getPropertyValue(`--${name}`).trim();
-  return { text: get("text"), quiet: get("quiet"), line: get("line"), grid: get("grid"), card: get("card"), metal: get("metal"), accent: get("accent") };
+  return {
+    text: get("text"),
+    quiet: get("quiet"),
+    line: get("line"),
+    grid: get("grid"),
+    card: get("card"),
+    metal: get("metal"),
+    accent: get("accent"),
+  };
 }
 
 /** "#rrggbb" as [r, g, b] from 0 to 1. */

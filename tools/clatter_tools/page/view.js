@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A canvas with a skin that is turned, moved and magnified by pointer, fingers and keys.
 
-const CLICK_PIXELS = 4;  // less is no drag
-const TURN = 0.008;  // rad per pixel
+const CLICK_PIXELS = 4; // less is no drag
+const TURN = 0.008; // rad per pixel
 const VIEWS = { "three-quarter": [40, 25], "along x": [0, 0], "along y": [90, 0], "from above": [0, 89.9] };
 
 class View {
@@ -17,7 +17,7 @@ class View {
   }
 
   turnTo(name) {
-    [this.azimuth, this.elevation] = VIEWS[name].map(angle => angle * Math.PI / 180);
+    [this.azimuth, this.elevation] = VIEWS[name].map(angle => (angle * Math.PI) / 180);
     this.zoom = 1;
     this.middle = [0, 0];
     this.redraw();
@@ -36,28 +36,57 @@ class View {
 
   /** Matrices that show a box from low to high. */
   matrices(low, high) {
-    const centre = low.map((one, k) => 0.5 * (one + high[k])), radius = 0.5 * Math.hypot(...low.map((one, k) => high[k] - one));
-    const ratio = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight), half = 0.93 * radius / this.zoom;
+    const centre = low.map((one, k) => 0.5 * (one + high[k])),
+      radius = 0.5 * Math.hypot(...low.map((one, k) => high[k] - one));
+    const ratio = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight),
+      half = (0.93 * radius) / this.zoom;
     const [wide, tall] = ratio > 1 ? [half * ratio, half] : [half, half / ratio];
-    this.metresPerPixel = 2 * wide / Math.max(1, this.canvas.clientWidth);
-    return { view: viewMatrix(this.azimuth, this.elevation, centre), projection: parallelMatrix(wide, tall, 4 * radius, this.middle) };
+    this.metresPerPixel = (2 * wide) / Math.max(1, this.canvas.clientWidth);
+    return {
+      view: viewMatrix(this.azimuth, this.elevation, centre),
+      projection: parallelMatrix(wide, tall, 4 * radius, this.middle),
+    };
   }
 
   listen(keys) {
     const { canvas, fingers } = this;
-    canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); fingers.set(event.pointerId, [event.clientX, event.clientY]); this.moved = false; });
-    canvas.addEventListener("pointerup", event => { if (!this.moved && fingers.size === 1) this.choose(event.offsetX, event.offsetY); });
-    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, event => fingers.delete(event.pointerId));
+    canvas.addEventListener("pointerdown", event => {
+      canvas.setPointerCapture(event.pointerId);
+      fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      this.moved = false;
+    });
+    canvas.addEventListener("pointerup", event => {
+      if (!this.moved && fingers.size === 1) this.choose(event.offsetX, event.offsetY);
+    });
+    for (const name of ["pointerup", "pointercancel"])
+      canvas.addEventListener(name, event => fingers.delete(event.pointerId));
     canvas.addEventListener("pointermove", event => this.pointer(event));
-    canvas.addEventListener("wheel", event => {
-      if (document.activeElement !== canvas) return;  // the page scrolls until the view is chosen
-      event.preventDefault();
-      this.magnify(Math.exp(-0.0015 * event.deltaY));
-    }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      event => {
+        if (document.activeElement !== canvas) return; // the page scrolls until the view is chosen
+        event.preventDefault();
+        this.magnify(Math.exp(-0.0015 * event.deltaY));
+      },
+      { passive: false },
+    );
     canvas.addEventListener("dblclick", () => this.turnTo("three-quarter"));
-    const own = { ArrowLeft: () => this.turn(-0.1, 0), ArrowRight: () => this.turn(0.1, 0), ArrowUp: () => this.turn(0, 0.1), ArrowDown: () => this.turn(0, -0.1),
-      "+": () => this.magnify(1.2), "-": () => this.magnify(1 / 1.2), Home: () => this.turnTo("three-quarter"), ...keys };
-    canvas.addEventListener("keydown", event => { if (own[event.key]) { own[event.key](); event.preventDefault(); } });
+    const own = {
+      ArrowLeft: () => this.turn(-0.1, 0),
+      ArrowRight: () => this.turn(0.1, 0),
+      ArrowUp: () => this.turn(0, 0.1),
+      ArrowDown: () => this.turn(0, -0.1),
+      "+": () => this.magnify(1.2),
+      "-": () => this.magnify(1 / 1.2),
+      Home: () => this.turnTo("three-quarter"),
+      ...keys,
+    };
+    canvas.addEventListener("keydown", event => {
+      if (own[event.key]) {
+        own[event.key]();
+        event.preventDefault();
+      }
+    });
   }
 
   pointer(event) {
@@ -84,24 +113,37 @@ class View {
 
 /** A colour bar beside a view, as high as its canvas. */
 function paintBar(canvas, { colours, range, label }) {
-  const context = canvas.getContext("2d"), { width, height } = fitCanvas(canvas, context), { size, css } = drawingFont(), tone = ink();
+  const context = canvas.getContext("2d"),
+    { width, height } = fitCanvas(canvas, context),
+    { size, css } = drawingFont(),
+    tone = ink();
   context.clearRect(0, 0, width, height);
   if (!colours) return;
   barInto(context, { left: 0, top: 0, width, height }, { colours, range, label }, { size, css, tone });
 }
 
 function barInto(context, { left, top, width, height }, { colours, range, label }, { size, css, tone }) {
-  const begin = top + 0.75 * height, end = top + 0.12 * height, steps = 64, colour = colourMap(colours), scale = axisScale({ min: range[0], max: range[1] }, begin, end);
+  const begin = top + 0.75 * height,
+    end = top + 0.12 * height,
+    steps = 64,
+    colour = colourMap(colours),
+    scale = axisScale({ min: range[0], max: range[1] }, begin, end);
   context.font = css;
   for (let k = 0; k < steps; ++k) {
     context.fillStyle = cssColour(colour((k + 0.5) / steps));
-    context.fillRect(left + width - 4.6 * size, begin + (end - begin) * (k + 1) / steps, 0.8 * size, (begin - end) / steps + 0.7);
+    context.fillRect(
+      left + width - 4.6 * size,
+      begin + ((end - begin) * (k + 1)) / steps,
+      0.8 * size,
+      (begin - end) / steps + 0.7,
+    );
   }
   context.fillStyle = tone.quiet;
   context.textAlign = "left";
   context.textBaseline = "middle";
   const ticks = linearTicks(...range, 6);
-  for (const tick of ticks) context.fillText(tickText(tick, ticks[1] - ticks[0]), left + width - 3.5 * size, scale.to(tick));
+  for (const tick of ticks)
+    context.fillText(tickText(tick, ticks[1] - ticks[0]), left + width - 3.5 * size, scale.to(tick));
   context.fillStyle = tone.text;
   context.save();
   context.translate(left + width - 5 * size, 0.5 * (begin + end));

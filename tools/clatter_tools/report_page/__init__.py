@@ -17,8 +17,8 @@ from .pack import Pack, json_text
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "page"
 # In this order: each uses only what is before it.
-SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
-           "summary", "surface", "radiation", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
+SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "lines", "picture", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
+           "summary", "beside", "controls", "surface_save", "surface", "radiation", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
 COLOURS = {"viridis": "viridis", "cividis": "cividis", "diverging": "RdBu_r"}  # safe for colour-blind eyes
 STEPS = 64
 
