@@ -7,6 +7,7 @@ setting at a time, and compares each run with the finest of its table: the pisto
 (above 300 Hz, without the block's shaking on its mounts). Two cycles per run, so that a table takes minutes; seconds
 are those of the time stepping, as measured by clatter-dynamics.
 
+--tables modes: the block condensed to lower and higher frequencies.
 --tables large: a block with 600 liner patches and 300 coordinates, meshed and condensed first (minutes, 10 GB), 1536
 film cells, mixed lubrication at idle.
 """
@@ -39,6 +40,9 @@ EFFECTS = {
 }
 
 
+CUT_OFFS_HZ = [3000, 4500, 6000, 10000, 15000]  # of the modes of the block; frequencies hold to half of it
+SLAP_TO_HZ = 3000.0  # up to which the sample's frequencies hold
+BANDS_HZ = {"500 Hz to 3.2 kHz": (450, 3600), "4 and 5 kHz": (3600, 5600)}
 LARGE_TOLERANCES = [2e-3, 1e-3, 5e-4, 2.5e-4]
 LARGE_CONTACT = "[contact]\ncells_around = 16\ncells_along = 48\n"
 
@@ -53,8 +57,8 @@ def scene(folder, name, changes, base):
     return path
 
 
-def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "slap.run.toml"):
-    """Runs one scene; its numbers as a dict."""
+def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "slap.run.toml", to_hz=None):
+    """Runs one scene; its numbers as a dict. `to_hz`: of the acceleration; without it as far as the reduced models hold."""
     path = scene(folder, name, changes, base)
     run = folder / f"{name}.run.h5"
     call([binaries / "clatter-dynamics", path, "-o", run, "--quiet"])
@@ -70,10 +74,10 @@ def simulate(folder, binaries, name, changes, recovered=True, base=SAMPLE / "sla
         call([binaries / "clatter-recover", run, "-c", SAMPLE / "field.toml", "-o", field, "--quiet"])
         with h5py.File(field) as file:
             sensor = fields.pick_sensor(file, AT, "liner")
-            result["time"], result["values"] = slap.band_limited(file, sensor, AT)
+            result["time"], result["values"] = slap.band_limited(file, sensor, AT, to_hz=to_hz)
             result["bands"], _ = fields.acceleration_bands(file, sensor)
             mid = file[f"{AT}/third_octave/mid_hz"][()]
-            result["bands_compared"] = (mid > 450) & (mid < 4500)
+            result["mid_hz"], result["bands_compared"] = mid, (mid > 450) & (mid < 4500)
         field.unlink()
     run.unlink()
     return result
@@ -102,6 +106,29 @@ def large_scene(folder, binaries):
     for name in ("piston.rom.h5", "motored.csv", "slap.run.toml", "slap_mixed.run.toml"):
         shutil.copy(SAMPLE / name, folder / name)
     return folder / "slap_mixed.run.toml"
+
+
+def reduced_block(folder, binaries, cut_off):
+    """The sample's block with modes up to `cut_off` [Hz]; the lines of a scene that uses it."""
+    text = (SAMPLE / "block.rom.toml").read_text()
+    settings, rom = folder / f"block{cut_off}.rom.toml", folder / f"block{cut_off}.rom.h5"
+    settings.write_text(re.sub(r"(?m)^fmax_hz = .*$", f"fmax_hz = {cut_off}", text))
+    call([binaries / "clatter-condense", SAMPLE / "block.fe.h5", "-c", settings, "-o", rom, "--quiet"])
+    return f'[block]\nrom = "{rom}"\n'
+
+
+def print_modes(results):
+    """Slap up to SLAP_TO_HZ and largest difference of the third octaves from the last result, by range."""
+    print(f"\nmodes of the block, Hz       slap [m/s2] {' '.join(f'{name:>20s} [dB]' for name in BANDS_HZ)}")
+    finest = results[-1]
+    for result in results:
+        cells = [f"{result['name']:28s}", f"{slap.peak(result['time'], result['values'])[1]:11.1f}"]
+        for low, high in BANDS_HZ.values():
+            at = (result["mid_hz"] > low) & (result["mid_hz"] < high)
+            known = min(len(result["bands"]), len(finest["bands"]))  # fewer modes hold to lower bands
+            at = at[:known]
+            cells.append(f"{np.abs(result['bands'][:known] - finest['bands'][:known])[at].max() if at.any() else np.nan:25.2f}")
+        print(" ".join(cells), flush=True)
 
 
 def call(command, folder=None):
@@ -133,7 +160,7 @@ def table(title, results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=ROOT / "build" / "release" / "bin")
-    parser.add_argument("--tables", nargs="+", choices=["tolerance", "grid", "effects", "large"],
+    parser.add_argument("--tables", nargs="+", choices=["tolerance", "grid", "effects", "modes", "large"],
                         default=["tolerance", "grid", "effects"])
     options = parser.parse_args()
     for part in ("block", "piston"):
@@ -160,6 +187,8 @@ def main():
             results = runs(EFFECTS.items(), recovered=False)
             for result in results:
                 print_row(result, results[-1])
+        if "modes" in options.tables:
+            print_modes(runs(((f"{hz}", reduced_block(folder, options.bin, hz)) for hz in CUT_OFFS_HZ), to_hz=SLAP_TO_HZ))
         if "large" in options.tables:
             table("600 patches, 300 coordinates, 1536 film cells, mixed lubrication",
                   tolerances(LARGE_TOLERANCES, LARGE_CONTACT, base=large_scene(folder, options.bin)))

@@ -83,7 +83,7 @@ arc = {{ centre_mm = {list(centre)}, radius_mm = {radius}, from_deg = {angle(y_r
 """
 
 
-def chain(links):
+def chain(links, clearance, stiffness):
     """The belt of the reference with links of another pitch: same mass, stiffness and damping per length of chain."""
     finer = links / 130.0
     mass, inertia = 1.0 / finer, 1.0 / finer**3
@@ -97,12 +97,13 @@ bush_mm = {5.0 / finer!r}
 plate_half_height_mm = {3.6 / finer!r}
 inner = {{ mass_kg = {2.2e-3 * mass!r}, inertia_kg_m2 = {4.0e-8 * inertia!r} }}
 outer = {{ mass_kg = {2.6e-3 * mass!r}, inertia_kg_m2 = {4.8e-8 * inertia!r} }}
-joint = {{ stiffness_n_m = {1e7 * finer!r}, clearance_um = 0, damping_n_s_m = {200.0}, friction = 0.1, pin_mm = {3.3 / finer!r} }}
+joint = {{ stiffness_n_m = {stiffness * finer!r}, clearance_um = {clearance!r}, damping_n_s_m = {200.0}, friction = 0.1, pin_mm = {3.3 / finer!r} }}
 """
 
 
-def scene(content="full", links=130, rpm=3400, time="", accuracy=""):
-    """The text of a scene; `time`, `accuracy`: further lines of those tables."""
+def scene(content="full", links=130, rpm=3400, time="", accuracy="", clearance=0.0, stiffness=1e7, start_deg=0.0):
+    """The text of a scene; `time`, `accuracy`: further lines of those tables; clearance [um] and stiffness [N/m] of a joint of 130
+    links; `start_deg`: of the crank, running, where the run begins: -360 with cycle_of."""
     spin = -rpm * math.pi / 60.0
     text = [f"""title = "timing drive, {content}, {links} links"
 [time]
@@ -117,7 +118,8 @@ axis = "z"
     if content == "full" and rpm > 0:
         text += orders(rpm)
     for cam, x in CAMS.items():
-        text.append(bearing(cam, x, 326, f"mass_kg = 1.0\ninertia_kg_m2 = 1.30e-3\nstart_spin_rad_s = {spin!r}"))
+        text.append(bearing(cam, x, 326, f"mass_kg = 1.0\ninertia_kg_m2 = 1.30e-3\n"
+                            f"angle_deg = {-0.5 * start_deg!r}\nstart_spin_rad_s = {spin!r}"))
         if content == "full":
             text.append(valves(cam))
     # The plunger, 20 g, moves with the arm.
@@ -140,7 +142,7 @@ b = { body = "arm", at_mm = [-55, 160, 0] }
 axis = [1, 0, 0]
 """)
     teeth = 20 * links // 130
-    text.append(chain(links))
+    text.append(chain(links, clearance, stiffness))
     text.append(sprocket("crank", 0, 0, teeth) + "gap_deg = -20.94\n")
     text.append(guide("arm", 'body = "arm", at_mm = [0, 0, 0]', (-310.1, 88.9), 280.0, (20.0, 240.0)))
     text.append(sprocket("intake", -60, 326, 2 * teeth))

@@ -15,6 +15,8 @@ keys that a scene does not set from another scene, so a variant is a few lines:
     base = "slap.run.toml"
     [contact]
     lubrication = "none"
+    [drive.crank]             # the base's [[drive]] of this name
+    speed_rpm = 1000
 
 dynamics/README.md lists every key, the equations and the error test. Ctrl-C or SIGTERM stops after a step with a valid
 file, stem.run.interrupted.h5 (attribute complete = 0); --resume continues from the last finished cycle.

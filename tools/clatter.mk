@@ -9,7 +9,8 @@
 # Name the reduced models of a scene: `slap.run.h5: block.rom.h5 piston.rom.h5`. Every other
 # file that a stage reads (tables, CAD, base scenes) is in its dependency file after the first run.
 # CLATTER_BIN is the folder of the executables; without it PATH is searched. CLATTER_FLAGS is passed to
-# every stage (--quiet, --threads 2), CLATTER_MESH_FLAGS to clatter-mesh (--time-limit 0). An artefact is rebuilt when an input or its stage's program is newer. An
+# every stage (--quiet, --threads 2), CLATTER_MESH_FLAGS to clatter-mesh (--time-limit 0). CLATTER_LAUNCH is
+# put before each program: make -j64 CLATTER_LAUNCH="srun -n1 -c1" uses a cluster. An artefact is rebuilt when an input or its stage's program is newer. An
 # interrupted run resumes after its last complete cycle.
 
 clatter_tool := $(lastword $(wildcard $(dir $(lastword $(MAKEFILE_LIST)))clatter \
@@ -28,40 +29,40 @@ clatter_recover := $(call clatter_program,recover)
 .SECONDARY:
 
 %.mesh.h5: %.mesh.toml $(clatter_mesh)
-	$(clatter_mesh) $< -o $@ --depfile $@.d $(CLATTER_FLAGS) $(CLATTER_MESH_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_mesh) $< -o $@ --depfile $@.d $(CLATTER_FLAGS) $(CLATTER_MESH_FLAGS)
 
 %.fe.h5: %.mesh.h5 %.fe.toml $(clatter_assembly)
-	$(clatter_assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_assembly) $< -c $*.fe.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.modes.h5: %.fe.h5 %.modes.toml $(clatter_modal)
-	$(clatter_modal) $< -c $*.modes.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_modal) $< -c $*.modes.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.rom.h5: %.fe.h5 %.rom.toml $(clatter_condense)
-	$(clatter_condense) $< -c $*.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_condense) $< -c $*.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.run.h5: %.run.toml $(clatter_dynamics)
-	$(clatter_dynamics) $< -o $@ --resume --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_dynamics) $< -o $@ --resume --depfile $@.d $(CLATTER_FLAGS)
 
 %.field.h5: %.run.h5 %.field.toml $(clatter_recover)
-	$(clatter_recover) $< -c $*.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_recover) $< -c $*.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.field.h5: %.run.h5 field.toml $(clatter_recover)
-	$(clatter_recover) $< -c field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_recover) $< -c field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 # Without a configuration the defaults apply.
 %.modes.h5: %.fe.h5 $(clatter_modal)
-	$(clatter_modal) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_modal) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.field.h5: %.run.h5 $(clatter_recover)
-	$(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
+	$(CLATTER_LAUNCH) $(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 # Accuracy of a reduced model's lowest modes: frequency errors and MAC.
 %.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
-	$(clatter_modal) compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
+	$(CLATTER_LAUNCH) $(clatter_modal) compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
 	mv $@.part $@
 
 # A reduced part for other programs. Matrix Market has three files: the target is a list of them.
-clatter_export = $(clatter_condense) export $< $@ $(CLATTER_FLAGS)
+clatter_export = $(CLATTER_LAUNCH) $(clatter_condense) export $< $@ $(CLATTER_FLAGS)
 
 %.inp: %.rom.h5 $(clatter_condense)
 	$(clatter_export)

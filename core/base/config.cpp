@@ -127,6 +127,7 @@ std::vector<Config> Config::tables(std::string_view key) const {
   std::vector<Config> result;
   if (!has(key)) return result;
   const toml::node* node = node_->table->get(key);
+  if (const toml::array* list = node->as_array(); list != nullptr && list->empty()) return result;
   if (!node->is_array_of_tables()) {
     fail(key, fmt::format("found {}, expected tables [[{}{}]]", shown(*node), node_->prefix, key));
   }

@@ -30,8 +30,8 @@ class Config {
   /// Reads a file; InputError with line and column when it is missing or not TOML.
   static Config load(const std::filesystem::path& path);
   /// Like load(), but the file may contain `base = "other.toml"`: keys that it does not define are
-  /// taken from there, table by table (arrays and values are replaced entirely). Bases may be
-  /// nested.
+  /// taken from there, table by table. Arrays are replaced entirely, unless a table [drive.crank]
+  /// changes keys of the entry named "crank" of [[drive]] (by index where entries have no name).
   static Config load_with_base(const std::filesystem::path& path);
   /// Reads TOML from memory; `origin` is used as the file name in messages.
   static Config parse(std::string_view text, const std::string& origin);

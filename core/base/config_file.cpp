@@ -33,12 +33,45 @@ toml::table parsed(std::string_view text, const std::string& origin) {
   }
 }
 
+void overlay(toml::table& base, toml::table& over, const std::string& prefix);
+
+/// The entry of an array of tables that has this name, or, where entries have none, this index.
+toml::table* entry_of(toml::array& entries, std::string_view key) {
+  size_t index = 0;
+  for (toml::node& entry : entries) {
+    toml::table& table = *entry.as_table();
+    if (table.contains("name") ? table["name"].value<std::string_view>() == key
+                               : fmt::format("{}", index) == key)
+      return &table;
+    ++index;
+  }
+  return nullptr;
+}
+
+/// Changes entries of an array of tables. InputError for one that it does not have.
+void change_entries(toml::array& entries, toml::table& changes, const std::string& prefix) {
+  for (auto&& [key, value] : changes) {
+    const std::string place =
+        fmt::format("{}: {}{}", position_in_file("", &value), prefix, std::string_view(key.str()));
+    if (!value.is_table())
+      throw InputError(place +
+                       ": found a value, expected the keys to change of the entry of this "
+                       "name, or [[tables]] in place of those of the base");
+    toml::table* entry = entry_of(entries, key.str());
+    if (entry == nullptr) throw InputError(place + ": the base has no entry of this name");
+    overlay(*entry, *value.as_table(), fmt::format("{}{}.", prefix, std::string_view(key.str())));
+  }
+}
+
 /// Merges `over` into `base`. Nodes are moved, not copied, to keep file and line.
-void overlay(toml::table& base, toml::table& over) {
+void overlay(toml::table& base, toml::table& over, const std::string& prefix) {
   for (auto&& [key, value] : over) {
     toml::node* below = base.get(key);
+    const auto inner = fmt::format("{}{}.", prefix, std::string_view(key.str()));
     if (below != nullptr && below->is_table() && value.is_table()) {
-      overlay(*below->as_table(), *value.as_table());
+      overlay(*below->as_table(), *value.as_table(), inner);
+    } else if (below != nullptr && below->is_array_of_tables() && value.is_table()) {
+      change_entries(*below->as_array(), *value.as_table(), inner);
     } else {
       value.visit([&](auto& concrete) { base.insert_or_assign(key, std::move(concrete)); });
     }
@@ -61,7 +94,7 @@ toml::table with_base(const std::filesystem::path& path,
   const std::filesystem::path below = *named->value<std::string>();
   table.erase("base");
   toml::table base = with_base((path.parent_path() / below).lexically_normal(), files);
-  overlay(base, table);
+  overlay(base, table, "");
   return base;
 }
 

@@ -22,6 +22,10 @@ class ChainComponent : public Component {
   }
   std::string name() const override { return spec_.name; }
   ComponentSize size() const override { return {.modes = 3 * spec_.make.links(), .film_cells = 0}; }
+  std::vector<std::filesystem::path> inputs() const override {
+    if (spec_.pitch_table.empty()) return {};
+    return {spec_.pitch_table};
+  }
   bool needs_equilibrium() const override { return true; }
   /// Links on the layout, moving with the first sprocket.
   void add_bodies(ModelBuilder& model) override;

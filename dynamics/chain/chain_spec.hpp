@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // One [[chain]] of a scene.
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,9 +36,10 @@ struct ChainSpec {
   int normal = 2;  // axis across the plane, 0 to 2
   ChainMake make;
   JointLaw joint;
-  double bush_radius = 0.0;     // [m]
-  double half_height = 0.0;     // of the plates from the line of the pins [m]
-  std::vector<ChainOver> over;  // in running order; the first is a sprocket
+  std::filesystem::path pitch_table;  // of each link's pitch error; empty: none
+  double bush_radius = 0.0;           // [m]
+  double half_height = 0.0;           // of the plates from the line of the pins [m]
+  std::vector<ChainOver> over;        // in running order; the first is a sprocket
   /// Its shape is recorded every so many seconds, or degrees of the first sprocket at its speed at
   /// the start; without both kShapes times in the run, with 0 never.
   std::optional<double> shape_every, shape_every_deg;

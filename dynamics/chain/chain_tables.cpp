@@ -24,22 +24,56 @@ namespace {
 
 const Range kLength = Range::between(1e-3, 1e5);  // [mm]
 
-/// The pitches of all links: the chain's, with the column pitch_um of a table added from the first
-/// link on, again and again, and the wear of inner or outer links.
-std::vector<double> read_pitches(const Config& table, const ChainMake& make, double pitch) {
+[[noreturn]] void refuse(const std::filesystem::path& path, int line, const std::string& text) {
+  throw InputError(fmt::format("{}:{}: {}", path.string(), line, text));
+}
+
+/// A row per link, 0, 1, ...: what its pitch is more than the chain's [m].
+std::vector<double> read_pitch_table(const ChainSpec& chain, const std::string& column) {
+  CsvColumns table = read_csv(chain.pitch_table, column);
+  if (table.unit != "m")
+    refuse(chain.pitch_table, 1,
+           fmt::format("{}: found [{}], expected a length", table.name, table.unit));
+  const auto links = static_cast<size_t>(chain.make.links());
+  for (size_t j = 0; j < std::min(links, table.x.size()); ++j)
+    if (table.x[j] != static_cast<double>(j))
+      refuse(chain.pitch_table, table.lines[j],
+             fmt::format("found link {:g}, expected {}: a row for each link from 0 on", table.x[j],
+                         j));
+  if (table.x.size() != links)
+    refuse(chain.pitch_table, table.lines.back(),
+           fmt::format("found {} rows, expected {}, a row for each link", table.x.size(), links));
+  return table.y;
+}
+
+/// What the pitches of the links in turn are more than the chain's [m].
+std::vector<double> read_pitch_errors(const Config& table, ChainSpec& chain) {
+  if (table.has("pitch_table")) {
+    if (table.has("pitch_errors_um"))
+      table.fail("pitch_errors_um", "found with pitch_table, expected one of both");
+    chain.pitch_table = table.path("pitch_table");
+    return read_pitch_table(chain, table.text_or("pitch_column", ""));
+  }
+  std::vector<double> errors = table.numbers_or("pitch_errors_um", {});
+  for (double& error : errors) error *= 1e-6;
+  return errors;
+}
+
+/// The pitches of all links: the chain's, errors of the links in turn, wear of inner or outer ones.
+std::vector<double> read_pitches(const Config& table, ChainSpec& chain, double pitch) {
   const Range part = Range::between(-2e3, 2e3);
   const double inner = table.number_or("inner_wear_um", 0.0, part) * 1e-6,
                outer = table.number_or("outer_wear_um", 0.0, part) * 1e-6;
-  const std::vector<double> errors = table.numbers_or("pitch_errors_um", {});
+  const std::vector<double> errors = read_pitch_errors(table, chain);
   std::vector<double> pitches;
-  for (int j = 0; j < make.links(); ++j) {
+  for (int j = 0; j < chain.make.links(); ++j) {
     const auto at = static_cast<size_t>(j);
-    const double wear = make.kinds[at] == LinkKind::kInner ? inner : outer;
-    const double error = errors.empty() ? 0.0 : errors[at % errors.size()] * 1e-6;
+    const double wear = chain.make.kinds[at] == LinkKind::kInner ? inner : outer;
+    const double error = errors.empty() ? 0.0 : errors[at % errors.size()];
     if (!(std::abs(error) < 0.25 * pitch))
-      table.fail("pitch_errors_um", fmt::format("found {:g}, expected less than a quarter of the "
-                                                "pitch",
-                                                error * 1e6));
+      table.fail(
+          chain.pitch_table.empty() ? "pitch_errors_um" : "pitch_table",
+          fmt::format("found {:g} um, expected less than a quarter of the pitch", error * 1e6));
     pitches.push_back(pitch + wear + error);
   }
   return pitches;
@@ -166,7 +200,7 @@ ChainSpec read_chain(const Config& table) {
   chain.normal = plane == "xy" ? 2 : plane == "yz" ? 0 : 1;
   const double pitch = table.number("pitch_mm", kLength) * kMilli;
   read_links(table, chain);
-  chain.make.pitches = read_pitches(table, chain.make, pitch);
+  chain.make.pitches = read_pitches(table, chain, pitch);
   chain.joint = read_joint(table.table("joint"));
   chain.bush_radius = 0.5 * table.number("bush_mm", Range::between(1e-3, 999.0 * pitch)) * kMilli;
   chain.half_height = table.number("plate_half_height_mm", kLength) * kMilli;

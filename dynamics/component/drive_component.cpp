@@ -15,8 +15,31 @@ namespace {
 
 constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
 
+const Range kAngleDeg = Range::between(-1e6, 1e6), kSpeedRpm = Range::between(-1e5, 1e5);
+
+/// The order of the speed that a torque T cos(order mean t + phase) on an inertia J makes:
+/// amplitude T / (J order mean), a quarter of a period later.
+SpeedOrder order_of_torque(const Config& one, double order, double mean, double inertia) {
+  double torque = one.number("torque_n_m", Range::between(-1e9, 1e9));
+  if (one.has("at_speed_rpm"))
+    torque *= std::pow(mean / (one.number("at_speed_rpm", Range::between(1e-6, 1e6)) * kRpm), 2);
+  const double phase = one.number_or("phase_deg", 0.0, kAngleDeg) * kDegree;
+  return {order, torque / (inertia * order * mean), phase - 0.5 * std::numbers::pi};
+}
+
+SpeedOrder read_order(const Config& table, const Config& one, double mean) {
+  const double order = one.number("order", Range::between(1e-6, 1e6));
+  if (!one.has("torque_n_m"))
+    return {order, one.number("amplitude_rpm", kSpeedRpm) * kRpm,
+            one.number_or("phase_deg", 0.0, kAngleDeg) * kDegree};
+  if (one.has("amplitude_rpm"))
+    one.fail("amplitude_rpm", "found with torque_n_m, expected one of both");
+  if (mean == 0.0) table.fail("speed_rpm", "found 0 with orders of a torque, expected a speed");
+  return order_of_torque(one, order, mean,
+                         table.number("inertia_kg_m2", Range::between(1e-12, 1e12)));
+}
+
 DriveSpec read_drive(const Config& table) {
-  const Range angle = Range::between(-1e6, 1e6), speed = Range::between(-1e5, 1e5);
   DriveSpec spec;
   spec.name = read_name(table);
   spec.where = table.where();
@@ -24,9 +47,9 @@ DriveSpec read_drive(const Config& table) {
   const std::string axis = table.choice("axis", {"x", "y", "z"});
   spec.axis = axis[0] - 'x';
   if (table.has("on")) spec.bearing = read_point(table, "on");
-  const double start = table.number_or("start_deg", 0.0, angle) * kDegree;
+  const double start = table.number_or("start_deg", 0.0, kAngleDeg) * kDegree;
   if (table.has("table")) {
-    for (const char* key : {"speed_rpm", "order"})
+    for (const char* key : {"speed_rpm", "order", "inertia_kg_m2"})
       if (table.has(key)) table.fail(key, "found with table, expected one of both");
     spec.table = table.path("table");
     spec.column = table.text_or("column", "");
@@ -34,12 +57,9 @@ DriveSpec read_drive(const Config& table) {
     return spec;
   }
   if (table.has("column")) table.fail("column", "found without table");
-  const double mean = table.number("speed_rpm", speed) * kRpm;
+  const double mean = table.number("speed_rpm", kSpeedRpm) * kRpm;
   std::vector<SpeedOrder> orders;
-  for (const Config& one : table.tables("order"))
-    orders.push_back({one.number("order", Range::between(1e-6, 1e6)),
-                      one.number("amplitude_rpm", speed) * kRpm,
-                      one.number_or("phase_deg", 0.0, angle) * kDegree});
+  for (const Config& one : table.tables("order")) orders.push_back(read_order(table, one, mean));
   spec.drive = with_context(table.where("speed_rpm"), [&] { return Drive(mean, start, orders); });
   return spec;
 }
@@ -84,6 +104,19 @@ void DriveComponent::add_bodies(ModelBuilder& model) {
 
 void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
   effects.add("drive " + spec_.name, true, "[[drive]]: turns as prescribed, no body");
+}
+
+double speed_of_drive(const Config& root, const Config& table, std::string_view key) {
+  const std::string name = table.text(key);
+  for (const Config& drive : root.tables("drive")) {
+    if (drive.text_or("name", "") != name) continue;
+    if (!drive.has("speed_rpm"))
+      table.fail(key, fmt::format("found \"{}\", whose speed is a table, expected a drive with "
+                                  "speed_rpm",
+                                  name));
+    return drive.number("speed_rpm", kSpeedRpm) * kRpm;
+  }
+  table.fail(key, fmt::format("found \"{}\", expected the name of a [[drive]]", name));
 }
 
 ComponentList read_drives(const Config& root) {

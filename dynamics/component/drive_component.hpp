@@ -2,6 +2,7 @@
 #pragma once
 // [[drive]]: shafts that turn as prescribed.
 #include <Eigen/Core>
+#include <string_view>
 #include <utility>
 
 #include "dynamics/component/component.hpp"
@@ -42,6 +43,10 @@ class DriveComponent : public Component {
  private:
   DriveSpec spec_;
 };
+
+/// Mean speed [rad/s] of the [[drive]] that `key` of `table` names; InputError for another name,
+/// and for a drive by a table.
+double speed_of_drive(const Config& root, const Config& table, std::string_view key);
 
 ComponentList read_drives(const Config& root);
 

@@ -1,81 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The Newton matrix of an implicit stage as a sparse matrix.
+// The Newton matrix of an implicit stage of many bodies that each meet few others.
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "dynamics/integrate/sparse_lu.hpp"
+#include "dynamics/integrate/body_elimination.hpp"
 #include "dynamics/integrate/stage_operator.hpp"
 #include "dynamics/integrate/system.hpp"
 
 namespace clatter::dynamics {
 
-/// J = I - S T for systems of many bodies that each meet few others.
+/// J = I - S T, factored body by body (body_elimination.hpp).
 ///
-/// The rows of a body that S couples are a cluster: one row each for a rigid body in a plane, all
-/// rows of a reduced part. In a column of T that touches a cluster all its rows are full. For a
-/// wide cluster, a reduced part with many rows under a chain whose links touch three of them, the
-/// scaled forces g = D T y on it, D = diag S, are unknowns of their own,
-///
-///   y_c - S D^-1 g = r,   g - D T y = 0,
-///
-/// so that T and S keep their own patterns instead of that of their product.
+/// The order follows the blocks of the tangents that are active: a link meets the one sprocket on
+/// which it is, not all on which it may be. A wide body, a reduced part with many rows that chains,
+/// shafts and mounts touch in a few each, stays to the end; its rows that the same elements touch
+/// are a node, so that a link does not meet all of them. Where elimination body by body is not
+/// stable all of J is factored as a dense matrix.
 class SparseStage {
  public:
   /// `system` with all its bodies and elements.
   explicit SparseStage(const System& system);
 
-  int unknowns() const { return unknowns_; }
-  /// Entries of J that may differ from 0.
-  int nonzeros() const { return static_cast<int>(values_.size()); }
-  /// Of L and U, after the first form().
-  int factor_nonzeros() const { return lu_->factor_nonzeros(); }
+  /// Entries of S and T that may differ from 0.
+  int nonzeros() const { return nonzeros_; }
   /// J of this operator with the tangents of the last evaluation; false when it is singular or not
   /// finite.
   [[nodiscard]] bool form(const StageOperator& op);
+  /// Whether the last form() factored all of J as a dense matrix.
+  bool is_dense() const { return is_dense_; }
   /// x <- J^-1 x, n_y.
   void solve(Eigen::VectorXd& x) const;
 
  private:
-  /// Rows of a body that S couples.
-  struct Cluster {
-    int body = 0;
-    std::vector<int> rows;      // of the body's P, ascending
-    int first = 0;              // unknown of the first row
-    int forces = -1;            // unknown of the first force; -1: not wide
-    std::vector<int> S_places;  // wide: where column k of -S D^-1 begins in values_
-    Eigen::MatrixXd S;
-  };
-  /// The block of one group of an element in the rows of one cluster.
-  struct Part {
-    int element = 0, group = 0, cluster = 0;
-    std::vector<int> rows;          // of the block: those in this cluster
-    std::vector<int> cluster_rows;  // the same as rows of the cluster
-    std::vector<int> columns;       // unknowns of the block's columns
-    std::vector<int> places;  // in values_: of the cluster's first row, per column; wide: per row
-                              // and column, column by column
-  };
-  void find_clusters();
-  void find_parts();
-  void find_pattern();
-  void add_S();
-  void add_part(const Part& part, const Eigen::MatrixXd& T);
-  /// The tangent of an element without groups in all its coordinates.
-  const Eigen::MatrixXd& entire_tangent(int element);
-  void form_S(const StageOperator& op);
+  void find_unknowns();
+  void find_couplings();
+  void count_nonzeros();
+  bool renew_couplings();
+  void copy_S(const StageOperator& op);
 
+  /// What is coupled, from which element and group it is.
+  struct Source {
+    int element = 0, group = 0;
+  };
   const System* system_;
-  std::vector<Cluster> clusters_;
-  std::vector<int> cluster_, position_;  // of a y: its cluster, its unknown
-  std::vector<Part> parts_;
-  int unknowns_ = 0;
-  std::vector<int> starts_, rows_;  // the pattern by columns
-  std::optional<SparseLu> lu_;      // from the first form() on
-  std::vector<double> values_;
-  std::vector<int> diagonal_;  // places in values_
-  double kappa_ = 0.0;         // of S; 0: not formed
-  Eigen::MatrixXd entire_;
+  StageGraph graph_;
+  std::vector<Source> sources_;         // of graph_.couplings
+  std::vector<int> body_;               // in the system, of a body of the graph
+  std::vector<std::vector<int>> rows_;  // per body of the graph: of its P, in the order of unknowns
+  std::vector<int> unknown_, node_;     // of a y: its unknown, its node
+  int nonzeros_ = 0;
+  double kappa_ = 0.0;  // of graph_.S; 0: not formed
+  std::optional<BodyElimination> by_bodies_, at_once_;
+  bool started_ = false, is_dense_ = false;
   mutable std::vector<double> right_;
 };
 

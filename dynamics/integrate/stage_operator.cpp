@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrate/stage_operator.hpp"
 
-#include <numeric>
-
 namespace clatter::dynamics {
 
 using Eigen::MatrixXd;
@@ -53,12 +51,29 @@ void StageOperator::form_S(int body, const std::vector<int>& rows, MatrixXd& S) 
   S.noalias() = scaled * picked.transpose();
 }
 
-MatrixXd StageOperator::S(int body) const {
-  std::vector<int> all(system_->rows(body).size());
-  std::iota(all.begin(), all.end(), 0);
-  MatrixXd S;
-  form_S(body, all, S);
-  return S;
+void StageOperator::form_all_S() const {
+  size_t entries = 0;
+  for (size_t b = 0; b < system_->bodies().size(); ++b) {
+    S_starts_.push_back(entries);
+    const size_t n = system_->rows(static_cast<int>(b)).size();
+    entries += n * n;
+  }
+  S_.resize(entries);
+  for (size_t b = 0; b < S_starts_.size(); ++b) {
+    const MatrixXd& P = system_->P(static_cast<int>(b));
+    const auto H = H_.segment(system_->mode_offset(static_cast<int>(b)), P.cols());
+    Eigen::Map<MatrixXd> S(S_.data() + S_starts_[b], P.rows(), P.rows());
+    if (system_->has_single_rows(static_cast<int>(b)))
+      S = (P.cwiseAbs2() * H).asDiagonal();
+    else
+      S.noalias() = P * H.asDiagonal() * P.transpose();
+  }
+}
+
+Eigen::Map<const MatrixXd> StageOperator::S(int body) const {
+  if (S_starts_.empty()) form_all_S();
+  const auto n = static_cast<Eigen::Index>(system_->rows(body).size());
+  return {S_.data() + S_starts_[static_cast<size_t>(body)], n, n};
 }
 
 void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {

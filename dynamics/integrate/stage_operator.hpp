@@ -33,12 +33,14 @@ class StageOperator {
   const Eigen::VectorXd& moving_share() const { return moving_share_; }
   /// Writes S of one body in some of its rows (indices in System::rows), n x n.
   void form_S(int body, const std::vector<int>& rows, Eigen::MatrixXd& S) const;
-  /// S of one body, in the order of its rows.
-  Eigen::MatrixXd S(int body) const;
+  /// S of one body, in the order of its rows; that of all bodies is formed at the first call.
+  Eigen::Map<const Eigen::MatrixXd> S(int body) const;
   /// S f, n_y.
   void apply_S(const Eigen::VectorXd& f, Eigen::VectorXd& result) const;
 
  private:
+  void form_all_S() const;
+
   const System* system_;
   double kappa_;
   Eigen::VectorXd H_;
@@ -47,6 +49,8 @@ class StageOperator {
   Eigen::VectorXd from_eta_;      // H (mu / kappa^2 + delta / kappa)
   Eigen::VectorXd from_v_;        // H mu / kappa
   Eigen::VectorXd moving_share_;
+  mutable std::vector<double> S_;                         // of all bodies; empty: not formed
+  mutable std::vector<size_t> S_starts_;                  // per body
   mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes
   mutable std::vector<Eigen::MatrixXd> picked_, scaled_;  // per body: rows of P, and times H
 };

@@ -7,29 +7,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/component/drive_component.hpp"
 #include "dynamics/scene/registry.hpp"
 #include "dynamics/scene/time_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
+constexpr double kLeastSpeed = 0.01 * std::numbers::pi / 30.0;  // of a clock [rad/s]
+
 /// The clock of the drive that [time] names: engine cycles without an [engine].
 CrankClock read_drive_clock(const Config& root, const Config& time) {
-  const std::string name = time.text("cycle_of");
-  for (const Config& drive : root.tables("drive")) {
-    if (drive.text_or("name", "") != name) continue;
-    if (!drive.has("speed_rpm"))
-      time.fail("cycle_of",
-                fmt::format("found \"{}\", whose speed is a table, expected a drive with "
-                            "speed_rpm",
-                            name));
-    const double speed = std::abs(drive.number("speed_rpm"));
-    if (!(speed >= 0.01))
-      time.fail("cycle_of", fmt::format("found \"{}\" with {:g} rpm, expected a drive that turns",
-                                        name, speed));
-    return {speed * std::numbers::pi / 30.0};
-  }
-  time.fail("cycle_of", fmt::format("found \"{}\", expected the name of a [[drive]]", name));
+  const double speed = std::abs(speed_of_drive(root, time, "cycle_of"));
+  if (!(speed >= kLeastSpeed))
+    time.fail("cycle_of", fmt::format("found \"{}\" with {:g} rpm, expected a drive that turns",
+                                      time.text("cycle_of"), speed * 30.0 / std::numbers::pi));
+  return {speed};
 }
 
 std::optional<CrankClock> read_clock(const Config& root) {

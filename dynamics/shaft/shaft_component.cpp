@@ -132,7 +132,7 @@ void ShaftComponent::record(const System& system, const StageState& state, Histo
 ComponentList read_shafts(const Config& root) {
   ComponentList shafts;
   for (const Config& table : root.tables("shaft"))
-    shafts.push_back(std::make_shared<ShaftComponent>(read_shaft(table)));
+    shafts.push_back(std::make_shared<ShaftComponent>(read_shaft(root, table)));
   return shafts;
 }
 

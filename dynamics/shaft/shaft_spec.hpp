@@ -58,8 +58,8 @@ struct ShaftSpec {
   Eigen::Vector3d point(double at) const { return centre + at * axes.unit(); }
 };
 
-/// Reads one [[shaft]]. InputError for sections with gaps, discs and bearings beside the shaft or
-/// of the same name.
-ShaftSpec read_shaft(const Config& table);
+/// Reads one [[shaft]] of the scene `root`, whose [[drive]] may give its speed. InputError for
+/// sections with gaps, discs and bearings beside the shaft or of the same name.
+ShaftSpec read_shaft(const Config& root, const Config& table);
 
 }  // namespace clatter::dynamics

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/component/drive_component.hpp"
 #include "dynamics/shaft/shaft_spec.hpp"
 
 namespace clatter::dynamics {
@@ -126,9 +127,20 @@ ShaftModel read_model(const Config& table) {
                               : ShaftModel::kRigid;
 }
 
+/// The speed at the start: of its own, or that of a drive times a ratio [rad/s].
+double read_start_speed(const Config& root, const Config& table) {
+  if (!table.has("speed_of")) {
+    if (table.has("speed_ratio")) table.fail("speed_ratio", "found without speed_of");
+    return table.number_or("speed_rpm", 0.0, Range::between(-1e6, 1e6)) * kRpm;
+  }
+  if (table.has("speed_rpm")) table.fail("speed_rpm", "found with speed_of, expected one of both");
+  return speed_of_drive(root, table, "speed_of") *
+         table.number_or("speed_ratio", 1.0, Range::between(-1e3, 1e3));
+}
+
 }  // namespace
 
-ShaftSpec read_shaft(const Config& table) {
+ShaftSpec read_shaft(const Config& root, const Config& table) {
   ShaftSpec shaft;
   shaft.name = read_name(table);
   shaft.where = table.where();
@@ -152,7 +164,7 @@ ShaftSpec read_shaft(const Config& table) {
   shaft.slices = static_cast<int>(table.integer_or("slices", 0, Range::between(0, 1000)));
   if (shaft.slices == 0 && shaft.discs.empty() && shaft.bearings.empty())
     table.fail("slices", "found 0 and no disc or bearing, expected at least one of them");
-  shaft.start.speed = table.number_or("speed_rpm", 0.0, Range::between(-1e6, 1e6)) * kRpm;
+  shaft.start.speed = read_start_speed(root, table);
   shaft.start.angle = table.number_or("start_deg", 0.0, kAngle) * kDegree;
   shaft.loss_time = table.number_or("loss_time_us", 0.0, Range::between(0.0, 1e6)) * 1e-6;
   read_error_scales(table, shaft);

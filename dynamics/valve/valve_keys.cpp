@@ -29,7 +29,7 @@ std::vector<ValveLobe> read_lobes(const Config& table) {
     for (const auto& [key, point] : {std::pair{"seat", &lobe.seat},
                                      {"spring_seat", &lobe.spring_seat},
                                      {"adjuster", &lobe.adjuster}})
-      if (one.has(key)) *point = read_point(one, key);
+      if (one.has(key) || one.has("on")) *point = read_point(one, one.has(key) ? key : "on");
     lobes.push_back(std::move(lobe));
   }
   if (lobes.empty()) table.fail("lobe", "found none, expected [[valve.lobe]] of each valve");

@@ -122,6 +122,26 @@ TEST_F(DriveTables, OfASteadySpeedAndOfItsAngleTurnLikeTheSpeedItself) {
   EXPECT_NEAR(last_y("table = \"angle.csv\"\ncolumn = \"angle\"\n"), expected, 1e-9);
 }
 
+TEST_F(DriveTables, OrdersOfATorqueAreTheSpeedThatItMakesOfTheInertia) {
+  // J speed' = T cos(1.5 turns + 0.3): T = 4 N m on 0.2 kg m2 at 1200 rpm.
+  const double mean = 40.0 * std::numbers::pi, phase = 0.3;
+  std::string rows = "time [s], speed [rad/s]\n";
+  for (int i = 0; i <= 20000; ++i) {
+    const double t = i * 5e-5;
+    rows += fmt::format("{:.17g}, {:.17g}\n", t,
+                        mean + 4.0 / (0.2 * 1.5 * mean) * std::sin(1.5 * mean * t + phase));
+  }
+  write("speed.csv", rows);
+  const double expected = last_y("table = \"speed.csv\"\n");
+  const std::string start =
+      "speed_rpm = 1200\ninertia_kg_m2 = 0.2\n[[drive.order]]\norder = 1.5\n"
+      "phase_deg = 17.188733853924695\n";
+  EXPECT_NEAR(last_y(start + "torque_n_m = 4\n"), expected, 1e-8);
+  EXPECT_GT(std::abs(last_y(start + "torque_n_m = 1\n") - expected), 1e-6);
+  // Torques of masses grow with the square of the speed.
+  EXPECT_NEAR(last_y(start + "torque_n_m = 1\nat_speed_rpm = 600\n"), expected, 1e-8);
+}
+
 TEST_F(DriveTables, AreRefusedByPlace) {
   write("speed.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n1, 90\n");
   write("short.csv", "time [s], speed [rpm]\n0, 90\n0.2, 90\n");
@@ -143,6 +163,12 @@ TEST_F(DriveTables, AreRefusedByPlace) {
   expect("table = \"turn.csv\"\n", "turn.csv:1: angle: found [rad], expected a time");
   expect("table = \"one.csv\"\n", "one.csv:2: found one row, expected at least two");
   expect("", "drive[0].speed_rpm: ");
+  const std::string torque = "[[drive.order]]\norder = 1\ntorque_n_m = 1\n";
+  expect("speed_rpm = 90\n" + torque, "drive[0].inertia_kg_m2: found nothing");
+  expect("speed_rpm = 0\ninertia_kg_m2 = 1\n" + torque,
+         "drive[0].speed_rpm: found 0 with orders of a torque");
+  expect("speed_rpm = 90\ninertia_kg_m2 = 1\n" + torque + "amplitude_rpm = 1\n",
+         "drive[0].order[0].amplitude_rpm: found with torque_n_m, expected one of both");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace clatter::dynamics::testing {
 
 ShaftModelOf::ShaftModelOf(const std::string& text) {
   const Config root = Config::parse(text, "shaft.toml");
-  for (const Config& table : root.tables("shaft")) shafts.emplace_back(read_shaft(table));
+  for (const Config& table : root.tables("shaft")) shafts.emplace_back(read_shaft(root, table));
   root.finish();
   for (ShaftComponent& shaft : shafts) shaft.add_bodies(builder);
   for (ShaftComponent& shaft : shafts) shaft.add_elements(builder);

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "dynamics/integrate/sparse_lu.hpp"
+#include "dynamics/integrate/elimination_order.hpp"
 #include "dynamics/integrate/stage_matrix.hpp"
 #include "tests/dynamics/mechanisms.hpp"
 
@@ -81,20 +81,21 @@ std::vector<int> add_plate(System& system, int n) {
   return all;
 }
 
-/// Linear forces between coordinates that are coupled in groups; every third group has none.
+/// Linear forces between coordinates that are coupled in groups; every third group has none, from
+/// one second to the next others.
 class GroupedSprings : public ForceElement {
  public:
   GroupedSprings(std::vector<int> coordinates, std::vector<std::vector<int>> groups)
       : ForceElement(std::move(coordinates)), groups_(std::move(groups)) {}
   std::string name() const override { return "grouped springs"; }
   const std::vector<std::vector<int>>& groups() const override { return groups_; }
-  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool,
+  void evaluate(const Stage& stage, const VectorXd& y, const VectorXd&, bool,
                 Response& response) override {
     response.force.setZero(y.size());
     response.blocks.resize(groups_.size());
     for (size_t g = 0; g < groups_.size(); ++g) {
       TangentBlock& block = response.blocks[g];
-      block.active = g % 3 != 2;
+      block.active = (g + static_cast<size_t>(stage.time)) % 3 != 2;
       block.values = 1e3 * coupled(static_cast<int>(groups_[g].size()));
       block.values(0, 1) *= 1.5;  // no symmetry
       if (block.active) response.force(groups_[g]) += block.values * y(groups_[g]);
@@ -104,6 +105,28 @@ class GroupedSprings : public ForceElement {
 
  private:
   std::vector<std::vector<int>> groups_;
+};
+
+/// A linear force on chosen coordinates of a body with many.
+class FewSprings : public ForceElement {
+ public:
+  FewSprings(std::vector<int> coordinates, std::vector<int> touched, MatrixXd tangent)
+      : ForceElement(std::move(coordinates)),
+        touched_(std::move(touched)),
+        tangent_(std::move(tangent)) {}
+  std::string name() const override { return "springs"; }
+  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool,
+                Response& response) override {
+    response.touched = touched_;
+    response.tangent = tangent_;
+    response.force.setZero(y.size());
+    response.force(touched_) = tangent_ * y(touched_);
+  }
+  Power power(const VectorXd&, const VectorXd&) const override { return {}; }
+
+ private:
+  std::vector<int> touched_;
+  MatrixXd tangent_;
 };
 
 /// A chain whose links touch a part of `rows` coupled coordinates, three of them each.
@@ -152,14 +175,60 @@ TEST(StageMatrix, GroupsOfAnElementAreBlocksOfTheTangent) {
   }
 }
 
-TEST(StageMatrix, ForcesOnAPartWithManyRowsAreUnknownsOfTheirOwn) {
+TEST(StageMatrix, APartWithManyRowsStaysToTheEndAndItsLinksTouchFewOfThem) {
   // 60 links on a part of 30 coupled rows, of which each touches two: 30 full columns for each of
   // 180 coordinates would be 5400 entries, S itself has 900.
   auto system = chain_on_plate(60, 30);
   const StageMatrix matrix = checked(*system);
   ASSERT_TRUE(matrix.is_sparse());
-  EXPECT_EQ(matrix.sparse()->unknowns(), 60 * 3 + 2 * 30);
+  EXPECT_FALSE(matrix.sparse()->is_dense());
   EXPECT_LT(matrix.nonzeros(), 4200);
+}
+
+TEST(StageMatrix, CouplingsMayComeAndGo) {
+  // The springs between links and plate that act are others in each turn.
+  auto system = chain_on_plate(60, 30);
+  const double kappa = 1e-3;
+  const int n = system->interface_size();
+  const StageOperator op(*system, kappa);
+  StageMatrix matrix(*system);
+  for (int turn = 0; turn < 4; ++turn) {
+    VectorXd y = VectorXd::Zero(n), f;
+    y.head(system->eta_start().size()) = system->interface(system->eta_start());
+    system->evaluate({static_cast<double>(turn), kappa, 1, {}}, y, VectorXd::Zero(n), true, f);
+    ASSERT_TRUE(matrix.form(op));
+    const VectorXd right = VectorXd::LinSpaced(n, -1.0, 2.0);
+    VectorXd x = right;
+    matrix.solve(op, x);
+    const MatrixXd J = dense_matrix(*system, op);
+    EXPECT_LT((J * x - right).norm(), 1e-12 * (right.norm() + J.norm() * x.norm())) << turn;
+  }
+}
+
+TEST(StageMatrix, ABodyWithoutAPivotOfItsOwnIsSolvedWithAllOthers) {
+  // A force on a link takes what its inertia and joints give, so that J_c is 0 or nearly so where
+  // the link is eliminated before its neighbours, as one of two that follow each other is.
+  const double kappa = 1e-3;
+  for (const double part : {1.0, 1.0 + 1e-13}) {
+    int dense = 0;
+    for (const int link : {30, 31}) {
+      const auto plain = chain(60, true);
+      const std::vector<int> at = plain->rows(link);
+      const VectorXd y = plain->interface(plain->eta_start()),
+                     v = VectorXd::Constant(y.size(), 0.3);
+      VectorXd f;
+      plain->evaluate({0.0, kappa, 1, {}}, y, v, true, f);
+      const StageOperator op(*plain, kappa);
+      const MatrixXd T = part * op.S(link).diagonal().cwiseInverse().asDiagonal() *
+                         dense_matrix(*plain, op)(at, at);
+      const auto system = chain(60, true);
+      system->add_element(std::make_unique<FewSprings>(at, std::vector{0, 1, 2}, T));
+      const StageMatrix matrix = checked(*system);
+      ASSERT_TRUE(matrix.is_sparse());
+      dense += matrix.sparse()->is_dense();
+    }
+    EXPECT_GE(dense, 1) << part;
+  }
 }
 
 TEST(StageMatrix, SolvesAsTheDenseMatrixOfItsDefinitionDoes) {
@@ -168,28 +237,6 @@ TEST(StageMatrix, SolvesAsTheDenseMatrixOfItsDefinitionDoes) {
     EXPECT_EQ(checked(*system).is_sparse(), links == 60);
   }
 }
-
-/// A linear force on chosen coordinates of a body with many.
-class FewSprings : public ForceElement {
- public:
-  FewSprings(std::vector<int> coordinates, std::vector<int> touched, MatrixXd tangent)
-      : ForceElement(std::move(coordinates)),
-        touched_(std::move(touched)),
-        tangent_(std::move(tangent)) {}
-  std::string name() const override { return "springs"; }
-  void evaluate(const Stage&, const VectorXd& y, const VectorXd&, bool,
-                Response& response) override {
-    response.touched = touched_;
-    response.tangent = tangent_;
-    response.force.setZero(y.size());
-    response.force(touched_) = tangent_ * y(touched_);
-  }
-  Power power(const VectorXd&, const VectorXd&) const override { return {}; }
-
- private:
-  std::vector<int> touched_;
-  MatrixXd tangent_;
-};
 
 /// The rows that a matrix factors, once it is seen to solve as that of its definition.
 int factored(const System& system, int expected_touched) {
@@ -313,21 +360,39 @@ TEST(StageMatrix, ATangentThatIsNotFiniteIsSaid) {
   }
 }
 
-TEST(SparseLu, KeepsItsPivotsForNewValuesAndRenewsThemWhereTheyFail) {
-  // [a b; c d] with a first much larger, then 0: the kept pivot a = 0 cannot be used.
-  SparseLu lu({0, 2, 4}, {0, 1, 0, 1});
-  std::vector<double> values{4.0, 1.0, 2.0, 3.0};  // by columns
-  ASSERT_TRUE(lu.factor(values));
-  for (const double a : {4.0, 1e-30, 0.0}) {
-    values[0] = a;
-    ASSERT_TRUE(lu.factor(values)) << a;
-    double x[2] = {1.0, 2.0};
-    lu.solve(x);
-    EXPECT_NEAR(a * x[0] + 2.0 * x[1], 1.0, 1e-14);
-    EXPECT_NEAR(1.0 * x[0] + 3.0 * x[1], 2.0, 1e-14);
+TEST(EliminationOrder, AChainIsHalvedRoundByRound) {
+  // A ring of 64 nodes: in each round every second one goes, coupled with two others at most.
+  constexpr int kNodes = 64;
+  EliminationOrder order(std::vector<int>(kNodes, 3), std::vector<char>(kNodes, 0));
+  for (int k = 0; k < kNodes; ++k) order.couple(std::vector{k, (k + 1) % kNodes});
+  order.find();
+  ASSERT_EQ(order.steps().size(), kNodes);
+  std::vector<int> depth(kNodes, 1);
+  for (size_t k = 0; k < kNodes; ++k) {
+    const EliminationOrder::Step& step = order.steps()[k];
+    EXPECT_LE(step.count, 2);
+    EXPECT_EQ(order.step_of(step.node), k);
+    if (step.parent < 0) continue;
+    const auto parent = static_cast<size_t>(step.parent);
+    EXPECT_GT(parent, k);
+    depth[parent] = std::max(depth[parent], depth[k] + 1);
   }
-  values = {0.0, 0.0, 2.0, 3.0};
-  EXPECT_FALSE(lu.factor(values));
+  EXPECT_LE(depth.back(), 8);
+}
+
+TEST(EliminationOrder, NodesThatStayAreLeft) {
+  EliminationOrder order({3, 3, 40}, {0, 0, 1});
+  for (int turn = 0; turn < 2; ++turn) {
+    order.clear();
+    order.couple(std::vector{0, 2});
+    if (turn == 1) order.couple(std::vector{0, 1});
+    order.find();
+    ASSERT_EQ(order.steps().size(), 2);
+    EXPECT_EQ(order.step_of(2), -1);
+    int couplings = 0;
+    for (const auto& step : order.steps()) couplings += step.count;
+    EXPECT_EQ(couplings, 1 + turn);
+  }
 }
 
 }  // namespace

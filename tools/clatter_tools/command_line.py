@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-from . import drive_command, info, motored_cycle, report
+from . import drive_command, info, motored_cycle, report, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -32,6 +32,8 @@ def parser():
     one.add_argument("files", nargs="*", metavar="file.h5")
     one.add_argument("-o", "--output", help="PNG or SVG file; default: kind.png")
     drive_command.add_arguments(commands)
+    one = commands.add_parser("sweep", help="write scenes of all combinations of some values, and make rules of their runs")
+    sweep.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
@@ -92,6 +94,8 @@ def main(arguments, rules):
             drive_command.write_pictures(options)
         elif options.command == "orders":
             drive_command.write_orders(options)
+        elif options.command == "sweep":
+            sweep.write_sweep(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":

@@ -110,7 +110,7 @@ def print_cost(paths):
 
 
 def print_paths(folder):
-    pictures = sorted(folder.rglob("*.png"))
+    pictures = sorted(path for kind in ("png", "svg", "html") for path in folder.rglob(f"*.{kind}"))
     series = sorted(folder.glob("*.xdmf"))
     print()
     if pictures:

@@ -141,5 +141,43 @@ TEST(Config, MissingKeysAreTakenFromTheBase) {
             (folder / "loop.toml").string() + ": base: the file is its own base");
 }
 
+TEST(Config, EntriesOfTheBaseAreChangedByName) {
+  const std::filesystem::path folder = ::testing::TempDir() + "clatter_config_entries";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "base.toml")
+      << "[[drive]]\nname = \"crank\"\nspeed = 3400\nkeep = 1\n"
+         "over = [{ r = 1 }, { r = 2 }]\n[[drive]]\nname = \"pump\"\nspeed = 2\n"
+         "[[load]]\nname = \"gas\"\n";
+  const auto with = [&](const char* text) {
+    std::ofstream(folder / "top.toml") << "base = \"base.toml\"\n" << text;
+    return Config::load_with_base(folder / "top.toml");
+  };
+  const Config config =
+      with("load = []\n[drive.crank]\nspeed = 1000\nnew = 4\nover.1.r = 3\n[[new]]\na = 1\n");
+  const auto drives = config.tables("drive");
+  ASSERT_EQ(drives.size(), 2U);
+  EXPECT_EQ(drives[0].number("speed"), 1000.0);
+  EXPECT_EQ(drives[0].number("keep"), 1.0);
+  EXPECT_EQ(drives[0].number("new"), 4.0);
+  EXPECT_EQ(drives[0].tables("over").at(0).number("r"), 1.0);
+  EXPECT_EQ(drives[0].tables("over").at(1).number("r"), 3.0);
+  EXPECT_EQ(drives[1].number("speed"), 2.0);
+  EXPECT_EQ(config.tables("load").size(), 0U);
+  EXPECT_EQ(config.tables("new").size(), 1U);
+  const std::string top = (folder / "top.toml").string();
+  EXPECT_EQ(message_of([&] { with("[drive.cranc]\nspeed = 1\n"); }),
+            top + ":2: drive.cranc: the base has no entry of this name");
+  EXPECT_EQ(message_of([&] { with("drive.crank.over.2.r = 1\n"); }),
+            top + ":2: drive.crank.over.2: the base has no entry of this name");
+  EXPECT_EQ(message_of([&] { with("drive.crank = 1\n"); }),
+            top +
+                ":2: drive.crank: found a value, expected the keys to change of the entry of this "
+                "name, or [[tables]] in place of those of the base");
+  EXPECT_NE(message_of([&] {
+              with("[drive.pump]\nspeed = -1\n").tables("drive")[1].number("speed", Range{0, 1});
+            }).find("top.toml:3: drive[1].speed"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace clatter

@@ -59,6 +59,18 @@ damping_n_s_m = 1e4
 
   /// Pushes the arm along x with 109.635 N at its place of 0 deg, as a long spring.
   void tensioner() {
+    if (!drive_.tensioner.empty()) {
+      text_ += fmt::format(R"(
+[[tensioner]]
+name = "tensioner"
+a = {{ at_mm = [{}, 160, 0] }}
+b = {{ body = "arm", at_mm = [{}, 160, 0] }}
+axis = [{}, 0, 0]
+{}
+)",
+                           side_ * -75.0, side_ * -55.0, side_, drive_.tensioner);
+      return;
+    }
     const double force = 90.0 + 19.634954 - 2000e-3 * drive_.plunger_back_mm;
     text_ += fmt::format(R"(
 [[spring]]

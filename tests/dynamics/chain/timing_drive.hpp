@@ -14,6 +14,7 @@ struct TimingDrive {
   double joint_clearance_um = 0.0;
   double plunger_n_m = 2000.0;   // rate of the tensioner, softening outwards
   double plunger_back_mm = 0.0;  // by which its force is that of a plunger farther back
+  std::string tensioner;         // keys of a hydraulic one in place of the spring
   double bearing_n_m = 1e10;     // of wheels and arm
   double friction = 0.0;         // in all contacts
   double slip_speed_m_s = 0.02;  // of all friction

@@ -109,6 +109,43 @@ TEST_F(TimingDriveScene, OracleOfItsFirstModes) {
   EXPECT_NEAR(first_mode(Rest(scene(drive))), 102.04, 0.035 * 102.04);
 }
 
+/// |s| / 2 pi [Hz] and damping ratio of the first mode of both cams, with the oil of its tensioner.
+std::pair<double, double> first_damped_mode(const Rest& rest) {
+  const auto [s, shapes] = testing::damped_motion(rest.model->system, rest.y, {-25.0, 520.0}, 6);
+  const int a = rest.coordinate("intake", 2), b = rest.coordinate("exhaust", 2);
+  Eigen::Index best = 0;
+  const auto share = [&](Eigen::Index k) {
+    return std::norm(shapes(a, k)) + std::norm(shapes(b, k));
+  };
+  for (Eigen::Index k = 1; k < s.size(); ++k)
+    if (share(k) > share(best)) best = k;
+  return {std::abs(s(best)) / (2.0 * std::numbers::pi), -s(best).real() / std::abs(s(best))};
+}
+
+TEST_F(TimingDriveScene, OracleOfItsFirstModeOnTheOil) {
+  // 85.080 Hz, ratio .0496 in the reference, 82.3 to 85.1 Hz over the mesh phases; here 82.4 to
+  // 82.9, lower as the modes above.
+  TimingDrive drive;
+  drive.tensioner = "leak_to = \"supply\"\ncheck_valve = { ball = \"stuck_shut\" }\n";
+  for (const char* first : {"outer", "inner"}) {
+    for (const double gap : {-20.94, -29.94}) {
+      drive.first = first;
+      drive.gap_deg = gap;
+      const auto [hertz, ratio] = first_damped_mode(Rest(scene(drive)));
+      EXPECT_NEAR(hertz, 84.0, 2.0) << first << gap;
+      EXPECT_NEAR(ratio, 0.0496, 0.006) << first << gap;
+    }
+  }
+}
+
+TEST_F(TimingDriveScene, WithoutOilAndDampersModesAreThoseOfTheStiffness) {
+  TimingDrive drive;
+  const double spring = first_mode(Rest(scene(drive)));
+  EXPECT_NEAR(first_damped_mode(Rest(scene(drive))).first, spring, 1e-3 * spring);
+  drive.tensioner = "model = \"constant_pressure\"\n";
+  EXPECT_NEAR(first_damped_mode(Rest(scene(drive))).first, spring, 1e-3 * spring);
+}
+
 TEST_F(TimingDriveScene, SpansStretchOnTheWrapsToo) {
   // Equilibria under moments on both cams: the tight span and what gives of its wraps is as stiff
   // as 43.9 pitches, 40.65 of them between the sprockets. By the masses of the cams, of the chain
@@ -197,6 +234,42 @@ TEST_F(TimingDriveScene, LinksAreNamedTogetherAndRollOnTheirOwnArm) {
     ++links;
   }
   EXPECT_EQ(links, 130);
+}
+
+TEST_F(TimingDriveScene, PitchesByTableAreThoseOfTheLinksInTurn) {
+  const auto write = [&](int rows, const char* head, int shift) {
+    std::ofstream file(folder_ / "pitches.csv");
+    file << head << "\n";
+    for (int j = 0; j < rows; ++j)
+      file << j + (j > 60 ? shift : 0) << ", " << (j % 2 == 0 ? 20 : 10) << "\n";
+  };
+  write(130, "link [1], error [um]", 0);
+  TimingDrive drive;
+  drive.chain_keys = "pitch_table = \"pitches.csv\"\n";
+  const Scene by_table = scene(drive);
+  EXPECT_EQ(by_table.inputs.back(), folder_ / "pitches.csv");
+  const double arm = Rest(by_table).angle("arm");
+  drive.chain_keys = "";
+  EXPECT_GT(std::abs(Rest(scene(drive)).angle("arm") - arm), 1e-3);
+  drive.chain_keys = "outer_wear_um = 20\ninner_wear_um = 10\n";
+  EXPECT_NEAR(Rest(scene(drive)).angle("arm"), arm, 1e-9);
+
+  const auto expect = [&](const std::string& keys, const std::string& said) {
+    drive.chain_keys = keys;
+    const std::string found = test::refusal_of([&] { scene(drive); });
+    EXPECT_NE(found.find(said), std::string::npos) << found;
+  };
+  const std::string table = "pitch_table = \"pitches.csv\"\n";
+  expect(table + "pitch_errors_um = [1]\n",
+         "chain[0].pitch_errors_um: found with pitch_table, expected one of both");
+  write(129, "link [1], error [um]", 0);
+  expect(table, "pitches.csv:130: found 129 rows, expected 130, a row for each link");
+  write(130, "link [1], error [um]", 1);
+  expect(table, "pitches.csv:63: found link 62, expected 61: a row for each link from 0 on");
+  write(130, "link [1], error [s]", 0);
+  expect(table, "pitches.csv:1: error: found [s], expected a length");
+  write(130, "link [1], error [m]", 0);
+  expect(table, "chain[0].pitch_table: found 2e+07 um, expected less than a quarter of the pitch");
 }
 
 TEST_F(TimingDriveScene, ACycleLaterALinkIsWhereThatFortyPitchesAheadWas) {

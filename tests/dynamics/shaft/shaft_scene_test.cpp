@@ -299,6 +299,15 @@ TEST_F(ShaftScenes, AreRefusedByTableKeyAndName) {
          "shaft[0].bearing[0].on.body: no body \"block\" in the scene");
   expect(head + section + bearing + "on = { body = \"cam.b\", at_mm = [0, 2, 50] }\n",
          "the point of \"cam.b\" is 2 mm beside the axis of \"cam\"");
+  const std::string drive = "[[drive]]\nname = \"crank\"\nspeed_rpm = 1000\n";
+  EXPECT_EQ(refusal(head + "speed_of = \"crank\"\nspeed_ratio = 0.5\n" + section + disc + drive),
+            "accepted");
+  expect(head + "speed_of = \"pump\"\n" + section + disc + drive,
+         "shaft[0].speed_of: found \"pump\", expected the name of a [[drive]]");
+  expect(head + "speed_of = \"crank\"\nspeed_rpm = 1\n" + section + disc + drive,
+         "shaft[0].speed_rpm: found with speed_of, expected one of both");
+  expect(head + "speed_ratio = 0.5\n" + section + disc,
+         "shaft[0].speed_ratio: found without speed_of");
   expect(head + section + bearing + "model = \"moss\"\n",
          "model: found \"moss\", expected one of: butenschoen, moes, linear");
   const std::string shaft = head + section + disc;

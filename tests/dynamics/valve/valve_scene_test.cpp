@@ -280,7 +280,7 @@ damping_n_s_m = 1e3
 name = "intake"
 lift_mm = 7.5
 half_angle_deg = 70
-lobe = [{ body = "cam", at_mm = [0, 0, 0], deg = 0, seat = { body = "head" }, spring_seat = { body = "head" }, adjuster = { body = "head" } }]
+lobe = [{ body = "cam", at_mm = [0, 0, 0], deg = 0, seat = { body = "head" }, on = { body = "head" } }]
 )"),
                                  {});
   System& system = model->system;
