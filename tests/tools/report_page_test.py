@@ -157,6 +157,26 @@ class Surface(Folder):
             self.assertEqual(run["instants"]["count"], 3)
             self.check_lines(part, blocks, run, self.folder / f"{data['runs'][run['run']]['stem']}.field.h5")
 
+    def test_a_model_that_has_changed_is_not_used(self):
+        synthetic_page.write_folder(self.folder)
+        with h5py.File(self.folder / "block.rom.h5", "a") as file:
+            file["skin/T"][...] *= 2.0
+        data, blocks, _ = self.page()
+        self.assertEqual([(part["name"], len(part["runs"])) for part in data["surface"]["parts"]],
+                         [("block, dry", 1), ("block, fast", 1), ("block, wet", 1), ("block", 0)])
+        self.check_lines(data["surface"]["parts"][0], blocks, data["surface"]["parts"][0]["runs"][0], self.folder / "dry.field.h5")
+        self.assertIn("dry.field.h5 was made of another block.rom.h5", data["summary"]["stale"])
+
+    def test_a_model_beside_the_folder_is_found(self):
+        (self.folder / "sweep").mkdir()
+        synthetic_page.write_folder(self.folder)
+        for path in self.folder.glob("*.[rf]*.h5"):
+            if not path.name.startswith("block"):
+                path.rename(self.folder / "sweep" / path.name)
+        self.folder = self.folder / "sweep"
+        part, _, _ = self.part()
+        self.assertEqual((part["name"], len(part["runs"])), ("block", 3))
+
     def test_mode_of_an_operating_shape_is_found_by_its_mac(self):
         synthetic_page.write_rom(self.folder / "block.rom.h5")
         synthetic_page.write_run(self.folder / "wet.run.h5", "wet")
@@ -244,6 +264,18 @@ class Speeds(Folder):
         self.assertEqual([round(one["rpm"]) for one in cam["spectra"]], [1500, 3000, 4500])
         for one, amplitude in zip(cam["spectra"], (2.0, 9.0, 5.0)):
             self.assertAlmostEqual(numbers(blocks, one["rms"])[3], amplitude / np.sqrt(2.0), delta=1e-3 * amplitude)
+
+
+class Many(Folder):
+    def test_of_many_runs_three_drives_are_animated_and_names_are_in_the_order_of_numbers(self):
+        for rpm in (800, 1000, 1500, 2000, 2500, 3000, 3500, 4000, 12000):
+            synthetic_drive.write_drive(self.folder / f"{rpm}.run.h5", rpm=float(rpm), shapes=30)
+        data, _, _ = self.page()
+        self.assertEqual([one["stem"] for one in data["runs"]][:3] + [data["runs"][-1]["stem"]], ["800", "1000", "1500", "12000"])
+        self.assertTrue(data["many"])
+        self.assertEqual({data["runs"][one["run"]]["stem"] for one in data["drive"]["chains"]} - {"800", "12000"} - {"1000"}, set())
+        self.assertEqual(data["drive"]["left_out"] + len(data["drive"]["chains"]), 9)
+        self.assertTrue(all("joints carry" not in sentence for sentence in data["summary"]["sentences"]))
 
 
 class Spectrogram(Folder):

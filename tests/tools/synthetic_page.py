@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import synthetic
 import synthetic_drive
+from clatter_tools.artefact import sha256
 from clatter_tools.report_page import skin
 
 SAMPLES = 720            # of a cycle
@@ -76,7 +77,7 @@ def write_field(path, rom, loudness=1.0, rpm=RPM):
         file.attrs["body"] = "block"
         file.attrs["spectra_from_hz"], file.attrs["spectra_to_hz"] = 20.0, LINES * rpm / 120.0
         file.create_dataset("inputs/path", data=[path.name.replace(".field.", ".run."), rom], **OPTIONS)
-        file.create_dataset("inputs/sha256", data=["", ""], **OPTIONS)
+        file.create_dataset("inputs/sha256", data=["", sha256(path.parent / rom)], **OPTIONS)
         write_cycle(file, time, rpm, loudness)
         synthetic.write_skin(file, nodes, faces)
         for group in ("lines", "frames"):

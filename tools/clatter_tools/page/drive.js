@@ -9,7 +9,15 @@ async function driveSection() {
     "Chain drive",
     "One engine cycle of the drive, links in the colour of their tension.",
   );
-  for (const { run, name, page: film, loop, first } of page.drive) {
+  if (page.drive.left_out)
+    host.append(
+      element(
+        "p",
+        { class: "note" },
+        `Of many runs the slowest, that with the largest tension, and the fastest; ${page.drive.left_out} are left out.`,
+      ),
+    );
+  for (const { run, name, page: film, loop, first } of page.drive.chains) {
     const frame = element("iframe", { title: `animation of ${name}`, loading: "lazy", sandbox: "allow-scripts" });
     const show = whenVisible(frame, () => {
       if (!frame.srcdoc) frame.srcdoc = film;

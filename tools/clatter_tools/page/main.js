@@ -2,10 +2,7 @@
 // The page: its head, its sections in order, its navigation.
 
 function head() {
-  const common = page.runs[0]?.label
-    .split(", ")
-    .slice(0, page.runs.length > 1 ? commonWords : 0)
-    .join(", ");
+  const common = commonWords.join(", ");
   document
     .getElementById("top")
     .append(

@@ -51,11 +51,11 @@ async function mechanismSection() {
         lines: await historyLines(own, factor, lessMean),
       }).element,
     );
-  host.append(grid(plots), await historyBrowser(names, axis));
+  host.append(grid(plots), await historyBrowser(names, page.mechanism.left_out, axis));
 }
 
 /** Any history, with the other components of the same quantity. */
-async function historyBrowser(names, axis) {
+async function historyBrowser(names, leftOut, axis) {
   const plot = new Plot({ title: "Any history", x: axis, y: {}, marks: axis.angles ? [0] : [], lines: [] });
   const choose = async name => {
     const unit = page.mechanism.runs.map(run => run.histories[name]?.unit).find(one => one !== undefined),
@@ -82,7 +82,11 @@ async function historyBrowser(names, axis) {
       "div",
       { class: "controls" },
       list.element,
-      element("span", { class: "note" }, `${names.length} histories`),
+      element(
+        "span",
+        { class: "note" },
+        `${names.length} histories${leftOut ? `, ${leftOut} further ones are left out for the size of the page` : ""}`,
+      ),
     ),
     plot.element,
   );

@@ -55,7 +55,7 @@ class Plot {
   }
 
   colour(line, k) {
-    return line.colour ?? colourOf(line.run ?? line.number ?? k);
+    return line.colour ?? (line.run === undefined ? colourOf(line.number ?? k) : runColour(line.run));
   }
 
   show(zoom) {

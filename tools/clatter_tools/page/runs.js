@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs: each has its colour in all plots, and is shown or hidden in all of them at once.
 
-const shownRuns = new Set(page.runs.map((_, run) => run));
+const FIRST_SHOWN = 5; // of many runs
 
-/** Of a run, or of the k-th line of a plot; on dark ground lighter. */
+const shownRuns = new Set(
+  page.many
+    ? Array.from({ length: FIRST_SHOWN }, (_, k) => Math.round((k * (page.runs.length - 1)) / (FIRST_SHOWN - 1)))
+    : page.runs.keys(),
+);
+
+/** The colour of a run; of many runs it is their place in the list. */
+function runColour(run) {
+  if (!page.many) return colourOf(run);
+  const share = run / (page.runs.length - 1);
+  return cssColour(colourMap("viridis")(dark() ? 0.2 + 0.8 * share : 0.9 * share));
+}
+
+/** Of the k-th line of a plot; on dark ground lighter. */
 function colourOf(number) {
   const colour = page.run_colours[number % page.run_colours.length];
   if (!dark()) return colour;
@@ -19,17 +32,22 @@ function colourOf(number) {
   );
 }
 
-/** What the names of all runs begin with is said once, in the title. */
+/** The words that the names of all runs have in common, which are said once, in the title. */
 const commonWords = (() => {
-  const names = page.runs.map(run => run.label.split(", "));
-  let count = 0;
-  while (names.length > 1 && names.every(words => words.length > count + 1 && words[count] === names[0][count]))
-    ++count;
-  return count;
+  const [first, ...others] = page.runs.map(run => run.label.split(", "));
+  return others.length ? first.filter(word => others.every(words => words.includes(word))) : [];
 })();
 
+/** A run's name without these words. */
 function runName(number) {
-  return page.runs[number].label.split(", ").slice(commonWords).join(", ");
+  const { label, stem } = page.runs[number];
+  if (page.many) return stem.replaceAll("_", " ");
+  return (
+    label
+      .split(", ")
+      .filter(word => !commonWords.includes(word))
+      .join(", ") || (page.runs.length > 1 ? stem : label)
+  );
 }
 
 function runChips() {
@@ -39,7 +57,7 @@ function runChips() {
       {
         type: "button",
         class: "chip",
-        "aria-pressed": "true",
+        "aria-pressed": String(shownRuns.has(number)),
         title: `${run.label} (${run.stem}): show or hide`,
         onclick: () => {
           if (shownRuns.has(number)) shownRuns.delete(number);
@@ -53,7 +71,7 @@ function runChips() {
     );
     return chip;
   });
-  const paint = () => chips.forEach((chip, number) => chip.style.setProperty("--colour", colourOf(number)));
+  const paint = () => chips.forEach((chip, number) => chip.style.setProperty("--colour", runColour(number)));
   paint();
   document.addEventListener("appearance", paint);
   return element("div", { class: "chips", role: "group", "aria-label": "runs", hidden: chips.length < 2 }, chips);

@@ -27,7 +27,8 @@ async function speedsSection() {
       spectra = await allNumbers(...signal.spectra.map(one => one.rms));
     const level = value => (signal.reference ? 20 * Math.log10(Math.max(value, 1e-30) / signal.reference) : value);
     const strong = strongestOrders(spectra);
-    const top = (1.3 * strong[strong.length - 1] * speeds.at(-1)) / 60,
+    const resolved = Math.max(...spectra.map((rms, k) => (0.5 * rms.length * speeds[k]) / 60));
+    const top = Math.min(resolved, (1.3 * strong[strong.length - 1] * speeds.at(-1)) / 60),
       step = top / CAMPBELL_ROWS,
       cells = new Float32Array(CAMPBELL_ROWS * speeds.length);
     for (let j = 0; j < CAMPBELL_ROWS; ++j)
@@ -80,8 +81,25 @@ async function speedsSection() {
     page.speeds.map((signal, k) => [k, signal.name]),
     value => choose(Number(value)),
   );
-  host.append(element("div", { class: "controls" }, list.element), grid(map.element, cuts.element));
+  host.append(element("div", { class: "controls" }, list.element), grid(map.element, cuts.element, powerOverSpeed()));
   await choose(0);
+}
+
+/** Power of the exposed panel at each speed, where fields have it; the first run of each speed counts. */
+function powerOverSpeed() {
+  const points = new Map();
+  for (const run of page.radiation?.runs ?? []) {
+    const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
+    if (panel && run.rpm && !points.has(Math.round(run.rpm))) points.set(Math.round(run.rpm), panel.measures.erp.dba);
+  }
+  if (points.size < 2) return null;
+  const speeds = [...points.keys()].sort((a, b) => a - b);
+  return new Plot({
+    title: "Equivalent radiated power over speed",
+    x: { label: "crank speed [rpm]" },
+    y: { label: "ERP [dB(A) re 1 pW]" },
+    lines: [{ number: 0, x: speeds, y: speeds.map(speed => points.get(speed)) }],
+  }).element;
 }
 
 /** The orders that are largest at any speed, ascending. */

@@ -5,7 +5,7 @@ function summarySection() {
   const { sentences, tables, checks, worries, stale } = page.summary;
   const host = section("summary", "Summary", "Summary");
   const keys = element("div", { class: "keys" });
-  for (const run of page.radiation?.runs ?? []) {
+  for (const run of page.many ? [] : (page.radiation?.runs ?? [])) {
     const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
     if (!panel) continue;
     const box = element(
@@ -14,7 +14,7 @@ function summarySection() {
       element("b", {}, `${panel.measures.erp.dba.toFixed(1)} dB(A)`),
       element("span", {}, `${runName(run.run)}: equivalent radiated power, ${panel.label}, re 1 pW`),
     );
-    const paint = () => box.style.setProperty("--colour", colourOf(run.run));
+    const paint = () => box.style.setProperty("--colour", runColour(run.run));
     paint();
     document.addEventListener("appearance", paint);
     keys.append(box);

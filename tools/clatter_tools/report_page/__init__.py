@@ -59,6 +59,7 @@ def collect(folder, pack):
         "title": folder.title,
         "version": version(folder),
         "runs": [{"label": one.label, "stem": one.stem} for one in folder.runs],
+        "many": folder.many,
         "run_colours": style.COLOURS,
         "colours": {name: colour_table(own) for name, own in COLOURS.items()},
         "summary": summary.collect(folder, cards),

@@ -95,7 +95,7 @@ def field_sentences(field):
                           f"{limit_text(field)}."))
     if "mean_square_share_above_spectra" in found:
         share = found["mean_square_share_above_spectra"]
-        sentences.append((GOOD if share < 0.01 else NOTE, f"{100.0 * share:.2g} % of the mean square velocity is above them."))
+        sentences.append((GOOD if share < 0.01 else NOTE, f"{100.0 * share:.2g} % of the mean square velocity is above the spectra."))
     if "cycle_end_velocity_jump" in found:
         jump = found["cycle_end_velocity_jump"]
         sentences.append((GOOD if jump < REPEATED else NOTE, f"The surface velocity at the end of the cycle differs from that at its beginning "

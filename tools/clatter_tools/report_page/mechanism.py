@@ -22,27 +22,32 @@ SHOWN = [
     ("_coil_gap", "Least gap between coils of valve springs", "gap", 1e3, "mm", False),
 ]
 NOT_HISTORIES = ("time", "crank_angle_deg")
+VALUES = 4_000_000  # of all histories of all runs; of more only those in SHOWN are kept
 LINES = 6  # of a curve with several histories of one run
 
 
 def collect(folder, pack):
     """Every history of every run, and the list of those that are drawn first."""
-    runs = [read(one, pack) for one in folder.with_run() if "history" in one.run]
-    names = sorted({name for one in runs for name in one["histories"]})
-    return {"runs": runs, "names": names, "shown": shown(names)} if names else None
+    cycles = [(one, LastCycle(one.run)) for one in folder.with_run() if "history" in one.run]
+    present = sorted({name for one, _ in cycles for name in scalars(one.run)})
+    groups = shown(present)
+    names = present
+    if sum(len(np.asarray(cycle.x)) * len(scalars(one.run)) for one, cycle in cycles) > VALUES:
+        names = sorted(name for group in groups for name in group["names"])
+    runs = [read(one, cycle, set(names), pack) for one, cycle in cycles]
+    return {"runs": runs, "names": names, "left_out": len(present) - len(names), "shown": groups} if names else None
 
 
-def read(one, pack):
-    cycle = LastCycle(one.run)
-    x = np.asarray(cycle.x, float)
-    histories = {}
-    for name in one.run["history"]:
-        values = dataset(one.run, f"history/{name}")
-        if name in NOT_HISTORIES or values.ndim != 1:
-            continue
-        histories[name] = {"unit": text(one.run[f"history/{name}"].attrs.get("unit", "")),
-                           "values": pack.add("histories", values[cycle.window][cycle.order])}
-    return {"run": one.number, "x": pack.add("histories", x), "axis": cycle.label, "histories": histories}
+def scalars(run):
+    """Names of the histories of one number per instant."""
+    return [name for name in run["history"] if name not in NOT_HISTORIES and run[f"history/{name}"].ndim == 1]
+
+
+def read(one, cycle, names, pack):
+    histories = {name: {"unit": text(one.run[f"history/{name}"].attrs.get("unit", "")),
+                        "values": pack.add("histories", dataset(one.run, f"history/{name}")[cycle.window][cycle.order])}
+                 for name in scalars(one.run) if name in names}
+    return {"run": one.number, "x": pack.add("histories", np.asarray(cycle.x, float)), "axis": cycle.label, "histories": histories}
 
 
 def shown(names):

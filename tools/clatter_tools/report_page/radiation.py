@@ -34,6 +34,7 @@ def read(one, pack):
                        "instants": instants(pack, panel, every),
                        "measures": {row["key"]: measure(pack, panel, row) for row in MEASURES if row["lines"] in panel}})
     return {"run": one.number, "piece": at.rpartition("/")[2], "panels": panels, "frequency": curve("frequency_hz"),
+            "rpm": field[at].attrs.get("speed_rpm"),
             "angle": None if angle is None else pack.add("curves", means(angle, every)),
             "time": pack.add("curves", 1e3 * means(dataset(field, f"{at}/time"), every)),
             "bands": {"lower": curve("third_octave/lower_hz"), "upper": curve("third_octave/upper_hz"),

@@ -6,15 +6,27 @@ from .. import artefact, chains, drive_findings, fields, findings, report, slap
 from ..plots.shape import a_weight
 from .certificates import GOOD
 
-PEAKS = 5  # of the power, that are named
+PEAKS = 5     # of the power, that are named
+WORRIES = 12  # that are listed
 
 
 def collect(folder, cards):
     """Sentences, tables, and how many certificates have something to say."""
     return {"sentences": sound(folder) + drives(folder), "tables": tables(folder),
             "checks": {state: sum(card["state"] == state for card in cards) for state in ("good", "note", "bad")},
-            "worries": [f"{card['title']}: {text}" for card in cards for state, text in card["sentences"] if state != GOOD],
+            "worries": worries(cards),
             "stale": stale(folder)}
+
+
+def worries(cards):
+    """What certificates object to; the same objection to several is said once, for the first of them."""
+    found = {}
+    for card in cards:
+        for state, text in card["sentences"]:
+            if state != GOOD:
+                found.setdefault(text, []).append(card["title"])
+    said = [f"{titles[0]}{f' and {len(titles) - 1} more' if len(titles) > 1 else ''}: {text}" for text, titles in found.items()]
+    return said[:WORRIES] + ([f"{len(said) - WORRIES} further remarks are among the certificates."] if len(said) > WORRIES else [])
 
 
 def sound(folder):
@@ -50,11 +62,17 @@ def strongest_lines(field, at, panel):
 
 
 def drives(folder):
+    """Of chain drives: each run, of many only jumps; then what runs at several speeds show together."""
     found = []
-    for one in folder.with_run():
-        if chains.names(one.run):
-            before = f"{one.label}: " if len(folder.runs) > 1 else ""
-            found += [f"{before}{sentence}." for sentence in drive_findings.sentences(one.run)]
+    runs = [one for one in folder.with_run() if chains.names(one.run)]
+    for one in runs:
+        before = f"{one.label}: " if len(folder.runs) > 1 else ""
+        sentences = [drive_findings.jump_text(one.run, name) for name in chains.names(one.run)] if folder.many else \
+            drive_findings.sentences(one.run)
+        found += [f"{before}{sentence}." for sentence in sentences if not folder.many or "JUMPED" in sentence]
+    for name in sorted({name for one in runs for name in chains.names(one.run)}):
+        same = [(one.run, name) for one in runs if name in chains.names(one.run)]
+        found += [f"{name} at several speeds: {sentence}." for sentence in (drive_findings.critical_speed(same) if len(same) > 1 else [])]
     return found
 
 

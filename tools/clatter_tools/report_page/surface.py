@@ -7,6 +7,7 @@ import scipy.linalg
 
 from ..artefact import dataset, open_artefact, text
 from . import shapes, skin
+from .folder import made_with
 
 MODES = 40           # elastic ones of a part, at most
 INSTANT_DEG = 1.0    # between instants of a cycle
@@ -16,22 +17,17 @@ ELASTIC_HZ = 1.0     # modes below are rigid ones of a free body
 def collect(folder, pack):
     """Parts: of each reduced model with a skin, and of field files whose model is not in the folder."""
     parts, shown = [], set()
-    for path in folder.files["rom"]:
+    for path in folder.models():
         with open_artefact(path, "rom") as rom:
             if "skin/T" not in rom:
                 continue
-            runs = [one for one in folder.with_field() if path.name in models(one.field)
+            runs = [one for one in folder.with_field() if path.resolve() in map(pathlib.Path.resolve, made_with(one.field))
                     and len(one.field["skin/nodes"]) == len(rom["skin/nodes"]) and motion(one) is not None]
             parts.append(reduced_part(pack, path.name.split(".")[0], rom, runs))
             shown.update(one.number for one in runs)
     parts += [field_part(pack, one) for one in folder.with_field() if one.number not in shown and "skin" in one.field]
     parts.sort(key=lambda part: not part["runs"])
     return {"parts": parts} if parts else None
-
-
-def models(field):
-    """Names of the reduced models that a field file was made with."""
-    return [pathlib.Path(text(name)).name for name in field["inputs/path"][()]] if "inputs/path" in field else []
 
 
 def motion(one):
