@@ -183,6 +183,14 @@ class Page(unittest.TestCase):
         self.assertGreaterEqual(head[1], 5 * 48000)
         self.assertGreater(head[2], 1000)
 
+    def test_a_browser_without_webgl_shows_the_rest(self):
+        number = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""const own = HTMLCanvasElement.prototype.getContext;
+            HTMLCanvasElement.prototype.getContext = function (kind, ...more) { return kind === "webgl2" ? null : own.call(this, kind, ...more); };""")
+        self.page.goto(self.path)
+        self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=number["identifier"])
+        self.assertIn("this browser has no WebGL2", self.page.evaluate("document.getElementById('surface').textContent"))
+        self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 11)
+
     def test_no_width_needs_a_horizontal_scroll_bar(self):
         for width, height, phone in ((360, 740, True), (768, 1024, True), (1280, 900, False), (3840, 2160, False)):
             self.page.resize(width, height, phone)

@@ -41,6 +41,7 @@ async function sensorsSection() {
   const player = element("div", { class: "card" });
   const turning = runs.every(run => run.deg);
   let angled = turning;
+  state.wake = whenVisible(player, () => state.sound?.());
   const refresh = async () => {
     const { quantity } = state,
       drawn = [],
@@ -215,6 +216,7 @@ async function refreshMap(map, run, channel, label) {
 }
 
 function refreshPlayer(host, run, channel, state) {
+  state.sound = null;
   const data = channel?.[state.quantity];
   const title = element("h3", {}, "To hear");
   if (!run.cycle || !data?.lines) {
@@ -249,7 +251,8 @@ function refreshPlayer(host, run, channel, state) {
     audio.src = link.href = URL.createObjectURL(blob);
     link.download = fileName(`${state.quantity} ${state.label} ${page.runs[run.run].stem}`, "wav");
   };
-  whenVisible(host, () => make());
+  state.sound = make;
+  state.wake();
 }
 
 /** The largest sample of the chosen channel among all runs, which is full scale. */

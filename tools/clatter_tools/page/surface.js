@@ -370,6 +370,7 @@ async function surfaceSection() {
     const surface = new Surface(host, page.surface);
     await surface.loaded;
   } catch (error) {
+    host.querySelector(".spread")?.remove();
     host.append(card("No 3-D view", element("p", { class: "note" }, error.message)));
   }
 }

@@ -28,6 +28,11 @@ def collect(folder):
     return cards
 
 
+def percent(share):
+    """"0.023 %", "210 %"."""
+    return f"{100.0 * share:.2g} %" if share < 1.0 else f"{100.0 * share:.0f} %"
+
+
 def worst(sentences):
     return max((state for state, _ in sentences), key=[GOOD, NOTE, BAD].index)
 
@@ -51,10 +56,10 @@ def model_sentences(found):
         sentences.append((GOOD, f"{free}{mass}."))
     if "frequency_error_estimate" in found and "accurate_to_hz" in found:
         sentences.append((GOOD, f"Its own frequencies up to {found['accurate_to_hz']:.0f} Hz are wrong by at most about "
-                          f"{100.0 * found['frequency_error_estimate']:.2g} %."))
+                          f"{percent(found['frequency_error_estimate'])}."))
     if "verified_modes" in found:
         sentences.append((GOOD, f"Compared with {found['verified_modes']:.0f} modes of the full model: largest error "
-                          f"{100.0 * found['verified_frequency_error']:.2g} %, smallest MAC {found['verified_mac']:.4f}."))
+                          f"{percent(found['verified_frequency_error'])}, smallest MAC {found['verified_mac']:.4f}."))
     return sentences
 
 
@@ -71,7 +76,7 @@ def run_sentences(found):
     changes = sorted(((value, key.removeprefix("periodicity_")) for key, value in found.items()
                       if key.startswith("periodicity_") and not key.startswith(("periodicity_lateral", "periodicity_tilt"))), reverse=True)
     if changes:
-        named = ", ".join(f"{name} {100.0 * value:.2g} %" for value, name in changes[:LISTED])
+        named = ", ".join(f"{name} {percent(value)}" for value, name in changes[:LISTED])
         more = f", of {len(changes) - LISTED} further bodies less" if len(changes) > LISTED else ""
         sentences.append((NOTE if changes[0][0] > REPEATED else GOOD, f"Velocities change from the last cycle but one to the last: {named}{more}."))
     elif "cycles" in found:
@@ -95,15 +100,15 @@ def field_sentences(field):
                           f"{limit_text(field)}."))
     if "mean_square_share_above_spectra" in found:
         share = found["mean_square_share_above_spectra"]
-        sentences.append((GOOD if share < 0.01 else NOTE, f"{100.0 * share:.2g} % of the mean square velocity is above the spectra."))
+        sentences.append((GOOD if share < 0.01 else NOTE, f"{percent(share)} of the mean square velocity is above the spectra."))
     if "cycle_end_velocity_jump" in found:
         jump = found["cycle_end_velocity_jump"]
         sentences.append((GOOD if jump < REPEATED else NOTE, f"The surface velocity at the end of the cycle differs from that at its beginning "
-                          f"by {100.0 * jump:.2g} % of its RMS."))
+                          f"by {percent(jump)} of its RMS."))
     if "skin_closure" in found:
         open_by = found["skin_closure"]
         sentences.append((GOOD, "The skin is closed.") if open_by < CLOSED else
-                         (NOTE, f"The skin is open: the integral of its normals is {100.0 * open_by:.2g} % of its area."))
+                         (NOTE, f"The skin is open: the integral of its normals is {percent(open_by)} of its area."))
     return sentences
 
 

@@ -10,6 +10,8 @@ SHOWN = [
     ("piston_lateral", "Lateral position of the piston pin, positive toward the thrust side", "lateral position", 1e6, "µm", False),
     ("piston_tilt", "Tilt of the piston", "tilt", 1e3, "mrad", False),
     ("side_force", "Side force of the piston", "side force", 1e-3, "kN", False),
+    ("pin_force_y", "Lateral force in the joints of the rod", "force", 1e-3, "kN", False),
+    ("pin_force_z", "Force in the joints of the rod along the bore", "force", 1e-3, "kN", False),
     ("film_min", "Smallest gap between skirt and liner", "smallest gap", 1e6, "µm", False),
     ("film_pressure_max", "Largest pressure of the oil film", "pressure", 1e-6, "MPa", False),
     ("contact_pressure_max", "Largest pressure of asperity contact", "pressure", 1e-6, "MPa", False),
