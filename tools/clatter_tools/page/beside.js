@@ -53,13 +53,10 @@ function macPlot(surface) {
   const { mac } = surface.run ?? {},
     { hz } = surface.part.modes;
   if (!mac)
-    return card(
-      "Modes",
-      element(
-        "p",
-        { class: "note" },
-        `${hz.length} elastic modes up to ${figure(hz.at(-1), 4)} Hz; this part has no field whose shapes could be compared.`,
-      ),
+    return tableCard(
+      "Elastic modes",
+      ["mode", "natural frequency [Hz]"],
+      hz.map((one, k) => [k + 1, figure(one, 5)]),
     );
   const heat = new Heat({
     title: "Which modes the strongest lines are made of",

@@ -80,7 +80,9 @@ function buildControls(surface) {
     element(
       "p",
       { class: "note" },
-      "Drag turns, shift and drag moves, two fingers or the wheel magnify (the wheel after a click into the picture). A click chooses a point and shows its spectrum. Shape and colours are velocities; outward is positive.",
+      "Drag turns, shift and drag moves, two fingers or the wheel magnify (the wheel after a click into the picture). ",
+      surface.run?.re ? "A click chooses a point and shows its spectrum. " : "",
+      "Shape and colours are velocities; outward is positive.",
     ),
   );
   surface.play(surface.playing);

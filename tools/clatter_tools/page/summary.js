@@ -24,12 +24,16 @@ function summarySection() {
     ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`]
     : checks.note
       ? ["note-state", "!", `certificates: ${checks.good} without remarks, ${checks.note} with remarks`]
-      : ["good", "✓", `all ${checks.good} certificates are good`];
+      : checks.good
+        ? ["good", "✓", `all ${checks.good} certificates are good`]
+        : ["note-state", "!", "there is nothing yet that proves a result: no reduced model, no run"];
   const verdict = card(
     "Can it be trusted?",
     element("p", { class: `state ${state[0]}` }, element("span", { "aria-hidden": "true" }, state[1]), state[2]),
     wordList([...worries, ...stale]),
-    element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words")),
+    page.certificates.length
+      ? element("p", { class: "note" }, element("a", { href: "#certificates" }, "all certificates in words"))
+      : null,
   );
   host.append(grid(sentences.length ? card("What was found", wordList(sentences)) : null, verdict));
   for (const { title, head, rows } of tables) host.append(tableCard(title, head, rows));

@@ -78,7 +78,7 @@ def drives(folder):
 
 def tables(folder):
     """(title, head, rows); a table without figures is left out."""
-    rows, sensors, parts = [], [], []
+    rows, sensors, parts, cells = [], [], [], []
     for one in folder.runs:
         if one.run is not None:
             rows += [[f"{one.label}, {cylinder}".rstrip(", "), *cells] for cylinder, cells in findings.run_rows(one.run)]
@@ -87,9 +87,13 @@ def tables(folder):
     for path in folder.files["fe"]:
         with artefact.open_artefact(path, "fe") as file:
             parts.append([report.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
+    for path in folder.files["mesh"]:
+        with artefact.open_artefact(path, "mesh") as file:
+            cells += [[report.stem(path), *row] for row in findings.mesh_quality(file)]
     found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
              (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
-             ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts)]
+             ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts),
+             ("Worst cells of the meshes", ["part", "measure", "worst", "cell", "at [mm]"], cells)]
     return [one for one in (without_gaps(*table) for table in found) if len(one["head"]) > 1]
 
 
