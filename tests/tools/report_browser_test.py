@@ -73,7 +73,7 @@ class Page(unittest.TestCase):
 
     def test_all_sections_are_there_and_every_plot_is_drawn(self):
         self.assertEqual(self.page.evaluate("[...document.querySelectorAll('main > section')].map(one => one.id)"),
-                         ["summary", "surface", "radiation", "sensors", "mechanism", "film", "drive", "speeds", "models", "certificates", "cost"])
+                         ["summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "certificates", "cost"])
         blank = self.page.evaluate("""(async () => { const found = [];
           for (const one of document.querySelectorAll("figure.plot canvas")) {
             if (!one.clientHeight) continue;
@@ -189,7 +189,7 @@ class Page(unittest.TestCase):
         self.page.goto(self.path)
         self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=number["identifier"])
         self.assertIn("this browser has no WebGL2", self.page.evaluate("document.getElementById('surface').textContent"))
-        self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 11)
+        self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 12)
 
     def test_no_width_needs_a_horizontal_scroll_bar(self):
         for width, height, phone in ((360, 740, True), (768, 1024, True), (1280, 900, False), (3840, 2160, False)):

@@ -59,7 +59,7 @@ class Page(Folder):
     def test_it_has_each_section_of_which_the_folder_has_data_and_needs_nothing_else(self):
         synthetic_page.write_folder(self.folder)
         data, _, text = self.page()
-        for name in ("summary", "surface", "radiation", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "certificates"):
+        for name in ("summary", "surface", "radiation", "sound", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "certificates"):
             self.assertTrue(data[name], name)
         found = re.search(r"""(?:src|href)=["']?(?:https?:|//)|@import|[^L]url\((?!#)|https?://(?!www\.w3\.org/2000/svg)""", text)
         self.assertIsNone(found and found.group())
@@ -72,7 +72,7 @@ class Page(Folder):
         synthetic.write_run(self.folder / "slap.run.h5")
         data, _, _ = self.page()
         self.assertTrue(data["mechanism"])
-        for name in ("surface", "radiation", "sensors", "film", "drive", "speeds", "models"):
+        for name in ("surface", "radiation", "sound", "sensors", "film", "drive", "speeds", "models"):
             self.assertIsNone(data[name], name)
 
     def test_what_it_says_is_what_the_files_say(self):
@@ -84,6 +84,9 @@ class Page(Folder):
             panel = next(one for one in own["panels"] if one["name"] == "top")
             np.testing.assert_allclose(numbers(blocks, panel["measures"]["erp"]["lines"]), field["analysis/cycle/panels/top/erp"], rtol=1e-6)
             self.assertEqual(panel["measures"]["erp"]["dba"], field["analysis/cycle/panels/top"].attrs["erp_dba"])
+            heard = next(one for one in data["sound"] if one["run"] == label["dry"])
+            np.testing.assert_allclose(numbers(blocks, heard["power"]), field["analysis/cycle/sound/power"], rtol=1e-6)
+            self.assertEqual((heard["dba"], heard["microphones"][0]["name"]), (field["analysis/cycle/sound"].attrs["power_dba"], "front"))
             contact = next(one for one in data["film"]["contacts"] if one["run"] == label["dry"])
             thrust = next(one for one in contact["pads"] if one["name"] == "thrust")
             self.assertEqual(set(thrust["maps"]), {"gap", "contact_pressure"})

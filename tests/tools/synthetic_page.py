@@ -112,6 +112,16 @@ def write_cycle(file, time, rpm, loudness):
         cycle[f"panels/{panel}"].attrs.update({"erp_db": total, "erp_dba": total - 3.0, "area_m2": share, "share_of_skin": share})
         cycle[f"panels/{panel}/third_octave/erp_dba"] = cycle[f"panels/{panel}/third_octave/erp_db"][()] - 3.0
         cycle[f"panels/{panel}/instant_mean_square_velocity"] = 1e-6 * (1.0 + np.cos(np.linspace(0.0, 6.0, SAMPLES)))
+    sound = cycle.create_group("sound")
+    sound["power"] = cycle["panels/exposed/erp"][()] / 4.0
+    for key in ("db", "dba"):
+        sound[f"third_octave/power_{key}"] = cycle[f"panels/exposed/third_octave/erp_{key}"][()] - 6.0
+        sound.attrs[f"power_{key}"] = cycle["panels/exposed"].attrs[f"erp_{key}"] - 6.0
+    sound.attrs["boundary_elements_to_hz"] = 400.0
+    sound["microphones/front/pressure_re"] = np.where(hz <= 400.0, 0.01 * loudness, 0.0)
+    sound["microphones/front/pressure_im"] = np.zeros(LINES)
+    sound["microphones/front/third_octave/pressure_db"] = np.linspace(50.0, 60.0, 8)
+    sound["microphones/front"].attrs.update({"pressure_db": 66.0, "pressure_dba": 63.0})
     for sensor in cycle["sensors"].values():
         lines = np.fft.rfft(sensor["acceleration"], axis=0)[:LINES] * 2.0 / SAMPLES
         sensor["spectrum/acceleration_re"], sensor["spectrum/acceleration_im"] = lines.real, lines.imag

@@ -37,6 +37,7 @@ head();
 summarySection();
 await surfaceSection();
 await radiationSection();
+await listeningSection();
 await sensorsSection();
 await mechanismSection();
 await filmSection();

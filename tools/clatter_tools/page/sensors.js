@@ -38,10 +38,9 @@ async function sensorsSection() {
     z: { label: "", colours: "viridis" },
     cells: new Float32Array(1),
   });
-  const player = element("div", { class: "card" });
+  const player = new Player();
   const turning = runs.every(run => run.deg);
   let angled = turning;
-  state.wake = whenVisible(player, () => state.sound?.());
   const refresh = async () => {
     const { quantity } = state,
       drawn = [],
@@ -155,7 +154,7 @@ async function sensorsSection() {
             refresh();
           }).element,
     ),
-    grid(signal.element, spectrum.element, bands.element, map.element, player),
+    grid(signal.element, spectrum.element, bands.element, map.element, player.element),
   );
   await refresh();
 }
@@ -215,54 +214,38 @@ async function refreshMap(map, run, channel, label) {
   });
 }
 
-function refreshPlayer(host, run, channel, state) {
-  state.sound = null;
-  const data = channel?.[state.quantity];
-  const title = element("h3", {}, "To hear");
+function refreshPlayer(player, run, channel, { label, quantity }) {
+  const data = channel?.[quantity];
   if (!run.cycle || !data?.lines) {
-    host.replaceChildren(title, element("p", { class: "note" }, "This channel has no spectrum over a complete cycle."));
+    player.refuse("This channel has no spectrum over a complete cycle.");
     return;
   }
-  const audio = element("audio", {
-    controls: true,
-    loop: true,
-    preload: "none",
-    style: "width:100%",
-    "aria-label": "signal as sound",
+  player.show({
+    text: `${capital(quantity)} of ${label}, ${runName(run.run)}.`,
+    note:
+      `The ${quantity} of one point of the surface, one cycle (${figure(1e3 * run.duration)} ms), repeated for ` +
+      `${SOUND_SECONDS} s; it is not the sound at a listener's ear. Lines from ${SOUND_FROM_HZ} Hz to ` +
+      `${figure(run.hz.at(-1), 4)} Hz. All runs at the same gain, so that they may be compared.`,
+    file: `${quantity} ${label} ${page.runs[run.run].stem}`,
+    load: async () => {
+      const [re, im] = await allNumbers(...data.lines);
+      return {
+        cycle: cycleSamples(run.hz, re, im, run.duration),
+        duration: run.duration,
+        full: await loudest(label, quantity),
+      };
+    },
   });
-  const link = element("a", {}, "WAV file");
-  host.replaceChildren(
-    title,
-    element("p", {}, `${capital(state.quantity)} of ${state.label}, ${runName(run.run)}.`),
-    audio,
-    link,
-    element(
-      "p",
-      { class: "note" },
-      `The ${state.quantity} of one point of the surface, one cycle (${figure(1e3 * run.duration)} ms) repeated for ${SOUND_SECONDS} s; it is not the sound at a listener's ear. `,
-      `Lines from ${SOUND_FROM_HZ} Hz to ${figure(run.hz.at(-1), 4)} Hz. All runs at the same gain, so that they may be compared.`,
-    ),
-  );
-  const make = async () => {
-    if (audio.src) return;
-    const [re, im] = await allNumbers(...data.lines),
-      { samples, rate } = cycleSamples(run.hz, re, im, run.duration);
-    const blob = wavFile(samples, rate, Math.ceil(SOUND_SECONDS / run.duration), await loudest(state));
-    audio.src = link.href = URL.createObjectURL(blob);
-    link.download = fileName(`${state.quantity} ${state.label} ${page.runs[run.run].stem}`, "wav");
-  };
-  state.sound = make;
-  state.wake();
 }
 
-/** The largest sample of the chosen channel among all runs, which is full scale. */
-async function loudest({ label, quantity }) {
+/** The largest sample of a channel among all runs, which is full scale. */
+async function loudest(label, quantity) {
   let most = 0;
   for (const run of page.sensors.runs) {
     const data = run.channels.find(channel => channel.label === label)?.[quantity];
     if (!data?.lines) continue;
     const [re, im] = await allNumbers(...data.lines);
-    for (const one of cycleSamples(run.hz, re, im, run.duration).samples) most = Math.max(most, Math.abs(one));
+    most = Math.max(most, largest(cycleSamples(run.hz, re, im, run.duration).samples));
   }
-  return most || 1;
+  return most;
 }

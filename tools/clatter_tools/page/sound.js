@@ -44,3 +44,47 @@ function wavFile(samples, rate, repeats, full) {
     view.setInt16(44 + 2 * k, Math.round(32767 * Math.max(-1, Math.min(1, samples[k % samples.length] / full))), true);
   return new Blob([view], { type: "audio/wav" });
 }
+
+function largest(values) {
+  let most = 0;
+  for (const value of values) most = Math.max(most, Math.abs(value));
+  return most || 1;
+}
+
+/** A card that plays a cycle; the file is made when the card is seen. */
+class Player {
+  constructor() {
+    this.element = card("To hear");
+    this.wake = whenVisible(this.element, () => this.make?.());
+  }
+
+  replace(...children) {
+    this.element.replaceChildren(element("h3", {}, "To hear"), ...children);
+  }
+
+  refuse(text) {
+    this.make = null;
+    this.replace(element("p", { class: "note" }, text));
+  }
+
+  /** What is heard: text, note, name of the file, and load(), which gives { cycle, duration, full }. */
+  show({ text, note, file, load }) {
+    const audio = element("audio", {
+      controls: true,
+      loop: true,
+      preload: "none",
+      style: "width:100%",
+      "aria-label": text,
+    });
+    const link = element("a", { download: fileName(file, "wav") }, "WAV file");
+    this.replace(element("p", {}, text), audio, link, element("p", { class: "note" }, note));
+    this.make = async () => {
+      this.make = null;
+      const { cycle, duration, full } = await load();
+      audio.src = link.href = URL.createObjectURL(
+        wavFile(cycle.samples, cycle.rate, Math.ceil(SOUND_SECONDS / duration), full),
+      );
+    };
+    this.wake();
+  }
+}

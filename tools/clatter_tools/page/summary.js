@@ -19,6 +19,10 @@ function summarySection() {
     document.addEventListener("appearance", paint);
     keys.append(box);
   }
+  for (const run of page.many ? [] : (page.sound ?? [])) {
+    const found = `${runName(run.run)}: sound power by boundary elements, re 1 pW`;
+    keys.append(element("div", {}, element("b", {}, `${run.dba.toFixed(1)} dB(A)`), element("span", {}, found)));
+  }
   if (keys.children.length) host.append(keys);
   const state = checks.bad
     ? ["bad", "✗", `${checks.bad} of the certificates say that a result must not be trusted`]

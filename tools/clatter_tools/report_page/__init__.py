@@ -11,14 +11,14 @@ import numpy as np
 
 from .. import artefact
 from ..plots import style
-from . import (certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, speeds, summary, surface)
+from . import (certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
 from .folder import Folder
 from .pack import Pack, json_text
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "page"
 # In this order: each uses only what is before it.
 SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "lines", "picture", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
-           "summary", "beside", "controls", "surface_save", "surface", "radiation", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
+           "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
 COLOURS = {"viridis": "viridis", "cividis": "cividis", "diverging": "RdBu_r"}  # safe for colour-blind eyes
 STEPS = 64
 
@@ -66,6 +66,7 @@ def collect(folder, pack):
         "certificates": cards,
         "surface": surface.collect(folder, pack),
         "radiation": radiation.collect(folder, pack),
+        "sound": sound.collect(folder, pack),
         "sensors": sensors.collect(folder, pack),
         "mechanism": mechanism.collect(folder, pack),
         "film": film_maps.collect(folder, pack),

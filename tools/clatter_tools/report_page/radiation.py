@@ -4,8 +4,7 @@ from .. import fields
 from ..artefact import dataset, text
 from ..plots.octaves import short
 
-# What is shown of each panel: dataset of lines, dataset of third octaves, A-weighted ones, attribute of the total, name and
-# reference. A further measure of the sound, once field files have one, is a further row.
+# What is shown of each panel: dataset of lines, of third octaves, A-weighted ones, attributes of totals, name and reference.
 MEASURES = [
     {"key": "erp", "name": "equivalent radiated power (ERP)", "lines": "erp", "bands": "third_octave/erp_db",
      "bands_dba": "third_octave/erp_dba", "total": "erp_dba", "total_db": "erp_db", "reference": "1 pW"},
