@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-from . import drive_command, info, motored_cycle, report, sweep
+from . import collect, drive_command, export_command, info, motored_cycle, report, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -34,6 +34,10 @@ def parser():
     drive_command.add_arguments(commands)
     one = commands.add_parser("sweep", help="write scenes of all combinations of some values, and make rules of their runs")
     sweep.add_arguments(one)
+    one = commands.add_parser("collect", help="put levels, orders and cost of all runs of a sweep into one file")
+    collect.add_arguments(one)
+    one = commands.add_parser("export", help="write a field file's surface motion for acoustic programs")
+    export_command.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
@@ -96,6 +100,10 @@ def main(arguments, rules):
             drive_command.write_orders(options)
         elif options.command == "sweep":
             sweep.write_sweep(options)
+        elif options.command == "collect":
+            collect.write_collection(options)
+        elif options.command == "export":
+            export_command.write_export(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":
@@ -108,6 +116,8 @@ def main(arguments, rules):
         return 4
     except BrokenPipeError:
         return 0
+    except KeyboardInterrupt:
+        return 3
     except (OSError, RuntimeError, KeyError) as error:
         if "checksum" not in str(error):
             raise

@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 
 from . import chains, orders
-from .artefact import BadArtefact, open_artefact
+from .artefact import BadArtefact, open_artefact, schema_of, text
 
 FAINT = 1e-3  # of all orders together: of less no speed is named
 ORDERS = (1.5, 3.0, 4.5, 20.0, 40.0)  # of a three-cylinder engine, and the teeth of a crank sprocket with 20
@@ -19,10 +19,11 @@ def add_arguments(commands):
     one.add_argument("--format", choices=("svg", "png"), default="svg", help="of the pictures; default svg")
     one.add_argument("--frames", type=int, default=0, metavar="N", help="also write N frames of one cycle as PNG, for a video")
     one = commands.add_parser("orders", help="draw Campbell diagram and order cuts of runs at several speeds")
-    one.add_argument("files", nargs="+", metavar="file.h5")
+    one.add_argument("files", nargs="+", metavar="file.h5", help="runs, fields, or what `clatter collect` has made of them")
     what = one.add_mutually_exclusive_group(required=True)
     what.add_argument("--history", metavar="NAME", help="of run files")
     what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
+    what.add_argument("--panel", metavar="NAME", help="of field files: a panel's equivalent radiated power, as exposed")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")
     one.add_argument("--cycles", type=int, metavar="N", help="cycles at the end that are analysed; default: the last third")
@@ -66,19 +67,27 @@ def cut_orders(text):
     return found
 
 
+def spectra_of(path, options):
+    """Orders of what the options name, of one run or of all of a sweep."""
+    with open_artefact(path) as file:
+        if text(file.attrs.get("schema", "")) == schema_of("sweep"):
+            kind = "sensors" if options.sensor else "panels" if options.panel else "histories"
+            return orders.of_sweep(file, f"{kind}/{options.sensor or options.panel or options.history}")
+    with open_artefact(path, "run" if options.history else "field") as file:
+        if options.history:
+            return [orders.of_run(file, options.history, options.cycles)]
+        return [orders.of_field(file, options.sensor) if options.sensor else orders.of_panel(file, options.panel)]
+
+
 def write_orders(options):
     """`clatter orders`: the picture, and a table of levels."""
     from .plots import campbell, style
     cuts = cut_orders(options.orders)
     if options.cycles is not None and options.cycles < 1:
         raise BadArtefact(f"--cycles: found {options.cycles}, expected at least 1")
-    spectra = []
-    for path in options.files:
-        with open_artefact(path, "field" if options.sensor else "run") as file:
-            spectra.append(orders.of_field(file, options.sensor) if options.sensor
-                           else orders.of_run(file, options.history, options.cycles))
+    spectra = [one for path in options.files for one in spectra_of(path, options)]
     style.apply()
-    style.save(campbell.picture(spectra, cuts, f"Orders of {options.sensor or options.history}"), options.output)
+    style.save(campbell.picture(spectra, cuts, f"Orders of {options.sensor or options.history or f'the ERP of {options.panel}'}"), options.output)
     print_levels(sorted(spectra, key=lambda one: one[0]), cuts)
     print(options.output)
 

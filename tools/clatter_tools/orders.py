@@ -5,8 +5,10 @@ import numpy as np
 from .artefact import BadArtefact, dataset, text
 from .chains import CYCLE_DEG, complete_cycles, crank_angle
 
-# References of levels in dB (ISO 1683); quantities of other units are shown as they are.
-REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9}
+# References of levels in dB (ISO 1683); quantities of other units are shown as they are. A power is kept as its root, "W^0.5", whose
+# squares add like those of an RMS.
+REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9, "W^0.5": 1e-6}
+REFERENCE_NAME = {"W^0.5": "1 pW"}
 
 
 def whole_cycles(angle, wanted=None):
@@ -67,6 +69,31 @@ def of_field(field, label):
     return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "m/s2"
 
 
+def of_panel(field, panel):
+    """The same of the equivalent radiated power of a panel: RMS is its root."""
+    at = "analysis/cycle"
+    if f"{at}/panels/{panel}" not in field:
+        raise BadArtefact(f"{field.filename}: {at}/panels: found {', '.join(field[f'{at}/panels']) if at in field else 'none'}, expected {panel}")
+    power, order = dataset(field, f"{at}/panels/{panel}/erp"), dataset(field, f"{at}/order")
+    rms = np.zeros(int(round(2 * order[-1])) + 1)
+    rms[np.rint(2 * order).astype(int)] = np.sqrt(power)
+    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "W^0.5"
+
+
+def of_sweep(sweep, name):
+    """Those of all runs of a sweep file; `name` as sensors/sensor_arm.x, panels/exposed, histories/chain_intake_speed."""
+    if f"{name}/rms" not in sweep:
+        kind = name.split("/")[0]
+        raise BadArtefact(f"{sweep.filename}: found {', '.join(sweep[kind]) if kind in sweep else f'no {kind}'}, expected {name}")
+    rows, unit = dataset(sweep, f"{name}/rms"), text(sweep[f"{name}/rms"].attrs["unit"])
+    found = []
+    for speed, rms in zip(dataset(sweep, "speed_rpm"), rows):
+        known = rms[~np.isnan(rms)]
+        if len(known):
+            found.append((float(speed), 0.5 * np.arange(len(known)), known, unit))
+    return found
+
+
 def fluctuation(rms):
     """RMS of all orders but 0."""
     return float(np.sqrt(np.sum(rms[1:] ** 2)))
@@ -86,6 +113,8 @@ def level(rms, unit):
 def level_name(unit):
     """Of an axis: "level [dB re 1e-06 m/s²]"."""
     pretty = unit.replace("m/s2", "m/s²")
+    if unit in REFERENCE_NAME:
+        return f"level [dB re {REFERENCE_NAME[unit]}]"
     return f"level [dB re {REFERENCE[unit]:g} {pretty}, RMS]" if unit in REFERENCE else f"RMS [{pretty}]"
 
 

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter collect`: levels, orders and cost of all runs of a sweep in one file."""
+import os
+import pathlib
+import tomllib
+
+import h5py
+import numpy as np
+
+from . import artefact, chains, orders
+from .artefact import BadArtefact, CannotWrite, schema_of, text
+
+AT = "analysis/cycle"
+UNFINISHED = ("failed", "interrupted")
+
+
+def add_arguments(command):
+    """Declares the arguments of `clatter collect`."""
+    command.add_argument("folder", help="of the scenes of `clatter sweep`, with their runs and fields")
+    command.add_argument("-o", "--output", metavar="sweep.h5", help="default: sweep.h5 in the folder")
+
+
+def flat(table, prefix=""):
+    """{dotted key: value} of nested tables."""
+    found = {}
+    for key, value in table.items():
+        name = f"{prefix}.{key}" if prefix else key
+        found.update(flat(value, name) if isinstance(value, dict) else {name: value})
+    return found
+
+
+def scenes(folder):
+    """[(name, {changed key: value})] of the scenes in a folder, numbers in order."""
+    found = []
+    for path in folder.glob("*.run.toml"):
+        with open(path, "rb") as stream:
+            try:
+                table = tomllib.load(stream)
+            except tomllib.TOMLDecodeError as error:
+                raise BadArtefact(f"{path}: not TOML: {error}") from error
+        found.append((path.name.removesuffix(".run.toml"), flat({k: v for k, v in table.items() if k not in ("base", "title")})))
+    if not found:
+        raise BadArtefact(f"{folder}: found no scene, expected those of `clatter sweep`")
+    return sorted(found, key=lambda scene: [value if isinstance(value, (int, float)) else 0.0 for value in scene[1].values()] + [scene[0]])
+
+
+def state_of(folder, name):
+    """"complete", "failed", "interrupted" or "missing"."""
+    if (folder / f"{name}.run.h5").exists():
+        return "complete"
+    return next((state for state in UNFINISHED if (folder / f"{name}.run.{state}.h5").exists()), "missing")
+
+
+def of_histories(path):
+    """({history: spectrum}, cost) of the sprockets' speeds in a run."""
+    with artefact.open_artefact(path, "run") as run:
+        found = {}
+        for chain in chains.names(run):
+            for name in run["history"]:
+                if name.startswith(f"{chain}_") and name.endswith("_speed") and chains.complete_cycles(chains.crank_angle(run)):
+                    found[f"histories/{name}"] = orders.of_run(run, name)
+        return found, artefact.totals(run)
+
+
+def of_field(path):
+    """({sensors/label or panels/name: spectrum}, {panels/name: ERP in dB and dB(A)}, cost) of a field file."""
+    with artefact.open_artefact(path, "field") as field:
+        if AT not in field:
+            return {}, {}, artefact.totals(field)
+        found, levels = {}, {}
+        for sensor in field[f"{AT}/sensors"] if f"{AT}/sensors" in field else []:
+            for label in field[f"{AT}/sensors/{sensor}/labels"][()]:
+                found[f"sensors/{text(label)}"] = orders.of_field(field, text(label))
+        for panel in field[f"{AT}/panels"]:
+            found[f"panels/{panel}"] = orders.of_panel(field, panel)
+            attributes = field[f"{AT}/panels/{panel}"].attrs
+            levels[f"panels/{panel}"] = (attributes["erp_db"], attributes["erp_dba"])
+        return found, levels, artefact.totals(field)
+
+
+class Sweep:
+    """What is known of all runs: rows in the order of the scenes, nan where nothing is known."""
+
+    def __init__(self, folder):
+        self.scenes = scenes(folder)
+        self.states = [state_of(folder, name) for name, _ in self.scenes]
+        self.spectra = [{} for _ in self.scenes]
+        self.levels = [{} for _ in self.scenes]
+        self.cost = np.full((len(self.scenes), 2, 2), np.nan)  # of run and field: seconds, peak GiB
+        for row, (name, _) in enumerate(self.scenes):
+            run, field = (folder / f"{name}.{kind}.h5" for kind in ("run", "field"))
+            if self.states[row] == "complete":
+                self.spectra[row], self.cost[row, 0] = of_histories(run)
+            if field.exists():
+                found, self.levels[row], self.cost[row, 1] = of_field(field)
+                self.spectra[row].update(found)
+
+    def speeds(self):
+        """Of the crank [rpm], nan where nothing turns or ran."""
+        return np.array([next((spectrum[0] for spectrum in one.values()), np.nan) for one in self.spectra])
+
+    def table(self, name):
+        """(RMS by run and half order, unit) of one quantity."""
+        rows = [one.get(name) for one in self.spectra]
+        width = max(len(row[1]) for row in rows if row)
+        values = np.full((len(rows), width), np.nan)
+        for k, row in enumerate(rows):
+            if row:
+                values[k, :len(row[2])] = row[2]
+        return values, next(row[3] for row in rows if row)
+
+
+def write(sweep, path):
+    """Writes the file, complete or not at all."""
+    part = pathlib.Path(f"{path}.part")
+    try:
+        with h5py.File(part, "w") as file:
+            fill(sweep, file)
+            file.flush()
+        os.replace(part, path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise CannotWrite(f"{path}: cannot be written: {error}") from error
+
+
+def fill(sweep, file):
+    """The datasets of docs/formats.md."""
+    def put(name, values, unit, meaning):
+        values = np.asarray(values)
+        if values.dtype.kind in "US":
+            values = values.astype("S")
+        one = file.create_dataset(name, data=values, fletcher32=True)
+        one.attrs["unit"], one.attrs["meaning"] = np.bytes_(unit), np.bytes_(meaning)
+
+    file.attrs["schema"] = np.bytes_(schema_of("sweep"))
+    put("name", [name for name, _ in sweep.scenes], "1", "scenes, a row of all other datasets each")
+    put("state", sweep.states, "1", "complete, failed, interrupted or missing")
+    put("speed_rpm", sweep.speeds(), "1/min", "mean speed of the crank")
+    put("cost", sweep.cost.reshape(len(sweep.scenes), 4), "s, GiB, s, GiB", "seconds and peak memory of run and field")
+    for key in sorted({key for _, keys in sweep.scenes for key in keys}):
+        values = [keys.get(key, np.nan) for _, keys in sweep.scenes]
+        numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+        put(f"keys/{key}", np.array(values, float) if numbers else [str(value) for value in values], "as in the scene", "value of the key")
+    names = sorted({name for one in sweep.spectra for name in one})
+    width = 0
+    for name in names:
+        values, unit = sweep.table(name)
+        width = max(width, values.shape[1])
+        put(f"{name}/rms", values, unit, "RMS by run and half order of the crank; of panels the root of the ERP")
+    for name in sorted({name for one in sweep.levels for name in one}):
+        pairs = np.array([one.get(name, (np.nan, np.nan)) for one in sweep.levels])
+        put(f"{name}/erp_db", pairs[:, 0], "dB re 1 pW", "equivalent radiated power of the cycle")
+        put(f"{name}/erp_dba", pairs[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
+    put("order", 0.5 * np.arange(width), "1", "half orders, columns of rms")
+
+
+def write_collection(options):
+    """`clatter collect`: the file, and what is complete."""
+    folder = pathlib.Path(options.folder)
+    if not folder.is_dir():
+        raise BadArtefact(f"{folder}: no such folder")
+    sweep = Sweep(folder)
+    path = pathlib.Path(options.output or folder / "sweep.h5")
+    write(sweep, path)
+    counts = {state: sweep.states.count(state) for state in dict.fromkeys(sweep.states)}
+    print(f"{path}: {len(sweep.scenes)} runs, " + ", ".join(f"{count} {state}" for state, count in counts.items()))
+    for state in (*UNFINISHED, "missing"):
+        names = [name for (name, _), one in zip(sweep.scenes, sweep.states) if one == state]
+        if names:
+            print(f"{state}: {', '.join(names)}")
