@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `clatter report --html` in Debian's Chromium without a window: it is drawn, without errors and without requests; it
 turns, slides, plays, saves; from a phone to a wall screen, light and dark, by keys."""
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,6 +12,7 @@ import unittest
 import browser
 import synthetic_page
 
+SAMPLE = pathlib.Path(os.environ.get("CLATTER_SAMPLE", pathlib.Path(__file__).resolve().parents[2] / "samples/truck_diesel"))
 CLATTER = pathlib.Path(__file__).resolve().parents[2] / "tools/clatter"
 if not browser.PROGRAM:
     print("skipped: Chromium is not installed; `tools/setup browser` installs it, about 120 MB to load")
@@ -190,6 +193,18 @@ class Page(unittest.TestCase):
         self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=number["identifier"])
         self.assertIn("this browser has no WebGL2", self.page.evaluate("document.getElementById('surface').textContent"))
         self.assertEqual(self.page.evaluate("document.querySelectorAll('main > section').length"), 12)
+
+    @unittest.skipUnless((SAMPLE / "slap.field.h5").exists(), "make demo has not been run")
+    def test_the_page_of_the_demo_is_smaller_than_40_mb_and_has_the_figures_of_the_report(self):
+        path = self.path.parent / "demo.html"
+        subprocess.run([CLATTER, "report", "--html", SAMPLE, "-o", path], check=True, capture_output=True)
+        self.assertLess(path.stat().st_size, 40e6)
+        self.page.goto(path)
+        print(f"{path.stat().st_size / 1e6:.1f} MB, drawn after {self.page.evaluate('document.documentElement.dataset.drawn')} ms")
+        printed = subprocess.run([CLATTER, "report", SAMPLE], check=True, capture_output=True, text=True).stdout
+        powers = re.findall(r"^  slap\S* .* (\d+\.\d)$", printed.split("power over the cycle")[1].split("cost of")[0], re.M)
+        self.assertEqual(self.page.evaluate("[...document.querySelectorAll('.keys div b')].map(one => one.textContent)")[:len(powers)],
+                         [f"{power} dB(A)" for power in powers])
 
     def test_no_width_needs_a_horizontal_scroll_bar(self):
         for width, height, phone in ((360, 740, True), (768, 1024, True), (1280, 900, False), (3840, 2160, False)):

@@ -27,11 +27,13 @@ function nearest({ x, y, kind }, at) {
   return Math.abs(x[high] - at) < Math.abs(x[low] - at) ? high : low;
 }
 
+const USUAL_FONT_PX = 12; // with which widths of lines are as they are given; on a wall screen letters and lines are larger
+
 function paintLine(context, line, colour, sx, sy, box) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineJoin = "round";
   context.setLineDash(line.dash ?? []);
-  context.lineWidth = line.wide ?? 1.5;
+  context.lineWidth = ((line.wide ?? 1.5) * drawingFont().size) / USUAL_FONT_PX;
   const { x, y, kind } = line;
   if (kind === "points") {
     for (let k = 0; k < y.length; ++k) {

@@ -276,7 +276,7 @@ class Surface {
       low = colours === "diverging" ? -limit : 0;
     const size = Math.max(...this.part.high.map((one, k) => one - this.part.low[k]));
     return {
-      ...this.view.matrices(this.part.low, this.part.high),
+      ...this.view.matrices(this.part.low, this.part.high, this.kind === "panels" ? 0 : this.bar.clientWidth),
       phase: this.phase,
       enlargement: (this.enlargement * DRAWN_SHARE * size) / this.limit.whole,
       shown: Object.keys(SHOWN).indexOf(this.shown),

@@ -34,17 +34,22 @@ class View {
     this.redraw();
   }
 
-  /** Matrices that show a box from low to high. */
-  matrices(low, high) {
+  /** Matrices that show a box from low to high, beside a strip of so many pixels on the right. */
+  matrices(low, high, reserved) {
     const centre = low.map((one, k) => 0.5 * (one + high[k])),
       radius = 0.5 * Math.hypot(...low.map((one, k) => high[k] - one));
-    const ratio = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight),
-      half = (0.93 * radius) / this.zoom;
-    const [wide, tall] = ratio > 1 ? [half * ratio, half] : [half, half / ratio];
-    this.metresPerPixel = (2 * wide) / Math.max(1, this.canvas.clientWidth);
+    const { clientWidth: width, clientHeight: height } = this.canvas,
+      free = Math.max(1, Math.min(width - reserved, height));
+    this.metresPerPixel = (2 * 0.93 * radius) / (this.zoom * free);
+    const [wide, tall] = [0.5 * width * this.metresPerPixel, 0.5 * height * this.metresPerPixel];
+    // The middle moves aside only where there is no space beside the part anyway.
+    const aside = 0.5 * Math.max(0, Math.min(reserved, reserved - (width - free - reserved)));
     return {
       view: viewMatrix(this.azimuth, this.elevation, centre),
-      projection: parallelMatrix(wide, tall, 4 * radius, this.middle),
+      projection: parallelMatrix(wide, tall, 4 * radius, [
+        this.middle[0] + aside * this.metresPerPixel,
+        this.middle[1],
+      ]),
     };
   }
 
