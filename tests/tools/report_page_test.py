@@ -14,6 +14,7 @@ import numpy as np
 import synthetic
 import synthetic_drive
 import synthetic_page
+from clatter_tools import report_page
 from clatter_tools.report_page import certificates, shapes, skin
 from clatter_tools.report_page.pack import Pack, json_text
 
@@ -46,10 +47,7 @@ class Folder(unittest.TestCase):
 
     def page(self):
         """(data, blocks, text) of the page of the folder."""
-        done = self.clatter("--html")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"^report.html: \d+\.\d MB\n$")
-        text = (self.folder / "report.html").read_text(encoding="utf-8")
+        text = report_page.write_page(self.folder).read_text(encoding="utf-8")
         data = json.loads(re.search(r'<script type="application/json" id="page-data">(.*?)</script>', text, re.S).group(1))
         blocks = dict(re.findall(r'<script type="text/plain" id="block-(\w+)">(.*?)</script>', text, re.S))
         return data, blocks, text
@@ -99,8 +97,12 @@ class Page(Folder):
         self.assertTrue(data["summary"]["sentences"][0].startswith(f"Loudest: {data['runs'][loudest['run']]['label']}"))
         self.assertIn("highest at 500 Hz", data["summary"]["sentences"][3])  # the peak of the power
 
-    def test_refusals_are_one_line(self):
+    def test_the_command_says_where_the_page_is_and_refuses_in_one_line(self):
         synthetic.write_run(self.folder / "slap.run.h5")
+        done = self.clatter("--html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^report.html: \d+\.\d MB\n$")
+        (self.folder / "report.html").unlink()
         (self.folder / "file").write_text("")
         for arguments, code, expected in ((("nowhere", "--html"), 2, "no artefacts"), (("-o", "a.html"), 2, "expected it with --html only"),
                                           (("--html", "-o", "file/a.html"), 4, "file/a.html: cannot be written")):
