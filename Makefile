@@ -20,13 +20,14 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check configure build build-tests demo check validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-demo setup-check setup-validate configure build build-tests demo check validate sanitize format lint docs deb levels install clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
 setup-check: ; @tools/setup build demo check
+setup-validate: ; @tools/setup build demo check browser
 
 configure: | setup
 	@mkdir -p build
@@ -43,11 +44,12 @@ demo: setup-demo build
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) models
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS)
 	@tools/clatter report samples/truck_diesel
+	@tools/clatter report --html samples/truck_diesel
 
 check: setup-check build-tests
 	@$(CTEST) -LE long
 
-validate: setup-check build-tests
+validate: setup-validate build-tests
 	@$(CTEST)
 
 # With the address and undefined behaviour sanitizers and warnings as errors.

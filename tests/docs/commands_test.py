@@ -200,6 +200,9 @@ class Run(stages.PipelineTest):
         self.named(slap__run__h5="step.run.h5", slap__field__toml="step.field.toml")
         self.run_blocks("recover/README.md")
 
+    def test_report(self):
+        self.run_blocks("tools/clatter_tools/report_page/README.md")
+
     def test_each_readme_with_a_command_is_among_these(self):
         here = set(re.findall(r'run_blocks\("([\w/.]+)"\)', pathlib.Path(__file__).read_text()))
         wanted = {command.path for command in commands.all_commands() if readme(command) and command.block and not elsewhere(command)}

@@ -90,7 +90,7 @@ def write_run(path, clearance=20e-6, film=True, cylinder=""):
     wrapped = np.radians((angle + 360) % 720 - 360)
     with new_file(path, "run") as file:
         put = lambda name, values, unit: history(file, prefix + name, values, unit)  # noqa: E731
-        file["history/crank_angle_deg"] = angle
+        history(file, "crank_angle_deg", angle, "deg")
         put("piston_lateral", clearance * np.tanh(3 * np.sin(wrapped)), "m")
         put("piston_tilt", 4e-4 * np.cos(wrapped / 2) * np.sin(2 * wrapped), "rad")
         put("side_force", 3000 * np.exp(-(wrapped / 0.8) ** 2) * np.sin(wrapped), "N")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One artefact (HDF5 file) as its stage wrote it: attributes, inputs, certificate, timing, effects."""
+import functools
 import hashlib
 import pathlib
 
@@ -54,6 +55,13 @@ def dataset(file, name):
 
 
 def sha256(path):
+    """Of a file's contents; of a file that has not changed it is computed once."""
+    state = path.stat()
+    return digest_of(path, state.st_size, state.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=None)
+def digest_of(path, _size, _changed):
     digest = hashlib.sha256()
     with open(path, "rb") as stream:
         for block in iter(lambda: stream.read(1 << 20), b""):

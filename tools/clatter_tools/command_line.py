@@ -23,8 +23,10 @@ def parser():
     one = commands.add_parser("run", help="bring a folder's artefacts up to date (make)")
     one.add_argument("folder", nargs="?", default=".")
     one.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
-    one = commands.add_parser("report", help="print the results of the runs in a folder")
+    one = commands.add_parser("report", help="print the results of the runs in a folder, or write them as a page")
     one.add_argument("folder", nargs="?", default=".")
+    one.add_argument("--html", action="store_true", help="write one page of HTML with plots and a 3-D view instead")
+    one.add_argument("-o", "--output", metavar="page.html", help="of --html; default: report.html in the folder")
     one = commands.add_parser("plot", help="draw a picture from artefacts")
     one.add_argument("kind", help="kind of picture; 'list' names them")
     one.add_argument("files", nargs="*", metavar="file.h5")
@@ -67,6 +69,17 @@ def plot(kind, files, output):
     return 0
 
 
+def write_report(options):
+    if not options.html:
+        if options.output:
+            raise BadArtefact(f"--output: found {options.output}, expected it with --html only")
+        report.print_report(options.folder)
+        return
+    from . import report_page  # which loads matplotlib
+    path = report_page.write_page(options.folder, options.output)
+    print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
+
+
 def main(arguments, rules):
     """Runs one command line; returns the exit code."""
     options = parser().parse_args(arguments)
@@ -78,7 +91,7 @@ def main(arguments, rules):
         elif options.command == "run":
             return run_make(options.folder, options.jobs)
         elif options.command == "report":
-            report.print_report(options.folder)
+            write_report(options)
         elif options.command == "plot":
             return plot(options.kind, options.files, options.output)
         elif options.command == "drive":

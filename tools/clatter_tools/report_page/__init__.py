@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter report --html`: the results of a folder as one page of HTML that needs no other file and no network.
+
+Each module collects the data of one section; the folder `page` beside this one has the page itself: template, style, scripts.
+"""
+import os
+import pathlib
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from .. import artefact
+from ..plots import style
+from . import (certificates, cost, drive, film_maps, mechanism, models, radiation, sensors, sound, speeds, summary, surface)
+from .folder import Folder
+from .pack import Pack, json_text
+
+PAGE = pathlib.Path(__file__).resolve().parent.parent / "page"
+# In this order: each uses only what is before it.
+SCRIPTS = ("element", "data", "theme", "runs", "save", "scale", "lines", "picture", "plot", "heat", "matrix", "renderer", "motion", "view", "sound",
+           "summary", "beside", "controls", "surface_save", "surface", "radiation", "listening", "sensors", "mechanism", "film", "drive", "speeds", "models", "cost", "main")
+COLOURS = {"viridis": "viridis", "cividis": "cividis", "diverging": "RdBu_r"}  # safe for colour-blind eyes
+STEPS = 64
+
+
+def write_page(folder, output=None):
+    """Writes the page, by default report.html in the folder, complete or not at all; returns its path."""
+    found = Folder(folder)
+    output = pathlib.Path(output) if output else found.path / "report.html"
+    text = page(found)
+    part = output.with_name(output.name + ".part")
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, output)
+    except OSError as error:
+        raise artefact.CannotWrite(f"{output}: cannot be written: {error.strerror}") from error
+    return output
+
+
+def page(folder):
+    """The page as text."""
+    pack = Pack()
+    data = collect(folder, pack)
+    blocks = "\n".join(f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in pack.texts().items())
+    read = lambda name: (PAGE / name).read_text(encoding="utf-8")  # noqa: E731
+    script = "\n".join(read(f"{name}.js") for name in SCRIPTS)
+    parts = {"TITLE": escape(folder.title), "STYLE": read("page.css"), "DATA": json_text(data), "BLOCKS": blocks, "SCRIPT": script}
+    text = read("page.html")
+    for name, value in parts.items():
+        text = text.replace(f"<!--{name}-->", value, 1)
+    return text
+
+
+def collect(folder, pack):
+    """Everything that the page shows, section by section; None: the folder has nothing for a section."""
+    cards = certificates.collect(folder)
+    return {
+        "title": folder.title,
+        "version": version(folder),
+        "runs": [{"label": one.label, "stem": one.stem} for one in folder.runs],
+        "many": folder.many,
+        "run_colours": style.COLOURS,
+        "colours": {name: colour_table(own) for name, own in COLOURS.items()},
+        "summary": summary.collect(folder, cards),
+        "certificates": cards,
+        "surface": surface.collect(folder, pack),
+        "radiation": radiation.collect(folder, pack),
+        "sound": sound.collect(folder, pack),
+        "sensors": sensors.collect(folder, pack),
+        "mechanism": mechanism.collect(folder, pack),
+        "film": film_maps.collect(folder, pack),
+        "drive": drive.collect(folder, pack),
+        "speeds": speeds.collect(folder, pack),
+        "models": models.collect(folder),
+        "cost": cost.collect(folder),
+    }
+
+
+def version(folder):
+    """Of the programs that wrote the folder's newest artefact."""
+    newest = max((path for paths in folder.files.values() for path in paths), key=lambda path: path.stat().st_mtime)
+    with artefact.open_artefact(newest) as file:
+        return artefact.text(file.attrs.get("version", ""))
+
+
+def colour_table(name):
+    """A colour map as STEPS rows of red, green, blue from 0 to 255."""
+    return np.rint(255.0 * style.matplotlib.colormaps[name](np.linspace(0.0, 1.0, STEPS))[:, :3]).astype(int)

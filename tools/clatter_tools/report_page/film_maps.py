@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of the oil film: pressure, fill, gap and contact pressure on the pads of the skirt, over the crank angle."""
+import numpy as np
+
+from ..artefact import dataset
+from ..histories import centred
+
+# Dataset, name, factor, unit, colours.
+QUANTITIES = [
+    ("pressure", "film pressure", 1e-6, "MPa", "viridis"),
+    ("gap", "gap between skirt and liner", 1e6, "µm", "cividis"),
+    ("fill", "share of the gap filled with oil", 1.0, "1", "viridis"),
+    ("contact_pressure", "pressure of asperity contact", 1e-6, "MPa", "viridis"),
+]
+
+
+def collect(folder, pack):
+    """Contacts (run, cylinder) with their pads; dry contacts have no fill and no film pressure."""
+    contacts = [contact(one, group, cylinder, pack) for one in folder.with_run() if "film" in one.run
+                for cylinder, group in groups(one.run["film"])]
+    if not contacts:
+        return None
+    return {"contacts": contacts,
+            "quantities": [{"key": key, "name": name, "unit": unit, "colours": colours}
+                           for key, name, _, unit, colours in QUANTITIES]}
+
+
+def groups(film):
+    """(cylinder, group of pads); the cylinder has no name where there is one."""
+    pads = [name for name in film if "axial" in film[name]]
+    if pads:
+        return [("", film)]
+    return [(name, film[name]) for name in film if hasattr(film[name], "keys")]
+
+
+def contact(one, group, cylinder, pack):
+    angle = dataset(one.run, f"{one.run['film'].name}/crank_angle_deg")
+    last = angle > angle[-1] - 720.0 - 1e-6
+    degrees, order = centred(angle[last])
+    pads = [pad(group[name], name, np.flatnonzero(last)[order], pack) for name in sorted(group, reverse=True)
+            if "axial" in group[name]]
+    return {"run": one.number, "cylinder": cylinder, "angle": pack.add("film", degrees), "pads": pads}
+
+
+def pad(group, name, rows, pack):
+    """Coordinates along the skirt [mm] and about the piston's axis [deg], and each quantity at each instant."""
+    found = {"name": name, "axial": 1e3 * group["axial"][()], "angle": group["angle_deg"][()], "maps": {}}
+    for key, _, factor, _, _ in QUANTITIES:
+        if key in group:
+            found["maps"][key] = pack.scaled("film", factor * group[key][()][rows])
+    return found

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first section: what was found, in sentences and in the tables of `clatter report`."""
+import numpy as np
+
+from .. import artefact, chains, drive_findings, fields, findings, report, slap
+from ..plots.shape import a_weight
+from .certificates import GOOD
+
+PEAKS = 5     # of the power, that are named
+WORRIES = 12  # that are listed
+
+
+def collect(folder, cards):
+    """Sentences, tables, and how many certificates have something to say."""
+    return {"sentences": sound(folder) + drives(folder), "tables": tables(folder),
+            "checks": {state: sum(card["state"] == state for card in cards) for state in ("good", "note", "bad")},
+            "worries": worries(cards),
+            "stale": stale(folder)}
+
+
+def worries(cards):
+    """What certificates object to; the same objection to several is said once, for the first of them."""
+    found = {}
+    for card in cards:
+        for state, text in card["sentences"]:
+            if state != GOOD:
+                found.setdefault(text, []).append(card["title"])
+    said = [f"{titles[0]}{f' and {len(titles) - 1} more' if len(titles) > 1 else ''}: {text}" for text, titles in found.items()]
+    return said[:WORRIES] + ([f"{len(said) - WORRIES} further remarks are among the certificates."] if len(said) > WORRIES else [])
+
+
+def sound(folder):
+    """The loudest and the quietest run, and the panel that radiates most of the loudest."""
+    levels = []
+    for one in folder.with_field():
+        at = fields.piece(one.field, "cycle", *fields.pieces(one.field))
+        panel = fields.panel(one.field, at, "exposed", "skin")
+        levels.append((float(one.field[panel].attrs["erp_dba"]), one, at, panel.rpartition("/")[2]))
+    if not levels:
+        return []
+    levels.sort(key=lambda row: row[0])
+    level, one, at, name = levels[-1]
+    found = [f"{one.label}: {level:.1f} dB(A) of equivalent radiated power, panel “{name}”, re 1 pW."]
+    if len(levels) > 1:
+        found[0] = f"Loudest: {found[0]}"
+        found.append(f"Quietest: {levels[0][1].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
+    others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in one.field[f"{at}/panels"].items()
+                     if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
+    if others:
+        found.append(f"The strongest panel{' of the loudest run' if len(levels) > 1 else ''} is “{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
+    peaks = ", ".join(f"{hz:.0f}" for hz in strongest_lines(one.field, at, name))
+    return found + ([f"Its A-weighted power is highest at {peaks} Hz, the strongest first."] if peaks else [])
+
+
+def strongest_lines(field, at, panel):
+    """Frequencies of the highest peaks among the A-weighted lines of a panel's power."""
+    frequency = artefact.dataset(field, f"{at}/frequency_hz")
+    power = artefact.dataset(field, f"{at}/panels/{panel}/erp") * a_weight(np.maximum(frequency, 1e-3))
+    around = np.concatenate([[0.0], power, [0.0]])
+    peaks = np.flatnonzero((power > around[:-2]) & (power >= around[2:]))
+    return frequency[peaks[np.argsort(-power[peaks])[:PEAKS]]]
+
+
+def drives(folder):
+    """Of chain drives: each run, of many only jumps; then what runs at several speeds show together."""
+    found = []
+    runs = [one for one in folder.with_run() if chains.names(one.run)]
+    for one in runs:
+        before = f"{one.label}: " if len(folder.runs) > 1 else ""
+        sentences = [drive_findings.jump_text(one.run, name) for name in chains.names(one.run)] if folder.many else \
+            drive_findings.sentences(one.run)
+        found += [f"{before}{sentence}." for sentence in sentences if not folder.many or "JUMPED" in sentence]
+    for name in sorted({name for one in runs for name in chains.names(one.run)}):
+        same = [(one.run, name) for one in runs if name in chains.names(one.run)]
+        found += [f"{name} at several speeds: {sentence}." for sentence in (drive_findings.critical_speed(same) if len(same) > 1 else [])]
+    return found
+
+
+def tables(folder):
+    """(title, head, rows); a table without figures is left out."""
+    rows, sensors, parts, cells = [], [], [], []
+    for one in folder.runs:
+        if one.run is not None:
+            rows += [[f"{one.label}, {cylinder}".rstrip(", "), *cells] for cylinder, cells in findings.run_rows(one.run)]
+        if one.field is not None:
+            sensors.append([one.label, *findings.field_row(one.field)])
+    for path in folder.files["fe"]:
+        with artefact.open_artefact(path, "fe") as file:
+            parts.append([report.stem(path), findings.fe_size(file), findings.reduced_size(path), *findings.mass(file)])
+    for path in folder.files["mesh"]:
+        with artefact.open_artefact(path, "mesh") as file:
+            cells += [[report.stem(path), *row] for row in findings.mesh_quality(file)]
+    found = [("Runs, last cycle", ["run", *findings.RUN_HEAD], rows),
+             (f"Accelerations above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], sensors),
+             ("Parts", ["part", "FE DoF", "reduced DoF", "mass [kg]"], parts),
+             ("Worst cells of the meshes", ["part", "measure", "worst", "cell", "at [mm]"], cells)]
+    return [one for one in (without_gaps(*table) for table in found) if len(one["head"]) > 1]
+
+
+def without_gaps(title, head, rows):
+    """A table without the columns in which no row has a figure."""
+    kept = [k for k in range(len(head)) if k == 0 or any(row[k] != findings.NOTHING for row in rows)]
+    return {"title": title, "head": [head[k] for k in kept], "rows": [[row[k] for k in kept] for row in rows]}
+
+
+def stale(folder):
+    """Inputs that have changed since an artefact was made of them."""
+    found = []
+    for paths in folder.files.values():
+        for path in paths:
+            with artefact.open_artefact(path) as file:
+                found += [f"{path.name} was made of another {name}" for name, state in artefact.inputs(file) if state == "changed since"]
+    return found
