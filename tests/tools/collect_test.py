@@ -81,6 +81,18 @@ class Collect(unittest.TestCase):
         self.assertEqual(one, two)
         self.assertTrue((self.folder / "a.svg").exists())
 
+    def test_runs_are_selected_by_the_values_of_keys(self):
+        self.run_command("collect", ".")
+        with artefact.open_artefact(self.folder / "sweep.h5", "sweep") as sweep:
+            name = "histories/chain_cam_speed"
+            self.assertEqual([round(one[0]) for one in orders.of_sweep(sweep, name)], [1000, 2000])
+            self.assertEqual([round(one[0]) for one in orders.of_sweep(sweep, name, ["drive.crank.speed_rpm=2e3", "contact.oil=film"])], [2000])
+            for where, said in (("contact.air=1", "keys: found contact.oil, drive.crank.speed_rpm, expected contact.air$"),
+                                ("contact.oil=none", "--where contact.oil=none: found no such run; contact.oil is film$"),
+                                ("drive.crank.speed_rpm=fast", "found fast, expected a number, as drive.crank.speed_rpm has$")):
+                with self.assertRaisesRegex(artefact.BadArtefact, said):
+                    orders.of_sweep(sweep, name, [where])
+
     def test_a_folder_without_scenes_and_a_damaged_one_are_refused(self):
         (self.folder / "empty").mkdir()
         done = self.run_command("collect", "empty", code=2)

@@ -24,6 +24,7 @@ def add_arguments(commands):
     what.add_argument("--history", metavar="NAME", help="of run files")
     what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
     what.add_argument("--panel", metavar="NAME", help="of field files: a panel's equivalent radiated power, as exposed")
+    one.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")
     one.add_argument("--cycles", type=int, metavar="N", help="cycles at the end that are analysed; default: the last third")
@@ -72,7 +73,7 @@ def spectra_of(path, options):
     with open_artefact(path) as file:
         if text(file.attrs.get("schema", "")) == schema_of("sweep"):
             kind = "sensors" if options.sensor else "panels" if options.panel else "histories"
-            return orders.of_sweep(file, f"{kind}/{options.sensor or options.panel or options.history}")
+            return orders.of_sweep(file, f"{kind}/{options.sensor or options.panel or options.history}", options.where)
     with open_artefact(path, "run" if options.history else "field") as file:
         if options.history:
             return [orders.of_run(file, options.history, options.cycles)]

@@ -80,14 +80,38 @@ def of_panel(field, panel):
     return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "W^0.5"
 
 
-def of_sweep(sweep, name):
-    """Those of all runs of a sweep file; `name` as sensors/sensor_arm.x, panels/exposed, histories/chain_intake_speed."""
+def rows_where(sweep, conditions):
+    """Which rows of a sweep file have these values, ["contact.clearance_um=10"]."""
+    wanted = np.ones(len(sweep["name"]), bool)
+    for condition in conditions:
+        key, _, value = condition.partition("=")
+        if f"keys/{key}" not in sweep:
+            raise BadArtefact(f"{sweep.filename}: keys: found {', '.join(sweep['keys'])}, expected {key}")
+        values = dataset(sweep, f"keys/{key}")
+        try:
+            same = np.isclose(values, float(value), rtol=1e-9, atol=0.0) if values.dtype.kind == "f" else values == value.encode()
+        except ValueError as error:
+            raise BadArtefact(f"--where {condition}: found {value}, expected a number, as {key} has") from error
+        if not same.any():
+            raise BadArtefact(f"--where {condition}: found no such run; {key} is {', '.join(dict.fromkeys(map(shown, values)))}")
+        wanted &= same
+    return wanted
+
+
+def shown(value):
+    return text(value) if isinstance(value, bytes) else f"{value:g}"
+
+
+def of_sweep(sweep, name, where=()):
+    """Those of all runs of a sweep file that `where` selects; `name` as sensors/sensor_arm.x, panels/exposed,
+    histories/chain_intake_speed."""
     if f"{name}/rms" not in sweep:
         kind = name.split("/")[0]
         raise BadArtefact(f"{sweep.filename}: found {', '.join(sweep[kind]) if kind in sweep else f'no {kind}'}, expected {name}")
     rows, unit = dataset(sweep, f"{name}/rms"), text(sweep[f"{name}/rms"].attrs["unit"])
     found = []
-    for speed, rms in zip(dataset(sweep, "speed_rpm"), rows):
+    selected = rows_where(sweep, where)
+    for speed, rms in zip(dataset(sweep, "speed_rpm")[selected], rows[selected]):
         known = rms[~np.isnan(rms)]
         if len(known):
             found.append((float(speed), 0.5 * np.arange(len(known)), known, unit))
