@@ -38,7 +38,7 @@ REFERENCE, OTHER = ("cvode", 1e-7), ("tr-bdf2", 1e-6)
 WANTED = (1e-2, 3e-3, 1e-3)  # errors of force peaks at which methods are compared
 LENGTHS = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7)  # of fixed steps [s]
 PAPER = 1e-8  # its fixed step [s]
-LIMIT = 120  # CPU seconds of an integration
+LIMIT = 40  # CPU seconds of an integration
 
 
 class Bench:
