@@ -59,6 +59,17 @@ damping_n_s_m = 1e4
 
   /// Pushes the arm along x with 109.635 N at its place of 0 deg, as a long spring.
   void tensioner() {
+    if (drive_.hydraulic) {
+      text_ += fmt::format(R"(
+[[tensioner]]
+name = "tensioner"
+a = {{ at_mm = [{0}, 160, 0] }}
+b = {{ body = "arm", at_mm = [{0}, 160, 0] }}
+axis = [{1}, 0, 0]
+)",
+                           side_ * -55.0, side_);
+      return;
+    }
     const double force = 90.0 + 19.634954 - 2000e-3 * drive_.plunger_back_mm;
     text_ += fmt::format(R"(
 [[spring]]
@@ -73,21 +84,24 @@ length_mm = {:.9f}
   }
 
   void chain() {
+    const double f = drive_.finer;
     text_ += fmt::format(
         R"(
 [[chain]]
 name = "chain"
 links = {}
 first = "{}"
-pitch_mm = 8
-bush_mm = 5.0
-plate_half_height_mm = 3.6
-inner = {{ mass_kg = 2.2e-3, inertia_kg_m2 = 4.0e-8 }}
-outer = {{ mass_kg = 2.6e-3, inertia_kg_m2 = 4.8e-8 }}
-joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = 3.3{} }}
+pitch_mm = {}
+bush_mm = {}
+plate_half_height_mm = {}
+inner = {{ mass_kg = {}, inertia_kg_m2 = {} }}
+outer = {{ mass_kg = {}, inertia_kg_m2 = {} }}
+joint = {{ stiffness_n_m = {}, clearance_um = {}, damping_n_s_m = 200, friction = {}, pin_mm = {}{} }}
 {}
 )",
-        drive_.links, drive_.first, drive_.joint_n_m, drive_.joint_clearance_um, drive_.friction,
+        finer(drive_.links), drive_.first, 8.0 / f, 5.0 / f, 3.6 / f, 2.2e-3 / f,
+        4.0e-8 / (f * f * f), 2.6e-3 / f, 4.8e-8 / (f * f * f), f * drive_.joint_n_m,
+        drive_.joint_clearance_um, drive_.friction, 3.3 / f,
         drive_.friction > 0.0 ? fmt::format(", slip_speed_m_s = {}", drive_.slip_speed_m_s) : "",
         drive_.chain_keys);
   }
@@ -102,7 +116,7 @@ teeth = {4}
 contact = {{ bed_n_m3 = 5e12, width_mm = 4.6, damping_s_m = 0.5, friction = {5}, slip_speed_m_s = {6} }}
 )",
                          name, side_ * x, y, drive_.mirrored ? "counter-clockwise" : "clockwise",
-                         teeth, drive_.friction, drive_.slip_speed_m_s);
+                         finer(teeth), drive_.friction, drive_.slip_speed_m_s);
     if (name != "crank") return;
     const double gap = drive_.mirrored ? 180.0 - drive_.gap_deg : drive_.gap_deg;
     text_ += fmt::format("gap_deg = {}\n", gap);
@@ -132,6 +146,8 @@ arc = {{ centre_mm = [{}, {}], radius_mm = {}, from_deg = {}, to_deg = {} }}
   std::string text() const { return text_; }
 
  private:
+  int finer(int count) const { return static_cast<int>(std::lround(drive_.finer * count)); }
+
   const TimingDrive& drive_;
   double side_;
   std::string text_;
