@@ -143,6 +143,13 @@ void SparseStage::copy_S(const StageOperator& op) {
   }
 }
 
+int SparseStage::staying() const {
+  int sum = 0;
+  for (const StageGraph::Body& body : graph_.bodies)
+    if (body.size > BodyElimination::kMostUnknowns) sum += body.size;
+  return sum;
+}
+
 bool SparseStage::form(const StageOperator& op) {
   copy_S(op);
   const bool renewed = renew_couplings();
