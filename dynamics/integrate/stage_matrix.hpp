@@ -16,9 +16,9 @@ namespace clatter::dynamics {
 ///
 /// S couples the coordinates of one body, a tangent those of one element or of its groups. Where
 /// that leaves most of both empty, as in a chain, it is factored body by body (sparse_stage.hpp).
-/// Else J is formed in the rows that elements touch at the moment (the others follow from them), and
-/// factored in the columns c in which T is not negligible: x_c = J_cc^-1 b_c, and x = b + S T x_c in
-/// the rest, as on a skirt's pad that carries no load.
+/// Else J is formed in the rows that elements touch at the moment (the others follow from them),
+/// and factored in the columns c in which T is not negligible: x_c = J_cc^-1 b_c, and x = b + S T
+/// x_c in the rest, as on a skirt's pad that carries no load.
 class StageMatrix {
  public:
   /// `system` with all its bodies and elements.
