@@ -2,8 +2,8 @@
 #include "dynamics/integrate/body_elimination.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "dynamics/integrate/small_inverse.hpp"

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace clatter::dynamics {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -141,6 +139,13 @@ void SparseStage::copy_S(const StageOperator& op) {
     for (const int j : rows_[b])
       for (const int i : rows_[b]) *to++ = S(i, j);
   }
+}
+
+int SparseStage::staying() const {
+  int sum = 0;
+  for (const StageGraph::Body& body : graph_.bodies)
+    if (body.size > BodyElimination::kMostUnknowns) sum += body.size;
+  return sum;
 }
 
 bool SparseStage::form(const StageOperator& op) {

@@ -25,6 +25,8 @@ class SparseStage {
 
   /// Entries of S and T that may differ from 0.
   int nonzeros() const { return nonzeros_; }
+  /// Unknowns of wide bodies, which are factored dense.
+  int staying() const;
   /// J of this operator with the tangents of the last evaluation; false when it is singular or not
   /// finite.
   [[nodiscard]] bool form(const StageOperator& op);

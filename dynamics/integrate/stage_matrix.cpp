@@ -13,9 +13,10 @@ using Eigen::VectorXd;
 namespace {
 
 /// Below this size dense arithmetic is the faster one whatever the pattern; above it a sparse
-/// factor pays when at most this share of J can differ from 0.
+/// factor pays when at most this share of S and T can differ from 0, and when most unknowns are of
+/// bodies that are eliminated one by one.
 constexpr int kSmall = 48;
-constexpr double kFew = 0.25;
+constexpr double kFew = 0.25, kMostStaying = 0.5;
 /// Rows and columns of S^1/2 T S^1/2 whose entries sum to less change nothing.
 constexpr double kNegligible = 1e-14;
 
@@ -25,7 +26,8 @@ StageMatrix::StageMatrix(const System& system) : system_(&system) {
   SparseStage sparse(system);
   const auto n = static_cast<double>(system.interface_size());
   nonzeros_ = sparse.nonzeros();
-  if (n > kSmall && nonzeros_ <= kFew * n * n) sparse_ = std::move(sparse);
+  if (n > kSmall && nonzeros_ <= kFew * n * n && sparse.staying() <= kMostStaying * n)
+    sparse_ = std::move(sparse);
 }
 
 /// Rows that the elements touch at the moment, body by body.

@@ -15,10 +15,10 @@ namespace clatter::dynamics {
 /// J = I - S T in the interface coordinates, T = sum of the elements' tangents, factored.
 ///
 /// S couples the coordinates of one body, a tangent those of one element or of its groups. Where
-/// that leaves most of J empty, as in a chain, it is factored as a sparse matrix whose pattern is
-/// analysed once (sparse_stage.hpp). Else J is formed in the rows that elements touch at the moment
-/// (the others follow from them), and factored in the columns c in which T is not negligible: x_c =
-/// J_cc^-1 b_c, and x = b + S T x_c in the rest, as on a skirt's pad that carries no load.
+/// that leaves most of both empty, as in a chain, it is factored body by body (sparse_stage.hpp).
+/// Else J is formed in the rows that elements touch at the moment (the others follow from them),
+/// and factored in the columns c in which T is not negligible: x_c = J_cc^-1 b_c, and x = b + S T
+/// x_c in the rest, as on a skirt's pad that carries no load.
 class StageMatrix {
  public:
   /// `system` with all its bodies and elements.
@@ -31,7 +31,7 @@ class StageMatrix {
   void solve(const StageOperator& op, Eigen::VectorXd& x) const;
 
   bool is_sparse() const { return sparse_.has_value(); }
-  /// Entries of J that may differ from 0.
+  /// Entries of S and T that may differ from 0.
   int nonzeros() const { return nonzeros_; }
   const SparseStage* sparse() const { return sparse_ ? &*sparse_ : nullptr; }
   /// Rows that the elements of the last form() touch; 0: sparse.
@@ -65,7 +65,7 @@ class StageMatrix {
   std::vector<int> touched_y_;               // k
   std::vector<int> row_;                     // of a y in touched_y_; -1: not touched
   std::vector<std::vector<int>> body_rows_;  // per body: its touched rows
-  std::vector<Eigen::MatrixXd> S_;           // per body, of its touched rows; sparse: of all
+  std::vector<Eigen::MatrixXd> S_;           // per body, of its touched rows
   double kappa_ = 0.0;                       // of S_; 0: not formed
   Eigen::MatrixXd T_;                        // of the touched rows, k x k
   Eigen::VectorXd size_;                     // root of the diagonal of S, k

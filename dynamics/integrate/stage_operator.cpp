@@ -6,6 +6,15 @@ namespace clatter::dynamics {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+void scatter(const VectorXd& values, const std::vector<int>& indices, VectorXd& all) {
+  for (size_t i = 0; i < indices.size(); ++i)
+    all(indices[i]) = values(static_cast<Eigen::Index>(i));
+}
+
+}  // namespace
+
 StageOperator::StageOperator(const System& system, double kappa) : system_(&system), kappa_(kappa) {
   const Eigen::ArrayXd mu = system.inertia().array() / (kappa * kappa);
   const Eigen::ArrayXd delta = system.damping().array() / kappa;
@@ -88,11 +97,15 @@ void StageOperator::apply_S(const VectorXd& f, VectorXd& result) const {
     if (rows.empty() || system_->has_single_rows(body)) continue;
     const MatrixXd& P = system_->P(body);
     gather(f, rows, part_[b]);
+    if (!S_.empty() && P.rows() < 2 * P.cols()) {
+      modal_[b].noalias() = S(body) * part_[b];
+      scatter(modal_[b], rows, result);
+      continue;
+    }
     modal_[b].noalias() = P.transpose() * part_[b];
     modal_[b].array() *= H_.segment(system_->mode_offset(body), P.cols()).array();
     part_[b].noalias() = P * modal_[b];
-    for (size_t i = 0; i < rows.size(); ++i)
-      result(rows[i]) = part_[b](static_cast<Eigen::Index>(i));
+    scatter(part_[b], rows, result);
   }
 }
 

@@ -13,8 +13,9 @@ namespace clatter::dynamics {
 ///   a = H / kappa^2 (F - omega^2 eta~ - (delta + kappa omega^2) v~),  v = v~ + kappa a,
 ///   eta = eta~ + kappa v,
 /// which is the stage equation solved for a: without cancellation at any kappa.
-/// Per body S = P H P^T, so that y = y_pred + S f. S is applied by its factors and formed only in
-/// the rows that are asked for: a body of hundreds of rows is touched in some tens of them.
+/// Per body S = P H P^T, so that y = y_pred + S f. S is applied by its factors, or as it is
+/// where it has been formed and is smaller; it can be formed only in the rows that are asked for: a
+/// body of hundreds of rows is touched in some tens of them.
 class StageOperator {
  public:
   StageOperator(const System& system, double kappa);
@@ -51,7 +52,7 @@ class StageOperator {
   Eigen::VectorXd moving_share_;
   mutable std::vector<double> S_;                         // of all bodies; empty: not formed
   mutable std::vector<size_t> S_starts_;                  // per body
-  mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes
+  mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes or rows
   mutable std::vector<Eigen::MatrixXd> picked_, scaled_;  // per body: rows of P, and times H
 };
 

@@ -185,6 +185,16 @@ TEST(StageMatrix, APartWithManyRowsStaysToTheEndAndItsLinksTouchFewOfThem) {
   EXPECT_LT(matrix.nonzeros(), 4200);
 }
 
+TEST(StageMatrix, FewLinksBesidePartsWithManyRowsAreDense) {
+  // 150 of 210 unknowns are of parts of which three rows are touched at the moment.
+  auto system = chain(20, true);
+  for (int part = 0; part < 5; ++part) {
+    const std::vector<int> all = add_plate(*system, 30);
+    system->add_element(std::make_unique<FewSprings>(all, std::vector{2, 7, 11}, coupled(3)));
+  }
+  EXPECT_FALSE(StageMatrix(*system).is_sparse());
+}
+
 TEST(StageMatrix, CouplingsMayComeAndGo) {
   // The springs between links and plate that act are others in each turn.
   auto system = chain_on_plate(60, 30);

@@ -57,6 +57,41 @@ TEST(HardTD1_Assembly, APlunger3mmBackIsSlackAtTheStartAndFindsItsEquilibrium) {
   }
 }
 
+TEST(HardTD1_Assembly, LongAndShortLinksStiffJointsAndOtherPhasesFindTheirEquilibrium) {
+  // Coarse, as meant, fine; the oil's check valve opens at the pressure of rest.
+  struct Case {
+    double finer, joint_n_m, gap_deg;
+  };
+  for (const Case& one : {Case{0.4, 1e7, -20.94}, Case{0.4, 6e7, -9.69}, Case{0.6, 1e7, -13.44},
+                          Case{0.6, 6e7, -20.94}, Case{0.8, 6e7, -20.94}, Case{1.0, 6e7, -20.94},
+                          Case{1.0, 1e7, -16.44}, Case{2.0, 6e7, -20.94}, Case{2.0, 1e7, -18.69},
+                          Case{4.0, 1e7, -20.94}}) {
+    TimingDrive drive;
+    drive.tensioner = "start_travel_mm = 0\n";
+    drive.friction = 0.08;
+    drive.finer = one.finer;
+    drive.joint_n_m = one.joint_n_m;
+    drive.gap_deg = one.gap_deg;
+    RunningDrive running(drive);
+    const auto model = build_model(running.scene, {}, true);
+    const Equilibrium found = find_equilibrium(model->system, 0.0, model->system.eta_start());
+    EXPECT_TRUE(found.found) << one.finer << " " << one.joint_n_m << " " << one.gap_deg;
+    EXPECT_LT(found.residual, 1e-6);
+    EXPECT_LT(found.iterations, 300) << one.finer << " " << one.joint_n_m << " " << one.gap_deg;
+  }
+}
+
+TEST(HardTD1_Assembly, LooseJointsOfFineLinksArePulledTaut) {
+  // 520 links of 2 mm with 12.5 um of play: 13 mm more chain than the arm takes up at the start.
+  TimingDrive drive = with_friction_and_play();
+  drive.finer = 4.0;
+  RunningDrive one(drive);
+  const auto model = build_model(one.scene, {}, true);
+  const Equilibrium found = find_equilibrium(model->system, 0.0, model->system.eta_start());
+  EXPECT_TRUE(found.found);
+  EXPECT_LT(found.residual, 1e-6);
+}
+
 TEST(HardTD1_Assembly, AChainWithoutEquilibriumIsAnErrorThatNamesTheSpan) {
   // A moment of 300 N m on the exhaust wheel: 5.9 kN, against which the slack side holds nothing.
   TimingDrive drive = with_friction_and_play();

@@ -9,8 +9,9 @@ struct TimingDrive {
   double rpm = 0.0;             // of the crank, clockwise
   double gap_deg = -20.94;      // of a tooth gap of the crank that is wrapped
   std::string first = "outer";  // link from there in running direction
-  int links = 130;
-  double joint_n_m = 1e7;
+  int links = 130;              // of 8 mm
+  double finer = 1.0;           // as many times these links and teeth, of a pitch as much smaller
+  double joint_n_m = 1e7;       // of those of 8 mm
   double joint_clearance_um = 0.0;
   double plunger_n_m = 2000.0;   // rate of the tensioner, softening outwards
   double plunger_back_mm = 0.0;  // by which its force is that of a plunger farther back
