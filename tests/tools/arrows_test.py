@@ -17,6 +17,7 @@ LIBRARIES = {
     "core/rom": {"core/base"},
     "core/run": set(),
     "core/sparse": {"core/base"},
+    "core/sound": {"core/base"},
     "core/fe": {"core/base", "core/mesh", "core/rom"},
     "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
@@ -24,8 +25,8 @@ LIBRARIES = {
 STAGES = {
     "mesh": {"core/base", "core/mesh"},
     "assembly": {"core/base", "core/mesh", "core/rom", "core/fe"},
-    "modal": set(LIBRARIES) - {"core/run"},
-    "condense": set(LIBRARIES) - {"core/run"},
+    "modal": set(LIBRARIES) - {"core/run", "core/sound"},
+    "condense": set(LIBRARIES) - {"core/run", "core/sound"},
     "dynamics": {"core/base", "core/rom", "core/run"},
     "recover": {"core/base", "core/rom", "core/run"},
 }
@@ -40,7 +41,7 @@ HEADER_OWNERS = {
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
     r"CLI/.*": ["core/base/command_line"],
     r"nlohmann/.*": ["core/base/json_line"],
-    r"lapack\.h": ["core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
+    r"lapack\.h": ["core/sound/complex_lu", "core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")
