@@ -13,7 +13,7 @@ namespace {
 /// The parts of rows of A and B that one test facet contributes.
 struct FacetRows {
   Eigen::MatrixXcd A;  // n_v x 3, column a: row of corner a
-  Eigen::MatrixXcd B;  // n_f x 3
+  Eigen::MatrixXcd B;  // 3 n_f x 3
 };
 
 /// Adds what the source facet `y`, which is face `face` or its image, does to the test facet.
@@ -27,22 +27,26 @@ void add_pair(double k, Complex alpha, const PreparedFacet& x, const PreparedFac
     for (int b = 0; b < 3; ++b)
       rows.A(y.nodes[b], a) += alpha * (curls(a, b) * both - normals * pair.single_layer(a, b)) -
                                pair.double_layer(a, b);
-    rows.B(face, a) -= pair.single_layer.row(a).sum() + alpha * pair.adjoint[a];
+    for (int b = 0; b < 3; ++b)
+      rows.B(3 * face + corner_of_face(b, same_surface), a) -=
+          pair.single_layer(a, b) + alpha * pair.adjoint(a, b);
   }
 }
 
 /// The terms 1/2 M and 1/2 alpha M'.
 void add_jump(Complex alpha, const PreparedFacet& x, Eigen::Index face, FacetRows& rows) {
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b) rows.A(x.nodes[b], a) += 0.5 * x.facet.area / (a == b ? 6.0 : 12.0);
-    rows.B(face, a) -= alpha * 0.5 * x.facet.area / 3.0;
-  }
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const double half_mass = 0.5 * x.facet.area / (a == b ? 6.0 : 12.0);
+      rows.A(x.nodes[b], a) += half_mass;
+      rows.B(3 * face + b, a) -= alpha * half_mass;
+    }
 }
 
 void require_space(const Surface& surface) {
   const auto n_v = static_cast<double>(surface.node_count());
   const auto n_f = static_cast<double>(surface.face_count());
-  require_memory("the boundary element matrices", gib_of_doubles(2.0 * n_v * (n_v + n_f)),
+  require_memory("the boundary element matrices", gib_of_doubles(2.0 * n_v * (n_v + 3.0 * n_f)),
                  "use a coarser surface");
 }
 
@@ -58,7 +62,7 @@ BoundaryMatrices boundary_matrices(const Surface& surface, const Space& space, d
   const std::vector<PreparedFacet> facets = prepared_facets(surface);
   const std::vector<PreparedFacet> images = image_facets(surface, space);
   const Eigen::Index n_v = surface.node_count(), n_f = surface.face_count();
-  BoundaryMatrices out{Eigen::MatrixXcd::Zero(n_v, n_v), Eigen::MatrixXcd::Zero(n_f, n_v)};
+  BoundaryMatrices out{Eigen::MatrixXcd::Zero(n_v, n_v), Eigen::MatrixXcd::Zero(3 * n_f, n_v)};
   // Facets share nodes: their rows are computed side by side, and added one after another.
   constexpr Eigen::Index kAtOnce = 64;
   std::vector<FacetRows> batch(kAtOnce);
@@ -68,7 +72,7 @@ BoundaryMatrices boundary_matrices(const Surface& surface, const Space& space, d
       FacetRows& rows = batch[static_cast<size_t>(task)];
       const PreparedFacet& x = facets[static_cast<size_t>(first + task)];
       rows.A.setZero(n_v, 3);
-      rows.B.setZero(n_f, 3);
+      rows.B.setZero(3 * n_f, 3);
       add_jump(alpha, x, first + task, rows);
       for (size_t y = 0; y < facets.size(); ++y)
         add_pair(k, alpha, x, facets[y], static_cast<Eigen::Index>(y), true, rows);

@@ -17,15 +17,16 @@ namespace clatter::sound {
 ///
 ///   W_ij = int int G ( n x grad N_i . n x grad N_j - k^2 n(x) . n(y) N_i N_j ) dS dS
 ///
-/// The pressure p is linear on each face and continuous, its normal derivative is constant on each
-/// face; M and M' hold the integrals of N_i N_j and of N_i.
+/// Both p and dp/dn are linear on each face; p is continuous, dp/dn has values of its own at the
+/// corners of each face: column 3 f + b of B belongs to corner b of face f. M and M' hold the
+/// integrals of N_i N_j.
 struct BoundaryMatrices {
   Eigen::MatrixXcd A_transposed;  // n_v x n_v [m2]
-  Eigen::MatrixXcd B_transposed;  // n_f x n_v [m3]
+  Eigen::MatrixXcd B_transposed;  // 3 n_f x n_v [m3]
 };
 
 /// Integrates the matrices at wavenumber k [1/m] > 0, with all threads; the result is independent
-/// of their number. Memory: 16 (n_v^2 + n_v n_f) bytes.
+/// of their number. Memory: 16 n_v (n_v + 3 n_f) bytes.
 /// @throws InputError when the surface is not above the ground plane
 /// @throws NumericsError when the memory limit leaves too little
 BoundaryMatrices boundary_matrices(const Surface& surface, const Space& space, double k,

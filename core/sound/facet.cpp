@@ -64,7 +64,7 @@ std::vector<PreparedFacet> image_facets(const Surface& surface, const Space& spa
   for (PreparedFacet& facet : facets) {
     Eigen::Matrix3d corners;
     for (int a = 0; a < 3; ++a)
-      corners.col(a) = space.ground->mirrored(facet.facet.corners.col((3 - a) % 3));
+      corners.col(a) = space.ground->mirrored(facet.facet.corners.col(corner_of_face(a, false)));
     facet = prepared(corners, {facet.nodes[0], facet.nodes[2], facet.nodes[1]});
   }
   return facets;

@@ -36,6 +36,11 @@ struct PreparedFacet {
 /// All facets of a surface.
 std::vector<PreparedFacet> prepared_facets(const Surface& surface);
 
+/// The corner of a face that corner `corner` of its facet is, or of the facet of its image.
+inline int corner_of_face(int corner, bool same_surface) {
+  return same_surface ? corner : (3 - corner) % 3;
+}
+
 /// The facets of the images of a surface: none without a ground plane. The corners of an image are
 /// exchanged, so that its normal points into the fluid.
 /// @throws InputError when the surface does not lie entirely above the plane

@@ -27,14 +27,14 @@ Eigen::MatrixXd gauss_points(int n) {
   return out;
 }
 
-/// The parts of F that a node's pressure and a face's velocity contribute, in one direction.
+/// The parts of F that pressures at nodes and velocities at corners contribute, in one direction.
 struct FarRow {
   Eigen::VectorXcd pressure;  // n_v
-  Eigen::VectorXcd velocity;  // n_f
+  Eigen::VectorXcd velocity;  // 3 n_f
 };
 
 void add_facet(double k, const Eigen::Vector3d& e, const PreparedFacet& y, Eigen::Index face,
-               FarRow& row) {
+               bool same_surface, FarRow& row) {
   const TriangleRule& rule = six_points();
   Eigen::Vector3cd sum = Eigen::Vector3cd::Zero();
   for (Eigen::Index q = 0; q < rule.weight.size(); ++q) {
@@ -43,8 +43,10 @@ void add_facet(double k, const Eigen::Vector3d& e, const PreparedFacet& y, Eigen
     sum += rule.weight[q] * y.facet.area * Complex(std::cos(phase), std::sin(phase)) * shape;
   }
   const Complex slope(0.0, k * e.dot(y.facet.normal) / (4.0 * kPi));
-  for (int b = 0; b < 3; ++b) row.pressure[y.nodes[b]] += slope * sum[b];
-  row.velocity[face] += sum.sum() / (4.0 * kPi);
+  for (int b = 0; b < 3; ++b) {
+    row.pressure[y.nodes[b]] += slope * sum[b];
+    row.velocity[3 * face + corner_of_face(b, same_surface)] += sum[b] / (4.0 * kPi);
+  }
 }
 
 /// conj(F) F over the sphere or its upper half.
@@ -80,17 +82,17 @@ Eigen::MatrixXcd far_field(const Surface& surface, const Space& space, const Sur
   const std::vector<PreparedFacet> images = image_facets(surface, space);
   // Column d: the row of direction d, first for pressures, then for velocities.
   const Eigen::Index n_v = surface.node_count(), n_f = surface.face_count();
-  Eigen::MatrixXcd of_pressure(n_v, unit.rows()), of_velocity(n_f, unit.rows());
+  Eigen::MatrixXcd of_pressure(n_v, unit.rows()), of_velocity(3 * n_f, unit.rows());
   parallel_pieces(unit.rows(), [&](int64_t begin, int64_t end) {
     FarRow row;
     for (int64_t d = begin; d < end; ++d) {
       row.pressure.setZero(n_v);
-      row.velocity.setZero(n_f);
+      row.velocity.setZero(3 * n_f);
       const Eigen::Vector3d e = unit.row(d);
       for (size_t y = 0; y < facets.size(); ++y)
-        add_facet(k, e, facets[y], static_cast<Eigen::Index>(y), row);
+        add_facet(k, e, facets[y], static_cast<Eigen::Index>(y), true, row);
       for (size_t y = 0; y < images.size(); ++y)
-        add_facet(k, e, images[y], static_cast<Eigen::Index>(y), row);
+        add_facet(k, e, images[y], static_cast<Eigen::Index>(y), false, row);
       of_pressure.col(d) = row.pressure;
       of_velocity.col(d) = row.velocity;
     }

@@ -65,7 +65,7 @@ Eigen::MatrixXcd field_pressure(const Surface& surface, const Space& space,
   const std::vector<PreparedFacet> facets = prepared_facets(surface);
   const std::vector<PreparedFacet> images = image_facets(surface, space);
   Eigen::MatrixXcd of_pressure = Eigen::MatrixXcd::Zero(surface.node_count(), points.rows());
-  Eigen::MatrixXcd of_velocity = Eigen::MatrixXcd::Zero(surface.face_count(), points.rows());
+  Eigen::MatrixXcd of_velocity = Eigen::MatrixXcd::Zero(3 * surface.face_count(), points.rows());
   parallel_pieces(points.rows(), [&](int64_t begin, int64_t end) {
     for (int64_t n = begin; n < end; ++n)
       for (const std::vector<PreparedFacet>* sources : {&facets, &images})
@@ -73,8 +73,11 @@ Eigen::MatrixXcd field_pressure(const Surface& surface, const Space& space,
           const PreparedFacet& y = (*sources)[f];
           PointIntegrals seen;
           add_part(k, points.row(n), y.facet, kDivisions, seen);
-          for (int b = 0; b < 3; ++b) of_pressure(y.nodes[b], n) += seen.double_layer[b];
-          of_velocity(static_cast<Eigen::Index>(f), n) += seen.single_layer.sum();
+          for (int b = 0; b < 3; ++b) {
+            const int corner = corner_of_face(b, sources == &facets);
+            of_pressure(y.nodes[b], n) += seen.double_layer[b];
+            of_velocity(3 * static_cast<Eigen::Index>(f) + corner, n) += seen.single_layer[b];
+          }
         }
   });
   // -G dp/dn = i omega rho v_n G.

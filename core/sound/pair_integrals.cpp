@@ -56,13 +56,15 @@ PairIntegrals touching(double k, const PreparedFacet& x, const PreparedFacet& y,
     const Complex of_y = at.slope * y.facet.normal.dot(d);
     const Complex of_x = -at.slope * x.facet.normal.dot(d);
     for (int b = 0; b < 3; ++b) {
-      const Complex g = at.g * shape_y[b], slope = of_y * shape_y[b];
+      const Complex g = at.g * shape_y[b], by_y = of_y * shape_y[b], by_x = of_x * shape_y[b];
+      const int column = aligned.order_y[b];
       for (int a = 0; a < 3; ++a) {
-        sum.single_layer(aligned.order_x[a], aligned.order_y[b]) += test[a] * g;
-        sum.double_layer(aligned.order_x[a], aligned.order_y[b]) += test[a] * slope;
+        const int row = aligned.order_x[a];
+        sum.single_layer(row, column) += test[a] * g;
+        sum.double_layer(row, column) += test[a] * by_y;
+        sum.adjoint(row, column) += test[a] * by_x;
       }
     }
-    for (int a = 0; a < 3; ++a) sum.adjoint[aligned.order_x[a]] += test[a] * of_x;
   }
   const double areas = x.facet.area * y.facet.area;
   sum.single_layer *= areas;
@@ -79,19 +81,18 @@ void add_product(double k, const Facet& x, const Facet& y,
                  const Eigen::Matrix<double, 3, Points>& test,
                  const Eigen::Matrix<double, 3, Points>& trial, PairIntegrals& sum) {
   for (int p = 0; p < Points; ++p) {
-    Eigen::Vector3cd single_row = Eigen::Vector3cd::Zero(), double_row = Eigen::Vector3cd::Zero();
-    Complex adjoint = 0.0;
+    Eigen::RowVector3cd single_row = Eigen::RowVector3cd::Zero(), double_row = single_row,
+                        adjoint_row = single_row;
     for (int q = 0; q < Points; ++q) {
       const Eigen::Vector3d d = at_x.col(p) - at_y.col(q);
       const Kernel at = kernel(k, d.norm());
-      const Complex of_y = at.slope * y.normal.dot(d);
-      single_row += at.g * trial.col(q);
-      double_row += of_y * trial.col(q);
-      adjoint -= at.slope * (x.normal.dot(d) * trial.col(q).sum());
+      single_row += at.g * trial.col(q).transpose();
+      double_row += at.slope * y.normal.dot(d) * trial.col(q).transpose();
+      adjoint_row -= at.slope * x.normal.dot(d) * trial.col(q).transpose();
     }
-    sum.single_layer.noalias() += test.col(p) * single_row.transpose();
-    sum.double_layer.noalias() += test.col(p) * double_row.transpose();
-    sum.adjoint += test.col(p) * adjoint;
+    sum.single_layer.noalias() += test.col(p) * single_row;
+    sum.double_layer.noalias() += test.col(p) * double_row;
+    sum.adjoint.noalias() += test.col(p) * adjoint_row;
   }
 }
 

@@ -12,11 +12,11 @@ namespace clatter::sound {
 ///
 ///   single_ab = int int N_a(x) N_b(y) G dS dS          [m3]
 ///   double_ab = int int N_a(x) N_b(y) dG/dn(y) dS dS   [m2]
-///   adjoint_a = int int N_a(x) dG/dn(x) dS dS          [m2]
+///   adjoint_ab = int int N_a(x) N_b(y) dG/dn(x) dS dS  [m2]
 struct PairIntegrals {
   Eigen::Matrix3cd single_layer = Eigen::Matrix3cd::Zero();
   Eigen::Matrix3cd double_layer = Eigen::Matrix3cd::Zero();
-  Eigen::Vector3cd adjoint = Eigen::Vector3cd::Zero();
+  Eigen::Matrix3cd adjoint = Eigen::Matrix3cd::Zero();
 };
 
 /// Chooses the rule by the distance over the size: touching facets are transformed (Sauter and

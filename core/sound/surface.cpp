@@ -165,23 +165,26 @@ double winding_number(const Surface& surface, const Eigen::Vector3d& point) {
   return half_angles / (2.0 * std::numbers::pi);
 }
 
+double distance_to_face(const Surface& surface, Eigen::Index face, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d normal = surface.face_normal.row(face);
+  double nearest = std::numeric_limits<double>::infinity();
+  bool above = true;  // the foot of the point is on the face
+  for (int a = 0; a < 3; ++a) {
+    const Eigen::Vector3d from = surface.nodes.row(surface.triangles(face, a));
+    const Eigen::Vector3d along =
+        surface.nodes.row(surface.triangles(face, (a + 1) % 3)).transpose() - from;
+    const double at = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (point - from - at * along).norm());
+    above = above && normal.cross(along).dot(point - from) >= 0.0;
+  }
+  if (!above) return nearest;
+  return std::abs(normal.dot(point - surface.face_centre.row(face).transpose()));
+}
+
 double distance_to(const Surface& surface, const Eigen::Vector3d& point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (Eigen::Index f = 0; f < surface.face_count(); ++f) {
-    const Eigen::Vector3d normal = surface.face_normal.row(f);
-    bool above = true;  // the foot of the point is on the face
-    for (int a = 0; a < 3; ++a) {
-      const Eigen::Vector3d from = surface.nodes.row(surface.triangles(f, a));
-      const Eigen::Vector3d along =
-          surface.nodes.row(surface.triangles(f, (a + 1) % 3)).transpose() - from;
-      const double at = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (point - from - at * along).norm());
-      above = above && normal.cross(along).dot(point - from) >= 0.0;
-    }
-    if (above)
-      nearest =
-          std::min(nearest, std::abs(normal.dot(point - surface.face_centre.row(f).transpose())));
-  }
+  for (Eigen::Index f = 0; f < surface.face_count(); ++f)
+    nearest = std::min(nearest, distance_to_face(surface, f, point));
   return nearest;
 }
 

@@ -39,6 +39,9 @@ double mesh_limit_hz(const Surface& surface, double sound_speed, double edges_pe
 /// them or 1/2 on it (solid angles by van Oosterom and Strackee 1983).
 double winding_number(const Surface& surface, const Eigen::Vector3d& point);
 
+/// The distance of a point from a face [m], not negative.
+double distance_to_face(const Surface& surface, Eigen::Index face, const Eigen::Vector3d& point);
+
 /// The distance of a point from the surface [m], not negative.
 double distance_to(const Surface& surface, const Eigen::Vector3d& point);
 

@@ -126,11 +126,12 @@ struct Monopole {
     const double r = (x - centre).norm();
     return strength * std::polar(1.0, -k * r) / r;
   }
-  /// Mean of -dp/dn / (i omega rho) over each face by three points, n_f.
+  /// -dp/dn / (i omega rho), by the linear function with its values at three points of each face:
+  /// 3 n_f.
   Eigen::VectorXcd velocity(double k, const Surface& surface) const {
-    Eigen::VectorXcd out(surface.face_count());
+    Eigen::VectorXcd out(3 * surface.face_count());
     for (Eigen::Index f = 0; f < surface.face_count(); ++f) {
-      Complex sum = 0.0;
+      Eigen::Vector3cd v;
       for (int a = 0; a < 3; ++a) {
         const Eigen::Vector3d x =
             0.5 * (surface.face_centre.row(f) + surface.nodes.row(surface.triangles(f, a)));
@@ -138,9 +139,10 @@ struct Monopole {
         const double r = d.norm();
         const Complex slope = pressure(k, x) * Complex(-1.0 / r, -k) / r *
                               d.dot(surface.face_normal.row(f).transpose());
-        sum += -slope / (Complex(0.0, k) * kAir.fluid.impedance());
+        v[a] = -slope / (Complex(0.0, k) * kAir.fluid.impedance());
       }
-      out[f] = sum / 3.0;
+      // A corner lies as far beyond its point as the point is from the centre.
+      out.segment(3 * f, 3) = 2.0 * v - Eigen::Vector3cd::Constant(v.sum() / 3.0);
     }
     return out;
   }

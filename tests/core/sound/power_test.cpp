@@ -26,20 +26,20 @@ void expect_monopole(const Surface& surface, const Monopole& source, double k, d
   const Eigen::MatrixXcd p = field_pressure(surface, kAir, state, points);
   for (int n = 0; n < 3; ++n) {  // the mesh also turns the phase a little
     const Complex exact = source.pressure(k, points.row(n));
-    EXPECT_LT(std::abs(p(n, 0) - exact), 1.6 * tolerance * std::abs(exact)) << k << " point " << n;
+    EXPECT_LT(std::abs(p(n, 0) - exact), 3.0 * tolerance * std::abs(exact)) << k << " point " << n;
   }
 }
 
 TEST(Radiation, MonopoleInsideABentEggSendsItsPower) {
   const Surface egg = bent_egg(2);
-  const double limit = kAir.fluid.wavenumber(mesh_limit_hz(egg, kAir.fluid.sound_speed, 6.0));
-  for (double k : {0.2, 2.0, limit}) expect_monopole(egg, {{0.1, 0.05, -0.1}}, k, 0.02);
+  const double limit = kAir.fluid.wavenumber(mesh_limit_hz(egg, kAir.fluid.sound_speed, 5.0));
+  for (double k : {0.2, 2.0, limit}) expect_monopole(egg, {{0.1, 0.05, -0.1}}, k, 0.005);
 }
 
 TEST(Radiation, MonopoleInsideABoxSendsItsPower) {
   const Surface surface = box({0.8, 0.5, 0.6}, 0.1);
-  const double limit = kAir.fluid.wavenumber(mesh_limit_hz(surface, kAir.fluid.sound_speed, 7.0));
-  for (double k : {0.5, limit}) expect_monopole(surface, {{0.1, 0.02, -0.05}}, k, 0.02);
+  const double limit = kAir.fluid.wavenumber(mesh_limit_hz(surface, kAir.fluid.sound_speed, 5.0));
+  for (double k : {0.5, limit}) expect_monopole(surface, {{0.1, 0.02, -0.05}}, k, 0.005);
 }
 
 TEST(Radiation, ResistanceFormsGiveThePowerOfEveryMotion) {
@@ -47,14 +47,14 @@ TEST(Radiation, ResistanceFormsGiveThePowerOfEveryMotion) {
   Eigen::MatrixXcd motions(egg.face_count(), 4);
   motions.leftCols(3) = egg.face_normal.cast<Complex>();
   motions.col(3).setOnes();
-  const SurfaceState state = radiate(egg, kAir, frequency_of(5.0), motions);
+  const SurfaceState state = radiate(egg, kAir, frequency_of(5.0), at_corners(motions));
   const Eigen::MatrixXd near = surface_resistance(egg, state);
   const Eigen::MatrixXd far = far_resistance(egg, kAir, state);
   EXPECT_EQ(far, far.transpose());
   EXPECT_GT(far.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
   EXPECT_LT((near - far).norm(), 0.01 * far.norm());
   const Eigen::MatrixXcd q = test::random_matrix<Eigen::MatrixXcd>(4, 3);
-  const SurfaceState combined{state.frequency_hz, motions * q, state.pressure * q};
+  const SurfaceState combined{state.frequency_hz, state.velocity * q, state.pressure * q};
   const Eigen::VectorXd by_far = far_power(egg, kAir, combined);
   const Eigen::VectorXd by_surface = surface_power(egg, combined);
   for (int m = 0; m < 3; ++m) {
@@ -98,7 +98,7 @@ TEST(Radiation, AFaceAndAMicrophoneAreReciprocal) {
   for (Eigen::Index face : {7, 120, 300}) {
     Eigen::MatrixXcd v = Eigen::MatrixXcd::Zero(egg.face_count(), 1);
     v(face, 0) = 1.0 / egg.face_area[face];
-    const SurfaceState state = radiate(egg, kAir, frequency_of(k), v);
+    const SurfaceState state = radiate(egg, kAir, frequency_of(k), at_corners(v));
     const Complex there = field_pressure(egg, kAir, state, RowMatrix(microphone.transpose()))(0, 0);
     const Complex back =
         (face_pressure(egg, rigid)(face, 0) + source.pressure(k, egg.face_centre.row(face))) *
@@ -113,7 +113,7 @@ TEST(Radiation, MovedTurnedAndScaledBodyRadiatesTheSame) {
   RowMatrix nodes = 2.0 * egg.nodes * turn.toRotationMatrix().transpose();
   nodes.rowwise() += Eigen::RowVector3d(5, -3, 2);
   const Surface moved = closed_surface(nodes, egg.triangles);
-  const Eigen::MatrixXcd v = test::random_matrix<Eigen::MatrixXcd>(egg.face_count(), 1);
+  const Eigen::MatrixXcd v = test::random_matrix<Eigen::MatrixXcd>(3 * egg.face_count(), 1);
   const auto efficiency = [&](const Surface& surface, double k) {
     const SurfaceState state = radiate(surface, kAir, frequency_of(k), v);
     return radiation_efficiency(surface, kAir.fluid, state, surface_power(surface, state))[0];
@@ -170,7 +170,8 @@ Surface disc(double thickness, int rings) {
 Eigen::Vector2d breathing_disc(double thickness, double ka) {
   const Surface plate = disc(thickness, 5);
   const SurfaceState state =
-      radiate(plate, kAir, frequency_of(ka), plate.face_normal.col(2).cwiseAbs().cast<Complex>());
+      radiate(plate, kAir, frequency_of(ka),
+              at_corners(plate.face_normal.col(2).cwiseAbs().cast<Complex>()));
   const Eigen::VectorXd sigma =
       radiation_efficiency(plate, kAir.fluid, state, far_power(plate, kAir, state));
   const RowMatrix above = Eigen::RowVector3d(0, 0, 1.5 + 0.5 * thickness);
@@ -191,12 +192,13 @@ TEST(Radiation, PistonInAnInfiniteBaffleIsTheHalfOfAThinBreathingDisc) {
 
 TEST(Radiation, BadInputIsRefused) {
   const Surface egg = bent_egg(0);
-  const Eigen::MatrixXcd v = Eigen::MatrixXcd::Ones(egg.face_count(), 1);
+  const Eigen::MatrixXcd v = Eigen::MatrixXcd::Ones(3 * egg.face_count(), 1);
   const auto refusal = [&](double frequency, const Eigen::MatrixXcd& velocity) {
     return test::refusal_of([&] { radiate(egg, kAir, frequency, velocity); });
   };
   test::expect_parts(refusal(0.0, v), {"radiation: found a frequency of 0 Hz"});
-  test::expect_parts(refusal(100.0, v.topRows(3)), {"found 3 normal velocities", "one a face, 20"});
+  test::expect_parts(refusal(100.0, v.topRows(3)),
+                     {"found 3 normal velocities", "one a corner of each face, 60"});
   Eigen::MatrixXcd wrong = v;
   wrong(4, 0) = std::numeric_limits<double>::infinity();
   test::expect_parts(refusal(100.0, wrong), {"a normal velocity that is not finite"});

@@ -20,7 +20,7 @@ Eigen::MatrixXcd motions(const Surface& sphere) {
   v.col(0).setOnes();
   v.col(1) = sphere.face_normal.col(2).cast<Complex>();
   v.col(2) = sphere.face_normal.col(0).cwiseProduct(sphere.face_normal.col(1)).cast<Complex>();
-  return v;
+  return at_corners(v);
 }
 
 /// Radiation efficiencies of the three: 1 / ((ka)^2 |h_m'(ka)|^2).
