@@ -28,7 +28,7 @@ STAGES = {
     "modal": set(LIBRARIES) - {"core/run", "core/sound"},
     "condense": set(LIBRARIES) - {"core/run", "core/sound"},
     "dynamics": {"core/base", "core/rom", "core/run"},
-    "recover": {"core/base", "core/rom", "core/run"},
+    "recover": {"core/base", "core/rom", "core/run", "core/sound"},
 }
 ALLOWED = LIBRARIES | STAGES
 # Library targets that are not named after the folder of their stage.
@@ -36,6 +36,7 @@ FOLDER_OF_TARGET = {"meshing": "mesh", "film": "dynamics"}
 # A third-party library's headers may be included only in files with its prefix (h5_file, h5_impl, ...).
 HEADER_OWNERS = {
     r"gmsh\.h": ["mesh/cad/gmsh_"],
+    r"CGAL/.*": ["recover/acoustic/cgal_"],
     r"cholmod\.h": ["core/sparse/factor/cholmod_"],
     r"hdf5\.h|H5\w*\.h": ["core/base/h5_"],
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
