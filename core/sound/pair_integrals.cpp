@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sound/pair_integrals.hpp"
 
-#include "core/sound/kernel.hpp"
+#include "core/sound/kernel_array.hpp"
 
 namespace clatter::sound {
 namespace {
@@ -44,33 +44,50 @@ Alignment align(const PreparedFacet& x, const PreparedFacet& y) {
   return out;
 }
 
+/// Real and imaginary parts of the sums of PairIntegrals.
+struct PairSums {
+  Eigen::Matrix3d single_re = Eigen::Matrix3d::Zero(), single_im = single_re;
+  Eigen::Matrix3d double_re = single_re, double_im = single_re;
+  Eigen::Matrix3d adjoint_re = single_re, adjoint_im = single_re;
+};
+
 PairIntegrals touching(double k, const PreparedFacet& x, const PreparedFacet& y,
                        const Alignment& aligned) {
+  constexpr int kAtOnce = 16;  // a factor of the number of points of each rule
+  using Values = Eigen::Array<double, kAtOnce, 1>;
   const PairRule& rule = touching_rule(static_cast<Contact>(aligned.shared));
-  PairIntegrals sum;
-  for (Eigen::Index p = 0; p < rule.weight.size(); ++p) {
-    const Eigen::Vector3d shape_x = rule.shape_x.col(p), shape_y = rule.shape_y.col(p);
-    const Eigen::Vector3d d = aligned.corners_x * shape_x - aligned.corners_y * shape_y;
-    const Kernel at = kernel(k, d.norm());
-    const Eigen::Vector3d test = rule.weight[p] * shape_x;
-    const Complex of_y = at.slope * y.facet.normal.dot(d);
-    const Complex of_x = -at.slope * x.facet.normal.dot(d);
-    for (int b = 0; b < 3; ++b) {
-      const Complex g = at.g * shape_y[b], by_y = of_y * shape_y[b], by_x = of_x * shape_y[b];
-      const int column = aligned.order_y[b];
-      for (int a = 0; a < 3; ++a) {
-        const int row = aligned.order_x[a];
-        sum.single_layer(row, column) += test[a] * g;
-        sum.double_layer(row, column) += test[a] * by_y;
-        sum.adjoint(row, column) += test[a] * by_x;
-      }
+  const double areas = x.facet.area * y.facet.area;
+  PairSums sums;  // with the corners in the order of the rule
+  for (Eigen::Index first = 0; first < rule.weight.size(); first += kAtOnce) {
+    Values r2, of_x, of_y;
+    for (int i = 0; i < kAtOnce; ++i) {
+      const Eigen::Vector3d d = aligned.corners_x * rule.shape_x.col(first + i) -
+                                aligned.corners_y * rule.shape_y.col(first + i);
+      r2[i] = d.squaredNorm();
+      of_x[i] = -x.facet.normal.dot(d);
+      of_y[i] = y.facet.normal.dot(d);
+    }
+    const KernelArray<kAtOnce> at = kernels<kAtOnce>(k, r2);
+    for (int i = 0; i < kAtOnce; ++i) {
+      const Eigen::Vector3d test = areas * rule.weight[first + i] * rule.shape_x.col(first + i);
+      const Eigen::Matrix3d both = test * rule.shape_y.col(first + i).transpose();
+      sums.single_re += at.g_re[i] * both;
+      sums.single_im += at.g_im[i] * both;
+      sums.double_re += at.slope_re[i] * of_y[i] * both;
+      sums.double_im += at.slope_im[i] * of_y[i] * both;
+      sums.adjoint_re += at.slope_re[i] * of_x[i] * both;
+      sums.adjoint_im += at.slope_im[i] * of_x[i] * both;
     }
   }
-  const double areas = x.facet.area * y.facet.area;
-  sum.single_layer *= areas;
-  sum.double_layer *= areas;
-  sum.adjoint *= areas;
-  return sum;
+  PairIntegrals out;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const int row = aligned.order_x[a], column = aligned.order_y[b];
+      out.single_layer(row, column) = {sums.single_re(a, b), sums.single_im(a, b)};
+      out.double_layer(row, column) = {sums.double_re(a, b), sums.double_im(a, b)};
+      out.adjoint(row, column) = {sums.adjoint_re(a, b), sums.adjoint_im(a, b)};
+    }
+  return out;
 }
 
 /// Adds the product rule of two facets with these points and shape functions.
@@ -80,20 +97,31 @@ void add_product(double k, const Facet& x, const Facet& y,
                  const Eigen::Matrix<double, 3, Points>& at_y,
                  const Eigen::Matrix<double, 3, Points>& test,
                  const Eigen::Matrix<double, 3, Points>& trial, PairIntegrals& sum) {
-  for (int p = 0; p < Points; ++p) {
-    Eigen::RowVector3cd single_row = Eigen::RowVector3cd::Zero(), double_row = single_row,
-                        adjoint_row = single_row;
-    for (int q = 0; q < Points; ++q) {
-      const Eigen::Vector3d d = at_x.col(p) - at_y.col(q);
-      const Kernel at = kernel(k, d.norm());
-      single_row += at.g * trial.col(q).transpose();
-      double_row += at.slope * y.normal.dot(d) * trial.col(q).transpose();
-      adjoint_row -= at.slope * x.normal.dot(d) * trial.col(q).transpose();
+  constexpr int kPairs = Points * Points;
+  using Values = Eigen::Array<double, kPairs, 1>;
+  using Square = Eigen::Matrix<double, Points, Points>;  // (point of x, point of y)
+  Values dx, dy, dz;
+  for (int q = 0; q < Points; ++q)
+    for (int p = 0; p < Points; ++p) {
+      dx[p + Points * q] = at_x(0, p) - at_y(0, q);
+      dy[p + Points * q] = at_x(1, p) - at_y(1, q);
+      dz[p + Points * q] = at_x(2, p) - at_y(2, q);
     }
-    sum.single_layer.noalias() += test.col(p) * single_row;
-    sum.double_layer.noalias() += test.col(p) * double_row;
-    sum.adjoint.noalias() += test.col(p) * adjoint_row;
-  }
+  const KernelArray<kPairs> at = kernels<kPairs>(k, dx * dx + dy * dy + dz * dz);
+  const auto along = [&](const Eigen::Vector3d& n) -> Values {
+    return n[0] * dx + n[1] * dy + n[2] * dz;
+  };
+  const auto integral = [&](const Values& values) -> Eigen::Matrix3d {
+    const Eigen::Map<const Square> square(values.data());
+    return test * (square * trial.transpose());
+  };
+  const Values of_y = along(y.normal), of_x = -along(x.normal);
+  sum.single_layer.real() += integral(at.g_re);
+  sum.single_layer.imag() += integral(at.g_im);
+  sum.double_layer.real() += integral(at.slope_re * of_y);
+  sum.double_layer.imag() += integral(at.slope_im * of_y);
+  sum.adjoint.real() += integral(at.slope_re * of_x);
+  sum.adjoint.imag() += integral(at.slope_im * of_x);
 }
 
 void add_six_points(double k, const Facet& x, const Facet& y, PairIntegrals& sum) {

@@ -98,7 +98,8 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
   const SoundTable& table = sound.table;
   std::vector<double> grid;
   for (const SoundSample& sample : table.samples) grid.push_back(sample.frequency_hz);
-  put_sound(file, "frequency_hz", grid, "Hz", "frequencies; R / f^2 is cubic between them");
+  put_sound(file, "frequency_hz", grid, "Hz",
+            "frequencies; R / f^2 is a polynomial through six of them");
   write_microphones(file, table);
   for (size_t i = 0; i < grid.size(); ++i) {
     const SoundSample& sample = table.samples[i];

@@ -36,8 +36,9 @@ Stencil stencil(const std::vector<double>& frequency_hz, double at_hz) {
   const auto above = static_cast<size_t>(
       std::lower_bound(frequency_hz.begin(), frequency_hz.end(), at_hz) - frequency_hz.begin());
   if (above == 0) return {0, Eigen::VectorXd::Ones(1)};
-  const size_t first = above >= 2 ? above - 2 : 0;
-  const size_t last = std::min(above + 1, frequency_hz.size() - 1);
+  constexpr size_t kReach = 3;  // samples on either side
+  const size_t first = above >= kReach ? above - kReach : 0;
+  const size_t last = std::min(above + kReach - 1, frequency_hz.size() - 1);
   Stencil out{first, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(last - first + 1))};
   for (size_t i = first; i <= last; ++i)
     for (size_t j = first; j <= last; ++j)

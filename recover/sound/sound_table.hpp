@@ -38,7 +38,7 @@ struct Stencil {
   Eigen::VectorXd weight{};
 };
 
-/// Cubic interpolation by the two samples on either side (Lagrange), fewer at the ends. Below the
+/// The polynomial through the three samples on either side (Lagrange), fewer at the ends. Below the
 /// first sample that sample alone.
 /// @param frequency_hz ascending
 Stencil stencil(const std::vector<double>& frequency_hz, double at_hz);

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "bodies.hpp"
+#include "core/sound/kernel.hpp"
+#include "core/sound/kernel_array.hpp"
 #include "core/sound/pair_integrals.hpp"
 
 namespace clatter::sound {
@@ -15,6 +17,22 @@ using namespace testing;
 constexpr double kPi = std::numbers::pi;
 // Wavenumber of the static limit: phases over a metre vanish in rounding.
 constexpr double kStatic = 1e-12;
+
+TEST(KernelArray, EqualsTheKernelOfEachDistance) {
+  const double k = 36.6;
+  for (double first : {1e-4, 0.03, 1.0, 40.0, 2000.0}) {
+    Eigen::Array<double, 9, 1> r = first * Eigen::Array<double, 9, 1>::LinSpaced(1.0, 3.0);
+    const KernelArray<9> at = kernels<9>(k, r * r);
+    for (int i = 0; i < 9; ++i) {
+      const Kernel one = kernel(k, r[i]);
+      // Phases up to 2e5 lose as many digits of their sine.
+      EXPECT_LT(std::abs(Complex(at.g_re[i], at.g_im[i]) - one.g), 1e-10 * std::abs(one.g)) << r[i];
+      EXPECT_LT(std::abs(Complex(at.slope_re[i], at.slope_im[i]) - one.slope),
+                1e-10 * std::abs(one.slope))
+          << r[i];
+    }
+  }
+}
 
 double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
 
