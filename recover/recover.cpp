@@ -102,10 +102,20 @@ const PanelResult& radiating_panel(const Analysis& analysis) {
   return analysis.panels.front();
 }
 
+void require_same_air(const SoundTable& table, const Options& options) {
+  const Air& air = options.air;
+  if (table.fluid.density != air.density || table.fluid.sound_speed != air.sound_speed)
+    throw InputError(fmt::format(
+        "{}: air: found {:g} kg/m3 and {:g} m/s, expected {:g} kg/m3 and {:g} m/s as in {}",
+        options.origin, air.density, air.sound_speed, table.fluid.density, table.fluid.sound_speed,
+        options.sound.string()));
+}
+
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
                               const Options& options, const std::vector<Analysis>& analyses) {
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
+  require_same_air(table, options);
   std::vector<RunSound> sounds;
   for (const Analysis& analysis : analyses)
     sounds.push_back(run_sound(table, analysis, radiating_panel(analysis), options));

@@ -83,8 +83,9 @@ void refine(const GridRule& rule, Sampler& sample, PartSound& sound) {
   SoundTable& table = sound.table;
   const std::vector<double> grid = first_grid(rule);
   std::deque<std::pair<double, double>> intervals;
-  // About two thirds of the intervals pass at their first test.
-  Progress progress("sound", static_cast<double>(4 * grid.size()), "frequencies");
+  // A guess: a body of the size of a wavelength or two needs five or six for each of the first
+  // ones.
+  Progress progress("sound", static_cast<double>(6 * grid.size()), "frequencies");
   const auto compute = [&](double frequency_hz) {
     if (static_cast<int>(table.samples.size()) >= rule.most)
       throw NumericsError(

@@ -214,6 +214,12 @@ TEST_F(SoundRun, PowerAndPressureOfALineAreThoseOfTheTable) {
   EXPECT_LT(sound.total, summary.analyses[0].panels[1].total_erp);
 }
 
+TEST_F(SoundRun, AnotherAirThanThatOfTheSoundFileIsRefused) {
+  test::expect_parts(
+      test::refusal_of([&] { recovered("sound = 'part.sound.h5'\n[air]\nsound_speed = 350\n"); }),
+      {"field.toml: air: found 1.204 kg/m3 and 350 m/s", "and 343.2 m/s as in"});
+}
+
 TEST_F(SoundRun, FileComesBackAndThatOfAnotherModelIsRefused) {
   const SoundTable back = read_sound(folder_ / "part.sound.h5", rom_, 2);
   ASSERT_EQ(back.samples.size(), sphere_sound().table.samples.size());
