@@ -7,6 +7,7 @@
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/write_artefact.hpp"
+#include "recover/listen_command.hpp"
 #include "recover/recover.hpp"
 #include "recover/sound_command.hpp"
 
@@ -17,6 +18,7 @@ std::string epilog() {
          "  clatter-recover slap.run.h5 -o slap.field.h5\n"
          "  clatter-recover slap.run.h5 -c slap.field.toml -o slap.field.h5\n"
          "  clatter-recover sound block.rom.h5 -o block.sound.h5\n"
+         "  clatter-recover listen slap.field.h5 slap.wav\n"
          "Open slap.field.xdmf (time) and slap.field.lines.xdmf (frequencies) in ParaView.\n\n" +
          clatter::recover::options_help();
 }
@@ -62,6 +64,7 @@ int main(int argc, char** argv) {
   line.option("-c,--config", a.config, "what to recover, slap.field.toml; defaults without it");
   line.output("-o,--output", a.output, "field file, slap.field.h5", true);
   clatter::recover::declare_sound(line);
+  clatter::recover::declare_listen(line);
   line.action([&a](const clatter::CommonOptions& common) { recover_run(a, common); });
   return line.run(argc, argv);
 }

@@ -23,7 +23,7 @@ double total(const Eigen::VectorXd& frequency_hz, const Eigen::VectorXd& power, 
 /// Number of lines up to the end of the table.
 Eigen::Index lines_of_table(const SoundTable& table, const LineSpectrum& velocity) {
   Eigen::Index count = 0;
-  while (count < velocity.frequency_hz.size() && velocity.frequency_hz[count] <= table.to_hz())
+  while (count < velocity.frequency_hz.size() && covers(table, velocity.frequency_hz[count]))
     ++count;
   return count;
 }

@@ -13,8 +13,7 @@ namespace clatter::recover {
 namespace {
 
 Stencil table_stencil(const SoundTable& table, double frequency_hz) {
-  // Frequencies of lines carry rounding.
-  if (frequency_hz > table.to_hz() * (1.0 + 1e-9))
+  if (!covers(table, frequency_hz))
     throw InputError(
         fmt::format("sound: found a frequency of {:g} Hz, expected at most {:g}, the "
                     "limit of the acoustic skin",
@@ -31,6 +30,11 @@ Eigen::VectorXcd phases(const SoundTable& table, double frequency_hz, double sig
 }
 
 }  // namespace
+
+bool covers(const SoundTable& table, double frequency_hz) {
+  // Frequencies of lines carry rounding.
+  return frequency_hz <= table.to_hz() * (1.0 + 1e-9);
+}
 
 Stencil stencil(const std::vector<double>& frequency_hz, double at_hz) {
   const auto above = static_cast<size_t>(

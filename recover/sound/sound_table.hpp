@@ -32,6 +32,9 @@ struct SoundTable {
   int size() const { return static_cast<int>(samples.front().R.rows()); }
 };
 
+/// Whether a frequency is not above the table.
+bool covers(const SoundTable& table, double frequency_hz);
+
 /// Weights of the samples around a frequency: sum_i weight_i value(first + i).
 struct Stencil {
   size_t first = 0;

@@ -137,6 +137,13 @@ TEST_F(Program, SoundOfAPartIsUsedByARun) {
   ASSERT_EQ(recover("run.h5 -c field.toml -o out.field.h5"), 0) << output_;
   for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y"})
     EXPECT_NE(output_.find(words), std::string::npos) << output_;
+  ASSERT_EQ(recover("listen out.field.h5 out.wav --microphone top --seconds 0.5"), 0) << output_;
+  EXPECT_NE(output_.find("top, up to 500 Hz: peak"), std::string::npos) << output_;
+  EXPECT_EQ(fs::file_size(folder_ / "out.wav"), 44u + 2u * 24000u);
+  EXPECT_EQ(recover("listen out.field.h5 none.wav --microphone roof"), 2);
+  EXPECT_NE(output_.find("found [minus_x, minus_y, plus_x, plus_y, top], expected roof"),
+            std::string::npos)
+      << output_;
   ASSERT_EQ(recover("sound --help"), 0);
   for (const char* word : {"[[microphone]]", "[ground]", "tolerance_db", "block.sound.h5"})
     EXPECT_NE(output_.find(word), std::string::npos) << word;

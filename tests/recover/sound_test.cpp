@@ -9,6 +9,7 @@
 #include "core/base/artefact.hpp"
 #include "recover/recover.hpp"
 #include "recover/sound/sound_file.hpp"
+#include "recover/sound/wav.hpp"
 #include "synthetic.hpp"
 #include "tests/refusal.hpp"
 
@@ -18,6 +19,30 @@ namespace {
 using namespace testing;
 namespace fs = std::filesystem;
 constexpr double kPi = std::numbers::pi, kRadius = 0.2;
+
+TEST(Wav, RepeatedCycleIsTheSumOfItsLines) {
+  Eigen::VectorXcd lines = Eigen::VectorXcd::Zero(4);
+  lines[0] = 7.0;  // a mean pressure is not heard
+  lines[1] = 0.3;
+  lines[3] = sound::Complex(0.0, -0.1);
+  const Eigen::VectorXd p = repeated_cycle(lines, 480.0, 0.01);
+  ASSERT_EQ(p.size(), 480);
+  for (Eigen::Index n = 0; n < p.size(); ++n) {
+    const double turn = 2 * kPi * static_cast<double>(n) / 100.0;
+    EXPECT_NEAR(p[n], 0.3 * std::cos(turn) + 0.1 * std::sin(3 * turn), 1e-13);
+  }
+}
+
+TEST(Wav, BytesAreThoseOfRiff) {
+  const std::string bytes = wav_bytes(Eigen::Vector3d(0.5, -0.5, 0.0), 0.5);
+  ASSERT_EQ(bytes.size(), 44u + 6u);
+  EXPECT_EQ(bytes.substr(0, 8), std::string("RIFF\x2a\0\0\0", 8));
+  EXPECT_EQ(bytes.substr(8, 8), "WAVEfmt ");
+  EXPECT_EQ(bytes.substr(24, 4), std::string("\x80\xbb\0\0", 4));  // 48000
+  EXPECT_EQ(bytes.substr(40), std::string("\x06\0\0\0\xff\x7f\x01\x80\0\0", 10));
+  test::expect_parts(test::refusal_of([] { wav_bytes(Eigen::Vector3d(1, 0, 0), 0.5); }),
+                     {"found a full scale of 0.5 Pa, expected at least the peak of 1 Pa"});
+}
 
 TEST(SoundTable, StencilReproducesPolynomials) {
   const std::vector<double> grid = {20, 50, 90, 200, 260, 400};
