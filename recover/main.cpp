@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-recover: from reduced coordinates to surface velocity, spectra, levels and radiated
 // power.
+#include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
 #include "core/base/config.hpp"
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/write_artefact.hpp"
+#include "recover/listen_command.hpp"
 #include "recover/recover.hpp"
+#include "recover/sound_command.hpp"
 
 namespace {
 
@@ -14,6 +17,8 @@ std::string epilog() {
   return "Samples:\n"
          "  clatter-recover slap.run.h5 -o slap.field.h5\n"
          "  clatter-recover slap.run.h5 -c slap.field.toml -o slap.field.h5\n"
+         "  clatter-recover sound block.rom.h5 -o block.sound.h5\n"
+         "  clatter-recover listen slap.field.h5 slap.wav\n"
          "Open slap.field.xdmf (time) and slap.field.lines.xdmf (frequencies) in ParaView.\n\n" +
          clatter::recover::options_help();
 }
@@ -37,6 +42,7 @@ void recover_run(const Arguments& a, const clatter::CommonOptions& common) {
 
   std::vector<std::filesystem::path> inputs{a.run, body.rom_path()};
   if (!a.config.empty()) inputs.push_back(a.config);
+  if (!options.sound.empty()) inputs.push_back(options.sound);
   recover::Summary summary;
   write_artefact(
       a.output, {recover::kFieldSchema, resolved, inputs}, clock, common,
@@ -49,6 +55,7 @@ void recover_run(const Arguments& a, const clatter::CommonOptions& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  clatter::ensure_fast_blas(argv);
   clatter::CommandLine line(
       "clatter-recover",
       "Recovers surface displacement, velocity and radiated power of one body of a run.", epilog());
@@ -56,6 +63,8 @@ int main(int argc, char** argv) {
   line.positional("run", a.run, "run file, slap.run.h5");
   line.option("-c,--config", a.config, "what to recover, slap.field.toml; defaults without it");
   line.output("-o,--output", a.output, "field file, slap.field.h5", true);
+  clatter::recover::declare_sound(line);
+  clatter::recover::declare_listen(line);
   line.action([&a](const clatter::CommonOptions& common) { recover_run(a, common); });
   return line.run(argc, argv);
 }

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
+#include "recover/sound/sound_file.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -94,6 +95,33 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
   return certificate;
 }
 
+/// The panel whose ERP stands for the sound above the table: the exposed faces, else all.
+const PanelResult& radiating_panel(const Analysis& analysis) {
+  for (const PanelResult& panel : analysis.panels)
+    if (panel.name == "exposed") return panel;
+  return analysis.panels.front();
+}
+
+void require_same_air(const SoundTable& table, const Options& options) {
+  const Air& air = options.air;
+  if (table.fluid.density != air.density || table.fluid.sound_speed != air.sound_speed)
+    throw InputError(fmt::format(
+        "{}: air: found {:g} kg/m3 and {:g} m/s, expected {:g} kg/m3 and {:g} m/s as in {}",
+        options.origin, air.density, air.sound_speed, table.fluid.density, table.fluid.sound_speed,
+        options.sound.string()));
+}
+
+std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
+                              const Options& options, const std::vector<Analysis>& analyses) {
+  if (options.sound.empty()) return {};
+  const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
+  require_same_air(table, options);
+  std::vector<RunSound> sounds;
+  for (const Analysis& analysis : analyses)
+    sounds.push_back(run_sound(table, analysis, radiating_panel(analysis), options));
+  return sounds;
+}
+
 }  // namespace
 
 Summary recover(const RunBody& body, const rom::ReducedModel& model, const Options& options,
@@ -134,14 +162,19 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
   summary.certificate = certify(body, first, geometry, forms.front());
   clock.lap("spectra and radiated power");
+  summary.sounds = radiate(body, model, options, summary.analyses);
+  if (!options.sound.empty()) clock.lap("radiated sound");
 
   file.set("/", "body", body.name());
   write_conventions(file, options, summary.limit, model.valid_to_hz);
   write_certificate(file, summary.certificate);
   write_skin_geometry(file, skin, geometry);
   write_panels(file, summary.panels);
-  for (const Analysis& analysis : summary.analyses)
-    write_analysis(file, analysis, options.references);
+  for (size_t i = 0; i < summary.analyses.size(); ++i) {
+    write_analysis(file, summary.analyses[i], options.references);
+    if (!summary.sounds.empty())
+      write_run_sound(file, summary.analyses[i], summary.sounds[i], options.references);
+  }
   const SparseRows face_normal = face_normal_operator(skin.nodes, skin.triangles, geometry);
   write_lines(file, first, lines, skin, face_normal);
   if (options.frames.on)
@@ -167,12 +200,20 @@ void write_exports(const std::filesystem::path& field_file, const Summary& summa
 
 JsonMembers json_of(const Summary& summary) {
   const PanelResult& skin = summary.analyses.front().panels.front();
-  return {{"faces", json_number(static_cast<double>(summary.n_faces))},
-          {"frames", json_number(static_cast<double>(summary.frames.size()))},
-          {"lines", json_number(static_cast<double>(summary.line_hz.size()))},
-          {"erp_w", json_number(skin.total_erp)},
-          {"erp_db", json_number(level_db(skin.total_erp, 1e-12))},
-          {"spectra_to_hz", json_number(summary.limit.to_hz)}};
+  JsonMembers members{{"faces", json_number(static_cast<double>(summary.n_faces))},
+                      {"frames", json_number(static_cast<double>(summary.frames.size()))},
+                      {"lines", json_number(static_cast<double>(summary.line_hz.size()))},
+                      {"erp_w", json_number(skin.total_erp)},
+                      {"erp_db", json_number(level_db(skin.total_erp, 1e-12))},
+                      {"spectra_to_hz", json_number(summary.limit.to_hz)}};
+  if (!summary.sounds.empty()) {
+    const RunSound& sound = summary.sounds.front();
+    const double reference = summary.options.references.power;
+    members.emplace_back("sound_power_w", json_number(sound.total));
+    members.emplace_back("sound_power_db", json_number(level_db(sound.total, reference)));
+    members.emplace_back("sound_power_dba", json_number(level_db(sound.total_a, reference)));
+  }
+  return members;
 }
 
 std::string summary_text(const Summary& summary) {
@@ -195,6 +236,7 @@ std::string summary_text(const Summary& summary) {
       fmt::format("ERP re 1 pW, rho c = {:.1f} Pa s/m, radiation loss factor {:g}; from {:g} Hz\n",
                   summary.options.air.density * summary.options.air.sound_speed,
                   summary.options.air.loss_factor, summary.options.spectrum.from_hz);
+  if (!summary.sounds.empty()) text += sound_summary(summary.sounds.front(), ref);
   for (const SensorResult& result : analysis.sensors)
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,

@@ -12,6 +12,7 @@
 #include "recover/field/field_certificate.hpp"
 #include "recover/options/options.hpp"
 #include "recover/run/run_input.hpp"
+#include "recover/sound/run_sound.hpp"
 
 namespace clatter::recover {
 
@@ -21,6 +22,7 @@ struct Summary {
   std::vector<Panel> panels{};
   std::vector<Sensor> sensors{};
   std::vector<Analysis> analyses{};
+  std::vector<RunSound> sounds{};  // of the analyses; empty without a sound file
   FrameIndex frames{};
   std::vector<double> line_hz{};
   FrequencyLimit limit{};

@@ -92,6 +92,7 @@ Options read_options(const Config& config) {
   Options options;
   if (!config.files().empty()) options.origin = config.files().front().string();
   options.body = config.text_or("body", options.body);
+  if (config.has("sound")) options.sound = config.path("sound");
   options.cycle_requested = config.has("cycle");
   options.cycle = config.flag_or("cycle", options.cycle);
   if (const auto air = config.find_table("air")) {

@@ -2,6 +2,7 @@
 #pragma once
 // The user's options. Each default is defined once, here; --help and the stored configuration are
 // generated from it.
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct LineRule {
 struct Options {
   std::string origin = "defaults";  // the file with these options
   std::string body;                 // empty: "block", or the only reduced body of the run
+  std::filesystem::path sound;      // sound file of the part; empty: ERP alone
   Air air;
   LevelReferences references;
   SpectrumBand spectrum;

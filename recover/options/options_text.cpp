@@ -41,6 +41,7 @@ std::string sensor_text(const SensorRule& sensor) {
 
 std::string resolved_text(const Options& o) {
   std::string text = fmt::format("body = {}\ncycle = {}\n", quoted(o.body), o.cycle);
+  if (!o.sound.empty()) text += "sound = " + quoted(o.sound.string()) + "\n";
   text += fmt::format("[spectrum]\nfrom_hz = {:.9g}\nto_hz = {:.9g}\n", o.spectrum.from_hz,
                       o.spectrum.to_hz);
   text += fmt::format("[air]\ndensity = {:.9g}\nsound_speed = {:.9g}\nloss_factor = {:.9g}\n",
@@ -68,6 +69,7 @@ std::string options_help() {
 
   body = "block"           # which body of the run
   cycle = true             # analyse the last cycle: exact lines, 1/2 engine order apart
+  sound = "block.sound.h5" # of `clatter-recover sound`: sound power and microphones; without it ERP
   [spectrum]
   from_hz = {:g}             # lower end of third octaves and totals
   to_hz = 0                # upper end; 0: as far as the reduced basis holds

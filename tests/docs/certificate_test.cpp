@@ -15,6 +15,7 @@
 #include "mesh/repair/mesh_certificate.hpp"
 #include "modal/certificates.hpp"
 #include "recover/field/field_certificate.hpp"
+#include "recover/sound/sound_certificate.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
 
@@ -31,6 +32,7 @@ void for_each_certificate(const Check& check) {
   check.template operator()<rom::ReducedCertificate>("rom");
   check.template operator()<dynamics::RunCertificate>("run");
   check.template operator()<recover::FieldCertificate>("field");
+  check.template operator()<recover::SoundCertificate>("sound");
 }
 
 /// A certificate with another number in each field; optional ones and families only every `step`.

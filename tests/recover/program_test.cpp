@@ -128,5 +128,38 @@ TEST_F(Program, AnotherReducedModelThanTheRunsIsRefused) {
   expect_refused("run.h5", "sha256");
 }
 
+TEST_F(Program, SoundOfAPartIsUsedByARun) {
+  write("part.toml",
+        "[skin]\nopening = 0.05\n[grid]\nfrom_hz = 200\nto_hz = 500\ntolerance_db = 3\n");
+  ASSERT_EQ(recover("sound rom.h5 -c part.toml -o part.sound.h5 --json"), 0) << output_;
+  EXPECT_NE(output_.find("\"monopole_error_db\""), std::string::npos) << output_;
+  write("field.toml", "sound = \"part.sound.h5\"\n");
+  ASSERT_EQ(recover("run.h5 -c field.toml -o out.field.h5"), 0) << output_;
+  for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y"})
+    EXPECT_NE(output_.find(words), std::string::npos) << output_;
+  ASSERT_EQ(recover("listen out.field.h5 out.wav --microphone top --seconds 0.5"), 0) << output_;
+  EXPECT_NE(output_.find("top, up to 500 Hz: peak"), std::string::npos) << output_;
+  EXPECT_EQ(fs::file_size(folder_ / "out.wav"), 44u + 2u * 24000u);
+  EXPECT_EQ(recover("listen out.field.h5 none.wav --microphone roof"), 2);
+  EXPECT_NE(output_.find("found [minus_x, minus_y, plus_x, plus_y, top], expected roof"),
+            std::string::npos)
+      << output_;
+  ASSERT_EQ(recover("sound --help"), 0);
+  for (const char* word : {"[[microphone]]", "[ground]", "tolerance_db", "block.sound.h5"})
+    EXPECT_NE(output_.find(word), std::string::npos) << word;
+}
+
+TEST_F(Program, BadSoundInputIsRefused) {
+  write("key.toml", "[grit]\nto_hz = 10\n");
+  expect_refused("sound rom.h5 -c key.toml", "grit");
+  write("above.toml", "[grid]\nto_hz = 3000\n");
+  expect_refused("sound rom.h5 -c above.toml", "grid.to_hz: found 3000, expected at most 2000");
+  write("opening.toml", "[skin]\nopening = 1\n");
+  expect_refused("sound rom.h5 -c opening.toml", "rom.h5: acoustic skin: found openings of 1 m");
+  expect_refused("sound run.h5", "clatter/rom/1");
+  write("field.toml", "sound = \"rom.h5\"\n");
+  expect_refused("run.h5 -c field.toml", "clatter/sound/1");
+}
+
 }  // namespace
 }  // namespace clatter::recover

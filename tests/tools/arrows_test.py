@@ -17,6 +17,7 @@ LIBRARIES = {
     "core/rom": {"core/base"},
     "core/run": set(),
     "core/sparse": {"core/base"},
+    "core/sound": {"core/base"},
     "core/fe": {"core/base", "core/mesh", "core/rom"},
     "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
@@ -24,10 +25,10 @@ LIBRARIES = {
 STAGES = {
     "mesh": {"core/base", "core/mesh"},
     "assembly": {"core/base", "core/mesh", "core/rom", "core/fe"},
-    "modal": set(LIBRARIES) - {"core/run"},
-    "condense": set(LIBRARIES) - {"core/run"},
+    "modal": set(LIBRARIES) - {"core/run", "core/sound"},
+    "condense": set(LIBRARIES) - {"core/run", "core/sound"},
     "dynamics": {"core/base", "core/rom", "core/run"},
-    "recover": {"core/base", "core/rom", "core/run"},
+    "recover": {"core/base", "core/rom", "core/run", "core/sound"},
 }
 ALLOWED = LIBRARIES | STAGES
 # Library targets that are not named after the folder of their stage.
@@ -35,12 +36,13 @@ FOLDER_OF_TARGET = {"meshing": "mesh", "film": "dynamics"}
 # A third-party library's headers may be included only in files with its prefix (h5_file, h5_impl, ...).
 HEADER_OWNERS = {
     r"gmsh\.h": ["mesh/cad/gmsh_"],
+    r"CGAL/.*": ["recover/acoustic/cgal_"],
     r"cholmod\.h": ["core/sparse/factor/cholmod_"],
     r"hdf5\.h|H5\w*\.h": ["core/base/h5_"],
     r"toml\+\+/.*|toml\+\+\.h": ["core/base/config"],
     r"CLI/.*": ["core/base/command_line"],
     r"nlohmann/.*": ["core/base/json_line"],
-    r"lapack\.h": ["core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
+    r"lapack\.h": ["core/sound/complex_lu", "core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")

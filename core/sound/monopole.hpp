@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A point source inside a body: its normal velocity on the surface radiates its known power, which
+// checks normals, areas, phases and the mesh.
+#include <Eigen/Core>
+
+#include "core/sound/radiation.hpp"
+
+namespace clatter::sound {
+
+/// A position inside the surface that is far from it, of a grid over its bounding box.
+/// @throws InputError when no point of the grid is inside
+Eigen::Vector3d inner_point(const Surface& surface);
+
+/// The source p = exp(-i k r) / r [Pa], with its image at the ground plane.
+struct MonopoleMotion {
+  Eigen::VectorXcd velocity;  // 3 n_f [m/s]: -dp/dn / (i omega rho), projected on each face
+  double power;               // [W]: 2 pi / (rho c), times 1 + sin(2 k h) / (2 k h) at height h
+};
+MonopoleMotion monopole(const Surface& surface, const Space& space, double frequency_hz,
+                        const Eigen::Vector3d& position);
+
+}  // namespace clatter::sound

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// A closed surface around a body by CGAL.
+#include "core/base/matrix.hpp"
+
+namespace clatter::recover {
+
+/// Flat triangles.
+struct FlatTriangles {
+  RowMatrix nodes;        // n x 3 [m]
+  IndexMatrix triangles;  // m x 3
+};
+
+/// The alpha wrap of a body (Portaneri et al. 2022), closed and outward, of nearly equilateral
+/// triangles (Botsch and Kobbelt 2004) that keep edges sharper than 45 degrees.
+///
+/// A sphere of diameter `opening` rolls around the body: what it cannot enter is closed. The wrap
+/// is a sixtieth of `opening` outside of the body.
+/// @param opening [m]
+/// @param edge length of the triangles' edges [m], within a third
+FlatTriangles wrapped(const FlatTriangles& body, double opening, double edge);
+
+}  // namespace clatter::recover

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/sound/sound_build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "core/base/error.hpp"
+#include "core/base/log.hpp"
+#include "core/base/progress.hpp"
+#include "core/sound/far_field.hpp"
+#include "core/sound/field_points.hpp"
+#include "core/sound/monopole.hpp"
+#include "recover/skin/panels.hpp"
+
+namespace clatter::recover {
+namespace {
+
+double decibels(double power, double reference) {
+  return std::abs(10.0 * std::log10(power / reference));
+}
+
+/// Computes samples, and notes the errors of the boundary elements at each.
+class Sampler {
+ public:
+  Sampler(const sound::Space& space, const Eigen::MatrixXd& velocity, PartSound& sound)
+      : space_(space), velocity_(velocity), sound_(sound), source_(sound::inner_point(sound.skin)) {
+    points_.resize(static_cast<Eigen::Index>(sound.table.microphones.size()), 3);
+    for (Eigen::Index m = 0; m < points_.rows(); ++m)
+      points_.row(m) = sound.table.microphones[static_cast<size_t>(m)].position.transpose();
+  }
+
+  SoundSample operator()(double frequency_hz) {
+    const Eigen::Index r = velocity_.cols();
+    const sound::MonopoleMotion check = sound::monopole(sound_.skin, space_, frequency_hz, source_);
+    Eigen::MatrixXcd motions(velocity_.rows(), r + 1);
+    motions << velocity_.cast<sound::Complex>(), check.velocity;
+    const sound::SurfaceState state = sound::radiate(sound_.skin, space_, frequency_hz, motions);
+    const Eigen::MatrixXd R = sound::far_resistance(sound_.skin, space_, state);
+    const Eigen::MatrixXcd H = sound::field_pressure(sound_.skin, space_, state, points_);
+    const sound::SurfaceState last{frequency_hz, state.velocity.rightCols(1),
+                                   state.pressure.rightCols(1)};
+    SoundCertificate& certificate = sound_.certificate;
+    const double power = 0.5 * R(r, r);
+    certificate.monopole_error_db =
+        std::max(certificate.monopole_error_db, decibels(power, check.power));
+    certificate.surface_power_error_db =
+        std::max(certificate.surface_power_error_db,
+                 decibels(sound::surface_power(sound_.skin, last)[0], power));
+    certificate.highest_condition = std::max(certificate.highest_condition, state.condition);
+    return {frequency_hz, R.topLeftCorner(r, r), H.leftCols(r)};
+  }
+
+ private:
+  const sound::Space& space_;
+  const Eigen::MatrixXd& velocity_;
+  PartSound& sound_;
+  Eigen::Vector3d source_;
+  RowMatrix points_;
+};
+
+/// The first frequencies: steps of a factor 2.5 up to steps of a sixth of the range.
+std::vector<double> first_grid(const GridRule& rule) {
+  std::vector<double> grid{rule.from_hz};
+  while (grid.back() < rule.to_hz)
+    grid.push_back(std::min(2.5 * grid.back(), grid.back() + rule.to_hz / 6.0));
+  grid.back() = rule.to_hz;
+  if (const size_t n = grid.size(); n > 2 && grid[n - 1] - grid[n - 2] < rule.to_hz / 18.0)
+    grid.erase(grid.end() - 2);
+  return grid;
+}
+
+void insert(SoundTable& table, SoundSample sample) {
+  const auto at = std::find_if(table.samples.begin(), table.samples.end(), [&](const auto& other) {
+    return other.frequency_hz > sample.frequency_hz;
+  });
+  table.samples.insert(at, std::move(sample));
+}
+
+void refine(const GridRule& rule, Sampler& sample, PartSound& sound) {
+  SoundTable& table = sound.table;
+  const std::vector<double> grid = first_grid(rule);
+  std::deque<std::pair<double, double>> intervals;
+  // A guess: a body of the size of a wavelength or two needs five or six for each of the first
+  // ones.
+  Progress progress("sound", static_cast<double>(6 * grid.size()), "frequencies");
+  const auto compute = [&](double frequency_hz) {
+    if (static_cast<int>(table.samples.size()) >= rule.most)
+      throw NumericsError(
+          fmt::format("sound: {} frequencies do not interpolate within {:g} dB: raise grid.most or "
+                      "grid.tolerance_db, or lower grid.to_hz",
+                      rule.most, rule.tolerance_db));
+    SoundSample computed = sample(frequency_hz);
+    progress.update(static_cast<double>(table.samples.size() + 1));
+    return computed;
+  };
+  for (size_t i = 0; i < grid.size(); ++i) {
+    insert(table, compute(grid[i]));
+    if (i > 0) intervals.emplace_back(grid[i - 1], grid[i]);
+  }
+  SoundCertificate& certificate = sound.certificate;
+  while (!intervals.empty()) {
+    const auto [low, high] = intervals.front();
+    intervals.pop_front();
+    const double middle = 0.5 * (low + high);
+    SoundSample computed = compute(middle);
+    const SampleErrors errors = interpolation_errors(table, computed);
+    insert(table, std::move(computed));
+    if (std::max(errors.resistance, errors.microphone) > rule.tolerance_db) {
+      intervals.emplace_back(low, middle);
+      intervals.emplace_back(middle, high);
+      continue;
+    }
+    certificate.interpolation_error_db =
+        std::max(certificate.interpolation_error_db, errors.resistance);
+    certificate.microphone_interpolation_error_db =
+        std::max(certificate.microphone_interpolation_error_db, errors.microphone);
+  }
+}
+
+/// int v_j^2 dS of each coordinate [m2].
+Eigen::VectorXd squares(const sound::Surface& skin, const Eigen::MatrixXd& velocity) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(velocity.cols());
+  for (Eigen::Index c = 0; c < skin.face_count(); ++c) {
+    const auto corners = velocity.middleRows(3 * c, 3);
+    sum += skin.face_area[c] / 12.0 *
+           (corners.colwise().squaredNorm() + corners.colwise().sum().cwiseAbs2()).transpose();
+  }
+  return sum;
+}
+
+Eigen::MatrixXd efficiencies(const SoundTable& table, const Eigen::VectorXd& squares) {
+  Eigen::MatrixXd sigma(table.samples.size(), squares.size());
+  for (Eigen::Index i = 0; i < sigma.rows(); ++i) {
+    const Eigen::MatrixXd& R = table.samples[static_cast<size_t>(i)].R;
+    for (Eigen::Index j = 0; j < squares.size(); ++j)
+      sigma(i, j) = squares[j] > 0.0 ? R(j, j) / (table.fluid.impedance() * squares[j]) : 0.0;
+  }
+  return sigma;
+}
+
+void check_limit(const rom::ReducedModel& model, const SoundOptions& options) {
+  if (model.valid_to_hz > 0.0 && options.grid.to_hz > model.valid_to_hz)
+    throw InputError(fmt::format(
+        "{}: grid.to_hz: found {:g}, expected at most {:g}, the limit of the reduced model",
+        options.origin, options.grid.to_hz, model.valid_to_hz));
+}
+
+}  // namespace
+
+PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options,
+                     StepClock& clock) {
+  check_limit(model, options);
+  const sound::Space space = options.space();
+  PartSound out;
+  out.skin = acoustic_skin(model.skin, options.mesh, space.fluid.sound_speed, options.grid.to_hz);
+  clock.lap("acoustic skin");
+  const SkinGeometry geometry = measure_skin(model.skin.nodes, model.skin.triangles);
+  out.map =
+      velocity_map(model.skin, exposed_faces(model.skin.nodes, model.skin.triangles, geometry),
+                   out.skin, options.lids);
+  const Eigen::MatrixXd velocity = out.map.map * Eigen::MatrixXd(model.skin.T);
+  clock.lap("map of normal velocity");
+
+  SoundTable& table = out.table;
+  table.fluid = space.fluid;
+  table.microphones = options.microphones.empty() ? around_body(out.skin) : options.microphones;
+  table.distance.resize(static_cast<Eigen::Index>(table.microphones.size()));
+  for (size_t m = 0; m < table.microphones.size(); ++m) {
+    const Microphone& microphone = table.microphones[m];
+    sound::require_in_fluid(out.skin, space,
+                            options.origin + ": microphone '" + microphone.name + "'",
+                            microphone.position);
+    table.distance[static_cast<Eigen::Index>(m)] = (microphone.position - out.skin.middle).norm();
+  }
+  out.certificate = {.faces = static_cast<double>(out.skin.face_count()),
+                     .mesh_limit_hz = sound::mesh_limit_hz(out.skin, space.fluid.sound_speed,
+                                                           options.mesh.edges_per_wavelength),
+                     .lid_area_m2 = out.map.lid_area,
+                     .map_flux_error = out.map.errors.flux,
+                     .map_velocity_error = out.map.errors.velocity};
+  say(fmt::format("acoustic skin: {} faces, {:.4g} m2, of it lids {:.3g} m2; good to {:.4g} Hz",
+                  out.skin.face_count(), out.skin.area, out.map.lid_area,
+                  out.certificate.mesh_limit_hz));
+  Sampler sampler(space, velocity, out);
+  refine(options.grid, sampler, out);
+  out.efficiency = efficiencies(table, squares(out.skin, velocity));
+  clock.lap("boundary elements");
+  return out;
+}
+
+}  // namespace clatter::recover

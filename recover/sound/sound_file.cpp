@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/sound/sound_file.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/artefact.hpp"
+#include "core/base/error.hpp"
+
+namespace clatter::recover {
+namespace {
+
+template <typename Values>
+void put_sound(H5File& file, const std::string& name, const Values& values, const std::string& unit,
+               const std::string& meaning) {
+  file.write(name, values);
+  file.set(name, "unit", unit);
+  file.set(name, "meaning", meaning);
+}
+
+std::string member(const char* group, size_t index) {
+  return fmt::format("{}/{:05d}", group, index);
+}
+
+void write_microphones(H5File& file, const SoundTable& table) {
+  std::vector<std::string> names;
+  RowMatrix position(table.microphones.size(), 3);
+  for (size_t m = 0; m < table.microphones.size(); ++m) {
+    names.push_back(table.microphones[m].name);
+    position.row(static_cast<Eigen::Index>(m)) = table.microphones[m].position.transpose();
+  }
+  file.write("microphones/name", names);
+  put_sound(file, "microphones/position", position, "m", "in the frame of the part");
+  put_sound(file, "microphones/distance", table.distance, "m",
+            "from the middle of the acoustic skin");
+}
+
+void check_shape(const H5File& file, const std::string& name, int64_t rows, int64_t columns) {
+  const std::vector<int64_t> shape = file.shape(name);
+  if (shape != std::vector<int64_t>{rows, columns})
+    throw InputError(fmt::format("{}: {}: found shape ({}), expected ({}, {})",
+                                 file.path().string(), name, fmt::join(shape, ", "), rows,
+                                 columns));
+}
+
+void read_microphones(const H5File& file, SoundTable& table) {
+  const std::vector<std::string> names = file.read_strings("microphones/name");
+  const auto count = static_cast<int64_t>(names.size());
+  check_shape(file, "microphones/position", count, 3);
+  const RowMatrix position = file.read_rows("microphones/position");
+  table.distance = file.read_vector("microphones/distance");
+  if (table.distance.size() != count)
+    throw InputError(fmt::format("{}: microphones/distance: found {} values, expected {}",
+                                 file.path().string(), table.distance.size(), count));
+  for (size_t m = 0; m < names.size(); ++m)
+    table.microphones.push_back({names[m], position.row(static_cast<Eigen::Index>(m))});
+}
+
+void read_samples(const H5File& file, int size, SoundTable& table) {
+  const std::vector<double> grid = file.read_doubles("frequency_hz");
+  const auto n_m = static_cast<int64_t>(table.microphones.size());
+  for (size_t i = 0; i < grid.size(); ++i) {
+    if (!(grid[i] > (i > 0 ? grid[i - 1] : 0.0)))
+      throw InputError(
+          fmt::format("{}: frequency_hz: found {:g} Hz at {}, expected ascending "
+                      "positive frequencies",
+                      file.path().string(), grid[i], i));
+    SoundSample sample{grid[i], {}, {}};
+    check_shape(file, member("resistance", i), size, size);
+    sample.R = file.read_matrix(member("resistance", i));
+    for (const char* part : {"microphones/pressure_re", "microphones/pressure_im"})
+      check_shape(file, member(part, i), n_m, size);
+    sample.H = file.read_matrix(member("microphones/pressure_re", i)).cast<sound::Complex>();
+    sample.H += sound::Complex(0.0, 1.0) * file.read_matrix(member("microphones/pressure_im", i));
+    if (!sample.R.allFinite() || !sample.H.allFinite())
+      throw InputError(fmt::format("{}: {}: found NaN or infinity, expected finite values",
+                                   file.path().string(), member("resistance", i)));
+    table.samples.push_back(std::move(sample));
+  }
+  if (table.samples.empty())
+    throw InputError(file.path().string() + ": frequency_hz: found none, expected at least one");
+}
+
+}  // namespace
+
+void write_sound(H5File& file, const PartSound& sound, const SoundOptions& options,
+                 const std::string& rom_sha256) {
+  file.set("/", "rom_sha256", rom_sha256);
+  file.set("/", "phase", "x(t) = Re( X exp(+i 2 pi f t) )");
+  file.set("/", "amplitude", "peak: P = 1/2 v^H R v, p = H v, v the reduced velocity");
+  file.set("/", "air_density_kg_m3", options.air.density);
+  file.set("/", "air_sound_speed_m_s", options.air.sound_speed);
+  file.set("/", "lids",
+           options.lids == LidMotion::kRest ? "rigid and at rest"
+                                            : "move with the nearest point of an exposed face");
+  file.set("/", "ground", options.ground ? "rigid plane" : "none");
+  write_certificate(file, sound.certificate);
+
+  const SoundTable& table = sound.table;
+  std::vector<double> grid;
+  for (const SoundSample& sample : table.samples) grid.push_back(sample.frequency_hz);
+  put_sound(file, "frequency_hz", grid, "Hz",
+            "frequencies; R / f^2 is a polynomial through six of them");
+  write_microphones(file, table);
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const SoundSample& sample = table.samples[i];
+    put_sound(file, member("resistance", i), sample.R, "N s/m",
+              "R of P = 1/2 v^H R v; per coordinate, angles in rad");
+    put_sound(file, member("microphones/pressure_re", i), Eigen::MatrixXd(sample.H.real()),
+              "Pa s/m", "pressure of each microphone per reduced velocity, real part");
+    put_sound(file, member("microphones/pressure_im", i), Eigen::MatrixXd(sample.H.imag()),
+              "Pa s/m", "pressure of each microphone per reduced velocity, imaginary part");
+  }
+  put_sound(file, "efficiency", sound.efficiency, "1",
+            "radiation efficiency of each coordinate, frequencies x coordinates");
+  put_sound(file, "skin/nodes", sound.skin.nodes, "m", "of the acoustic skin");
+  put_sound(file, "skin/triangles", sound.skin.triangles, "1", "flat, outward");
+  put_sound(file, "skin/covered", sound.map.covered, "1",
+            "share of each triangle in front of exposed faces");
+  put_sound(file, "skin/lids", sound.map.lids, "1", "triangles that close openings");
+  file.set("skin", "area_m2", sound.skin.area);
+  file.set("skin", "enclosed_volume_m3", sound.skin.volume);
+}
+
+SoundTable read_sound(const std::filesystem::path& path, const std::string& rom_sha256, int size) {
+  const H5File file = open_artefact(path, kSoundSchema);
+  const std::string found = file.get_string("/", "rom_sha256");
+  if (found != rom_sha256)
+    throw InputError(fmt::format(
+        "{}: rom_sha256: found {}..., expected {}...: it was made from another reduced model, run "
+        "clatter-recover sound again",
+        path.string(), found.substr(0, 12), rom_sha256.substr(0, 12)));
+  SoundTable table;
+  table.fluid = {file.get_double("/", "air_density_kg_m3"),
+                 file.get_double("/", "air_sound_speed_m_s")};
+  read_microphones(file, table);
+  read_samples(file, size, table);
+  return table;
+}
+
+}  // namespace clatter::recover

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Sound of a part over frequency, in its reduced coordinates: what makes the sound of a run a
+// matrix product.
+//
+//   P = 1/2 v^H R(f) v,   p_m = H_m(f) v,   v: complex reduced velocity, peak
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/sound/space.hpp"
+#include "recover/sound/sound_options.hpp"
+
+namespace clatter::recover {
+
+/// The sound at one frequency.
+struct SoundSample {
+  double frequency_hz = 0.0;
+  Eigen::MatrixXd R;   // r x r, symmetric, positive semidefinite [N s/m for translations]
+  Eigen::MatrixXcd H;  // n_m x r [Pa s/m for translations]
+};
+
+/// Samples at ascending frequencies, and how to interpolate between them.
+struct SoundTable {
+  sound::Fluid fluid{};
+  std::vector<Microphone> microphones{};
+  Eigen::VectorXd distance{};  // n_m [m], of the microphones from the middle of the acoustic skin
+  std::vector<SoundSample> samples{};
+
+  double from_hz() const { return samples.front().frequency_hz; }
+  double to_hz() const { return samples.back().frequency_hz; }
+  int size() const { return static_cast<int>(samples.front().R.rows()); }
+};
+
+/// Whether a frequency is not above the table.
+bool covers(const SoundTable& table, double frequency_hz);
+
+/// Weights of the samples around a frequency: sum_i weight_i value(first + i).
+struct Stencil {
+  size_t first = 0;
+  Eigen::VectorXd weight{};
+};
+
+/// The polynomial through the three samples on either side (Lagrange), fewer at the ends. Below the
+/// first sample that sample alone.
+/// @param frequency_hz ascending
+Stencil stencil(const std::vector<double>& frequency_hz, double at_hz);
+
+/// R, interpolated as R / f^2. @throws InputError above the table
+Eigen::MatrixXd resistance_at(const SoundTable& table, double frequency_hz);
+
+/// H, interpolated as H exp(i k distance) / f. @throws InputError above the table
+Eigen::MatrixXcd microphones_at(const SoundTable& table, double frequency_hz);
+
+/// Differences of an interpolated and a computed sample [dB].
+struct SampleErrors {
+  double resistance = 0.0;  // largest of the diagonal
+  double microphone = 0.0;  // largest 20 lg(1 + |difference| / |row|)
+};
+SampleErrors interpolation_errors(const SoundTable& table, const SoundSample& computed);
+
+}  // namespace clatter::recover

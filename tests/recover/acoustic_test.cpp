@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The acoustic skin and the map of normal velocity onto it.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "recover/acoustic/acoustic_skin.hpp"
+#include "recover/acoustic/velocity_map.hpp"
+#include "recover/skin/panels.hpp"
+#include "synthetic.hpp"
+#include "tests/refusal.hpp"
+
+namespace clatter::recover {
+namespace {
+
+using namespace testing;
+
+constexpr double kSpeed = 343.2;
+
+rom::Skin skin_of(const Mesh6& mesh) {
+  return {mesh.nodes, mesh.triangles, random_rows(mesh, 2, 1)};
+}
+
+sound::Surface wrap_of(const Mesh6& mesh, double to_hz) {
+  return acoustic_skin(skin_of(mesh), {.opening = 0.05}, kSpeed, to_hz);
+}
+
+TEST(AcousticSkin, HollowBoxIsWrappedByAClosedSurfaceWithoutItsHole) {
+  const sound::Surface wrap = wrap_of(hollow_box({0.4, 0.3, 0.2}, 3), 1500.0);
+  EXPECT_GE(sound::mesh_limit_hz(wrap, kSpeed, AcousticMesh{}.edges_per_wavelength), 1500.0);
+  // The wrap lies a sixtieth of the opening outside: 1.2 % of the area, and rounds the edges.
+  EXPECT_NEAR(wrap.area / (2 * (0.12 + 0.08 + 0.06)), 1.0, 0.02);
+  EXPECT_NEAR(wrap.volume / 0.024, 1.0, 0.03);
+}
+
+TEST(AcousticSkin, FinerMeshForAHigherFrequency) {
+  const Mesh6 mesh = box({0.4, 0.3, 0.2}, 2);
+  const auto coarse = wrap_of(mesh, 1000.0), fine = wrap_of(mesh, 2000.0);
+  EXPECT_GT(fine.face_count(), 2.5 * static_cast<double>(coarse.face_count()));
+}
+
+TEST(AcousticSkin, BodyWithoutSkinOrSmallerThanTheOpeningIsRefused) {
+  test::expect_parts(test::refusal_of([] { acoustic_skin(rom::Skin{}, {}, kSpeed, 1000.0); }),
+                     {"acoustic skin: found a reduced model without a skin"});
+  test::expect_parts(
+      test::refusal_of([] {
+        acoustic_skin(skin_of(box({0.1, 0.1, 0.1}, 1)), {.opening = 0.2}, kSpeed, 1000.0);
+      }),
+      {"found openings of 0.2 m", "the size of the body, 0.173 m"});
+}
+
+/// Velocity x at the nodes: a body that swells by 3 times its volume a second.
+Eigen::VectorXd swelling(const Mesh6& mesh) {
+  Eigen::VectorXd u(mesh.nodes.size());
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n)
+    u.segment(3 * n, 3) = mesh.nodes.row(n).transpose();
+  return u;
+}
+
+/// Flux out of the acoustic skin [m3/s].
+double flux(const sound::Surface& wrap, const Eigen::VectorXd& v) {
+  double sum = 0.0;
+  for (Eigen::Index c = 0; c < wrap.face_count(); ++c)
+    sum += wrap.face_area[c] / 3.0 * v.segment(3 * c, 3).sum();
+  return sum;
+}
+
+TEST(VelocityMap, KeepsTheFluxOfASwellingBoxAndOfRigidMotions) {
+  const Mesh6 mesh = box({0.4, 0.3, 0.2}, 6);
+  const sound::Surface wrap = wrap_of(mesh, 1500.0);
+  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
+  EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 3.0 * 0.024, 1e-14);
+  EXPECT_LT(map.errors.flux, 1e-14);
+  EXPECT_LT(map.errors.velocity, 0.12);  // at the rounded edges
+  EXPECT_TRUE(map.lids.empty());
+}
+
+TEST(VelocityMap, IsExactForASphere) {
+  Mesh6 mesh = unit_sphere(3);
+  mesh.nodes *= 0.2;
+  const sound::Surface wrap = wrap_of(mesh, 2000.0);
+  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
+  EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 4.0 * std::numbers::pi * 0.008, 1e-5);
+  EXPECT_LT(map.errors.velocity, 0.05);
+}
+
+TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {
+  const Mesh6 mesh = box({0.4, 0.3, 0.2}, 6);
+  const sound::Surface wrap = wrap_of(mesh, 1500.0);
+  const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
+  std::vector<bool> exposed;  // all but the top
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+    exposed.push_back(geometry.face_normal(f, 2) < 0.9);
+  Eigen::VectorXd lift = Eigen::VectorXd::Zero(mesh.nodes.size());
+  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) lift[3 * n + 2] = 1.0;
+  const auto mapped = [&](LidMotion motion) {
+    return velocity_map(skin_of(mesh), exposed, wrap, motion);
+  };
+  const VelocityMap rest = mapped(LidMotion::kRest), moving = mapped(LidMotion::kNearest);
+  EXPECT_NEAR(rest.lid_area, 0.12, 0.012);
+  EXPECT_NEAR(flux(wrap, rest.map * lift), -0.12, 1e-14);        // the bottom's alone
+  EXPECT_NEAR(flux(wrap, moving.map * lift), 0.0, 0.05 * 0.12);  // the lid's as well
+  test::expect_parts(test::refusal_of([&] {
+                       velocity_map(skin_of(mesh), std::vector<bool>(exposed.size(), false), wrap,
+                                    LidMotion::kRest);
+                     }),
+                     {"acoustic skin: found no exposed face"});
+}
+
+}  // namespace
+}  // namespace clatter::recover
