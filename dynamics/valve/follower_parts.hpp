@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/config.hpp"
 #include "dynamics/component/model_builder.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/valve/cam_profile.hpp"
