@@ -3,6 +3,7 @@
 #
 #   part.mesh.toml -> part.mesh.h5 -> part.fe.h5 (+ part.fe.toml) -> part.rom.h5 (+ part.rom.toml)
 #   part.fe.h5 (+ part.modes.toml) -> part.modes.h5;  part.fe.h5, part.rom.h5 -> part.compare.txt
+#   part.rom.h5 (+ part.sound.toml) -> part.sound.h5, of use in field.toml
 #   part.rom.h5 -> part.mtx, part.inp, part.pch, part.fem for other programs
 #   scene.run.toml -> scene.run.h5 -> scene.field.h5 (+ scene.field.toml, or field.toml for all scenes)
 #
@@ -39,6 +40,13 @@ clatter_recover := $(call clatter_program,recover)
 
 %.rom.h5: %.fe.h5 %.rom.toml $(clatter_condense)
 	$(CLATTER_LAUNCH) $(clatter_condense) $< -c $*.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+# What a part radiates, for a field.toml with sound = "part.sound.h5": name it as a prerequisite of the fields.
+%.sound.h5: %.rom.h5 %.sound.toml $(clatter_recover)
+	$(CLATTER_LAUNCH) $(clatter_recover) sound $< -c $*.sound.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
+%.sound.h5: %.rom.h5 $(clatter_recover)
+	$(CLATTER_LAUNCH) $(clatter_recover) sound $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
 %.run.h5: %.run.toml $(clatter_dynamics)
 	$(CLATTER_LAUNCH) $(clatter_dynamics) $< -o $@ --resume --depfile $@.d $(CLATTER_FLAGS)

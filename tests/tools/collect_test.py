@@ -38,6 +38,8 @@ class Collect(unittest.TestCase):
             field[f"{AT}/order"] = 0.5 * np.arange(1, count + 1)
             field[f"{AT}/panels/exposed/erp"][...] = 0.0
             field[f"{AT}/panels/exposed/erp"][2] = 4e-6  # order 1.5
+            field[f"{AT}/sound/power"] = 0.25 * field[f"{AT}/panels/exposed/erp"][()]
+            field[f"{AT}/sound"].attrs["power_db"], field[f"{AT}/sound"].attrs["power_dba"] = 60.0, 40.0
             for sensor in field[f"{AT}/sensors"]:
                 shape = (count, len(field[f"{AT}/sensors/{sensor}/labels"]))
                 for part in ("re", "im"):
@@ -63,7 +65,9 @@ class Collect(unittest.TestCase):
                 _, order, rms, _ = orders.of_run(run, "chain_cam_speed")
             np.testing.assert_array_equal(sweep["histories/chain_cam_speed/rms"][0, :len(rms)], rms)
             self.assertAlmostEqual(sweep["panels/exposed/rms"][1, 3] ** 2, 4e-6, delta=1e-18)
-            self.assertTrue(np.isnan(sweep["panels/exposed/erp_db"][0]))
+            self.assertTrue(np.isnan(sweep["panels/exposed/level_db"][0]))
+            self.assertAlmostEqual(sweep["sound/power/rms"][1, 3] ** 2, 1e-6, delta=1e-18)
+            self.assertEqual((sweep["sound/power/level_db"][1], sweep["sound/power/level_dba"][1]), (60.0, 40.0))
             self.assertAlmostEqual(sweep["sensors/sensor_liner.y/rms"][1, 40], 0.5 / np.sqrt(2.0), delta=1e-12)
             (speed, order, rms, unit), = orders.of_sweep(sweep, "panels/exposed")
             self.assertAlmostEqual(speed, 2000.0, delta=1e-6)

@@ -63,7 +63,7 @@ def of_histories(path):
 
 
 def of_field(path):
-    """({sensors/label or panels/name: spectrum}, {panels/name: ERP in dB and dB(A)}, cost) of a field file."""
+    """({sensors/label, panels/name or sound/power: spectrum}, {panels/name, sound/power: dB and dB(A)}, cost) of a field file."""
     with artefact.open_artefact(path, "field") as field:
         if AT not in field:
             return {}, {}, artefact.totals(field)
@@ -75,6 +75,9 @@ def of_field(path):
             found[f"panels/{panel}"] = orders.of_panel(field, panel)
             attributes = field[f"{AT}/panels/{panel}"].attrs
             levels[f"panels/{panel}"] = (attributes["erp_db"], attributes["erp_dba"])
+        if f"{AT}/sound" in field:
+            found["sound/power"] = orders.of_sound(field)
+            levels["sound/power"] = tuple(field[f"{AT}/sound"].attrs[f"power_{unit}"] for unit in ("db", "dba"))
         return found, levels, artefact.totals(field)
 
 
@@ -146,11 +149,12 @@ def fill(sweep, file):
     for name in names:
         values, unit = sweep.table(name)
         width = max(width, values.shape[1])
-        put(f"{name}/rms", values, unit, "RMS by run and half order of the crank; of panels the root of the ERP")
+        put(f"{name}/rms", values, unit, "RMS by run and half order of the crank; of panels the root of the ERP, of sound that of its power")
     for name in sorted({name for one in sweep.levels for name in one}):
         pairs = np.array([one.get(name, (np.nan, np.nan)) for one in sweep.levels])
-        put(f"{name}/erp_db", pairs[:, 0], "dB re 1 pW", "equivalent radiated power of the cycle")
-        put(f"{name}/erp_dba", pairs[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
+        what = "sound power" if name == "sound/power" else "equivalent radiated power"
+        put(f"{name}/level_db", pairs[:, 0], "dB re 1 pW", f"{what} of the cycle")
+        put(f"{name}/level_dba", pairs[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
     put("order", 0.5 * np.arange(width), "1", "half orders, columns of rms")
 
 

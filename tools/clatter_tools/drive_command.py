@@ -24,6 +24,7 @@ def add_arguments(commands):
     what.add_argument("--history", metavar="NAME", help="of run files")
     what.add_argument("--sensor", metavar="LABEL", help="of field files: a channel's acceleration, as sensor_arm.x")
     what.add_argument("--panel", metavar="NAME", help="of field files: a panel's equivalent radiated power, as exposed")
+    what.add_argument("--sound", action="store_true", help="of field files: the sound power")
     one.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")
@@ -68,15 +69,25 @@ def cut_orders(text):
     return found
 
 
+def quantity(options):
+    """(what the options name as in a sweep file, in words)."""
+    if options.sound:
+        return "sound/power", "the sound power"
+    if options.panel:
+        return f"panels/{options.panel}", f"the ERP of {options.panel}"
+    return (f"sensors/{options.sensor}", options.sensor) if options.sensor else (f"histories/{options.history}", options.history)
+
+
 def spectra_of(path, options):
     """Orders of what the options name, of one run or of all of a sweep."""
     with open_artefact(path) as file:
         if text(file.attrs.get("schema", "")) == schema_of("sweep"):
-            kind = "sensors" if options.sensor else "panels" if options.panel else "histories"
-            return orders.of_sweep(file, f"{kind}/{options.sensor or options.panel or options.history}", options.where)
+            return orders.of_sweep(file, quantity(options)[0], options.where)
     with open_artefact(path, "run" if options.history else "field") as file:
         if options.history:
             return [orders.of_run(file, options.history, options.cycles)]
+        if options.sound:
+            return [orders.of_sound(file)]
         return [orders.of_field(file, options.sensor) if options.sensor else orders.of_panel(file, options.panel)]
 
 
@@ -88,7 +99,7 @@ def write_orders(options):
         raise BadArtefact(f"--cycles: found {options.cycles}, expected at least 1")
     spectra = [one for path in options.files for one in spectra_of(path, options)]
     style.apply()
-    style.save(campbell.picture(spectra, cuts, f"Orders of {options.sensor or options.history or f'the ERP of {options.panel}'}"), options.output)
+    style.save(campbell.picture(spectra, cuts, f"Orders of {quantity(options)[1]}"), options.output)
     print_levels(sorted(spectra, key=lambda one: one[0]), cuts)
     print(options.output)
 

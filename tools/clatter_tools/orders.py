@@ -69,15 +69,28 @@ def of_field(field, label):
     return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "m/s2"
 
 
+def of_power(field, name, power):
+    """The same of a power per line, whose root stands for the RMS."""
+    at = "analysis/cycle"
+    order = dataset(field, f"{at}/order")
+    rms = np.zeros(int(round(2 * order[-1])) + 1)
+    rms[np.rint(2 * order).astype(int)] = np.sqrt(dataset(field, f"{at}/{name}/{power}"))
+    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "W^0.5"
+
+
 def of_panel(field, panel):
-    """The same of the equivalent radiated power of a panel: RMS is its root."""
+    """The same of the equivalent radiated power of a panel."""
     at = "analysis/cycle"
     if f"{at}/panels/{panel}" not in field:
         raise BadArtefact(f"{field.filename}: {at}/panels: found {', '.join(field[f'{at}/panels']) if at in field else 'none'}, expected {panel}")
-    power, order = dataset(field, f"{at}/panels/{panel}/erp"), dataset(field, f"{at}/order")
-    rms = np.zeros(int(round(2 * order[-1])) + 1)
-    rms[np.rint(2 * order).astype(int)] = np.sqrt(power)
-    return float(field[at].attrs["speed_rpm"]), 0.5 * np.arange(len(rms)), rms, "W^0.5"
+    return of_power(field, f"panels/{panel}", "erp")
+
+
+def of_sound(field):
+    """The same of the sound power."""
+    if "analysis/cycle/sound" not in field:
+        raise BadArtefact(f"{field.filename}: analysis/cycle/sound: found nothing, expected a field whose field.toml names a sound file")
+    return of_power(field, "sound", "power")
 
 
 def rows_where(sweep, conditions):
