@@ -38,7 +38,7 @@ REFERENCE, OTHER = ("cvode", 1e-7), ("tr-bdf2", 1e-6)
 WANTED = (1e-2, 3e-3, 1e-3)  # errors of force peaks at which methods are compared
 LENGTHS = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7)  # of fixed steps [s]
 PAPER = 1e-8  # its fixed step [s]
-LIMIT = 40  # CPU seconds of an integration
+LIMIT = 15  # CPU seconds of an integration
 
 
 class Bench:
@@ -51,7 +51,7 @@ class Bench:
         time = f"end_s = {span}\noutput_step_us = 5\nlargest_step_us = 20\n"
         path.write_text(timing_scenes.scene(time=time, accuracy=f"tolerance = 1e-3\n{accuracy}", **scene))
         runs = runs or self.runs
-        limit = LIMIT * runs + 20
+        limit = LIMIT * runs + 5
         done = subprocess.run([PROGRAM, path, method, f"{tolerance:g}", str(runs)], capture_output=True, text=True,
                               env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))

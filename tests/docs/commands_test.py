@@ -21,6 +21,7 @@ import stages  # noqa: E402
 # Blocks that take long, or that need more than a folder: README, first words, and the test that runs the same.
 ELSEWHERE = [("README.md", "make demo", "TruckDiesel"),
              ("README.md", "make check", None),  # this test is part of it
+             ("recover/README.md", "clatter-recover listen", "Program"),  # needs a cycle
              ("samples/beam/README.md", "make CLATTER_BIN", "Beam"),
              ("samples/timing_drive/README.md", "make CLATTER_BIN", "TimingDriveBlock"),
              ("samples/truck_diesel/README.md", "make CLATTER_BIN", "TruckDiesel"),
@@ -197,7 +198,7 @@ class Run(stages.PipelineTest):
         self.run_blocks("dynamics/valve/README.md")
 
     def test_recover(self):
-        self.named(slap__run__h5="step.run.h5", slap__field__toml="step.field.toml")
+        self.named(slap__run__h5="step.run.h5", slap__field__toml="step.field.toml", block__rom__h5="beam.rom.h5")
         self.run_blocks("recover/README.md")
 
     def test_report(self):

@@ -126,6 +126,8 @@ class Formats(stages.PipelineTest):
     def test_every_name_in_an_artefact_is_in_the_document(self):
         stages.run_stage("modal", "statics", "beam.fe.h5", "-o", "beam.static.h5", folder=self.folder)
         stages.run_stage("mesh", "faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
+        (self.folder / "beam.sound.toml").write_text("[grid]\nfrom_hz = 400\nto_hz = 800\n")
+        stages.run_stage("recover", "sound", "beam.rom.h5", "-c", "beam.sound.toml", "-o", "beam.sound.h5", folder=self.folder)
         kinds = set()
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(artefact=path.name):
