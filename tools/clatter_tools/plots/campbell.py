@@ -11,8 +11,9 @@ SHOWN_DB = 60.0   # range of colours
 SHOWN_RATIO = 1e3
 
 
-def picture(spectra, cuts, title):
-    """`spectra`: (speed [1/min], orders, RMS, unit) of at least two runs of different speeds; `cuts`: orders."""
+def picture(spectra, cuts, title, to_hz=None):
+    """`spectra`: (speed [1/min], orders, RMS, unit) of at least two runs of different speeds; `cuts`: orders; `to_hz`: top of the
+    diagram, without it somewhat above the highest of them."""
     spectra = sorted(spectra, key=lambda one: one[0])
     speeds, unit = np.array([one[0] for one in spectra]), spectra[0][3]
     if len(speeds) < 2 or np.diff(speeds).min() < 1.0:
@@ -21,7 +22,7 @@ def picture(spectra, cuts, title):
     if any(one[3] != unit for one in spectra):
         raise BadArtefact(f"orders: found units {', '.join(sorted({one[3] for one in spectra}))}, expected one")
     figure, axes = style.figure(2, height=3.6, gridspec_kw={"height_ratios": [1.25, 1]})
-    mesh = draw_map(axes[0, 0], spectra, speeds, unit, cuts)
+    mesh = draw_map(axes[0, 0], spectra, speeds, unit, cuts, to_hz or 1.15 * max(cuts) * speeds[-1] / 60.0)
     bar = figure.colorbar(mesh, ax=list(axes[:, 0]), anchor=(0.0, 1.0), shrink=0.5, pad=0.05, aspect=22, label=orders.level_name(unit))
     bar.outline.set_visible(False)
     draw_cuts(axes[1, 0], spectra, speeds, unit, cuts)
@@ -41,9 +42,9 @@ def colours(spectra, unit):
     return LogNorm(top / SHOWN_RATIO, top)
 
 
-def draw_map(axis, spectra, speeds, unit, cuts):
+def draw_map(axis, spectra, speeds, unit, cuts, top):
     edges = np.concatenate([[1.5 * speeds[0] - 0.5 * speeds[1]], 0.5 * (speeds[1:] + speeds[:-1]), [1.5 * speeds[-1] - 0.5 * speeds[-2]]])
-    norm, top = colours(spectra, unit), 1.15 * max(cuts) * speeds[-1] / 60.0
+    norm = colours(spectra, unit)
     cmap = style.plt.get_cmap("viridis").with_extremes(bad="#440154")
     for k, (speed, order, rms, _) in enumerate(spectra):
         frequency = (np.append(order[1:], order[-1] + 0.5) - 0.25) * speed / 60.0
