@@ -32,5 +32,9 @@ def draw(results, path):
     each = max(r["microseconds"] / int(n) for n, r in results["links"].items())
     right.plot(links, [each * n for n in links], color=style.COLOURS[1], linestyle=":", label="proportional")
     right.set(xscale="log", yscale="log", xlabel="links", ylabel="CPU time of a step [us]")
+    times = [100, 200, 500, 1000]
+    right.set_xticks(links, [str(n) for n in links])
+    right.set_yticks(times, [str(t) for t in times])
+    right.minorticks_off()
     right.legend(fontsize="small")
     style.save(figure, path)
