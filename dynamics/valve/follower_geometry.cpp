@@ -40,7 +40,6 @@ FollowerState follower_at(const FollowerGeometry& geometry, const SplinePoint& l
       (-kI * second - rate * rate) * roller + 2.0 * spin * kI * rate * roller - arm;
   const Complex back = std::exp(-spin * angle);
   state.pitch = of(back * arm);
-  state.pitch_tangent = of(back * first);
   const double speed = std::abs(first);
   Complex normal = kI * first / speed;
   double side = -1.0;

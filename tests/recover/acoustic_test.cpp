@@ -2,8 +2,10 @@
 // The acoustic skin and the map of normal velocity onto it.
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <numbers>
 
+#include "core/sound/radiation.hpp"
 #include "recover/acoustic/acoustic_skin.hpp"
 #include "recover/acoustic/velocity_map.hpp"
 #include "recover/skin/panels.hpp"
@@ -84,6 +86,34 @@ TEST(VelocityMap, IsExactForASphere) {
   const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
   EXPECT_NEAR(flux(wrap, map.map * swelling(mesh)), 4.0 * std::numbers::pi * 0.008, 1e-5);
   EXPECT_LT(map.errors.velocity, 0.05);
+}
+
+TEST(VelocityMap, APointSourceInsideTheBodySendsItsPowerThroughMapAndBoundaryElements) {
+  // Velocities of p = exp(-i k r) / r at the nodes of a box with sharp edges: P = 2 pi / (rho c).
+  const Mesh6 mesh = box({0.4, 0.3, 0.2}, 8);
+  const sound::Surface wrap = wrap_of(mesh, 1500.0);
+  const std::vector<bool> all(static_cast<size_t>(mesh.triangles.rows()), true);
+  const VelocityMap map = velocity_map(skin_of(mesh), all, wrap, LidMotion::kRest);
+  const sound::Fluid air{1.204, kSpeed};
+  const Eigen::Vector3d source =
+      mesh.nodes.colwise().mean().transpose() + Eigen::Vector3d(.05, -.03, .02);
+  for (const double hz : {200.0, 1500.0}) {
+    const double k = 2.0 * std::numbers::pi * hz / kSpeed;
+    const std::complex<double> i(0.0, 1.0);
+    Eigen::VectorXcd u(mesh.nodes.size());
+    for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
+      const Eigen::Vector3d d = mesh.nodes.row(n).transpose() - source;
+      const double r = d.norm();
+      const std::complex<double> p = std::exp(-i * k * r) / r;
+      u.segment(3 * n, 3) = p * (i * k + 1.0 / r) / (i * k * kSpeed * air.density * r) * d;
+    }
+    Eigen::VectorXcd v(map.map.rows());
+    v.real() = map.map * Eigen::VectorXd(u.real());
+    v.imag() = map.map * Eigen::VectorXd(u.imag());
+    const auto state = sound::radiate(wrap, {air}, hz, v);
+    const double exact = 2.0 * std::numbers::pi / (air.density * kSpeed);
+    EXPECT_NEAR(sound::surface_power(wrap, state)(0) / exact, 1.0, 0.01) << hz;
+  }
 }
 
 TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {

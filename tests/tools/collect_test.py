@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter collect`: all runs of a sweep in one file, and orders from it."""
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -84,6 +85,17 @@ class Collect(unittest.TestCase):
         two = self.run_command("orders", "1000.run.h5", "2000.run.h5", "--history", "chain_cam_speed", "-o", "a.svg").stdout
         self.assertEqual(one, two)
         self.assertTrue((self.folder / "a.svg").exists())
+
+    def test_scenes_of_an_earlier_sweep_and_results_before_a_failure_are_left_out(self):
+        (self.folder / "sweep.mk").write_text("# x\nspeeds_names := 1000 2000\nspeeds_runs := a\n")
+        failed = self.folder / "2000.run.failed.h5"
+        failed.write_bytes(b"")
+        os.utime(failed, ns=(2**62, 2**62))
+        done = self.run_command("collect", ".")
+        self.assertEqual(done.stdout, "sweep.h5: 2 runs, 1 complete, 1 failed\nfailed: 2000\n")
+        with artefact.open_artefact(self.folder / "sweep.h5", "sweep") as sweep:
+            np.testing.assert_array_equal(np.isnan(sweep["speed_rpm"]), [False, True])
+            self.assertNotIn("sound", sweep)  # its field is of the run before
 
     def test_runs_are_selected_by_the_values_of_keys(self):
         self.run_command("collect", ".")

@@ -2,6 +2,7 @@
 """`clatter collect`: levels, orders and cost of all runs of a sweep in one file."""
 import os
 import pathlib
+import re
 import tomllib
 
 import h5py
@@ -29,10 +30,22 @@ def flat(table, prefix=""):
     return found
 
 
+def listed(folder):
+    """Names that sweep.mk lists; None where there is no sweep.mk. Other scenes are of an earlier sweep, and make does not run them
+    again when their base changes."""
+    fragment = folder / "sweep.mk"
+    if not fragment.exists():
+        return None
+    names = re.search(r"^\S+_names := (.*)$", fragment.read_text(encoding="utf-8"), re.M)
+    return set(names[1].split()) if names else None
+
+
 def scenes(folder):
-    """[(name, {changed key: value})] of the scenes in a folder, numbers in order."""
-    found = []
+    """[(name, {changed key: value})] of the scenes of the last sweep into a folder, numbers in order."""
+    found, names = [], listed(folder)
     for path in folder.glob("*.run.toml"):
+        if names is not None and path.name.removesuffix(".run.toml") not in names:
+            continue
         with open(path, "rb") as stream:
             try:
                 table = tomllib.load(stream)
@@ -45,10 +58,10 @@ def scenes(folder):
 
 
 def state_of(folder, name):
-    """"complete", "failed", "interrupted" or "missing"."""
-    if (folder / f"{name}.run.h5").exists():
-        return "complete"
-    return next((state for state in UNFINISHED if (folder / f"{name}.run.{state}.h5").exists()), "missing")
+    """"complete", "failed", "interrupted" or "missing": what happened last, since a run that fails leaves an older one as it is."""
+    files = {"complete": folder / f"{name}.run.h5", **{state: folder / f"{name}.run.{state}.h5" for state in UNFINISHED}}
+    times = {state: path.stat().st_mtime_ns for state, path in files.items() if path.exists()}
+    return max(times, key=times.get) if times else "missing"
 
 
 def of_histories(path):
@@ -94,7 +107,7 @@ class Sweep:
             run, field = (folder / f"{name}.{kind}.h5" for kind in ("run", "field"))
             if self.states[row] == "complete":
                 self.spectra[row], self.cost[row, 0] = of_histories(run)
-            if field.exists():
+            if field.exists() and self.states[row] == "complete":
                 found, self.levels[row], self.cost[row, 1] = of_field(field)
                 self.spectra[row].update(found)
 
