@@ -1,41 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "recover/field/field_file.hpp"
 
-#include <fmt/format.h>
+#include "recover/field/field_values.hpp"
 
 namespace clatter::recover {
 namespace {
-
-constexpr const char* kPhase =
-    "x(t) = Re( X exp(+i 2 pi f t) ), t = 0 at firing TDC (at the first sample when nothing turns)";
-
-template <typename Values>
-void put(H5File& file, const std::string& name, const Values& values, const std::string& unit,
-         const std::string& meaning) {
-  file.write(name, values);
-  file.set(name, "unit", unit);
-  file.set(name, "meaning", meaning);
-}
-
-void put_complex(H5File& file, const std::string& name, const Eigen::MatrixXcd& values,
-                 const std::string& unit, const std::string& meaning) {
-  put(file, name + "_re", Eigen::MatrixXd(values.real()), unit,
-      meaning + ", real part, peak amplitude");
-  put(file, name + "_im", Eigen::MatrixXd(values.imag()), unit,
-      meaning + ", imaginary part, peak amplitude");
-  for (const char* part : {"_re", "_im"}) {
-    file.set(name + part, "amplitude", "peak");
-    file.set(name + part, "phase", kPhase);
-  }
-}
-
-void put_level(H5File& file, const std::string& name, const auto& values, double reference,
-               const std::string& reference_unit, const std::string& meaning) {
-  put(file, name, values, "dB",
-      fmt::format("{}, dB re {:g} {}", meaning, reference, reference_unit));
-  file.set(name, "reference", reference);
-  file.set(name, "reference_unit", reference_unit);
-}
 
 void write_panel_result(H5File& file, const std::string& at, const PanelResult& panel,
                         double skin_erp, const LevelReferences& ref) {
@@ -70,9 +39,12 @@ void write_sensor_result(H5File& file, const std::string& at, const SensorResult
   put(file, at + "/velocity", result.velocity, "m/s", "samples x channels");
   put(file, at + "/acceleration", result.acceleration, "m/s2", "samples x channels");
   const std::string lines = at + "/spectrum/";
-  put_complex(file, lines + "displacement", result.displacement_lines, "m", "lines x channels");
-  put_complex(file, lines + "velocity", result.velocity_lines, "m/s", "lines x channels");
-  put_complex(file, lines + "acceleration", result.acceleration_lines, "m/s2", "lines x channels");
+  put_complex<Eigen::MatrixXd>(file, lines + "displacement", result.displacement_lines, "m",
+                               "lines x channels");
+  put_complex<Eigen::MatrixXd>(file, lines + "velocity", result.velocity_lines, "m/s",
+                               "lines x channels");
+  put_complex<Eigen::MatrixXd>(file, lines + "acceleration", result.acceleration_lines, "m/s2",
+                               "lines x channels");
   put_level(file, at + "/third_octave/velocity_db", result.band_velocity_db, ref.velocity, "m/s",
             "mean square velocity, bands x channels");
   put_level(file, at + "/third_octave/acceleration_db", result.band_acceleration_db,

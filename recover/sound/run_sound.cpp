@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "recover/field/field_values.hpp"
+
 namespace clatter::recover {
 namespace {
 
@@ -42,20 +44,6 @@ MicrophoneResult microphone_result(const std::string& name, const Eigen::VectorX
           levels_db(band_sums(frequency_hz, squares, bands, velocity.periodic), reference),
           level_db(total(frequency_hz, squares, from_hz, false), reference),
           level_db(total(frequency_hz, squares, from_hz, true), reference)};
-}
-
-void put_values(H5File& file, const std::string& name, const Eigen::VectorXd& values,
-                const std::string& unit, const std::string& meaning) {
-  file.write(name, values);
-  file.set(name, "unit", unit);
-  file.set(name, "meaning", meaning);
-}
-
-void put_levels(H5File& file, const std::string& name, const Eigen::VectorXd& values,
-                double reference, const std::string& unit, const std::string& meaning) {
-  put_values(file, name, values, "dB", fmt::format("{}, dB re {:g} {}", meaning, reference, unit));
-  file.set(name, "reference", reference);
-  file.set(name, "reference_unit", unit);
 }
 
 }  // namespace
@@ -96,24 +84,22 @@ RunSound run_sound(const SoundTable& table, const Analysis& analysis, const Pane
 void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sound,
                      const LevelReferences& references) {
   const std::string at = "analysis/" + analysis.piece.name + "/sound";
-  put_values(file, at + "/power", sound.power, "W",
-             "radiated sound power per line; above boundary_elements_to_hz the ERP");
-  put_levels(file, at + "/third_octave/power_db", sound.band_db, references.power, "W",
-             "sound power per third octave of the analysis");
-  put_levels(file, at + "/third_octave/power_dba", sound.band_dba, references.power, "W",
-             "A-weighted sound power per third octave, weighted line by line");
+  put(file, at + "/power", sound.power, "W",
+      "radiated sound power per line; above boundary_elements_to_hz the ERP");
+  put_level(file, at + "/third_octave/power_db", sound.band_db, references.power, "W",
+            "sound power per third octave of the analysis");
+  put_level(file, at + "/third_octave/power_dba", sound.band_dba, references.power, "W",
+            "A-weighted sound power per third octave, weighted line by line");
   file.set(at, "boundary_elements_to_hz", sound.to_hz);
   file.set(at, "power_w", sound.total);
   file.set(at, "power_db", level_db(sound.total, references.power));
   file.set(at, "power_dba", level_db(sound.total_a, references.power));
   for (const MicrophoneResult& microphone : sound.microphones) {
     const std::string name = at + "/microphones/" + microphone.name;
-    put_values(file, name + "/pressure_re", microphone.pressure.real(), "Pa",
-               "pressure per line up to boundary_elements_to_hz, real part, peak amplitude");
-    put_values(file, name + "/pressure_im", microphone.pressure.imag(), "Pa",
-               "pressure per line up to boundary_elements_to_hz, imaginary part, peak amplitude");
-    put_levels(file, name + "/third_octave/pressure_db", microphone.band_db, kPressureReference,
-               "Pa", "sound pressure, the first third octaves of the analysis");
+    put_complex<Eigen::VectorXd>(file, name + "/pressure", microphone.pressure, "Pa",
+                                 "pressure per line up to boundary_elements_to_hz");
+    put_level(file, name + "/third_octave/pressure_db", microphone.band_db, kPressureReference,
+              "Pa", "sound pressure, the first third octaves of the analysis");
     file.set(name, "pressure_db", microphone.total_db);
     file.set(name, "pressure_dba", microphone.total_dba);
   }

@@ -137,6 +137,10 @@ TEST_F(Program, SoundOfAPartIsUsedByARun) {
   ASSERT_EQ(recover("run.h5 -c field.toml -o out.field.h5"), 0) << output_;
   for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y"})
     EXPECT_NE(output_.find(words), std::string::npos) << output_;
+  const H5File field = H5File::open(folder_ / "out.field.h5");
+  for (const char* attribute : {"unit", "meaning", "amplitude", "phase"})
+    EXPECT_TRUE(field.has_attribute("analysis/cycle/sound/microphones/top/pressure_re", attribute))
+        << attribute;
   ASSERT_EQ(recover("listen out.field.h5 out.wav --microphone top --seconds 0.5"), 0) << output_;
   EXPECT_NE(output_.find("top, up to 500 Hz: peak"), std::string::npos) << output_;
   EXPECT_EQ(fs::file_size(folder_ / "out.wav"), 44u + 2u * 24000u);
