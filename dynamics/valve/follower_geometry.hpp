@@ -29,8 +29,8 @@ struct FollowerState {
   double tilt_by_angle = 0.0;   // d tilt / d(cam angle)
   Eigen::Vector2d roller, pad;  // centres [m]
   Eigen::Vector2d normal;       // from cam to roller, unit vector
-  /// Of the roller's centre in the cam's axes: the pitch curve [m] and its curvature, positive where
-  /// it is convex [1/m].
+  /// Of the roller's centre in the cam's axes: the pitch curve [m] and its curvature, positive
+  /// where it is convex [1/m].
   Eigen::Vector2d pitch;
   double curvature = 0.0;
   double roller_force = 0.0;   // over the force of the valve on the pad, without inertia
