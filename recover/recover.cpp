@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
+#include "recover/sound/acoustic_velocity.hpp"
 #include "recover/sound/sound_file.hpp"
 
 namespace clatter::recover {
@@ -177,6 +178,9 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   }
   const SparseRows face_normal = face_normal_operator(skin.nodes, skin.triangles, geometry);
   write_lines(file, first, lines, skin, face_normal);
+  if (!options.sound.empty())
+    if (const auto acoustic = read_acoustic_velocity(options.sound, model.size()))
+      write_acoustic_lines(file, *acoustic, first.velocity, lines);
   if (options.frames.on)
     summary.frames = write_frames(file, body, skin, face_normal, frames.piece, frames.samples,
                                   options.frames.displacement);

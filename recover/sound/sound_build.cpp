@@ -14,6 +14,7 @@
 #include "core/sound/field_points.hpp"
 #include "core/sound/monopole.hpp"
 #include "recover/skin/panels.hpp"
+#include "recover/sound/acoustic_velocity.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -162,6 +163,7 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
       velocity_map(model.skin, exposed_faces(model.skin.nodes, model.skin.triangles, geometry),
                    out.skin, options.lids);
   const Eigen::MatrixXd velocity = out.map.map * Eigen::MatrixXd(model.skin.T);
+  out.face_velocity = triangle_means(velocity);
   clock.lap("map of normal velocity");
 
   SoundTable& table = out.table;

@@ -13,7 +13,8 @@ struct PartSound {
   SoundTable table;
   sound::Surface skin;
   VelocityMap map;
-  Eigen::MatrixXd efficiency;  // frequencies x r: R_jj / (rho c int v_j^2 dS), 0 without motion
+  Eigen::MatrixXd face_velocity;  // n_c x r: mean normal velocity of each triangle of the skin
+  Eigen::MatrixXd efficiency;     // frequencies x r: R_jj / (rho c int v_j^2 dS), 0 without motion
   SoundCertificate certificate;
 };
 

@@ -117,6 +117,8 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
   put_sound(file, "skin/covered", sound.map.covered, "1",
             "share of each triangle in front of exposed faces");
   put_sound(file, "skin/lids", sound.map.lids, "1", "triangles that close openings");
+  put_sound(file, "skin/normal_velocity", sound.face_velocity, "1",
+            "mean normal velocity of each triangle per reduced velocity, triangles x coordinates");
   file.set("skin", "area_m2", sound.skin.area);
   file.set("skin", "enclosed_volume_m3", sound.skin.volume);
 }

@@ -72,6 +72,21 @@ class Command(unittest.TestCase):
         np.testing.assert_allclose(rows[:, 0], ball.SENSOR_HZ)
         np.testing.assert_allclose(rows[:, 1] + 1j * rows[:, 2], ball.sensor_spectrum("velocity", 0), rtol=1e-11)
 
+    def test_a_table_of_histories_has_the_instants(self):
+        said, _ = ball.export(self.folder, "-o", "t.csv", "--sensors", "--histories", "--quantity", "displacement")
+        self.assertIn("5 histories of displacement, 31 instants each", said)
+        comments, names, rows = table(self.folder / "t.csv")
+        self.assertIn("real values, time from firing TDC", comments[1])
+        self.assertEqual((names[:2], names[-1]), (["time_s", "sensor_a.x displacement_m"], "sensor_b.t displacement_rad"))
+        np.testing.assert_allclose(rows[:, 0], ball.SENSOR_TIME, rtol=1e-11)
+        for channel in range(5):
+            np.testing.assert_allclose(rows[:, channel + 1], ball.sensor_history("displacement", channel), rtol=1e-11)
+
+    def test_uneven_histories_are_refused(self):
+        self.changed(lambda file: file["analysis/cycle/time"].__setitem__(3, -0.01962))
+        self.assertEqual(self.refused("-o", "x.unv", "--sensors", "--histories"),
+                         "ball.field.h5: analysis/cycle/time: found uneven or less than two values, expected even ones")
+
     def test_frames_are_the_default_without_lines(self):
         ball.write(self.folder / "ball.field.h5", lines=False)
         self.assertIn("4 frames of velocity", ball.export(self.folder, "-o", "f.csv")[0])
@@ -111,7 +126,8 @@ class Command(unittest.TestCase):
                 (["-o", "x.csv", "--at", "3:x"],
                  "--at 3:x: found '3:x', expected numbers [Hz] or ranges low:high, joined by commas"),
                 (["-o", "x.msh", "--sensors"], "--sensors: found the format msh, expected .unv or .csv"),
-                (["-o", "x.csv", "--sensors", "--at", "3"], "--sensors: found --at or --linear, which are for the surface")):
+                (["-o", "x.csv", "--sensors", "--at", "3"], "--sensors: found --at, --linear or --skin, which are for the surface"),
+                (["-o", "x.csv", "--histories"], "--histories: found it without --sensors")):
             with self.subTest(message):
                 self.assertEqual(self.refused(*arguments), message)
 

@@ -80,7 +80,7 @@ def read_58(lines):
     return {"ids": lines[:5], "function": int(head[0]), "node": int(head[6]), "direction": int(head[7]), "type": int(form[0]),
             "count": int(form[1]), "even": int(form[2]), "first": float(form[3]), "step": float(form[4]),
             "axis": (int(axis[0]), axis[7].strip()), "ordinate": (int(ordinate[0]), ordinate[7].strip()),
-            "values": values[::2] + 1j * values[1::2]}
+            "values": values[::2] + 1j * values[1::2] if int(form[0]) in (5, 6) else values}
 
 
 class Universal(unittest.TestCase):
@@ -188,6 +188,18 @@ class Universal(unittest.TestCase):
             self.assertIn("peak", function["ids"][1])
             np.testing.assert_array_equal(places[function["node"]], [0.1, 0, 0] if channel < 3 else [0, 0, -0.1])
         self.assertIn("direction 0.6 0 0.8", functions[3]["ids"][4])
+
+    def test_functions_58_are_the_sensors_histories_on_request(self):
+        datasets = self.exported("histories.unv", "--sensors", "--histories", "--quantity", "acceleration")
+        functions = [read_58(lines) for number, lines in datasets if number == 58]
+        self.assertEqual([function["direction"] for function in functions], [1, 2, 3, 0, -6])
+        for channel, function in enumerate(functions):
+            self.assertEqual((function["function"], function["type"], function["even"]), (1, 4, 1))
+            self.assertEqual((function["axis"], function["ordinate"]), ((17, "s"), (12, "rad/s2" if channel == 4 else "m/s2")))
+            self.assertEqual((function["count"], len(function["values"])), (31, 31))
+            np.testing.assert_allclose(function["first"] + function["step"] * np.arange(31), ball.SENSOR_TIME, atol=1e-8)
+            np.testing.assert_allclose(function["values"], ball.sensor_history("acceleration", channel), rtol=1e-11)
+            self.assertIn("real values, time from firing TDC", function["ids"][1])
 
     @unittest.skipIf(gmsh is None, "Gmsh (package python3-gmsh) is not installed")
     def test_gmsh_reads_the_mesh(self):

@@ -87,6 +87,33 @@ def write_lines(file, nodes, triangles, area):
             file[f"lines/{name}_re/{step:05d}"], file[f"lines/{name}_im/{step:05d}"] = values.real, values.imag
 
 
+def acoustic_skin():
+    """Nodes and outward flat triangles of a closed sphere, somewhat larger than the body."""
+    nodes, triangles = sphere()
+    return 1.1 * nodes, triangles[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
+
+
+def flat_normals(nodes, triangles):
+    """(areas f, unit normals f x 3) of flat triangles."""
+    a, b, c = np.moveaxis(nodes[triangles], 1, 0)
+    twice = np.cross(b - a, c - a)
+    return np.linalg.norm(twice, axis=1) / 2, twice / np.linalg.norm(twice, axis=1)[:, None]
+
+
+def acoustic_velocity(step):
+    """Mean normal velocity of each triangle of the acoustic skin: the wave at its centre, and a pulsation."""
+    nodes, triangles = acoustic_skin()
+    return (line_velocity(nodes[triangles].mean(axis=1), step) * flat_normals(nodes, triangles)[1]).sum(axis=1) + (step + 1) * 1e-3j
+
+
+def write_acoustic(file):
+    file["acoustic/nodes"], file["acoustic/triangles"] = acoustic_skin()
+    for step in range(len(FREQUENCIES)):
+        values = acoustic_velocity(step)
+        for part in ("re", "im"):
+            file[f"lines/acoustic_normal_velocity_{part}/{step:05d}"] = values.real if part == "re" else values.imag
+
+
 def write_frames(file, nodes, triangles, area):
     file["frames/time"] = TIMES
     for step in range(len(TIMES)):
@@ -103,10 +130,18 @@ def sensor_spectrum(kind, channel):
     return {"velocity": 1, "displacement": 2, "acceleration": 3}[kind] * (channel + 1) * 1e-3 * np.exp(-0.02j * SENSOR_HZ)
 
 
+SENSOR_TIME = -0.02 + 1e-4 * np.arange(31)  # not a multiple of the four values of a line
+
+
+def sensor_history(kind, channel):
+    """Real, over SENSOR_TIME."""
+    return {"velocity": 1, "displacement": 2, "acceleration": 3}[kind] * (channel + 1) * 1e-3 * np.cos(700.0 * SENSOR_TIME + channel)
+
+
 def write_sensors(file):
     """sensor_a with x y z, sensor_b with one direction between axes and a rotation about -z."""
     at = "analysis/cycle"
-    file[f"{at}/frequency_hz"] = SENSOR_HZ
+    file[f"{at}/frequency_hz"], file[f"{at}/time"] = SENSOR_HZ, SENSOR_TIME
     slant = np.array([0.6, 0.0, 0.8])
     channel = 0
     for name, labels, position, directions, rotation in (("sensor_a", "xyz", (0.1, 0.0, 0.0), np.eye(3), [0, 0, 0]),
@@ -118,6 +153,7 @@ def write_sensors(file):
         for kind in ("velocity", "displacement", "acceleration"):
             values = np.stack([sensor_spectrum(kind, channel + k) for k in range(len(labels))], axis=1)
             file[f"{own}/spectrum/{kind}_re"], file[f"{own}/spectrum/{kind}_im"] = values.real, values.imag
+            file[f"{own}/{kind}"] = np.stack([sensor_history(kind, channel + k) for k in range(len(labels))], axis=1)
         channel += len(labels)
 
 

@@ -7,7 +7,7 @@ import sys
 import time
 
 from .artefact import BadArtefact, open_artefact
-from .export import derived, field_source, formats, sensors
+from .export import acoustic_source, derived, field_source, formats, sensors
 from .export.whole_files import WholeFiles
 
 SECONDS_BETWEEN = 2.0  # progress lines
@@ -31,10 +31,13 @@ def add_arguments(command):
                       help="complex lines over frequency; the default where the file has lines")
     kind.add_argument("--frames", dest="kind", action="store_const", const="frames", help="instants in time")
     kind.add_argument("--sensors", dest="kind", action="store_const", const="sensors", help="spectra of the sensors (.unv, .csv)")
+    command.add_argument("--histories", action="store_true", help="with --sensors: their histories in time instead")
+    command.add_argument("--skin", choices=("body", "acoustic"), default="body", help="whose motion: of the body, or of the closed acoustic skin around it, "
+                         "where the field.toml names a sound file; default: body")
     command.add_argument("--at", metavar="list", help="only these frequencies [Hz] or instants [s]: numbers and ranges low:high, "
                          "joined by commas; --at=-0.001:0.002 where the first is negative")
     command.add_argument("--quantity", metavar="names", help="velocity, displacement, acceleration, normal_velocity, joined by commas; "
-                         "default: velocity, in .pvd, .cfs and .msh also normal_velocity, in NumCalc's folder normal_velocity alone")
+                         "default: velocity, in .pvd, .cfs and .msh also normal_velocity, in NumCalc's folder and of the acoustic skin normal_velocity alone")
     command.add_argument("--linear", action="store_true", help="write each 6-node triangle as four 3-node ones; always so for NumCalc")
     command.add_argument("--dataset", type=int, choices=(55, 2414), default=2414, help="of results in .unv; default: 2414")
 
@@ -54,14 +57,25 @@ def size_of(paths):
     return sum(file.stat().st_size for path in paths for file in (path.rglob("*") if path.is_dir() else [path]) if file.is_file())
 
 
+def stored_motion(file, kind, skin):
+    """(surface, motion) of a skin as the file has them."""
+    if skin == "acoustic":
+        surface = acoustic_source.read_surface(file)
+        return surface, acoustic_source.read_motion(file, surface)
+    surface = field_source.read_surface(file)
+    return surface, field_source.read_motion(file, kind, surface)
+
+
 def motion_to_write(file, options, form, quantities):
     """(surface, motion) with everything that the options change."""
     present = field_source.kinds(file)
-    kind = options.kind or (present[0] if present else "lines")
+    kind = options.kind or (present[0] if present and options.skin == "body" else "lines")
     if kind == "frames" and not form.frames:
-        raise BadArtefact(f"--frames: found a format that has lines only")
-    surface = field_source.read_surface(file)
-    motion = derived.with_time_derivatives(field_source.read_motion(file, kind, surface))
+        raise BadArtefact("--frames: found a format that has lines only")
+    if kind == "frames" and options.skin == "acoustic":
+        raise BadArtefact("--frames: found --skin acoustic, which has lines only")
+    surface, motion = stored_motion(file, kind, options.skin)
+    motion = derived.with_time_derivatives(motion)
     for quantity in quantities:
         if quantity not in motion.quantities:
             raise BadArtefact(f"{file.filename}: {kind}/{quantity}: missing; {kind} have {', '.join(motion.quantities)}")
@@ -72,7 +86,7 @@ def motion_to_write(file, options, form, quantities):
 
 def write_motion(file, path, options, name, form):
     """Writes lines or frames; returns the paths and a summary."""
-    quantities = formats.quantities_of(name, options.quantity)
+    quantities = formats.quantities_of(name, options.quantity, options.skin)
     surface, motion = motion_to_write(file, options, form, quantities)
     with WholeFiles() as files:
         form.write(files, path, surface, motion, Options(quantities, options.dataset), progress)
@@ -81,22 +95,25 @@ def write_motion(file, path, options, name, form):
 
 
 def write_sensors(file, path, options, name, form):
-    """Writes spectra of the sensors; returns the paths and a summary."""
+    """Writes spectra or histories of the sensors; returns the paths and a summary."""
     if form.write_sensors is None:
         raise BadArtefact(f"--sensors: found the format {name}, expected .unv or .csv")
-    if options.at or options.linear:
-        raise BadArtefact("--sensors: found --at or --linear, which are for the surface")
+    if options.at or options.linear or options.skin != "body":
+        raise BadArtefact("--sensors: found --at, --linear or --skin, which are for the surface")
     quantities = formats.quantities_of(name, options.quantity)
     if len(quantities) != 1 or quantities[0] not in formats.NODAL:
         raise BadArtefact(f"--quantity {options.quantity}: expected one of {', '.join(formats.NODAL)} for --sensors")
-    spectra = sensors.read_spectra(file, quantities[0])
+    channels = sensors.read_channels(file, quantities[0], options.histories)
     with WholeFiles() as files:
-        form.write_sensors(files, path, spectra)
-    return files.paths, f"{len(spectra.labels)} spectra of {quantities[0]}, {len(spectra.frequency)} frequencies each"
+        form.write_sensors(files, path, channels)
+    kind, steps = ("spectra", "frequencies") if channels.is_spectrum else ("histories", "instants")
+    return files.paths, f"{len(channels.labels)} {kind} of {quantities[0]}, {len(channels.at)} {steps} each"
 
 
 def write_export(options):
     """`clatter export`: writes the files; prints what they contain."""
+    if options.histories and options.kind != "sensors":
+        raise BadArtefact("--histories: found it without --sensors")
     path, begin = pathlib.Path(options.output), time.monotonic()
     name, form = formats.of(path, options.format)
     with open_artefact(options.file, "field") as file:

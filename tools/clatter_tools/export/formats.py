@@ -14,7 +14,7 @@ ALL = (*NODAL, "normal_velocity")
 class Format:
     """suffix ("" : a folder), the quantities that it may hold and those that it holds by default, and its functions.
 
-    write(files, path, surface, motion, options, progress); write_sensors(files, path, spectra) or None.
+    write(files, path, surface, motion, options, progress); write_sensors(files, path, channels) or None.
     """
     suffix: str
     write: Callable
@@ -48,9 +48,12 @@ def of(path, name):
     return name, FORMATS[name]
 
 
-def quantities_of(name, requested):
-    """The quantities to write: the requested ones, or the format's own."""
-    chosen = tuple(requested.split(",")) if requested else FORMATS[name].default
+def quantities_of(name, requested, skin="body"):
+    """The quantities to write: the requested ones, or the format's own; of the acoustic skin the normal velocity where it may be."""
+    default = FORMATS[name].default
+    if skin == "acoustic" and "normal_velocity" in FORMATS[name].allowed:
+        default = ("normal_velocity",)
+    chosen = tuple(requested.split(",")) if requested else default
     for quantity in chosen:
         if quantity not in FORMATS[name].allowed:
             raise BadArtefact(f"--quantity {requested}: found {quantity!r}, expected {', '.join(FORMATS[name].allowed)} for {name}")
