@@ -2,13 +2,12 @@
 """`clatter collect`: levels, orders and cost of all runs of a sweep in one file."""
 import os
 import pathlib
-import re
 import tomllib
 
 import h5py
 import numpy as np
 
-from . import artefact, chains, orders
+from . import artefact, chains, orders, sweep_list
 from .artefact import BadArtefact, CannotWrite, schema_of, text
 
 AT = "analysis/cycle"
@@ -30,19 +29,10 @@ def flat(table, prefix=""):
     return found
 
 
-def listed(folder):
-    """Names that sweep.mk lists; None where there is no sweep.mk. Other scenes are of an earlier sweep, and make does not run them
-    again when their base changes."""
-    fragment = folder / "sweep.mk"
-    if not fragment.exists():
-        return None
-    names = re.search(r"^\S+_names := (.*)$", fragment.read_text(encoding="utf-8"), re.M)
-    return set(names[1].split()) if names else None
-
-
 def scenes(folder):
-    """[(name, {changed key: value})] of the scenes of the last sweep into a folder, numbers in order."""
-    found, names = [], listed(folder)
+    """[(name, {changed key: value})] of the scenes of the last sweep into a folder, numbers in order. Scenes that sweep.mk does not
+    list are of an earlier sweep, and make does not run them again when their base changes."""
+    found, names = [], sweep_list.names(folder)
     for path in folder.glob("*.run.toml"):
         if names is not None and path.name.removesuffix(".run.toml") not in names:
             continue

@@ -2,6 +2,7 @@
 """The command `clatter`: one subcommand per task, exit codes like the stages' (0 done, 2 bad input, 3 interrupted, 4 file or disk error)."""
 import argparse
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -41,6 +42,7 @@ def parser():
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
+    one.add_argument("--snakemake", action="store_true", help="of clatter.smk instead, for a Snakefile")
     return top
 
 
@@ -107,7 +109,7 @@ def main(arguments, rules):
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
         elif options.command == "rules":
-            print(rules)
+            print(pathlib.Path(rules).with_suffix(".smk") if options.snakemake else rules)
     except BadArtefact as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 2
