@@ -271,6 +271,22 @@ class Speeds(Folder):
             self.assertAlmostEqual(numbers(blocks, one["rms"])[3], amplitude / np.sqrt(2.0), delta=1e-3 * amplitude)
 
 
+    def test_sound_power_and_erp_are_among_the_signals_over_speed(self):
+        synthetic_page.write_rom(self.folder / "block.rom.h5")
+        for rpm, loudness in ((2000.0, 1.0), (3000.0, 2.0)):
+            synthetic_page.write_field(self.folder / f"{rpm:.0f}.field.h5", "block.rom.h5", loudness, rpm)
+        data, blocks, _ = self.page()
+        for name, share in (("sound power", 0.25), ("ERP, exposed", 1.0)):
+            signal = next(one for one in data["speeds"] if one["name"] == name)
+            self.assertEqual((signal["unit"], signal["axis"]), ("W^0.5", "level [dB re 1 pW]"))
+            for one, rpm, loudness in zip(signal["spectra"], (2000.0, 3000.0), (1.0, 2.0)):
+                self.assertEqual(one["rpm"], rpm)
+                hz = 0.5 * np.arange(synthetic_page.LINES) * rpm / 60.0
+                power = share * 0.5 * loudness**2 * 1e-9 / (1.0 + ((hz - 500.0) / 20.0) ** 2)
+                np.testing.assert_allclose(numbers(blocks, one["rms"]) ** 2, power, rtol=1e-5)
+        self.assertEqual([round(one["rpm"]) for one in data["sound"]], [2000, 3000])
+
+
 class Many(Folder):
     def test_of_many_runs_three_drives_are_animated_and_names_are_in_the_order_of_numbers(self):
         for rpm in (800, 1000, 1500, 2000, 2500, 3000, 3500, 4000, 12000):

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, info, motored_cycle, report, sweep
+from . import collect, drive_command, export_command, info, levels, motored_cycle, report, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -37,6 +37,8 @@ def parser():
     sweep.add_arguments(one)
     one = commands.add_parser("collect", help="put levels, orders and cost of all runs of a sweep into one file")
     collect.add_arguments(one)
+    one = commands.add_parser("levels", help="draw overall levels over the speed of several runs")
+    levels.add_arguments(one)
     one = commands.add_parser("export", help="write a field file's surface motion for acoustic programs")
     export_command.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
@@ -104,6 +106,8 @@ def main(arguments, rules):
             sweep.write_sweep(options)
         elif options.command == "collect":
             collect.write_collection(options)
+        elif options.command == "levels":
+            levels.write_levels(options)
         elif options.command == "export":
             export_command.write_export(options)
         elif options.command == "motored-cycle":

@@ -85,21 +85,36 @@ async function speedsSection() {
   await choose(0);
 }
 
-/** Power of the exposed panel at each speed, where fields have it; the first run of each speed counts. */
+/** Sound power, and radiated power of the exposed panel, at each speed; the first run of each speed counts. */
 function powerOverSpeed() {
-  const points = new Map();
-  for (const run of page.radiation?.runs ?? []) {
-    const panel = run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
-    if (panel && run.rpm && !points.has(Math.round(run.rpm))) points.set(Math.round(run.rpm), panel.measures.erp.dba);
-  }
-  if (points.size < 2) return null;
-  const speeds = [...points.keys()].sort((a, b) => a - b);
+  const panelOf = run => run.panels.find(one => one.name === "exposed") ?? run.panels.find(one => one.name === "skin");
+  const lines = [
+    ...levelsOverSpeed("sound power", 0, page.sound ?? [], run => run),
+    ...levelsOverSpeed("ERP", 1, page.radiation?.runs ?? [], run => panelOf(run)?.measures.erp),
+  ];
+  if (!lines.length) return null;
   return new Plot({
-    title: "Equivalent radiated power over speed",
+    title: "Radiated power over speed, dashed: unweighted",
     x: { label: "crank speed [rpm]" },
-    y: { label: "ERP [dB(A) re 1 pW]" },
-    lines: [{ number: 0, x: speeds, y: speeds.map(speed => points.get(speed)) }],
+    y: { label: "power [dB(A), dB re 1 pW]" },
+    lines,
   }).element;
+}
+
+/** Lines of dB(A) and, dashed, dB over the speeds of runs, where there are at least two. */
+function levelsOverSpeed(name, number, runs, levelsOf) {
+  const points = new Map();
+  for (const run of runs) {
+    const levels = levelsOf(run);
+    if (levels && run.rpm && !points.has(Math.round(run.rpm))) points.set(Math.round(run.rpm), levels);
+  }
+  if (points.size < 2) return [];
+  const speeds = [...points.keys()].sort((a, b) => a - b),
+    at = key => speeds.map(speed => points.get(speed)[key]);
+  return [
+    { name: `${name}, dB(A)`, number, x: speeds, y: at("dba") },
+    { name: `${name}, dB`, number, dash: [4, 3], wide: 1, x: speeds, y: at("db") },
+  ];
 }
 
 /** The orders that are largest at any speed, ascending. */

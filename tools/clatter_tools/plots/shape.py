@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from ..artefact import BadArtefact, dataset, text
+from ..weighting import a_weight
 from . import raster, style
 
 METAL = np.array([0.80, 0.82, 0.84])
@@ -159,11 +160,3 @@ def elastic_part(field, velocity):
     rigid = np.stack([np.column_stack(motion).ravel() for motion in motions], axis=1)
     amount = np.linalg.lstsq(rigid, velocity.ravel(), rcond=None)[0]
     return velocity - (rigid @ amount).reshape(velocity.shape)
-
-
-def a_weight(hz):
-    """A-weighting as a factor on power, relative to 1 kHz (IEC 61672-1)."""
-    f2 = hz * hz
-    r = 12194.217**2 * f2**2 / ((f2 + 20.598997**2) * np.sqrt((f2 + 107.65265**2) * (f2 + 737.86223**2))
-                                * (f2 + 12194.217**2))
-    return 1.2589 * r * r

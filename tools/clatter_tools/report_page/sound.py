@@ -19,7 +19,7 @@ def read(one, pack):
     sound, panel = field[f"{at}/sound"], field[fields.panel(field, at, "exposed", "skin")]
     curve = lambda values: pack.add("curves", values[()])  # noqa: E731
     time = dataset(field, f"{at}/time")
-    return {"run": one.number, "to_hz": float(sound.attrs["boundary_elements_to_hz"]), "frequency": curve(field[f"{at}/frequency_hz"]),
+    return {"run": one.number, "rpm": field[at].attrs.get("speed_rpm"), "to_hz": float(sound.attrs["boundary_elements_to_hz"]), "frequency": curve(field[f"{at}/frequency_hz"]),
             "bands": {"lower": curve(field[f"{at}/third_octave/lower_hz"]), "upper": curve(field[f"{at}/third_octave/upper_hz"]),
                       "names": [short(text(name)) for name in dataset(field, f"{at}/third_octave/nominal")]},
             "db": float(sound.attrs["power_db"]), "dba": float(sound.attrs["power_dba"]), "power": curve(sound["power"]),

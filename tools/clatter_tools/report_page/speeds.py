@@ -26,8 +26,14 @@ def collect(folder, pack):
 
 
 def spectra(one):
-    """(name, (rpm, orders, RMS, unit)) of a run's sensors and sprockets."""
+    """(name, (rpm, orders, RMS, unit)) of a run's sound power, radiated power, sensors and sprockets."""
     if one.field is not None and "analysis/cycle" in one.field and "order" in one.field["analysis/cycle"]:
+        if "analysis/cycle/sound/power" in one.field:
+            yield "sound power", orders.of_sound(one.field)
+        for panel in ("exposed", "skin"):
+            if f"analysis/cycle/panels/{panel}" in one.field:
+                yield f"ERP, {panel}", orders.of_panel(one.field, panel)
+                break
         for sensor in fields.sensor_names(one.field, "analysis/cycle"):
             for label in dataset(one.field, f"analysis/cycle/sensors/{sensor}/labels"):
                 yield f"acceleration, {text(label)}", orders.of_field(one.field, text(label))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import artefact, chains, drive_findings, fields, findings, report, slap
-from ..plots.shape import a_weight
+from ..weighting import a_weight
 from .certificates import GOOD
 
 PEAKS = 5     # of the power, that are named
