@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/log.hpp"
+#include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 #include "core/modes/compare.hpp"
 
@@ -11,7 +12,7 @@ namespace clatter::modal {
 namespace {
 
 struct CompareArguments {
-  std::filesystem::path full, reduced;
+  std::filesystem::path full, reduced, mac;
   modes::CompareOptions options;
 };
 
@@ -24,6 +25,7 @@ void compare_models(const CompareArguments& a, const CommonOptions& common) {
   fe::require_unknowns(full, "modes");
   const rom::ReducedModel reduced = rom::read_reduced_model(a.reduced);
   const modes::Comparison result = modes::compare(full, reduced, a.options);
+  if (!a.mac.empty()) write_whole_file(a.mac, modes::matrix_text(result));
   for (const std::string& line : modes::table_of(result)) print_result(line);
   if (common.json) print_json(modes::json_of(result));
 }
@@ -34,7 +36,8 @@ void declare_compare(CommandLine& program) {
   CommandLine& line = program.command(
       "compare", "Compares the modes of a reduced part with those of the full one.",
       "samples: clatter-modal compare block.fe.h5 block.rom.h5\n"
-      "         clatter-modal compare block.fe.h5 block.rom.h5 --fmax-hz 3000 --json");
+      "         clatter-modal compare block.fe.h5 block.rom.h5 --fmax-hz 3000 --json\n"
+      "         clatter-modal compare block.fe.h5 block.rom.h5 --mac block.mac.csv");
   const auto a = std::make_shared<CompareArguments>();
   line.positional("full", a->full, "assembled part (.fe.h5)");
   line.positional("reduced", a->reduced, "reduced part (.rom.h5)");
@@ -42,6 +45,7 @@ void declare_compare(CommandLine& program) {
   line.option("--fmax-hz", a->options.fmax_hz,
               "compare all modes below this frequency; default: up to accurate_to_hz of the "
               "reduced part's certificate");
+  line.output("--mac", a->mac, "also write the MAC of each mode with each other, block.mac.csv");
   line.blas();
   line.memory_limit();
   line.action([a](const CommonOptions& common) { compare_models(*a, common); });

@@ -64,9 +64,9 @@ clatter_recover := $(call clatter_program,recover)
 %.field.h5: %.run.h5 $(clatter_recover)
 	$(CLATTER_LAUNCH) $(clatter_recover) $< -o $@ --depfile $@.d $(CLATTER_FLAGS)
 
-# Accuracy of a reduced model's lowest modes: frequency errors and MAC.
+# Accuracy of a reduced model's lowest modes: frequency errors and MAC, of which part.mac.csv has all pairs.
 %.compare.txt: %.fe.h5 %.rom.h5 $(clatter_modal)
-	$(CLATTER_LAUNCH) $(clatter_modal) compare $*.fe.h5 $*.rom.h5 $(CLATTER_FLAGS) > $@.part
+	$(CLATTER_LAUNCH) $(clatter_modal) compare $*.fe.h5 $*.rom.h5 --mac $*.mac.csv $(CLATTER_FLAGS) > $@.part
 	mv $@.part $@
 
 # A reduced part for other programs. Matrix Market has three files: the target is a list of them.

@@ -129,15 +129,18 @@ rule condense:
     shell: "{clatter_launch} {input.program:q} {input.fe:q} -c {input.settings:q} -o {output:q} --depfile {output:q}.d "
            "--threads {threads} {clatter_flags}"
 
-# Accuracy of a reduced model's lowest modes: frequency errors and MAC.
+# Accuracy of a reduced model's lowest modes: frequency errors and MAC, of which part.mac.csv has all pairs.
 rule compare:
     input:
         fe="{part}.fe.h5",
         rom="{part}.rom.h5",
         program=clatter_program("modal")
-    output: "{part}.compare.txt"
+    output:
+        table="{part}.compare.txt",
+        mac="{part}.mac.csv"
     threads: 1
-    shell: "{clatter_launch} {input.program:q} compare {input.fe:q} {input.rom:q} --threads {threads} {clatter_flags} > {output:q}"
+    shell: "{clatter_launch} {input.program:q} compare {input.fe:q} {input.rom:q} --mac {output.mac:q} --threads {threads} {clatter_flags} "
+           "> {output.table:q}"
 
 # What a part radiates, for a field.toml with sound = "part.sound.h5".
 rule sound:

@@ -89,6 +89,11 @@ double subspace_mac(const VectorXd& shape, const MatrixXd& basis) {
   return (Q.transpose() * shape).squaredNorm() / shape.squaredNorm();
 }
 
+/// |x^T y|^2 / (|x|^2 |y|^2) of the columns of both (Allemang and Brown 1982).
+MatrixXd mac_of(const Eigen::Ref<const MatrixXd>& full, const Eigen::Ref<const MatrixXd>& reduced) {
+  return (full.colwise().normalized().transpose() * reduced.colwise().normalized()).cwiseAbs2();
+}
+
 /// Reduced modes near `hz`, always including `partner`.
 std::vector<int> near_modes(const VectorXd& hz_of, double hz, int rigid, int partner) {
   std::vector<int> near;
@@ -216,6 +221,9 @@ Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
     mode.mac = subspace_mac(rows.full.col(j), rows.reduced(Eigen::all, near));
     out.modes.push_back(mode);
   }
+  const Index first = out.rigid_full, elastic = a.modes.size() - first;
+  out.mac_matrix = mac_of(rows.full.rightCols(elastic), rows.reduced.middleCols(first, elastic));
+  out.column_hz = reduced_hz.segment(first, elastic);
   return out;
 }
 
@@ -237,6 +245,17 @@ std::vector<std::string> table_of(const Comparison& comparison) {
     lines.push_back(fmt::format("{} rigid modes in both; {}", comparison.rigid_full,
                                 sum_of(stated, above.modes.empty() ? "" : " up to " + limit)));
   return lines;
+}
+
+std::string matrix_text(const Comparison& comparison) {
+  std::string text =
+      "# MAC of the full model's elastic modes (rows) with those of the reduced one [Hz]\nfull_hz";
+  for (double hz : comparison.column_hz) text += fmt::format(",{:.4f}", hz);
+  for (Index j = 0; j < comparison.mac_matrix.rows(); ++j) {
+    text += fmt::format("\n{:.4f}", comparison.modes[static_cast<size_t>(j)].full_hz);
+    for (double mac : comparison.mac_matrix.row(j)) text += fmt::format(",{:.6f}", mac);
+  }
+  return text + "\n";
 }
 
 JsonMembers json_of(const Comparison& comparison) {

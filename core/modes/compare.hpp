@@ -32,6 +32,10 @@ struct Comparison {
   int rigid_reduced = 0;
   int rows = 0;                 // displacements used to compare shapes
   double accurate_to_hz = 0.0;  // the reduced model's certificate states an error up to here; 0: no
+  /// MAC of each elastic mode of the full model (rows, all modes compared) with each of the as many
+  /// lowest elastic ones of the reduced model, whose frequencies are `column_hz`.
+  Eigen::MatrixXd mac_matrix{};
+  Eigen::VectorXd column_hz{};
 
   double largest_error() const;
   double smallest_mac() const;
@@ -60,6 +64,10 @@ Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
 /// The comparison as an aligned table; the last line summarises the modes up to accurate_to_hz, a
 /// line before it those above.
 std::vector<std::string> table_of(const Comparison& comparison);
+
+/// The matrix of MAC as CSV: after one line that begins with # a row with the frequencies of the
+/// reduced model, then a row per mode of the full model, its frequency first [Hz].
+std::string matrix_text(const Comparison& comparison);
 
 /// For --json: modes (full_hz, reduced_hz, error, mac of each), rigid, largest_error, smallest_mac,
 /// accurate_to_hz, and the figures of the modes up to it: modes_up_to_it, largest_error_up_to_it,

@@ -9,6 +9,7 @@
 #include "condense/condense.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/whole_file.hpp"
 #include "core/modes/compare.hpp"
 #include "modal/modes_file.hpp"
 #include "tests/condense/box_model.hpp"
@@ -122,6 +123,28 @@ TEST(Compare, ModesBelowHalfTheCutOffAgreeInFrequencyAndShape) {
   for (const auto& mode : result.modes) EXPECT_GE(mode.error, -1e-9);
 }
 
+TEST(Compare, MatrixOfMacIsNearlyTheIdentityAndHasThePairsOnItsDiagonal) {
+  const auto model = box_model();
+  const modes::Comparison result = modes::compare(model, reduce(model, 9000.0), {});
+  const auto n = static_cast<Eigen::Index>(result.modes.size());
+  ASSERT_EQ(result.mac_matrix.rows(), n);
+  ASSERT_EQ(result.mac_matrix.cols(), n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const modes::ComparedMode& pair = result.modes[static_cast<size_t>(j)];
+    EXPECT_NEAR(result.mac_matrix(j, j), pair.mac, 1e-6);
+    EXPECT_EQ(result.column_hz[j], pair.reduced_hz);
+    Eigen::Index best = -1;
+    result.mac_matrix.row(j).maxCoeff(&best);
+    EXPECT_EQ(best, j);
+  }
+  const std::string text = modes::matrix_text(result);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), n + 2);
+  EXPECT_EQ(std::count(text.begin(), text.end(), ','), n * (n + 1));
+  EXPECT_NE(
+      text.find(fmt::format("\n{:.4f},{:.6f},", result.modes[0].full_hz, result.mac_matrix(0, 0))),
+      std::string::npos);
+}
+
 TEST(Compare, AStifferModelShowsItsErrorInFrequencyOnly) {
   const auto model = box_model();
   rom::ReducedModel reduced = reduce(model, 9000.0);
@@ -185,6 +208,12 @@ TEST_F(InFolder, CommandsReduceAndCompareAModel) {
   EXPECT_EQ(reduced.certificate.rigid_modes.value(), 6.0);
   ASSERT_EQ(call("clatter-modal compare " + fe + " " + rom), 0) << log();
   EXPECT_NE(log().find("MAC"), std::string::npos) << log();
+  ASSERT_EQ(call("clatter-modal compare " + fe + " " + rom + " --mac " +
+                 (folder_ / "box.mac.csv").string()),
+            0)
+      << log();
+  EXPECT_EQ(read_whole_file(folder_ / "box.mac.csv").rfind("# MAC of the full model's", 0), 0u);
+  EXPECT_EQ(call("clatter-modal compare " + fe + " " + rom + " --mac " + rom), 2) << log();
   EXPECT_EQ(call("clatter-modal compare " + fe + " " + rom + " --fmax-hz 100"), 3) << log();
   EXPECT_NE(log().find("error: box: nothing was compared"), std::string::npos) << log();
   const std::string modes = (folder_ / "box.modes.h5").string();

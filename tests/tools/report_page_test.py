@@ -259,6 +259,25 @@ class Parts(unittest.TestCase):
             self.assertIn(expected, " ".join(text for _, text in sentences))
 
 
+class Models(Folder):
+    def test_the_matrix_of_mac_has_full_modes_in_rows(self):
+        synthetic_page.write_folder(self.folder)
+        data, blocks, _ = self.page()
+        (model,) = data["models"]
+        self.assertEqual((model["mac"]["rows"], model["mac"]["columns"]), ([200.0, 400.0], [200.01, 400.1]))
+        np.testing.assert_allclose(numbers(blocks, model["mac"]["values"]), [[0.999999, 0.02], [0.03, 0.9999]], rtol=1e-6)
+        (self.folder / "block.mac.csv").unlink()
+        self.assertIsNone(self.page()[0]["models"][0]["mac"])
+
+    def test_a_file_that_is_no_such_matrix_is_refused(self):
+        synthetic_page.write_folder(self.folder)
+        for text in ("", "full_hz,1\n2,x\n", "full_hz,1,2\n2,0.5\n", "full_hz,1\n2,1.5\n"):
+            (self.folder / "block.mac.csv").write_text(text)
+            done = self.clatter("--html", ".")
+            self.assertEqual((done.returncode, done.stderr), (2, "clatter: error: block.mac.csv: found no matrix of numbers from 0 to 1 under a row of "
+                                                              "frequencies, expected that of clatter-modal compare --mac\n"))
+
+
 class Speeds(Folder):
     def test_orders_are_collected_where_speeds_differ(self):
         for rpm, amplitude in ((1500.0, 2.0), (3000.0, 9.0), (4500.0, 5.0)):

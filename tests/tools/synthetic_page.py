@@ -11,6 +11,7 @@ SAMPLES = 720            # of a cycle
 RPM = 2000.0
 LINES = 60
 STRONG = (9, 30)         # lines that the field has in full: 150 and 500 Hz
+MAC = "# MAC\nfull_hz,200.01,400.1\n200.0,0.999999,0.02\n400.0,0.03,0.9999\n"
 OPTIONS = dict(dtype=h5py.string_dtype())
 
 
@@ -142,6 +143,7 @@ def write_folder(folder):
         write_field(folder / f"{name}.field.h5", "block.rom.h5", loudness, rpm)
     synthetic_drive.write_drive(folder / "oval.run.h5")
     (folder / "block.compare.txt").write_text(" mode full reduced error MAC\n 7  200.0  200.01  0.005  0.999999\n 8  400.0  400.1  0.025  0.9999\nall good\n")
+    (folder / "block.mac.csv").write_text(MAC)
 
 
 def corners():

@@ -43,7 +43,7 @@ await mechanismSection();
 await filmSection();
 await driveSection();
 await speedsSection();
-modelsSection();
+await modelsSection();
 certificatesSection();
 costSection();
 navigation();

@@ -72,7 +72,7 @@ def collect(folder, pack):
         "film": film_maps.collect(folder, pack),
         "drive": drive.collect(folder, pack),
         "speeds": speeds.collect(folder, pack),
-        "models": models.collect(folder),
+        "models": models.collect(folder, pack),
         "cost": cost.collect(folder),
     }
 

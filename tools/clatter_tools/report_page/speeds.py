@@ -15,7 +15,7 @@ def collect(folder, pack):
             if all(abs(spectrum[0] - other[0]) >= APART_RPM for other in known):
                 known.append(spectrum)
     found = []
-    for name, known in sorted(signals.items()):
+    for name, known in sorted(signals.items(), key=lambda one: (one[0] != "sound power", one[0])):
         if len(known) < 2 or len({one[3] for one in known}) > 1:
             continue
         known.sort(key=lambda one: one[0])
