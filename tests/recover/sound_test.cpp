@@ -8,7 +8,6 @@
 
 #include "core/base/artefact.hpp"
 #include "recover/recover.hpp"
-#include "recover/sound/acoustic_velocity.hpp"
 #include "recover/sound/sound_file.hpp"
 #include "recover/sound/wav.hpp"
 #include "synthetic.hpp"
@@ -129,26 +128,6 @@ TEST(PartSound, SphereHasItsEfficiencyAndPressure) {
   }
   EXPECT_EQ(table.from_hz(), 300.0);
   EXPECT_EQ(table.to_hz(), 700.0);
-}
-
-TEST(AcousticVelocity, MeansOfCornersByHand) {
-  Eigen::MatrixXd corners(6, 2);
-  corners << 1, 0, 2, 0, 6, 3, 0, -1, 0, -1, 0, -1;
-  EXPECT_EQ(triangle_means(corners), (Eigen::MatrixXd(2, 2) << 3, 1, 0, -1).finished());
-}
-
-TEST(AcousticVelocity, SphereMovesAlongItsNormalsAndKeepsTheFlux) {
-  const PartSound& part = sphere_sound();
-  const Eigen::VectorXd& area = part.skin.face_area;
-  const Eigen::VectorXd radial = part.face_velocity.col(0), along_z = part.face_velocity.col(1);
-  // The flux is that of the body's skin, 320 flat faces inside the sphere.
-  const Mesh6 mesh = unit_sphere(2);
-  const SkinGeometry geometry = measure_skin(kRadius * mesh.nodes, mesh.triangles);
-  EXPECT_NEAR(area.dot(radial) / geometry.area, 1.0, 1e-3);
-  EXPECT_NEAR(area.dot(along_z), 0.0, 1e-12 * geometry.area);
-  for (Eigen::Index c = 0; c < area.size(); ++c)
-    EXPECT_NEAR(along_z[c], part.skin.face_normal(c, 2), 0.15) << c;
-  EXPECT_NEAR(std::sqrt((radial.array() - 1.0).square().mean()), 0.0, 0.1);
 }
 
 TEST(PartSound, CertificateHoldsWhatWasMeasured) {
@@ -275,29 +254,6 @@ TEST_F(SoundRun, LinesHaveTheNormalVelocityOfTheAcousticSkin) {
   const sound::Complex phase = v[0] / expected[0];
   EXPECT_NEAR(std::abs(phase), 1.0, 1e-9);
   EXPECT_LT((v - phase * expected).norm(), 1e-9 * expected.norm());
-}
-
-TEST_F(SoundRun, ASoundFileWithoutTheSkinsVelocityIsReadAndOneOfAnotherSizeIsRefused) {
-  const auto write_without = [&](const Eigen::MatrixXd* velocity) {
-    H5File file = H5File::create(folder_ / "old.sound.h5");
-    file.set("/", "schema", kSoundSchema);
-    file.write("skin/nodes", sphere_sound().skin.nodes);
-    file.write("skin/triangles", sphere_sound().skin.triangles);
-    if (velocity != nullptr) file.write("skin/normal_velocity", *velocity);
-    file.commit();
-  };
-  write_without(nullptr);
-  EXPECT_FALSE(read_acoustic_velocity(folder_ / "old.sound.h5", 2));
-  const Eigen::MatrixXd narrow = sphere_sound().face_velocity.leftCols(1);
-  write_without(&narrow);
-  test::expect_parts(
-      test::refusal_of([&] { read_acoustic_velocity(folder_ / "old.sound.h5", 2); }),
-      {"old.sound.h5: skin/normal_velocity: found shape (", ", 1), expected (", ", 2)"});
-  Eigen::MatrixXd broken = sphere_sound().face_velocity;
-  broken(0, 0) = std::nan("");
-  write_without(&broken);
-  test::expect_parts(test::refusal_of([&] { read_acoustic_velocity(folder_ / "old.sound.h5", 2); }),
-                     {"old.sound.h5: skin/normal_velocity: found NaN or infinity"});
 }
 
 TEST_F(SoundRun, AnotherAirThanThatOfTheSoundFileIsRefused) {
