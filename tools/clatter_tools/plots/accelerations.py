@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Acceleration of liner and block around firing TDC, as in figures 9 and 10 of the paper."""
-import numpy as np
-
 from ..artefact import BadArtefact, dataset
 from .. import fields, slap
 from . import octaves, style

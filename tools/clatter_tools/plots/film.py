@@ -7,12 +7,12 @@ from ..artefact import BadArtefact, dataset
 from ..histories import centred, last_cycle
 
 AT_DEG = (-20.0, 0.0, 10.0, 20.0, 90.0)
-# Dataset, name, factor, unit, colours, upper end of the scale (None: the largest value that is drawn).
+# Dataset, name, factor, unit, colours, and the share of the values that the scale holds: of the gap it is the narrower half.
 QUANTITIES = [
-    ("pressure", "film pressure", 1e-6, "MPa", "viridis", None),
+    ("pressure", "film pressure", 1e-6, "MPa", "viridis", 1.0),
     ("fill", "filled share", 1.0, "1", "cividis", 1.0),
-    ("gap", "gap", 1e6, "µm", "cividis_r", 40.0),
-    ("contact_pressure", "contact pressure", 1e-6, "MPa", "viridis", None),
+    ("gap", "gap", 1e6, "µm", "cividis_r", 0.5),
+    ("contact_pressure", "contact pressure", 1e-6, "MPa", "viridis", 1.0),
 ]
 
 
@@ -31,15 +31,15 @@ def draw(files, at_deg=AT_DEG):
                                bottom=0.62 / figure.get_figheight(), top=1.0 - 0.62 / figure.get_figheight())
     for row, quantity in enumerate(shown):
         axes, image = draw_row(figure, grid, row, pads, quantity, frames)
-        _, name, _, unit, _, limit = quantity
-        figure.colorbar(image, cax=figure.add_subplot(grid[row, -1]), label=f"{name} [{unit}]", extend="max" if (limit or 0.0) > 1.0 else "neither")
+        _, name, _, unit, _, held = quantity
+        figure.colorbar(image, cax=figure.add_subplot(grid[row, -1]), label=f"{name} [{unit}]", extend="max" if held < 1.0 else "neither")
         if row == 0:
             for axis, angle in zip(axes[::len(pads)], angles):
                 axis.set_title("firing TDC" if abs(angle) < 0.5 else f"{angle:+.0f} deg", loc="left", fontsize=10)
     label_pads(axes, pads)
     figure.text(0.49, 0.02, "angle around the piston [deg]: 0 thrust side, 180 antithrust side", ha="center", fontsize=10)
     figure.text(0.01, 0.5, "height above the pin [mm]", va="center", rotation=90, fontsize=10)
-    style.headline(figure, f"Oil film by crank angle: {style.label(run, cylinder)}")
+    style.headline(figure, f"Contact of skirt and liner by crank angle: {style.label(run, cylinder)}")
     return figure
 
 
@@ -61,9 +61,9 @@ def nearest_frames(recorded, wanted):
 
 def draw_row(figure, grid, row, pads, quantity, frames):
     """One quantity at all crank angles, with one scale; returns its axes, those of an angle together, and the last image."""
-    key, _, factor, _, colours, top = quantity
+    key, _, factor, _, colours, held = quantity
     values = {name: [factor * pad[key][frame] for frame in frames] for name, pad in pads.items() if key in pad}
-    top = top or max(np.max(maps) for maps in values.values())
+    top = np.quantile(list(values.values()), held)
     axes = []
     for column in range(len(frames)):
         for k, (name, pad) in enumerate(pads.items()):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Radiated power, A-weighted: sound power by boundary elements beside the equivalent radiated power (ERP)."""
-import numpy as np
-
 from ..artefact import dataset
 from .. import fields
 from ..weighting import level_dba
