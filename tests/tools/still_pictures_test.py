@@ -123,7 +123,11 @@ class FieldPictures(unittest.TestCase):
         axes = np.array(figure.axes).reshape(3, 2)
         for liner, block in axes:
             self.assertEqual(liner.get_ylim(), block.get_ylim())
-        self.assertIn("300 to 4983", figure._suptitle.get_text())
+        self.assertIn("300 to 4983 Hz", figure._suptitle.get_text())
+        with h5py.File(self.path, "a") as file:
+            file.attrs["basis_valid_to_hz"] = 4985.0
+        with self.open() as field:
+            self.assertEqual(accelerations.band(field, "analysis/cycle"), "300 to 4983 Hz (limit of the basis)")
         self.assertEqual(axes[0, 1].get_title(loc="left"), "block: sensor_block.y")
         self.assertGreaterEqual(axes[2, 0].get_xlim()[0], np.log10(250.0))  # no bands of the shake on the mounts
         self.assertEqual(axes[1, 0].get_xlim(), accelerations.SHOWN_MS)

@@ -25,8 +25,15 @@ def draw(files):
     for axis in axes[:2, 0]:
         axis.set_ylabel("acceleration [m/s²]")
     style.legend_above(figure, axes[0, 0].get_lines()[:len(runs)], [style.label(run) for run, _ in runs],
-                       f"Acceleration toward the thrust side, {slap.FROM_HZ:g} to {dataset(runs[0][0], runs[0][1] + '/frequency_hz')[-1]:g} Hz")
+                       f"Acceleration toward the thrust side, {band(*runs[0])}")
     return figure
+
+
+def band(run, at):
+    """The band of the signals in words: "300 to 6000 Hz (limit of the basis)"."""
+    top = dataset(run, f"{at}/frequency_hz")[-1]
+    limited = abs(top - fields.basis_limit(run)) < 1e-3 * top
+    return f"{slap.FROM_HZ:g} to {top:.0f} Hz{' (limit of the basis)' if limited else ''}"
 
 
 def colour(number):
