@@ -96,7 +96,8 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
   return certificate;
 }
 
-/// The panel whose ERP stands for the sound above the table: the exposed faces, else all.
+/// The panel whose ERP stands for the sound without a table, and above it: the exposed faces, else
+/// all.
 const PanelResult& radiating_panel(const Analysis& analysis) {
   for (const PanelResult& panel : analysis.panels)
     if (panel.name == "exposed") return panel;
@@ -156,15 +157,17 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
   const Analysis& first = summary.analyses.front();
-  const std::vector<ChosenLine> lines = with_context(options.origin, [&] {
-    return choose_lines(options.lines, options.spectrum, first, summary.limit);
-  });
-  for (const ChosenLine& line : lines)
-    summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
   summary.certificate = certify(body, first, geometry, forms.front());
   clock.lap("spectra and radiated power");
   summary.sounds = radiate(body, model, options, summary.analyses);
   if (!options.sound.empty()) clock.lap("radiated sound");
+  const Eigen::VectorXd& power =
+      summary.sounds.empty() ? radiating_panel(first).erp : summary.sounds.front().power;
+  const std::vector<ChosenLine> lines = with_context(options.origin, [&] {
+    return choose_lines(options.lines, options.spectrum, first, power, summary.limit);
+  });
+  for (const ChosenLine& line : lines)
+    summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
 
   file.set("/", "body", body.name());
   write_conventions(file, options, summary.limit, model.valid_to_hz);

@@ -45,7 +45,7 @@ struct FrameRule {
 struct LineRule {
   std::vector<double> frequencies_hz;  // the nearest lines are taken
   std::vector<double> orders;          // engine orders: multiples of the speed of the crank
-  int strongest = 6;                   // with neither: the highest peaks of the A-weighted ERP
+  int strongest = 6;                   // with neither: the highest peaks of the A-weighted power
 };
 
 struct Options {

@@ -87,7 +87,8 @@ std::string options_help() {
   displacement = true
   [lines]                  # frequencies at which the entire skin is written
   frequencies_hz = [500]   # or orders = [2, 4]; with neither the
-  strongest = {}            # highest peaks of the A-weighted ERP
+  strongest = {}            # highest peaks of the A-weighted sound power; of the ERP without a
+                           # sound file
   [[window]]               # a piece that is not periodic, with its own spectra
   name = "{}"
   from_deg = {:g}

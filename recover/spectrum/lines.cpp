@@ -14,17 +14,11 @@ namespace {
 /// Tolerance for a limit written with rounded digits.
 constexpr double kSlack = 1.0 + 1e-9;
 
-/// The power by which lines are chosen: outward radiation, A-weighted. Without the weighting rigid
-/// motion on the mounts would always dominate.
-Eigen::VectorXd a_weighted_power(const Analysis& analysis) {
-  const PanelResult* panel = &analysis.panels.front();
-  for (const PanelResult& other : analysis.panels)
-    if (other.name == "exposed") panel = &other;
-  return panel->erp.cwiseProduct(analysis.velocity.frequency_hz.unaryExpr(&a_weighting_power));
-}
-
+/// Peaks of the A-weighted power. Without the weighting rigid motion on the mounts would dominate.
 std::vector<ChosenLine> strongest_peaks(const Eigen::VectorXd& frequency_hz,
-                                        const Eigen::VectorXd& power, double from_hz, int count) {
+                                        const Eigen::VectorXd& radiated, double from_hz,
+                                        int count) {
+  const Eigen::VectorXd power = radiated.cwiseProduct(frequency_hz.unaryExpr(&a_weighting_power));
   std::vector<ChosenLine> peaks;
   const Eigen::Index n = power.size();
   for (Eigen::Index k = 1; k < n; ++k) {
@@ -54,7 +48,8 @@ FrequencyLimit frequency_limit(const SpectrumBand& requested, double valid_to_hz
 }
 
 std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& band,
-                                     const Analysis& analysis, const FrequencyLimit& limit) {
+                                     const Analysis& analysis, const Eigen::VectorXd& power,
+                                     const FrequencyLimit& limit) {
   const Eigen::VectorXd& frequency_hz = analysis.velocity.frequency_hz;
   if (frequency_hz.size() < 2) return {};
   if (!rule.orders.empty() && analysis.speed_hz == 0.0)
@@ -71,8 +66,8 @@ std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& b
     const Eigen::Index nearest = std::lround(f / analysis.velocity.spacing_hz());
     lines.push_back({std::clamp<Eigen::Index>(nearest, 1, frequency_hz.size() - 1), f});
   }
-  if (requested_hz.empty() && !analysis.panels.empty())
-    lines = strongest_peaks(frequency_hz, a_weighted_power(analysis), band.from_hz, rule.strongest);
+  if (requested_hz.empty())
+    lines = strongest_peaks(frequency_hz, power, band.from_hz, rule.strongest);
   std::sort(lines.begin(), lines.end(),
             [](const ChosenLine& a, const ChosenLine& b) { return a.index < b.index; });
   const auto same = [](const ChosenLine& a, const ChosenLine& b) { return a.index == b.index; };

@@ -27,10 +27,11 @@ struct ChosenLine {
 };
 
 /// The lines nearest to the requested frequencies and orders, ascending; with neither the strongest
-/// local peaks of the A-weighted ERP inside the spectrum's band, of panel "exposed" when there is
-/// one, else of the entire skin.
+/// local peaks of the A-weighted power inside the spectrum's band.
+/// @param power radiated per line of the analysis [W], n_l: the sound power, or else the ERP
 /// @throws InputError for a frequency above the limit, or orders without a crank
 std::vector<ChosenLine> choose_lines(const LineRule& rule, const SpectrumBand& band,
-                                     const Analysis& analysis, const FrequencyLimit& limit);
+                                     const Analysis& analysis, const Eigen::VectorXd& power,
+                                     const FrequencyLimit& limit);
 
 }  // namespace clatter::recover

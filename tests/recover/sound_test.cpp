@@ -180,12 +180,15 @@ class SoundRun : public ::testing::Test {
   void SetUp() override {
     folder_ = fresh_folder(::testing::UnitTest::GetInstance()->current_test_info()->name());
     const double w = 2 * kPi * kLine;
-    write_run(folder_, sphere_model(), RunPlan{}, [&](double t) {
+    write_inputs([&](double t) {
       Motion m{kMotion * std::cos(w * t), {}, {}};
       m.v = -w * kMotion * std::sin(w * t);
       m.a = -w * w * m.q;
       return m;
     });
+  }
+  void write_inputs(const MotionLaw& law) {
+    write_run(folder_, sphere_model(), RunPlan{}, law);
     rom_ = sha256_of_file(folder_ / "rom.h5");
     H5File file = H5File::create(folder_ / "part.sound.h5");
     file.set("/", "schema", kSoundSchema);
@@ -254,6 +257,23 @@ TEST_F(SoundRun, LinesHaveTheNormalVelocityOfTheAcousticSkin) {
   const sound::Complex phase = v[0] / expected[0];
   EXPECT_NEAR(std::abs(phase), 1.0, 1e-9);
   EXPECT_LT((v - phase * expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST_F(SoundRun, StrongestLineIsThatOfTheSoundPowerNotOfTheErp) {
+  // The sphere oscillates at 1000/3 Hz and pulsates at 600 Hz. The A-weighted ERP of the
+  // oscillation is 3.3^2 / 3 x 10^(-0.40) = 1.44 times that of the pulsation; but ka^4 / (4 + ka^4)
+  // = 0.36 of it is radiated, of the other (ka)^2 / (1 + (ka)^2) = 0.83: 0.63 times.
+  write_inputs([&](double t) {
+    const Eigen::Array2d w{2 * kPi * 600.0, 2 * kPi * 1000.0 / 3.0}, v{1e-3, 3.3e-3};
+    return Motion{v / w * (w * t).sin(), v * (w * t).cos(), -v * w * (w * t).sin()};
+  });
+  const std::string rule = "[spectrum]\nto_hz = 1500\n[lines]\nstrongest = 1\n";
+  const std::vector<double> by_erp = recovered(rule).line_hz;
+  const std::vector<double> by_power = recovered("sound = 'part.sound.h5'\n" + rule).line_hz;
+  ASSERT_EQ(by_erp.size(), 1u);
+  ASSERT_EQ(by_power.size(), 1u);
+  EXPECT_NEAR(by_erp[0], 1000.0 / 3.0, 1e-6);
+  EXPECT_NEAR(by_power[0], 600.0, 1e-6);
 }
 
 TEST_F(SoundRun, AnotherAirThanThatOfTheSoundFileIsRefused) {

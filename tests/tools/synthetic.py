@@ -143,6 +143,7 @@ def write_piece(file, at, time, amplitude, ring_hz):
         where = f"{at}/panels/{panel}"
         put(file, f"{where}/erp", 1e-9 / (1 + ((frequency - ring_hz) / 200) ** 2), unit="W")
         put(file, f"{where}/third_octave/erp_db", levels - 80, reference=1e-12, reference_unit="W")
+        put(file, f"{where}/third_octave/erp_dba", levels - 83, reference=1e-12, reference_unit="W")
         file[where].attrs["erp_dba"] = levels.max() - 78
         file[where].attrs["erp_db"] = levels.max() - 76
 

@@ -111,7 +111,6 @@ def write_cycle(file, time, rpm, loudness):
         cycle[f"panels/{panel}/erp"] = power
         total = 10.0 * np.log10(power.sum() / 1e-12)
         cycle[f"panels/{panel}"].attrs.update({"erp_db": total, "erp_dba": total - 3.0, "area_m2": share, "share_of_skin": share})
-        cycle[f"panels/{panel}/third_octave/erp_dba"] = cycle[f"panels/{panel}/third_octave/erp_db"][()] - 3.0
         cycle[f"panels/{panel}/instant_mean_square_velocity"] = 1e-6 * (1.0 + np.cos(np.linspace(0.0, 6.0, SAMPLES)))
     sound = cycle.create_group("sound")
     sound["power"] = cycle["panels/exposed/erp"][()] / 4.0

@@ -32,6 +32,7 @@ def parser():
     one.add_argument("kind", help="kind of picture; 'list' names them")
     one.add_argument("files", nargs="*", metavar="file.h5")
     one.add_argument("-o", "--output", help="PNG or SVG file; default: kind.png")
+    one.add_argument("--at", metavar="LIST", help="of film: crank angles of the maps [deg], as --at=-20,0,10")
     drive_command.add_arguments(commands)
     one = commands.add_parser("sweep", help="write scenes of all combinations of some values, and make rules of their runs")
     sweep.add_arguments(one)
@@ -61,7 +62,18 @@ def run_make(folder, jobs):
             continue
 
 
-def plot(kind, files, output):
+def angles(text):
+    """The crank angles of --at [deg from firing TDC]."""
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        found = []
+    if not found or not all(-360.0 <= angle <= 360.0 for angle in found):
+        raise BadArtefact(f"--at: found {text}, expected crank angles from -360 to 360 separated by commas")
+    return found
+
+
+def plot(kind, files, output, at):
     from . import plots  # matplotlib is slow to load
     if kind == "list":
         for name, picture in plots.PICTURES.items():
@@ -69,7 +81,9 @@ def plot(kind, files, output):
         return 0
     if kind not in plots.PICTURES:
         raise BadArtefact(f"plot: no picture named {kind}; known: {', '.join(plots.PICTURES)}")
-    plots.draw(kind, files, output or f"{kind}.png")
+    if at is not None and kind != "film":
+        raise BadArtefact(f"--at: found it for {kind}, expected it for film only")
+    plots.draw(kind, files, output or f"{kind}.png", **({} if at is None else {"at_deg": angles(at)}))
     return 0
 
 
@@ -97,7 +111,7 @@ def main(arguments, rules):
         elif options.command == "report":
             write_report(options)
         elif options.command == "plot":
-            return plot(options.kind, options.files, options.output)
+            return plot(options.kind, options.files, options.output, options.at)
         elif options.command == "drive":
             drive_command.write_pictures(options)
         elif options.command == "orders":

@@ -28,6 +28,7 @@ def add_arguments(commands):
     one.add_argument("--where", action="append", default=[], metavar="KEY=VALUE", help="of the runs of a sweep those with this value of a key")
     one.add_argument("--orders", default=",".join(f"{order:g}" for order in ORDERS), metavar="LIST",
                      help="orders of the cuts, multiples of 0.5; default %(default)s")
+    one.add_argument("--a-weighting", action="store_true", help="of a power: levels in dB(A)")
     one.add_argument("--to-hz", type=float, metavar="HZ", help="top of the diagram; default: 15 %% above the highest of these orders")
     one.add_argument("--cycles", type=int, metavar="N", help="cycles at the end that are analysed; default: the last third")
     one.add_argument("-o", "--output", default="campbell.svg", metavar="picture", help="SVG or PNG; default %(default)s")
@@ -101,8 +102,11 @@ def write_orders(options):
     if options.to_hz is not None and not options.to_hz > 0.0:
         raise BadArtefact(f"--to-hz: found {options.to_hz:g}, expected a frequency above 0")
     spectra = [one for path in options.files for one in spectra_of(path, options)]
+    if options.a_weighting:
+        spectra = [orders.a_weighted(one) for one in spectra]
+    title = ", ".join([f"Orders of {quantity(options)[1]}", *(condition.replace("=", " = ") for condition in options.where)])
     style.apply()
-    style.save(campbell.picture(spectra, cuts, f"Orders of {quantity(options)[1]}", options.to_hz), options.output)
+    style.save(campbell.picture(spectra, cuts, title, options.to_hz), options.output)
     print_levels(sorted(spectra, key=lambda one: one[0]), cuts)
     print(options.output)
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contents of a field file: pieces of a run (a cycle, windows), sensors, panels, the skin."""
+"""Contents of a field file: pieces of a run (a cycle, windows), sensors, panels, radiated power, the skin."""
+import typing
+
 import numpy as np
 
 from .artefact import BadArtefact, dataset, text
@@ -58,7 +60,7 @@ def acceleration_bands(field, sensor):
 
 
 def reference(levels):
-    return f"{levels.attrs['reference']:g} {text(levels.attrs['reference_unit'])}".replace("m/s2", "m/s²")
+    return f"{levels.attrs['reference']:g} {text(levels.attrs['reference_unit'])}".replace("m/s2", "m/s²").replace("e-0", "e-")
 
 
 def panel(field, at, *wanted):
@@ -67,3 +69,52 @@ def panel(field, at, *wanted):
         if f"{at}/panels/{name}" in field:
             return f"{at}/panels/{name}"
     raise BadArtefact(f"{field.filename}: {at}/panels: none of {', '.join(wanted)}")
+
+
+class Radiated(typing.NamedTuple):
+    """A radiated power of a piece: paths of datasets and its total."""
+
+    name: str     # "sound power", "ERP of panel “exposed”"
+    power: str    # per line [W]
+    bands: str    # per third octave [dB(A) re 1 pW]
+    dba: float    # total [dB(A) re 1 pW]
+
+
+def sound_power(field, at):
+    """The sound power of a piece, or None where the field file has none."""
+    if f"{at}/sound" not in field:
+        return None
+    return Radiated("sound power", f"{at}/sound/power", f"{at}/sound/third_octave/power_dba", float(field[f"{at}/sound"].attrs["power_dba"]))
+
+
+def radiated_estimate(field, at):
+    """The ERP of a piece, of the exposed faces where the file has them."""
+    where = panel(field, at, "exposed", "skin")
+    return Radiated(f"ERP of panel “{where.rpartition('/')[2]}”", f"{where}/erp", f"{where}/third_octave/erp_dba",
+                    float(field[where].attrs["erp_dba"]))
+
+
+def radiated(field, at):
+    """The sound power of a piece, or else its ERP."""
+    return sound_power(field, at) or radiated_estimate(field, at)
+
+
+def sound_limit(field, at):
+    """The frequency up to which the sound power is of boundary elements, above it of the ERP [Hz]; 0 without sound."""
+    return float(field[f"{at}/sound"].attrs["boundary_elements_to_hz"]) if f"{at}/sound" in field else 0.0
+
+
+def basis_limit(field):
+    """The frequency up to which the reduced model is proved [Hz]; 0 where it is not stated."""
+    return float(field.attrs.get("basis_valid_to_hz", 0.0))
+
+
+def orders_per_hz(field, at):
+    """Engine orders per Hz of a piece at constant speed, else None."""
+    if f"{at}/order" not in field or f"{at}/crank_angle_deg" not in field:
+        return None
+    angle, time = dataset(field, f"{at}/crank_angle_deg"), dataset(field, f"{at}/time")
+    even = np.interp(time, time[[0, -1]], angle[[0, -1]])
+    if np.abs(angle - even).max() > 0.01 * abs(angle[-1] - angle[0]):
+        return None
+    return dataset(field, f"{at}/order")[-1] / dataset(field, f"{at}/frequency_hz")[-1]

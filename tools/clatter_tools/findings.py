@@ -5,6 +5,7 @@ import pathlib
 import numpy as np
 
 from . import artefact, fields, slap
+from .weighting import loudest_peaks
 from .histories import cylinders, last_cycle, of
 
 RUN_HEAD = ["lateral [µm]", "tilt [mrad]", "min gap [µm]", "side force [kN]", "energy residue", "from cycle to cycle [µm]"]
@@ -59,7 +60,8 @@ def run_rows(run):
 
 
 FIELD_HEAD = ["slap after FTDC [ms]", "rings until [ms]", "liner peak [m/s²]", "block peak [m/s²]",
-              f"liner rms above {slap.HIGH_HZ / 1000:g} kHz [m/s²]", "ERP [dB(A) re 1 pW]"]
+              f"liner rms above {slap.HIGH_HZ / 1000:g} kHz [m/s²]", "sound power [dB(A) re 1 pW]", "ERP [dB(A) re 1 pW]"]
+PEAKS = 5  # of a radiated power, that are named
 
 
 def field_row(field):
@@ -75,8 +77,21 @@ def field_row(field):
         row[4] = f"{slap.high_rms(field, sensors['liner'], at):.3g}"
     if sensors["block"]:
         row[3] = f"{slap.peak(*slap.band_limited(field, sensors['block'], at))[1]:.3g}"
-    panel = field[fields.panel(field, at, "exposed", "skin")]
-    return [*row, f"{panel.attrs['erp_dba']:.1f}"]
+    sound = fields.sound_power(field, at)
+    return [*row, f"{sound.dba:.1f}" if sound else NOTHING, f"{fields.radiated_estimate(field, at).dba:.1f}"]
+
+
+def loudness(label, field):
+    """(level [dB(A)], sentence) of what a field radiates over its cycle, or its first piece: by its sound power, or else its ERP."""
+    pieces = fields.pieces(field)
+    at = f"analysis/{'cycle' if 'cycle' in pieces else pieces[0]}"
+    power = fields.radiated(field, at)
+    frequency = artefact.dataset(field, f"{at}/frequency_hz")
+    peaks = frequency[loudest_peaks(frequency, artefact.dataset(field, power.power), PEAKS)]
+    bands = artefact.dataset(field, power.bands)
+    band = artefact.text(artefact.dataset(field, f"{at}/third_octave/nominal")[int(np.argmax(bands))])
+    lines = f", lines at {', '.join(f'{hz:.0f}' for hz in peaks)} Hz" if len(peaks) else ""
+    return power.dba, f"{label}: {power.dba:.1f} dB(A) of {power.name} re 1 pW; loudest are the third octave of {band} Hz{lines}"
 
 
 def mesh_quality(file):

@@ -4,11 +4,12 @@ import numpy as np
 
 from .artefact import BadArtefact, dataset, text
 from .chains import CYCLE_DEG, complete_cycles, crank_angle
+from .weighting import a_weight
 
 # References of levels in dB (ISO 1683); quantities of other units are shown as they are. A power is kept as its root, "W^0.5", whose
-# squares add like those of an RMS.
-REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9, "W^0.5": 1e-6}
-REFERENCE_NAME = {"W^0.5": "1 pW"}
+# squares add like those of an RMS; that of an A-weighted one is in "W(A)^0.5".
+REFERENCE = {"m/s2": 1e-6, "m/s": 1e-9, "W^0.5": 1e-6, "W(A)^0.5": 1e-6}
+LEVEL_NAME = {"W^0.5": "level [dB re 1 pW]", "W(A)^0.5": "level [dB(A) re 1 pW]"}
 
 
 def whole_cycles(angle, wanted=None):
@@ -131,6 +132,14 @@ def of_sweep(sweep, name, where=()):
     return found
 
 
+def a_weighted(spectrum):
+    """A power's (speed [1/min], orders, RMS, unit) with the A-weighting of each half order's frequency."""
+    speed, order, rms, unit = spectrum
+    if unit != "W^0.5":
+        raise BadArtefact(f"--a-weighting: found a quantity in {unit}, expected a power")
+    return speed, order, rms * np.sqrt(a_weight(order * speed / 60.0)), "W(A)^0.5"
+
+
 def fluctuation(rms):
     """RMS of all orders but 0."""
     return float(np.sqrt(np.sum(rms[1:] ** 2)))
@@ -150,8 +159,8 @@ def level(rms, unit):
 def level_name(unit):
     """Of an axis: "level [dB re 1e-06 m/s²]"."""
     pretty = unit.replace("m/s2", "m/s²")
-    if unit in REFERENCE_NAME:
-        return f"level [dB re {REFERENCE_NAME[unit]}]"
+    if unit in LEVEL_NAME:
+        return LEVEL_NAME[unit]
     return f"level [dB re {REFERENCE[unit]:g} {pretty}, RMS]" if unit in REFERENCE else f"RMS [{pretty}]"
 
 

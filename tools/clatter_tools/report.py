@@ -4,7 +4,7 @@ import pathlib
 
 from . import artefact, chains, drive_findings, findings, slap
 
-STAGES = ["mesh", "fe", "modes", "rom", "run", "field"]
+STAGES = ["mesh", "fe", "modes", "rom", "sound", "run", "field"]
 
 
 def print_report(folder):
@@ -90,11 +90,21 @@ def print_drives(paths):
 
 
 def print_fields(paths):
-    rows = []
+    rows, loud = [], []
     for path in paths:
         with artefact.open_artefact(path, "field") as file:
             rows.append([stem(path), *findings.field_row(file)])
+            loud.append(findings.loudness(stem(path), file))
     print_table(f"sensors above {slap.FROM_HZ:g} Hz around firing TDC, and power over the cycle", ["run", *findings.FIELD_HEAD], rows)
+    print_loudness(loud)
+
+
+def print_loudness(loud):
+    """What each field radiates, the loudest first."""
+    if loud:
+        print("\nradiated, A-weighted")
+    for _, sentence in sorted(loud, key=lambda one: -one[0]):
+        print(f"  {sentence}")
 
 
 def print_cost(paths):

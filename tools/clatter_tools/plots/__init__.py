@@ -6,7 +6,7 @@ PICTURES = {
     "piston": piston.draw,
     "film": film.draw,
     "acceleration": accelerations.draw,
-    "erp": radiation.draw,
+    "power": radiation.draw,
     "mesh": shape.draw_mesh,
     "faces": faces.draw,
     "quality": quality.draw,
@@ -19,8 +19,8 @@ PICTURES = {
 }
 
 
-def draw(kind, files, output):
-    """Draws one picture of PICTURES from files into a PNG or SVG."""
+def draw(kind, files, output, **options):
+    """Draws one picture of PICTURES from files into a PNG or SVG; `options` are those of its function."""
     style.apply()
-    figure = PICTURES[kind](files)
+    figure = PICTURES[kind](files, **options)
     style.save(figure, output)

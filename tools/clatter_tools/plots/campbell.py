@@ -23,7 +23,8 @@ def picture(spectra, cuts, title, to_hz=None):
         raise BadArtefact(f"orders: found units {', '.join(sorted({one[3] for one in spectra}))}, expected one")
     figure, axes = style.figure(2, height=3.6, gridspec_kw={"height_ratios": [1.25, 1]})
     mesh = draw_map(axes[0, 0], spectra, speeds, unit, cuts, to_hz or 1.15 * max(cuts) * speeds[-1] / 60.0)
-    bar = figure.colorbar(mesh, ax=list(axes[:, 0]), anchor=(0.0, 1.0), shrink=0.5, pad=0.05, aspect=22, label=orders.level_name(unit))
+    bar = figure.colorbar(mesh, ax=list(axes[:, 0]), anchor=(0.0, 1.0), shrink=0.5, pad=0.05, aspect=22,
+                          label=f"half order, {orders.level_name(unit)}")
     bar.outline.set_visible(False)
     draw_cuts(axes[1, 0], spectra, speeds, unit, cuts)
     limits = (speeds[0] - 0.5 * (speeds[1] - speeds[0]), speeds[-1] + 0.5 * (speeds[-1] - speeds[-2]))
@@ -46,6 +47,7 @@ def draw_map(axis, spectra, speeds, unit, cuts, top):
     edges = np.concatenate([[1.5 * speeds[0] - 0.5 * speeds[1]], 0.5 * (speeds[1:] + speeds[:-1]), [1.5 * speeds[-1] - 0.5 * speeds[-2]]])
     norm = colours(spectra, unit)
     cmap = style.plt.get_cmap("viridis").with_extremes(bad="#440154")
+    axis.set_facecolor("#440154")
     for k, (speed, order, rms, _) in enumerate(spectra):
         frequency = (np.append(order[1:], order[-1] + 0.5) - 0.25) * speed / 60.0
         values = np.maximum(orders.level(rms[1:], unit), norm.vmin)
@@ -53,8 +55,8 @@ def draw_map(axis, spectra, speeds, unit, cuts, top):
     ends = edges[[0, -1]]
     for cut in cuts:
         axis.plot(ends, cut * ends / 60.0, color="white", linewidth=0.7, linestyle=(0, (6, 4)), alpha=0.8)
-        axis.annotate(f"{cut:g}", (ends[1], cut * ends[1] / 60.0), xytext=(3, 0), textcoords="offset points", va="center", fontsize=7)
-    axis.annotate("order", (1.0, 1.0), xycoords="axes fraction", xytext=(3, 2), textcoords="offset points", fontsize=7)
+        axis.annotate(f"{cut:g}", (ends[1], cut * ends[1] / 60.0), xytext=(3, 0), textcoords="offset points", va="center", fontsize=9)
+    axis.annotate("order", (1.0, 1.0), xycoords="axes fraction", xytext=(3, 2), textcoords="offset points", fontsize=9)
     axis.grid(False)
     axis.set(ylim=(0.0, top), ylabel="frequency [Hz]", xlabel="crank speed [rpm]")
     return mesh

@@ -1,29 +1,93 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The oil film between skirt and liner."""
+"""Maps of the oil film between skirt and liner at some crank angles."""
+import numpy as np
+
 from . import style
-from ..artefact import BadArtefact
-from ..histories import centred, crank_angle, cylinders, history, last_cycle, of
+from ..artefact import BadArtefact, dataset
+from ..histories import centred, last_cycle
+
+AT_DEG = (-20.0, 0.0, 10.0, 20.0, 90.0)
+# Dataset, name, factor, unit, colours, and the share of the values that the scale holds: of the gap it is the narrower half.
+QUANTITIES = [
+    ("pressure", "film pressure", 1e-6, "MPa", "viridis", 1.0),
+    ("fill", "filled share", 1.0, "1", "cividis", 1.0),
+    ("gap", "gap", 1e6, "µm", "cividis_r", 0.5),
+    ("contact_pressure", "contact pressure", 1e-6, "MPa", "viridis", 1.0),
+]
 
 
-def draw(files):
-    """Smallest film thickness over crank angle (run files with a piston-liner contact)."""
-    contacts = [(run, name) for run in style.open_all(files, "run") for name in cylinders(run, "film_min")]
-    if not contacts:
-        raise BadArtefact("film: none of these runs has a piston-liner contact (history film_min)")
-    figure, axes = style.figure(height=3.4)
-    axis = axes[0, 0]
-    lowest = 0.0  # in a dry contact asperities overlap: a gap below 0
-    for run, cylinder in contacts:
-        angle = crank_angle(run)
-        window = last_cycle(angle)
-        degrees, order = centred(angle[window])
-        gap = history(run, of(cylinder, "film_min"), "m")[window][order] * 1e6
-        lowest = min(lowest, 2.0 * gap.min())
-        axis.plot(degrees, gap, label=style.label(run, cylinder))
-    style.mark_firing(axis)
-    style.crank_axis(axis, degrees)
-    axis.set_ylim(bottom=lowest)
-    axis.set_ylabel("smallest gap [µm]")
-    style.headline(figure, "Smallest gap between skirt and liner")
-    style.legend(axis)
+def draw(files, at_deg=AT_DEG):
+    """Maps of film pressure, filled share, gap and contact pressure of the first cylinder by crank angle (one run with film maps)."""
+    run = style.open_one(files, "run")
+    cylinder, contact = next(iter(contacts(run)), ("", None))
+    if contact is None:
+        raise BadArtefact(f"{run.filename}: film: found no maps, expected those of a scene with time.film_every_deg")
+    pads = {name: contact[name] for name in sorted(contact, reverse=True) if "axial" in contact[name]}  # thrust before antithrust
+    frames, angles = nearest_frames(dataset(run, "film/crank_angle_deg"), at_deg)
+    shown = [one for one in QUANTITIES if any(one[0] in pad and pad[one[0]][frames].max() > 0.0 for pad in pads.values())]
+    figure = style.plt.figure(figsize=(style.WIDTH, 1.9 * len(shown) + 1.3), constrained_layout=False)
+    widths = ([1.0] * len(pads) + [0.25]) * len(frames) + [0.35]  # maps, a space after each crank angle, the scale
+    grid = figure.add_gridspec(len(shown), len(widths), width_ratios=widths, left=0.085, right=0.9, wspace=0.12, hspace=0.08,
+                               bottom=0.62 / figure.get_figheight(), top=1.0 - 0.62 / figure.get_figheight())
+    for row, quantity in enumerate(shown):
+        axes, image = draw_row(figure, grid, row, pads, quantity, frames)
+        _, name, _, unit, _, held = quantity
+        figure.colorbar(image, cax=figure.add_subplot(grid[row, -1]), label=f"{name} [{unit}]", extend="max" if held < 1.0 else "neither")
+        if row == 0:
+            for axis, angle in zip(axes[::len(pads)], angles):
+                axis.set_title("firing TDC" if abs(angle) < 0.5 else f"{angle:+.0f} deg", loc="left", fontsize=10)
+    label_pads(axes, pads)
+    figure.text(0.49, 0.02, "angle around the piston [deg]: 0 thrust side, 180 antithrust side", ha="center", fontsize=10)
+    figure.text(0.01, 0.5, "height above the pin [mm]", va="center", rotation=90, fontsize=10)
+    style.headline(figure, f"Contact of skirt and liner by crank angle: {style.label(run, cylinder)}")
     return figure
+
+
+def contacts(run):
+    """(cylinder, group of its pads): the only cylinder without a name, or each named one."""
+    film = run.get("film", {})
+    if any("axial" in film[name] for name in film):
+        return [("", film)]
+    return [(name, film[name]) for name in sorted(film) if hasattr(film[name], "keys")]
+
+
+def nearest_frames(recorded, wanted):
+    """(rows of the last cycle, ascending; their crank angles from firing TDC) of the maps nearest to the wanted angles."""
+    window = np.arange(len(recorded))[last_cycle(recorded)]
+    degrees, order = centred(recorded[window])
+    chosen = sorted({int(np.argmin(np.abs(degrees - angle))) for angle in wanted})
+    return [int(window[order[k]]) for k in chosen], [round(float(degrees[k]), 3) for k in chosen]
+
+
+def draw_row(figure, grid, row, pads, quantity, frames):
+    """One quantity at all crank angles, with one scale; returns its axes, those of an angle together, and the last image."""
+    key, _, factor, _, colours, held = quantity
+    values = {name: [factor * pad[key][frame] for frame in frames] for name, pad in pads.items() if key in pad}
+    top = np.quantile(list(values.values()), held)
+    axes = []
+    for column in range(len(frames)):
+        for k, (name, pad) in enumerate(pads.items()):
+            axis = figure.add_subplot(grid[row, column * (len(pads) + 1) + k])
+            image = axis.pcolormesh(edges(pad["angle_deg"][()]), 1e3 * edges(pad["axial"][()]), values[name][column].T, cmap=colours,
+                                    vmin=0.0, vmax=top, rasterized=True)
+            axis.grid(False)
+            axis.tick_params(labelsize=9)
+            axis.set_xticks([])
+            if axes:
+                axis.set_yticks([])
+                axis.spines["left"].set_visible(False)
+            axes.append(axis)
+    return axes, image
+
+
+def edges(centres):
+    """Edges of cells about their centres."""
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
+
+
+def label_pads(axes, pads):
+    """The middle angle of each pad below the lowest row."""
+    for k, axis in enumerate(axes):
+        middle = float(np.mean(list(pads.values())[k % len(pads)]["angle_deg"][()]))
+        axis.set_xticks([middle], [f"{middle:.0f}"])

@@ -4,31 +4,41 @@ from . import style
 from ..artefact import BadArtefact
 from ..histories import centred, crank_angle, cylinders, has, history, last_cycle, of
 
+# History, unit, factor, name. The last ones are of a contact with the liner.
+CURVES = [("piston_lateral", "m", 1e6, "lateral position\nof the pin [µm]"), ("piston_tilt", "rad", 1e3, "tilt [mrad]"),
+          ("side_force", "N", 1e-3, "side force [kN]"), ("film_min", "m", 1e6, "smallest gap\nto the liner [µm]")]
+AROUND_DEG = (-30, 60)
+
 
 def draw(files):
-    """Lateral position and tilt of the piston, and the side force, over the last cycle (run files)."""
+    """Lateral position, tilt, side force and smallest gap of the piston over the last cycle and around firing TDC (run files)."""
     pistons = [(run, name) for run in style.open_all(files, "run") for name in cylinders(run, "piston_lateral")]
     if not pistons:
         raise BadArtefact("piston: none of these runs has a piston (history piston_lateral)")
-    with_force = all(has(run, of(name, "side_force")) for run, name in pistons)
-    figure, axes = style.figure(3 if with_force else 2, height=2.1, sharex=True)
-    axes = axes[:, 0]
-    for run, cylinder in pistons:
-        angle = crank_angle(run)
-        window = last_cycle(angle)
-        degrees, order = centred(angle[window])
-        take = lambda name, unit: history(run, of(cylinder, name), unit)[window][order]  # noqa: E731
-        axes[0].plot(degrees, take("piston_lateral", "m") * 1e6, label=style.label(run, cylinder))
-        axes[1].plot(degrees, take("piston_tilt", "rad") * 1e3)
-        if with_force:
-            axes[2].plot(degrees, take("side_force", "N") / 1e3)
-    axes[0].set_ylabel("lateral position\nof the pin [µm]")
-    axes[1].set_ylabel("tilt [mrad]")
-    style.headline(figure, "Secondary motion of the piston (positive: toward the thrust side)")
-    if with_force:
-        axes[2].set_ylabel("side force [kN]")
-    for axis in axes:
+    curves = [one for k, one in enumerate(CURVES) if k < 2 or any(has(run, of(name, one[0])) for run, name in pistons)]
+    figure, axes = style.figure(len(curves), 2, height=1.75, sharex="col", sharey="row", gridspec_kw={"width_ratios": [1.5, 1]})
+    for row, (name, unit, factor, words) in zip(axes, curves):
+        for number, (run, cylinder) in enumerate(pistons):
+            if has(run, of(cylinder, name)):
+                draw_history(row, run, of(cylinder, name), unit, factor, number)
+        row[0].set_ylabel(words)
+    for axis in axes.flat:
         style.mark_firing(axis)
-    style.crank_axis(axes[-1], degrees)
-    style.legend(axes[0])
+    style.crank_axis(axes[-1, 0], [-360, 360])
+    axes[-1, 1].set_xlim(AROUND_DEG)
+    axes[-1, 1].set_xticks(range(AROUND_DEG[0], AROUND_DEG[1] + 1, 15))
+    axes[-1, 1].set_xlabel("crank angle [deg]")
+    axes[0, 1].set_title("around firing TDC", loc="left", fontsize=10)
+    style.legend_above(figure, axes[0, 0].get_lines()[:len(pistons)], [style.label(*one) for one in pistons],
+                       "Secondary motion of the piston, positive toward the thrust side")
     return figure
+
+
+def draw_history(row, run, name, unit, factor, number):
+    """One curve over the cycle, and the same around firing TDC."""
+    angle = crank_angle(run)
+    window = last_cycle(angle)
+    degrees, order = centred(angle[window])
+    values = factor * history(run, name, unit)[window][order]
+    for axis in row:
+        axis.plot(degrees, values, linewidth=1.2, color=style.COLOURS[number % len(style.COLOURS)], zorder=3 - 0.1 * number)

@@ -91,24 +91,35 @@ class Canvas:
     def __init__(self, rows, columns):
         self.rows, self.columns = rows, columns
         self.depth = np.full(rows * columns, -np.inf, np.float32)
+        self.owner = np.zeros(rows * columns, np.int64)  # the sample of the last drawing that a pixel shows
         self.image = np.zeros((rows * columns, 4), np.float32)
 
     def draw(self, corners, colour, marks, weights, edge_width):
         """Draws samples of triangles: corners and colour (m, 3, 3), marks (m, 3), weights (s, 3)."""
-        position = np.einsum("sk,mkd->dms", weights, corners.astype(np.float32))
-        x, y, z = position[0].astype(np.int32), position[1].astype(np.int32), position[2].ravel()
+        position = np.moveaxis(corners.astype(np.float32), 1, 2) @ weights.T  # (m, 3, s)
+        x, y, z = position[:, 0].astype(np.int32), position[:, 1].astype(np.int32), position[:, 2].ravel()
         index = (y * self.columns + x).ravel()
         seen = np.flatnonzero(((x >= 0) & (x < self.columns) & (y >= 0) & (y < self.rows)).ravel())
-        seen = seen[z[seen] > self.depth[index[seen]]]
-        seen = seen[np.argsort(z[seen], kind="stable")]  # of several samples in a pixel the last one remains
+        seen = self.nearest(index, z, seen)
         index, triangle, sample = index[seen], seen // len(weights), seen % len(weights)
-        self.depth[index] = z[seen]
-        rgb = np.einsum("nk,nkd->nd", weights[sample], colour[triangle])
+        weight = weights[sample]
+        rgb = sum(weight[:, k, None] * colour[:, k][triangle] for k in range(3))
         if marks.any():
-            distance = weights[sample] * heights(corners)[triangle]
+            distance = weight * heights(corners)[triangle]
             rgb[((distance < edge_width) & marks[triangle]).any(axis=1)] *= 0.45
         self.image[index, :3] = rgb
         self.image[index, 3] = 1.0
+
+    def nearest(self, index, z, seen):
+        """Those of the samples `seen` that are the nearest of their pixel, one per pixel; notes their depths."""
+        rest = seen[z[seen] > self.depth[index[seen]]]
+        kept = rest
+        while len(rest):  # of several samples in a pixel any one is written: those before it are tried again
+            self.depth[index[rest]] = z[rest]
+            rest = rest[z[rest] > self.depth[index[rest]]]
+        kept = kept[z[kept] == self.depth[index[kept]]]
+        self.owner[index[kept]] = kept
+        return kept[self.owner[index[kept]] == kept]
 
 
 def average(image, smooth):

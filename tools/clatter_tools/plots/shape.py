@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from ..artefact import BadArtefact, dataset, text
-from ..weighting import a_weight
+from ..weighting import a_weight, level_dba
 from . import raster, style
 
 METAL = np.array([0.80, 0.82, 0.84])
@@ -102,7 +102,7 @@ def coloured_faces(mesh, limit=7):
 
 
 def draw_deflection(files):
-    """The skin at its largest motion, and its deflection shape at the strongest frequency (one field file)."""
+    """The skin at its largest motion, and its deflection shape at the loudest line of the sound power (one field file)."""
     field = style.open_all(files, "field")[0]
     points, quadratic = dataset(field, "skin/nodes"), dataset(field, "skin/triangles")
     triangles, _ = raster.split_quadratic(quadratic)
@@ -118,6 +118,7 @@ def draw_deflection(files):
         bar = style.matplotlib.cm.ScalarMappable(style.matplotlib.colors.Normalize(-limit, limit), "RdBu_r")
         figure.colorbar(bar, ax=axis, orientation="horizontal", shrink=0.8, pad=0.01,
                         label="normal velocity [mm/s], outward positive")
+    style.headline(figure, f"{style.label(field)}: without rigid motion, deflection enlarged")
     return figure
 
 
@@ -127,7 +128,7 @@ def strongest_instant(field):
     moved = [elastic_part(field, field[f"frames/velocity/{name}"][()].astype(float)) for name in names]
     best = int(np.argmax([mean_square(field, velocity) for velocity in moved]))
     time = dataset(field, "frames/time")[best]
-    return f"{time * 1e3:.2f} ms after firing TDC\n(rigid motion removed, enlarged)", moved[best]
+    return f"{time * 1e3:.2f} ms after firing TDC,\nthe instant of largest motion", moved[best]
 
 
 def strongest_line(field):
@@ -136,12 +137,31 @@ def strongest_line(field):
     if not names:
         raise BadArtefact(f"{field.filename}: lines: found no complex lines")
     frequency = dataset(field, "lines/frequency_hz")
-    lines = [elastic_part(field, field[f"lines/velocity_re/{n}"][()] + 1j * field[f"lines/velocity_im/{n}"][()])
-             for n in names]
-    best = int(np.argmax([mean_square(field, line) * a_weight(f) for line, f in zip(lines, frequency)]))
+
+    def read(name):
+        return elastic_part(field, field[f"lines/velocity_re/{name}"][()] + 1j * field[f"lines/velocity_im/{name}"][()])
+
+    levels = sound_levels(field, frequency)
+    if levels is None:
+        best = int(np.argmax([mean_square(field, read(name)) * a_weight(f) for name, f in zip(names, frequency)]))
+        title = f"Strongest line: {frequency[best]:.0f} Hz,\nby its A-weighted velocity"
+    else:
+        best = int(np.argmax(levels))
+        title = f"Loudest line: {frequency[best]:.0f} Hz,\n{levels[best]:.1f} dB(A) of sound power"
     # The phase at which the real part is largest: half the angle of sum v^2.
-    velocity = (lines[best] * np.exp(-0.5j * np.angle(np.sum(lines[best] ** 2)))).real
-    return f"shape at {frequency[best]:.0f} Hz\n(rigid motion removed, enlarged)", velocity
+    line = read(names[best])
+    velocity = (line * np.exp(-0.5j * np.angle(np.sum(line ** 2)))).real
+    return title, velocity
+
+
+def sound_levels(field, frequency):
+    """Sound power of the lines of a field file [dB(A) re 1 pW]; None where it has none."""
+    at = f"analysis/{text(field['lines'].attrs.get('analysis', 'cycle'))}"
+    if f"{at}/sound" not in field:
+        return None
+    of_all = dataset(field, f"{at}/frequency_hz")
+    rows = [int(np.argmin(np.abs(of_all - hz))) for hz in frequency]
+    return level_dba(frequency, dataset(field, f"{at}/sound/power")[rows])
 
 
 def mean_square(field, velocity):

@@ -73,6 +73,16 @@ def legend(axis, columns=2):
     axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncol=columns, borderaxespad=0.2)
 
 
+def legend_above(figure_, handles, labels, title=""):
+    """A legend, a line per entry, above all axes of a figure, under its title."""
+    entries = [plt.Line2D([], [], color=handle.get_edgecolor() if hasattr(handle, "get_edgecolor") else handle.get_color(),
+                          linewidth=2) for handle in handles]
+    figure_.suptitle("\n".join([title] + [" "] * len(labels)) if title else "\n".join([" "] * len(labels)), x=0.01, ha="left",
+                     fontsize=11, fontweight="bold")
+    top = 1.0 - (0.24 if title else 0.02) / figure_.get_figheight()
+    figure_.legend(entries, labels, loc="upper left", bbox_to_anchor=(0.0, top), ncol=1, fontsize=9, borderaxespad=0.0)
+
+
 def headline(figure_, title):
     figure_.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
 
@@ -82,16 +92,32 @@ def nice_ticks(low, high, count=6):
     return matplotlib.ticker.MaxNLocator(count).tick_values(low, high)
 
 
+def order_axis(axis, orders_per_hz):
+    """A second axis above one in Hz, in engine orders."""
+    above = axis.secondary_xaxis("top", functions=(lambda hz: hz * orders_per_hz, lambda order: order / orders_per_hz))
+    above.set_xlabel("engine order", fontsize=9)
+    above.tick_params(labelsize=9)
+
+
+def mark_limit(axis, position, words, shade=False):
+    """A line at a limit of an axis, its name beside it, and a grey area beyond it."""
+    axis.axvline(position, color="#555555", linewidth=0.9, linestyle="--")
+    if shade:
+        axis.axvspan(position, axis.get_xlim()[1], color="#e6e6e6", zorder=0)
+    axis.annotate(words, (position, 0.98), xycoords=("data", "axes fraction"), xytext=(-2, 0), textcoords="offset points",
+                  rotation=90, ha="right", va="top", fontsize=8, color="#555555")
+
+
 def mark_firing(axis, position=0.0):
     """A thin line at firing top dead centre."""
     axis.axvline(position, color="#888888", linewidth=0.8, linestyle=":")
 
 
-def crank_axis(axis, angle):
-    """Ticks every 90 degrees over a complete cycle, else the default ones."""
+def crank_axis(axis, angle, step=90):
+    """Ticks every `step` degrees over a complete cycle, else the default ones."""
     axis.set_xlim(angle[0], angle[-1])
     if angle[-1] - angle[0] > 300:
-        first, last = (int(round(end / 90)) * 90 for end in (angle[0], angle[-1]))
+        first, last = (int(round(end / step)) * step for end in (angle[0], angle[-1]))
         axis.set_xlim(first, last)
-        axis.set_xticks(range(first, last + 1, 90))
+        axis.set_xticks(range(first, last + 1, step))
     axis.set_xlabel("crank angle [deg], 0 = firing TDC")
