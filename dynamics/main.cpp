@@ -2,6 +2,7 @@
 // clatter-dynamics: runs a scene in the time domain.
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
+#include "dynamics/response_command.hpp"
 #include "dynamics/run_command.hpp"
 
 namespace {
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
       "time domain.",
       kEpilog);
   clatter::dynamics::declare_run(program);
+  clatter::dynamics::declare_response(program);
   program.moved("--write-motored-cycle", "clatter motored-cycle OUT.csv --bore-mm ...");
   return program.run(argc, argv);
 }

@@ -22,6 +22,9 @@ inline constexpr const char* kAcceleration = "a";      // [m/s2]
 inline constexpr const char* kRom = "rom";             // attribute: path from the run file's folder
 inline constexpr const char* kRomHash = "rom_sha256";  // attribute
 
+// Group kForces has a group for each body with the recorded forces on it by name: n_t x r, on q [N].
+inline constexpr const char* kForces = "forces";
+
 /// "<group>/<member>".
 inline std::string path(const std::string& group, const std::string& member) {
   return group + "/" + member;

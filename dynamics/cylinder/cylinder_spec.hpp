@@ -26,9 +26,10 @@ struct EngineSpec {
   bool balanced = false;
   RodProperties rod;
   double firing = 0.0;  // angle of the crankshaft at this cylinder's firing TDC [rad]
+  Rotation rotation = Rotation::kForward;
 
   SliderCrank crank() const {
-    return SliderCrank(0.5 * stroke, rod.length, pin_offset, speed, firing);
+    return SliderCrank(0.5 * stroke, rod.length, pin_offset, speed, firing, rotation);
   }
 };
 

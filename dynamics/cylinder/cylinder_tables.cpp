@@ -36,6 +36,8 @@ EngineSpec read_engine(const Config& tables, double speed, double firing) {
   engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
   engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
   engine.balanced = table.flag_or("balanced", false);
+  if (table.has("rotation") && table.choice("rotation", {"forward", "backward"}) == "backward")
+    engine.rotation = Rotation::kBackward;
   const Config rod = tables.table("rod");
   read_rod(rod, engine.rod);
   const bool by_offset = engine.rod.length > 0.5 * engine.stroke;

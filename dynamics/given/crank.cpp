@@ -10,12 +10,13 @@
 namespace clatter::dynamics {
 
 SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, double omega,
-                         double firing)
+                         double firing, Rotation rotation)
     : radius_(radius),
       rod_length_(rod_length),
       pin_offset_(pin_offset),
       omega_(omega),
-      firing_(firing) {
+      firing_(firing),
+      sign_(rotation == Rotation::kForward ? 1.0 : -1.0) {
   if (!(radius > 0.0) || !(rod_length > radius + std::abs(pin_offset))) {
     throw InputError(
         fmt::format("slider-crank: crank radius {} m, rod {} m, pin offset {} m: expected rod > "
@@ -28,7 +29,7 @@ Motion<Eigen::Vector2d> SliderCrank::crank_pin(double time) const {
   const double theta = angle(time);
   const double s = std::sin(theta), c = std::cos(theta);
   const double v = radius_ * omega_, a = v * omega_;
-  return {{-radius_ * s, radius_ * c}, {-v * c, -v * s}, {a * s, -a * c}};
+  return {{-sign_ * radius_ * s, radius_ * c}, {-sign_ * v * c, -v * s}, {sign_ * a * s, -a * c}};
 }
 
 Motion<double> SliderCrank::rod_angle(double time) const {

@@ -125,7 +125,7 @@ StageNewton::Result StageNewton::solve(const Stage& stage, const StageOperator& 
     if (checked && size <= kConverged && (imbalance <= kConverged || is_rounding(y))) {
       moved_.setZero(y.size());
       scatter_add(dy_, *rows_, moved_);
-      system_.add_tangent_forces(moved_, f);
+      system_.pass_on(moved_, f);
       result.outcome = Outcome::kConverged;
       return result;
     }

@@ -141,6 +141,14 @@ class System {
   bool has_groups(int element) const { return !this->element(element).groups().empty(); }
   /// f += T dy with the elements' last tangents.
   void add_tangent_forces(const Eigen::VectorXd& dy, Eigen::VectorXd& f) const;
+  /// A stage ends with the forces f + T dy: adds T dy to f, and keeps each element's sum where
+  /// keep_forces() asked for it.
+  void pass_on(const Eigen::VectorXd& dy, Eigen::VectorXd& f);
+  void keep_forces();
+  /// What an element passed on at the end of the last stage, n_e; empty before the first.
+  const Eigen::VectorXd& passed_force(int element) const {
+    return passed_[static_cast<size_t>(element)];
+  }
   /// An element's last response.
   const Response& response(int element) const { return responses_[static_cast<size_t>(element)]; }
   /// Response::touched of an element when its last tangent was computed: the tangent's rows.
@@ -180,6 +188,7 @@ class System {
   Eigen::VectorXd omega_squared_, damping_, inertia_, second_order_, eta_start_, v_start_;
   int modes_ = 0;
   std::vector<Response> responses_;                      // per element
+  std::vector<Eigen::VectorXd> passed_;                  // per element, where they are kept
   std::vector<std::vector<int>> tangent_rows_;           // per element
   std::vector<std::vector<std::vector<int>>> groups_;    // per element
   mutable std::vector<Eigen::VectorXd> y_of_, v_of_;     // per element: its coordinates

@@ -45,10 +45,14 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
       model_(model_of(scene, bodies, from.cycle)),
       file_(std::make_unique<H5File>(H5File::create(output))),
       energy_(model_->system, *scene.steps.method),
+      forces_(energy_),
       method_(make_integrator(model_->system, scene.steps)),
       recorder_(*model_, {span_.begin, span_.end, scene.time.output_step, scene.film_every}, *file_,
                 [this](const SampleBlock& block) { pass_on(block); }) {
-  method_->set_observer(&energy_);
+  for (const ForceRecordSpec& spec : scene.forces)
+    forces_.add(std::make_unique<ForceRecord>(*model_, bodies, spec, *scene.steps.method, *file_,
+                                              span_.begin, span_.end, scene.time.output_step));
+  method_->set_observer(&forces_);
   const std::filesystem::path point = checkpoint_path(output);
   if (from.cycle == 0) {
     start();
@@ -93,14 +97,20 @@ void CycleRun::restore(const Checkpoint& from) {
   method_->resume(from.state, from.rung);
 }
 
+void CycleRun::finish() {
+  recorder_.finish();
+  forces_.finish();
+}
+
 bool CycleRun::run(const std::function<void(double)>& progress, const std::atomic<bool>* stop) {
   recorder_.start(method_->state());
+  forces_.start(span_.begin);
   while (method_->state().time < span_.end) {
     if (stop != nullptr && stop->load()) return false;
     method_->step(span_.end);
     recorder_.record(*method_, energy_);
     pressure_.look(*model_, recorder_.last(), method_->state().time);
-    most_held_ = std::max(most_held_, recorder_.held());
+    most_held_ = std::max(most_held_, recorder_.held() + forces_.held());
     progress(method_->state().time);
   }
   return true;

@@ -13,6 +13,7 @@
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/run/checkpoint.hpp"
 #include "dynamics/run/film_pressure.hpp"
+#include "dynamics/run/force_record.hpp"
 #include "dynamics/run/model.hpp"
 #include "dynamics/run/periodicity.hpp"
 #include "dynamics/run/recorder.hpp"
@@ -38,7 +39,7 @@ class CycleRun {
   /// False when it was stopped before the end.
   bool run(const std::function<void(double)>& progress, const std::atomic<bool>* stop);
   /// Writes what is left, at the end of the cycle or earlier.
-  void finish() { recorder_.finish(); }
+  void finish();
 
   /// The end of the cycle, from which the next one starts. A scene that settles is moved to where
   /// its slow motion repeats, and its clock is turned back.
@@ -72,6 +73,7 @@ class CycleRun {
   std::unique_ptr<Model> model_;
   std::unique_ptr<H5File> file_;
   EnergyBalance energy_;
+  ForceRecords forces_;
   std::unique_ptr<Integrator> method_;
   StageState begin_;
   Recorder recorder_;

@@ -6,17 +6,6 @@
 namespace clatter::dynamics {
 namespace {
 
-void write_body(H5File& file, const LoadedBody& body) {
-  const std::string group = run::path(run::kBodies, body.spec.name);
-  const auto folder = std::filesystem::absolute(file.path()).parent_path();
-  const auto rom = std::filesystem::absolute(body.spec.rom);
-  file.set(group, run::kRom, rom.lexically_proximate(folder).string());
-  file.set(group, run::kRomHash, body.sha256);
-  file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
-  static constexpr const char* kFrames[] = {"given", "space", "drive"};
-  file.set(group, "frame", kFrames[static_cast<int>(body.spec.motion)]);
-}
-
 void write_statistics(H5File& file, const StepStatistics& s) {
   const auto count = [&](const char* name, long long value) {
     file.set("statistics", name, static_cast<int64_t>(value));
@@ -38,6 +27,17 @@ void write_statistics(H5File& file, const StepStatistics& s) {
 }
 
 }  // namespace
+
+void write_body(H5File& file, const LoadedBody& body) {
+  const std::string group = run::path(run::kBodies, body.spec.name);
+  const auto folder = std::filesystem::absolute(file.path()).parent_path();
+  const auto rom = std::filesystem::absolute(body.spec.rom);
+  file.set(group, run::kRom, rom.lexically_proximate(folder).string());
+  file.set(group, run::kRomHash, body.sha256);
+  file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
+  static constexpr const char* kFrames[] = {"given", "space", "drive"};
+  file.set(group, "frame", kFrames[static_cast<int>(body.spec.motion)]);
+}
 
 RunCertificate run_certificate(const RunResult& result) {
   RunCertificate numbers{result.periodicity};

@@ -14,6 +14,9 @@ namespace clatter::dynamics {
 void append_samples(H5File& file, const Model& model, const LoadedBodies& bodies,
                     const SampleBlock& block);
 
+/// Writes the attributes of a body's group: its reduced model and frame.
+void write_body(H5File& file, const LoadedBody& body);
+
 /// Adds to the file of a result what is known at its end:
 ///   bodies/<name>                       attributes rom (relative to the run file), rom_sha256
 ///   energy                              attribute residue

@@ -67,6 +67,24 @@ void list_inputs(const Config& root, Scene& scene) {
   if (!scene.time.start.empty()) add(scene.time.start);
 }
 
+std::vector<ForceRecordSpec> read_recorded_forces(const Config& root) {
+  std::vector<ForceRecordSpec> forces;
+  if (!root.has("recorded_force")) return forces;
+  for (const Config& table : root.tables("recorded_force")) {
+    ForceRecordSpec spec{table.text("name"), table.text("body"), table.texts("of"),
+                         table.where("name")};
+    for (const ForceRecordSpec& other : forces)
+      if (other.name == spec.name && other.body == spec.body)
+        table.fail("name", fmt::format("found a second \"{}\" of {}, expected each name once",
+                                       spec.name, spec.body));
+    if (spec.name.empty() || spec.name.find('/') != std::string::npos)
+      table.fail("name", fmt::format("found \"{}\", expected a name without /", spec.name));
+    if (spec.of.empty()) table.fail("of", "found none, expected names of elements or loads");
+    forces.push_back(std::move(spec));
+  }
+  return forces;
+}
+
 /// What settles must repeat.
 void check_repeats(const Config& root, const Scene& scene) {
   if (scene.time.settle == 0.0) return;
@@ -93,6 +111,7 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   scene.clock = read_clock(root);
   read_time(root, scene);
   scene.components = read_components(root);
+  scene.forces = read_recorded_forces(root);
   read_steps(root, scene);
   check_repeats(root, scene);
   root.finish();

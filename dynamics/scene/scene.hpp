@@ -14,6 +14,13 @@
 
 namespace clatter::dynamics {
 
+/// [[recorded_force]]: forces on a body whose effect is wanted alone.
+struct ForceRecordSpec {
+  std::string name, body;
+  std::vector<std::string> of;  // elements and loads, as the energy balance names them
+  std::string where;            // "file:line", for messages
+};
+
 struct Scene {
   std::filesystem::path file;
   std::vector<std::filesystem::path> inputs;  // every file that the scene reads, itself first
@@ -22,6 +29,7 @@ struct Scene {
   StepOptions steps;
   double film_every = 0.0;          // between stored film fields [s]; 0: none
   std::optional<CrankClock> clock;  // of an engine scene: runs are cycles of it
+  std::vector<ForceRecordSpec> forces;
   ComponentList components;         // in the order in which they are added to a model
 };
 
