@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first section: what was found, in sentences and in the tables of `clatter report`."""
-import numpy as np
-
 from .. import artefact, chains, drive_findings, fields, findings, report, slap
-from ..weighting import a_weight
 from .certificates import GOOD
 
-PEAKS = 5     # of the power, that are named
 WORRIES = 12  # that are listed
 
 
@@ -30,35 +26,21 @@ def worries(cards):
 
 
 def sound(folder):
-    """The loudest and the quietest run, and the panel that radiates most of the loudest."""
-    levels = []
-    for one in folder.with_field():
-        at = fields.piece(one.field, "cycle", *fields.pieces(one.field))
-        panel = fields.panel(one.field, at, "exposed", "skin")
-        levels.append((float(one.field[panel].attrs["erp_dba"]), one, at, panel.rpartition("/")[2]))
+    """The loudest and the quietest run, by sound power where the field has it, and the panel that moves most of the loudest."""
+    levels = sorted(((*findings.loudness(one.label, one.field), one) for one in folder.with_field()), key=lambda row: row[0])
     if not levels:
         return []
-    levels.sort(key=lambda row: row[0])
-    level, one, at, name = levels[-1]
-    found = [f"{one.label}: {level:.1f} dB(A) of equivalent radiated power, panel “{name}”, re 1 pW."]
+    level, text, loudest = levels[-1]
+    found = [f"{'Loudest: ' if len(levels) > 1 else ''}{text}."]
     if len(levels) > 1:
-        found[0] = f"Loudest: {found[0]}"
-        found.append(f"Quietest: {levels[0][1].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
-    others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in one.field[f"{at}/panels"].items()
+        found.append(f"Quietest: {levels[0][2].label}: {levels[0][0]:.1f} dB(A), {level - levels[0][0]:.1f} dB below it.")
+    at = fields.piece(loudest.field, "cycle", *fields.pieces(loudest.field))
+    others = sorted(((float(panel.attrs["erp_dba"]), name) for name, panel in loudest.field[f"{at}/panels"].items()
                      if name not in ("skin", "exposed") and "erp_dba" in panel.attrs), reverse=True)
     if others:
-        found.append(f"The strongest panel{' of the loudest run' if len(levels) > 1 else ''} is “{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
-    peaks = ", ".join(f"{hz:.0f}" for hz in strongest_lines(one.field, at, name))
-    return found + ([f"Its A-weighted power is highest at {peaks} Hz, the strongest first."] if peaks else [])
-
-
-def strongest_lines(field, at, panel):
-    """Frequencies of the highest peaks among the A-weighted lines of a panel's power."""
-    frequency = artefact.dataset(field, f"{at}/frequency_hz")
-    power = artefact.dataset(field, f"{at}/panels/{panel}/erp") * a_weight(np.maximum(frequency, 1e-3))
-    around = np.concatenate([[0.0], power, [0.0]])
-    peaks = np.flatnonzero((power > around[:-2]) & (power >= around[2:]))
-    return frequency[peaks[np.argsort(-power[peaks])[:PEAKS]]]
+        found.append(f"The strongest panel{' of the loudest run' if len(levels) > 1 else ''} by ERP is "
+                     f"“{others[0][1].replace('_', ' ')}” with {others[0][0]:.1f} dB(A).")
+    return found
 
 
 def drives(folder):
