@@ -95,6 +95,13 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
   return certificate;
 }
 
+void certify_sound(const std::vector<RunSound>& sounds, FieldCertificate& certificate) {
+  if (sounds.empty()) return;
+  certificate.panel_power_difference = sounds.front().panels.sum_difference;
+  certificate.directivity_power_difference = sounds.front().directivity.power_difference;
+  certificate.resistance_power_difference = sounds.front().resistance_difference;
+}
+
 /// The panel whose ERP stands for the sound above the table: the exposed faces, else all.
 const PanelResult& radiating_panel(const Analysis& analysis) {
   for (const PanelResult& panel : analysis.panels)
@@ -112,13 +119,16 @@ void require_same_air(const SoundTable& table, const Options& options) {
 }
 
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
-                              const Options& options, const std::vector<Analysis>& analyses) {
+                              const Options& options, const std::vector<Panel>& panels,
+                              const std::vector<Analysis>& analyses) {
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
   require_same_air(table, options);
+  const PanelParts parts =
+      with_context(options.sound.string(), [&] { return panel_parts(table, model.skin, panels); });
   std::vector<RunSound> sounds;
   for (const Analysis& analysis : analyses)
-    sounds.push_back(run_sound(table, analysis, radiating_panel(analysis), options));
+    sounds.push_back(run_sound(table, analysis, parts, radiating_panel(analysis), options));
   return sounds;
 }
 
@@ -162,8 +172,9 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
   summary.certificate = certify(body, first, geometry, forms.front());
   clock.lap("spectra and radiated power");
-  summary.sounds = radiate(body, model, options, summary.analyses);
+  summary.sounds = radiate(body, model, options, summary.panels, summary.analyses);
   if (!options.sound.empty()) clock.lap("radiated sound");
+  certify_sound(summary.sounds, summary.certificate);
 
   file.set("/", "body", body.name());
   write_conventions(file, options, summary.limit, model.valid_to_hz);
