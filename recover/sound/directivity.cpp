@@ -5,58 +5,21 @@
 #include <numbers>
 
 #include "core/sound/far_harmonics.hpp"
-#include "core/sound/spherical_harmonics.hpp"
 #include "recover/field/field_values.hpp"
 
 namespace clatter::recover {
-namespace {
-
-/// The degree of the largest far field of the table.
-int highest_degree(const SoundTable& table) {
+int far_degree(const SoundTable& table) {
   Eigen::Index rows = 1;
   for (const SoundSample& sample : table.samples) rows = std::max(rows, sample.far.rows());
   return static_cast<int>(std::lround(std::sqrt(static_cast<double>(rows)))) - 1;
 }
 
-/// Mean square pressures of the lines in each direction, n_l x n_d.
-Eigen::MatrixXd line_mean_squares(const LineSpectrum& velocity, Eigen::Index lines,
-                                  Eigen::Index parts, const std::vector<SampleFields>& fields,
-                                  const Eigen::MatrixXd& harmonics) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(lines, harmonics.rows());
-  for (const SampleFields& sample : fields) {
-    const auto count = static_cast<Eigen::Index>(sample.lines.size());
-    if (count == 0) continue;
-    Eigen::MatrixXd F(sample.F.rows(), 2 * count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::VectorXcd all = sample.of_line(static_cast<size_t>(i), parts).rowwise().sum();
-      F.col(i) = all.real();
-      F.col(count + i) = all.imag();
-    }
-    const Eigen::MatrixXd p = harmonics.leftCols(F.rows()) * F;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Index k = sample.lines[static_cast<size_t>(i)];
-      out.row(k) += velocity.power_factor[k] * sample.weight[static_cast<size_t>(i)] *
-                    (p.col(i).cwiseAbs2() + p.col(count + i).cwiseAbs2()).transpose();
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-Directivity directivity(const SoundTable& table, const Analysis& analysis, Eigen::Index parts,
-                        const std::vector<SampleFields>& fields, const Eigen::VectorXd& power,
-                        const Options& options) {
-  const LineSpectrum& velocity = analysis.velocity;
-  const Eigen::Index lines = lines_of_table(table, velocity);
-  const int degree = highest_degree(table);
-  Directivity out{.directions = sound::sphere_directions(degree),
-                  .bands = bands_of_table(table, analysis, options)};
+Directivity directivity(const SoundTable& table, const LineSpectrum& velocity, const LineSums& sums,
+                        const sound::Directions& directions, const ThirdOctaves& bands) {
+  Directivity out{.directions = directions, .bands = bands};
   const RowMatrix& unit = out.directions.unit;
-  const Eigen::MatrixXd of_lines =
-      line_mean_squares(velocity, lines, parts, fields, sound::spherical_harmonics(unit, degree));
-  const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
-  const auto sums = [&](const Eigen::VectorXd& values) {
+  const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(sums.power.size());
+  const auto in_bands = [&](const Eigen::VectorXd& values) {
     return band_sums(frequency_hz, values, out.bands, velocity.periodic);
   };
   const Eigen::Index n_d = unit.rows();
@@ -68,9 +31,9 @@ Directivity directivity(const SoundTable& table, const Analysis& analysis, Eigen
     out.theta_deg[d] = to_deg * std::acos(unit(d, 2));
     out.phi_deg[d] = to_deg * std::atan2(unit(d, 1), unit(d, 0));
     // Interpolation between squares may leave rounding of the size of its error.
-    out.mean_square.col(d) = sums(of_lines.col(d)).cwiseMax(0.0);
+    out.mean_square.col(d) = in_bands(sums.mean_square.col(d)).cwiseMax(0.0);
   }
-  const Eigen::VectorXd band_power = sums(power.head(lines));
+  const Eigen::VectorXd band_power = in_bands(sums.power);
   const Eigen::VectorXd through =
       sound::power_of_far_field(table.space()) * (out.mean_square * out.directions.weight);
   out.index_db = Eigen::VectorXd::Zero(out.bands.size());

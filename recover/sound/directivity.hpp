@@ -19,11 +19,13 @@ struct Directivity {
   double power_difference = 0.0;
 };
 
-/// @param fields of line_far_fields() for parts that make up the entire body
-/// @param power per line of the analysis, P of the entire body [W]
-Directivity directivity(const SoundTable& table, const Analysis& analysis, Eigen::Index parts,
-                        const std::vector<SampleFields>& fields, const Eigen::VectorXd& power,
-                        const Options& options);
+/// The degree of the largest far field of the table: sphere_directions() of it integrate |F|^2.
+int far_degree(const SoundTable& table);
+
+/// @param sums line_sums() in these directions
+/// @param bands bands_of_table()
+Directivity directivity(const SoundTable& table, const LineSpectrum& velocity, const LineSums& sums,
+                        const sound::Directions& directions, const ThirdOctaves& bands);
 
 /// Writes `analysis/<piece>/sound/directivity`.
 void write_directivity(H5File& file, const std::string& piece, const Directivity& directivity);

@@ -3,29 +3,87 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/base/error.hpp"
 #include "core/sound/complex_lu.hpp"
+#include "core/sound/far_harmonics.hpp"
 
 namespace clatter::recover {
 namespace {
 
-/// Per part: flows of the lines, n_v x n_l.
-std::vector<Eigen::MatrixXcd> line_flows(const LineSpectrum& velocity, Eigen::Index lines,
-                                         const std::vector<RowMatrix>& flows) {
-  Eigen::MatrixXd parts(velocity.amplitude.cols(), 2 * lines);
-  parts << velocity.amplitude.topRows(lines).real().transpose(),
-      velocity.amplitude.topRows(lines).imag().transpose();
-  std::vector<Eigen::MatrixXcd> out;
-  for (const RowMatrix& flow : flows) {
-    const Eigen::MatrixXd product = flow * parts;
-    Eigen::MatrixXcd lines_of_part(flow.rows(), lines);
-    lines_of_part.real() = product.leftCols(lines);
-    lines_of_part.imag() = product.rightCols(lines);
-    out.push_back(std::move(lines_of_part));
+constexpr Eigen::Index kLinesAtOnce = 256;
+
+/// The lines of one piece that are interpolated from one sample of the table.
+struct SampleLines {
+  std::vector<Eigen::Index> lines{};
+  std::vector<double> weight{};  // of power_stencil()
+  size_t size() const { return lines.size(); }
+};
+
+/// Flows of the parts in some lines, n_v x (lines x parts), part by part of each line.
+Eigen::MatrixXcd part_flows(const LineSpectrum& velocity, Eigen::Index first, Eigen::Index count,
+                            const std::vector<RowMatrix>& flows) {
+  const auto parts = static_cast<Eigen::Index>(flows.size());
+  Eigen::MatrixXd v(velocity.amplitude.cols(), 2 * count);
+  v << velocity.amplitude.middleRows(first, count).real().transpose(),
+      velocity.amplitude.middleRows(first, count).imag().transpose();
+  Eigen::MatrixXcd out(parts > 0 ? flows.front().rows() : 0, count * parts);
+  for (Eigen::Index p = 0; p < parts; ++p) {
+    const Eigen::MatrixXd product = flows[static_cast<size_t>(p)] * v;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      out.col(k * parts + p).real() = product.col(k);
+      out.col(k * parts + p).imag() = product.col(count + k);
+    }
   }
   return out;
+}
+
+std::vector<SampleLines> lines_of_samples(const SoundTable& table, const LineSpectrum& velocity,
+                                          Eigen::Index first, Eigen::Index count) {
+  std::vector<SampleLines> out(table.samples.size());
+  for (Eigen::Index k = first; k < first + count; ++k) {
+    if (!(velocity.frequency_hz[k] > 0.0)) continue;  // a motion at 0 Hz radiates nothing
+    const Stencil by = power_stencil(table, velocity.frequency_hz[k]);
+    for (Eigen::Index i = 0; i < by.weight.size(); ++i) {
+      out[by.first + static_cast<size_t>(i)].lines.push_back(k);
+      out[by.first + static_cast<size_t>(i)].weight.push_back(by.weight[i]);
+    }
+  }
+  return out;
+}
+
+/// |sum over parts of F|^2 in each direction, directions x lines.
+Eigen::MatrixXd squares_in_directions(const Eigen::MatrixXcd& F, Eigen::Index parts,
+                                      const Eigen::MatrixXd& harmonics) {
+  const Eigen::Index count = F.cols() / parts;
+  Eigen::MatrixXd whole(F.rows(), 2 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::VectorXcd sum = F.middleCols(k * parts, parts).rowwise().sum();
+    whole.col(k) = sum.real();
+    whole.col(count + k) = sum.imag();
+  }
+  const Eigen::MatrixXd p = harmonics.leftCols(F.rows()) * whole;
+  return p.leftCols(count).cwiseAbs2() + p.rightCols(count).cwiseAbs2();
+}
+
+/// Adds what one sample of the table contributes to its lines.
+/// @param F (degree + 1)^2 x (lines x parts) [Pa m]
+void add_sample(double to_power, const LineSpectrum& velocity, const SampleLines& of,
+                const Eigen::MatrixXcd& F, const Eigen::MatrixXd& harmonics, LineSums& sums) {
+  const Eigen::Index parts = F.cols() / static_cast<Eigen::Index>(of.size());
+  const Eigen::MatrixXd squares = squares_in_directions(F, parts, harmonics);
+  for (size_t i = 0; i < of.size(); ++i) {
+    const Eigen::Index k = of.lines[i], column = static_cast<Eigen::Index>(i);
+    const double weight = velocity.power_factor[k] * of.weight[i];
+    const auto f = F.middleCols(column * parts, parts);
+    const Eigen::MatrixXd re = f.real(), im = f.imag();
+    sums.exchange[static_cast<size_t>(k)] +=
+        weight * to_power * (re.transpose() * re + im.transpose() * im);
+    sums.power[k] += weight * to_power * f.rowwise().sum().squaredNorm();
+    sums.mean_square.row(k) += weight * squares.col(column).transpose();
+  }
 }
 
 }  // namespace
@@ -76,30 +134,27 @@ ThirdOctaves bands_of_table(const SoundTable& table, const Analysis& analysis,
                        velocity.spacing_hz());
 }
 
-std::vector<SampleFields> line_far_fields(const SoundTable& table, const LineSpectrum& velocity,
-                                          const std::vector<RowMatrix>& flows) {
-  const Eigen::Index lines = lines_of_table(table, velocity);
-  const auto parts = static_cast<Eigen::Index>(flows.size());
-  std::vector<SampleFields> out(table.samples.size());
-  for (Eigen::Index k = 0; k < lines; ++k) {
-    if (!(velocity.frequency_hz[k] > 0.0)) continue;  // a motion at 0 Hz radiates nothing
-    const Stencil by = power_stencil(table, velocity.frequency_hz[k]);
-    for (Eigen::Index i = 0; i < by.weight.size(); ++i) {
-      SampleFields& fields = out[by.first + static_cast<size_t>(i)];
-      fields.lines.push_back(k);
-      fields.weight.push_back(by.weight[i]);
+LineSums line_sums(const SoundTable& table, const LineSpectrum& velocity, const PanelParts& parts,
+                   const Eigen::MatrixXd& harmonics) {
+  const Eigen::Index lines = lines_of_table(table, velocity), n = parts.belongs.rows();
+  LineSums out{
+      Eigen::VectorXd::Zero(lines),
+      std::vector<Eigen::MatrixXd>(static_cast<size_t>(lines), Eigen::MatrixXd::Zero(n, n)),
+      Eigen::MatrixXd::Zero(lines, harmonics.rows())};
+  const double to_power = sound::power_of_far_field(table.space());
+  for (Eigen::Index first = 0; first < lines; first += kLinesAtOnce) {
+    const Eigen::Index count = std::min(kLinesAtOnce, lines - first);
+    const Eigen::MatrixXcd flow = part_flows(velocity, first, count, parts.flows);
+    const std::vector<SampleLines> of = lines_of_samples(table, velocity, first, count);
+    for (size_t i = 0; i < of.size(); ++i) {
+      if (of[i].size() == 0) continue;
+      Eigen::MatrixXcd q(flow.rows(), static_cast<Eigen::Index>(of[i].size()) * n);
+      for (size_t k = 0; k < of[i].size(); ++k)
+        q.middleCols(static_cast<Eigen::Index>(k) * n, n) =
+            flow.middleCols((of[i].lines[k] - first) * n, n);
+      add_sample(to_power, velocity, of[i],
+                 sound::rows_product(table.samples[i].far.transpose(), q), harmonics, out);
     }
-  }
-  const std::vector<Eigen::MatrixXcd> flow = line_flows(velocity, lines, flows);
-  for (size_t i = 0; i < out.size(); ++i) {
-    const Eigen::MatrixXcd& far = table.samples[i].far;
-    const auto count = static_cast<Eigen::Index>(out[i].lines.size());
-    Eigen::MatrixXcd q(far.cols(), count * parts);
-    for (Eigen::Index k = 0; k < count; ++k)
-      for (Eigen::Index p = 0; p < parts; ++p)
-        q.col(k * parts + p) =
-            flow[static_cast<size_t>(p)].col(out[i].lines[static_cast<size_t>(k)]);
-    if (q.cols() > 0) out[i].F = sound::rows_product(far.transpose(), q);
   }
   return out;
 }

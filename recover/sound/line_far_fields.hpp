@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Far fields that the parts of a body send in the lines of a piece of a run.
+// Far fields that the parts of a body send in the lines of a piece of a run: powers, exchange,
+// directions.
 #include <Eigen/Core>
 #include <vector>
 
@@ -29,19 +30,17 @@ Eigen::Index lines_of_table(const SoundTable& table, const LineSpectrum& velocit
 ThirdOctaves bands_of_table(const SoundTable& table, const Analysis& analysis,
                             const Options& options);
 
-/// The far fields by one sample of the table of the lines that are interpolated from it. Whatever
-/// is quadratic in F, a line has the sum over its samples of weight times the sample's.
-struct SampleFields {
-  std::vector<Eigen::Index> lines{};  // ascending
-  std::vector<double> weight{};       // of power_stencil()
-  Eigen::MatrixXcd F{};               // (degree + 1)^2 x (lines x parts) [Pa m], part by part
-  auto of_line(size_t index, Eigen::Index parts) const {
-    return F.middleCols(static_cast<Eigen::Index>(index) * parts, parts);
-  }
+/// What far fields give in each line: power_stencil() sums over the samples of the table.
+struct LineSums {
+  Eigen::VectorXd power{};                  // n_l [W], of the sum of the parts; 0 at 0 Hz
+  std::vector<Eigen::MatrixXd> exchange{};  // n_l: parts x parts [W], symmetric
+  Eigen::MatrixXd mean_square{};            // n_l x n_d, p^2 r^2 in each direction [Pa2 m2]
 };
 
-/// One element for each sample, lines at 0 Hz left out.
-std::vector<SampleFields> line_far_fields(const SoundTable& table, const LineSpectrum& velocity,
-                                          const std::vector<RowMatrix>& flows);
+/// Sums over the lines up to the end of the table, some hundred lines at a time.
+/// @param harmonics n_d x (degree + 1)^2, spherical_harmonics() of the directions, of a degree that
+///        no sample exceeds
+LineSums line_sums(const SoundTable& table, const LineSpectrum& velocity, const PanelParts& parts,
+                   const Eigen::MatrixXd& harmonics);
 
 }  // namespace clatter::recover

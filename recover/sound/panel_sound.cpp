@@ -3,31 +3,11 @@
 
 #include <cmath>
 
-#include "core/sound/far_harmonics.hpp"
 #include "recover/field/field_file.hpp"
 #include "recover/field/field_values.hpp"
 
 namespace clatter::recover {
 namespace {
-
-/// Powers between parts in each line, parts x parts [W].
-std::vector<Eigen::MatrixXd> part_exchange(const SoundTable& table, const LineSpectrum& velocity,
-                                           Eigen::Index lines, Eigen::Index parts,
-                                           const std::vector<SampleFields>& fields) {
-  std::vector<Eigen::MatrixXd> exchange(static_cast<size_t>(lines),
-                                        Eigen::MatrixXd::Zero(parts, parts));
-  const double to_power = sound::power_of_far_field(table.space());
-  for (const SampleFields& sample : fields)
-    for (size_t i = 0; i < sample.lines.size(); ++i) {
-      const Eigen::MatrixXcd F = sample.of_line(i, parts);
-      const Eigen::MatrixXd products =
-          F.real().transpose() * F.real() + F.imag().transpose() * F.imag();
-      const Eigen::Index k = sample.lines[i];
-      exchange[static_cast<size_t>(k)] +=
-          to_power * velocity.power_factor[k] * sample.weight[i] * products;
-    }
-  return exchange;
-}
 
 /// Sums over lines into bands of each entry.
 std::vector<Eigen::MatrixXd> band_exchange(const LineSpectrum& velocity, const ThirdOctaves& bands,
@@ -49,36 +29,33 @@ std::vector<Eigen::MatrixXd> band_exchange(const LineSpectrum& velocity, const T
 
 }  // namespace
 
-PanelSound panel_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
-                       const std::vector<SampleFields>& fields, const Eigen::VectorXd& power,
-                       const Options& options) {
+PanelSound panel_sound(const Analysis& analysis, const PanelParts& parts, LineSums sums,
+                       const ThirdOctaves& bands, const Options& options) {
   const LineSpectrum& velocity = analysis.velocity;
-  const Eigen::Index lines = lines_of_table(table, velocity);
+  const Eigen::Index lines = sums.power.size();
   const auto n_p = static_cast<Eigen::Index>(parts.panels.size());
-  std::vector<Eigen::MatrixXd> exchange =
-      part_exchange(table, velocity, lines, parts.belongs.rows(), fields);
   PanelSound out{.panels = parts.panels,
                  .power = Eigen::MatrixXd(lines, n_p),
                  .own = Eigen::MatrixXd(lines, n_p),
-                 .bands = bands_of_table(table, analysis, options),
+                 .bands = bands,
                  .total = Eigen::VectorXd::Zero(n_p),
                  .total_a = Eigen::VectorXd::Zero(n_p)};
   double largest = 0.0;
   for (Eigen::Index k = 0; k < lines; ++k) {
-    Eigen::MatrixXd& E = exchange[static_cast<size_t>(k)];
-    largest = std::max(largest, std::abs(E.sum() - power[k]));
+    Eigen::MatrixXd& E = sums.exchange[static_cast<size_t>(k)];
+    largest = std::max(largest, std::abs(E.sum() - sums.power[k]));
     out.power.row(k) = E.rowwise().sum().transpose() * parts.belongs;
     E = (parts.belongs.transpose() * E * parts.belongs).eval();
     out.own.row(k) = E.diagonal().transpose();
     const double f = velocity.frequency_hz[k];
     if (f < options.spectrum.from_hz) continue;
-    out.all += power[k];
+    out.all += sums.power[k];
     out.total += out.power.row(k).transpose();
     out.total_a += a_weighting_power(f) * out.power.row(k).transpose();
   }
-  const double sum = power.head(lines).sum();
+  const double sum = sums.power.sum();
   out.sum_difference = sum > 0.0 ? largest / sum : 0.0;
-  out.exchange = band_exchange(velocity, out.bands, exchange);
+  out.exchange = band_exchange(velocity, out.bands, sums.exchange);
   const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
   const Eigen::VectorXd weighting = frequency_hz.unaryExpr(&a_weighting_power);
   out.band_db.resize(out.bands.size(), n_p);

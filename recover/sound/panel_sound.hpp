@@ -29,11 +29,10 @@ struct PanelSound {
   double sum_difference = 0.0;
 };
 
-/// @param fields of line_far_fields() for the flows of `parts`
-/// @param power per line of the analysis, P of the entire body [W]
-PanelSound panel_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
-                       const std::vector<SampleFields>& fields, const Eigen::VectorXd& power,
-                       const Options& options);
+/// @param sums line_sums() of `parts`
+/// @param bands bands_of_table()
+PanelSound panel_sound(const Analysis& analysis, const PanelParts& parts, LineSums sums,
+                       const ThirdOctaves& bands, const Options& options);
 
 /// Writes `analysis/<piece>/panels/<panel>/sound_power` and beside it, and
 /// `analysis/<piece>/sound/exchange`.

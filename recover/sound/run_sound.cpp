@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/sound/far_harmonics.hpp"
+#include "core/sound/spherical_harmonics.hpp"
 #include "recover/field/field_values.hpp"
 
 namespace clatter::recover {
@@ -23,22 +23,7 @@ double total(const Eigen::VectorXd& frequency_hz, const Eigen::VectorXd& power, 
   return sum;
 }
 
-/// Power through the distant sphere in each line [W].
-Eigen::VectorXd far_field_power(const SoundTable& table, const LineSpectrum& velocity,
-                                Eigen::Index lines, Eigen::Index parts,
-                                const std::vector<SampleFields>& fields) {
-  Eigen::VectorXd power = Eigen::VectorXd::Zero(lines);
-  const double to_power = sound::power_of_far_field(table.space());
-  for (const SampleFields& sample : fields)
-    for (size_t i = 0; i < sample.lines.size(); ++i)
-      power[sample.lines[i]] += to_power * velocity.power_factor[sample.lines[i]] *
-                                sample.weight[i] *
-                                sample.of_line(i, parts).rowwise().sum().squaredNorm();
-  // Interpolation between squares may leave rounding of the size of its error.
-  return power.cwiseMax(0.0);
-}
-
-/// The same by R, which has no part that is not reciprocal.
+/// Power by R, which has no part that is not reciprocal [W].
 Eigen::VectorXd resistance_power(const SoundTable& table, const LineSpectrum& velocity,
                                  Eigen::Index lines) {
   Eigen::VectorXd power = Eigen::VectorXd::Zero(lines);
@@ -133,22 +118,26 @@ RunSound run_sound(const SoundTable& table, const Analysis& analysis, const Pane
                    const PanelResult& erp, const Options& options) {
   const LineSpectrum& velocity = analysis.velocity;
   const Eigen::Index lines = lines_of_table(table, velocity);
-  const std::vector<SampleFields> fields = line_far_fields(table, velocity, parts.flows);
+  const int degree = far_degree(table);
+  const sound::Directions directions = sound::sphere_directions(degree);
+  LineSums sums =
+      line_sums(table, velocity, parts, sound::spherical_harmonics(directions.unit, degree));
   RunSound out{.to_hz = table.to_hz(), .power = erp.erp};
-  out.power.head(lines) = far_field_power(table, velocity, lines, parts.belongs.rows(), fields);
+  // Interpolation between squares may leave rounding of the size of its error.
+  out.power.head(lines) = sums.power.cwiseMax(0.0);
   out.resistance_difference =
-      relative_difference(resistance_power(table, velocity, lines), out.power.head(lines));
+      relative_difference(resistance_power(table, velocity, lines), sums.power);
   Eigen::MatrixXcd pressure = Eigen::MatrixXcd::Zero(table.distance.size(), lines);
   for (Eigen::Index k = 0; k < lines; ++k)
     if (const double f = velocity.frequency_hz[k]; f > 0.0)
       pressure.col(k) = microphones_at(table, f) * velocity.amplitude.row(k).transpose();
   const Eigen::VectorXd weighted =
       out.power.cwiseProduct(velocity.frequency_hz.unaryExpr(&a_weighting_power));
-  const auto sums = [&](const Eigen::VectorXd& power) {
+  const auto in_bands = [&](const Eigen::VectorXd& power) {
     return band_sums(velocity.frequency_hz, power, analysis.bands, velocity.periodic);
   };
-  out.band_db = levels_db(sums(out.power), options.references.power);
-  out.band_dba = levels_db(sums(weighted), options.references.power);
+  out.band_db = levels_db(in_bands(out.power), options.references.power);
+  out.band_dba = levels_db(in_bands(weighted), options.references.power);
   out.total = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, false);
   out.total_a = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, true);
   const ThirdOctaves bands = bands_of_table(table, analysis, options);
@@ -157,9 +146,8 @@ RunSound run_sound(const SoundTable& table, const Analysis& analysis, const Pane
         table.microphones[m].name, pressure.row(static_cast<Eigen::Index>(m)).transpose(), analysis,
         options, bands));
   out.surface = surface_result(table, analysis, options, bands, out);
-  out.panels = panel_sound(table, analysis, parts, fields, out.power, options);
-  out.directivity = directivity(table, analysis, static_cast<Eigen::Index>(parts.flows.size()),
-                                fields, out.power, options);
+  out.directivity = directivity(table, velocity, sums, directions, bands);
+  out.panels = panel_sound(analysis, parts, std::move(sums), bands, options);
   return out;
 }
 

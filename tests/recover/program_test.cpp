@@ -135,7 +135,9 @@ TEST_F(Program, SoundOfAPartIsUsedByARun) {
   EXPECT_NE(output_.find("\"monopole_error_db\""), std::string::npos) << output_;
   write("field.toml", "sound = \"part.sound.h5\"\n");
   ASSERT_EQ(recover("run.h5 -c field.toml -o out.field.h5"), 0) << output_;
-  for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y"})
+  for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y",
+                            "sound of panel exposed", "100.0 %", "engine_1m: ",
+                            "from that of boundary elements", "panel_power_difference"})
     EXPECT_NE(output_.find(words), std::string::npos) << output_;
   const H5File field = H5File::open(folder_ / "out.field.h5");
   for (const char* attribute : {"unit", "meaning", "amplitude", "phase"})
@@ -199,6 +201,8 @@ TEST_F(Program, SkinThatIsMissingOrOpenIsRefusedForSound) {
   write_run(other, bare, {}, at_rest);
   expect_refused("sound '" + (other / "rom.h5").string() + "' -c part.toml",
                  "rom.h5: acoustic skin: found a reduced model without a skin");
+  expect_refused("'" + (other / "run.h5").string() + "'",
+                 "rom.h5: skin: found none, expected a skin (condense with one)");
   fs::remove_all(other);
 }
 
