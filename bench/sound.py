@@ -4,14 +4,14 @@
 panels, microphones and WAV file.
 
 Uses block.rom.h5 and slap.run.h5 of samples/truck_diesel (after `make demo`), or of --folder. With several --edges each mesh is
-compared with the finest: third octaves and total of the run. Ends with exit code 3 when a limit is exceeded on an idle machine
-of two cores: 180 s of two processors for the part, 2 s for the run's sound and WAV, 2 % of a point source's power.
+compared with the finest: third octaves and total of the run. Ends with exit code 3 when a limit is exceeded both in wall seconds
+and in seconds of all processors (which count on a busy machine): 180 s for the part, 2 s for the run's power, panels, directivity,
+microphones and WAV; and beyond 2 % of a point source's power.
 """
 import argparse
 import os
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import h5py
@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CYCLE = "analysis/cycle/sound"
 PART_SECONDS, RUN_SECONDS, MONOPOLE_DB = 180.0, 2.0, 10 * np.log10(1.02)
 HEAD = ["edges a wavelength", "faces", "frequencies", "part, wall [s]", "part, processor [s]", "peak [MB]", "file [MB]", "point source [dB]",
-        "stored far field [dB]", "interpolation [dB]", "run's sound [s]", "WAV [s]", "power [dB(A)]", "bands from the finest [dB]"]
+        "stored far field [dB]", "interpolation [dB]", "run, wall [s]", "run, processor [s]", "power [dB(A)]", "bands from the finest [dB]"]
 
 
 def processor_seconds(function):
@@ -55,18 +55,25 @@ def part(binary, models, folder, edges, to_hz):
                 **dict(file["certificate"].attrs)}
 
 
+def recover(binary, models, folder, output, sound):
+    """Seconds of all processors for the field file of the run, with or without sound."""
+    config = folder / "slap.field.toml"
+    config.write_text(sound + "[frames]\non = false\n[lines]\nstrongest = 0\n")
+    command = [binary, models / "slap.run.h5", "-c", config, "-o", output, "--quiet", "--threads", "2"]
+    return processor_seconds(lambda: measured.run(command, folder))[1]
+
+
 def run(binary, models, folder, made):
     """Sound of the run, and its WAV file, with that sound file."""
-    config, output = folder / "slap.field.toml", folder / f"slap_{made['edges']:g}.field.h5"
-    config.write_text(f'sound = "{made["path"]}"\n[frames]\non = false\n[lines]\nstrongest = 0\n')
-    measured.run([binary, models / "slap.run.h5", "-c", config, "-o", output, "--quiet", "--threads", "2"], folder)
-    begin = time.monotonic()
-    measured.run([binary, "listen", output, folder / "slap.wav", "--quiet"], folder)
-    listen = time.monotonic() - begin
+    output = folder / f"slap_{made['edges']:g}.field.h5"
+    without = recover(binary, models, folder, folder / "silent.field.h5", "")
+    used = recover(binary, models, folder, output, f'sound = "{made["path"]}"\n') - without
+    (_, listen, _), listen_used = processor_seconds(
+        lambda: measured.run([binary, "listen", output, folder / "slap.wav", "--quiet"], folder))
     with h5py.File(output) as file:
         bands = file[f"{CYCLE}/third_octave/power_db"][()]
         below = file["analysis/cycle/third_octave/upper_hz"][()] <= file[CYCLE].attrs["boundary_elements_to_hz"] * (1 + 1e-9)
-        return {"sound": step_seconds(output, "radiated sound"), "listen": listen, "bands": bands[below],
+        return {"wall": step_seconds(output, "radiated sound") + listen, "processor": used + listen_used, "bands": bands[below],
                 "dba": file[CYCLE].attrs["power_dba"], "panels": panels(file)}
 
 
@@ -80,18 +87,17 @@ def row(made, found, finest):
     deviation = np.abs(found["bands"] - finest["bands"]).max()
     return [f"{made['edges']:g}", f"{made['faces']:.0f}", str(made["frequencies"]), f"{made['wall']:.0f}", f"{made['processor']:.0f}",
             f"{made['peak']:.0f}", f"{made['size']:.0f}", f"{made['monopole_error_db']:.4f}", f"{made['far_field_error_db']:.3f}",
-            f"{made['interpolation_error_db']:.3f}", f"{found['sound']:.2f}", f"{found['listen']:.2f}", f"{found['dba']:.2f}",
+            f"{made['interpolation_error_db']:.3f}", f"{found['wall']:.2f}", f"{found['processor']:.2f}", f"{found['dba']:.2f}",
             f"{deviation:.2f}"]
 
 
 def exceeded(made, found):
     """What is beyond its limit."""
     wrong = []
-    # Two processors; on a busy machine their seconds are the better measure.
     if min(made["wall"], made["processor"]) > PART_SECONDS:
         wrong.append(f"the part took {made['wall']:.0f} s, expected {PART_SECONDS:g}")
-    if found["sound"] + found["listen"] > RUN_SECONDS:
-        wrong.append(f"the run's sound took {found['sound'] + found['listen']:.2f} s, expected {RUN_SECONDS:g}")
+    if min(found["wall"], found["processor"]) > RUN_SECONDS:
+        wrong.append(f"the run's sound took {found['wall']:.2f} s, expected {RUN_SECONDS:g}")
     if made["monopole_error_db"] > MONOPOLE_DB:
         wrong.append(f"a point source has {made['monopole_error_db']:.3f} dB, expected {MONOPOLE_DB:.3f}")
     return wrong
@@ -115,7 +121,7 @@ def main():
     lines = page.markdown(HEAD, [row(*pair, found[-1]) for pair in zip(made, found)])
     print("\n".join(lines))
     for name, level, share in found[-1]["panels"]:
-        print(f"{name:<20} {level:8.1f} dB {100 * share:7.1f} %")
+        print(f"{name:<20} {f'{level:.1f} dB' if share > 0 else 'takes up power':>15} {100 * share:7.1f} %")
     if arguments.write:
         page.write("sound", lines)
     wrong = [text for pair in zip(made, found) for text in exceeded(*pair)]

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/sound/radiation.hpp"
+#include "core/sound/spherical_harmonics.hpp"
 #include "recover/sound/measurement_surface.hpp"
 #include "sound_run.hpp"
 #include "tests/refusal.hpp"
@@ -133,6 +133,88 @@ TEST_F(SoundRun, LevelOnTheMeasurementSurfaceIsThatOfItsMicrophones) {
   EXPECT_NEAR(file.read_vector(at + "/third_octave/power_db").maxCoeff(), sound.surface.power_db,
               1e-6);
   EXPECT_EQ(file.get_string(at, "set"), "engine_1m");
+}
+
+/// A table with one node of flow at 500 Hz, whose far field is 3 Pa m per flow in all directions
+/// and 1 Pa m times sqrt(3) z.
+SoundTable one_node_table(const std::optional<sound::Plane>& ground) {
+  SoundTable table{.fluid = {1.2, 340.0}, .ground = ground, .distance = Eigen::VectorXd(0)};
+  SoundSample sample{500.0, Eigen::MatrixXd::Zero(1, 1), Eigen::MatrixXcd(0, 1)};
+  sample.far = Eigen::MatrixXcd::Zero(4, 1);
+  sample.far(0, 0) = 3.0 * std::sqrt(4.0 * kPi);
+  if (!ground) sample.far(2, 0) = std::sqrt(4.0 * kPi);  // Y_10 = sqrt(3 / (4 pi)) z
+  table.samples = {sample};
+  return table;
+}
+
+/// One line at 500 Hz, of amplitude 1 in one coordinate, in steps of 50 Hz.
+Analysis one_line() {
+  Analysis analysis;
+  analysis.velocity.frequency_hz = Eigen::VectorXd::LinSpaced(13, 0.0, 600.0);
+  analysis.velocity.amplitude = Eigen::MatrixXcd::Zero(13, 1);
+  analysis.velocity.amplitude(10, 0) = sound::Complex(0.0, 1.0);
+  analysis.velocity.power_factor = Eigen::VectorXd::Constant(13, 0.5);
+  analysis.velocity.periodic = true;
+  return analysis;
+}
+
+TEST(PanelSound, TwoPartsAgainstEachOtherByHand) {
+  // Flows 1 and -1/2: F_1 = 3, F_2 = -1.5 Pa m and so on; int |F_1|^2 = 4 pi (9 + 1).
+  const SoundTable table = one_node_table(std::nullopt);
+  const Analysis analysis = one_line();
+  PanelParts parts{{"a", "b", "both"}, Eigen::MatrixXd(2, 3), {}};
+  parts.belongs << 1, 0, 1, 0, 1, 1;
+  parts.flows = {RowMatrix::Constant(1, 1, 1.0), RowMatrix::Constant(1, 1, -0.5)};
+  const auto directions = sound::sphere_directions(1);
+  const LineSums sums =
+      line_sums(table, analysis.velocity, parts, sound::spherical_harmonics(directions.unit, 1));
+  const double unit = 0.5 * 4.0 * kPi * 10.0 / (1.2 * 340.0);
+  ASSERT_EQ(sums.power.size(), 11);
+  EXPECT_NEAR(sums.power[10], 0.25 * unit, 1e-14);
+  EXPECT_EQ(sums.power[9], 0.0);
+  const ThirdOctaves bands = third_octaves(400.0, 600.0, 50.0);
+  const PanelSound panels = panel_sound(analysis, parts, sums, bands, Options{});
+  EXPECT_NEAR(panels.own(10, 0), unit, 1e-14);
+  EXPECT_NEAR(panels.own(10, 1), 0.25 * unit, 1e-14);
+  EXPECT_NEAR(panels.power(10, 0), 0.5 * unit, 1e-14);    // 1 - 1/2
+  EXPECT_NEAR(panels.power(10, 1), -0.25 * unit, 1e-14);  // 1/4 - 1/2: takes up power
+  EXPECT_NEAR(panels.power(10, 2), 0.25 * unit, 1e-14);
+  EXPECT_NEAR(panels.exchange.at(0)(0, 1), -0.5 * unit, 1e-14);
+  EXPECT_NEAR(panels.exchange.at(0)(2, 2), 0.25 * unit, 1e-14);
+  EXPECT_EQ(panels.band_db(0, 1), kSilence);
+  EXPECT_NEAR(panels.total[1], -0.25 * unit, 1e-14);
+  EXPECT_LT(panels.sum_difference, 1e-14);
+}
+
+TEST(Directivity, SourceOfADipoleAndAMonopoleByHand) {
+  const SoundTable table = one_node_table(std::nullopt);
+  const Analysis analysis = one_line();
+  const PanelParts parts{{}, Eigen::MatrixXd(1, 0), {RowMatrix::Constant(1, 1, 1.0)}};
+  const auto directions = sound::sphere_directions(1);
+  const LineSums sums =
+      line_sums(table, analysis.velocity, parts, sound::spherical_harmonics(directions.unit, 1));
+  const Directivity found =
+      directivity(table, analysis.velocity, sums, directions, third_octaves(400.0, 600.0, 50.0));
+  const double up = 3.0 + std::sqrt(3.0) * directions.unit.col(2).maxCoeff();
+  EXPECT_NEAR(found.index_db[0], 10.0 * std::log10(up * up / 10.0), 1e-12);
+  EXPECT_NEAR(found.mean_square.row(0).maxCoeff(), 0.5 * up * up, 1e-12);
+  EXPECT_GT(directions.unit(found.loudest.at(0), 2), 0.0);
+  EXPECT_LT(found.power_difference, 1e-14);
+}
+
+TEST(Directivity, NothingGoesBelowTheGroundAndTwiceAsMuchAbove) {
+  const SoundTable table = one_node_table(sound::Plane{Eigen::Vector3d::UnitZ(), 0.0});
+  const Analysis analysis = one_line();
+  const PanelParts parts{{}, Eigen::MatrixXd(1, 0), {RowMatrix::Constant(1, 1, 1.0)}};
+  const auto directions = sound::sphere_directions(1);
+  const LineSums sums =
+      line_sums(table, analysis.velocity, parts, sound::spherical_harmonics(directions.unit, 1));
+  EXPECT_NEAR(sums.power[10], 0.5 * 2.0 * kPi * 9.0 / (1.2 * 340.0), 1e-14);
+  const Directivity found =
+      directivity(table, analysis.velocity, sums, directions, third_octaves(400.0, 600.0, 50.0));
+  EXPECT_NEAR(found.index_db[0], 10.0 * std::log10(2.0), 1e-12);
+  for (Eigen::Index d = 0; d < directions.unit.rows(); ++d)
+    EXPECT_NEAR(found.mean_square(0, d), directions.unit(d, 2) > 0.0 ? 4.5 : 0.0, 1e-12);
 }
 
 /// A box of this size as a surface of twelve triangles, from the origin.
