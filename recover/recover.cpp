@@ -96,6 +96,13 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
   return certificate;
 }
 
+void certify_sound(const std::vector<RunSound>& sounds, FieldCertificate& certificate) {
+  if (sounds.empty()) return;
+  certificate.panel_power_difference = sounds.front().panels.sum_difference;
+  certificate.directivity_power_difference = sounds.front().directivity.power_difference;
+  certificate.resistance_power_difference = sounds.front().resistance_difference;
+}
+
 /// The panel whose ERP stands for the sound without a table, and above it: the exposed faces, else
 /// all.
 const PanelResult& radiating_panel(const Analysis& analysis) {
@@ -114,13 +121,16 @@ void require_same_air(const SoundTable& table, const Options& options) {
 }
 
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
-                              const Options& options, const std::vector<Analysis>& analyses) {
+                              const Options& options, const std::vector<Panel>& panels,
+                              const std::vector<Analysis>& analyses) {
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
   require_same_air(table, options);
+  const PanelParts parts =
+      with_context(options.sound.string(), [&] { return panel_parts(table, model.skin, panels); });
   std::vector<RunSound> sounds;
   for (const Analysis& analysis : analyses)
-    sounds.push_back(run_sound(table, analysis, radiating_panel(analysis), options));
+    sounds.push_back(run_sound(table, analysis, parts, radiating_panel(analysis), options));
   return sounds;
 }
 
@@ -159,8 +169,9 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   const Analysis& first = summary.analyses.front();
   summary.certificate = certify(body, first, geometry, forms.front());
   clock.lap("spectra and radiated power");
-  summary.sounds = radiate(body, model, options, summary.analyses);
+  summary.sounds = radiate(body, model, options, summary.panels, summary.analyses);
   if (!options.sound.empty()) clock.lap("radiated sound");
+  certify_sound(summary.sounds, summary.certificate);
   const Eigen::VectorXd& power =
       summary.sounds.empty() ? radiating_panel(first).erp : summary.sounds.front().power;
   const std::vector<ChosenLine> lines = with_context(options.origin, [&] {

@@ -5,7 +5,6 @@
 #include <lapack.h>
 
 #include <limits>
-#include <vector>
 
 namespace clatter::sound {
 namespace {
@@ -14,25 +13,34 @@ lapack_complex_double* raw(Eigen::MatrixXcd& matrix) {
   return reinterpret_cast<lapack_complex_double*>(matrix.data());
 }
 
+const lapack_complex_double* raw(const Eigen::MatrixXcd& matrix) {
+  return reinterpret_cast<const lapack_complex_double*>(matrix.data());
+}
+
 }  // namespace
 
-ComplexSolution solve_dense(Eigen::MatrixXcd A_transposed, Eigen::MatrixXcd Y) {
-  ComplexSolution out{std::move(Y), std::numeric_limits<double>::infinity()};
-  const int n = static_cast<int>(A_transposed.rows()), m = static_cast<int>(out.X.cols());
+ComplexLu::ComplexLu(Eigen::MatrixXcd A_transposed)
+    : factors_(std::move(A_transposed)),
+      pivots_(static_cast<size_t>(factors_.rows())),
+      condition_(std::numeric_limits<double>::infinity()) {
+  const int n = static_cast<int>(factors_.rows());
   // The largest row sum of the matrix as stored is the largest column sum of A.
-  const double size = A_transposed.cwiseAbs().rowwise().sum().maxCoeff();
-  std::vector<int> pivots(static_cast<size_t>(n));
+  const double size = factors_.cwiseAbs().rowwise().sum().maxCoeff();
   int info = 0;
-  LAPACK_zgetrf(&n, &n, raw(A_transposed), &n, pivots.data(), &info);
-  if (info != 0) return out;
+  LAPACK_zgetrf(&n, &n, raw(factors_), &n, pivots_.data(), &info);
+  if (info != 0) return;
   double reciprocal = 0.0;
   Eigen::MatrixXcd work(2 * n, 1);
   std::vector<double> real_work(2 * static_cast<size_t>(n));
-  LAPACK_zgecon("I", &n, raw(A_transposed), &n, &size, &reciprocal, raw(work), real_work.data(),
-                &info);
-  if (reciprocal > 0.0) out.condition = 1.0 / reciprocal;
-  LAPACK_zgetrs("T", &n, &m, raw(A_transposed), &n, pivots.data(), raw(out.X), &n, &info);
-  return out;
+  LAPACK_zgecon("I", &n, raw(factors_), &n, &size, &reciprocal, raw(work), real_work.data(), &info);
+  if (reciprocal > 0.0) condition_ = 1.0 / reciprocal;
+}
+
+Eigen::MatrixXcd ComplexLu::substituted(char which, Eigen::MatrixXcd Y) const {
+  const int n = static_cast<int>(factors_.rows()), m = static_cast<int>(Y.cols());
+  int info = 0;
+  LAPACK_zgetrs(&which, &n, &m, raw(factors_), &n, pivots_.data(), raw(Y), &n, &info);
+  return Y;
 }
 
 Eigen::MatrixXcd rows_product(const Eigen::MatrixXcd& B_transposed, const Eigen::MatrixXcd& V) {

@@ -27,7 +27,8 @@ Eigen::MatrixXd gauss_points(int n) {
   return out;
 }
 
-/// The parts of F that pressures at nodes and velocities at corners contribute, in one direction.
+/// The parts of F that pressures at nodes and velocities at corners (over i omega rho) contribute,
+/// in one direction.
 struct FarRow {
   Eigen::VectorXcd pressure;  // n_v
   Eigen::VectorXcd velocity;  // 3 n_f
@@ -68,21 +69,25 @@ Directions sphere_directions(int degree) {
   return out;
 }
 
-Directions power_directions(const Surface& surface, const Space& space, double frequency_hz) {
+int power_degree(const Surface& surface, const Space& space, double frequency_hz) {
   // With an image the sources fill a sphere about the foot of the body's middle.
   const double height = space.ground ? space.ground->height(surface.middle) : 0.0;
   const double size = space.fluid.wavenumber(frequency_hz) * (surface.radius + height);
-  return sphere_directions(static_cast<int>(std::ceil(size + 4.0 * std::cbrt(size) + 2.0)));
+  return static_cast<int>(std::ceil(size + 4.0 * std::cbrt(size) + 2.0));
 }
 
-Eigen::MatrixXcd far_field(const Surface& surface, const Space& space, const SurfaceState& state,
-                           const RowMatrix& unit) {
-  const double k = space.fluid.wavenumber(state.frequency_hz);
+Directions power_directions(const Surface& surface, const Space& space, double frequency_hz) {
+  return sphere_directions(power_degree(surface, space, frequency_hz));
+}
+
+FarRows far_rows(const Surface& surface, const Space& space, double frequency_hz,
+                 const RowMatrix& unit) {
+  const double k = space.fluid.wavenumber(frequency_hz);
   const std::vector<PreparedFacet> facets = prepared_facets(surface);
   const std::vector<PreparedFacet> images = image_facets(surface, space);
-  // Column d: the row of direction d, first for pressures, then for velocities.
   const Eigen::Index n_v = surface.node_count(), n_f = surface.face_count();
-  Eigen::MatrixXcd of_pressure(n_v, unit.rows()), of_velocity(3 * n_f, unit.rows());
+  const Complex slope(0.0, k * space.fluid.impedance());
+  FarRows out{Eigen::MatrixXcd(n_v, unit.rows()), Eigen::MatrixXcd(3 * n_f, unit.rows())};
   parallel_pieces(unit.rows(), [&](int64_t begin, int64_t end) {
     FarRow row;
     for (int64_t d = begin; d < end; ++d) {
@@ -93,13 +98,18 @@ Eigen::MatrixXcd far_field(const Surface& surface, const Space& space, const Sur
         add_facet(k, e, facets[y], static_cast<Eigen::Index>(y), true, row);
       for (size_t y = 0; y < images.size(); ++y)
         add_facet(k, e, images[y], static_cast<Eigen::Index>(y), false, row);
-      of_pressure.col(d) = row.pressure;
-      of_velocity.col(d) = row.velocity;
+      out.of_pressure.col(d) = row.pressure;
+      out.of_velocity.col(d) = slope * row.velocity;
     }
   });
-  const Complex slope(0.0, k * space.fluid.impedance());
-  return rows_product(of_pressure, state.pressure) +
-         slope * rows_product(of_velocity, state.velocity);
+  return out;
+}
+
+Eigen::MatrixXcd far_field(const Surface& surface, const Space& space, const SurfaceState& state,
+                           const RowMatrix& unit) {
+  const FarRows rows = far_rows(surface, space, state.frequency_hz, unit);
+  return rows_product(rows.of_pressure, state.pressure) +
+         rows_product(rows.of_velocity, state.velocity);
 }
 
 Eigen::VectorXd far_power(const Surface& surface, const Space& space, const SurfaceState& state) {

@@ -21,6 +21,18 @@ Directions sphere_directions(int degree);
 /// harmonics up to about 2 k radius (Wiscombe 1980 has the margin).
 Directions power_directions(const Surface& surface, const Space& space, double frequency_hz);
 
+/// The degree of those directions.
+int power_degree(const Surface& surface, const Space& space, double frequency_hz);
+
+/// The functionals of far_field(): F = of_pressure^T p + of_velocity^T v, column d of each belongs
+/// to direction d.
+struct FarRows {
+  Eigen::MatrixXcd of_pressure;  // n_v x n_d [m]
+  Eigen::MatrixXcd of_velocity;  // 3 n_f x n_d [Pa s]
+};
+FarRows far_rows(const Surface& surface, const Space& space, double frequency_hz,
+                 const RowMatrix& unit);
+
 /// F of p = F exp(-i k r) / r far from the origin, in each direction [Pa m]:
 ///
 ///   F(e) = 1/(4 pi) int ( i k e . n p + i omega rho v_n ) exp(i k e . y) dS

@@ -1,32 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sound/radiation.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "core/base/error.hpp"
-#include "core/sound/boundary_matrices.hpp"
-#include "core/sound/complex_lu.hpp"
+#include "core/sound/boundary_equations.hpp"
 
 namespace clatter::sound {
 namespace {
-
-// Burton and Miller's matrices have conditions of some hundreds; from here a third of the digits
-// is lost to the shape of the mesh.
-constexpr double kHighestCondition = 1e10;
-
-void check_motion(const Surface& surface, double frequency_hz, const Eigen::MatrixXcd& velocity) {
-  if (!(frequency_hz > 0.0) || !std::isfinite(frequency_hz))
-    throw InputError(
-        fmt::format("radiation: found a frequency of {:g} Hz, expected more than 0", frequency_hz));
-  if (velocity.rows() != 3 * surface.face_count())
-    throw InputError(
-        fmt::format("radiation: found {} normal velocities, expected one a corner of each face, {}",
-                    velocity.rows(), 3 * surface.face_count()));
-  if (!velocity.allFinite())
-    throw InputError("radiation: found a normal velocity that is not finite");
-}
 
 /// int N_a v_n dS at each corner: mass times velocity, 3 n_f x m.
 Eigen::MatrixXcd face_integrals(const Surface& surface, const Eigen::MatrixXcd& velocity) {
@@ -58,21 +36,7 @@ Eigen::MatrixXcd at_corners(const Eigen::MatrixXcd& face_velocity) {
 
 SurfaceState radiate(const Surface& surface, const Space& space, double frequency_hz,
                      const Eigen::MatrixXcd& velocity) {
-  check_motion(surface, frequency_hz, velocity);
-  const double k = space.fluid.wavenumber(frequency_hz);
-  BoundaryMatrices matrices =
-      boundary_matrices(surface, space, k, burton_miller_coupling(surface, k));
-  // dp/dn = -i omega rho v_n = -i k rho c v_n.
-  const Complex slope(0.0, -k * space.fluid.impedance());
-  Eigen::MatrixXcd right = slope * rows_product(matrices.B_transposed, velocity);
-  matrices.B_transposed.resize(0, 0);
-  ComplexSolution solution = solve_dense(std::move(matrices.A_transposed), std::move(right));
-  if (!(solution.condition < kHighestCondition) || !solution.X.allFinite())
-    throw NumericsError(fmt::format(
-        "radiation at {:g} Hz: found a matrix with condition {:.3g}, expected less than {:g}: "
-        "improve the shape of the surface's faces",
-        frequency_hz, solution.condition, kHighestCondition));
-  return {frequency_hz, velocity, std::move(solution.X), solution.condition};
+  return BoundaryEquations(surface, space, frequency_hz).radiate(velocity);
 }
 
 Eigen::MatrixXcd face_pressure(const Surface& surface, const SurfaceState& state) {

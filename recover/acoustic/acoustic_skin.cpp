@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "recover/acoustic/cgal_wrap.hpp"
+#include "recover/acoustic/skin_border.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -34,6 +35,14 @@ sound::Surface acoustic_skin(const rom::Skin& skin, const AcousticMesh& mesh, do
         fmt::format("acoustic skin: found openings of {:g} m to be closed, expected "
                     "less than the size of the body, {:.3g} m",
                     mesh.opening, size));
+  // The wrap would enter through a wider opening and cover both sides of the walls.
+  const SkinBorder border = skin_border(skin.nodes, skin.triangles);
+  if (border.widest > mesh.opening)
+    throw InputError(
+        fmt::format("acoustic skin: found a skin that is open along {} edges, {:.3g} m wide, "
+                    "expected a closed one or openings up to {:g} m (skin.opening), which are "
+                    "closed: recover all surfaces of the part, or raise the opening",
+                    border.edges, border.widest, mesh.opening));
   const FlatTriangles body = flat_quarters(skin);
   // Remeshing leaves edges that are some per cent shorter in the mean.
   double edge = 1.06 * sound_speed / (mesh.edges_per_wavelength * to_hz);

@@ -14,7 +14,8 @@ struct AcousticMesh {
 
 /// Wraps the skin of a body. The edges are shortened until the mesh resolves `to_hz`.
 /// @param skin of quadratic triangles, each taken as four flat ones
-/// @throws InputError for a body without a skin, or one smaller than the opening
+/// @throws InputError for a body without a skin, one smaller than the opening, or one with wider
+/// holes
 /// @throws NumericsError when remeshing does not reach the edge length
 sound::Surface acoustic_skin(const rom::Skin& skin, const AcousticMesh& mesh, double sound_speed,
                              double to_hz);

@@ -88,7 +88,8 @@ void find_lids(const std::vector<Sample>& samples, const sound::Surface& acousti
 
 /// The part of each lid without exposed faces moves with the sample nearest to its centre.
 void add_moving_lids(const rom::Skin& skin, const std::vector<Sample>& samples,
-                     const sound::Surface& acoustic, const VelocityMap& map, Triplets& entries) {
+                     const sound::Surface& acoustic, const VelocityMap& map, Triplets& entries,
+                     FlowMapBuilder& flow) {
   for (int32_t lid : map.lids) {
     const Eigen::Vector3d centre = acoustic.face_centre.row(lid);
     const auto nearest = std::min_element(
@@ -96,9 +97,12 @@ void add_moving_lids(const rom::Skin& skin, const std::vector<Sample>& samples,
           return (one.at - centre).squaredNorm() < (other.at - centre).squaredNorm();
         });
     const double bare = 1.0 - std::clamp(map.covered[lid], 0.0, 1.0);
-    for (int b = 0; b < 3; ++b)
-      add_to_row(skin, 3 * lid + b, *nearest, bare * acoustic.face_normal.row(lid).transpose(),
-                 entries);
+    const Eigen::Vector3d normal = bare * acoustic.face_normal.row(lid).transpose();
+    for (int b = 0; b < 3; ++b) {
+      add_to_row(skin, 3 * lid + b, *nearest, normal, entries);
+      flow.add(nearest->face, acoustic.triangles(lid, b), nearest->shape,
+               acoustic.face_area[lid] / 3.0 * normal);
+    }
   }
 }
 
@@ -117,6 +121,7 @@ VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed
   VelocityMap out;
   find_lids(samples, acoustic, out);
   Triplets entries;
+  FlowMapBuilder flow;
   Eigen::VectorXd flux = Eigen::VectorXd::Zero(3 * skin.nodes.rows());
   for (const Sample& sample : samples) {
     const int32_t c = sample.landing.face;
@@ -126,6 +131,8 @@ VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed
       const double weight = is_lid ? 1.0 : 12.0 * sample.landing.shape[b] - 3.0;
       add_to_row(skin, 3 * c + b, sample, weight / acoustic.face_area[c] * sample.area_vector,
                  entries);
+      flow.add(sample.face, acoustic.triangles(c, b), sample.shape,
+               (is_lid ? 1.0 / 3.0 : sample.landing.shape[b]) * sample.area_vector);
     }
     for (int a = 0; a < 6; ++a)
       flux.segment(3 * skin.triangles(sample.face, a), 3) += sample.shape[a] * sample.area_vector;
@@ -133,9 +140,10 @@ VelocityMap velocity_map(const rom::Skin& skin, const std::vector<bool>& exposed
   out.map = assembled(skin, acoustic, entries);
   out.errors = map_errors(skin, acoustic, out, flux);
   if (lids == LidMotion::kNearest) {
-    add_moving_lids(skin, samples, acoustic, out, entries);
+    add_moving_lids(skin, samples, acoustic, out, entries, flow);
     out.map = assembled(skin, acoustic, entries);
   }
+  out.flow = flow.finish();
   return out;
 }
 

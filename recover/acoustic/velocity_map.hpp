@@ -5,6 +5,7 @@
 
 #include "core/rom/reduced_model.hpp"
 #include "core/sound/surface.hpp"
+#include "recover/acoustic/flow_map.hpp"
 #include "recover/skin/skin.hpp"
 
 namespace clatter::recover {
@@ -35,6 +36,7 @@ struct VelocityMap {
   std::vector<int32_t> lids;  // faces that are covered to less than a half, ascending
   double lid_area = 0.0;      // [m2]
   MapErrors errors;           // before lids move
+  FlowMap flow;               // int N_n v_n dS of the same motion at nodes, by faces of the body
 };
 
 /// Builds the map; exposed faces are sampled at points a fifth of an acoustic edge apart.

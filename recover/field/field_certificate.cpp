@@ -16,7 +16,17 @@ const std::vector<CertificateField<FieldCertificate>>& FieldCertificate::fields(
        "of the last two cycles, relative; absent without two"},
       {"cycle_end_velocity_jump", &C::cycle_end_velocity_jump, "",
        "RMS of v_n at the end less v_n at the beginning of the cycle, over the RMS of v_n in the "
-       "cycle"}};
+       "cycle"},
+      {"panel_power_difference", &C::panel_power_difference, "",
+       "with a sound file: sum of the sound powers of all parts of the skin less that of the "
+       "whole, "
+       "of the line where it is largest, over the power of all lines"},
+      {"directivity_power_difference", &C::directivity_power_difference, "",
+       "with a sound file: largest relative difference of the power through a distant sphere and "
+       "that of the part, of a third octave"},
+      {"resistance_power_difference", &C::resistance_power_difference, "",
+       "with a sound file: v^H R v less the power of the far field, of the line where it is "
+       "largest, over the power of all lines: what the mesh breaks of reciprocity"}};
   return list;
 }
 

@@ -15,6 +15,9 @@ struct FieldCertificate {
   // Of a periodic piece.
   std::optional<double> mean_square_share_above_spectra{};
   std::optional<double> cycle_to_cycle_velocity_difference{}, cycle_end_velocity_jump{};
+  // With a sound file.
+  std::optional<double> panel_power_difference{}, directivity_power_difference{},
+      resistance_power_difference{};
 
   static const std::vector<CertificateField<FieldCertificate>>& fields();
   bool operator==(const FieldCertificate&) const = default;

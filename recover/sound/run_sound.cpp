@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/sound/spherical_harmonics.hpp"
 #include "recover/field/field_values.hpp"
 
 namespace clatter::recover {
@@ -22,22 +23,33 @@ double total(const Eigen::VectorXd& frequency_hz, const Eigen::VectorXd& power, 
   return sum;
 }
 
-/// Number of lines up to the end of the table.
-Eigen::Index lines_of_table(const SoundTable& table, const LineSpectrum& velocity) {
-  Eigen::Index count = 0;
-  while (count < velocity.frequency_hz.size() && covers(table, velocity.frequency_hz[count]))
-    ++count;
-  return count;
+/// Power by R, which has no part that is not reciprocal [W].
+Eigen::VectorXd resistance_power(const SoundTable& table, const LineSpectrum& velocity,
+                                 Eigen::Index lines) {
+  Eigen::VectorXd power = Eigen::VectorXd::Zero(lines);
+  for (Eigen::Index k = 0; k < lines; ++k) {
+    if (!(velocity.frequency_hz[k] > 0.0)) continue;  // a motion at 0 Hz radiates nothing
+    const Eigen::VectorXcd v = velocity.amplitude.row(k).transpose();
+    const Eigen::MatrixXd R = resistance_at(table, velocity.frequency_hz[k]);
+    power[k] = velocity.power_factor[k] * (v.real().dot(R * v.real()) + v.imag().dot(R * v.imag()));
+  }
+  return power;
+}
+
+/// Of the line where it is largest, over the sum of all lines.
+double relative_difference(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  const double sum = other.sum();
+  return sum > 0.0 ? (one - other).cwiseAbs().maxCoeff() / sum : 0.0;
 }
 
 MicrophoneResult microphone_result(const std::string& name, const Eigen::VectorXcd& pressure,
-                                   const Analysis& analysis, const Options& options, double to_hz) {
+                                   const Analysis& analysis, const Options& options,
+                                   const ThirdOctaves& bands) {
   const LineSpectrum& velocity = analysis.velocity;
   const Eigen::Index lines = pressure.size();
   const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
   const Eigen::VectorXd squares =
       velocity.power_factor.head(lines).cwiseProduct(pressure.cwiseAbs2());
-  const ThirdOctaves bands = third_octaves(options.spectrum.from_hz, to_hz, velocity.spacing_hz());
   const double reference = kPressureReference * kPressureReference;
   const double from_hz = options.spectrum.from_hz;
   return {name, pressure,
@@ -46,38 +58,96 @@ MicrophoneResult microphone_result(const std::string& name, const Eigen::VectorX
           level_db(total(frequency_hz, squares, from_hz, true), reference)};
 }
 
-}  // namespace
-
-RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelResult& erp,
-                   const Options& options) {
+SurfaceResult surface_result(const SoundTable& table, const Analysis& analysis,
+                             const Options& options, const ThirdOctaves& bands,
+                             const RunSound& sound) {
+  const MeasurementSurface& surface = table.surface;
+  const size_t count = surface.microphones.size();
+  if (count == 0) return {};
   const LineSpectrum& velocity = analysis.velocity;
   const Eigen::Index lines = lines_of_table(table, velocity);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(lines);
+  for (size_t m = 0; m < count; ++m) squares += sound.microphones[m].pressure.cwiseAbs2();
+  squares = squares.cwiseProduct(velocity.power_factor.head(lines)) / static_cast<double>(count);
+  const Eigen::VectorXd frequency_hz = velocity.frequency_hz.head(lines);
+  const double reference = kPressureReference * kPressureReference;
+  SurfaceResult out{.name = name_of(surface.set), .area = surface.area};
+  const double to_power = 10.0 * std::log10(surface.area);  // over 1 m2
+  const auto raised = [to_power](double db) { return db > kSilence ? db + to_power : kSilence; };
+  out.band_pressure_db =
+      levels_db(band_sums(frequency_hz, squares, bands, velocity.periodic), reference);
+  out.band_power_db = out.band_pressure_db.unaryExpr(raised);
+  const double from_hz = options.spectrum.from_hz;
+  out.pressure_db = level_db(total(frequency_hz, squares, from_hz, false), reference);
+  out.power_db = raised(out.pressure_db);
+  const double by_R = total(frequency_hz, sound.power.head(lines), from_hz, false);
+  if (by_R > 0.0) out.above_power_db = out.power_db - level_db(by_R, options.references.power);
+  return out;
+}
+
+void write_surface(H5File& file, const std::string& at, const SurfaceResult& surface,
+                   const LevelReferences& references) {
+  if (surface.name.empty()) return;
+  put_level(file, at + "/third_octave/pressure_db", surface.band_pressure_db, kPressureReference,
+            "Pa",
+            "mean square sound pressure of the microphones of the set, the first third "
+            "octaves of the analysis");
+  put_level(file, at + "/third_octave/power_db", surface.band_power_db, references.power, "W",
+            "sound power level from these pressures, 10 lg(S / 1 m2) added");
+  file.set(at, "set", surface.name);
+  file.set(at, "area_m2", surface.area);
+  file.set(at, "pressure_db", surface.pressure_db);
+  file.set(at, "power_db", surface.power_db);
+  file.set(at, "above_boundary_elements_db", surface.above_power_db);
+}
+
+/// Level and share; a panel that takes up power has a share alone.
+std::string panel_line(const PanelSound& sound, size_t panel, const LevelReferences& references) {
+  const auto p = static_cast<Eigen::Index>(panel);
+  const double share = sound.all > 0.0 ? 100.0 * sound.total[p] / sound.all : 0.0;
+  const std::string level =
+      sound.total[p] > 0.0
+          ? fmt::format("{:.1f} dB re 1 pW", level_db(sound.total[p], references.power))
+          : "takes up power";
+  return fmt::format("sound of panel {:<18} {:>17}, {:.1f} %\n", sound.panels[panel], level, share);
+}
+
+}  // namespace
+
+RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
+                   const PanelResult& erp, const Options& options) {
+  const LineSpectrum& velocity = analysis.velocity;
+  const Eigen::Index lines = lines_of_table(table, velocity);
+  const int degree = far_degree(table);
+  const sound::Directions directions = sound::sphere_directions(degree);
+  LineSums sums =
+      line_sums(table, velocity, parts, sound::spherical_harmonics(directions.unit, degree));
   RunSound out{.to_hz = table.to_hz(), .power = erp.erp};
+  // Interpolation between squares may leave rounding of the size of its error.
+  out.power.head(lines) = sums.power.cwiseMax(0.0);
+  out.resistance_difference =
+      relative_difference(resistance_power(table, velocity, lines), sums.power);
   Eigen::MatrixXcd pressure = Eigen::MatrixXcd::Zero(table.distance.size(), lines);
-  for (Eigen::Index k = 0; k < lines; ++k) {
-    const double f = velocity.frequency_hz[k];
-    out.power[k] = 0.0;
-    if (!(f > 0.0)) continue;  // a motion at 0 Hz radiates nothing
-    const Eigen::VectorXcd v = velocity.amplitude.row(k).transpose();
-    const Eigen::MatrixXd R = resistance_at(table, f);
-    const double form = v.real().dot(R * v.real()) + v.imag().dot(R * v.imag());
-    // Interpolation between semidefinite matrices may leave rounding of the size of its error.
-    out.power[k] = velocity.power_factor[k] * std::max(form, 0.0);
-    pressure.col(k) = microphones_at(table, f) * v;
-  }
+  for (Eigen::Index k = 0; k < lines; ++k)
+    if (const double f = velocity.frequency_hz[k]; f > 0.0)
+      pressure.col(k) = microphones_at(table, f) * velocity.amplitude.row(k).transpose();
   const Eigen::VectorXd weighted =
       out.power.cwiseProduct(velocity.frequency_hz.unaryExpr(&a_weighting_power));
-  const auto sums = [&](const Eigen::VectorXd& power) {
+  const auto in_bands = [&](const Eigen::VectorXd& power) {
     return band_sums(velocity.frequency_hz, power, analysis.bands, velocity.periodic);
   };
-  out.band_db = levels_db(sums(out.power), options.references.power);
-  out.band_dba = levels_db(sums(weighted), options.references.power);
+  out.band_db = levels_db(in_bands(out.power), options.references.power);
+  out.band_dba = levels_db(in_bands(weighted), options.references.power);
   out.total = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, false);
   out.total_a = total(velocity.frequency_hz, out.power, options.spectrum.from_hz, true);
+  const ThirdOctaves bands = bands_of_table(table, analysis, options);
   for (size_t m = 0; m < table.microphones.size(); ++m)
     out.microphones.push_back(microphone_result(
         table.microphones[m].name, pressure.row(static_cast<Eigen::Index>(m)).transpose(), analysis,
-        options, std::min(out.to_hz, velocity.frequency_hz.maxCoeff())));
+        options, bands));
+  out.surface = surface_result(table, analysis, options, bands, out);
+  out.directivity = directivity(table, velocity, sums, directions, bands);
+  out.panels = panel_sound(analysis, parts, std::move(sums), bands, options);
   return out;
 }
 
@@ -103,6 +173,9 @@ void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sou
     file.set(name, "pressure_db", microphone.total_db);
     file.set(name, "pressure_dba", microphone.total_dba);
   }
+  write_surface(file, at + "/measurement_surface", sound.surface, references);
+  write_panel_sound(file, analysis.piece.name, sound.panels, references);
+  write_directivity(file, analysis.piece.name, sound.directivity);
 }
 
 std::string sound_summary(const RunSound& sound, const LevelReferences& references) {
@@ -113,6 +186,13 @@ std::string sound_summary(const RunSound& sound, const LevelReferences& referenc
   for (const MicrophoneResult& microphone : sound.microphones)
     text += fmt::format("microphone {:<14} {:.1f} dB, {:.1f} dB(A) re 20 uPa\n", microphone.name,
                         microphone.total_db, microphone.total_dba);
+  if (const SurfaceResult& surface = sound.surface; !surface.name.empty())
+    text += fmt::format(
+        "{}: {:.1f} dB on {:.3g} m2, a sound power of {:.1f} dB, {:+.1f} dB from that of boundary "
+        "elements\n",
+        surface.name, surface.pressure_db, surface.area, surface.power_db, surface.above_power_db);
+  for (size_t p = 0; p < sound.panels.panels.size(); ++p)
+    text += panel_line(sound.panels, p, references);
   return text;
 }
 

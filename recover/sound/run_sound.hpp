@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/h5_file.hpp"
-#include "recover/sound/sound_table.hpp"
-#include "recover/spectrum/analysis.hpp"
+#include "recover/sound/directivity.hpp"
+#include "recover/sound/panel_sound.hpp"
 
 namespace clatter::recover {
 
@@ -17,6 +17,16 @@ struct MicrophoneResult {
   double total_db = 0.0, total_dba = 0.0;
 };
 
+/// The level on the measurement surface: the mean square of its microphones, and the sound power
+/// level L_p + 10 lg(S / 1 m2) that it stands for, without corrections.
+struct SurfaceResult {
+  std::string name{};                                   // of the set; empty without one
+  double area = 0.0;                                    // S [m2]
+  Eigen::VectorXd band_pressure_db{}, band_power_db{};  // re 20 uPa, re 1 pW
+  double pressure_db = 0.0, power_db = 0.0;
+  double above_power_db = 0.0;  // power_db less the level of the power by R in the same lines
+};
+
 /// Sound of a piece: by the table up to `to_hz`, by the ERP of the exposed faces above it.
 struct RunSound {
   double to_hz = 0.0;
@@ -24,12 +34,20 @@ struct RunSound {
   Eigen::VectorXd band_db{}, band_dba{};  // per third octave of the analysis, re 1 pW
   double total = 0.0, total_a = 0.0;      // [W], lines inside the spectrum's band
   std::vector<MicrophoneResult> microphones{};
+  SurfaceResult surface{};
+  /// |v^H R v less the power of F|, of the line where it is largest, over the power of all lines: R
+  /// leaves out what the mesh breaks of reciprocity.
+  double resistance_difference = 0.0;
+  PanelSound panels{};
+  Directivity directivity{};
 };
 
-/// P_k = power_factor_k v_k^H R(f_k) v_k and p_k = H(f_k) v_k of each line.
+/// P_k = power_factor_k int |F_k|^2 / (rho c), F_k = G(f_k) Q v_k, and p_k = H(f_k) v_k of each
+/// line.
+/// @param parts of the body by panels, panel_parts()
 /// @param erp panel whose ERP is taken above the table
-RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelResult& erp,
-                   const Options& options);
+RunSound run_sound(const SoundTable& table, const Analysis& analysis, const PanelParts& parts,
+                   const PanelResult& erp, const Options& options);
 
 /// Writes `analysis/<piece>/sound`.
 void write_run_sound(H5File& file, const Analysis& analysis, const RunSound& sound,

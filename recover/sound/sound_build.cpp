@@ -10,11 +10,15 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/progress.hpp"
+#include "core/sound/boundary_equations.hpp"
 #include "core/sound/far_field.hpp"
+#include "core/sound/far_harmonics.hpp"
 #include "core/sound/field_points.hpp"
 #include "core/sound/monopole.hpp"
+#include "recover/acoustic/skin_border.hpp"
 #include "recover/skin/panels.hpp"
 #include "recover/sound/acoustic_velocity.hpp"
+#include "recover/sound/stored_far_field.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -26,8 +30,14 @@ double decibels(double power, double reference) {
 /// Computes samples, and notes the errors of the boundary elements at each.
 class Sampler {
  public:
-  Sampler(const sound::Space& space, const Eigen::MatrixXd& velocity, PartSound& sound)
-      : space_(space), velocity_(velocity), sound_(sound), source_(sound::inner_point(sound.skin)) {
+  /// @param velocity 3 n_f x r, @param flow n_v x r: of the acoustic skin, per coordinate
+  Sampler(const sound::Space& space, const Eigen::MatrixXd& velocity, const RowMatrix& flow,
+          PartSound& sound)
+      : space_(space),
+        velocity_(velocity),
+        flow_(flow),
+        sound_(sound),
+        source_(sound::inner_point(sound.skin)) {
     points_.resize(static_cast<Eigen::Index>(sound.table.microphones.size()), 3);
     for (Eigen::Index m = 0; m < points_.rows(); ++m)
       points_.row(m) = sound.table.microphones[static_cast<size_t>(m)].position.transpose();
@@ -38,25 +48,40 @@ class Sampler {
     const sound::MonopoleMotion check = sound::monopole(sound_.skin, space_, frequency_hz, source_);
     Eigen::MatrixXcd motions(velocity_.rows(), r + 1);
     motions << velocity_.cast<sound::Complex>(), check.velocity;
-    const sound::SurfaceState state = sound::radiate(sound_.skin, space_, frequency_hz, motions);
-    const Eigen::MatrixXd R = sound::far_resistance(sound_.skin, space_, state);
-    const Eigen::MatrixXcd H = sound::field_pressure(sound_.skin, space_, state, points_);
-    const sound::SurfaceState last{frequency_hz, state.velocity.rightCols(1),
-                                   state.pressure.rightCols(1)};
-    SoundCertificate& certificate = sound_.certificate;
-    const double power = 0.5 * R(r, r);
-    certificate.monopole_error_db =
-        std::max(certificate.monopole_error_db, decibels(power, check.power));
-    certificate.surface_power_error_db =
-        std::max(certificate.surface_power_error_db,
-                 decibels(sound::surface_power(sound_.skin, last)[0], power));
-    certificate.highest_condition = std::max(certificate.highest_condition, state.condition);
-    return {frequency_hz, R.topLeftCorner(r, r), H.leftCols(r)};
+    const sound::BoundaryEquations equations(sound_.skin, space_, frequency_hz);
+    const sound::SurfaceState state = equations.radiate(motions);
+    const Eigen::VectorXd power = sound::far_power(sound_.skin, space_, state);
+    SoundSample sample{frequency_hz, {}, {}, {}};
+    sample.H = sound::field_pressure(sound_.skin, space_, state, points_).leftCols(r);
+    sample.far =
+        stored_far_field(sound::far_harmonics(sound_.skin, space_, equations).of_flow, flow_);
+    sample.R = far_field_resistance(space_, sample.far, flow_);
+    note_errors(state, check.power, power, sample);
+    return sample;
   }
 
  private:
+  /// @param exact power of the point source, the last motion of `state`
+  /// @param power from the far field in directions, of all motions
+  void note_errors(const sound::SurfaceState& state, double exact, const Eigen::VectorXd& power,
+                   const SoundSample& sample) {
+    const Eigen::Index r = velocity_.cols();
+    const sound::SurfaceState last{state.frequency_hz, state.velocity.rightCols(1),
+                                   state.pressure.rightCols(1)};
+    SoundCertificate& certificate = sound_.certificate;
+    const auto raise = [](double& highest, double value) { highest = std::max(highest, value); };
+    raise(certificate.monopole_error_db, decibels(power[r], exact));
+    raise(certificate.surface_power_error_db,
+          decibels(sound::surface_power(sound_.skin, last)[0], power[r]));
+    raise(certificate.highest_condition, state.condition);
+    for (Eigen::Index j = 0; j < r; ++j)
+      if (power[j] > 0.0)
+        raise(certificate.far_field_error_db, decibels(0.5 * sample.R(j, j), power[j]));
+  }
+
   const sound::Space& space_;
   const Eigen::MatrixXd& velocity_;
+  const RowMatrix& flow_;
   PartSound& sound_;
   Eigen::Vector3d source_;
   RowMatrix points_;
@@ -149,6 +174,42 @@ void check_limit(const rom::ReducedModel& model, const SoundOptions& options) {
         options.origin, options.grid.to_hz, model.valid_to_hz));
 }
 
+/// Edges of the skin with one face, with a warning.
+double open_edges(const rom::Skin& skin) {
+  const SkinBorder border = skin_border(skin.nodes, skin.triangles);
+  if (border.edges > 0)
+    warn(
+        fmt::format("skin: open along {} edges, up to {:.3g} m wide: closed by the acoustic skin; "
+                    "check it in the sound file",
+                    border.edges, border.widest));
+  return static_cast<double>(border.edges);
+}
+
+/// The microphones of the set, then those of the list.
+void place_microphones(const SoundOptions& options, const sound::Surface& skin, SoundTable& table) {
+  table.surface = with_context(options.origin, [&] {
+    return measurement_surface(options.chosen_set(), skin, options.ground);
+  });
+  table.microphones = table.surface.microphones;
+  for (const Microphone& microphone : options.microphones) {
+    for (const Microphone& other : table.surface.microphones)
+      if (other.name == microphone.name)
+        throw InputError(
+            fmt::format("{}: microphone '{}': found in the list and in {}, expected "
+                        "different names",
+                        options.origin, other.name, name_of(table.surface.set)));
+    table.microphones.push_back(microphone);
+  }
+  table.distance.resize(static_cast<Eigen::Index>(table.microphones.size()));
+  for (size_t m = 0; m < table.microphones.size(); ++m) {
+    const Microphone& microphone = table.microphones[m];
+    sound::require_in_fluid(skin, options.space(),
+                            options.origin + ": microphone '" + microphone.name + "'",
+                            microphone.position);
+    table.distance[static_cast<Eigen::Index>(m)] = (microphone.position - skin.middle).norm();
+  }
+}
+
 }  // namespace
 
 PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options,
@@ -168,25 +229,22 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
 
   SoundTable& table = out.table;
   table.fluid = space.fluid;
-  table.microphones = options.microphones.empty() ? around_body(out.skin) : options.microphones;
-  table.distance.resize(static_cast<Eigen::Index>(table.microphones.size()));
-  for (size_t m = 0; m < table.microphones.size(); ++m) {
-    const Microphone& microphone = table.microphones[m];
-    sound::require_in_fluid(out.skin, space,
-                            options.origin + ": microphone '" + microphone.name + "'",
-                            microphone.position);
-    table.distance[static_cast<Eigen::Index>(m)] = (microphone.position - out.skin.middle).norm();
-  }
+  table.ground = space.ground;
+  table.flow = out.map.flow;
+  place_microphones(options, out.skin, table);
   out.certificate = {.faces = static_cast<double>(out.skin.face_count()),
                      .mesh_limit_hz = sound::mesh_limit_hz(out.skin, space.fluid.sound_speed,
                                                            options.mesh.edges_per_wavelength),
                      .lid_area_m2 = out.map.lid_area,
+                     .open_edges = open_edges(model.skin),
                      .map_flux_error = out.map.errors.flux,
                      .map_velocity_error = out.map.errors.velocity};
   say(fmt::format("acoustic skin: {} faces, {:.4g} m2, of it lids {:.3g} m2; good to {:.4g} Hz",
                   out.skin.face_count(), out.skin.area, out.map.lid_area,
                   out.certificate.mesh_limit_hz));
-  Sampler sampler(space, velocity, out);
+  const std::vector<int32_t> one(static_cast<size_t>(model.skin.triangles.rows()), 0);
+  const RowMatrix flow = group_flows(table.flow, model.skin, one, 1, out.skin.node_count()).front();
+  Sampler sampler(space, velocity, flow, out);
   refine(options.grid, sampler, out);
   out.efficiency = efficiencies(table, squares(out.skin, velocity));
   clock.lap("boundary elements");

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/base/artefact.hpp"
 #include "core/base/error.hpp"
 
@@ -32,6 +34,34 @@ void write_microphones(H5File& file, const SoundTable& table) {
   put_sound(file, "microphones/position", position, "m", "in the frame of the part");
   put_sound(file, "microphones/distance", table.distance, "m",
             "from the middle of the acoustic skin");
+  file.set("microphones", "set", name_of(table.surface.set));
+  file.set("microphones", "set_microphones",
+           static_cast<int64_t>(table.surface.microphones.size()));
+  file.set("microphones", "surface_area_m2", table.surface.area);
+}
+
+void write_single(H5File& file, const std::string& name, const RowMatrix& values,
+                  const std::string& meaning) {
+  const Eigen::Map<const Eigen::VectorXd> flat(values.data(), values.size());
+  const std::vector<float> single(flat.begin(), flat.end());
+  file.write_float(name, single, {values.rows(), values.cols()});
+  file.set(name, "unit", "Pa s/m2");
+  file.set(name, "meaning", meaning);
+}
+
+void write_far_fields(H5File& file, const SoundTable& table) {
+  put_sound(file, "flow/face", table.flow.face, "1", "of the skin of the reduced model, ascending");
+  put_sound(file, "flow/node", table.flow.node, "1", "of the acoustic skin");
+  put_sound(file, "flow/weight", table.flow.weight, "m2",
+            "int N_n v_n dS of the node per velocity of the face: column 3 a + d is direction d of "
+            "its node a");
+  for (size_t i = 0; i < table.samples.size(); ++i) {
+    const Eigen::MatrixXcd& far = table.samples[i].far;
+    write_single(file, member("far_field/re", i), far.real(),
+                 "F r exp(+i k r), far from the middle of the acoustic skin, in real spherical "
+                 "harmonics (row l^2 + l + m) per volume flow of each node, real part");
+    write_single(file, member("far_field/im", i), far.imag(), "the same, imaginary part");
+  }
 }
 
 void check_shape(const H5File& file, const std::string& name, int64_t rows, int64_t columns) {
@@ -53,9 +83,54 @@ void read_microphones(const H5File& file, SoundTable& table) {
                                  file.path().string(), table.distance.size(), count));
   for (size_t m = 0; m < names.size(); ++m)
     table.microphones.push_back({names[m], position.row(static_cast<Eigen::Index>(m))});
+  const std::string set = file.get_string("microphones", "set");
+  for (const MicrophoneSet known : {MicrophoneSet::kEngine1m, MicrophoneSet::kIso3744})
+    if (set == name_of(known)) table.surface.set = known;
+  table.surface.area = file.get_double("microphones", "surface_area_m2");
+  const int64_t of_set = file.get_int("microphones", "set_microphones");
+  if (of_set < 0 || of_set > count || !(table.surface.area >= 0.0))
+    throw InputError(
+        fmt::format("{}: microphones: found {} of set '{}' on {:g} m2, expected at "
+                    "most {}",
+                    file.path().string(), of_set, set, table.surface.area, count));
+  table.surface.microphones.assign(table.microphones.begin(), table.microphones.begin() + of_set);
+}
+
+Eigen::MatrixXcd read_far_field(const H5File& file, size_t index, int64_t n_v) {
+  const std::string re = member("far_field/re", index), im = member("far_field/im", index);
+  const std::vector<int64_t> shape = file.shape(re);
+  const auto degree = shape.empty() ? -1.0 : std::sqrt(static_cast<double>(shape[0])) - 1.0;
+  if (shape.size() != 2 || shape[0] < 1 || degree != std::floor(degree) || shape[1] != n_v)
+    throw InputError(
+        fmt::format("{}: {}: found shape ({}), expected a square number of rows and "
+                    "{} columns",
+                    file.path().string(), re, fmt::join(shape, ", "), n_v));
+  check_shape(file, im, shape[0], n_v);
+  Eigen::MatrixXcd far = file.read_matrix(re).cast<sound::Complex>();
+  far += sound::Complex(0.0, 1.0) * file.read_matrix(im);
+  return far;
+}
+
+/// @param n_v nodes of the acoustic skin
+FlowMap read_flow(const H5File& file, int64_t n_v) {
+  FlowMap flow{file.read_ints("flow/face"), file.read_ints("flow/node"), {}};
+  check_shape(file, "flow/weight", static_cast<int64_t>(flow.face.size()), 18);
+  flow.weight = file.read_rows("flow/weight");
+  if (flow.node.size() != flow.face.size() || !flow.weight.allFinite())
+    throw InputError(
+        fmt::format("{}: flow: found {} faces and {} nodes, expected as many, and "
+                    "finite weights",
+                    file.path().string(), flow.face.size(), flow.node.size()));
+  for (size_t k = 0; k < flow.face.size(); ++k)
+    if (flow.face[k] < 0 || flow.node[k] < 0 || flow.node[k] >= n_v)
+      throw InputError(fmt::format("{}: flow: found face {} and node {}, expected nodes 0 to {}",
+                                   file.path().string(), flow.face[k], flow.node[k], n_v - 1));
+  return flow;
 }
 
 void read_samples(const H5File& file, int size, SoundTable& table) {
+  const int64_t n_v = file.shape("skin/nodes").at(0);
+  table.flow = read_flow(file, n_v);
   const std::vector<double> grid = file.read_doubles("frequency_hz");
   const auto n_m = static_cast<int64_t>(table.microphones.size());
   for (size_t i = 0; i < grid.size(); ++i) {
@@ -64,14 +139,14 @@ void read_samples(const H5File& file, int size, SoundTable& table) {
           fmt::format("{}: frequency_hz: found {:g} Hz at {}, expected ascending "
                       "positive frequencies",
                       file.path().string(), grid[i], i));
-    SoundSample sample{grid[i], {}, {}};
+    SoundSample sample{grid[i], {}, {}, read_far_field(file, i, n_v)};
     check_shape(file, member("resistance", i), size, size);
     sample.R = file.read_matrix(member("resistance", i));
     for (const char* part : {"microphones/pressure_re", "microphones/pressure_im"})
       check_shape(file, member(part, i), n_m, size);
     sample.H = file.read_matrix(member("microphones/pressure_re", i)).cast<sound::Complex>();
     sample.H += sound::Complex(0.0, 1.0) * file.read_matrix(member("microphones/pressure_im", i));
-    if (!sample.R.allFinite() || !sample.H.allFinite())
+    if (!sample.R.allFinite() || !sample.H.allFinite() || !sample.far.allFinite())
       throw InputError(fmt::format("{}: {}: found NaN or infinity, expected finite values",
                                    file.path().string(), member("resistance", i)));
     table.samples.push_back(std::move(sample));
@@ -93,6 +168,11 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
            options.lids == LidMotion::kRest ? "rigid and at rest"
                                             : "move with the nearest point of an exposed face");
   file.set("/", "ground", options.ground ? "rigid plane" : "none");
+  if (options.ground) {
+    put_sound(file, "ground/normal", Eigen::VectorXd(options.ground->normal), "1",
+              "away from the ground");
+    file.set("ground", "offset_m", options.ground->offset);
+  }
   write_certificate(file, sound.certificate);
 
   const SoundTable& table = sound.table;
@@ -101,6 +181,7 @@ void write_sound(H5File& file, const PartSound& sound, const SoundOptions& optio
   put_sound(file, "frequency_hz", grid, "Hz",
             "frequencies; R / f^2 is a polynomial through six of them");
   write_microphones(file, table);
+  write_far_fields(file, table);
   for (size_t i = 0; i < grid.size(); ++i) {
     const SoundSample& sample = table.samples[i];
     put_sound(file, member("resistance", i), sample.R, "N s/m",
@@ -134,6 +215,12 @@ SoundTable read_sound(const std::filesystem::path& path, const std::string& rom_
   SoundTable table;
   table.fluid = {file.get_double("/", "air_density_kg_m3"),
                  file.get_double("/", "air_sound_speed_m_s")};
+  if (file.has("ground/normal")) {
+    const Eigen::VectorXd normal = file.read_vector("ground/normal");
+    if (normal.size() != 3 || !(std::abs(normal.norm() - 1.0) < 1e-9))
+      throw InputError(path.string() + ": ground/normal: expected a unit vector of 3 numbers");
+    table.ground = sound::Plane{normal, file.get_double("ground", "offset_m")};
+  }
   read_microphones(file, table);
   read_samples(file, size, table);
   return table;

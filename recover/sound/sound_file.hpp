@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The sound file, schema "clatter/sound/1".
+// The sound file, schema "clatter/sound/2".
 #include <filesystem>
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace clatter::recover {
 
-inline constexpr const char* kSoundSchema = "clatter/sound/1";
+inline constexpr const char* kSoundSchema = "clatter/sound/2";
 
 /// Writes table, acoustic skin, lids, efficiencies and certificate.
 /// @param rom_sha256 hash of the reduced model

@@ -70,13 +70,20 @@ SoundOptions read_sound_options(const Config& config) {
   if (const auto grid = config.find_table("grid")) read_grid(*grid, options.grid);
   if (const auto ground = config.find_table("ground")) options.ground = read_ground(*ground);
   options.microphones = read_microphones(config);
+  if (config.has("microphones"))
+    options.set = config.choice("microphones", {"engine_1m", "iso_3744"}) == "iso_3744"
+                      ? MicrophoneSet::kIso3744
+                      : MicrophoneSet::kEngine1m;
   config.finish();
   return options;
 }
 
 std::string resolved_text(const SoundOptions& o) {
-  std::string text = fmt::format("[air]\ndensity = {:.9g}\nsound_speed = {:.9g}\n", o.air.density,
-                                 o.air.sound_speed);
+  std::string text;
+  if (const MicrophoneSet set = o.chosen_set(); set != MicrophoneSet::kNone)
+    text = fmt::format("microphones = \"{}\"\n", name_of(set));
+  text += fmt::format("[air]\ndensity = {:.9g}\nsound_speed = {:.9g}\n", o.air.density,
+                      o.air.sound_speed);
   text += fmt::format("[skin]\nopening = {:.9g}\nedges_per_wavelength = {:.9g}\nlids = \"{}\"\n",
                       o.mesh.opening, o.mesh.edges_per_wavelength, name_of(o.lids));
   text +=
@@ -95,6 +102,8 @@ std::string sound_options_help() {
   const SoundOptions d;
   return fmt::format(R"(Configuration (block.sound.toml); every key is optional:
 
+  microphones = "engine_1m" # five, 1 m from the sides of the box around the part; or "iso_3744":
+                           # of the box of ISO 3744 on the ground; left out beside a list: none
   [air]
   density = {:g}         # kg/m3
   sound_speed = {:g}     # m/s
@@ -110,27 +119,11 @@ std::string sound_options_help() {
   [ground]                 # a rigid plane below the part; free space without it
   normal = [0, 0, 1]       # away from the ground
   offset = -0.5            # m: the plane normal . x = offset
-  [[microphone]]           # default: five, 1 m from the sides of the box around the part
+  [[microphone]]           # a list of its own, in addition
   name = "left"
   position = [0, 1.2, 0.1] # m, in the frame of the part)",
                      d.air.density, d.air.sound_speed, d.mesh.opening, d.mesh.edges_per_wavelength,
                      d.grid.from_hz, d.grid.to_hz, d.grid.tolerance_db, d.grid.most);
-}
-
-std::vector<Microphone> around_body(const sound::Surface& acoustic) {
-  constexpr double kDistance = 1.0;  // [m], as in test cells of engines
-  const Eigen::Vector3d low = acoustic.nodes.colwise().minCoeff();
-  const Eigen::Vector3d high = acoustic.nodes.colwise().maxCoeff();
-  const auto beside = [&](int axis, double at) {
-    Eigen::Vector3d position = acoustic.middle;
-    position[axis] = at;
-    return position;
-  };
-  return {{"plus_y", beside(1, high[1] + kDistance)},
-          {"minus_y", beside(1, low[1] - kDistance)},
-          {"plus_x", beside(0, high[0] + kDistance)},
-          {"minus_x", beside(0, low[0] - kDistance)},
-          {"top", beside(2, high[2] + kDistance)}};
 }
 
 }  // namespace clatter::recover

@@ -11,14 +11,9 @@
 #include "recover/acoustic/acoustic_skin.hpp"
 #include "recover/acoustic/velocity_map.hpp"
 #include "recover/skin/radiated_power.hpp"
+#include "recover/sound/measurement_surface.hpp"
 
 namespace clatter::recover {
-
-/// A point at which the pressure is wanted.
-struct Microphone {
-  std::string name;
-  Eigen::Vector3d position;  // [m], in the frame of the part
-};
 
 /// The frequencies of a sound file.
 struct GridRule {
@@ -35,9 +30,14 @@ struct SoundOptions {
   LidMotion lids = LidMotion::kRest;
   GridRule grid;
   std::optional<sound::Plane> ground{};
-  std::vector<Microphone> microphones{};  // empty: around_body()
+  std::optional<MicrophoneSet> set{};     // without it engine_1m, or none beside a list
+  std::vector<Microphone> microphones{};  // of the list, in addition to those of the set
 
   sound::Space space() const { return {{air.density, air.sound_speed}, ground}; }
+  MicrophoneSet chosen_set() const {
+    if (set) return *set;
+    return microphones.empty() ? MicrophoneSet::kEngine1m : MicrophoneSet::kNone;
+  }
 };
 
 /// Reads the entire configuration; unknown keys are rejected.
@@ -48,9 +48,5 @@ std::string resolved_text(const SoundOptions& options);
 
 /// Documentation of the configuration file with its defaults, for --help.
 std::string sound_options_help();
-
-/// Five microphones 1 m from the sides of the box around a body, none below: plus_y, minus_y,
-/// plus_x, minus_x, top.
-std::vector<Microphone> around_body(const sound::Surface& acoustic);
 
 }  // namespace clatter::recover

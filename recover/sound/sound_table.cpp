@@ -52,14 +52,21 @@ Stencil stencil(const std::vector<double>& frequency_hz, double at_hz) {
   return out;
 }
 
-Eigen::MatrixXd resistance_at(const SoundTable& table, double frequency_hz) {
-  const Stencil by = table_stencil(table, frequency_hz);
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(table.size(), table.size());
+Stencil power_stencil(const SoundTable& table, double frequency_hz) {
+  Stencil by = table_stencil(table, frequency_hz);
   for (Eigen::Index i = 0; i < by.weight.size(); ++i) {
-    const SoundSample& sample = table.samples[by.first + static_cast<size_t>(i)];
-    const double ratio = frequency_hz / sample.frequency_hz;
-    R += by.weight[i] * ratio * ratio * sample.R;
+    const double ratio =
+        frequency_hz / table.samples[by.first + static_cast<size_t>(i)].frequency_hz;
+    by.weight[i] *= ratio * ratio;
   }
+  return by;
+}
+
+Eigen::MatrixXd resistance_at(const SoundTable& table, double frequency_hz) {
+  const Stencil by = power_stencil(table, frequency_hz);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(table.size(), table.size());
+  for (Eigen::Index i = 0; i < by.weight.size(); ++i)
+    R += by.weight[i] * table.samples[by.first + static_cast<size_t>(i)].R;
   return R;
 }
 

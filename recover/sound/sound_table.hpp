@@ -4,11 +4,14 @@
 // matrix product.
 //
 //   P = 1/2 v^H R(f) v,   p_m = H_m(f) v,   v: complex reduced velocity, peak
+//   F_lm = G_lm(f) q,     R = share Re( Q^H G^H G Q ),   q = Q v: flow of the acoustic skin's nodes
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/sound/space.hpp"
+#include "recover/acoustic/flow_map.hpp"
 #include "recover/sound/sound_options.hpp"
 
 namespace clatter::recover {
@@ -18,15 +21,21 @@ struct SoundSample {
   double frequency_hz = 0.0;
   Eigen::MatrixXd R;   // r x r, symmetric, positive semidefinite [N s/m for translations]
   Eigen::MatrixXcd H;  // n_m x r [Pa s/m for translations]
+  /// G: (degree + 1)^2 x n_v [Pa s/m2], the far field in spherical harmonics (sound::FarHarmonics).
+  Eigen::MatrixXcd far{};
 };
 
 /// Samples at ascending frequencies, and how to interpolate between them.
 struct SoundTable {
   sound::Fluid fluid{};
+  std::optional<sound::Plane> ground{};
+  MeasurementSurface surface{};  // its microphones are the first of:
   std::vector<Microphone> microphones{};
   Eigen::VectorXd distance{};  // n_m [m], of the microphones from the middle of the acoustic skin
+  FlowMap flow{};              // from the faces of the body to the nodes of the acoustic skin
   std::vector<SoundSample> samples{};
 
+  sound::Space space() const { return {fluid, ground}; }
   double from_hz() const { return samples.front().frequency_hz; }
   double to_hz() const { return samples.back().frequency_hz; }
   int size() const { return static_cast<int>(samples.front().R.rows()); }
@@ -45,6 +54,10 @@ struct Stencil {
 /// first sample that sample alone.
 /// @param frequency_hz ascending
 Stencil stencil(const std::vector<double>& frequency_hz, double at_hz);
+
+/// The stencil of a frequency, weights times (f / f_i)^2: what resistance_at() multiplies R with.
+/// @throws InputError above the table
+Stencil power_stencil(const SoundTable& table, double frequency_hz);
 
 /// R, interpolated as R / f^2. @throws InputError above the table
 Eigen::MatrixXd resistance_at(const SoundTable& table, double frequency_hz);

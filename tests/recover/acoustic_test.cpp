@@ -5,8 +5,10 @@
 #include <complex>
 #include <numbers>
 
+#include "core/sound/far_harmonics.hpp"
 #include "core/sound/radiation.hpp"
 #include "recover/acoustic/acoustic_skin.hpp"
+#include "recover/acoustic/skin_border.hpp"
 #include "recover/acoustic/velocity_map.hpp"
 #include "recover/skin/panels.hpp"
 #include "synthetic.hpp"
@@ -49,6 +51,22 @@ TEST(AcousticSkin, BodyWithoutSkinOrSmallerThanTheOpeningIsRefused) {
         acoustic_skin(skin_of(box({0.1, 0.1, 0.1}, 1)), {.opening = 0.2}, kSpeed, 1000.0);
       }),
       {"found openings of 0.2 m", "the size of the body, 0.173 m"});
+}
+
+TEST(AcousticSkin, BorderOfAnOpenSkinIsMeasured) {
+  Mesh6 mesh = box({0.4, 0.3, 0.2}, 2);
+  EXPECT_EQ(skin_border(mesh.nodes, mesh.triangles).edges, 0);
+  const IndexMatrix all = mesh.triangles;
+  mesh.triangles = all.bottomRows(all.rows() - 2);  // without a square of the side x = 0
+  const SkinBorder border = skin_border(mesh.nodes, mesh.triangles);
+  EXPECT_EQ(border.edges, 4);
+  EXPECT_NEAR(border.widest, 0.15, 1e-12);
+  test::expect_parts(
+      test::refusal_of([&] { acoustic_skin(skin_of(mesh), {.opening = 0.1}, kSpeed, 1000.0); }),
+      {"found a skin that is open along 4 edges, 0.15 m wide", "openings up to 0.1 m"});
+  // A wrap that cannot enter closes the hole.
+  const auto closed = acoustic_skin(skin_of(mesh), {.opening = 0.2}, kSpeed, 1000.0);
+  EXPECT_NEAR(closed.volume / 0.024, 1.0, 0.1);
 }
 
 /// Velocity x at the nodes: a body that swells by 3 times its volume a second.
@@ -116,6 +134,21 @@ TEST(VelocityMap, APointSourceInsideTheBodySendsItsPowerThroughMapAndBoundaryEle
   }
 }
 
+/// Flows of two groups of faces add up to int N_n v_n dS of the map's velocities.
+void expect_flows_of_the_map(const Mesh6& mesh, const sound::Surface& wrap,
+                             const VelocityMap& map) {
+  const rom::Skin skin = skin_of(mesh);
+  std::vector<int32_t> group;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) group.push_back(f % 3 == 0 ? 1 : 0);
+  const std::vector<RowMatrix> flows = group_flows(map.flow, skin, group, 2, wrap.node_count());
+  const Eigen::MatrixXcd velocity =
+      (map.map * Eigen::MatrixXd(skin.T)).cast<std::complex<double>>();
+  const Eigen::MatrixXd whole = sound::node_flow(wrap, velocity).real();
+  EXPECT_LT((flows[0] + flows[1] - whole).norm(), 1e-12 * whole.norm());
+  EXPECT_GT(flows[1].norm(), 0.1 * whole.norm());
+  EXPECT_TRUE(std::is_sorted(map.flow.face.begin(), map.flow.face.end()));
+}
+
 TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {
   const Mesh6 mesh = box({0.4, 0.3, 0.2}, 6);
   const sound::Surface wrap = wrap_of(mesh, 1500.0);
@@ -128,6 +161,8 @@ TEST(VelocityMap, LidsRestOrMoveWithTheNearestFace) {
   const auto mapped = [&](LidMotion motion) {
     return velocity_map(skin_of(mesh), exposed, wrap, motion);
   };
+  for (const LidMotion motion : {LidMotion::kRest, LidMotion::kNearest})
+    expect_flows_of_the_map(mesh, wrap, mapped(motion));
   const VelocityMap rest = mapped(LidMotion::kRest), moving = mapped(LidMotion::kNearest);
   EXPECT_NEAR(rest.lid_area, 0.12, 0.012);
   EXPECT_NEAR(flux(wrap, rest.map * lift), -0.12, 1e-14);        // the bottom's alone

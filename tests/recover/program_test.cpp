@@ -135,7 +135,9 @@ TEST_F(Program, SoundOfAPartIsUsedByARun) {
   EXPECT_NE(output_.find("\"monopole_error_db\""), std::string::npos) << output_;
   write("field.toml", "sound = \"part.sound.h5\"\n");
   ASSERT_EQ(recover("run.h5 -c field.toml -o out.field.h5"), 0) << output_;
-  for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y"})
+  for (const char* words : {"sound power", "boundary elements up to 500 Hz", "microphone plus_y",
+                            "sound of panel exposed", "100.0 %", "engine_1m: ",
+                            "from that of boundary elements", "panel_power_difference"})
     EXPECT_NE(output_.find(words), std::string::npos) << output_;
   const H5File field = H5File::open(folder_ / "out.field.h5");
   for (const char* attribute : {"unit", "meaning", "amplitude", "phase"})
@@ -162,7 +164,58 @@ TEST_F(Program, BadSoundInputIsRefused) {
   expect_refused("sound rom.h5 -c opening.toml", "rom.h5: acoustic skin: found openings of 1 m");
   expect_refused("sound run.h5", "clatter/rom/1");
   write("field.toml", "sound = \"rom.h5\"\n");
-  expect_refused("run.h5 -c field.toml", "clatter/sound/1");
+  expect_refused("run.h5 -c field.toml", "clatter/sound/2");
+  write("inside.toml",
+        "[skin]\nopening = 0.05\n[[microphone]]\nname = \"m\"\nposition = [0.05, 0.05, 0.05]\n");
+  expect_refused(
+      "sound rom.h5 -c inside.toml",
+      "inside.toml: microphone 'm': found (0.05, 0.05, 0.05) m inside the body, expected "
+      "a point outside");
+  write("below.toml",
+        "[skin]\nopening = 0.05\n[ground]\noffset = -0.2\n[[microphone]]\nname = \"m\"\n"
+        "position = [1, 0, -0.3]\n");
+  expect_refused("sound rom.h5 -c below.toml",
+                 "below.toml: microphone 'm': found (1, 0, -0.3) m below the ground plane");
+  write("free.toml", "microphones = \"iso_3744\"\n[skin]\nopening = 0.05\n");
+  expect_refused("sound rom.h5 -c free.toml",
+                 "free.toml: microphones: found \"iso_3744\" in free space, expected [ground]");
+  write("set.toml", "microphones = \"engine\"\n");
+  expect_refused("sound rom.h5 -c set.toml", "set.toml:1: microphones: found");
+}
+
+TEST_F(Program, SkinThatIsMissingOrOpenIsRefusedForSound) {
+  const auto other = fresh_folder("open_rom");
+  const auto at_rest = [](double) {
+    return Motion{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  };
+  Mesh6 mesh = box({0.3, 0.2, 0.1}, 2);
+  const IndexMatrix all = mesh.triangles;
+  mesh.triangles = all.topRows(all.rows() - 8);  // without the side at z = 0.1
+  write_run(other, model_on(mesh, random_rows(mesh, 3, 2), 2000.0), {}, at_rest);
+  write("part.toml", "[skin]\nopening = 0.05\n");
+  expect_refused("sound '" + (other / "rom.h5").string() + "' -c part.toml",
+                 "acoustic skin: found a skin that is open along 8 edges, 0.3 m wide, expected a "
+                 "closed one or openings up to 0.05 m");
+  rom::ReducedModel bare = model_on(mesh, random_rows(mesh, 3, 2), 2000.0);
+  bare.skin = {};
+  write_run(other, bare, {}, at_rest);
+  expect_refused("sound '" + (other / "rom.h5").string() + "' -c part.toml",
+                 "rom.h5: acoustic skin: found a reduced model without a skin");
+  expect_refused("'" + (other / "run.h5").string() + "'",
+                 "rom.h5: skin: found none, expected a skin (condense with one)");
+  fs::remove_all(other);
+}
+
+TEST_F(Program, SoundFileOfAnotherModelIsRefused) {
+  write("part.toml",
+        "[skin]\nopening = 0.05\n[grid]\nfrom_hz = 400\nto_hz = 500\ntolerance_db = 9\n");
+  ASSERT_EQ(recover("sound rom.h5 -c part.toml -o part.sound.h5"), 0) << output_;
+  const Mesh6 mesh = hollow_box({0.3, 0.2, 0.1}, 2);
+  write_run(folder_, model_on(mesh, random_rows(mesh, 3, 7), 2000.0), {}, [](double) {
+    return Motion{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  });
+  write("field.toml", "sound = \"part.sound.h5\"\n");
+  expect_refused("run.h5 -c field.toml", "part.sound.h5: rom_sha256: found");
 }
 
 }  // namespace

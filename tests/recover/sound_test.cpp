@@ -3,22 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
-#include "core/base/artefact.hpp"
-#include "recover/recover.hpp"
-#include "recover/sound/sound_file.hpp"
 #include "recover/sound/wav.hpp"
-#include "synthetic.hpp"
+#include "sound_run.hpp"
 #include "tests/refusal.hpp"
 
 namespace clatter::recover {
 namespace {
 
 using namespace testing;
-namespace fs = std::filesystem;
-constexpr double kPi = std::numbers::pi, kRadius = 0.2;
 
 TEST(Wav, RepeatedCycleIsTheSumOfItsLines) {
   Eigen::VectorXcd lines = Eigen::VectorXcd::Zero(4);
@@ -82,35 +76,6 @@ TEST(SoundTable, InterpolatesAPulsatingSphere) {
                      {"sound: found a frequency of 1100 Hz, expected at most 1000"});
 }
 
-/// A sphere of radius 0.2 m: radial displacement, and displacement along z.
-rom::ReducedModel sphere_model() {
-  Mesh6 mesh = unit_sphere(2);
-  mesh.nodes *= kRadius;
-  RowMatrix T = RowMatrix::Zero(mesh.nodes.size(), 2);
-  for (Eigen::Index n = 0; n < mesh.nodes.rows(); ++n) {
-    T.block(3 * n, 0, 3, 1) = mesh.nodes.row(n).transpose() / kRadius;
-    T(3 * n + 2, 1) = 1.0;
-  }
-  return model_on(mesh, T, 2000.0);
-}
-
-SoundOptions sphere_options() {
-  SoundOptions options;
-  options.mesh = {.opening = 0.05, .edges_per_wavelength = 8.0};
-  options.grid = {.from_hz = 300.0, .to_hz = 700.0, .tolerance_db = 1.0};
-  options.microphones = {{"beside", {0.6, 0, 0}}, {"above", {0, 0, 1.0}}};
-  return options;
-}
-
-/// The sound of the sphere, computed once for all tests.
-const PartSound& sphere_sound() {
-  static const PartSound sound = [] {
-    StepClock clock;
-    return part_sound(sphere_model(), sphere_options(), clock);
-  }();
-  return sound;
-}
-
 TEST(PartSound, SphereHasItsEfficiencyAndPressure) {
   const PartSound& part = sphere_sound();
   const SoundTable& table = part.table;
@@ -122,8 +87,9 @@ TEST(PartSound, SphereHasItsEfficiencyAndPressure) {
     EXPECT_NEAR(part.efficiency(static_cast<Eigen::Index>(i), 1) / (q * q / (4 + q * q)), 1.0,
                 0.04);
     const SoundSample exact = pulsating(table.fluid, sample.frequency_hz, 0.6);
-    EXPECT_NEAR(std::abs(sample.H(0, 0) / exact.H(0, 0) - 1.0), 0.0, 0.03);
-    EXPECT_LT(std::abs(sample.H(0, 1)), 0.01 * std::abs(sample.H(1, 1))) << "beside a dipole";
+    EXPECT_NEAR(std::abs(sample.H(kBeside, 0) / exact.H(0, 0) - 1.0), 0.0, 0.03);
+    EXPECT_LT(std::abs(sample.H(kBeside, 1)), 0.01 * std::abs(sample.H(kAbove, 1)))
+        << "beside a dipole";
     EXPECT_NEAR(sample.R(0, 1), 0.0, 0.01 * sample.R(1, 1));
   }
   EXPECT_EQ(table.from_hz(), 300.0);
@@ -135,6 +101,9 @@ TEST(PartSound, CertificateHoldsWhatWasMeasured) {
   EXPECT_LT(certificate.monopole_error_db, 0.05);
   EXPECT_GT(certificate.monopole_error_db, 0.0);
   EXPECT_LT(certificate.surface_power_error_db, 0.05);
+  EXPECT_LT(certificate.far_field_error_db, 0.05);
+  EXPECT_GT(certificate.far_field_error_db, 0.0);
+  EXPECT_EQ(certificate.open_edges, 0.0);
   EXPECT_LT(certificate.interpolation_error_db, 1.0);
   EXPECT_LT(certificate.map_flux_error, 1e-13);
   EXPECT_GE(certificate.mesh_limit_hz, 700.0);
@@ -144,6 +113,9 @@ TEST(PartSound, CertificateHoldsWhatWasMeasured) {
 TEST(PartSound, MicrophoneInsideAndFrequencyAboveTheBasisAreRefused) {
   StepClock clock;
   SoundOptions options = sphere_options();
+  options.microphones = {{"top", {0, 0, 2}}};
+  test::expect_parts(test::refusal_of([&] { part_sound(sphere_model(), options, clock); }),
+                     {"defaults: microphone 'top': found in the list and in engine_1m"});
   options.microphones = {{"inside", {0.05, 0, 0}}};
   test::expect_parts(test::refusal_of([&] { part_sound(sphere_model(), options, clock); }),
                      {"defaults: microphone 'inside': found (0.05, 0, 0) m inside the body"});
@@ -169,51 +141,11 @@ TEST(SoundOptions, ResolvedTextReadsBackAndBadKeysAreRefused) {
   };
   test::expect_parts(refusal("[grid]\nto_hz = 10"), {"x.toml:2", "to_hz", "more than from_hz"});
   test::expect_parts(refusal("[skin]\nopenings = 1"), {"x.toml:2", "openings", "opening"});
+  test::expect_parts(refusal("microphones = 'engine'"), {"x.toml:1", "microphones", "engine_1m"});
   test::expect_parts(refusal("[[microphone]]\nname = 'a'\nposition = [0, 0, 2]\n"
                              "[[microphone]]\nname = 'a'\nposition = [0, 0, 3]"),
                      {"x.toml:5", "found 'a' twice"});
 }
-
-/// A folder with rom.h5, run.h5 of a sphere that pulsates and oscillates, and its sound file.
-class SoundRun : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fresh_folder(::testing::UnitTest::GetInstance()->current_test_info()->name());
-    const double w = 2 * kPi * kLine;
-    write_inputs([&](double t) {
-      Motion m{kMotion * std::cos(w * t), {}, {}};
-      m.v = -w * kMotion * std::sin(w * t);
-      m.a = -w * w * m.q;
-      return m;
-    });
-  }
-  void write_inputs(const MotionLaw& law) {
-    write_run(folder_, sphere_model(), RunPlan{}, law);
-    rom_ = sha256_of_file(folder_ / "rom.h5");
-    H5File file = H5File::create(folder_ / "part.sound.h5");
-    file.set("/", "schema", kSoundSchema);
-    write_sound(file, sphere_sound(), sphere_options(), rom_);
-    file.commit();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  Summary recovered(const std::string& toml) {
-    std::ofstream(folder_ / "field.toml") << toml;
-    const Options options = read_options(Config::load(folder_ / "field.toml"));
-    const RunBody body(folder_ / "run.h5", "");
-    H5File file = H5File::create(folder_ / "field.h5");
-    StepClock clock;
-    Summary summary = recover(body, body.read_model(), options, file, clock);
-    file.set("/", "schema", kFieldSchema);
-    file.commit();
-    return summary;
-  }
-
-  static constexpr double kLine = 500.0;  // 30 lines of a cycle at 2000 rpm
-  const Eigen::Vector2d kMotion{1e-6, 2e-6};
-  fs::path folder_;
-  std::string rom_;
-};
 
 TEST_F(SoundRun, PowerAndPressureOfALineAreThoseOfTheTable) {
   const Summary summary = recovered("sound = 'part.sound.h5'\n[spectrum]\nto_hz = 1500\n");
@@ -225,11 +157,11 @@ TEST_F(SoundRun, PowerAndPressureOfALineAreThoseOfTheTable) {
   EXPECT_NEAR(sound.power[30] / power, 1.0, 1e-9);
   EXPECT_EQ(sound.to_hz, 700.0);
   const Eigen::VectorXcd p = microphones_at(table, kLine) * v;
-  for (int m = 0; m < 2; ++m)
+  for (int m : {kBeside, kAbove})
     EXPECT_NEAR(std::abs(sound.microphones.at(static_cast<size_t>(m)).pressure[30]), std::abs(p[m]),
                 1e-9 * std::abs(p[m]));
-  EXPECT_NEAR(sound.microphones[0].total_db,
-              20 * std::log10(std::abs(p[0]) / std::sqrt(2.0) / 2e-5), 1e-6);
+  EXPECT_NEAR(sound.microphones[kBeside].total_db,
+              20 * std::log10(std::abs(p[kBeside]) / std::sqrt(2.0) / 2e-5), 1e-6);
   const H5File file = H5File::open(folder_ / "field.h5");
   EXPECT_NEAR(file.get_double("analysis/cycle/sound", "power_w") / power, 1.0, 1e-9);
   EXPECT_NEAR(file.get_double("analysis/cycle/sound", "power_db"), 10 * std::log10(power / 1e-12),
@@ -287,7 +219,14 @@ TEST_F(SoundRun, FileComesBackAndThatOfAnotherModelIsRefused) {
   ASSERT_EQ(back.samples.size(), sphere_sound().table.samples.size());
   EXPECT_EQ(back.samples[1].R, sphere_sound().table.samples[1].R);
   EXPECT_EQ(back.samples[1].H, sphere_sound().table.samples[1].H);
-  EXPECT_EQ(back.microphones[1].name, "above");
+  EXPECT_EQ((back.samples[1].far - sphere_sound().table.samples[1].far).norm(), 0.0);
+  EXPECT_EQ(back.flow.face, sphere_sound().table.flow.face);
+  EXPECT_EQ(back.flow.node, sphere_sound().table.flow.node);
+  EXPECT_TRUE(back.flow.weight == sphere_sound().table.flow.weight);
+  EXPECT_EQ(back.surface.set, MicrophoneSet::kEngine1m);
+  EXPECT_EQ(back.surface.microphones.size(), 5u);
+  EXPECT_EQ(back.surface.area, sphere_sound().table.surface.area);
+  EXPECT_EQ(back.microphones[kAbove].name, "above");
   test::expect_parts(
       test::refusal_of([&] { read_sound(folder_ / "part.sound.h5", std::string(64, 'a'), 2); }),
       {"part.sound.h5: rom_sha256: found", "expected aaaaaaaaaaaa...", "clatter-recover sound"});

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recover/acoustic/flow_map.hpp"
+
+#include "core/base/threads.hpp"
+
+namespace clatter::recover {
+
+void FlowMapBuilder::add(int32_t face, int32_t node, const Shape6& shape,
+                         const Eigen::Vector3d& area_vector) {
+  const auto [at, is_new] = entries_.try_emplace({face, node});
+  if (is_new) at->second.setZero();
+  for (int a = 0; a < 6; ++a) at->second.segment<3>(3 * a) += shape[a] * area_vector;
+}
+
+FlowMap FlowMapBuilder::finish() const {
+  FlowMap out;
+  out.weight.resize(static_cast<Eigen::Index>(entries_.size()), 18);
+  for (const auto& [key, weight] : entries_) {
+    out.weight.row(static_cast<Eigen::Index>(out.face.size())) = weight.transpose();
+    out.face.push_back(key.first);
+    out.node.push_back(key.second);
+  }
+  return out;
+}
+
+std::vector<RowMatrix> group_flows(const FlowMap& flow, const rom::Skin& skin,
+                                   const std::vector<int32_t>& group_of_face, int groups,
+                                   Eigen::Index n_v) {
+  std::vector<RowMatrix> out(static_cast<size_t>(groups), RowMatrix::Zero(n_v, skin.T.cols()));
+  // Each thread has columns of its own, so sums do not depend on their number.
+  parallel_pieces(skin.T.cols(), [&](int64_t begin, int64_t end) {
+    for (size_t k = 0; k < flow.face.size(); ++k) {
+      const int32_t group = group_of_face[static_cast<size_t>(flow.face[k])];
+      if (group < 0) continue;
+      auto sum = out[static_cast<size_t>(group)].row(flow.node[k]).segment(begin, end - begin);
+      const auto weight = flow.weight.row(static_cast<Eigen::Index>(k));
+      for (int a = 0; a < 6; ++a)
+        for (int d = 0; d < 3; ++d)
+          sum += weight[3 * a + d] *
+                 skin.T.row(3 * skin.triangles(flow.face[k], a) + d).segment(begin, end - begin);
+    }
+  });
+  return out;
+}
+
+}  // namespace clatter::recover
