@@ -47,8 +47,8 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
 }
 
 struct FrameChoice {
-  Piece piece;
-  std::vector<int64_t> samples;
+  Piece piece{};
+  std::vector<int64_t> samples{};
 };
 
 /// The requested frames; when the default does not fit the run, sixty over the entire run.
@@ -198,7 +198,8 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
                                  [&] { return find_sensors(options.sensors, model, T, geometry); });
   const std::string origin = body.path().string();
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
-  const FrameChoice frames = choose_frames(body.clock(), options, origin);
+  FrameChoice frames;
+  if (options.frames.on) frames = choose_frames(body.clock(), options, origin);
   summary.panels = with_context(options.origin, [&] {
     return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry, skin.faces);
   });

@@ -151,6 +151,13 @@ int64_t H5File::rows_of_a_chunk(const std::vector<int64_t>& shape, bool single) 
   return static_cast<int64_t>(chunk_of({shape.begin(), shape.end()}, bytes_each).front());
 }
 
+void H5File::begin_disk_writes() {
+  const int descriptor = ::open(impl_->part_path.c_str(), O_RDWR);
+  if (descriptor < 0) return;  // nothing depends on it
+  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+  ::close(descriptor);
+}
+
 void H5File::store_single(bool single) { impl_->single = single; }
 
 // Fixed length: strings of variable length are in a heap without checksums.

@@ -65,6 +65,10 @@ class H5File {
   /// double precision.
   static int64_t rows_of_a_chunk(const std::vector<int64_t>& shape, bool single);
 
+  /// Has the kernel begin to write to disk what is in its cache of the unfinished file, without
+  /// waiting: commit() then has less to wait for, while the next values are computed.
+  void begin_disk_writes();
+
   /// While `single` is true, write() stores doubles in single precision.
   void store_single(bool single);
 

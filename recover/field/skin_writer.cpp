@@ -59,6 +59,7 @@ void SkinWriter::write(H5File& file, const Eigen::MatrixXd& reduced,
     for (int64_t c = 0; c < u.cols(); ++c)
       if (const std::string& name = columns[static_cast<size_t>(first + c)].vectors; !name.empty())
         write_nodes(file, name, row, u.col(c), single, buffer);
+    file.begin_disk_writes();
     if (report) report(static_cast<double>(u.size()) * share);
   });
 
