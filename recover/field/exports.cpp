@@ -46,6 +46,22 @@ std::string grid_text(const XdmfSeries& series, size_t step) {
   return text + "      </Grid>\n";
 }
 
+XdmfSeries empty_series(const std::string& name, const std::filesystem::path& field_file,
+                        int64_t n_nodes, int64_t n_faces) {
+  return {.name = name,
+          .heavy_file = field_file.filename().string(),
+          .n_nodes = n_nodes,
+          .n_faces = n_faces};
+}
+
+/// The chosen quantities in the group of the series' name, "velocity_re" for part "_re".
+void add_fields(XdmfSeries& series, const Quantities& quantities, const std::string& part,
+                int precision) {
+  for (const std::string& name : names_of(quantities))
+    series.fields.push_back(
+        {name + part, series.name + "/" + name + part, name == kNormalVelocity, precision});
+}
+
 }  // namespace
 
 std::string xdmf_text(const XdmfSeries& series) {
@@ -60,29 +76,20 @@ std::string xdmf_text(const XdmfSeries& series) {
 
 XdmfSeries frame_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
                         const FrameIndex& frames) {
-  XdmfSeries series{.name = "frames",
-                    .heavy_file = field_file.filename().string(),
-                    .n_nodes = n_nodes,
-                    .n_faces = n_faces,
-                    .values = frames.time_s,
-                    .value_unit = "s from firing TDC"};
-  for (const std::string& name : names_of(frames.quantities))
-    series.fields.push_back({name, "frames/" + name, name == kNormalVelocity});
+  XdmfSeries series = empty_series("frames", field_file, n_nodes, n_faces);
+  series.values = frames.time_s;
+  series.value_unit = "s from firing TDC";
+  add_fields(series, frames.quantities, "", 4);
   return series;
 }
 
 XdmfSeries line_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
                        const LineIndex& lines) {
-  XdmfSeries series{.name = "lines",
-                    .heavy_file = field_file.filename().string(),
-                    .n_nodes = n_nodes,
-                    .n_faces = n_faces,
-                    .values = lines.frequency_hz,
-                    .value_unit = "Hz"};
+  XdmfSeries series = empty_series("lines", field_file, n_nodes, n_faces);
+  series.values = lines.frequency_hz;
+  series.value_unit = "Hz";
   for (const char* part : {"_re", "_im"})
-    for (const std::string& name : names_of(lines.quantities))
-      series.fields.push_back(
-          {name + part, "lines/" + name + part, name == kNormalVelocity, lines.single ? 4 : 8});
+    add_fields(series, lines.quantities, part, lines.single ? 4 : 8);
   return series;
 }
 

@@ -104,8 +104,8 @@ FrameIndex write_frames(H5File& file, const RunBody& body, const SkinWriter& wri
   }
   write_frame_axes(file, index);
   const std::vector<NodeQuantity> list = expanded(quantities);
-  const size_t at_once =
-      std::max<size_t>(static_cast<size_t>(writer.columns_at_once()) / list.size(), 1);
+  const size_t at_once = std::max<size_t>(
+      static_cast<size_t>(writer.columns_at_once(quantities.normal_velocity)) / list.size(), 1);
   Progress progress("frames", static_cast<double>(samples.size() * list.size()), "fields");
   double done = 0.0;
   for (size_t begin = 0; begin < samples.size(); begin += at_once) {
@@ -146,8 +146,9 @@ LineIndex write_lines(H5File& file, const Analysis& analysis, const std::vector<
   file.set("lines", "phase", file.get_string("/", "phase"));
 
   // Real and imaginary parts are adjacent columns of one expansion.
-  const size_t at_once =
-      std::max<size_t>(static_cast<size_t>(writer.columns_at_once()) / (2 * list.size()), 1);
+  const size_t at_once = std::max<size_t>(
+      static_cast<size_t>(writer.columns_at_once(quantities.normal_velocity)) / (2 * list.size()),
+      1);
   for (size_t begin = 0; begin < lines.size(); begin += at_once) {
     const size_t end = std::min(begin + at_once, lines.size());
     Eigen::MatrixXd reduced(spectrum.amplitude.cols(),

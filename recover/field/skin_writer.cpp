@@ -31,9 +31,10 @@ std::vector<Eigen::Index> number_normals(const std::vector<SkinDatasets>& column
 SkinWriter::SkinWriter(const rom::SkinRows& T, const SparseRows& face_normal)
     : T_(T), face_normal_(face_normal) {}
 
-int64_t SkinWriter::columns_at_once() const {
-  constexpr int64_t kNormals = int64_t{32} << 20;  // doubles, 256 MB
-  return std::max<int64_t>(kNormals / std::max<int64_t>(face_normal_.rows(), 1), 1);
+int64_t SkinWriter::columns_at_once(bool with_normals) const {
+  constexpr int64_t kDoubles = int64_t{32} << 20;
+  const int64_t rows = std::max<int64_t>(T_.cols(), with_normals ? face_normal_.rows() : 1);
+  return std::max<int64_t>(kDoubles / std::max<int64_t>(rows, 1), 1);
 }
 
 void SkinWriter::write(H5File& file, const Eigen::MatrixXd& reduced,

@@ -27,8 +27,9 @@ class SkinWriter {
   /// @param face_normal n_f x 3 n_s
   SkinWriter(const rom::SkinRows& T, const SparseRows& face_normal);
 
-  /// Columns whose normal components are summed at a time, for `write`.
-  int64_t columns_at_once() const;
+  /// Columns of one call of `write`: as many as leave their reduced coordinates, and with normal
+  /// components these, within 256 MB each. T is read once per call.
+  int64_t columns_at_once(bool with_normals) const;
 
   /// Expands each column of `reduced` (r x m, m at most columns_at_once()) into the datasets of
   /// its entry of `columns` (m), in single or double precision. Each row of T is read once.
