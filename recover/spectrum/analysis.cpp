@@ -30,7 +30,7 @@ Eigen::VectorXd panel_powers(const PanelForm& form, const LineSpectrum& velocity
 
 PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity,
                     const Eigen::VectorXd& mean_square, const RowMatrix& v,
-                    const ThirdOctaves& bands, const Options& options) {
+                    const ThirdOctaves& bands, const Options& options, bool with_samples) {
   PanelResult result{.name = form.name, .area = form.area};
   result.mean_square_velocity = mean_square;
   const double to_power = equivalent_radiated_power(options.air, form.area, 1.0);
@@ -50,7 +50,7 @@ PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity,
     result.total_erp += result.erp[k];
     result.total_erp_a += weighted[k];
   }
-  result.instant_mean_square = normal_velocity_integral(form.W, v) / form.area;
+  if (with_samples) result.instant_mean_square = normal_velocity_integral(form.W, v) / form.area;
   return result;
 }
 
@@ -143,7 +143,7 @@ Analysis analyse(const RunBody& body, const Piece& piece, const Options& options
   for (size_t p = 0; p < forms.size(); ++p)
     analysis.panels.push_back(radiate(forms[p], analysis.velocity,
                                       mean_square.col(static_cast<Eigen::Index>(p)), v,
-                                      analysis.bands, options));
+                                      analysis.bands, options, p == 0 || options.output.samples));
   if (piece.segments() > 1) analysis.velocity.amplitude.resize(0, v.cols());
   if (sensors.empty()) return analysis;
 

@@ -24,7 +24,8 @@ struct PanelResult {
   Eigen::VectorXd band_velocity_db{};      // per third octave, re LevelReferences::velocity
   Eigen::VectorXd band_erp_db{};           // per third octave, re 1 pW
   Eigen::VectorXd band_erp_dba{};          // the same, each line A-weighted before the sum
-  Eigen::VectorXd instant_mean_square{};   // per sample: surface mean of v_n^2 [m2/s2]
+  Eigen::VectorXd instant_mean_square{};   // per sample: surface mean of v_n^2 [m2/s2]; without
+                                           // OutputRule::samples of the first panel only
   double total_erp = 0.0;                  // [W], lines inside the spectrum's band
   double total_erp_a = 0.0;                // [W], A-weighted
 };

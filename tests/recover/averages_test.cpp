@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <memory>
 #include <random>
 
 #include "core/base/artefact.hpp"
