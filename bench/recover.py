@@ -10,6 +10,7 @@ processes, with and without it. The rows T of --large are random numbers in sing
 import argparse
 import hashlib
 import os
+import resource
 import statistics
 import sys
 import tempfile
@@ -117,8 +118,14 @@ def write_plain(path, size):
     return seconds
 
 
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def recover(folder, build, config):
-    """Wall seconds, peak megabytes and bytes of a recovery, and the seconds of its steps."""
+    """Wall seconds, peak megabytes and bytes of a recovery, the seconds of its steps, and its processor seconds."""
+    before = processor_seconds()
     (folder / "part.field.toml").write_text(config)
     _, seconds, peak = run([build / "bin/clatter-recover", "part.run.h5", "-c", "part.field.toml", "-o", "part.field.h5", "--quiet"],
                            folder)
@@ -127,7 +134,7 @@ def recover(folder, build, config):
         steps = dict(zip((s.decode() for s in f["timing/step"][()]), f["timing/seconds"][()]))
     size = path.stat().st_size
     path.unlink()
-    return seconds, peak, size, steps
+    return seconds, peak, size, steps, processor_seconds() - before
 
 
 def compare(folder, build, squares, r, steps, runs):
@@ -140,12 +147,12 @@ def compare(folder, build, squares, r, steps, runs):
         without.append(recover(folder, build, NOTHING))
         full.append(recover(folder, build, every))
         plain.append(write_plain(folder / "plain.bin", full[-1][2] - without[-1][2]))
-    median = lambda rows: statistics.median(row[0] for row in rows)  # noqa: E731
+    median = lambda rows, k=0: statistics.median(row[k] for row in rows)  # noqa: E731
     expansion = median(full) - median(without)
     size = full[-1][2] - without[-1][2]
     spectra = statistics.median(row[3]["spectra and radiated power"] for row in without)
     forms = statistics.median(row[3]["normal velocity forms"] for row in without)
-    print(f"| {n_s} | {n_f} | {r} | {steps} | {size / 1e9:.2f} | {expansion:.2f} | {statistics.median(plain):.2f} | "
+    print(f"| {n_s} | {n_f} | {r} | {steps} | {size / 1e9:.2f} | {expansion:.2f} | {median(full, 4) - median(without, 4):.2f} | {statistics.median(plain):.2f} | "
           f"{expansion / statistics.median(plain):.2f} | {median(without):.2f} | {forms:.2f} | {spectra:.2f} | "
           f"{(expansion + median(without)) / median(without):.1f} | {expansion / (forms + spectra):.1f} | {expansion / spectra:.0f} | "
           f"{max(row[1] for row in full):.0f} |", flush=True)
@@ -168,7 +175,7 @@ def large(folder, build, squares, r, steps, frames):
                           EVERY_STEP.format(end=end, step=end / 72, quantities=every)),
                          (f"and velocities of {frames} steps",
                           EVERY_STEP.format(end=end, step=end / frames, quantities='["velocity"]'))):
-        seconds, peak, size, laps = recover(folder, build, config)
+        seconds, peak, size, laps, _ = recover(folder, build, config)
         print(f"{name}: {seconds:.0f} s, peak {peak:.0f} MB, file {size / 1e9:.2f} GB; " +
               ", ".join(f"{k} {v:.1f} s" for k, v in laps.items()), flush=True)
 
@@ -186,9 +193,9 @@ def main():
         folder = Path(name)
         if a.large:
             return large(folder, a.build, 65, 2500, 10000, a.frames)
-        print("| nodes | faces | r | steps | GB | expansion [s] | plain write [s] | ratio | process without expansion [s] | of it forms [s] | "
+        print("| nodes | faces | r | steps | GB | expansion [s] | its processor time [s] | plain write [s] | ratio | process without expansion [s] | of it forms [s] | "
               "spectra and power [s] | process with / without | expansion / (forms + spectra) | expansion / spectra | peak [MB] |")
-        print("|" + "--:|" * 15)
+        print("|" + "--:|" * 16)
         for size in a.sizes:
             compare(folder, a.build, *map(int, size.split(":")), a.runs)
 

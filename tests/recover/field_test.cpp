@@ -46,6 +46,13 @@ std::filesystem::path recover_file(const std::filesystem::path& run, const std::
   return path;
 }
 
+/// A run of order 12 on random rows of T, in a fresh folder.
+std::filesystem::path random_run(const std::string& name, const Mesh6& mesh) {
+  const RunPlan plan;
+  return write_run(fresh_folder(name), model_on(mesh, random_rows(mesh, 2, 5), 5000.0), plan,
+                   turning(plan, 12.0));
+}
+
 /// A monopole p = A exp(-i k r)/r inside an ellipsoid; velocities by -grad p / (i w rho).
 struct Source {
   Eigen::Vector3d centre{0.05, -0.03, 0.04};
@@ -255,11 +262,7 @@ TEST(FieldFile, PanelsOfSurfacesAndWindowsOverTheAngleReachTheFile) {
 }
 
 TEST(FieldFile, LinesNeedAnAnalysisWithPhases) {
-  const RunPlan plan;
-  const Mesh6 mesh = box({1, 1, 1}, 1);
-  const auto folder = fresh_folder("phases");
-  const auto run =
-      write_run(folder, model_on(mesh, random_rows(mesh, 2, 5), 5000.0), plan, turning(plan, 12.0));
+  const auto run = random_run("phases", box({1, 1, 1}, 1));
   const std::string averaged =
       "cycle = false\n[[window]]\nname = \"w\"\ncycles = 1.5\nsegment_deg = 360\n";
   test::expect_parts(
@@ -268,15 +271,11 @@ TEST(FieldFile, LinesNeedAnAnalysisWithPhases) {
   const H5File file = open_artefact(recover_file(run, averaged), kFieldSchema);
   EXPECT_FALSE(file.has("lines"));
   EXPECT_GT(file.get_int("analysis/w", "averages"), 1);
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(run.parent_path());
 }
 
 TEST(FieldFile, SlimFilesHaveLevelsInSinglePrecisionAndNothingElse) {
-  const RunPlan plan;
-  const Mesh6 mesh = box({0.3, 0.2, 0.1}, 4);
-  const auto folder = fresh_folder("slim");
-  const auto run =
-      write_run(folder, model_on(mesh, random_rows(mesh, 2, 5), 5000.0), plan, turning(plan, 12.0));
+  const auto run = random_run("slim", box({0.3, 0.2, 0.1}, 4));
   const std::string less = "window = []\n[frames]\non = false\n[lines]\nstrongest = 0\n";
   const auto path = recover_file(run, less);
   const auto full_size = std::filesystem::file_size(path);
@@ -296,11 +295,11 @@ TEST(FieldFile, SlimFilesHaveLevelsInSinglePrecisionAndNothingElse) {
   EXPECT_EQ(erp, full.cast<float>().cast<double>());
   EXPECT_NE(erp, full);
   // Axes keep their precision, attributes the totals.
-  const double step = plan.cycle_s() / plan.samples;
+  const double step = RunPlan{}.cycle_s() / RunPlan{}.samples;
   EXPECT_NEAR(file.read_vector("analysis/cycle/time")[77], 77 * step, 1e-15);
   EXPECT_NEAR(file.get_double("analysis/cycle/panels/skin", "erp_w"), full.sum(),
               1e-12 * full.sum());
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(run.parent_path());
 }
 
 TEST(FieldFile, StrongestPeaksAreTakenWhenNoFrequencyIsAskedFor) {
