@@ -29,7 +29,7 @@ std::optional<Piece> optional_piece(bool requested, const Make& make) {
 
 Piece whole_run(const RunClock& clock, const std::string& origin) {
   const Span span{clock.time[0], clock.time[clock.time.size() - 1], true};
-  return window(clock, "whole", span, Taper::kHann, origin);
+  return window(clock, {.name = "whole", .span = span, .taper = Taper::kHann}, origin);
 }
 
 std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
@@ -42,15 +42,14 @@ std::vector<Piece> choose_pieces(const RunClock& clock, const Options& options,
     keep(optional_piece(options.cycle_requested, [&] { return last_cycle(clock, origin); }));
   for (const WindowRule& rule : options.windows)
     if (clock.has_crank() || options.windows_requested)
-      keep(optional_piece(options.windows_requested,
-                          [&] { return window(clock, rule.name, rule.span, rule.taper, origin); }));
+      keep(optional_piece(options.windows_requested, [&] { return window(clock, rule, origin); }));
   if (pieces.empty()) pieces.push_back(whole_run(clock, origin));
   return pieces;
 }
 
 struct FrameChoice {
-  Piece piece;
-  std::vector<int64_t> samples;
+  Piece piece{};
+  std::vector<int64_t> samples{};
 };
 
 /// The requested frames; when the default does not fit the run, sixty over the entire run.
@@ -60,7 +59,7 @@ FrameChoice choose_frames(const RunClock& clock, const Options& options,
   std::optional<Piece> piece;
   if (clock.has_crank() || options.frames_requested)
     piece = optional_piece(options.frames_requested, [&] {
-      return window(clock, "frames", rule.span, Taper::kNone, origin);
+      return window(clock, {.name = "frames", .span = rule.span, .taper = Taper::kNone}, origin);
     });
   if (piece) return {*piece, frame_samples(clock, *piece, rule.span, rule.step)};
   piece = whole_run(clock, origin);
@@ -96,13 +95,6 @@ FieldCertificate certify(const RunBody& body, const Analysis& analysis,
   return certificate;
 }
 
-void certify_sound(const std::vector<RunSound>& sounds, FieldCertificate& certificate) {
-  if (sounds.empty()) return;
-  certificate.panel_power_difference = sounds.front().panels.sum_difference;
-  certificate.directivity_power_difference = sounds.front().directivity.power_difference;
-  certificate.resistance_power_difference = sounds.front().resistance_difference;
-}
-
 /// The panel whose ERP stands for the sound without a table, and above it: the exposed faces, else
 /// all.
 const PanelResult& radiating_panel(const Analysis& analysis) {
@@ -121,17 +113,92 @@ void require_same_air(const SoundTable& table, const Options& options) {
 }
 
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
-                              const Options& options, const std::vector<Panel>& panels,
+                              const rom::SkinRows& T, const Options& options, const std::vector<Panel>& panels,
                               const std::vector<Analysis>& analyses) {
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
   require_same_air(table, options);
   const PanelParts parts =
-      with_context(options.sound.string(), [&] { return panel_parts(table, model.skin, panels); });
+      with_context(options.sound.string(), [&] { return panel_parts(table, model.skin.triangles, T, panels); });
   std::vector<RunSound> sounds;
-  for (const Analysis& analysis : analyses)
+  for (const Analysis& analysis : analyses) {
+    if (analysis.piece.segments() > 1) {
+      warn(fmt::format("window '{}': powers averaged over segments: without radiated sound",
+                       analysis.piece.name));
+      sounds.emplace_back();
+      continue;
+    }
     sounds.push_back(run_sound(table, analysis, parts, radiating_panel(analysis), options));
+  }
   return sounds;
+}
+
+bool has_sound(const Summary& summary) {
+  return !summary.sounds.empty() && summary.sounds.front().power.size() > 0;
+}
+
+void certify_sound(const Summary& summary, FieldCertificate& certificate) {
+  if (!has_sound(summary)) return;
+  const RunSound& sound = summary.sounds.front();
+  certificate.panel_power_difference = sound.panels.sum_difference;
+  certificate.directivity_power_difference = sound.directivity.power_difference;
+  certificate.resistance_power_difference = sound.resistance_difference;
+}
+
+/// The sound power of an analysis, or else its ERP, n_l [W].
+const Eigen::VectorXd& radiated_power(const Summary& summary, const Analysis& analysis) {
+  const auto at = static_cast<size_t>(&analysis - summary.analyses.data());
+  if (at < summary.sounds.size() && summary.sounds[at].power.size() > 0)
+    return summary.sounds[at].power;
+  return radiating_panel(analysis).erp;
+}
+
+/// The first analysis that has complex lines; null when all are averaged over segments.
+const Analysis* analysis_with_lines(const std::vector<Analysis>& analyses) {
+  for (const Analysis& analysis : analyses)
+    if (analysis.piece.segments() == 1) return &analysis;
+  return nullptr;
+}
+
+/// Lines of the skin, with the limit of their analysis.
+std::vector<ChosenLine> choose_lines_of(const Analysis* analysis, const Summary& summary,
+                                        double step_s) {
+  const Options& options = summary.options;
+  FrequencyLimit limit = summary.limit;
+  if (analysis == nullptr) {
+    if (options.lines.requested())
+      throw InputError(
+          "lines: found only windows averaged over segments, expected a cycle or a "
+          "window in one segment, which have amplitudes and phases");
+    return {};
+  }
+  const double to_hz = analysis->piece.limit_hz(limit.to_hz, step_s);
+  if (to_hz < limit.to_hz)
+    limit = {to_hz,
+             fmt::format("'{}' at its mean speed, so that no order leaves the spectra at its "
+                         "highest speed",
+                         analysis->piece.name)};
+  return choose_lines(options.lines, options.spectrum, *analysis,
+                      radiated_power(summary, *analysis), limit);
+}
+
+void write_skin(H5File& file, const rom::Skin& skin, const SkinGeometry& geometry,
+                const std::vector<Panel>& panels, const OutputRule& output) {
+  if (output.skin) {
+    file.store_single(output.single);
+    write_skin_geometry(file, skin, geometry);
+    file.store_single(false);
+  }
+  write_panels(file, panels, output.skin);
+}
+
+void write_analyses(H5File& file, const Summary& summary) {
+  const Options& options = summary.options;
+  for (size_t i = 0; i < summary.analyses.size(); ++i) {
+    write_analysis(file, summary.analyses[i], options.references, options.output);
+    if (i < summary.sounds.size() && summary.sounds[i].power.size() > 0)
+      write_run_sound(file, summary.analyses[i], summary.sounds[i], options.references);
+  }
 }
 
 }  // namespace
@@ -150,54 +217,46 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
     warn(body.rom_path().filename().string() +
          ": valid_to_hz is not stated: spectra are not checked against the basis");
   if (!body.complete()) warn(body.path().string() + ": the run was interrupted");
-  summary.sensors =
-      with_context(options.origin, [&] { return find_sensors(options.sensors, model, geometry); });
+  const rom::SkinRows T = body.skin_rows();
+  summary.sensors = with_context(options.origin,
+                                 [&] { return find_sensors(options.sensors, model, T, geometry); });
   const std::string origin = body.path().string();
   const std::vector<Piece> pieces = choose_pieces(body.clock(), options, origin);
-  const FrameChoice frames = choose_frames(body.clock(), options, origin);
+  FrameChoice frames;
+  if (options.frames.on) frames = choose_frames(body.clock(), options, origin);
   summary.panels = with_context(options.origin, [&] {
-    return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry);
+    return choose_panels(panel_rules(options), skin.nodes, skin.triangles, geometry, skin.faces);
   });
   clock.lap("skin and panels");
 
-  const std::vector<PanelForm> forms = normal_velocity_forms(skin, geometry, summary.panels);
+  const std::vector<PanelForm> forms = normal_velocity_forms(skin, T, geometry, summary.panels);
   clock.lap("normal velocity forms");
 
   for (const Piece& piece : pieces)
     summary.analyses.push_back(
         analyse(body, piece, options, summary.limit.to_hz, forms, summary.sensors));
-  const Analysis& first = summary.analyses.front();
-  summary.certificate = certify(body, first, geometry, forms.front());
+  summary.certificate = certify(body, summary.analyses.front(), geometry, forms.front());
   clock.lap("spectra and radiated power");
-  summary.sounds = radiate(body, model, options, summary.panels, summary.analyses);
+  summary.sounds = radiate(body, model, T, options, summary.panels, summary.analyses);
   if (!options.sound.empty()) clock.lap("radiated sound");
-  certify_sound(summary.sounds, summary.certificate);
-  const Eigen::VectorXd& power =
-      summary.sounds.empty() ? radiating_panel(first).erp : summary.sounds.front().power;
+  certify_sound(summary, summary.certificate);
+  const Analysis* const of_lines = analysis_with_lines(summary.analyses);
   const std::vector<ChosenLine> lines = with_context(options.origin, [&] {
-    return choose_lines(options.lines, options.spectrum, first, power, summary.limit);
+    return choose_lines_of(of_lines, summary, body.clock().step_s);
   });
-  for (const ChosenLine& line : lines)
-    summary.line_hz.push_back(first.velocity.frequency_hz[line.index]);
 
   file.set("/", "body", body.name());
   write_conventions(file, options, summary.limit, model.valid_to_hz);
   write_certificate(file, summary.certificate);
-  write_skin_geometry(file, skin, geometry);
-  write_panels(file, summary.panels);
-  for (size_t i = 0; i < summary.analyses.size(); ++i) {
-    write_analysis(file, summary.analyses[i], options.references);
-    if (!summary.sounds.empty())
-      write_run_sound(file, summary.analyses[i], summary.sounds[i], options.references);
-  }
-  const SparseRows face_normal = face_normal_operator(skin.nodes, skin.triangles, geometry);
-  write_lines(file, first, lines, skin, face_normal);
-  if (!options.sound.empty())
-    if (const auto acoustic = read_acoustic_velocity(options.sound, model.size()))
-      write_acoustic_lines(file, *acoustic, first.velocity, lines);
+  write_skin(file, skin, geometry, summary.panels, options.output);
+  write_analyses(file, summary);
+  const SkinWriter writer(T, face_normal_operator(skin.nodes, skin.triangles, geometry));
+  if (of_lines != nullptr)
+    summary.lines = write_lines(file, *of_lines, lines, writer, options.lines.quantities,
+                                options.output.single);
   if (options.frames.on)
-    summary.frames = write_frames(file, body, skin, face_normal, frames.piece, frames.samples,
-                                  options.frames.displacement);
+    summary.frames =
+        write_frames(file, body, writer, frames.piece, frames.samples, options.frames.quantities);
   clock.lap("skin fields");
   return summary;
 }
@@ -210,21 +269,22 @@ void write_exports(const std::filesystem::path& field_file, const Summary& summa
     else
       write_whole_file(path, xdmf_text(series));
   };
-  write(frame_export_path(field_file),
-        frame_series(field_file, summary.n_nodes, summary.n_faces, summary.frames));
-  write(line_export_path(field_file),
-        line_series(field_file, summary.n_nodes, summary.n_faces, summary.line_hz));
+  XdmfSeries frames = frame_series(field_file, summary.n_nodes, summary.n_faces, summary.frames);
+  XdmfSeries lines = line_series(field_file, summary.n_nodes, summary.n_faces, summary.lines);
+  if (summary.options.output.single) frames.precision = lines.precision = 4;
+  write(frame_export_path(field_file), frames);
+  write(line_export_path(field_file), lines);
 }
 
 JsonMembers json_of(const Summary& summary) {
   const PanelResult& skin = summary.analyses.front().panels.front();
   JsonMembers members{{"faces", json_number(static_cast<double>(summary.n_faces))},
                       {"frames", json_number(static_cast<double>(summary.frames.size()))},
-                      {"lines", json_number(static_cast<double>(summary.line_hz.size()))},
+                      {"lines", json_number(static_cast<double>(summary.lines.size()))},
                       {"erp_w", json_number(skin.total_erp)},
                       {"erp_db", json_number(level_db(skin.total_erp, 1e-12))},
                       {"spectra_to_hz", json_number(summary.limit.to_hz)}};
-  if (!summary.sounds.empty()) {
+  if (has_sound(summary)) {
     const RunSound& sound = summary.sounds.front();
     const double reference = summary.options.references.power;
     members.emplace_back("sound_power_w", json_number(sound.total));
@@ -254,7 +314,7 @@ std::string summary_text(const Summary& summary) {
       fmt::format("ERP re 1 pW, rho c = {:.1f} Pa s/m, radiation loss factor {:g}; from {:g} Hz\n",
                   summary.options.air.density * summary.options.air.sound_speed,
                   summary.options.air.loss_factor, summary.options.spectrum.from_hz);
-  if (!summary.sounds.empty()) text += sound_summary(summary.sounds.front(), ref);
+  if (has_sound(summary)) text += sound_summary(summary.sounds.front(), ref);
   for (const SensorResult& result : analysis.sensors)
     text += fmt::format(
         "sensor {:<17} peak acceleration {:.4g} m/s2\n", result.sensor->name,
@@ -262,7 +322,7 @@ std::string summary_text(const Summary& summary) {
   for (const auto& [name, value] : certificate_numbers(summary.certificate))
     text += fmt::format("{} = {:.4g}\n", name, value);
   text += fmt::format("{} frames of the skin, {} complex lines", summary.frames.size(),
-                      summary.line_hz.size());
+                      summary.lines.size());
   return text;
 }
 

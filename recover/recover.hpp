@@ -24,7 +24,7 @@ struct Summary {
   std::vector<Analysis> analyses{};
   std::vector<RunSound> sounds{};  // of the analyses; empty without a sound file
   FrameIndex frames{};
-  std::vector<double> line_hz{};
+  LineIndex lines{};
   FrequencyLimit limit{};
   int64_t n_nodes = 0, n_faces = 0;
   FieldCertificate certificate{};

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 
 #include "core/base/named.hpp"
 #include "core/mesh/boundary.hpp"
@@ -19,7 +18,38 @@ class Builder {
   explicit Builder(int64_t n_nodes) : n_nodes_(static_cast<int32_t>(n_nodes)) {}
 
   void add(FaceType type, std::span<const int32_t> f) {
-    if (!seen_.insert(mesh::face_key(type, f)).second) return;
+    const auto [entry, fresh] = triangles_of_.try_emplace(mesh::face_key(type, f));
+    if (!fresh) return;
+    const int32_t first = triangle_count();
+    split(type, f);
+    entry->second = {first, triangle_count()};
+  }
+
+  /// Triangles of a face [first, second), empty when it was not added.
+  std::pair<int32_t, int32_t> triangles_of(FaceType type, std::span<const int32_t> f) const {
+    const auto entry = triangles_of_.find(mesh::face_key(type, f));
+    return entry == triangles_of_.end() ? std::pair{0, 0} : entry->second;
+  }
+
+  SkinFaces finish() {
+    SkinFaces out;
+    out.triangles = Eigen::Map<const IndexMatrix>(
+        corners_.data(), static_cast<Eigen::Index>(corners_.size()) / 6, 6);
+    std::vector<int32_t> used = corners_;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (int32_t& id : out.triangles.reshaped())
+      id = static_cast<int32_t>(std::lower_bound(used.begin(), used.end(), id) - used.begin());
+    for (const int32_t id : used)
+      out.points.push_back(id < n_nodes_ ? SkinPoint{{id, 1.0}}
+                                         : made_[static_cast<size_t>(id - n_nodes_)]);
+    return out;
+  }
+
+ private:
+  int32_t triangle_count() const { return static_cast<int32_t>(corners_.size() / 6); }
+
+  void split(FaceType type, std::span<const int32_t> f) {
     switch (type) {
       case FaceType::kTri6:
         return add_triangle({f[0], f[1], f[2], f[3], f[4], f[5]});
@@ -46,22 +76,6 @@ class Builder {
     }
   }
 
-  SkinFaces finish() {
-    SkinFaces out;
-    out.triangles = Eigen::Map<const IndexMatrix>(
-        corners_.data(), static_cast<Eigen::Index>(corners_.size()) / 6, 6);
-    std::vector<int32_t> used = corners_;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (int32_t& id : out.triangles.reshaped())
-      id = static_cast<int32_t>(std::lower_bound(used.begin(), used.end(), id) - used.begin());
-    for (const int32_t id : used)
-      out.points.push_back(id < n_nodes_ ? SkinPoint{{id, 1.0}}
-                                         : made_[static_cast<size_t>(id - n_nodes_)]);
-    return out;
-  }
-
- private:
   void add_triangle(const std::array<int32_t, 6>& nodes) {
     corners_.insert(corners_.end(), nodes.begin(), nodes.end());
   }
@@ -76,25 +90,40 @@ class Builder {
   }
 
   int32_t n_nodes_;
-  std::set<mesh::FaceKey> seen_;
+  std::map<mesh::FaceKey, std::pair<int32_t, int32_t>> triangles_of_;
   std::map<std::pair<int32_t, int32_t>, int32_t> midpoints_;
   std::vector<SkinPoint> made_;
   std::vector<int32_t> corners_;
 };
 
+/// body(type, nodes) for each face of a surface.
+template <class Body>
+void for_each_face(const mesh::Surface& surface, Body&& body) {
+  for (const mesh::FaceBlock& block : surface.faces)
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f)
+      body(block.type, std::span<const int32_t>(block.nodes.data() + f * block.nodes.cols(),
+                                                static_cast<size_t>(block.nodes.cols())));
+}
+
 }  // namespace
 
 SkinFaces skin_faces(const fe::FeModel& model, const std::vector<std::string>& surfaces) {
   Builder builder(model.nodes.rows());
-  for (const std::string& name : surfaces) {
-    const mesh::Surface& surface =
-        find_named(model.surfaces, model.name + ": skin", "surface", name);
-    for (const mesh::FaceBlock& block : surface.faces)
-      for (Eigen::Index f = 0; f < block.nodes.rows(); ++f)
-        builder.add(block.type, {block.nodes.data() + f * block.nodes.cols(),
-                                 static_cast<size_t>(block.nodes.cols())});
+  for (const std::string& name : surfaces)
+    for_each_face(find_named(model.surfaces, model.name + ": skin", "surface", name),
+                  [&](FaceType type, std::span<const int32_t> f) { builder.add(type, f); });
+  SkinFaces out = builder.finish();
+  for (const auto& [name, surface] : model.surfaces) {
+    std::vector<int32_t> rows;
+    for_each_face(surface, [&](FaceType type, std::span<const int32_t> f) {
+      const auto [first, end] = builder.triangles_of(type, f);
+      for (int32_t row = first; row < end; ++row) rows.push_back(row);
+    });
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    if (!rows.empty()) out.of_surface[name] = std::move(rows);
   }
-  return builder.finish();
+  return out;
 }
 
 }  // namespace clatter::condense

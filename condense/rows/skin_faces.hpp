@@ -2,6 +2,7 @@
 #pragma once
 // Faces of any type as quadratic triangles, the only type that recovery and radiation use.
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@ using SkinPoint = std::vector<std::pair<int32_t, double>>;
 struct SkinFaces {
   std::vector<SkinPoint> points;  // nodes of the model ascending, then midpoints
   IndexMatrix triangles;          // f x 6, rows of `points`, outward
+  /// Triangles on each surface of the model, ascending; those without one are absent.
+  std::map<std::string, std::vector<int32_t>> of_surface;
 };
 
 /// All faces of the named surfaces, each once. A quadrilateral becomes two triangles along its

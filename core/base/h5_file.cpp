@@ -134,6 +134,32 @@ void H5File::write_float(std::string_view name, const std::vector<float>& values
   impl_->write(name, values.data(), shape);
 }
 
+void H5File::create(std::string_view name, const std::vector<int64_t>& shape, bool single) {
+  impl_->create(name, single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, shape);
+}
+
+void H5File::write_part(std::string_view name, int64_t first, const float* values, int64_t count) {
+  impl_->write_part(name, H5T_NATIVE_FLOAT, first, values, count);
+}
+void H5File::write_part(std::string_view name, int64_t first, const double* values, int64_t count) {
+  impl_->write_part(name, H5T_NATIVE_DOUBLE, first, values, count);
+}
+
+int64_t H5File::rows_of_a_chunk(const std::vector<int64_t>& shape, bool single) {
+  if (std::find(shape.begin(), shape.end(), int64_t{0}) != shape.end()) return 1;
+  const size_t bytes_each = single ? sizeof(float) : sizeof(double);
+  return static_cast<int64_t>(chunk_of({shape.begin(), shape.end()}, bytes_each).front());
+}
+
+void H5File::begin_disk_writes() {
+  const int descriptor = ::open(impl_->part_path.c_str(), O_RDWR);
+  if (descriptor < 0) return;  // nothing depends on it
+  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+  ::close(descriptor);
+}
+
+void H5File::store_single(bool single) { impl_->single = single; }
+
 // Fixed length: strings of variable length are in a heap without checksums.
 void H5File::write(std::string_view name, const std::vector<std::string>& values) {
   size_t length = 1;
@@ -179,6 +205,13 @@ RowMatrix H5File::read_rows(std::string_view name) const {
 }
 
 RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count) const {
+  RowMatrix values;
+  read_rows(name, first, count, values);
+  return values;
+}
+
+void H5File::read_rows(std::string_view name, int64_t first, int64_t count,
+                       RowMatrix& values) const {
   const Id set = impl_->open_dataset(name);
   const auto extents = Impl::extents(set);
   if (extents.size() != 2 || first < 0 || count < 0 || first + count > extents[0]) {
@@ -186,8 +219,8 @@ RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count)
                                     first + count, extents.empty() ? 0 : extents[0]));
   }
   impl_->check_number_class(name, set, false);
-  RowMatrix values(count, extents[1]);
-  if (values.size() == 0) return values;
+  values.resize(count, extents[1]);
+  if (values.size() == 0) return;
   const Id space(H5Dget_space(set), &H5Sclose);
   const hsize_t start[2] = {static_cast<hsize_t>(first), 0};
   const hsize_t size[2] = {static_cast<hsize_t>(count), static_cast<hsize_t>(extents[1])};
@@ -195,7 +228,6 @@ RowMatrix H5File::read_rows(std::string_view name, int64_t first, int64_t count)
   const Id memory(H5Screate_simple(2, size, nullptr), &H5Sclose);
   if (H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
     impl_->refuse(name, damage());
-  return values;
 }
 
 IndexMatrix H5File::read_index_matrix(std::string_view name) const {

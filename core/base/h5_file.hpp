@@ -55,6 +55,22 @@ class H5File {
   /// Single precision, for visualisation data.
   void write_float(std::string_view name, const std::vector<float>& values,
                    const std::vector<int64_t>& shape);
+  /// A dataset of `shape` without values, of single or double precision, and complete rows of it
+  /// from row `first` on, `count` values. Parts that begin and end at multiples of
+  /// rows_of_a_chunk() are written without reading anything back. Every row must be written.
+  void create(std::string_view name, const std::vector<int64_t>& shape, bool single);
+  void write_part(std::string_view name, int64_t first, const float* values, int64_t count);
+  void write_part(std::string_view name, int64_t first, const double* values, int64_t count);
+  /// Rows of one chunk of a dataset of this shape; a multiple of it in single precision is one in
+  /// double precision.
+  static int64_t rows_of_a_chunk(const std::vector<int64_t>& shape, bool single);
+
+  /// Has the kernel begin to write to disk what is in its cache of the unfinished file, without
+  /// waiting: commit() then has less to wait for, while the next values are computed.
+  void begin_disk_writes();
+
+  /// While `single` is true, write() stores doubles in single precision.
+  void store_single(bool single);
 
   /// Appends rows to a dataset that grows along its first dimension. The first call creates it, in
   /// chunks of its rows, at most 128 KiB: later calls of the same number of rows fill complete
@@ -74,6 +90,8 @@ class H5File {
   RowMatrix read_rows(std::string_view name) const;
   /// Rows [first, first + count) of a two-dimensional dataset.
   RowMatrix read_rows(std::string_view name, int64_t first, int64_t count) const;
+  /// The same into `rows`, whose memory is reused where it fits.
+  void read_rows(std::string_view name, int64_t first, int64_t count, RowMatrix& rows) const;
   IndexMatrix read_index_matrix(std::string_view name) const;
 
   /// Attributes; `object` is a group or dataset, "/" for the root. Missing groups are created. A

@@ -62,6 +62,7 @@ struct H5File::Impl {
   std::filesystem::path part_path;  // empty when reading
   PartName unfinished;
   hid_t file = -1;
+  bool single = false;  // doubles are stored in single precision
 
   ~Impl() {
     if (file >= 0) H5Fclose(file);
@@ -127,18 +128,44 @@ struct H5File::Impl {
 
   void write(std::string_view name, hid_t type, const void* values,
              const std::vector<int64_t>& shape) {
+    const bool narrow = single && H5Tequal(type, H5T_NATIVE_DOUBLE) > 0;
+    const Id set = create(name, narrow ? H5T_NATIVE_FLOAT : type, shape);
+    const bool empty = std::find(shape.begin(), shape.end(), int64_t{0}) != shape.end();
+    if (!empty && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail_write(name);
+  }
+
+  /// A new dataset without values.
+  Id create(std::string_view name, hid_t type, const std::vector<int64_t>& shape) {
     const std::string path(name);
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
     const Id space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
                    &H5Sclose);
     ensure_group(parent_of(path));
     const Id layout = checked_layout(dims, H5Tget_size(type));
-    const Id set(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
-                 &H5Dclose);
-    const bool empty = std::any_of(dims.begin(), dims.end(), [](hsize_t d) { return d == 0; });
-    if (!set.ok() || (!empty && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+    Id set(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+           &H5Dclose);
+    if (!set.ok()) fail_write(name);
+    return set;
+  }
+
+  /// `count` values from row `first` of a dataset on.
+  void write_part(std::string_view name, hid_t type, int64_t first, const void* values,
+                  int64_t count) {
+    const Id set = open_dataset(name);
+    std::vector<int64_t> shape = extents(set);
+    int64_t row = 1;
+    for (size_t d = 1; d < shape.size(); ++d) row *= shape[d];
+    shape[0] = row > 0 ? count / row : 0;
+    const std::vector<hsize_t> size(shape.begin(), shape.end());
+    std::vector<hsize_t> start(size.size(), 0);
+    start[0] = static_cast<hsize_t>(first);
+    const Id space(H5Dget_space(set), &H5Sclose);
+    const Id memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+                    &H5Sclose);
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) <
+            0 ||
+        H5Dwrite(set, type, memory, space, H5P_DEFAULT, values) < 0)
       fail_write(name);
-    }
   }
 
   /// Appends rows along the first dimension; the first call creates the dataset.

@@ -2,6 +2,7 @@
 #include "core/rom/reduced_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
 #include "core/base/named.hpp"
@@ -99,31 +100,53 @@ void write_skin(H5File& file, const Skin& skin) {
   file.write("skin/triangles", skin.triangles);
   file.write("skin/T", skin.T);
   file.write("skin/surfaces", skin.surfaces);
+  for (const auto& [name, faces] : skin.faces) file.write("skin/faces/" + name, faces);
 }
 
-Skin read_skin(const H5File& file, Eigen::Index size) {
+[[noreturn]] void refuse_skin(const H5File& file, const std::string& what) {
+  throw InputError(fmt::format("{}: skin: {}", file.path().string(), what));
+}
+
+std::vector<int32_t> read_faces(const H5File& file, const std::string& name, Eigen::Index count) {
+  std::vector<int32_t> faces = file.read_ints(name);
+  for (size_t k = 0; k < faces.size(); ++k)
+    if (faces[k] < 0 || faces[k] >= count || (k > 0 && faces[k] <= faces[k - 1]))
+      throw InputError(
+          fmt::format("{}: {}: found triangle {} at {}, expected ascending numbers below {}",
+                      file.path().string(), name, faces[k], k, count));
+  return faces;
+}
+
+/// All of the skin but T, whose shape alone is checked.
+Skin read_geometry(const H5File& file, Eigen::Index size) {
   Skin skin;
   skin.nodes = file.read_rows("skin/nodes");
   skin.triangles = file.read_index_matrix("skin/triangles");
-  skin.T = file.read_rows("skin/T");
   if (file.has("skin/surfaces")) skin.surfaces = file.read_strings("skin/surfaces");
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: skin: {}", file.path().string(), what));
-  };
+  for (const std::string& name : file.list("skin/faces"))
+    skin.faces[name] = read_faces(file, "skin/faces/" + name, skin.triangles.rows());
   if (skin.nodes.cols() != 3 || skin.triangles.cols() != 6) {
-    refuse(fmt::format("found {} coordinates and {} nodes a triangle, expected 3 and 6",
-                       skin.nodes.cols(), skin.triangles.cols()));
+    refuse_skin(file, fmt::format("found {} coordinates and {} nodes a triangle, expected 3 and 6",
+                                  skin.nodes.cols(), skin.triangles.cols()));
   }
-  if (skin.T.rows() != 3 * skin.nodes.rows() || skin.T.cols() != size) {
-    refuse(fmt::format("T is {} x {}, expected {} x {}", skin.T.rows(), skin.T.cols(),
-                       3 * skin.nodes.rows(), size));
+  if (const auto shape = file.shape("skin/T");
+      shape.size() != 2 || shape[0] != 3 * skin.nodes.rows() || shape[1] != size) {
+    refuse_skin(file, fmt::format("T is {}, expected {} x {}", fmt::join(shape, " x "),
+                                  3 * skin.nodes.rows(), size));
   }
   if (skin.triangles.size() > 0 &&
       (skin.triangles.minCoeff() < 0 || skin.triangles.maxCoeff() >= skin.nodes.rows())) {
-    refuse(fmt::format("a triangle refers to node {}, but there are {} nodes",
-                       skin.triangles.maxCoeff(), skin.nodes.rows()));
+    refuse_skin(file, fmt::format("a triangle refers to node {}, but there are {} nodes",
+                                  skin.triangles.maxCoeff(), skin.nodes.rows()));
   }
-  if (!skin.T.allFinite() || !skin.nodes.allFinite()) refuse("found a value that is not finite");
+  if (!skin.nodes.allFinite()) refuse_skin(file, "found a value that is not finite");
+  return skin;
+}
+
+Skin read_skin(const H5File& file, Eigen::Index size) {
+  Skin skin = read_geometry(file, size);
+  skin.T = file.read_rows("skin/T");
+  if (!skin.T.allFinite()) refuse_skin(file, "found a value that is not finite");
   return skin;
 }
 
@@ -243,6 +266,11 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
                                  model.n_boundary, size));
   }
   return model;
+}
+
+Skin read_skin_geometry(const std::filesystem::path& path) {
+  const H5File file = open_artefact(path, kRomSchema);
+  return file.has("skin") ? read_geometry(file, file.shape("M_rr").at(0)) : Skin{};
 }
 
 }  // namespace clatter::rom

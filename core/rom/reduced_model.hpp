@@ -62,8 +62,11 @@ struct MassProperties {
 struct Skin {
   RowMatrix nodes;        // n_s x 3 [m]
   IndexMatrix triangles;  // n_f x 6, quadratic triangles, outward orientation, Gmsh order
-  RowMatrix T;            // 3 n_s x r, row 3 a + d: node a, direction d
+  RowMatrix T{};          // 3 n_s x r, row 3 a + d: node a, direction d
   std::vector<std::string> surfaces{};  // of the FE model, merged into this skin
+  /// Rows of `triangles` that lie on each named surface of the FE model, ascending. Surfaces that
+  /// are not part of the skin are absent; all are in files of older versions.
+  std::map<std::string, std::vector<int32_t>> faces{};
 };
 
 struct ReducedModel {
@@ -109,6 +112,10 @@ void write_reduced_model(H5File& file, const ReducedModel& model);
 /// Reads and checks shapes, ranges, symmetry, finite values (InputError). `with_skin` false leaves
 /// the skin empty.
 ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_skin = true);
+
+/// Reads and checks the skin without its recovery rows: `T` stays empty (0 rows), skin_rows.hpp
+/// reads it. Empty when the file has no skin.
+Skin read_skin_geometry(const std::filesystem::path& path);
 
 /// DoF sets and grids are stored in the same way by FE models and reduced models.
 void write_dof_sets(H5File& file, const std::map<std::string, DofSet>& sets,

@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/rom/reduced_model.hpp"
+#include "core/base/matrix.hpp"
+#include "core/rom/skin_rows.hpp"
 #include "recover/skin/triangle6.hpp"
 
 namespace clatter::recover {
@@ -37,10 +38,11 @@ class FlowMapBuilder {
 };
 
 /// Flow per coordinate of each group of faces.
-/// @param skin with T, 3 n_s x r
+/// @param triangles n_f x 6, of the body's skin; @param T its rows, 3 n_s x r
 /// @param group_of_face n_f, -1: in no group
 /// @return a matrix n_v x r for each group [m2, for translations]
-std::vector<RowMatrix> group_flows(const FlowMap& flow, const rom::Skin& skin,
+std::vector<RowMatrix> group_flows(const FlowMap& flow, const IndexMatrix& triangles,
+                                   const rom::SkinRows& T,
                                    const std::vector<int32_t>& group_of_face, int groups,
                                    Eigen::Index n_v);
 

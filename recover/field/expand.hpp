@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Expansion of reduced coordinates to the skin, by blocks of columns.
+// Expansion of reduced coordinates to the skin, by blocks of rows and columns.
 #include <Eigen/Core>
 #include <functional>
 
-#include "core/base/matrix.hpp"
+#include "core/rom/skin_rows.hpp"
 
 namespace clatter::recover {
 
-/// Receives columns [first, first + u.cols()) of the expansion, 3 n_s x block.
-using ExpansionSink = std::function<void(int64_t first, const Eigen::MatrixXd& u)>;
+/// Rows and columns of the expansion that are in memory at a time.
+struct ExpansionBlock {
+  int64_t rows = 0, columns = 0;
+};
 
-/// Expands u = T q for the columns of `reduced` (instants, or real parts of frequency lines).
+/// Receives rows [row, row + u.rows()) of columns [column, column + u.cols()) of the expansion.
+using ExpansionSink = std::function<void(int64_t row, int64_t column, const Eigen::MatrixXd& u)>;
+
+/// Expands u = T q for the columns of `reduced` (instants, or parts of complex lines).
 ///
-/// Only `block` columns of the expansion are in memory at a time: 3 n_s x block doubles.
+/// Each block of rows of T is read once and multiplied by all columns, block by block.
 /// @param T 3 n_s x r, row 3 a + d: node a, direction d
 /// @param reduced r x m
-void expand(const RowMatrix& T, const Eigen::MatrixXd& reduced, int64_t block,
+void expand(const rom::SkinRows& T, const Eigen::MatrixXd& reduced, const ExpansionBlock& block,
             const ExpansionSink& sink);
 
-/// Number of columns that fit in about 64 MB for a skin of this many rows, at least 1.
-int64_t expansion_block(int64_t rows);
+/// Rows as many as are in memory, else about 256 MB of T, a multiple of `multiple`; columns that
+/// take about 64 MB with these rows, at least 1.
+ExpansionBlock expansion_block(const rom::SkinRows& T, int64_t multiple);
 
 }  // namespace clatter::recover

@@ -9,6 +9,8 @@
 namespace clatter::recover {
 namespace {
 
+const std::string kNormalVelocity = "normal_velocity";
+
 std::string data_item(const XdmfSeries& series, const std::string& dataset,
                       const std::string& shape, const char* type, int precision) {
   return fmt::format(
@@ -38,9 +40,26 @@ std::string grid_text(const XdmfSeries& series, size_t step) {
       "</Geometry>\n",
       escape_xml(series.name), step, series.values[step], series.n_faces,
       data_item(series, "skin/triangles", fmt::format("{} 6", series.n_faces), "Int", 4),
-      data_item(series, "skin/nodes", fmt::format("{} 3", series.n_nodes), "Float", 8));
+      data_item(series, "skin/nodes", fmt::format("{} 3", series.n_nodes), "Float",
+                series.precision));
   for (const XdmfField& field : series.fields) text += field_text(series, field, step);
   return text + "      </Grid>\n";
+}
+
+XdmfSeries empty_series(const std::string& name, const std::filesystem::path& field_file,
+                        int64_t n_nodes, int64_t n_faces) {
+  return {.name = name,
+          .heavy_file = field_file.filename().string(),
+          .n_nodes = n_nodes,
+          .n_faces = n_faces};
+}
+
+/// The chosen quantities in the group of the series' name, "velocity_re" for part "_re".
+void add_fields(XdmfSeries& series, const Quantities& quantities, const std::string& part,
+                int precision) {
+  for (const std::string& name : names_of(quantities))
+    series.fields.push_back(
+        {name + part, series.name + "/" + name + part, name == kNormalVelocity, precision});
 }
 
 }  // namespace
@@ -57,28 +76,20 @@ std::string xdmf_text(const XdmfSeries& series) {
 
 XdmfSeries frame_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
                         const FrameIndex& frames) {
-  XdmfSeries series{"frames",
-                    field_file.filename().string(),
-                    n_nodes,
-                    n_faces,
-                    frames.time_s,
-                    "s from firing TDC",
-                    {}};
-  if (frames.displacement) series.fields.push_back({"displacement", "frames/displacement"});
-  series.fields.push_back({"velocity", "frames/velocity"});
-  series.fields.push_back({"normal_velocity", "frames/normal_velocity", true});
+  XdmfSeries series = empty_series("frames", field_file, n_nodes, n_faces);
+  series.values = frames.time_s;
+  series.value_unit = "s from firing TDC";
+  add_fields(series, frames.quantities, "", 4);
   return series;
 }
 
 XdmfSeries line_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
-                       const std::vector<double>& frequency_hz) {
-  XdmfSeries series{"lines", field_file.filename().string(), n_nodes, n_faces, frequency_hz, "Hz",
-                    {}};
-  for (const char* part : {"re", "im"}) {
-    const std::string name = part;
-    series.fields.push_back({"velocity_" + name, "lines/velocity_" + name, false, 8});
-    series.fields.push_back({"normal_velocity_" + name, "lines/normal_velocity_" + name, true, 8});
-  }
+                       const LineIndex& lines) {
+  XdmfSeries series = empty_series("lines", field_file, n_nodes, n_faces);
+  series.values = lines.frequency_hz;
+  series.value_unit = "Hz";
+  for (const char* part : {"_re", "_im"})
+    add_fields(series, lines.quantities, part, lines.single ? 4 : 8);
   return series;
 }
 

@@ -24,6 +24,7 @@ struct XdmfSeries {
   std::string name{};
   std::string heavy_file{};  // HDF5 file name, relative to the .xdmf
   int64_t n_nodes = 0, n_faces = 0;
+  int precision = 8;             // of the nodes, bytes
   std::vector<double> values{};  // of ParaView's time slider: seconds or Hz
   std::string value_unit{};
   std::vector<XdmfField> fields{};
@@ -37,7 +38,7 @@ XdmfSeries frame_series(const std::filesystem::path& field_file, int64_t n_nodes
                         const FrameIndex& frames);
 /// Complex lines of a field file; its time slider shows Hz.
 XdmfSeries line_series(const std::filesystem::path& field_file, int64_t n_nodes, int64_t n_faces,
-                       const std::vector<double>& frequency_hz);
+                       const LineIndex& lines);
 
 /// slap.field.h5 -> slap.field.xdmf and slap.field.lines.xdmf.
 std::filesystem::path frame_export_path(const std::filesystem::path& field_file);

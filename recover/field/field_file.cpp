@@ -7,12 +7,13 @@ namespace clatter::recover {
 namespace {
 
 void write_panel_result(H5File& file, const std::string& at, const PanelResult& panel,
-                        double skin_erp, const LevelReferences& ref) {
+                        double skin_erp, const LevelReferences& ref, bool samples) {
   put(file, at + "/mean_square_velocity", panel.mean_square_velocity, "m2/s2",
       "mean square normal velocity (RMS^2) per line, over time and surface");
   put(file, at + "/erp", panel.erp, "W", "equivalent radiated power per line");
-  put(file, at + "/instant_mean_square_velocity", panel.instant_mean_square, "m2/s2",
-      "surface mean of the squared normal velocity at each sample");
+  if (samples)
+    put(file, at + "/instant_mean_square_velocity", panel.instant_mean_square, "m2/s2",
+        "surface mean of the squared normal velocity at each sample");
   put_level(file, at + "/third_octave/velocity_db", panel.band_velocity_db, ref.velocity, "m/s",
             "mean square normal velocity per third octave");
   put_level(file, at + "/third_octave/erp_db", panel.band_erp_db, ref.power, "W",
@@ -26,8 +27,26 @@ void write_panel_result(H5File& file, const std::string& at, const PanelResult& 
   file.set(at, "share_of_skin", skin_erp > 0.0 ? panel.total_erp / skin_erp : 0.0);
 }
 
+void write_sensor_spectra(H5File& file, const std::string& at, const SensorResult& result) {
+  const std::string lines = at + "/spectrum/";
+  if (result.velocity_powers.size() > 0) {
+    const std::string meaning =
+        "mean square (RMS^2) per line, averaged over the segments, lines x channels";
+    put(file, lines + "displacement_power", result.displacement_powers, "m2", meaning);
+    put(file, lines + "velocity_power", result.velocity_powers, "m2/s2", meaning);
+    put(file, lines + "acceleration_power", result.acceleration_powers, "m2/s4", meaning);
+    return;
+  }
+  put_complex<Eigen::MatrixXd>(file, lines + "displacement", result.displacement_lines, "m",
+                               "lines x channels");
+  put_complex<Eigen::MatrixXd>(file, lines + "velocity", result.velocity_lines, "m/s",
+                               "lines x channels");
+  put_complex<Eigen::MatrixXd>(file, lines + "acceleration", result.acceleration_lines, "m/s2",
+                               "lines x channels");
+}
+
 void write_sensor_result(H5File& file, const std::string& at, const SensorResult& result,
-                         const LevelReferences& ref) {
+                         const LevelReferences& ref, const OutputRule& output) {
   const Sensor& sensor = *result.sensor;
   file.write(at + "/labels", sensor.labels);
   put(file, at + "/position", sensor.position, "m", "position of each channel");
@@ -35,16 +54,12 @@ void write_sensor_result(H5File& file, const std::string& at, const SensorResult
   put(file, at + "/is_rotation", sensor.is_rotation, "1",
       "1: the channel is an angle, read rad for m in all units");
   file.set(at, "kind", sensor.kind);
-  put(file, at + "/displacement", result.displacement, "m", "samples x channels");
-  put(file, at + "/velocity", result.velocity, "m/s", "samples x channels");
-  put(file, at + "/acceleration", result.acceleration, "m/s2", "samples x channels");
-  const std::string lines = at + "/spectrum/";
-  put_complex<Eigen::MatrixXd>(file, lines + "displacement", result.displacement_lines, "m",
-                               "lines x channels");
-  put_complex<Eigen::MatrixXd>(file, lines + "velocity", result.velocity_lines, "m/s",
-                               "lines x channels");
-  put_complex<Eigen::MatrixXd>(file, lines + "acceleration", result.acceleration_lines, "m/s2",
-                               "lines x channels");
+  if (output.samples) {
+    put(file, at + "/displacement", result.displacement, "m", "samples x channels");
+    put(file, at + "/velocity", result.velocity, "m/s", "samples x channels");
+    put(file, at + "/acceleration", result.acceleration, "m/s2", "samples x channels");
+  }
+  if (output.spectra) write_sensor_spectra(file, at, result);
   put_level(file, at + "/third_octave/velocity_db", result.band_velocity_db, ref.velocity, "m/s",
             "mean square velocity, bands x channels");
   put_level(file, at + "/third_octave/acceleration_db", result.band_acceleration_db,
@@ -105,22 +120,29 @@ void write_skin_geometry(H5File& file, const rom::Skin& skin, const SkinGeometry
   file.set("skin", "enclosed_volume_m3", geometry.volume);
 }
 
-void write_panels(H5File& file, const std::vector<Panel>& panels) {
+void write_panels(H5File& file, const std::vector<Panel>& panels, bool with_faces) {
   std::vector<std::string> names;
   for (const Panel& panel : panels) {
     names.push_back(panel.name);
-    put(file, "panels/" + panel.name + "/faces", panel.faces, "1", "rows of skin/triangles");
+    if (with_faces)
+      put(file, "panels/" + panel.name + "/faces", panel.faces, "1", "rows of skin/triangles");
     file.set("panels/" + panel.name, "area_m2", panel.area);
   }
   file.write("panel_names", names);
 }
 
-void write_analysis(H5File& file, const Analysis& analysis, const LevelReferences& references) {
+void write_analysis(H5File& file, const Analysis& analysis, const LevelReferences& references,
+                    const OutputRule& output) {
   const std::string at = "analysis/" + analysis.piece.name;
   write_axes(file, at, analysis);
+  file.store_single(output.single);
   const Piece& piece = analysis.piece;
   file.set(at, "periodic", piece.periodic ? "yes" : "no");
   file.set(at, "taper", name_of(piece.taper));
+  file.set(at, "domain", name_of(piece.domain));
+  file.set(at, "averages", piece.segments());
+  file.set(at, "equivalent_averages", equivalent_averages(piece));
+  file.set(at, "segment_samples", segment_of(piece, 0).count);
   file.set(at, "first_sample", piece.first);
   file.set(at, "samples", piece.count);
   file.set(at, "ftdc_run_time_s", piece.ftdc_s);
@@ -128,9 +150,11 @@ void write_analysis(H5File& file, const Analysis& analysis, const LevelReference
   file.set(at, "line_spacing_hz", analysis.velocity.spacing_hz());
   const double skin_erp = analysis.panels.empty() ? 0.0 : analysis.panels.front().total_erp;
   for (const PanelResult& panel : analysis.panels)
-    write_panel_result(file, at + "/panels/" + panel.name, panel, skin_erp, references);
+    write_panel_result(file, at + "/panels/" + panel.name, panel, skin_erp, references,
+                       output.samples);
   for (const SensorResult& sensor : analysis.sensors)
-    write_sensor_result(file, at + "/sensors/" + sensor.sensor->name, sensor, references);
+    write_sensor_result(file, at + "/sensors/" + sensor.sensor->name, sensor, references, output);
+  file.store_single(false);
 }
 
 }  // namespace clatter::recover

@@ -27,25 +27,38 @@ struct SpectrumBand {
   double to_hz = 0.0;  // 0: the limit of the basis
 };
 
-struct WindowRule {
-  std::string name = "ftdc";
-  Span span{-10.0, 60.0};
-  Taper taper = Taper::kTukey;
+/// Quantities of the entire skin that are written: vectors at its nodes, and the mean normal
+/// velocity of each triangle.
+struct Quantities {
+  bool displacement = false, velocity = true, acceleration = false, normal_velocity = true;
 };
+/// Names of the chosen ones, in the order of the members.
+std::vector<std::string> names_of(const Quantities& quantities);
 
 /// Instants at which the entire skin is written.
 struct FrameRule {
   bool on = true;
   Span span{-10.0, 60.0};
   double step = 1.0;  // [deg], or [s] when the span is in seconds
-  bool displacement = true;
+  Quantities quantities{.displacement = true};
 };
 
-/// Frequencies at which the entire skin is written as complex velocity.
+/// Frequencies at which the entire skin is written as complex motion.
 struct LineRule {
   std::vector<double> frequencies_hz;  // the nearest lines are taken
   std::vector<double> orders;          // engine orders: multiples of the speed of the crank
   int strongest = 6;                   // with neither: the highest peaks of the A-weighted power
+  Quantities quantities;
+
+  bool requested() const { return !frequencies_hz.empty() || !orders.empty(); }
+};
+
+/// Parts of the field file that may be left out, and its precision.
+struct OutputRule {
+  bool skin = true;     // geometry of the skin and faces of the panels
+  bool samples = true;  // time histories of sensors and panels
+  bool spectra = true;  // spectra of the sensors
+  bool single = false;  // single precision for everything but times, frequencies and other axes
 };
 
 struct Options {
@@ -62,6 +75,7 @@ struct Options {
   bool frames_requested = false;
   FrameRule frames;
   LineRule lines;
+  OutputRule output;
   std::vector<SensorRule> sensors;  // empty: every set of kind "sensor"
   std::vector<PanelRule> panels;    // empty: default_panels()
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -12,6 +13,7 @@
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/rom/certificate_warning.hpp"
+#include "recover/run/resample.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -60,6 +62,30 @@ double RunClock::speed_deg_s() const {
   if (!has_crank()) return 0.0;
   const Eigen::Index last = time.size() - 1;
   return (angle_deg[last] - angle_deg[0]) / (time[last] - time[0]);
+}
+
+bool RunClock::steady() const {
+  if (!has_crank()) return true;
+  const double speed = speed_deg_s();
+  const Eigen::ArrayXd linear = angle_deg[0] + speed * (time.array() - time[0]);
+  return (angle_deg.array() - linear).abs().maxCoeff() <= 1e-3 * speed * step_s;
+}
+
+double RunClock::time_at(double angle) const {
+  if (steady()) return time[0] + (angle - angle_deg[0]) / speed_deg_s();
+  const Eigen::Index last = time.size() - 1;
+  // Outside the run at the speed at its end, where a polynomial would leave the curve.
+  if (angle < angle_deg[0])
+    return time[0] + (angle - angle_deg[0]) / (angle_deg[1] - angle_deg[0]) * step_s;
+  if (angle > angle_deg[last])
+    return time[last] +
+           (angle - angle_deg[last]) / (angle_deg[last] - angle_deg[last - 1]) * step_s;
+  return interpolate(angle_deg, time, angle);
+}
+
+double RunClock::angle_at(double time_s) const {
+  if (steady()) return angle_deg[0] + speed_deg_s() * (time_s - time[0]);
+  return interpolate(time, angle_deg, std::clamp(time_s, time[0], time[time.size() - 1]));
 }
 
 RunBody::RunBody(const fs::path& run, const std::string& body)
@@ -115,7 +141,8 @@ rom::ReducedModel RunBody::read_model() const {
         "{}: sha256: found {}..., expected {}... as in {}: the run used another reduced model, run "
         "it again",
         rom_path_.string(), found.substr(0, 12), rom_sha256_.substr(0, 12), file_.path().string()));
-  rom::ReducedModel model = rom::read_reduced_model(rom_path_);
+  rom::ReducedModel model = rom::read_reduced_model(rom_path_, false);
+  model.skin = rom::read_skin_geometry(rom_path_);
   const std::string warning = rom::certificate_warning(model);
   if (!warning.empty()) warn(fmt::format("{}: {}", rom_path_.string(), warning));
   const int64_t columns = file_.shape(dataset(run::kPosition))[1];

@@ -6,6 +6,7 @@
 
 #include "core/base/h5_file.hpp"
 #include "core/rom/reduced_model.hpp"
+#include "core/rom/skin_rows.hpp"
 #include "core/run/run_layout.hpp"
 
 namespace clatter::recover {
@@ -17,8 +18,15 @@ struct RunClock {
   double step_s = 0.0;
 
   bool has_crank() const { return angle_deg.size() > 0; }
-  /// Mean speed [deg/s].
+  /// Mean speed of the entire run [deg/s].
   double speed_deg_s() const;
+  /// Whether the angle follows the mean speed to a thousandth of a step at every sample.
+  bool steady() const;
+  /// Run time at which the crank is at `angle` [deg]: linear when steady, else interpolated with an
+  /// error of order six in the step (resample.hpp).
+  double time_at(double angle) const;
+  /// Crank angle [deg] at a run time [s], likewise.
+  double angle_at(double time_s) const;
 };
 
 /// One body of a run: its clock and its reduced coordinates, read piece by piece.
@@ -36,8 +44,12 @@ class RunBody {
   /// The hash of the reduced model that the run used.
   const std::string& rom_sha256() const { return rom_sha256_; }
 
-  /// Reads the reduced model beside the run, checks its hash and its size.
+  /// Reads the reduced model beside the run, checks its hash and its size. Of the skin, T stays
+  /// empty: skin_rows() has it.
   rom::ReducedModel read_model() const;
+
+  /// The recovery rows of the reduced model's skin, on disk when they are large.
+  rom::SkinRows skin_rows() const { return rom::SkinRows(rom_path_); }
 
   /// False for a run that was interrupted inside its last cycle.
   bool complete() const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Panels: named groups of skin faces, chosen by direction, box and exposure.
+// Panels: named groups of skin faces, chosen by surface, direction, box and exposure.
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace clatter::recover {
 /// Conditions for a face to belong to a panel; all that are set must hold.
 struct PanelRule {
   std::string name{};
+  std::vector<std::string> surfaces{};         // on one of these surfaces of the mesh; empty: all
   std::optional<Eigen::Vector3d> direction{};  // outward normal within `angle_deg` of it
   double angle_deg = 45.0;
   std::optional<Eigen::Vector3d> box_min{}, box_max{};  // face centre inside [m]
@@ -36,9 +38,14 @@ std::vector<PanelRule> default_panels();
 std::vector<bool> exposed_faces(const RowMatrix& nodes, const IndexMatrix& triangles,
                                 const SkinGeometry& geometry);
 
+/// Faces of each named surface of the mesh, ascending (rom::Skin::faces).
+using SurfaceFaces = std::map<std::string, std::vector<int32_t>>;
+
 /// Applies the rules in order. Panels may overlap.
-/// @throws InputError for a rule that selects nothing or a duplicate name
+/// @throws InputError for a rule that selects nothing, an unknown surface or a duplicate name; the
+/// first two list what there is
 std::vector<Panel> choose_panels(const std::vector<PanelRule>& rules, const RowMatrix& nodes,
-                                 const IndexMatrix& triangles, const SkinGeometry& geometry);
+                                 const IndexMatrix& triangles, const SkinGeometry& geometry,
+                                 const SurfaceFaces& surfaces = {});
 
 }  // namespace clatter::recover

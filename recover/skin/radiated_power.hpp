@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
+#include "core/rom/skin_rows.hpp"
 #include "recover/skin/panels.hpp"
 
 namespace clatter::recover {
@@ -28,9 +29,13 @@ struct PanelForm {
   Eigen::MatrixXd W;  // r x r, symmetric, both triangles filled [m2]
 };
 
-/// Computes the forms of all panels; a face in several panels is processed once. Blocks of faces
-/// are distributed to the threads, each with its own sum.
-std::vector<PanelForm> normal_velocity_forms(const rom::Skin& skin, const SkinGeometry& geometry,
+/// Computes the forms of all panels; a face in several panels is processed once. The rows of T are
+/// read by groups of neighbouring faces; the faces of a group are distributed to the threads, each
+/// with its own sum.
+/// @param skin nodes and triangles; its T is not used
+/// @param T rows of the skin, 3 n_s x r
+std::vector<PanelForm> normal_velocity_forms(const rom::Skin& skin, const rom::SkinRows& T,
+                                             const SkinGeometry& geometry,
                                              const std::vector<Panel>& panels);
 
 /// v^H W v for each row of `v` (m x r): integral of |v_n|^2 dS [m4/s2].

@@ -19,7 +19,8 @@ Sensor from_set(const std::string& name, const rom::DofSet& set, const rom::Redu
   return sensor;
 }
 
-Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const SkinGeometry& geometry) {
+Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const rom::SkinRows& T,
+                  const SkinGeometry& geometry) {
   Eigen::Index node;
   (skin.nodes.rowwise() - rule.position->transpose()).rowwise().squaredNorm().minCoeff(&node);
   std::vector<Eigen::Vector3d> directions;
@@ -34,14 +35,15 @@ Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const SkinGeome
       sensor.labels.push_back(rule.name + "." + axis);
   }
   const Eigen::Index channels = static_cast<Eigen::Index>(directions.size());
+  const RowMatrix rows = T.of_nodes({static_cast<int32_t>(node)});
   sensor.position = skin.nodes.row(node).replicate(channels, 1);
   sensor.direction.resize(channels, 3);
-  sensor.rows.resize(channels, skin.T.cols());
+  sensor.rows.resize(channels, T.cols());
   sensor.is_rotation.assign(directions.size(), 0);
   for (Eigen::Index c = 0; c < channels; ++c) {
     const Eigen::Vector3d& direction = directions[static_cast<size_t>(c)];
     sensor.direction.row(c) = direction;
-    sensor.rows.row(c) = direction.transpose() * skin.T.middleRows(3 * node, 3);
+    sensor.rows.row(c) = direction.transpose() * rows;
   }
   return sensor;
 }
@@ -49,7 +51,8 @@ Sensor from_point(const SensorRule& rule, const rom::Skin& skin, const SkinGeome
 }  // namespace
 
 std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
-                                 const rom::ReducedModel& model, const SkinGeometry& geometry) {
+                                 const rom::ReducedModel& model, const rom::SkinRows& T,
+                                 const SkinGeometry& geometry) {
   std::vector<Sensor> sensors;
   if (rules.empty())
     for (const auto& [name, set] : model.sets)
@@ -59,7 +62,7 @@ std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
     if (!names.insert(rule.name).second)
       throw InputError(
           fmt::format("sensor '{}': found twice, expected different names", rule.name));
-    sensors.push_back(rule.set.empty() ? from_point(rule, model.skin, geometry)
+    sensors.push_back(rule.set.empty() ? from_point(rule, model.skin, T, geometry)
                                        : from_set(rule.name, model.set(rule.set), model));
   }
   return sensors;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
+#include "core/rom/skin_rows.hpp"
 #include "recover/skin/skin.hpp"
 
 namespace clatter::recover {
@@ -30,8 +31,10 @@ struct Sensor {
 };
 
 /// Finds the sensors; with no rule every set of kind "sensor".
+/// @param T rows of the model's skin
 /// @throws InputError for an unknown set or a duplicate name
 std::vector<Sensor> find_sensors(const std::vector<SensorRule>& rules,
-                                 const rom::ReducedModel& model, const SkinGeometry& geometry);
+                                 const rom::ReducedModel& model, const rom::SkinRows& T,
+                                 const SkinGeometry& geometry);
 
 }  // namespace clatter::recover

@@ -88,9 +88,9 @@ void add_sample(double to_power, const LineSpectrum& velocity, const SampleLines
 
 }  // namespace
 
-PanelParts panel_parts(const SoundTable& table, const rom::Skin& skin,
-                       const std::vector<Panel>& panels) {
-  const Eigen::Index n_f = skin.triangles.rows();
+PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
+                       const rom::SkinRows& T, const std::vector<Panel>& panels) {
+  const Eigen::Index n_f = triangles.rows();
   std::vector<std::vector<char>> member(static_cast<size_t>(n_f),
                                         std::vector<char>(panels.size(), 0));
   for (size_t p = 0; p < panels.size(); ++p)
@@ -114,8 +114,8 @@ PanelParts panel_parts(const SoundTable& table, const rom::Skin& skin,
   for (const auto& [members, part] : number)
     for (size_t p = 0; p < panels.size(); ++p)
       out.belongs(part, static_cast<Eigen::Index>(p)) = members[p];
-  out.flows = group_flows(table.flow, skin, part_of_face, static_cast<int>(number.size()),
-                          table.samples.front().far.cols());
+  out.flows = group_flows(table.flow, triangles, T, part_of_face,
+                          static_cast<int>(number.size()), table.samples.front().far.cols());
   return out;
 }
 

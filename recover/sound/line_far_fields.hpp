@@ -20,8 +20,8 @@ struct PanelParts {
 
 /// Divides the faces that send sound.
 /// @throws InputError for a sound file of another skin
-PanelParts panel_parts(const SoundTable& table, const rom::Skin& skin,
-                       const std::vector<Panel>& panels);
+PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
+                       const rom::SkinRows& T, const std::vector<Panel>& panels);
 
 /// Number of lines up to the end of the table.
 Eigen::Index lines_of_table(const SoundTable& table, const LineSpectrum& velocity);

@@ -243,7 +243,9 @@ PartSound part_sound(const rom::ReducedModel& model, const SoundOptions& options
                   out.skin.face_count(), out.skin.area, out.map.lid_area,
                   out.certificate.mesh_limit_hz));
   const std::vector<int32_t> one(static_cast<size_t>(model.skin.triangles.rows()), 0);
-  const RowMatrix flow = group_flows(table.flow, model.skin, one, 1, out.skin.node_count()).front();
+  const rom::SkinRows T(model.skin.T);
+  const RowMatrix flow =
+      group_flows(table.flow, model.skin.triangles, T, one, 1, out.skin.node_count()).front();
   Sampler sampler(space, velocity, flow, out);
   refine(options.grid, sampler, out);
   out.efficiency = efficiencies(table, squares(out.skin, velocity));

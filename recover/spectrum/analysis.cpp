@@ -2,7 +2,8 @@
 #include "recover/spectrum/analysis.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "recover/spectrum/piece_samples.hpp"
 
 namespace clatter::recover {
 namespace {
@@ -12,23 +13,26 @@ Eigen::MatrixXd line_powers(const LineSpectrum& spectrum) {
   return spectrum.power_factor.asDiagonal() * spectrum.amplitude.cwiseAbs2();
 }
 
-Eigen::MatrixXd band_levels(const LineSpectrum& spectrum, const ThirdOctaves& bands,
-                            double reference) {
-  const Eigen::MatrixXd power = line_powers(spectrum);
+Eigen::MatrixXd band_levels(const LineSpectrum& axis, const Eigen::MatrixXd& power,
+                            const ThirdOctaves& bands, double reference) {
   Eigen::MatrixXd levels(bands.size(), power.cols());
   for (Eigen::Index c = 0; c < power.cols(); ++c)
-    levels.col(c) =
-        levels_db(band_sums(spectrum.frequency_hz, power.col(c), bands, spectrum.periodic),
-                  reference * reference);
+    levels.col(c) = levels_db(band_sums(axis.frequency_hz, power.col(c), bands, axis.periodic),
+                              reference * reference);
   return levels;
 }
 
-PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity, const RowMatrix& v,
-                    const ThirdOctaves& bands, const Options& options) {
+/// Mean square normal velocity per line of a panel, of one segment.
+Eigen::VectorXd panel_powers(const PanelForm& form, const LineSpectrum& velocity) {
+  return velocity.power_factor.cwiseProduct(normal_velocity_integral(form.W, velocity.amplitude)) /
+         form.area;
+}
+
+PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity,
+                    const Eigen::VectorXd& mean_square, const RowMatrix& v,
+                    const ThirdOctaves& bands, const Options& options, bool with_samples) {
   PanelResult result{.name = form.name, .area = form.area};
-  result.mean_square_velocity =
-      velocity.power_factor.cwiseProduct(normal_velocity_integral(form.W, velocity.amplitude)) /
-      form.area;
+  result.mean_square_velocity = mean_square;
   const double to_power = equivalent_radiated_power(options.air, form.area, 1.0);
   result.erp = to_power * result.mean_square_velocity;
   const Eigen::VectorXd weighted =
@@ -46,8 +50,28 @@ PanelResult radiate(const PanelForm& form, const LineSpectrum& velocity, const R
     result.total_erp += result.erp[k];
     result.total_erp_a += weighted[k];
   }
-  result.instant_mean_square = normal_velocity_integral(form.W, v) / form.area;
+  if (with_samples) result.instant_mean_square = normal_velocity_integral(form.W, v) / form.area;
   return result;
+}
+
+/// Powers of the segments of a piece, averaged. The first segment is `axis`, with its amplitudes.
+template <typename Powers>
+auto averaged(const Piece& piece, const RowMatrix& samples, double to_hz, const LineSpectrum& axis,
+              const Powers& powers) {
+  auto sum = powers(axis);
+  const int64_t segments = piece.segments();
+  for (int64_t k = 1; k < segments; ++k) {
+    const Piece segment = segment_of(piece, k);
+    sum += powers(line_spectrum(segment, samples.middleRows(k * piece.hop, segment.count), to_hz));
+  }
+  sum /= static_cast<double>(segments);
+  return sum;
+}
+
+/// Spectrum of the first segment of a piece.
+LineSpectrum first_segment(const Piece& piece, const RowMatrix& samples, double to_hz) {
+  const Piece segment = segment_of(piece, 0);
+  return line_spectrum(segment, samples.topRows(segment.count), to_hz);
 }
 
 SensorResult observe(const Sensor& sensor, const Piece& piece, const RowMatrix& q,
@@ -57,14 +81,44 @@ SensorResult observe(const Sensor& sensor, const Piece& piece, const RowMatrix& 
   result.displacement = q * sensor.rows.transpose();
   result.velocity = v * sensor.rows.transpose();
   result.acceleration = a * sensor.rows.transpose();
-  const LineSpectrum velocity = line_spectrum(piece, result.velocity, to_hz);
-  const LineSpectrum acceleration = line_spectrum(piece, result.acceleration, to_hz);
-  result.displacement_lines = line_spectrum(piece, result.displacement, to_hz).amplitude;
+  const LineSpectrum displacement = first_segment(piece, result.displacement, to_hz);
+  const LineSpectrum velocity = first_segment(piece, result.velocity, to_hz);
+  const LineSpectrum acceleration = first_segment(piece, result.acceleration, to_hz);
+  const auto powers = [&](const RowMatrix& samples, const LineSpectrum& first) {
+    return averaged(piece, samples, to_hz, first, line_powers);
+  };
+  const Eigen::MatrixXd velocity_powers = powers(result.velocity, velocity);
+  const Eigen::MatrixXd acceleration_powers = powers(result.acceleration, acceleration);
+  result.band_velocity_db = band_levels(velocity, velocity_powers, bands, references.velocity);
+  result.band_acceleration_db =
+      band_levels(acceleration, acceleration_powers, bands, references.acceleration);
+  if (piece.segments() > 1) {
+    result.displacement_powers = powers(result.displacement, displacement);
+    result.velocity_powers = velocity_powers;
+    result.acceleration_powers = acceleration_powers;
+    return result;
+  }
+  result.displacement_lines = displacement.amplitude;
   result.velocity_lines = velocity.amplitude;
   result.acceleration_lines = acceleration.amplitude;
-  result.band_velocity_db = band_levels(velocity, bands, references.velocity);
-  result.band_acceleration_db = band_levels(acceleration, bands, references.acceleration);
   return result;
+}
+
+/// Run times and crank angles of the values of a piece, from firing TDC.
+void set_axes(const RunClock& clock, Analysis& analysis) {
+  const Piece& piece = analysis.piece;
+  if (piece.domain == Domain::kAngle) {
+    const auto steps =
+        Eigen::ArrayXd::LinSpaced(piece.count, 0.0, static_cast<double>(piece.count - 1));
+    analysis.angle_deg = piece.first_deg - piece.ftdc_deg + piece.step_deg * steps;
+    analysis.time_s = clock.time[0] +
+                      clock.step_s * positions(clock, piece, 0, piece.count).array() -
+                      clock.time_at(piece.ftdc_deg);
+    return;
+  }
+  analysis.time_s = clock.time.segment(piece.first, piece.count).array() - piece.ftdc_s;
+  if (clock.has_crank())
+    analysis.angle_deg = clock.angle_deg.segment(piece.first, piece.count).array() - piece.ftdc_deg;
 }
 
 }  // namespace
@@ -72,42 +126,62 @@ SensorResult observe(const Sensor& sensor, const Piece& piece, const RowMatrix& 
 Analysis analyse(const RunBody& body, const Piece& piece, const Options& options, double to_hz,
                  const std::vector<PanelForm>& forms, const std::vector<Sensor>& sensors) {
   const RunClock& clock = body.clock();
-  const RowMatrix v = body.samples("v", piece.first, piece.count);
-  Analysis analysis{.piece = piece};
-  analysis.time_s = clock.time.segment(piece.first, piece.count).array() - piece.ftdc_s;
-  if (clock.has_crank()) {
-    analysis.angle_deg = clock.angle_deg.segment(piece.first, piece.count).array() - piece.ftdc_deg;
-    analysis.speed_hz = clock.speed_deg_s() / 360.0;
-  }
-  analysis.velocity = line_spectrum(piece, v, to_hz);
+  to_hz = piece.limit_hz(to_hz, clock.step_s);
+  const RowMatrix v = piece_samples(body, piece, "v");
+  Analysis analysis{.piece = piece, .speed_hz = piece.mean_speed_hz};
+  set_axes(clock, analysis);
+  analysis.velocity = first_segment(piece, v, to_hz);
   analysis.bands = third_octaves(options.spectrum.from_hz, to_hz, analysis.velocity.spacing_hz());
-  for (const PanelForm& form : forms)
-    analysis.panels.push_back(radiate(form, analysis.velocity, v, analysis.bands, options));
+  // One transform of a segment serves all panels: their powers are adjacent columns.
+  const auto powers = [&](const LineSpectrum& velocity) {
+    Eigen::MatrixXd columns(velocity.frequency_hz.size(), static_cast<Eigen::Index>(forms.size()));
+    for (size_t p = 0; p < forms.size(); ++p)
+      columns.col(static_cast<Eigen::Index>(p)) = panel_powers(forms[p], velocity);
+    return columns;
+  };
+  const Eigen::MatrixXd mean_square = averaged(piece, v, to_hz, analysis.velocity, powers);
+  for (size_t p = 0; p < forms.size(); ++p)
+    analysis.panels.push_back(radiate(forms[p], analysis.velocity,
+                                      mean_square.col(static_cast<Eigen::Index>(p)), v,
+                                      analysis.bands, options, p == 0 || options.output.samples));
+  if (piece.segments() > 1) analysis.velocity.amplitude.resize(0, v.cols());
   if (sensors.empty()) return analysis;
 
-  const RowMatrix q = body.samples("q", piece.first, piece.count);
-  const RowMatrix a = body.samples("a", piece.first, piece.count);
+  const RowMatrix q = piece_samples(body, piece, "q");
+  const RowMatrix a = piece_samples(body, piece, "a");
   for (const Sensor& sensor : sensors)
     analysis.sensors.push_back(
         observe(sensor, piece, q, v, a, analysis.bands, to_hz, options.references));
   return analysis;
 }
 
+double equivalent_averages(const Piece& window) {
+  const int64_t n = window.segments(), length = window.hop > 0 ? window.segment : window.count;
+  const Eigen::VectorXd taper = taper_values(window.taper, length);
+  double sum = 1.0;
+  for (int64_t j = 1; j < n && j * window.hop < length; ++j) {
+    const int64_t common = length - j * window.hop;
+    const double rho = taper.head(common).dot(taper.tail(common)) / taper.squaredNorm();
+    sum += 2.0 * (1.0 - static_cast<double>(j) / static_cast<double>(n)) * rho * rho;
+  }
+  return static_cast<double>(n) / sum;
+}
+
 double cycle_to_cycle_difference(const RunBody& body, const Piece& cycle, const PanelForm& skin) {
-  if (cycle.first < cycle.count) return -1.0;
-  const RowMatrix now = body.samples("v", cycle.first, cycle.count);
-  const RowMatrix before = body.samples("v", cycle.first - cycle.count, cycle.count);
+  const auto before = piece_samples(body, cycle, "v", -cycle.count, cycle.count);
+  if (!before) return -1.0;
+  const RowMatrix now = piece_samples(body, cycle, "v");
   const double size = normal_velocity_integral(skin.W, now).sum();
-  const RowMatrix difference = now - before;
+  const RowMatrix difference = now - *before;
   if (!(size > 0.0)) return 0.0;
   return std::sqrt(normal_velocity_integral(skin.W, difference).sum() / size);
 }
 
 double cycle_end_jump(const RunBody& body, const Piece& cycle, const PanelForm& skin) {
-  if (cycle.first + cycle.count >= body.clock().time.size()) return -1.0;
-  const RowMatrix v = body.samples("v", cycle.first, cycle.count + 1);
-  const RowMatrix jump = v.bottomRows(1) - v.topRows(1);
-  const double mean = normal_velocity_integral(skin.W, v).mean();
+  const auto v = piece_samples(body, cycle, "v", 0, cycle.count + 1);
+  if (!v) return -1.0;
+  const RowMatrix jump = v->bottomRows(1) - v->topRows(1);
+  const double mean = normal_velocity_integral(skin.W, *v).mean();
   return mean > 0.0 ? std::sqrt(normal_velocity_integral(skin.W, jump)[0] / mean) : 0.0;
 }
 

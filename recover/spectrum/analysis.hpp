@@ -24,7 +24,8 @@ struct PanelResult {
   Eigen::VectorXd band_velocity_db{};      // per third octave, re LevelReferences::velocity
   Eigen::VectorXd band_erp_db{};           // per third octave, re 1 pW
   Eigen::VectorXd band_erp_dba{};          // the same, each line A-weighted before the sum
-  Eigen::VectorXd instant_mean_square{};   // per sample: surface mean of v_n^2 [m2/s2]
+  Eigen::VectorXd instant_mean_square{};   // per sample: surface mean of v_n^2 [m2/s2]; without
+                                           // OutputRule::samples of the first panel only
   double total_erp = 0.0;                  // [W], lines inside the spectrum's band
   double total_erp_a = 0.0;                // [W], A-weighted
 };
@@ -36,22 +37,31 @@ struct SensorResult {
   Eigen::MatrixXcd displacement_lines{}, velocity_lines{}, acceleration_lines{};  // peak amplitudes
   Eigen::MatrixXd band_acceleration_db{};  // third octaves, re LevelReferences::acceleration
   Eigen::MatrixXd band_velocity_db{};
+  /// Of a window in segments, instead of the complex lines: mean squares per line, averaged.
+  Eigen::MatrixXd displacement_powers{}, velocity_powers{}, acceleration_powers{};
 };
 
 struct Analysis {
   Piece piece{};
   Eigen::VectorXd time_s{};     // samples, from firing TDC
   Eigen::VectorXd angle_deg{};  // samples, from firing TDC; empty without a crank
-  double speed_hz = 0.0;        // revolutions of the crank per second, 0 without a crank
-  LineSpectrum velocity{};      // reduced coordinates, n_l x r
+  double speed_hz = 0.0;        // mean revolutions of the crank per second, 0 without a crank
+  /// Reduced coordinates, n_l x r; of a window in several segments without amplitudes, 0 x r.
+  LineSpectrum velocity{};
   ThirdOctaves bands{};
   std::vector<PanelResult> panels{};
   std::vector<SensorResult> sensors{};
 };
 
-/// Analyses one piece up to `to_hz`, which the caller has checked against the basis.
+/// Analyses one piece up to `to_hz`, which the caller has checked against the basis; over the angle
+/// up to Piece::limit_hz. Powers of a window in segments are averaged over these (Welch 1967).
 Analysis analyse(const RunBody& body, const Piece& piece, const Options& options, double to_hz,
                  const std::vector<PanelForm>& forms, const std::vector<Sensor>& sensors);
+
+/// Number of independent segments with the same variance of an averaged power as the segments of
+/// `window`, which overlap: n / (1 + 2 sum_j (1 - j/n) rho_j), rho_j the squared correlation of the
+/// taper with itself, moved by j hops, over that at j = 0 (Welch 1967).
+double equivalent_averages(const Piece& window);
 
 /// Relative difference between the last two cycles: sqrt of the time mean of the surface integral
 /// of (v_n - v_n,before)^2 over that of v_n^2. Negative when the run has no two cycles.

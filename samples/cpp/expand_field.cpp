@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
       throw clatter::InputError(std::string("no load named ") + argv[2]);
     const Eigen::MatrixXd q = model.K_rr.ldlt().solve(load->second);
 
-    clatter::recover::expand(model.skin.T, q, 1, [&](int64_t, const Eigen::MatrixXd& u) {
+    const clatter::rom::SkinRows T(model.skin.T);
+    clatter::recover::expand(T, q, {T.rows(), 1}, [&](int64_t, int64_t, const Eigen::MatrixXd& u) {
       Eigen::Index node = 0;
       const double largest = u.reshaped(3, u.size() / 3).colwise().norm().maxCoeff(&node);
       const Eigen::RowVector3d at = model.skin.nodes.row(node);

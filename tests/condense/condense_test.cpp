@@ -8,6 +8,7 @@
 
 #include "condense/certify/certificate.hpp"
 #include "condense/condense.hpp"
+#include "condense/rows/skin_faces.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
@@ -203,6 +204,24 @@ TEST(CertificateTest, SaysWhetherTheCountWasProved) {
   EXPECT_EQ(reduce(model, options).certificate.count_proved.value(), 1.0);
   options.modes.prove_count = false;
   EXPECT_EQ(reduce(model, options).certificate.count_proved.value(), 0.0);
+}
+
+TEST(Skin, TrianglesOfEachSurfaceOfTheModelAreKnown) {
+  fe::FeModel model = box_model();
+  model.surfaces["quads"].faces = {{mesh::FaceType::kQuad4, IndexMatrix{{10, 11, 17, 16}}}};
+  IndexMatrix both = model.surfaces["skin"].faces[0].nodes.topRows(2);
+  model.surfaces["part"].faces = {{mesh::FaceType::kTri6, both.bottomRows(1)},
+                                  {mesh::FaceType::kQuad4, IndexMatrix{{10, 11, 17, 16}}}};
+  model.surfaces["elsewhere"].faces = {{mesh::FaceType::kTri3, IndexMatrix{{0, 1, 2}}}};
+  const SkinFaces faces = skin_faces(model, {"quads", "skin"});
+  // The quadrilateral is two triangles, the first of the skin; the second triangle of "skin" is row
+  // 3. "elsewhere" has no face of this skin.
+  ASSERT_EQ(faces.of_surface.size(), 3u);
+  EXPECT_EQ(faces.of_surface.at("quads"), (std::vector<int32_t>{0, 1}));
+  EXPECT_EQ(faces.of_surface.at("part"), (std::vector<int32_t>{0, 1, 3}));
+  EXPECT_EQ(faces.of_surface.at("skin").front(), 2);
+  EXPECT_EQ(faces.of_surface.at("skin").size(),
+            static_cast<size_t>(model.surfaces["skin"].faces[0].nodes.rows()));
 }
 
 TEST(BadInput, UnknownSetsAndSurfacesNameThosePresent) {

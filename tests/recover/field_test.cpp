@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <complex>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "core/base/artefact.hpp"
@@ -42,6 +44,13 @@ std::filesystem::path recover_file(const std::filesystem::path& run, const std::
   write_exports(path, summary);
   EXPECT_FALSE(summary_text(summary).empty());
   return path;
+}
+
+/// A run of order 12 on random rows of T, in a fresh folder.
+std::filesystem::path random_run(const std::string& name, const Mesh6& mesh) {
+  const RunPlan plan;
+  return write_run(fresh_folder(name), model_on(mesh, random_rows(mesh, 2, 5), 5000.0), plan,
+                   turning(plan, 12.0));
 }
 
 /// A monopole p = A exp(-i k r)/r inside an ellipsoid; velocities by -grad p / (i w rho).
@@ -167,6 +176,132 @@ TEST(FieldFile, OneToneComesBackInEveryDatasetWithItsAmplitudePhaseAndLevel) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(FieldFile, ChosenQuantitiesAreWrittenAndBelongTogether) {
+  const RunPlan plan;
+  const Mesh6 mesh = box({0.3, 0.2, 0.1}, 2);
+  const RowMatrix T = random_rows(mesh, 2, 5);
+  const auto folder = fresh_folder("quantities");
+  const double hz = 400.0, w = 2 * std::numbers::pi * hz;
+  const auto run = write_run(folder, model_on(mesh, T, 5000.0), plan, turning(plan, 12.0));
+  const std::string all =
+      "quantities = [\"displacement\", \"velocity\", \"acceleration\", \"normal_velocity\"]\n";
+  const auto path = recover_file(
+      run, "[lines]\nfrequencies_hz = [400]\n" + all + "[frames]\nstep_deg = 10\n" + all);
+  const H5File file = open_artefact(path, kFieldSchema);
+  // Frames: a = -w^2 u for each of a rotating pair of coordinates; v from T and the run.
+  for (const std::string& frame : file.list("frames/acceleration")) {
+    const RowMatrix u = file.read_rows("frames/displacement/" + frame);
+    const RowMatrix a = file.read_rows("frames/acceleration/" + frame);
+    EXPECT_LT((a + w * w * u).cwiseAbs().maxCoeff(), 1e-6 * w * w) << frame;
+  }
+  ASSERT_EQ(file.list("frames/acceleration").size(), 8u);
+  EXPECT_EQ(file.get_string("frames/acceleration", "unit"), "m/s2");
+  // Lines: a = i w v, u = v / (i w), normal velocities by the operator of the faces.
+  const auto line = [&](const std::string& quantity) {
+    Eigen::MatrixXcd value(mesh.nodes.rows(), 3);
+    value.real() = file.read_rows("lines/" + quantity + "_re/00000");
+    value.imag() = file.read_rows("lines/" + quantity + "_im/00000");
+    return value;
+  };
+  const Eigen::MatrixXcd v = line("velocity");
+  EXPECT_LT((line("acceleration") - kI * w * v).norm(), 1e-12 * w * v.norm());
+  EXPECT_LT((line("displacement") - v / (kI * w)).norm(), 1e-12 * v.norm() / w);
+  const std::string xdmf = [](const std::filesystem::path& at) {
+    std::ifstream stream(at);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  }(frame_export_path(path));
+  EXPECT_NE(xdmf.find("Attribute Name=\"acceleration\" AttributeType=\"Vector\""),
+            std::string::npos);
+  EXPECT_NE(xdmf.find("out.field.h5:/frames/acceleration/00007"), std::string::npos);
+
+  const auto only = recover_file(run,
+                                 "[lines]\nstrongest = 1\nquantities = [\"acceleration\"]\n"
+                                 "[frames]\nquantities = [\"normal_velocity\"]\n");
+  const H5File few = open_artefact(only, kFieldSchema);
+  EXPECT_EQ(few.list("frames"),
+            (std::vector<std::string>{"crank_angle_deg", "normal_velocity", "time"}));
+  EXPECT_FALSE(few.has("lines/velocity_re"));
+  EXPECT_FALSE(few.has("lines/normal_velocity_re"));
+  EXPECT_EQ(few.list("lines/acceleration_im").size(), 1u);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FieldFile, PanelsOfSurfacesAndWindowsOverTheAngleReachTheFile) {
+  const RunPlan plan{.cycles = 5};
+  const Mesh6 mesh = box({0.3, 0.2, 0.1}, 1);
+  const auto folder = fresh_folder("surfaces");
+  rom::ReducedModel model = model_on(mesh, random_rows(mesh, 2, 5), 5000.0);
+  model.skin.faces = {{"deck", {10, 11}}, {"skin", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}};
+  const auto path = recover_file(write_run(folder, model, plan, turning(plan, 12.0)),
+                                 "[[panel]]\nname = \"top\"\nsurfaces = [\"deck\"]\n"
+                                 "[[window]]\nname = \"orders\"\ndomain = \"angle\"\ncycles = 3\n"
+                                 "taper = \"hann\"\nsegment_deg = 720\noverlap = 0.5\n");
+  const H5File file = open_artefact(path, kFieldSchema);
+  EXPECT_EQ(file.read_ints("panels/top/faces"), (std::vector<int32_t>{10, 11}));
+  EXPECT_NEAR(file.get_double("panels/top", "area_m2"), 0.06, 1e-14);
+  EXPECT_EQ(file.get_string("analysis/orders", "domain"), "angle");
+  EXPECT_EQ(file.get_int("analysis/orders", "averages"), 5);
+  // Welch's formula for half overlap of Hann segments: 5 / (1 + 2 (4/5) / 36).
+  EXPECT_NEAR(file.get_double("analysis/orders", "equivalent_averages"), 5 / (1 + 1.6 / 36), 1e-3);
+  EXPECT_EQ(file.get_string("analysis/cycle", "domain"), "time");
+  EXPECT_EQ(file.get_int("analysis/cycle", "averages"), 1);
+  // Order 12: the power of the averaged window in its three lines is that of the cycle's one line.
+  const Eigen::VectorXd orders = file.read_vector("analysis/orders/order");
+  EXPECT_NEAR(orders[24], 12.0, 1e-9);
+  for (const std::string panel : {"skin", "top"}) {
+    const Eigen::VectorXd erp = file.read_vector("analysis/orders/panels/" + panel + "/erp");
+    const Eigen::VectorXd cycle = file.read_vector("analysis/cycle/panels/" + panel + "/erp");
+    EXPECT_NEAR(erp.segment(23, 3).sum() / cycle[24], 1.0, 1e-5) << panel;
+  }
+  const std::string powers = "analysis/orders/sensors/sensor_block/spectrum";
+  EXPECT_EQ(file.list(powers), (std::vector<std::string>{"acceleration_power", "displacement_power",
+                                                         "velocity_power"}));
+  EXPECT_NEAR(file.read_matrix(powers + "/displacement_power").col(0).segment(23, 3).sum(), 0.5,
+              1e-5);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FieldFile, LinesNeedAnAnalysisWithPhases) {
+  const auto run = random_run("phases", box({1, 1, 1}, 1));
+  const std::string averaged =
+      "cycle = false\n[[window]]\nname = \"w\"\ncycles = 1.5\nsegment_deg = 360\n";
+  test::expect_parts(
+      test::refusal_of([&] { recover_file(run, averaged + "[lines]\norders = [12]\n"); }),
+      {"lines: found only windows averaged over segments"});
+  const H5File file = open_artefact(recover_file(run, averaged), kFieldSchema);
+  EXPECT_FALSE(file.has("lines"));
+  EXPECT_GT(file.get_int("analysis/w", "averages"), 1);
+  std::filesystem::remove_all(run.parent_path());
+}
+
+TEST(FieldFile, SlimFilesHaveLevelsInSinglePrecisionAndNothingElse) {
+  const auto run = random_run("slim", box({0.3, 0.2, 0.1}, 4));
+  const std::string less = "window = []\n[frames]\non = false\n[lines]\nstrongest = 0\n";
+  const auto path = recover_file(run, less);
+  const auto full_size = std::filesystem::file_size(path);
+  const Eigen::VectorXd full =
+      open_artefact(path, kFieldSchema).read_vector("analysis/cycle/panels/skin/erp");
+  const H5File file = open_artefact(
+      recover_file(run, less + "[output]\nskin = false\nsamples = false\nspectra = false\n"
+                               "precision = \"single\"\n"),
+      kFieldSchema);
+  EXPECT_LT(std::filesystem::file_size(path), full_size / 3);
+  for (const char* absent :
+       {"skin", "frames", "panels/skin/faces", "analysis/cycle/sensors/sensor_block/velocity",
+        "analysis/cycle/sensors/sensor_block/spectrum",
+        "analysis/cycle/panels/skin/instant_mean_square_velocity", "analysis/ftdc"})
+    EXPECT_FALSE(file.has(absent)) << absent;
+  const Eigen::VectorXd erp = file.read_vector("analysis/cycle/panels/skin/erp");
+  EXPECT_EQ(erp, full.cast<float>().cast<double>());
+  EXPECT_NE(erp, full);
+  // Axes keep their precision, attributes the totals.
+  const double step = RunPlan{}.cycle_s() / RunPlan{}.samples;
+  EXPECT_NEAR(file.read_vector("analysis/cycle/time")[77], 77 * step, 1e-15);
+  EXPECT_NEAR(file.get_double("analysis/cycle/panels/skin", "erp_w"), full.sum(),
+              1e-12 * full.sum());
+  std::filesystem::remove_all(run.parent_path());
+}
+
 TEST(FieldFile, StrongestPeaksAreTakenWhenNoFrequencyIsAskedFor) {
   const RunPlan plan;
   const Mesh6 mesh = box({1, 1, 1}, 1);
@@ -259,6 +394,26 @@ TEST(Options, UnknownKeysAndContradictionsAreRefused) {
             "test.toml:2: lines.frequencies_hz: found -5, expected more than 0");
   EXPECT_EQ(refusal("[air]\ndensity = 0"),
             "test.toml:2: air.density: found 0, expected a number above 0");
+  EXPECT_EQ(refusal("[lines]\nquantities = [\"speed\"]"),
+            "test.toml:2: lines.quantities: found \"speed\", expected displacement, velocity, "
+            "acceleration or normal_velocity");
+  EXPECT_EQ(refusal("[frames]\nquantities = []"),
+            "test.toml:2: frames.quantities: found none, expected at least one");
+  EXPECT_EQ(refusal("[[window]]\nname = \"w\"\ncycles = 2\nto_deg = 5"),
+            "test.toml:4: window[0].to_deg: found with cycles, expected one of them");
+  EXPECT_EQ(refusal("[[window]]\nname = \"w\"\nsegment_s = 0.1\ndomain = \"angle\""),
+            "test.toml:3: window[0].segment_s: found in a window over the angle, expected "
+            "segment_deg");
+  EXPECT_EQ(refusal("[[window]]\nname = \"w\"\nsegment_s = 0.1\nsegment_deg = 20"),
+            "test.toml:3: window[0].segment_s: found with segment_deg, expected one of them");
+  EXPECT_EQ(refusal("[[window]]\nname = \"w\"\noverlap = 1"),
+            "test.toml:3: window[0].overlap: found 1, expected a number at least 0 and at most "
+            "0.95");
+  EXPECT_EQ(refusal("[[window]]\nname = \"w\"\n[[window]]\nname = \"w\""),
+            "test.toml:4: window[1].name: found 'w' a second time, expected different names");
+  EXPECT_EQ(refusal("[output]\nskin = false"),
+            "test.toml:2: output.skin: found false with frames or lines, which need the geometry, "
+            "expected frames.on = false and lines.strongest = 0");
   EXPECT_NO_THROW(read(""));
   EXPECT_NE(options_help().find("velocity_reference = 5e-08"), std::string::npos);
 }
@@ -271,8 +426,11 @@ TEST(Options, ResolvedTextReadsBackToTheSameChoices) {
   const Options chosen = read_options(Config::parse(
       "body = \"piston\"\n[frames]\nfrom_s = 0.01\nto_s = 0.02\nstep_s = 1e-4\n[lines]\norders = "
       "[2, 4.5]\n"
-      "[[window]]\nname = \"w\"\ntaper = \"hann\"\n[[sensor]]\nname = \"p\"\nposition = [1, 2, 3]\n"
-      "[[panel]]\nname = \"top\"\ndirection = [0, 0, 1]\nangle_deg = 30\nexposed = true\n",
+      "[[window]]\nname = \"w\"\ntaper = \"hann\"\ndomain = \"angle\"\nsegment_deg = "
+      "30\noverlap = 0.2\n[output]\nsamples = false\nprecision = \"single\"\n[[sensor]]\nname = "
+      "\"p\"\nposition = [1, 2, 3]\n"
+      "[[panel]]\nname = \"top\"\ndirection = [0, 0, 1]\nangle_deg = 30\nexposed = true\n"
+      "surfaces = [\"deck\", \"liner_4\"]\n",
       "chosen"));
   EXPECT_EQ(again(chosen), resolved_text(chosen));
   EXPECT_NE(resolved_text(chosen).find("step_s = 0.0001"), std::string::npos);

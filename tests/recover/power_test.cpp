@@ -27,7 +27,8 @@ TEST(RadiatedPower, UniformNormalVelocityGivesHalfRhoCSVSquaredExactly) {
   for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a) T(3 * a, 0) = mesh.nodes(a, 0) / 0.1 - 1.0;
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
-  const auto forms = normal_velocity_forms({mesh.nodes, mesh.triangles, T}, geometry, panels);
+  const auto forms =
+      normal_velocity_forms({mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry, panels);
   const double v = 3e-3, S = 2 * 0.5 * 0.3;
   Eigen::MatrixXcd line(1, 1);
   line << v * std::polar(1.0, 0.7);
@@ -43,7 +44,7 @@ TEST(RadiatedPower, QuadraticFormEqualsBruteForceExpansion) {
   const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, r, 1)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
-  const auto forms = normal_velocity_forms(skin, geometry, panels);
+  const auto forms = normal_velocity_forms(skin, rom::SkinRows(skin.T), geometry, panels);
   Eigen::MatrixXcd v = test::random_matrix<Eigen::MatrixXcd>(3, r);
   for (size_t p = 0; p < panels.size(); ++p) {
     const Eigen::VectorXd fast = normal_velocity_integral(forms[p].W, v);
@@ -69,7 +70,7 @@ TEST(RadiatedPower, PanelsThatShareFacesSumAsTheirPartsDo) {
   const rom::Skin skin{mesh.nodes, mesh.triangles, random_rows(mesh, 4, 2)};
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
   const auto panels = choose_panels(default_panels(), mesh.nodes, mesh.triangles, geometry);
-  const auto forms = normal_velocity_forms(skin, geometry, panels);
+  const auto forms = normal_velocity_forms(skin, rom::SkinRows(skin.T), geometry, panels);
   Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(4, 4);
   for (size_t p = 2; p < forms.size(); ++p) sides += forms[p].W;
   EXPECT_LT((sides - forms[0].W).norm(), 1e-13 * forms[0].W.norm());
@@ -81,9 +82,10 @@ TEST(RadiatedPower, ExpansionInBlocksEqualsTheWholeProduct) {
   const RowMatrix T = random_rows(mesh, 5, 3);
   const Eigen::MatrixXd reduced = test::random_matrix(5, 11);
   Eigen::MatrixXd whole(T.rows(), 11);
-  expand(T, reduced, 4, [&](int64_t first, const Eigen::MatrixXd& u) {
+  expand(rom::SkinRows(T), reduced, {30, 4}, [&](int64_t row, int64_t column, const auto& u) {
     ASSERT_LE(u.cols(), 4);
-    whole.middleCols(first, u.cols()) = u;
+    ASSERT_LE(u.rows(), 30);
+    whole.block(row, column, u.rows(), u.cols()) = u;
   });
   EXPECT_LT((whole - T * reduced).norm(), 1e-13);
 }
@@ -166,7 +168,7 @@ TEST(Order, PulsatingSphereHasItsRadiationEfficiency) {
       T.block(3 * a, 1, 3, 1) = v.imag();
     }
     const auto forms = normal_velocity_forms(
-        {mesh.nodes, mesh.triangles, T}, geometry,
+        {mesh.nodes, mesh.triangles}, rom::SkinRows(T), geometry,
         choose_panels({{.name = "skin"}}, mesh.nodes, mesh.triangles, geometry));
     Eigen::MatrixXcd q(1, 2);
     q << 1.0, kI;

@@ -51,6 +51,13 @@ class Program : public ::testing::Test {
     EXPECT_FALSE(fs::exists(folder_ / "out.field.h5.part"));
   }
 
+  /// A script beside this file finds out.field.h5 right.
+  void expect_agreed_by(const std::string& script) {
+    const std::string check = "/usr/bin/python3 '" CLATTER_SOURCE_DIR "/tests/recover/" + script +
+                              "' '" + (folder_ / "out.field.h5").string() + "'";
+    EXPECT_EQ(run_command(check, output_), 0) << output_;
+  }
+
   fs::path folder_;
   std::string output_;
 };
@@ -60,10 +67,23 @@ TEST_F(Program, DefaultsMakeAFieldFileThatAnotherProgramReads) {
   EXPECT_NE(output_.find("\"erp_db\""), std::string::npos);
   EXPECT_NE(output_.find("ERP re 1 pW"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out.d"));
-  const std::string check = "/usr/bin/python3 '" CLATTER_SOURCE_DIR
-                            "/tests/recover/check_field.py' '" +
-                            (folder_ / "out.field.h5").string() + "'";
-  EXPECT_EQ(run_command(check, output_), 0) << output_;
+  expect_agreed_by("check_field.py");
+}
+
+TEST_F(Program, AnotherProgramReadsAllQuantitiesInSinglePrecision) {
+  const std::string all =
+      "quantities = [\"displacement\", \"velocity\", \"acceleration\", \"normal_velocity\"]\n";
+  write("all.toml", "[output]\nprecision = \"single\"\n[frames]\n" + all + "[lines]\n" + all);
+  ASSERT_EQ(recover("run.h5 -c all.toml -o out.field.h5"), 0) << output_;
+  expect_agreed_by("check_field.py");
+}
+
+TEST_F(Program, AveragedPowersAreThoseOfScipy) {
+  write("welch.toml",
+        "cycle = false\n[[window]]\nname = \"w\"\nfrom_s = 0\nto_s = 0.12\ntaper = \"hann\"\n"
+        "segment_s = 0.025\noverlap = 0.5\n");
+  ASSERT_EQ(recover("run.h5 -c welch.toml -o out.field.h5"), 0) << output_;
+  expect_agreed_by("check_averages.py");
 }
 
 TEST_F(Program, HelpTeachesTheConfiguration) {
@@ -103,6 +123,8 @@ TEST_F(Program, UnknownKeyBodySensorAndPanelAreRefused) {
   expect_refused("run.h5 -c sensor.toml", "nowhere");
   write("panel.toml", "[[panel]]\nname = \"far\"\nbox_min = [9, 9, 9]\n");
   expect_refused("run.h5 -c panel.toml", "far");
+  write("surface.toml", "[[panel]]\nname = \"deck\"\nsurfaces = [\"deck\"]\n");
+  expect_refused("run.h5 -c surface.toml", "panel 'deck': surfaces");
   write("window.toml", "[[window]]\nname = \"late\"\nfrom_s = 1.0\nto_s = 2.0\n");
   expect_refused("run.h5 -c window.toml", "late");
 }

@@ -125,6 +125,38 @@ TEST(Panels, DirectionBoxAndExposurePickTheFacesOfAHollowBox) {
   EXPECT_NEAR(choose_panels({half}, mesh.nodes, mesh.triangles, geometry)[0].area, 0.045, 1e-15);
 }
 
+TEST(Panels, SurfacesOfTheMeshAreJoinedAndCombineWithTheOtherConditions) {
+  const Mesh6 mesh = box({1, 2, 3}, 1);
+  const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
+  // Sides in the order -x +x -y +y -z +z, two triangles each.
+  const SurfaceFaces surfaces{{"ends", {0, 1, 2, 3}}, {"deck", {10, 11}}, {"half", {2, 4, 10}}};
+  const auto choose = [&](const PanelRule& rule) {
+    return choose_panels({rule}, mesh.nodes, mesh.triangles, geometry, surfaces)[0];
+  };
+  EXPECT_EQ(choose({.name = "p", .surfaces = {"deck"}}).faces, (std::vector<int32_t>{10, 11}));
+  const Panel joined = choose({.name = "p", .surfaces = {"half", "ends"}});
+  EXPECT_EQ(joined.faces, (std::vector<int32_t>{0, 1, 2, 3, 4, 10}));
+  EXPECT_NEAR(joined.area, 2 * 6.0 + 0.5 * 3.0 + 0.5 * 2.0, 1e-14);
+  PanelRule narrow{.name = "p", .surfaces = {"half", "ends"}};
+  narrow.direction = Eigen::Vector3d(1, 0, 0);
+  EXPECT_EQ(choose(narrow).faces, (std::vector<int32_t>{2, 3}));
+
+  EXPECT_EQ(test::refusal_of([&] {
+              choose({.name = "p", .surfaces = {"deck", "ends", "dekc"}});
+            }),
+            "panel 'p': no surface of the skin named dekc, expected one of: deck, ends, half");
+  narrow.surfaces = {"deck"};
+  test::expect_parts(
+      test::refusal_of([&] { choose(narrow); }),
+      {"panel 'p': found no face, expected at least one: the skin has 12 faces, lies between "
+       "(0, 0, 0) and (1, 2, 3) m, and has the surfaces [deck, ends, half]"});
+  test::expect_parts(test::refusal_of([&] {
+                       choose_panels({{.name = "p", .surfaces = {"deck"}}}, mesh.nodes,
+                                     mesh.triangles, geometry);
+                     }),
+                     {"panel 'p': surfaces: the reduced model has no surfaces by name"});
+}
+
 TEST(Panels, RuleWithoutAFaceAndNameTwiceAreRefused) {
   const Mesh6 mesh = box({1, 1, 1}, 1);
   const SkinGeometry geometry = measure_skin(mesh.nodes, mesh.triangles);
@@ -132,7 +164,8 @@ TEST(Panels, RuleWithoutAFaceAndNameTwiceAreRefused) {
   nowhere.box_min = Eigen::Vector3d(5, 5, 5);
   test::expect_parts(
       test::refusal_of([&] { choose_panels({nowhere}, mesh.nodes, mesh.triangles, geometry); }),
-      {"panel 'nowhere': found no face, expected at least one"});
+      {"panel 'nowhere': found no face, expected at least one: the skin has 12 faces, lies between "
+       "(0, 0, 0) and (1, 1, 1) m, and has the surfaces []"});
   const PanelRule all{.name = "all"};
   test::expect_parts(test::refusal_of([&] {
                        choose_panels({all, all}, mesh.nodes, mesh.triangles, geometry);

@@ -50,6 +50,34 @@ rom::ReducedModel small_model() {
   return model;
 }
 
+TEST_F(Files, DatasetsWrittenInPartsAreThoseWrittenAtOnce) {
+  RowMatrix values(20000, 3);
+  for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = 0.1 * static_cast<double>(i);
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> narrow = values.cast<float>();
+  H5File out = H5File::create(folder_ / "a.h5");
+  out.create("double", {20000, 3}, false);
+  out.create("single", {20000, 3}, true);
+  // Parts that end within chunks of 5461 and 10922 rows, and out of order.
+  for (const auto& [first, end] : {std::pair{7000, 20000}, {0, 1}, {1, 7000}}) {
+    out.write_part("double", first, values.row(first).data(), 3 * (end - first));
+    out.write_part("single", first, narrow.row(first).data(), 3 * (end - first));
+  }
+  out.store_single(true);
+  out.write("narrowed", values);
+  out.write("counts", std::vector<int32_t>{1, 2, 2000000001});
+  out.store_single(false);
+  out.write("wide", values);
+  out.commit();
+  const H5File in = H5File::open(folder_ / "a.h5");
+  EXPECT_EQ(in.read_rows("double"), values);
+  EXPECT_EQ(in.read_rows("single"), RowMatrix(narrow.cast<double>()));
+  EXPECT_EQ(in.read_rows("narrowed"), RowMatrix(narrow.cast<double>()));
+  EXPECT_EQ(in.read_rows("wide"), values);
+  EXPECT_EQ(in.read_ints("counts").back(), 2000000001);
+  // 8, 4, 4 and 8 bytes a value, in complete chunks: at most a tenth more.
+  EXPECT_LT(fs::file_size(folder_ / "a.h5"), size_t{20000} * 3 * (8 + 4 + 4 + 8) * 11 / 10 + 10000);
+}
+
 TEST_F(Files, AppendedRowsAreTheRowsWrittenAtOnceUnderAnotherName) {
   const RowMatrix all = RowMatrix::Random(1003, 7);
   const fs::path begun = folder_ / "begun.h5", named = folder_ / "named.h5";

@@ -31,9 +31,12 @@ def collect(folder, pack):
 
 
 def motion(one):
-    """Velocity of the field's body in reduced coordinates over its cycle (samples x r), or None without the run."""
+    """Velocity of the field's body in reduced coordinates over its cycle (samples x r), or None without the run and for a cycle
+    whose values lie between the samples of the run."""
     body = text(one.field.attrs.get("body", ""))
     if one.run is None or f"bodies/{body}/v" not in one.run or "analysis/cycle" not in one.field:
+        return None
+    if text(one.field["analysis/cycle"].attrs.get("domain", "time")) == "angle":
         return None
     count = int(one.field["analysis/cycle"].attrs["samples"])
     first = int(one.field["analysis/cycle"].attrs["first_sample"])
