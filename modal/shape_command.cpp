@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"

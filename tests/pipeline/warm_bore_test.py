@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A bored block, heated by films and under the pull of four bolts, through mesh, assembly, statics and shape; CalculiX solves the same."""
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -9,14 +8,13 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import deck_test  # noqa: E402
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 import stages  # noqa: E402
 
 AROUND, ACROSS, ALONG = 24, 2, 5
 BORE, SIDES, HEIGHT = 0.0535, (0.066, 0.078), 0.12  # radius; half widths; [m]
-EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-UNIT = np.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)])  # radial, around, along
 INSIDE, OUTSIDE, TOP = 6, 4, 2  # numbers of the faces of a C3D20
 FILM_IN, FILM_OUT = (900.0, 500.0), (3000.0, 90.0)  # [W/(m2 K)], [degrees Celsius]
 PULL = 6.0e4  # of a bolt [N]
@@ -111,8 +109,9 @@ def block():
         for j in range(AROUND):
             for i in range(ACROSS):
                 number += 1
-                corners = UNIT + (2 * i, 2 * j, 2 * k)
-                cell = [node(c) for c in corners] + [node((corners[a] + corners[b]) // 2) for a, b in EDGES]
+                # The first direction of a cell is the radius, the second the angle.
+                corners = deck_test.UNIT + (2 * i, 2 * j, 2 * k)
+                cell = [node(c) for c in corners] + [node((corners[a] + corners[b]) // 2) for a, b in deck_test.EDGES]
                 lines.append(f"{number}, " + ", ".join(map(str, cell[:10])) + ",\n" + ", ".join(map(str, cell[10:])))
                 if i == 0:
                     faces[INSIDE].append(number)
@@ -156,15 +155,8 @@ def deck():
 
 
 def rows_of(text, title):
-    """{node: values} below the line with `title` in a .dat file, as an array by node."""
-    rows = []
-    for line in text[text.index(title):].splitlines()[1:]:
-        words = line.split()
-        if words and all(re.fullmatch(r"[-+0-9.E]+", word) for word in words):
-            rows.append([float(word) for word in words])
-        elif rows:
-            break
-    rows = np.array(rows)
+    """Values of all nodes, in the order of their numbers."""
+    rows = deck_test.printed(text, title)
     return rows[np.argsort(rows[:, 0]), 1:]
 
 
@@ -269,15 +261,39 @@ class WarmBore(unittest.TestCase):
         with h5py.File(self.folder / "bore.shape.h5") as shape:
             self.assertAlmostEqual(float(lines[2].split(",")[3]), 1e6 * shape["cases/warm/deviation"][0, 1], 3)
 
+    def test_temperatures_go_to_the_results_and_to_paraview(self):
+        with h5py.File(self.folder / "block.fe.h5") as model, h5py.File(self.folder / "block.static.h5") as static:
+            rise = model["heat/running/temperature"][()] - 293.15
+            self.assertLess(np.abs(static["cases/warm/temperature_rise"][()] - rise).max(), 1e-10)
+            self.assertNotIn("temperature_rise", static["cases/assembly"])
+        self.run_all(["modal", "export", "block.static.h5", "block.vtu", "--cells", "block.fe.h5"])
+        self.assertIn(b'Name="warm temperature rise"', (self.folder / "block.vtu").read_bytes())
+
+    def test_a_table_of_these_temperatures_gives_the_same_displacements(self):
+        with h5py.File(self.folder / "block.fe.h5") as model:
+            points = np.column_stack([model["nodes"][()], model["heat/running/temperature"][()] - 273.15])
+        np.savetxt(self.folder / "measured.csv", points, fmt="%.15g", delimiter=",", header="x,y,z,temperature_c", comments="")
+        recipe = (self.folder / "block.fe.toml").read_text()
+        (self.folder / "measured.fe.toml").write_text(recipe.replace('heat = "running"', 'table = "measured.csv"'))
+        self.run_all(["assembly", "block.mesh.h5", "-c", "measured.fe.toml", "-o", "measured.fe.h5", "--depfile", "measured.d"],
+                     ["modal", "statics", "measured.fe.h5", "--case", "warm", "-o", "measured.static.h5"])
+        self.assertIn("measured.csv", (self.folder / "measured.d").read_text().splitlines()[0])
+        with h5py.File(self.folder / "measured.static.h5") as static:
+            theirs = static["cases/warm/displacement"][()][self.order]
+        self.assertLess(np.abs(theirs - self.ours("warm")).max(), 1e-9 * np.abs(theirs).max())
+
     def test_wrong_options_of_the_shape_are_refused_in_one_line(self):
+        axes = ["--axis-point", "0,0,0", "--axis", "0,0,1", "--zero-angle", "1,0,0"]
+        bore = ["--surface", "BORE"]
         for arguments, says in ((["--surface", "BORR"], "--surface: found \"BORR\", expected one of: BORE"),
-                                (["--surface", "BORE"], "found 0 contact grids on this surface"),
-                                (["--surface", "BORE", "--axis", "0,0"], "--axis-point: found \"\", expected 3 numbers"),
-                                (["--surface", "BORE", "--range", "1"], "--range: found \"1\", expected 2 numbers"),
-                                (["--surface", "BORE", "--angles", "2"], "--angles")):
+                                (bore, "found 0 contact grids on this surface"),
+                                ([*bore, "--axis", "0,0"], "--axis-point: found \"\", expected 3 numbers"),
+                                ([*bore, *axes[:-1], "0,0,2"], "--zero-angle: found 0,0,2 about the axis 0,0,1, expected"),
+                                ([*bore, *axes, "--range", "1"], "--range: found \"1\", expected 2 numbers"),
+                                ([*bore, *axes, "--angles", "2"], "--angles: found 2, expected 4 to 10000"),
+                                ([*bore, *axes, "--case", "hot"], "--case: found \"hot\", expected one of: assembly, gasket")):
             with self.subTest(arguments=arguments):
-                axes = ["--axis-point", "0,0,0", "--axis", "0,0,1", "--zero-angle", "1,0,0"] if len(arguments) == 4 and "--axis" not in arguments else []
-                done = stages.run_stage("modal", "shape", "block.static.h5", *arguments, *axes, "-o", "x.shape.h5", folder=self.folder)
+                done = stages.run_stage("modal", "shape", "block.static.h5", *arguments, "-o", "x.shape.h5", folder=self.folder)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(says, done.stderr)
                 self.assertFalse((self.folder / "x.shape.h5").exists())
