@@ -21,7 +21,7 @@ struct HeatTerms {
   double into_part(const Eigen::VectorXd& temperature) const;
 };
 
-/// Films, fluxes and sources.
+/// Films, fluxes and sources. InputError for a film or flux on a face inside the part.
 std::vector<HeatTerms> heat_terms(const PartData& part, const HeatSpec& spec);
 
 /// Nodes with a fixed temperature.

@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/heat.hpp"
+#include "core/mesh/mid_side_nodes.hpp"
 #include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::assembly {
@@ -40,40 +41,74 @@ const HeatSpec::Contact* contact_of(const HeatSpec& spec, const TieSpec& tie) {
   return found == spec.contacts.end() ? nullptr : &*found;
 }
 
-/// Adds the ties: as conduction to K, or as equal temperatures to the relations.
-Elimination eliminate_ties(const PartData& part, const HeatSpec& spec, const FixedNodes& fixed,
-                           HeatBodies& bodies, SparseMatrix& K) {
-  const auto n = static_cast<int64_t>(part.mesh.nodes.rows());
-  ConstraintGraph graph([&](int32_t node) {
-    return fmt::format("the temperature of {}", part.numbers.name(3 * node, part.mesh.node_ids));
-  });
-  std::unordered_map<int32_t, Functional> dependences;
+/// Temperatures that follow others.
+class FollowingNodes {
+ public:
+  FollowingNodes(const PartData& part, const FixedNodes& fixed)
+      : fixed_(fixed), graph_([&part](int32_t node) {
+          return "the temperature of " + part.numbers.name(3 * node, part.mesh.node_ids);
+        }) {}
+
+  int add_relation(const std::string& where) { return graph_.add_relation(where); }
+  /// T_node = sum values T; false, without effect, where the node's temperature is fixed.
+  bool follow(int32_t node, Functional on, int relation) {
+    if (fixed_.kelvin.contains(node)) return false;
+    graph_.depend(node, on.dofs, relation);
+    on_[node] = std::move(on);
+    return true;
+  }
+  Elimination eliminate(int64_t nodes) const {
+    std::vector<int32_t> held;
+    for (const auto& [node, kelvin] : fixed_.kelvin) held.push_back(node);
+    Eliminator eliminator(nodes, held, {});
+    for (const int32_t node : graph_.order()) eliminator.depend(node, on_.at(node));
+    return eliminator.finish();
+  }
+
+ private:
+  const FixedNodes& fixed_;
+  ConstraintGraph graph_;
+  std::unordered_map<int32_t, Functional> on_;
+};
+
+/// Both sides of a tie get the same temperature.
+void follow_tie(const TieSpec& tie, const Projection& found, FollowingNodes& following) {
+  const int relation = following.add_relation(tie.where);
+  int held = 0;
+  for (const ProjectedNode& row : found.tied) {
+    Functional on;
+    for (const auto& [node, value] : row.on) {
+      on.dofs.push_back(node);
+      on.values.push_back(value);
+    }
+    if (!following.follow(row.node, std::move(on), relation)) ++held;
+  }
+  if (held > 0)
+    warn(fmt::format("{}: {} slave temperatures are fixed and not tied", tie.name, held));
+}
+
+/// Adds ties to `bodies`, and as conduction to K or as equal temperatures to the relations.
+Elimination eliminate_temperatures(const PartData& part, const HeatSpec& spec,
+                                   const FixedNodes& fixed, HeatBodies& bodies, SparseMatrix& K) {
+  FollowingNodes following(part, fixed);
   for (const TieSpec& tie : part.recipe.ties) {
     TieSpec resolved = tie;
     const Projection found = project_tie(part, resolved);
     for (const ProjectedNode& row : found.tied)
       for (const auto& [node, value] : row.on) bodies.join(row.node, node);
-    if (const HeatSpec::Contact* contact = contact_of(spec, tie)) {
+    if (const HeatSpec::Contact* contact = contact_of(spec, tie))
       K += contact_conduction(part, tie, found, contact->conductance);
-      continue;
-    }
-    const int relation = graph.add_relation(tie.where);
-    for (const ProjectedNode& row : found.tied) {
-      if (fixed.kelvin.contains(row.node)) continue;
-      Functional on;
-      for (const auto& [node, value] : row.on) {
-        on.dofs.push_back(node);
-        on.values.push_back(value);
-      }
-      graph.depend(row.node, on.dofs, relation);
-      dependences[row.node] = std::move(on);
-    }
+    else
+      follow_tie(tie, found, following);
   }
-  std::vector<int32_t> held;
-  for (const auto& [node, kelvin] : fixed.kelvin) held.push_back(node);
-  Eliminator eliminator(n, held, {});
-  for (const int32_t node : graph.order()) eliminator.depend(node, dependences.at(node));
-  return eliminator.finish();
+  for (const StraightEdgesSpec& straight : part.recipe.straight_edges) {
+    const int relation = following.add_relation(straight.where);
+    const std::vector<int32_t>& nodes = part.mesh.node_set(straight.node_set);
+    const auto ends = mesh::ends_of_mid_side_nodes(part.mesh, nodes, straight.where);
+    for (size_t n = 0; n < nodes.size(); ++n)
+      following.follow(nodes[n], {{ends[n][0], ends[n][1]}, {0.5, 0.5}}, relation);
+  }
+  return following.eliminate(part.mesh.nodes.rows());
 }
 
 void require_fixed(const PartData& part, const HeatSpec& spec, const HeatBodies& bodies) {
@@ -100,7 +135,7 @@ HeatProblem problem_of(const PartData& part, const HeatSpec& spec, const SparseM
   for (const HeatSpec::Film& film : spec.films)
     for (const int32_t node : mesh::nodes_of(part.mesh.surface(film.surface))) bodies.fix(node);
   for (const auto& [node, kelvin] : problem.fixed.kelvin) bodies.fix(node);
-  problem.elimination = eliminate_ties(part, spec, problem.fixed, bodies, problem.K);
+  problem.elimination = eliminate_temperatures(part, spec, problem.fixed, bodies, problem.K);
   require_fixed(part, spec, bodies);
   return problem;
 }

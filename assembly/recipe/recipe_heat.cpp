@@ -68,6 +68,9 @@ HeatSpec RecipeReader::heat(const Config& table, const Recipe& recipe) const {
   for (const Config& one : table.tables("contact")) {
     const std::string tie = one.text("tie");
     if (std::find(ties.begin(), ties.end(), tie) == ties.end()) fail_unknown(one, "tie", tie, ties);
+    for (const HeatSpec::Contact& other : spec.contacts)
+      if (other.tie == tie)
+        one.fail("tie", fmt::format("found \"{}\" twice, expected one conductance", tie));
     spec.contacts.push_back({tie, one.number("conductance", Range::positive())});
   }
   return spec;

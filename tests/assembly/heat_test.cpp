@@ -266,6 +266,47 @@ TEST(HeatInput, ABodyWhoseTemperatureNothingFixesIsRefused) {
                      {"found nothing that fixes the temperature of the body at (0, 0, 1) m"});
 }
 
+TEST(HeatInput, AFilmInsideThePartIsRefused) {
+  mesh::Mesh mesh = wall_of(CellType::kHex8);
+  mesh::SurfaceBuilder inside;
+  const auto& first = mesh.cells[0].nodes;
+  // The face at the end of the first cell of three along z.
+  std::vector<int32_t> top;
+  for (const int32_t node : first.row(0))
+    if (mesh.nodes(node, 2) > 0.06) top.push_back(node);
+  ASSERT_EQ(top.size(), 4u);
+  inside.add(mesh::FaceType::kQuad4, top);
+  mesh.surfaces["inside"] = inside.finish();
+  for (const char* boundary : {"[[heat.film]]\nsurface = \"inside\"\ncoefficient = "
+                               "1.0\ntemperature_c = 20.0\n",
+                               "[[heat.flux]]\nsurface = \"inside\"\nflux = 1.0\n"})
+    test::expect_parts(test::refusal_of([&] { build_all(mesh, kIron + kWall + boundary); }),
+                       {"heat warm: found a face of inside inside the part, at (",
+                        "expected faces of its boundary"});
+}
+
+TEST(Heat, MidSideNodesOfStraightEdgesHaveTheMeanOfTheirEnds) {
+  BlockOptions options;
+  options.type = CellType::kHex20;
+  mesh::Mesh mesh = block_mesh({1, 1, 1}, brick({0.1, 0.2, 0.4}), options);
+  // An upright edge and the parabola of a source along it.
+  const auto ends = mesh.cells[0].nodes.row(0).head(8);
+  int32_t middle = -1, low = -1, high = -1;
+  for (int32_t a = 0; a < mesh.nodes.rows(); ++a) {
+    if (mesh.nodes.row(a).head<2>().norm() > 1e-12) continue;
+    (mesh.nodes(a, 2) < 0.1 ? low : mesh.nodes(a, 2) > 0.3 ? high : middle) = a;
+  }
+  ASSERT_TRUE((ends.array() == low).any() && (ends.array() == high).any() && middle >= 0);
+  mesh.node_sets["edge"] = {middle};
+  const std::string heat = kIron + kWall + "[[heat.source]]\npower = 1.0e6\n";
+  const auto bow = [&](const std::string& toml) {
+    const Eigen::VectorXd T = build_all(mesh, toml).model.heat.at("warm").temperature;
+    return T(middle) - 0.5 * (T(low) + T(high));
+  };
+  EXPECT_GT(bow(heat), 100.0);
+  EXPECT_NEAR(bow(heat + "[[straight_edges]]\nnode_set = \"edge\"\n"), 0.0, 1e-10);
+}
+
 TEST(HeatInput, WrongKeysAndValuesAreNamed) {
   std::string bare = kIron;
   bare.erase(bare.find("conductivity"));
@@ -345,6 +386,14 @@ TEST(TemperatureLoad, ByRegionsIsConstantInEachAndTheMeanBetween) {
                                            "regions = { bdoy = 10.0 }\n");
                      }),
                      {"bdoy: found \"bdoy\", expected one of: body, top"});
+}
+
+TEST(HeatInput, OneTieHasOneConductance) {
+  const mesh::Mesh mesh =
+      two_parts(slab(CellType::kHex8, {1, 1, 1}, 0.0), slab(CellType::kHex8, {1, 1, 1}, 0.0, 1.0));
+  const std::string contact = "[[heat.contact]]\ntie = \"joint\"\nconductance = 1.0\n";
+  test::expect_parts(test::refusal_of([&] { build_all(mesh, two_slabs(contact + contact)); }),
+                     {"tie: found \"joint\" twice, expected one conductance"});
 }
 
 class TemperatureFile : public ::testing::Test {
