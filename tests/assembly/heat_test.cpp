@@ -2,6 +2,7 @@
 // Heat conduction against closed forms; what a [[heat]] refuses; temperatures of loads.
 #include "core/fe/heat.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "assembly/recipe/profile.hpp"
 #include "assembly/recipe/temperature_table.hpp"

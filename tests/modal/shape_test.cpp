@@ -28,7 +28,10 @@ mesh::Mesh bore(CellType type, int around, int along = 4) {
   const auto map = assembly::testing::ring(0.05, 0.06, 0.2);
   return block_mesh(
       {around, 1, along},
-      [&](const Eigen::Vector3d& x) { return map(x) + 0.1 * Eigen::Vector3d::UnitZ(); }, options);
+      [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+        return map(x) + 0.1 * Eigen::Vector3d::UnitZ();
+      },
+      options);
 }
 
 ShapeOptions options_of(const std::string& surface) {
