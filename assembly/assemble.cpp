@@ -50,6 +50,7 @@ BuiltModel make_model(const std::filesystem::path& mesh_path, const Config& conf
   }
   if (!mesh) throw InputError("command line: expected a mesh (.mesh.h5)");
   const Recipe recipe = read_recipe(config, *mesh);
+  inputs.insert(inputs.end(), recipe.files.begin(), recipe.files.end());
   clock.lap("read");
   return build_fe_model(*mesh, recipe, clock);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // clatter-assembly: from a mesh to sparse mass and stiffness matrices.
 #include "assembly/assemble.hpp"
+#include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
+#include "core/base/large_pages.hpp"
 #include "core/base/log.hpp"
 #include "core/base/write_artefact.hpp"
 
@@ -16,7 +18,6 @@ The smallest fe.toml has a material for each region of the mesh:
   E_gpa = 110.0        # or E [Pa]
   nu = 0.26
   rho = 7200.0         # [kg/m3]
-
 Further tables, any number of each:
   [damping]       ratio at at_hz, or alpha and beta:  D = alpha K + beta M
   [system.NAME]   rectangular, cylindrical or spherical axes for directions
@@ -26,19 +27,17 @@ Further tables, any number of each:
   [[equation]]    linear relation of displacements
   [[tie]]         non-matching surfaces;  [[bolt]]  a cut shank with its tension
   [[contact]]     grid of patches on a cylinder surface, one radial DoF each
-  [[mean]]        mean displacement of a surface along a direction
-  [[sensor]]      node of a surface nearest to a point;  [[nodes]]  a node set
+  [[mean]], [[sensor]], [[nodes]]  mean displacement of a surface, node nearest to a point, node set
   [[point_mass]]  mass and inertia on a point, coupling, sensor or node set
-  [[load]]        pressure, resultant, force, gravity, centrifugal, nodal field, prescribed displacement
+  [[heat]]        steady temperature field by films, fluxes, fixed temperatures, sources
+  [[load]]        pressure, resultant, force, gravity, centrifugal, nodal, displacement, temperature
   [[case]]        a sum of loads
-
 Matrices that another program assembled, instead of all these tables:
   [matrices]
   K = "stiffness.mtx"  # Matrix Market, or lines "i j value" as Abaqus writes
   M = "mass.mtx"
   dofs = "dofs.tsv"    # meaning of each row (docs/formats.md); default: x y z of the mesh's nodes
   units = "mm-t-s"     # of K and M, default "m-kg-s"
-
 assembly/README.md documents every key; samples/truck_diesel/block.fe.toml is a complete sample.
 Next: clatter-modal block.fe.h5 (modes), clatter-modal statics block.fe.h5 (load cases),
  clatter-condense block.fe.h5 -c block.rom.toml -o block.rom.h5)";
@@ -63,6 +62,8 @@ void assemble_part(const Arguments& a, const clatter::CommonOptions& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  clatter::ensure_fast_blas(argv);
+  clatter::keep_freed_memory();
   clatter::CommandLine line("clatter-assembly",
                             "Assembles a part's mass and stiffness matrices, adds couplings, "
                             "supports and contact patches, and builds unit load cases.",
@@ -72,6 +73,8 @@ int main(int argc, char** argv) {
                   false);
   line.option("-c,--config", a.config, "materials, couplings, sets, loads (.fe.toml)", true);
   line.output("-o,--output", a.output, "the model to write (.fe.h5)", true);
+  line.blas();
+  line.memory_limit("a temperature field ([[heat]]) is refused when it cannot be");
   line.action([&a](const clatter::CommonOptions& common) { assemble_part(a, common); });
   return line.run(argc, argv);
 }

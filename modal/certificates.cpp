@@ -40,4 +40,14 @@ const std::vector<CertificateField<StaticCertificate>>& StaticCertificate::field
   return list;
 }
 
+const std::vector<CertificateField<ShapeCertificate>>& ShapeCertificate::fields() {
+  using C = ShapeCertificate;
+  static const std::vector<CertificateField<C>> list = {
+      {"cases", &C::cases, "", "number of cases"},
+      {"covered", &C::covered, "", "share of the grid's points that lie on faces"},
+      {"radius_spread", &C::radius_spread, "m",
+       "largest difference between the distance of a node from the axis and their mean"}};
+  return list;
+}
+
 }  // namespace clatter::modal

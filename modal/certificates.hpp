@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What was proved of modes and of static results.
+// What was proved of modes, static results and shapes.
 #include <optional>
 #include <vector>
 
@@ -31,6 +31,14 @@ struct StaticCertificate {
 
   static const std::vector<CertificateField<StaticCertificate>>& fields();
   bool operator==(const StaticCertificate&) const = default;
+};
+
+/// The same of a file of a shape.
+struct ShapeCertificate {
+  double cases = 0.0, covered = 0.0, radius_spread = 0.0;
+
+  static const std::vector<CertificateField<ShapeCertificate>>& fields();
+  bool operator==(const ShapeCertificate&) const = default;
 };
 
 }  // namespace clatter::modal

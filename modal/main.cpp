@@ -7,6 +7,7 @@
 #include "modal/compare_command.hpp"
 #include "modal/export_command.hpp"
 #include "modal/modes_command.hpp"
+#include "modal/shape_command.hpp"
 #include "modal/statics_command.hpp"
 
 int main(int argc, char** argv) {
@@ -19,10 +20,12 @@ int main(int argc, char** argv) {
       "         clatter-modal block.rom.h5 --count 40 -o block_rom.modes.h5\n"
       "         clatter-modal block.fe.h5 -o block.modes.h5 --export shapes.vtu\n"
       "         clatter-modal statics block.fe.h5 --case weight -o block.static.h5\n"
+      "         clatter-modal shape block.static.h5 --surface liner_4_bore -o liner_4.shape.h5\n"
       "         clatter-modal compare block.fe.h5 block.rom.h5\n"
       "         clatter-modal export block.modes.h5 shapes.pvd --cells block.fe.h5");
   modal::declare_modes(program);
   modal::declare_statics(program);
+  modal::declare_shape(program);
   modal::declare_compare(program);
   modal::declare_export(program);
   program.moved("--static", "clatter-modal statics MODEL -o OUTPUT");

@@ -68,6 +68,8 @@ Results cases_of(const H5File& file) {
     const std::string at = "cases/" + titles[j] + "/";
     const int64_t n = file.shape("nodes").at(0);
     Fields fields = {{"displacement", file.read_rows(at + "displacement")}};
+    if (file.has(at + "temperature_rise"))
+      fields["temperature rise"] = RowMatrix(file.read_vector(at + "temperature_rise"));
     const std::vector<std::string> regions = file.list(at + "stress");
     for (const std::string& region : regions) {
       const std::string suffix = regions.size() > 1 ? " " + region : "";

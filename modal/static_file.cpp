@@ -38,10 +38,13 @@ void write_static(H5File& file, const fe::FeModel& model, const StaticSolution& 
     file.write("points/names", model.points.names);
     file.write("points/position", model.points.position);
   }
+  rom::write_dof_sets(file, {}, model.grids);
   double backward = 0.0, forward = 0.0, balance = 0.0;
   for (const StaticCase& one : solution.cases) {
     const std::string group = "cases/" + one.name + "/";
     file.write(group + "displacement", rows_of(one.displacement, 3));
+    if (one.temperature_rise.size() > 0)
+      file.write(group + "temperature_rise", one.temperature_rise);
     if (one.points.size() > 0) file.write(group + "points", rows_of(one.points, 6));
     if (one.reactions.size() > 0) {
       file.write(group + "reactions", one.reactions);

@@ -4,30 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <set>
 
 #include "core/base/error.hpp"
+#include "modal/number_list.hpp"
 #include "modal/statics.hpp"
 
 namespace clatter::modal {
 namespace {
-
-/// The text as comma-separated numbers; empty when it contains anything else.
-std::vector<double> numbers_in(const std::string& text) {
-  std::vector<double> out;
-  const char* at = text.data();
-  const char* end = at + text.size();
-  while (at < end) {
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || (next != end && *next != ',')) return {};
-    out.push_back(value);
-    at = next == end ? end : next + 1;
-  }
-  return out;
-}
 
 int32_t nearest_node(const fe::FeModel& model, const Eigen::Vector3d& position) {
   Eigen::Index node = 0;

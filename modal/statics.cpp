@@ -223,8 +223,9 @@ StaticSolution solve_held(const fe::FeModel& model, const std::vector<std::strin
     found.name = names[c];
     found.loads = factors_of(model, names[c]);
     refuse_inexact(model, found);
-    found.stress = fe::nodal_stress(model.nodes, model.cells, found.displacement,
-                                    temperature_rise(model, found.loads));
+    found.temperature_rise = temperature_rise(model, found.loads);
+    found.stress =
+        fe::nodal_stress(model.nodes, model.cells, found.displacement, found.temperature_rise);
     solution.cases.push_back(std::move(found));
   }
   return solution;
@@ -254,8 +255,9 @@ StaticSolution solve_static(const fe::FeModel& model, const std::vector<std::str
     found.backward_error = solved.backward[col];
     found.forward_error = solved.forward[col];
     refuse_inexact(model, found);
-    found.stress = fe::nodal_stress(model.nodes, model.cells, found.displacement,
-                                    temperature_rise(model, found.loads));
+    found.temperature_rise = temperature_rise(model, found.loads);
+    found.stress =
+        fe::nodal_stress(model.nodes, model.cells, found.displacement, found.temperature_rise);
     solution.cases.push_back(std::move(found));
   }
   return solution;

@@ -19,6 +19,7 @@ struct StaticCase {
   std::string name;
   std::map<std::string, double> loads;  // factor of each
   Eigen::VectorXd displacement;         // 3 n_nodes [m]: row 3 a + d is node a, direction d
+  Eigen::VectorXd temperature_rise;     // n_nodes [K]; empty without loads of temperature
   Eigen::VectorXd points;               // 6 n_points: x y z [m], rx ry rz [rad] of each
   Eigen::VectorXd reactions;            // n_s [N, N m]: forces of the supports on the part
   Eigen::MatrixXd support_sums;  // supports x 6: their force [N] and moment about the origin [N m]

@@ -7,7 +7,6 @@
 
 #include "assembly/coupling/coupling.hpp"
 #include "assembly/coupling/member_group.hpp"
-#include "assembly/tie/mortar.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 
@@ -70,16 +69,8 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
                             ConstraintGraph& graph) {
   const mesh::Mesh& mesh = part.mesh;
   TieSpec spec = given;
-  const std::vector<TieFace> slave = tie_faces(mesh.nodes, mesh.surface(spec.slave));
-  const std::vector<TieFace> master = tie_faces(mesh.nodes, mesh.surface(spec.master));
-  const double size = mean_size(slave);
-  if (!spec.distance) spec.distance = kDefaultGap * size;
-  const Projection found = project(slave, master, *spec.distance);
-  if (found.tied.empty())
-    throw InputError(
-        fmt::format("{}: found no part of {} that faces {} within {:.3g} m, expected "
-                    "some",
-                    spec.where, spec.slave, spec.master, *spec.distance));
+  const Projection found = project_tie(part, spec);
+  const double size = mean_size(tie_faces(mesh.nodes, mesh.surface(spec.slave)));
   const int relation = graph.add_relation(spec.where);
   std::vector<Dependence> dependences;
   int held = 0;
@@ -112,6 +103,20 @@ std::vector<Dependence> tie(const PartData& part, const TieSpec& given, int32_t 
 }
 
 }  // namespace
+
+Projection project_tie(const PartData& part, TieSpec& spec) {
+  const mesh::Mesh& mesh = part.mesh;
+  const std::vector<TieFace> slave = tie_faces(mesh.nodes, mesh.surface(spec.slave));
+  const std::vector<TieFace> master = tie_faces(mesh.nodes, mesh.surface(spec.master));
+  if (!spec.distance) spec.distance = kDefaultGap * mean_size(slave);
+  Projection found = project(slave, master, *spec.distance);
+  if (found.tied.empty())
+    throw InputError(
+        fmt::format("{}: found no part of {} that faces {} within {:.3g} m, expected "
+                    "some",
+                    spec.where, spec.slave, spec.master, *spec.distance));
+  return found;
+}
 
 TieRelations gather_ties(const PartData& part, int32_t first_id, ConstraintGraph& graph) {
   TieRelations ties;

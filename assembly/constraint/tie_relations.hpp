@@ -9,6 +9,7 @@
 #include "assembly/constraint/constraint_graph.hpp"
 #include "assembly/constraint/part_data.hpp"
 #include "assembly/coupling/rigid_coupling.hpp"
+#include "assembly/tie/mortar.hpp"
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::assembly {
@@ -18,6 +19,10 @@ struct TieRelations {
   std::vector<Dependence> dependences;
   std::map<std::string, rom::DofSet> bolts;  // the shortening of each; its DoF is an id
 };
+
+/// Projects the slave surface of a tie; `spec` gets its default distance. InputError when nothing
+/// is tied.
+Projection project_tie(const PartData& part, TieSpec& spec);
 
 /// Projects each slave surface and adds its dependences to the graph. Displacements that a support
 /// holds are not tied. InputError when nothing is tied and for conflicts with relations in `graph`.

@@ -60,7 +60,10 @@ Eigen::VectorXd rotation_force(const PartData& part, const LoadSpec& load) {
 }
 
 /// Temperatures at the nodes above the stress-free state [K].
-Eigen::VectorXd temperature_rise(const mesh::Mesh& mesh, const LoadSpec& load) {
+Eigen::VectorXd temperature_rise(const mesh::Mesh& mesh, const LoadSpec& load,
+                                 const HeatFields& heat) {
+  if (load.rise.size() > 0) return load.rise;
+  if (!load.heat.empty()) return heat.at(load.heat).temperature.array() - load.value;
   if (load.field.empty()) return Eigen::VectorXd::Constant(mesh.nodes.rows(), load.value);
   return mesh.fields.at(load.field).col(0).array() - load.value;
 }
@@ -76,7 +79,7 @@ Eigen::VectorXd point_force(const DofNumbers& numbers, int32_t point, const Load
 }
 
 /// Forces on the nodes (3 n_nodes); zero for a load that acts otherwise.
-Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load) {
+Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load, const HeatFields& heat) {
   const Eigen::Index n_nodes = part.mesh.nodes.rows();
   switch (load.kind) {
     case LoadSpec::Kind::kPressure:
@@ -88,7 +91,8 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load) {
       return load.value * Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
     }
     case LoadSpec::Kind::kTemperature:
-      return thermal_load(part.mesh, part.recipe.materials, temperature_rise(part.mesh, load));
+      return thermal_load(part.mesh, part.recipe.materials,
+                          temperature_rise(part.mesh, load, heat));
     case LoadSpec::Kind::kForce:
     case LoadSpec::Kind::kGravity:
     case LoadSpec::Kind::kCentrifugal:
@@ -99,15 +103,14 @@ Eigen::VectorXd nodal_forces(const PartData& part, const LoadSpec& load) {
 }
 
 /// Forces on nodes and points (n_dofs), without those on sets.
-Eigen::VectorXd forces_of(const PartData& part, const LoadSpec& load,
-                          const Eigen::MatrixXd& momentum) {
-  if (load.kind == LoadSpec::Kind::kGravity) return body_force(part, momentum, load.force);
+Eigen::VectorXd forces_of(const PartData& part, const LoadSpec& load, const LoadInputs& inputs) {
+  if (load.kind == LoadSpec::Kind::kGravity) return body_force(part, inputs.momentum, load.force);
   if (load.kind == LoadSpec::Kind::kCentrifugal) return rotation_force(part, load);
   if (load.kind == LoadSpec::Kind::kForce)
     if (const int32_t point = find_point(part.recipe, load.set); point >= 0)
       return point_force(part.numbers, point, load);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(part.numbers.count());
-  forces.head(3 * part.mesh.nodes.rows()) = nodal_forces(part, load);
+  forces.head(3 * part.mesh.nodes.rows()) = nodal_forces(part, load, inputs.heat);
   return forces;
 }
 
@@ -176,12 +179,12 @@ bool all_attached(const Elimination& e, const Eigen::VectorXd& forces) {
 }  // namespace
 
 LoadVectors load_vectors(const PartData& part, const Constrained& constrained,
-                         const Eigen::MatrixXd& momentum) {
+                         const LoadInputs& inputs) {
   const Elimination& e = constrained.elimination;
   const Recipe& recipe = part.recipe;
   LoadVectors all;
   for (const LoadSpec& load : recipe.loads) {
-    const Eigen::VectorXd forces = forces_of(part, load, momentum);
+    const Eigen::VectorXd forces = forces_of(part, load, inputs);
     Eigen::VectorXd f = with_set_forces(e.T.transpose() * forces, recipe, load, constrained.sets);
     const Eigen::VectorXd f_s = e.T_s.transpose() * forces;
     const Eigen::VectorXd resultant =
@@ -200,7 +203,7 @@ LoadVectors load_vectors(const PartData& part, const Constrained& constrained,
     if (load.kind == LoadSpec::Kind::kDisplacement)
       all.prescribed[load.name] = prescribed_displacement(part, constrained, load);
     if (load.kind == LoadSpec::Kind::kTemperature)
-      all.temperature_rise[load.name] = temperature_rise(part.mesh, load);
+      all.temperature_rise[load.name] = temperature_rise(part.mesh, load, inputs.heat);
   }
   return all;
 }

@@ -7,6 +7,7 @@
 
 #include "assembly/constraint/constrain.hpp"
 #include "assembly/constraint/part_data.hpp"
+#include "core/fe/fe_model.hpp"
 
 namespace clatter::assembly {
 
@@ -19,11 +20,17 @@ struct LoadVectors {
   std::map<std::string, std::string> units;                 // "gas" -> "Pa": unit of the load
 };
 
+using HeatFields = std::map<std::string, fe::HeatField>;
+
+/// What some loads need in addition to the recipe.
+struct LoadInputs {
+  Eigen::MatrixXd momentum;  // 3 n_nodes x 3: M times unit accelerations of all nodes; or empty
+  HeatFields heat;           // of the [[heat]] tables
+};
+
 /// Builds all loads and prints the resultant of each. InputError for a load on a direction that
 /// the model lacks.
-/// @param momentum 3 n_nodes x 3: M times unit accelerations of all nodes; empty when no load needs
-/// it.
 LoadVectors load_vectors(const PartData& part, const Constrained& constrained,
-                         const Eigen::MatrixXd& momentum);
+                         const LoadInputs& inputs);
 
 }  // namespace clatter::assembly

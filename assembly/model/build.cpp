@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assembly/constraint/constrain.hpp"
+#include "assembly/heat/solve_heat.hpp"
 #include "assembly/load/load_vectors.hpp"
 #include "assembly/load/mass_properties.hpp"
 #include "assembly/load/point_mass.hpp"
@@ -167,7 +168,8 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   fe::NodalMatrices nodal =
       fe::assemble(mesh, recipe.materials, pattern, recipe.mass, constrained.rigid_of_node);
   clock.lap("assemble");
-  const Eigen::MatrixXd momentum = momentum_of(nodal.M, recipe);
+  LoadInputs inputs{.momentum = momentum_of(nodal.M, recipe), .heat = solve_heat(part, pattern)};
+  if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
   SparseMatrix M_cells = transform(std::move(nodal.M), elimination);
   add_springs(recipe.springs, constrained.springs, elimination, K);
@@ -176,7 +178,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   const rom::MassProperties mass = mass_of(part, constrained);
   check_references(mesh.name, constrained.sets, M);
   check_stiffness(mesh, constrained.sets, K.qq);
-  LoadVectors loads = load_vectors(part, constrained, momentum);
+  LoadVectors loads = load_vectors(part, constrained, inputs);
   clock.lap("masses and loads");
 
   BuiltModel built{
@@ -196,6 +198,7 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
                 .support_loads = std::move(loads.support_forces),
                 .prescribed = std::move(loads.prescribed),
                 .temperature_rise = std::move(loads.temperature_rise),
+                .heat = std::move(inputs.heat),
                 .cases = recipe.cases,
                 .surfaces = mesh.surfaces,
                 .cells = {mesh.regions, recipe.materials, mesh.cells, mesh.node_ids},

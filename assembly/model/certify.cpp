@@ -74,6 +74,8 @@ FeCertificate certify(const fe::FeModel& model, const Constrained& constrained, 
                     "to one another",
                     model.name, elimination.growth));
 
+  for (const auto& [heat, field] : model.heat) numbers.heat_balance[heat] = field.balance;
+
   const Eigen::MatrixXd motions = free_motions(constrained.grounded);
   numbers.rigid_motions_held_by_equations = static_cast<double>(6 - motions.cols());
   if (motions.cols() == 0) return numbers;

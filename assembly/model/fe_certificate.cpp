@@ -25,7 +25,9 @@ const std::vector<CertificateField<FeCertificate>>& FeCertificate::fields() {
        "mass of a free part, R^T M R against the sum over the elements, relative"},
       {"centre_error", &C::centre_error, "",
        "the same of the centre of mass, over the radius of gyration"},
-      {"inertia_error", &C::inertia_error, "", "the same of the inertia, over its trace"}};
+      {"inertia_error", &C::inertia_error, "", "the same of the inertia, over its trace"},
+      {"heat_balance_<heat>", &C::heat_balance, "",
+       "sum of the heat into the part over the heat that flows, of a temperature field"}};
   return list;
 }
 

@@ -21,6 +21,8 @@ struct FeCertificate {
   std::optional<double> held_dofs{};
   // By both.
   std::optional<double> rigid_force_residue{};
+  // Of each [[heat]].
+  CertificateNumbers heat_balance{};
 
   static const std::vector<CertificateField<FeCertificate>>& fields();
   bool operator==(const FeCertificate&) const = default;

@@ -76,6 +76,13 @@ std::string RecipeReader::surface(const Config& table, std::string_view key) con
   return name;
 }
 
+int32_t RecipeReader::region(const Config& table, std::string_view key,
+                             const std::string& name) const {
+  const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), name);
+  if (found == mesh_.regions.end()) fail_unknown(table, key, name, mesh_.regions);
+  return static_cast<int32_t>(found - mesh_.regions.begin());
+}
+
 std::string RecipeReader::node_set(const Config& table) const {
   const std::string name = table.text("node_set");
   if (!mesh_.node_sets.contains(name))
@@ -148,6 +155,7 @@ Recipe RecipeReader::read() {
   means(recipe);
   nodes(recipe);
   point_masses(recipe);
+  heats(recipe);
   loads(recipe);
   cases(recipe);
   config_.finish();

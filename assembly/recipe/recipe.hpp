@@ -2,6 +2,7 @@
 #pragma once
 // Contents of a part's fe.toml. assembly/README.md documents the file; lengths here are in metres.
 #include <Eigen/Core>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "assembly/coupling/contact_patch.hpp"
 #include "assembly/coupling/dof_numbers.hpp"
+#include "assembly/recipe/profile.hpp"
 #include "core/base/config.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/fe/axes.hpp"
@@ -121,6 +123,38 @@ struct PointMassSpec {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre [kg m2]
 };
 
+/// [[heat]]: boundary conditions and sources of a steady temperature field.
+struct HeatSpec {
+  /// Of a fluid at a surface.
+  struct Film {
+    std::string surface;
+    Profile coefficient;  // [W/(m2 K)]
+    Profile temperature;  // of the fluid [K]
+  };
+  struct Flux {
+    std::string surface;
+    Profile flux;  // into the part [W/m2]
+  };
+  struct Fixed {
+    Selection selection;
+    double temperature = 0.0;  // [K]
+  };
+  struct Source {
+    std::vector<std::string> regions;
+    std::vector<double> power;  // of each region of the mesh [W/m3]
+  };
+  struct Contact {
+    std::string tie;           // a [[tie]] or [[bolt]]
+    double conductance = 0.0;  // [W/(m2 K)]
+  };
+  std::string name, where;
+  std::vector<Film> films;
+  std::vector<Flux> fluxes;
+  std::vector<Fixed> fixed;
+  std::vector<Source> sources;
+  std::vector<Contact> contacts;  // of the other ties both sides have the same temperature
+};
+
 /// [[load]]: a unit load case.
 struct LoadSpec {
   enum class Kind {
@@ -137,6 +171,8 @@ struct LoadSpec {
   Kind kind = Kind::kPressure;
   std::string surface, set;  // set: also the name of a point
   std::string field;         // of the mesh: n x 3 [N], times `value`; n x 1 [K], minus `value`
+  std::string heat;          // a [[heat]]: its temperatures, minus `value`
+  Eigen::VectorXd rise;      // temperature rise of the nodes by regions or a table [K], or empty
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // [N] per unit; gravity: unit vector
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // [N m] per unit
   fe::RotationAxis axis;                             // centrifugal: axis of rotation and
@@ -162,8 +198,10 @@ struct Recipe {
   std::vector<MeanSpec> means;
   std::vector<NodeSpec> nodes;
   std::vector<PointMassSpec> point_masses;
+  std::vector<HeatSpec> heats;
   std::vector<LoadSpec> loads;
   std::map<std::string, std::map<std::string, double>> cases;  // [[case]]: factors of loads
+  std::vector<std::filesystem::path> files;                    // read in addition to the fe.toml
 };
 
 /// Reads the entire file and checks it against the mesh; InputError with "file:line: key: found

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // [[load]], [[case]].
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
 #include "assembly/recipe/recipe_reader.hpp"
+#include "assembly/recipe/temperature_table.hpp"
 
 namespace clatter::assembly {
 
@@ -45,11 +47,58 @@ std::string RecipeReader::field(const Config& table, Eigen::Index columns) const
   return name;
 }
 
-/// A rise everywhere, or a field of temperatures above `reference`.
-void RecipeReader::temperature_load(const Config& table, LoadSpec& spec) const {
+/// Nodes of several regions get the mean of their rises.
+Eigen::VectorXd RecipeReader::rise_of_regions(const Config& table) const {
+  const Config given = table.table("regions");
+  std::vector<double> rise(mesh_.regions.size(), 0.0);
+  for (const std::string& name : given.keys())
+    rise[static_cast<size_t>(region(given, name, name))] = given.number(name);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh_.nodes.rows()), regions = sum;
+  for (size_t r = 0; r < rise.size(); ++r) {
+    std::vector<bool> inside(static_cast<size_t>(sum.size()), false);
+    for (const mesh::CellBlock& block : mesh_.cells)
+      if (static_cast<size_t>(block.region) == r)
+        for (const int32_t node : block.nodes.reshaped()) inside[static_cast<size_t>(node)] = true;
+    for (Eigen::Index a = 0; a < sum.size(); ++a)
+      if (inside[static_cast<size_t>(a)]) sum(a) += rise[r], regions(a) += 1.0;
+  }
+  return sum.cwiseQuotient(regions);
+}
+
+/// A rise everywhere or by regions, or temperatures above a reference: of a field of the mesh, a
+/// [[heat]], or a table.
+void RecipeReader::temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const {
   spec.kind = LoadSpec::Kind::kTemperature;
-  if (table.has("field")) {
-    if (table.has("value")) table.fail("value", "found a field as well, expected one");
+  const std::vector<std::string> sources = {"value", "regions", "field", "heat", "table"};
+  std::string source;
+  for (const std::string& key : sources) {
+    if (!table.has(key)) continue;
+    if (!source.empty())
+      table.fail(key, fmt::format("found {} as well, expected one of: {}", source,
+                                  fmt::join(sources, ", ")));
+    source = key;
+  }
+  const auto reference = [&] {
+    return kZeroCelsius + table.number_or("reference_c", 20.0, {-kZeroCelsius});
+  };
+  if (source == "regions") {
+    spec.rise = rise_of_regions(table);
+    spec.unit = table.text_or("unit", "1");
+  } else if (source == "heat") {
+    spec.heat = table.text("heat");
+    std::vector<std::string> names;
+    for (const HeatSpec& heat : recipe.heats) names.push_back(heat.name);
+    if (std::find(names.begin(), names.end(), spec.heat) == names.end())
+      fail_unknown(table, "heat", spec.heat, names);
+    spec.value = reference();
+    spec.unit = table.text_or("unit", "1");
+  } else if (source == "table") {
+    const std::filesystem::path path = table.path("table");
+    recipe.files.push_back(path);
+    const TemperatureTable points = read_temperature_table(path, metre_);
+    spec.rise = temperatures_at(points, mesh_.nodes).array() - reference();
+    spec.unit = table.text_or("unit", "1");
+  } else if (source == "field") {
     spec.field = field(table, 1);
     spec.value = table.number_or("reference", 0.0);
     spec.unit = table.text_or("unit", "1");
@@ -65,14 +114,11 @@ void RecipeReader::centrifugal_load(const Config& table, LoadSpec& spec) const {
   spec.axis.direction = unit_vector(table, "axis");
   spec.axis.point = point(table, "axis_point");
   spec.unit = "rad2/s2";
-  for (const std::string& region : table.texts_or("regions", {})) {
-    const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
-    if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
-    spec.rotating.push_back(static_cast<int32_t>(found - mesh_.regions.begin()));
-  }
+  for (const std::string& name : table.texts_or("regions", {}))
+    spec.rotating.push_back(region(table, "regions", name));
 }
 
-LoadSpec RecipeReader::load(const Config& table) const {
+LoadSpec RecipeReader::load(const Config& table, Recipe& recipe) const {
   LoadSpec spec;
   spec.name = table.text("name");
   if (spec.name.empty() || spec.name.find('/') != std::string::npos)
@@ -96,7 +142,7 @@ LoadSpec RecipeReader::load(const Config& table) const {
   } else if (kind == "displacement") {
     displacement_load(table, spec);
   } else if (kind == "temperature") {
-    temperature_load(table, spec);
+    temperature_load(table, spec, recipe);
   } else if (kind == "nodal") {
     spec.kind = LoadSpec::Kind::kNodal;
     spec.field = field(table, 3);
@@ -122,7 +168,7 @@ bool expands(const std::vector<fe::Material>& materials) {
 void RecipeReader::loads(Recipe& recipe) const {
   std::set<std::string> names;
   for (const Config& table : config_.tables("load")) {
-    recipe.loads.push_back(load(table));
+    recipe.loads.push_back(load(table, recipe));
     if (recipe.loads.back().kind == LoadSpec::Kind::kTemperature && !expands(recipe.materials))
       table.fail("kind", "found temperature, no material has an expansion");
     if (!names.insert(recipe.loads.back().name).second)

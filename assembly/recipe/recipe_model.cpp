@@ -24,12 +24,10 @@ void RecipeReader::materials(Recipe& recipe) const {
   for (const std::string& name : all.keys()) {
     const Config table = all.table(name);
     const fe::Material material = fe::read_material(table, systems_);
-    for (const std::string& region : table.texts("regions")) {
-      const auto found = std::find(mesh_.regions.begin(), mesh_.regions.end(), region);
-      if (found == mesh_.regions.end()) fail_unknown(table, "regions", region, mesh_.regions);
-      const auto index = static_cast<size_t>(found - mesh_.regions.begin());
+    for (const std::string& one : table.texts("regions")) {
+      const auto index = static_cast<size_t>(region(table, "regions", one));
       if (given[index])
-        table.fail("regions", fmt::format("found \"{}\" in two materials, expected one", region));
+        table.fail("regions", fmt::format("found \"{}\" in two materials, expected one", one));
       given[index] = true;
       recipe.materials[index] = material;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Reads a fe.toml. All tables share the mesh, the length unit and the names in use.
-// recipe_model.cpp, recipe_couplings.cpp, recipe_sets.cpp and recipe_loads.cpp each read some
-// tables.
+// recipe_model.cpp, recipe_couplings.cpp, recipe_sets.cpp, recipe_heat.cpp and recipe_loads.cpp
+// each read some tables.
 #include <map>
 #include <set>
 #include <string>
@@ -61,10 +61,16 @@ class RecipeReader {
   void means(Recipe& recipe);
   void nodes(Recipe& recipe);
   void point_masses(Recipe& recipe) const;
+  Profile profile(const Config& table, std::string_view key, Range range, double offset) const;
+  void heats(Recipe& recipe) const;
+  HeatSpec heat(const Config& table, const Recipe& recipe) const;
+  HeatSpec::Source heat_source(const Config& table) const;
+  int32_t region(const Config& table, std::string_view key, const std::string& name) const;
   void loads(Recipe& recipe) const;
-  LoadSpec load(const Config& table) const;
+  LoadSpec load(const Config& table, Recipe& recipe) const;
   void force_load(const Config& table, LoadSpec& spec) const;
-  void temperature_load(const Config& table, LoadSpec& spec) const;
+  void temperature_load(const Config& table, LoadSpec& spec, Recipe& recipe) const;
+  Eigen::VectorXd rise_of_regions(const Config& table) const;
   void centrifugal_load(const Config& table, LoadSpec& spec) const;
   void displacement_load(const Config& table, LoadSpec& spec) const;
   std::string field(const Config& table, Eigen::Index columns) const;

@@ -69,6 +69,8 @@ void write_material(H5File& file, const std::string& group, const Material& mate
     file.write(group + "/elasticity", Eigen::MatrixXd(*material.elasticity));
   }
   file.write(group + "/expansion", Eigen::VectorXd(material.expansion));
+  if (!material.conductivity.isZero(0.0))
+    file.write(group + "/conductivity", Eigen::VectorXd(material.conductivity));
   if (material.axes) {
     file.set(group + "/axes", "kind", name_of(kAxes, material.axes->kind));
     file.write(group + "/axes/origin", Eigen::VectorXd(material.axes->origin));
@@ -94,6 +96,8 @@ Material read_material(const H5File& file, const std::string& group) {
                       file.path().string(), group, material.youngs, material.poisson));
   }
   material.expansion = read_matrix(file, group + "/expansion", 6, 1);
+  if (file.has(group + "/conductivity"))
+    material.conductivity = read_matrix(file, group + "/conductivity", 3, 1);
   if (file.has(group + "/axes")) {
     material.axes = Axes{value_of(file, group + "/axes", "kind", kAxes),
                          read_matrix(file, group + "/axes/origin", 3, 1),

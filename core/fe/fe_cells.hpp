@@ -2,7 +2,8 @@
 #pragma once
 // The elastic cells of a model, for stress recovery. In the file:
 //   regions, cells/<b>/nodes with attributes type and region, node_ids, materials/<r> (attributes
-//   rho, E and nu or dataset elasticity, expansion, axes/, attributes hex8 ... of integration).
+//   rho, E and nu or dataset elasticity, expansion, conductivity, axes/, attributes hex8 ... of
+//   integration).
 #include <string>
 #include <vector>
 

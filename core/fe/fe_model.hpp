@@ -41,6 +41,14 @@ struct FePoints {
   SparseMatrix T_s;    // 6 n_points x n_s
 };
 
+/// A steady temperature field.
+struct HeatField {
+  Eigen::VectorXd temperature;          // n_nodes [K]
+  std::vector<std::string> boundaries;  // "film crown", "flux ...", "fixed ...", "source ..."
+  Eigen::VectorXd heat;                 // into the part through each of them [W]
+  double balance = 0.0;                 // |sum of heat| over the heat that flows
+};
+
 /// The linear elastic model of one part after elimination of couplings and supports:
 ///   M q'' + (alpha K + beta M) q' + K q = f,   u = T q.
 /// q holds nodal displacements [m] and generalised coordinates that replace pivot displacements:
@@ -65,6 +73,7 @@ struct FeModel {
   std::map<std::string, Eigen::VectorXd>
       prescribed;  // n_s: s of loads with prescribed displacements
   std::map<std::string, Eigen::VectorXd> temperature_rise;     // n_nodes [K], of temperature loads
+  std::map<std::string, HeatField> heat;                       // temperature fields by name
   std::map<std::string, std::map<std::string, double>> cases;  // factors of loads
   std::map<std::string, mesh::Surface> surfaces;               // outward
   FeCells cells;                                               // for stresses

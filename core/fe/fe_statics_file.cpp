@@ -92,6 +92,30 @@ void read_of_loads(const H5File& file, const std::string& group, const FeModel& 
   }
 }
 
+void write_heat(H5File& file, const FeModel& model) {
+  for (const auto& [name, field] : model.heat) {
+    const std::string group = "heat/" + name;
+    file.write(group + "/temperature", field.temperature);
+    file.write(group + "/boundaries", field.boundaries);
+    file.write(group + "/heat", field.heat);
+    file.set(group, "balance", field.balance);
+  }
+}
+
+void read_heat(const H5File& file, FeModel& model) {
+  for (const std::string& name : file.list("heat")) {
+    const std::string group = "heat/" + name;
+    HeatField& field = model.heat[name];
+    field.temperature = file.read_vector(group + "/temperature");
+    check_dense(file, group + "/temperature", field.temperature, model.nodes.rows(), 1);
+    field.boundaries = file.read_strings(group + "/boundaries");
+    field.heat = file.read_vector(group + "/heat");
+    check_dense(file, group + "/heat", field.heat,
+                static_cast<Eigen::Index>(field.boundaries.size()), 1);
+    field.balance = file.get_double(group, "balance");
+  }
+}
+
 }  // namespace
 
 void write_supported(H5File& file, const FeSupports& supports) {
@@ -116,6 +140,7 @@ void write_statics(H5File& file, const FeModel& model) {
   for (const auto& [load, values] : model.prescribed) file.write("prescribed/" + load, values);
   for (const auto& [load, values] : model.temperature_rise)
     file.write("temperature_rise/" + load, values);
+  write_heat(file, model);
   for (const auto& [name, factors] : model.cases)
     for (const auto& [load, factor] : factors) file.set("cases/" + name, load, factor);
 }
@@ -126,6 +151,7 @@ void read_statics(const H5File& file, FeModel& model) {
   read_of_loads(file, "support_loads", model, model.supports.size(), model.support_loads);
   read_of_loads(file, "prescribed", model, model.supports.size(), model.prescribed);
   read_of_loads(file, "temperature_rise", model, model.nodes.rows(), model.temperature_rise);
+  read_heat(file, model);
   for (const std::string& name : file.list("cases"))
     for (const std::string& load : file.attributes("cases/" + name)) {
       const std::string group = "cases/" + name;

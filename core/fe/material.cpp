@@ -113,6 +113,17 @@ void read_expansion(const Config& table, Material& material) {
   for (int i = 0; i < 3; ++i) material.expansion(i) = a[a.size() == 1 ? 0 : static_cast<size_t>(i)];
 }
 
+void read_conductivity(const Config& table, Material& material) {
+  if (!table.has("conductivity")) return;
+  const std::vector<double> k = one_or_more(table, "conductivity");
+  if (k.size() != 1) require_count(table, "conductivity", k, 3);
+  for (int i = 0; i < 3; ++i)
+    material.conductivity(i) = k[k.size() == 1 ? 0 : static_cast<size_t>(i)];
+  if (!(material.conductivity.minCoeff() > 0.0))
+    table.fail("conductivity",
+               fmt::format("found {:g}, expected above 0", material.conductivity.minCoeff()));
+}
+
 Integration choose(const Config& table, std::string_view key,
                    std::initializer_list<std::string_view> known) {
   const std::string name = table.choice(key, known);
@@ -146,11 +157,18 @@ Voigt Material::expansion_at(const Eigen::Vector3d& x) const {
   return turned;
 }
 
+Eigen::Matrix3d Material::conductivity_at(const Eigen::Vector3d& x) const {
+  if (!axes) return conductivity.asDiagonal();
+  const Eigen::Matrix3d R = axes->at(x);
+  return R * conductivity.asDiagonal() * R.transpose();
+}
+
 Material read_material(const Config& table, const std::map<std::string, Axes>& systems) {
   Material material;
   read_elasticity(table, material);
   material.density = table.number("rho", Range::positive());
   read_expansion(table, material);
+  read_conductivity(table, material);
   if (table.has("system")) {
     const std::string name = table.text("system");
     const auto found = systems.find(name);

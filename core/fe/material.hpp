@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Linear elastic materials: isotropic, orthotropic, anisotropic; thermal expansion.
+// Linear elastic materials: isotropic, orthotropic, anisotropic; thermal expansion, conductivity.
 #include <Eigen/Core>
 #include <map>
 #include <optional>
@@ -36,6 +36,7 @@ struct Material {
   Voigt expansion = Voigt::Zero();          // thermal strain per kelvin in its axes [1/K]
   std::optional<Axes> axes = std::nullopt;  // absent: the global frame
   IntegrationChoice integration = {};
+  Eigen::Vector3d conductivity = Eigen::Vector3d::Zero();  // along its axes [W/(m K)]; 0: not given
 
   /// First Lame constant E nu / ((1 + nu) (1 - 2 nu)) [Pa].
   double lambda() const { return youngs * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
@@ -46,6 +47,8 @@ struct Material {
   /// Elasticity and thermal strain per kelvin in the global frame at position `x` [m].
   Elasticity elasticity_at(const Eigen::Vector3d& x) const;
   Voigt expansion_at(const Eigen::Vector3d& x) const;
+  /// Conductivity in the global frame at position `x` [m]: heat flux = -k grad T [W/(m K)].
+  Eigen::Matrix3d conductivity_at(const Eigen::Vector3d& x) const;
 };
 
 /// Reads `rho` [kg/m3] and the constants:
@@ -53,9 +56,10 @@ struct Material {
 ///   orthotropic  `E` (or `E_gpa`) = [E1, E2, E3], `nu` = [nu12, nu13, nu23], `G` (or `G_gpa`) =
 ///                [G12, G13, G23]; nu12/E1 = nu21/E2
 ///   anisotropic  `C` (or `C_gpa`) = 21 numbers: upper triangle of Elasticity row by row
-/// then `expansion` [1/K], one number or three along the axes, `system` (one of `systems`), and
-/// `hex8`, `hex20`, `wedge6`, `wedge15`. InputError unless rho > 0 and the elasticity is positive
-/// definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic energy has no lower bound.
+/// then `expansion` [1/K] and `conductivity` [W/(m K)], one number or three along the axes,
+/// `system` (one of `systems`), and `hex8`, `hex20`, `wedge6`, `wedge15`. InputError unless rho > 0
+/// and the elasticity is positive definite (isotropic: E > 0, -1 < nu < 0.5): otherwise the elastic
+/// energy has no lower bound.
 Material read_material(const Config& table, const std::map<std::string, Axes>& systems = {});
 
 }  // namespace clatter::fe

@@ -76,16 +76,20 @@ Eigen::MatrixXd full(const SparseMatrix& lower) {
   return dense.selfadjointView<Eigen::Lower>();
 }
 
-BuiltModel build(const mesh::Mesh& mesh, const std::string& toml) {
+BuiltModel build_all(const mesh::Mesh& mesh, const std::string& toml) {
   set_quiet(true);
+  const Config config = Config::parse(toml, "test.fe.toml");
+  const Recipe recipe = read_recipe(config, mesh);
+  StepClock clock;
+  return build_fe_model(mesh, recipe, clock);
+}
+
+BuiltModel build(const mesh::Mesh& mesh, const std::string& toml) {
   std::string regions;
   for (const std::string& region : mesh.regions) regions += "\"" + region + "\", ";
   const std::string steel =
       "[material.steel]\nregions = [" + regions + "]\nE_gpa = 210.0\nnu = 0.3\nrho = 7800.0\n";
-  const Config config = Config::parse(steel + toml, "test.fe.toml");
-  const Recipe recipe = read_recipe(config, mesh);
-  StepClock clock;
-  return build_fe_model(mesh, recipe, clock);
+  return build_all(mesh, steel + toml);
 }
 
 }  // namespace clatter::assembly::testing

@@ -29,6 +29,7 @@ void for_each_certificate(const Check& check) {
   check.template operator()<assembly::FeCertificate>("fe");
   check.template operator()<modal::ModesCertificate>("modes");
   check.template operator()<modal::StaticCertificate>("static");
+  check.template operator()<modal::ShapeCertificate>("shape");
   check.template operator()<rom::ReducedCertificate>("rom");
   check.template operator()<dynamics::RunCertificate>("run");
   check.template operator()<recover::FieldCertificate>("field");

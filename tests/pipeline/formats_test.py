@@ -57,6 +57,54 @@ class Document:
                    all(a in ("*", b) for a, b in zip(known, pattern)) for documented in self.paths)
 
 
+RING_MESH = """name = "ring"
+kind = "cylinder"
+[cylinder]
+radius = 40.0
+inner_radius = 30.0
+length = 20.0
+[mesh]
+element_size_mm = 12.0
+"""
+
+RING = """
+[material.iron]
+regions = ["solid"]
+E_gpa = 110.0
+nu = 0.26
+rho = 7200.0
+expansion = 1.1e-5
+conductivity = 48.0
+[[support]]
+surface = "bottom"
+[[contact]]
+name = "liner"
+surface = "inner"
+axis_point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+zero_angle = [1.0, 0.0, 0.0]
+axial = [0.0, 0.02]
+rows = 1
+[[contact.sector]]
+centre_deg = 0.0
+half_width_deg = 60.0
+strips = 1
+[[heat]]
+name = "running"
+[[heat.film]]
+surface = "inner"
+coefficient = 500.0
+temperature_c = 400.0
+[[heat.fixed]]
+surface = "outer"
+temperature_c = 90.0
+[[load]]
+name = "warm"
+kind = "temperature"
+heat = "running"
+"""
+
+
 class Formats(stages.PipelineTest):
     def test_the_three_lines_read_a_stiffness_matrix_that_scipy_can_use(self):
         code = re.search(r"```python\n(.*?)```", (stages.SOURCE / "docs/formats.md").read_text(), re.S)[1]
@@ -123,11 +171,23 @@ class Formats(stages.PipelineTest):
         for path in ("Q", "sets/tip/axis", "dofs", "loads/tip/force", "quality"):
             self.assertFalse(document.says(path), path)
 
+    def warm_ring(self):
+        """A ring with a temperature field, its statics and the shape of its bore."""
+        (self.folder / "ring.mesh.toml").write_text(RING_MESH)
+        (self.folder / "ring.fe.toml").write_text(RING)
+        for stage, *arguments in (["mesh", "ring.mesh.toml", "-o", "ring.mesh.h5"],
+                                  ["assembly", "ring.mesh.h5", "-c", "ring.fe.toml", "-o", "ring.fe.h5"],
+                                  ["modal", "statics", "ring.fe.h5", "-o", "ring.static.h5"],
+                                  ["modal", "shape", "ring.static.h5", "--surface", "inner", "-o", "ring.shape.h5"]):
+            done = stages.run_stage(stage, *arguments, folder=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_every_name_in_an_artefact_is_in_the_document(self):
         stages.run_stage("modal", "statics", "beam.fe.h5", "-o", "beam.static.h5", folder=self.folder)
         stages.run_stage("mesh", "faces", "beam.mesh.toml", "-o", "beam.faces.h5", folder=self.folder)
         (self.folder / "beam.sound.toml").write_text("[grid]\nfrom_hz = 400\nto_hz = 800\n")
         stages.run_stage("recover", "sound", "beam.rom.h5", "-c", "beam.sound.toml", "-o", "beam.sound.h5", folder=self.folder)
+        self.warm_ring()
         kinds = set()
         for path in sorted(self.folder.glob("*.h5")):
             with self.subTest(artefact=path.name):

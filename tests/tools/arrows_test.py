@@ -24,7 +24,7 @@ LIBRARIES = {
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
     "mesh": {"core/base", "core/mesh"},
-    "assembly": {"core/base", "core/mesh", "core/rom", "core/fe"},
+    "assembly": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
     "modal": set(LIBRARIES) - {"core/run", "core/sound"},
     "condense": set(LIBRARIES) - {"core/run", "core/sound"},
     "dynamics": {"core/base", "core/rom", "core/run"},

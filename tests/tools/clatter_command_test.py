@@ -33,6 +33,8 @@ class Command(unittest.TestCase):
         synthetic.write_run(self.folder / "slap.run.h5")
         synthetic.write_run(self.folder / "slap_dry.run.h5", film=False)
         synthetic.write_field(self.folder / "slap.field.h5")
+        synthetic.write_shape(self.folder / "bore.shape.h5")
+        synthetic.write_shape(self.folder / "skirt.shape.h5", cases=["thermal"], covered=False)
 
     def test_info_names_schema_cost_and_contents(self):
         done = clatter("info", "slap.run.h5", folder=self.folder)
@@ -68,7 +70,7 @@ class Command(unittest.TestCase):
         fields = ["slap.field.h5"]
         for kind, files in (("piston", runs), ("mesh", ["block.mesh.h5"]),
                             ("quality", ["block.mesh.h5"]), ("acceleration", fields),
-                            ("power", fields), ("shape", fields)):
+                            ("power", fields), ("shape", fields), ("distortion", ["bore.shape.h5", "skirt.shape.h5"])):
             with self.subTest(kind=kind):
                 done = clatter("plot", kind, *files, "-o", f"{kind}.png", folder=self.folder)
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -78,10 +80,12 @@ class Command(unittest.TestCase):
     def test_a_wrong_file_gets_one_line_and_exit_code_2(self):
         (self.folder / "broken.run.h5").write_bytes(b"not HDF5")
         synthetic.new_file(self.folder / "no_piston.run.h5", "run").close()
+        synthetic.write_shape(self.folder / "empty.shape.h5", cases=[])
         for arguments, expected in ((("info", "absent.h5"), "no such file"),
                                     (("info", "broken.run.h5"), "not a readable HDF5 file"),
                                     (("plot", "piston", "block.mesh.h5"), "expected clatter/run/1"),
                                     (("plot", "piston", "no_piston.run.h5"), "none of these runs has a piston"),
+                                    (("plot", "distortion", "empty.shape.h5"), "cases: found none"),
                                     (("plot", "poem", "slap.run.h5"), "no picture named poem"),
                                     (("plot", "film", "slap.run.h5"), "film: found no maps"),
                                     (("plot", "film", "slap.run.h5", "--at=0,x"), "--at: found 0,x, expected crank angles"),

@@ -78,6 +78,17 @@ def write_measure(file, group, low, high, worst):
     file[f"{group}/worst_places"] = np.full((2, 3), 0.1)
 
 
+def write_shape(path, cases=("thermal", "gas"), covered=True):
+    """A bore of 100 mm, conical and oval; half of its points lie on faces where it is not `covered`."""
+    with new_file(path, "shape") as file:
+        height, angle = np.linspace(0.1, 0.3, 9), np.arange(24) * np.pi / 12
+        file.attrs["name"], file.attrs["surface"], file.attrs["radius"] = "block", "liner_1_bore", 0.05
+        file["height"], file["angle"] = height, angle
+        file["covered"] = np.tile(np.ones(24) if covered else np.abs(np.cos(angle)) > 0.7, (9, 1)).astype(np.int32)
+        for k, case in enumerate(cases):
+            file[f"cases/{case}/deviation"] = 1e-6 * (50.0 * (height[:, None] - 0.1) + (20.0 + k) * np.cos(2 * angle))
+
+
 def slap_signal(time, amplitude, ring_hz=1800.0):
     """An impact 0.3 ms after time zero that rings for about 2.5 ms."""
     after = np.maximum(time - 0.3e-3, 0.0)

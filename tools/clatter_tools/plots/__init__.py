@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures from artefacts: one function per picture, one style for all."""
-from . import accelerations, drive, faces, film, loop, piston, quality, radiation, shape, speed, style, tensioner, valves
+from . import accelerations, distortion, drive, faces, film, loop, piston, quality, radiation, shape, speed, style, tensioner, valves
 
 PICTURES = {
     "piston": piston.draw,
     "film": film.draw,
     "acceleration": accelerations.draw,
+    "distortion": distortion.draw,
     "power": radiation.draw,
     "mesh": shape.draw_mesh,
     "faces": faces.draw,

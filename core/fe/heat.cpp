@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fe/heat.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+#include "core/fe/cell_points.hpp"
+#include "core/fe/cell_strain.hpp"
+#include "core/fe/element.hpp"
+#include "core/mesh/quadrature.hpp"
+
+namespace clatter::fe {
+namespace {
+
+constexpr Eigen::Index kHeatChunk = 2048;  // cells whose matrices are held at once
+
+/// Calls use(face's nodes, N, position, dS) at each integration point of a surface.
+template <typename Use>
+void for_each_face_point(const RowMatrix& nodes, const mesh::Surface& surface, const Use& use) {
+  for (const mesh::FaceBlock& block : surface.faces) {
+    const mesh::FaceRule& rule = mesh::face_rule(block.type);
+    std::vector<mesh::FaceShape> shapes;
+    for (const auto& point : rule.points.rowwise())
+      shapes.push_back(mesh::face_shape(block.type, point.transpose()));
+    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, mesh::kMaxFaceNodes, 3> x(block.nodes.cols(), 3);
+    for (Eigen::Index f = 0; f < block.nodes.rows(); ++f) {
+      for (Eigen::Index a = 0; a < x.rows(); ++a) x.row(a) = nodes.row(block.nodes(f, a));
+      for (size_t q = 0; q < shapes.size(); ++q) {
+        const Eigen::Matrix<double, 3, 2> tangent = x.transpose() * shapes[q].gradient;
+        const double dS = rule.weights(static_cast<Eigen::Index>(q)) *
+                          tangent.col(0).cross(tangent.col(1)).norm();
+        use(block.nodes.row(f), shapes[q].value, Eigen::Vector3d(x.transpose() * shapes[q].value),
+            dS);
+      }
+    }
+  }
+}
+
+/// Adds a cell's matrix to the lower triangle.
+void add_cell(const NodePattern& pattern, const Eigen::MatrixXd& cell, const auto& nodes,
+              double* values) {
+  for (Eigen::Index b = 0; b < nodes.size(); ++b) {
+    const int32_t column = nodes(b);
+    double* entries = values + pattern.start[static_cast<size_t>(column)];
+    for (Eigen::Index a = 0; a < nodes.size(); ++a)
+      if (nodes(a) >= column) entries[pattern.position(column, nodes(a))] += cell(a, b);
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd cell_conduction(mesh::CellType type, const mesh::CellNodes& x,
+                                const Material& material) {
+  const CellModes modes(x, false);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(x.rows(), x.rows());
+  ModeGradient gradient;
+  for (const CellPoint& point : stiffness_points(type, Integration::kFull, is_straight(type, x))) {
+    const Eigen::Vector3d position = x.transpose() * point.shape.value;
+    const double det = modes.at(point, gradient);
+    if (!(det > 0.0))
+      throw InputError(fmt::format(
+          "conduction at ({:.6g}, {:.6g}, {:.6g}) m: found det J = {:.3g}, expected > 0 (inverted "
+          "cell)",
+          position(0), position(1), position(2), det));
+    K.noalias() +=
+        gradient * (point.weight * det * material.conductivity_at(position)) * gradient.transpose();
+  }
+  return K;
+}
+
+SparseMatrix conduction(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                        const NodePattern& pattern) {
+  const auto n = static_cast<Eigen::Index>(pattern.nodes());
+  SparseMatrix K(n, n);
+  K.resizeNonZeros(static_cast<Eigen::Index>(pattern.rows.size()));
+  std::transform(pattern.start.begin(), pattern.start.end(), K.outerIndexPtr(),
+                 [](int64_t start) { return static_cast<int32_t>(start); });
+  std::copy(pattern.rows.begin(), pattern.rows.end(), K.innerIndexPtr());
+  std::fill_n(K.valuePtr(), pattern.rows.size(), 0.0);
+  std::vector<Eigen::MatrixXd> chunk(kHeatChunk);
+  for (const mesh::CellBlock& block : mesh.cells) {
+    const Material& material = materials.at(static_cast<size_t>(block.region));
+    for (Eigen::Index first = 0; first < block.nodes.rows(); first += kHeatChunk) {
+      const Eigen::Index count = std::min(kHeatChunk, block.nodes.rows() - first);
+      parallel_pieces(count, [&](int64_t begin, int64_t end) {
+        for (int64_t c = begin; c < end; ++c)
+          chunk[static_cast<size_t>(c)] =
+              cell_conduction(block.type, mesh::cell_nodes(mesh, block, first + c), material);
+      });
+      // One thread adds in the order of the cells: the sum does not depend on the thread count.
+      for (Eigen::Index c = 0; c < count; ++c)
+        add_cell(pattern, chunk[static_cast<size_t>(c)], block.nodes.row(first + c), K.valuePtr());
+    }
+  }
+  return K;
+}
+
+Eigen::VectorXd volume_heat(const mesh::Mesh& mesh, const std::vector<double>& source) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(mesh.nodes.rows());
+  for (const mesh::CellBlock& block : mesh.cells) {
+    const double s = source.at(static_cast<size_t>(block.region));
+    if (s == 0.0) continue;
+    for (Eigen::Index c = 0; c < block.nodes.rows(); ++c) {
+      const mesh::CellNodes x = mesh::cell_nodes(mesh, block, c);
+      for (const CellPoint& point : mass_points(block.type, is_straight(block.type, x))) {
+        const double dV = point.weight * jacobian(x, point).determinant();
+        for (Eigen::Index a = 0; a < x.rows(); ++a)
+          q(block.nodes(c, a)) += s * dV * point.shape.value(a);
+      }
+    }
+  }
+  return q;
+}
+
+SurfaceHeat film_heat(const RowMatrix& nodes, const mesh::Surface& surface,
+                      const AtPosition& coefficient, const AtPosition& temperature) {
+  const Eigen::Index n = nodes.rows();
+  SurfaceHeat out{SparseMatrix(n, n), Eigen::VectorXd::Zero(n)};
+  std::vector<Eigen::Triplet<double, int32_t>> entries;
+  for_each_face_point(nodes, surface,
+                      [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
+                        const double h = coefficient(x), heat = h * temperature(x);
+                        for (Eigen::Index a = 0; a < N.size(); ++a) {
+                          out.q(face(a)) += heat * dS * N(a);
+                          for (Eigen::Index b = 0; b < N.size(); ++b)
+                            if (face(a) >= face(b))
+                              entries.emplace_back(face(a), face(b), h * dS * N(a) * N(b));
+                        }
+                      });
+  out.H.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+Eigen::VectorXd flux_heat(const RowMatrix& nodes, const mesh::Surface& surface,
+                          const AtPosition& flux) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(nodes.rows());
+  for_each_face_point(nodes, surface,
+                      [&](const auto& face, const auto& N, const Eigen::Vector3d& x, double dS) {
+                        const double heat = flux(x) * dS;
+                        for (Eigen::Index a = 0; a < N.size(); ++a) q(face(a)) += heat * N(a);
+                      });
+  return q;
+}
+
+}  // namespace clatter::fe
