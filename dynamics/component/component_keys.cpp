@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/base/units.hpp"
 
@@ -16,6 +17,28 @@ void read_body(const Config& table, const std::string& name, BodySpec& body) {
   body.mode_limit_hz = table.number_or("mode_limit_hz", 0.0, Range::between(0.0, 1e9));
   read_error_scales(table, body);
   body.where = table.where();
+}
+
+CrankClock read_crank_clock(const Config& engine) {
+  const Range speeds = Range::between(0.01, 1e5);
+  constexpr double kRpm = std::numbers::pi / 30.0;
+  CrankClock clock{engine.number("speed_rpm", speeds) * kRpm};
+  for (const Config& one : engine.tables("order")) {
+    SpeedOrder order;
+    order.order = one.number("order", Range::between(0.5, 1000.0));
+    if (std::remainder(order.order, 0.5) != 0.0)
+      one.fail("order", fmt::format("found {:g}, expected a multiple of 0.5, which repeats in each "
+                                    "cycle",
+                                    order.order));
+    order.amplitude = one.number("amplitude_rpm", speeds) * kRpm;
+    order.phase = one.number_or("phase_deg", 0.0, Range::between(-1e6, 1e6)) * kDegree;
+    clock.orders.push_back(order);
+  }
+  if (!clock.is_forward())
+    engine.fail("order", fmt::format("found amplitudes of {:g} rpm and more, expected less in all "
+                                     "than speed_rpm: the crank always turns",
+                                     clock.speed / kRpm));
+  return clock;
 }
 
 Spline::Kind read_interpolation(const Config& table, std::string_view fallback) {

@@ -12,6 +12,7 @@
 #include "core/base/config.hpp"
 #include "dynamics/component/loaded_body.hpp"
 #include "dynamics/component/model_builder.hpp"
+#include "dynamics/given/crank_clock.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -30,6 +31,9 @@ void read_error_scales(const Config& table, Body& body) {
 
 /// rom, model, mode_limit_hz and the scales of the error test.
 void read_body(const Config& table, const std::string& name, BodySpec& body);
+
+/// speed_rpm and [[engine.order]] of [engine].
+CrankClock read_crank_clock(const Config& engine);
 
 /// The key "interpolation", "linear" | "cubic".
 Spline::Kind read_interpolation(const Config& table, std::string_view fallback);

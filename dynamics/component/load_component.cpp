@@ -21,7 +21,7 @@ TimeFunction load_value(const ModelBuilder& model, const LoadSpec& load) {
   if (model.clock) {
     const auto table = read_cycle_table(load.table, load.column, load.unit, load.interpolation);
     return [table, scale = load.scale, clock = *model.clock](double t) {
-      return scale * table(clock.speed * t);
+      return scale * table(clock.angle(t));
     };
   }
   const auto table = read_time_table(load.table, load.column, load.unit, load.interpolation,

@@ -17,7 +17,7 @@ Wrench mechanism_inertia(const EngineSpec& engine, const SliderCrank& crank, con
   const double power = piston(2) * stroke.acceleration * stroke.velocity +
                        engine.rod.mass * centre.acceleration.dot(centre.velocity) +
                        engine.rod.inertia * angle.acceleration * angle.velocity;
-  total(3) -= power / crank.spin();
+  total(3) -= power / crank.spin(time);
   return total;
 }
 

@@ -18,7 +18,7 @@ namespace clatter::dynamics {
 
 /// [engine] and [rod].
 struct EngineSpec {
-  double speed = 0.0;       // omega [rad/s]
+  CrankClock clock;
   double stroke = 0.0;      // [m]
   double pin_offset = 0.0;  // of the pin from the bore's axis toward the thrust side [m]
   /// The block's rigid modes get no resultant, neither force nor moment, of this cylinder's inertia
@@ -29,7 +29,7 @@ struct EngineSpec {
   Rotation rotation = Rotation::kForward;
 
   SliderCrank crank() const {
-    return SliderCrank(0.5 * stroke, rod.length, pin_offset, speed, firing, rotation);
+    return SliderCrank(0.5 * stroke, rod.length, pin_offset, clock, firing, rotation);
   }
 };
 

@@ -27,16 +27,16 @@ void read_rod(const Config& rod, RodProperties& out) {
   out.centre = rod.number("centre_mm", Range::between(0.0, out.length / kMilli)) * kMilli;
 }
 
-/// @param speed of the crankshaft [rad/s]; @param tables of the cylinder.
-EngineSpec read_engine(const Config& tables, double speed, double firing) {
+/// @param tables of the cylinder.
+EngineSpec read_engine(const Config& tables, const CrankClock& clock, double firing) {
   const Config table = tables.table("engine");
   EngineSpec engine;
-  engine.speed = speed;
+  engine.clock = clock;
   engine.firing = firing;
   engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
   engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
   engine.balanced = table.flag_or("balanced", false);
-  if (table.has("rotation") && table.choice("rotation", {"forward", "backward"}) == "backward")
+  if (table.choice("rotation", {"forward", "backward"}) == "backward")
     engine.rotation = Rotation::kBackward;
   const Config rod = tables.table("rod");
   read_rod(rod, engine.rod);
@@ -100,11 +100,11 @@ BoreSpec read_bore(const Config& table) {
 }
 
 /// @param tables of the cylinder: the scene's own, or those of a [[cylinder]] over them.
-CylinderSpec read_cylinder(const Config& tables, double speed, double firing) {
+CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double firing) {
   const auto piston = tables.find_table("piston");
   if (!piston) tables.fail("piston", "found nothing, expected [piston]");
   CylinderSpec cylinder;
-  cylinder.engine = read_engine(tables, speed, firing);
+  cylinder.engine = read_engine(tables, clock, firing);
   cylinder.piston = read_piston(*piston);
   if (const auto table = tables.find_table("block")) cylinder.bore = read_bore(*table);
   if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
@@ -122,10 +122,9 @@ CylinderSpec read_cylinder(const Config& tables, double speed, double firing) {
 ComponentList read_cylinders(const Config& root) {
   const auto engine = root.find_table("engine");
   if (!engine) return {};
-  const double speed =
-      engine->number("speed_rpm", Range::between(0.01, 1e5)) * std::numbers::pi / 30.0;
+  const CrankClock clock = read_crank_clock(*engine);
   if (!root.has("cylinder"))
-    return {std::make_shared<CylinderComponent>(read_cylinder(root, speed, 0.0))};
+    return {std::make_shared<CylinderComponent>(read_cylinder(root, clock, 0.0))};
   ComponentList cylinders;
   std::set<std::string> names;
   for (const Config& table : root.tables("cylinder")) {
@@ -133,7 +132,7 @@ ComponentList read_cylinders(const Config& root) {
     if (!names.insert(name).second)
       table.fail("name", fmt::format("found a second \"{}\", expected each name once", name));
     const double firing = table.number_or("firing_deg", 0.0, Range::between(-720.0, 720.0));
-    CylinderSpec spec = read_cylinder(table.with_fallback(root), speed, firing * kDegree);
+    CylinderSpec spec = read_cylinder(table.with_fallback(root), clock, firing * kDegree);
     spec.name = name;
     cylinders.push_back(std::make_shared<CylinderComponent>(std::move(spec)));
   }

@@ -4,19 +4,20 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 
 namespace clatter::dynamics {
 
-SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, double omega,
+SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, CrankClock clock,
                          double firing, Rotation rotation)
     : radius_(radius),
       rod_length_(rod_length),
       pin_offset_(pin_offset),
-      omega_(omega),
       firing_(firing),
-      sign_(rotation == Rotation::kForward ? 1.0 : -1.0) {
+      sign_(rotation == Rotation::kForward ? 1.0 : -1.0),
+      clock_(std::move(clock)) {
   if (!(radius > 0.0) || !(rod_length > radius + std::abs(pin_offset))) {
     throw InputError(
         fmt::format("slider-crank: crank radius {} m, rod {} m, pin offset {} m: expected rod > "
@@ -26,10 +27,14 @@ SliderCrank::SliderCrank(double radius, double rod_length, double pin_offset, do
 }
 
 Motion<Eigen::Vector2d> SliderCrank::crank_pin(double time) const {
-  const double theta = angle(time);
+  const Motion<double> turn = clock_.turn(time);
+  const double theta = turn.position - firing_;
   const double s = std::sin(theta), c = std::cos(theta);
-  const double v = radius_ * omega_, a = v * omega_;
-  return {{-sign_ * radius_ * s, radius_ * c}, {-sign_ * v * c, -v * s}, {sign_ * a * s, -a * c}};
+  const double v = radius_ * turn.velocity, inward = v * turn.velocity;
+  const double along = radius_ * turn.acceleration;
+  return {{-sign_ * radius_ * s, radius_ * c},
+          {-sign_ * v * c, -v * s},
+          {sign_ * (inward * s - along * c), -inward * c - along * s}};
 }
 
 Motion<double> SliderCrank::rod_angle(double time) const {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Kinematics of the ideal slider-crank with rigid parts and no clearances, at constant speed.
+// Kinematics of the ideal slider-crank with rigid parts and no clearances.
 #include <Eigen/Core>
 
+#include "dynamics/given/crank_clock.hpp"
 #include "dynamics/given/motion.hpp"
 
 namespace clatter::dynamics {
@@ -13,25 +14,24 @@ enum class Rotation { kForward, kBackward };
 
 /// Crank of radius r at (0, 0), rod of length l, piston pin on the line y = e.
 ///
-/// theta = omega t - firing with 0 at firing top dead centre of the crank. The crank pin is at
+/// theta = crank angle - firing with 0 at firing top dead centre of the crank. The crank pin is at
 /// (y, z) = (-s r sin theta, r cos theta), s = 1 forward and -1 backward: the gas force pushes the
 /// piston toward s y, the thrust side, after top dead centre. The rod's angle phi about x obeys sin phi = (y_c - e)/l and the pin
 /// is at z_B = z_c + l cos phi (Heywood 1988, section 2.2, for e = 0).
 class SliderCrank {
  public:
-  /// Lengths [m], speed [rad/s]. `firing`: where the crankshaft's angle omega t is at this
-  /// cylinder's firing top dead centre [rad]. InputError unless r > 0, l > r + |e|.
-  SliderCrank(double radius, double rod_length, double pin_offset, double omega,
+  /// Lengths [m]. `firing`: where the crankshaft's angle is at this cylinder's firing top dead
+  /// centre [rad]. InputError unless r > 0, l > r + |e|.
+  SliderCrank(double radius, double rod_length, double pin_offset, CrankClock clock,
               double firing = 0.0, Rotation rotation = Rotation::kForward);
 
   double radius() const { return radius_; }
   double rod_length() const { return rod_length_; }
   double pin_offset() const { return pin_offset_; }
-  double omega() const { return omega_; }
   /// Angular velocity of the crankshaft about +x [rad/s].
-  double spin() const { return sign_ * omega_; }
-  double angle(double time) const { return omega_ * time - firing_; }  // theta [rad]
-  double time(double angle) const { return (angle + firing_) / omega_; }
+  double spin(double time) const { return sign_ * clock_.turn(time).velocity; }
+  double angle(double time) const { return clock_.angle(time) - firing_; }  // theta [rad]
+  double time(double angle) const { return clock_.time(angle + firing_); }
 
   Motion<Eigen::Vector2d> crank_pin(double time) const;  // (y, z) [m]
   Motion<double> rod_angle(double time) const;           // phi [rad]
@@ -40,7 +40,8 @@ class SliderCrank {
   Motion<Eigen::Vector2d> rod_point(double time, double distance) const;
 
  private:
-  double radius_, rod_length_, pin_offset_, omega_, firing_, sign_;
+  double radius_, rod_length_, pin_offset_, firing_, sign_;
+  CrankClock clock_;
 };
 
 /// Direction of the rod from crank pin to piston pin, (y, z) = (-sin phi, cos phi).

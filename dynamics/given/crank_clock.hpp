@@ -2,15 +2,28 @@
 #pragma once
 // The angle of the crankshaft, the clock of engine scenes.
 #include <numbers>
+#include <vector>
+
+#include "dynamics/given/drive.hpp"
+#include "dynamics/given/motion.hpp"
 
 namespace clatter::dynamics {
 
-/// A crankshaft at constant speed, at 0 deg when time is 0.
+/// A crankshaft at 0 deg when time is 0. Its speed is w + sum_k a_k cos(k w t + p_k) with orders k
+/// that are multiples of one half, so that each cycle of 720 deg takes the same time.
 struct CrankClock {
-  double speed = 0.0;  // omega [rad/s]
+  double speed = 0.0;                // w, the mean [rad/s]
+  std::vector<SpeedOrder> orders{};  // of its speed; none: it is constant
 
   double cycle() const { return 4.0 * std::numbers::pi / speed; }  // 720 deg [s]
-  double angle_deg(double time) const { return speed * time * 180.0 / std::numbers::pi; }
+  double angle(double time) const { return turn(time).position; }  // [rad]
+  double angle_deg(double time) const { return angle(time) * 180.0 / std::numbers::pi; }
+  /// Angle [rad], speed [rad/s] and acceleration [rad/s2].
+  Motion<double> turn(double time) const;
+  /// When the crank is at an angle [rad]; speeds must be positive.
+  double time(double angle) const;
+  /// The speed is positive at all times.
+  bool is_forward() const;
 };
 
 }  // namespace clatter::dynamics

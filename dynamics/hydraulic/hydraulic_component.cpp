@@ -70,7 +70,7 @@ TimeFunction supply_pressure(const SupplySpec& given, const ModelBuilder& model)
   if (model.clock) {
     const Spline table = read_cycle_table(given.table, given.column, "Pa", given.interpolation);
     require_pressures(given);
-    return [table, clock = *model.clock](double t) { return table(clock.speed * t); };
+    return [table, clock = *model.clock](double t) { return table(clock.angle(t)); };
   }
   Spline table = read_time_table(given.table, given.column, "Pa", given.interpolation,
                                  model.time.begin, model.time.end);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/drive_component.hpp"
 #include "dynamics/scene/registry.hpp"
 #include "dynamics/scene/time_table.hpp"
@@ -33,8 +34,7 @@ std::optional<CrankClock> read_clock(const Config& root) {
     return read_drive_clock(root, *time);
   }
   if (!engine) return std::nullopt;
-  return CrankClock{engine->number("speed_rpm", Range::between(0.01, 1e5)) * std::numbers::pi /
-                    30.0};
+  return read_crank_clock(*engine);
 }
 
 void check_engine(const Config& root) {

@@ -59,7 +59,7 @@ class ActionReaction : public ::testing::TestWithParam<EngineVariant> {};
 
 TEST_P(ActionReaction, RigidMotionsOfTheWholeDoNoWorkButThatOfTheDrive) {
   const SyntheticEngine engine(GetParam());
-  const double omega = engine.cylinder.engine.speed;
+  const double omega = engine.cylinder.engine.clock.speed;
   std::map<std::string, Balance> balance;
   for (const double degrees : {-310.0, -90.0, 0.0, 35.0, 130.0, 181.0}) {
     const double time = degrees * std::numbers::pi / 180.0 / omega;

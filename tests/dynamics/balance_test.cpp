@@ -113,7 +113,7 @@ TEST(Balanced, HoldsForAPistonWhoseMassIsOffThePin) {
         mass * pin.acceleration * pin.velocity +
         rod.mass * centre.acceleration.dot(centre.velocity) +
         rod.inertia * crank.rod_angle(t).acceleration * crank.rod_angle(t).velocity;
-    sum(3) += power / crank.omega();
+    sum(3) += power / crank.spin(t);
     EXPECT_LT(sum.cwiseAbs().maxCoeff(), 1e-11 * size) << t;
   }
 }

@@ -67,7 +67,7 @@ class ConstrainedPiston {
   ConstrainedPiston(const EngineSpec& engine, double piston_mass, double area,
                     const testing::MotoredCycle& cycle, double ambient)
       : engine_(engine),
-        crank_(0.5 * engine.stroke, engine.rod.length, 0.0, engine.speed),
+        crank_(0.5 * engine.stroke, engine.rod.length, 0.0, engine.clock),
         mass_(piston_mass),
         area_(area),
         cycle_(cycle),
@@ -121,7 +121,7 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
   CylinderSpec cylinder;
   cylinder.engine =
-      EngineSpec{scene.clock->speed, 0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}};
+      EngineSpec{*scene.clock, 0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}};
   PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = false;

@@ -10,7 +10,7 @@
 namespace clatter::dynamics {
 namespace {
 
-const SliderCrank kCrank(0.065, 0.21, 0.001, 2000.0 * std::numbers::pi / 30.0);
+const SliderCrank kCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
 
 Joint pin_joint(double exponent) {
   RadialLaw law{1e-5, 1e7, exponent > 1.0 ? 1e11 : 1e9, exponent, 2e4};

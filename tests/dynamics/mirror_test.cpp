@@ -88,6 +88,30 @@ TEST_F(MirrorImage, OfElasticPartsOnMounts) {
   }
 }
 
+TEST_F(MirrorImage, OfACrankWhoseSpeedFluctuates) {
+  const std::string uneven = "[[engine.order]]\norder = 2\namplitude_rpm = 60\nphase_deg = 40\n";
+  run("[contact]\ncavitation = false\n" + uneven);
+  for (const char* what : {"q", "v", "a"}) EXPECT_LT(difference("piston", what), 1e-10) << what;
+  const auto angle = forward_->read_doubles("output/crank_angle_deg");
+  EXPECT_NEAR(angle.back() - angle.front(), 720.0, 1e-9);
+  double furthest = 0.0;  // from a uniform turn: 60 / 2000 / 2 rad
+  for (size_t i = 0; i < angle.size(); ++i) {
+    const double uniform =
+        angle.front() + 720.0 * static_cast<double>(i) / static_cast<double>(angle.size() - 1);
+    furthest = std::max(furthest, std::abs(angle[i] - uniform));
+  }
+  EXPECT_GT(furthest, 0.8);
+  EXPECT_LT(furthest, 2.0 * 0.86);
+}
+
+TEST_F(MirrorImage, IsRefusedForOrdersThatDoNotRepeat) {
+  const std::string order = "[[engine.order]]\namplitude_rpm = ";
+  test::expect_parts(refusal(order + "60\norder = 0.7\n"),
+                     {"order: found 0.7, expected a multiple of 0.5"});
+  test::expect_parts(refusal(order + "2500\norder = 2\n"),
+                     {"engine.order: found amplitudes of 2000 rpm and more"});
+}
+
 TEST_F(MirrorImage, IsRefusedForADirectionThatIsNone) {
   test::expect_parts(refusal("[engine]\nrotation = \"left\"\n"),
                      {"changed.run.toml:3: engine.rotation: found \"left\"",

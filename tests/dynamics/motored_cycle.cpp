@@ -14,7 +14,7 @@ namespace clatter::dynamics::testing {
 namespace {
 
 SliderCrank mechanism(const MotoredCycle& cycle) {
-  return SliderCrank(0.5 * cycle.stroke, cycle.rod_length, cycle.pin_offset, 1.0);
+  return SliderCrank(0.5 * cycle.stroke, cycle.rod_length, cycle.pin_offset, CrankClock{1.0});
 }
 
 double pin_height(const MotoredCycle& cycle, double theta) {

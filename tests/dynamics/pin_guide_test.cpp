@@ -11,7 +11,7 @@
 namespace clatter::dynamics {
 namespace {
 
-const SliderCrank kOffsetCrank(0.065, 0.21, 0.001, 2000.0 * std::numbers::pi / 30.0);
+const SliderCrank kOffsetCrank(0.065, 0.21, 0.001, CrankClock{2000.0 * std::numbers::pi / 30.0});
 
 PinGuide guide_on_block() {
   return PinGuide("pin_guide", {}, kOffsetCrank, {0, 1, 2}, std::array{3, 4, 5});
