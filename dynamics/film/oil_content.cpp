@@ -23,12 +23,23 @@ void OilContent::start(const Eigen::ArrayXd& content) {
 const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector<double>& weights) {
   before_ = content_;
   for (size_t j = 0; j < weights.size(); ++j) before_ += weights[j] * rates_[j];
-  if (film.cavitation() && before_.minCoeff() < 0.0) {
+  limited_ = film.cavitation() && before_.minCoeff() < 0.0;
+  if (limited_) {
     sent_.setZero();
     for (size_t j = 0; j < weights.size(); ++j) sent_ += weights[j] * flows_[j];
     film.limit_outflow(content_, sent_, before_);
   }
   return before_;
+}
+
+void OilContent::volumes(const Reynolds& film, const std::vector<double>& weights, double kappa,
+                         Eigen::ArrayXd& moved) const {
+  moved = kappa * film.flows();
+  if (limited_) {
+    moved += sent_;
+    return;
+  }
+  for (size_t j = 0; j < weights.size(); ++j) moved += weights[j] * flows_[j];
 }
 
 void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
