@@ -100,7 +100,7 @@ void read_oil(const Config& table, film::PistonLinerOptions& options) {
       table.number_or("supply_pressure_bar", 0.0, Range::between(0.0, 1e4)) * 1e5;
 }
 
-// K is given, or follows from data of the summits by eq. (11).
+// K is given, or follows from data of the summits by eq. (11), which a scene may add to its base.
 void read_asperities(const Config& table, film::AsperityOptions& asperity) {
   using Law = film::AsperityOptions::Law;
   const bool summits = table.has("summit_density_1_mm2") || table.has("summit_radius_um");
@@ -110,16 +110,12 @@ void read_asperities(const Config& table, film::AsperityOptions& asperity) {
   asperity.roughness = table.number_or("summit_roughness_um", asperity.roughness / kMicro,
                                        Range::between(1e-4, 1e3)) *
                        kMicro;
+  asperity.factor = table.number_or("asperity_factor", asperity.factor, Range::between(1e-12, 1e3));
   if (summits) {
-    if (table.has("asperity_factor"))
-      table.fail("asperity_factor",
-                 "found beside summit_density_1_mm2 and summit_radius_um, expected one of the two");
     const double density = table.number("summit_density_1_mm2", Range::between(1e-3, 1e9)) * 1e6;
     const double radius = table.number("summit_radius_um", Range::between(1e-3, 1e6)) * kMicro;
     asperity.factor = film::contact_factor(density, radius, asperity.roughness);
-  } else {
-    asperity.factor =
-        table.number_or("asperity_factor", asperity.factor, Range::between(1e-12, 1e3));
+    asperity.from_summits = true;
   }
   asperity.modulus =
       table.number_or("asperity_modulus_gpa", asperity.modulus * 1e-9, Range::between(1e-6, 1e5)) *

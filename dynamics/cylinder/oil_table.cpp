@@ -81,13 +81,7 @@ void read_viscosity(const Config& table, film::PistonLinerOptions& options) {
   const std::string law = oil->choice("law", {"constant", "vogel", "walther"});
   if (law == "vogel") read_vogel(*oil, laws);
   if (law == "walther") read_walther(*oil, laws);
-  if (laws.by_temperature()) {
-    if (table.has("viscosity_pa_s"))
-      table.fail(
-          "viscosity_pa_s",
-          fmt::format("found beside contact.oil.law = \"{}\", expected one of the two", law));
-    read_temperature(*oil, laws);
-  }
+  if (laws.by_temperature()) read_temperature(*oil, laws);
   laws.pressure_coefficient =
       oil->number_or("pressure_coefficient_1_gpa", 0.0, Range::between(0.0, 100.0)) * 1e-9;
   if (oil->has("shear_rate_1_s"))

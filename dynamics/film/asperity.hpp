@@ -28,9 +28,10 @@ double contact_factor(double density, double radius, double roughness);
 struct AsperityOptions {
   enum class Law { kFit, kExact };
   Law law = Law::kFit;        // fit 4.4086e-5 (4 - h/sigma)^6.804 of eq. (12), or the exact F_5/2
-  double factor = 1e-3;       // K of eq. (12) [1], 0.0003 to 0.003
+  double factor = 1e-3;       // K of eq. (12) [1], 0.0003 to 0.003, or contact_factor()
   double modulus = 53.3e9;    // E* [Pa]
   double roughness = 0.5e-6;  // sigma_s, standard deviation of the summit heights [m]
+  bool from_summits = false;  // K is that of eq. (11)
 };
 
 /// p_a(h) = K E* F(h / sigma_s), eq. (12) of the paper, or (11) with K = contact_factor();

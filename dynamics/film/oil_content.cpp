@@ -5,7 +5,7 @@
 
 namespace clatter::film {
 
-OilContent::OilContent(const Reynolds& film) {
+OilContent::OilContent(const Reynolds& film, bool by_flows) : by_flows_(by_flows) {
   const int n = film.grid().size();
   for (Eigen::ArrayXd* values : {&content_, &profile_, &before_, &stage_content_, &stage_profile_})
     values->setZero(n);
@@ -44,7 +44,12 @@ void OilContent::volumes(const Reynolds& film, const std::vector<double>& weight
 
 void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
                               double kappa) {
-  stage_content_ = film.density() * space;
+  if (by_flows_) {
+    film.leaving(film.flows(), stage_content_);
+    stage_content_ = (before_ - kappa * stage_content_).max(0.0);  // below by rounding
+  } else {
+    stage_content_ = film.density() * space;
+  }
   stage_profile_ = film.profile();
   rates_.at(static_cast<size_t>(index)) = (stage_content_ - before_) / kappa;
   flows_.at(static_cast<size_t>(index)) = film.flows();

@@ -18,7 +18,9 @@ namespace clatter::film {
 /// leaves one cell still enters the next.
 class OilContent {
  public:
-  explicit OilContent(const Reynolds& film);
+  /// `by_flows`: the content changes by exactly the flows, to be accounted for, instead of being
+  /// that of the solution, from which it differs by the residual of the linear solver (1e-13).
+  explicit OilContent(const Reynolds& film, bool by_flows = false);
 
   /// The run begins with `content` [m], n, and no rates.
   void start(const Eigen::ArrayXd& content);
@@ -51,6 +53,7 @@ class OilContent {
   std::array<Eigen::ArrayXd, 4> flows_;  // Reynolds::flows() of the same [m3/s]
   int last_ = 0;
   bool limited_ = false;  // `before_` follows from `sent_`
+  bool by_flows_ = false;
 };
 
 }  // namespace clatter::film

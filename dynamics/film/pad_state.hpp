@@ -12,8 +12,8 @@ namespace clatter::film {
 
 /// Oil film of one pad.
 struct PadFilm {
-  PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation)
-      : reynolds(grid, edges, cavitation), oil(reynolds) {
+  PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation, bool accounted)
+      : reynolds(grid, edges, cavitation), oil(reynolds, accounted) {
     cells.resize(grid.size());
     for (Eigen::ArrayXd* values : {&shear.inverse, &shear.inverse_slope})
       values->setZero(grid.size());

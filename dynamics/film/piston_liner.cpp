@@ -88,7 +88,8 @@ void PistonLiner::add_pad(const char* name, double centre) {
   if (on.film) {
     const Edge open = Edge::supply(viscosity_->reduced(options_.supply_pressure),
                                    options_.supply_fill, options_.oil_thickness);
-    pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation);
+    pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation,
+                     options_.liner_layer.has_value());
   }
   if (options_.liner_layer) pad.layer.emplace(*options_.liner_layer, grid);
   if (on.asperities)

@@ -156,6 +156,8 @@ class Reynolds {
   /// Layers on the sliding wall beyond the first and the last axial edge, by column [m], n_angle
   /// each, instead of those of the edges; for the solutions that follow.
   void set_outside_layers(const Eigen::ArrayXd& begin, const Eigen::ArrayXd& end);
+  /// What flows that are listed as `flows` take out of each cell, n: div q [m/s].
+  void leaving(const Eigen::ArrayXd& flows, Eigen::ArrayXd& rate) const;
   /// Sums volumes that are listed as `flows` over the edges and ends [m3].
   void add_up_edges(const Eigen::ArrayXd& moved, EdgeVolumes& volumes) const;
 

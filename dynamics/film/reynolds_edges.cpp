@@ -11,6 +11,17 @@ void Reynolds::set_outside_layers(const Eigen::ArrayXd& begin, const Eigen::Arra
     if (rim.axial) rim.edge.layer = (rim.sign < 0.0 ? begin : end)[rim.cell / grid_.n_axial()];
 }
 
+void Reynolds::leaving(const Eigen::ArrayXd& flows, Eigen::ArrayXd& rate) const {
+  rate = flows.tail(grid_.size());
+  Eigen::Index k = 0;
+  for (const Face& face : faces_) {
+    rate[face.a] += flows[k];
+    rate[face.b] -= flows[k++];
+  }
+  for (const Rim& rim : rims_) rate[rim.cell] += flows[k++];
+  rate /= grid_.area();
+}
+
 void Reynolds::add_up_edges(const Eigen::ArrayXd& moved, EdgeVolumes& volumes) const {
   volumes.lower.setZero(grid_.n_angle());
   volumes.upper.setZero(grid_.n_angle());

@@ -84,6 +84,10 @@ TEST_F(ContactOil, IsReadInSiUnits) {
       asperity("summit_roughness_um = 0.5\nsummit_density_1_mm2 = 8000\nsummit_radius_um = 50\n");
   EXPECT_NEAR(summits.factor, 4.7390751 * 0.04 * 0.1, 1e-9);  // eq. (11)
   EXPECT_EQ(summits.law, film::AsperityOptions::Law::kExact);
+  EXPECT_EQ(asperity("summit_roughness_um = 0.5\nsummit_density_1_mm2 = 8000\n"
+                     "summit_radius_um = 50\nasperity_factor = 1e-3\n")
+                .factor,
+            summits.factor);  // as in a scene whose base has K
   EXPECT_EQ(asperity("").law, film::AsperityOptions::Law::kFit);
 }
 
@@ -235,10 +239,6 @@ TEST_F(ContactOil, ContradictionsNameTheirKey) {
     EXPECT_NE(refusal(changes).find(said), std::string::npos) << changes << refusal(changes);
   };
   expect("[contact]\nfriction_factors = true\n", "contact.friction_factors: found true without");
-  expect("[contact]\nviscosity_pa_s = 0.01\n" + std::string(kWalther),
-         "contact.viscosity_pa_s: found beside contact.oil.law = \"walther\"");
-  expect("[contact]\nasperity_factor = 1e-3\nsummit_density_1_mm2 = 1e4\nsummit_radius_um = 20\n",
-         "contact.asperity_factor: found beside summit_density_1_mm2");
   expect("[contact]\nsupply_pressure_bar = 1\n[contact.liner_oil]\n",
          "contact.supply_pressure_bar: found beside contact.liner_oil");
   expect("[contact]\nsupply_fill = 0.5\n[contact.liner_oil]\n",
