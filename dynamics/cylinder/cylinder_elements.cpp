@@ -107,10 +107,6 @@ std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const Slid
                                     std::array{pin[0], pin[4], pin[5]}, block);
 }
 
-namespace {
-
-/// The layer on the liner reaches from below the skirt's lowest position, where it pushes oil, to
-/// above that of the highest ring.
 void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options) {
   film::LinerLayerOptions& layer = *options.liner_layer;
   constexpr double kBeyond = 10e-3;  // [m]
@@ -120,8 +116,6 @@ void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options
   layer.bottom = std::sqrt((l - r) * (l - r) - e * e) + options.skirt_bottom - kBeyond;
   layer.top = std::sqrt((l + r) * (l + r) - e * e) + reach + kBeyond;
 }
-
-}  // namespace
 
 LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,
                            const PinNode& pin) {

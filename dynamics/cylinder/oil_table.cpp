@@ -106,6 +106,9 @@ void read_liner_oil(const Config& table, film::PistonLinerOptions& options) {
                "found beside contact.liner_oil, which supplies the skirt; expected one of the two");
   film::LinerLayerOptions& layer = options.liner_layer.emplace();
   layer.cell = oil->number_or("cell_mm", 0.0, Range::between(0.0, 100.0)) * kMilli;
+  if (layer.cell > 0.0 && layer.cell < 0.01 * kMilli)
+    oil->fail("cell_mm", fmt::format("found {:g}, expected 0 (a row of the pad) or at least 0.01",
+                                     layer.cell / kMilli));
   const double length = options.skirt_top - options.skirt_bottom;
   if (2.0 * layer.cell > length)
     oil->fail("cell_mm",

@@ -18,7 +18,14 @@ constexpr double kSliver = 1e-11;
 // layer: 4.894968 x 1.225748 / 4.
 constexpr double kRing = 1.5;
 
+// Of one pad; its memory is predicted before it is taken.
+constexpr double kMostCells = 1e7;
+
 }  // namespace
+
+double LinerLayerOptions::cells(double row) const {
+  return std::ceil((top - bottom) / (cell > 0.0 ? cell : row) - kSliver);
+}
 
 double ring_layer(const RingOptions& ring, double viscosity, double speed) {
   return std::max(ring.least, kRing * viscosity * std::abs(speed) * ring.face_radius / ring.load);
@@ -41,7 +48,10 @@ LinerLayer::LinerLayer(const LinerLayerOptions& options, const PadGrid& pad)
           "oil on the liner: found a ring at {:.6g} m of radius {:.3g} m under {:.3g} N/m, "
           "expected it above the skirt's top, {:.6g} m, and both positive",
           ring.height, ring.face_radius, ring.load, skirt_top_));
-  const double cells = std::ceil((options_.top - options_.bottom) / wanted - kSliver);
+  const double cells = options_.cells(length / pad.n_axial());
+  if (!(cells * pad.n_angle() <= kMostCells))
+    throw InputError(fmt::format("oil on the liner: found {:.3g} x {} cells, expected at most {:g}",
+                                 cells, pad.n_angle(), kMostCells));
   step_ = (options_.top - options_.bottom) / cells;
   arc_.resize(pad.n_angle());
   for (int i = 0; i < pad.n_angle(); ++i) arc_[i] = pad.arc(i);

@@ -37,6 +37,9 @@ struct LinerLayerOptions {
   /// Largest thickness below the skirt [m]; more drips off.
   double most = std::numeric_limits<double>::infinity();
   std::vector<RingOptions> rings;
+
+  /// Number of cells along the stroke, for pads with rows of the height `row` [m].
+  double cells(double row) const;
 };
 
 /// The layer on the liner below and above one pad, in the columns of its grid.

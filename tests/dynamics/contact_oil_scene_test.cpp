@@ -8,6 +8,7 @@
 
 #include "dynamics/film/piston_liner.hpp"
 #include "dynamics/run/run_file.hpp"
+#include "dynamics/run/run_size.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic_engine.hpp"
 #include "tests/refusal.hpp"
@@ -234,6 +235,17 @@ TEST_F(ContactOil, HardN10_ItsNumbersAreRefusedOutsideTheirRanges) {
   }
 }
 
+TEST_F(ContactOil, ThePredictedSizeHasTheLayer) {
+  const auto cells = [&](const std::string& changes) {
+    const Scene described = scene(changes);
+    const auto bodies = load_bodies(described);
+    return predict_size(described, bodies).film_bytes;
+  };
+  // 36 cells of each pad have four fields; rows of 70 mm / 6 from 90 to 325 mm are 21, of one
+  // field.
+  EXPECT_NEAR(cells(kLayer) / cells(""), 1.0 + 0.25 * 21.0 / 6.0, 0.01);
+}
+
 TEST_F(ContactOil, ContradictionsNameTheirKey) {
   const auto expect = [&](const std::string& changes, const std::string& said) {
     EXPECT_NE(refusal(changes).find(said), std::string::npos) << changes << refusal(changes);
@@ -245,6 +257,8 @@ TEST_F(ContactOil, ContradictionsNameTheirKey) {
          "contact.supply_fill: found beside contact.liner_oil");
   expect("[contact]\nlubrication = \"none\"\n[contact.liner_oil]\n",
          "contact.liner_oil: found it without a film");
+  expect("[contact.liner_oil]\ncell_mm = 1e-9\n",
+         "contact.liner_oil.cell_mm: found 1e-09, expected 0 (a row of the pad) or at least 0.01");
   expect("[contact.liner_oil]\nwiper = 1\n", "contact.liner_oil.wiper");
   expect(std::string(kWalther) + "height_mm = [1, 2]\n",
          "contact.oil.height_mm: found 2 heights for 1 temperatures");

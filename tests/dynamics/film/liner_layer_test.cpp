@@ -135,6 +135,10 @@ TEST(LinerLayer, HardCasesOfItsOptionsAreRefused) {
   test::expect_parts(test::refusal_of([&] { LinerLayer(options, wide_pad()); }),
                      {"oil on the liner: found cells of 1 m from 0 to 3 m", "skirt's length, 4 m"});
   options = wide_liner();
+  options.cell = 1e-7;
+  test::expect_parts(test::refusal_of([&] { LinerLayer(options, wide_pad()); }),
+                     {"found 1e+08 x 2 cells, expected at most 1e+07"});
+  options = wide_liner();
   options.rings = {{3.0, 0.02, 1000.0, 0.0}};
   test::expect_parts(test::refusal_of([&] { LinerLayer(options, wide_pad()); }),
                      {"found a ring at 3 m", "above the skirt's top, 4 m"});
