@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/cylinder/oil_table.hpp"
 #include "dynamics/film/roughness.hpp"
 
 namespace clatter::dynamics {
@@ -99,6 +100,28 @@ void read_oil(const Config& table, film::PistonLinerOptions& options) {
       table.number_or("supply_pressure_bar", 0.0, Range::between(0.0, 1e4)) * 1e5;
 }
 
+// K is given, or follows from data of the summits by eq. (11), which a scene may add to its base.
+void read_asperities(const Config& table, film::AsperityOptions& asperity) {
+  using Law = film::AsperityOptions::Law;
+  const bool summits = table.has("summit_density_1_mm2") || table.has("summit_radius_um");
+  const std::string law = summits ? table.choice("asperity_law", {"exact", "fit"})
+                                  : table.choice("asperity_law", {"fit", "exact"});
+  asperity.law = law == "fit" ? Law::kFit : Law::kExact;
+  asperity.roughness = table.number_or("summit_roughness_um", asperity.roughness / kMicro,
+                                       Range::between(1e-4, 1e3)) *
+                       kMicro;
+  asperity.factor = table.number_or("asperity_factor", asperity.factor, Range::between(1e-12, 1e3));
+  if (summits) {
+    const double density = table.number("summit_density_1_mm2", Range::between(1e-3, 1e9)) * 1e6;
+    const double radius = table.number("summit_radius_um", Range::between(1e-3, 1e6)) * kMicro;
+    asperity.factor = film::contact_factor(density, radius, asperity.roughness);
+    asperity.from_summits = true;
+  }
+  asperity.modulus =
+      table.number_or("asperity_modulus_gpa", asperity.modulus * 1e-9, Range::between(1e-6, 1e5)) *
+      1e9;
+}
+
 void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
   auto& rough = options.roughness;
   const auto roughness = [&](const char* key, double value) {
@@ -108,22 +131,15 @@ void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
   rough.liner = roughness("liner_roughness_um", rough.liner);
   rough.peklenik = table.number_or("peklenik", rough.peklenik, Range::between(1e-3, 1e3));
   rough.flow_factors = table.flag_or("flow_factors", rough.flow_factors);
+  rough.stress_factors = table.flag_or("friction_factors", rough.stress_factors);
+  if (rough.stress_factors && !rough.flow_factors)
+    table.fail("friction_factors", "found true without flow_factors, expected both");
   if (options.effects.film && rough.flow_factors) {
     if (rough.piston == 0.0 && rough.liner == 0.0)
       table.fail("flow_factors", "both walls are smooth, expected a roughness above 0");
     with_context(table.where("peklenik"), [&] { film::RoughFilm{rough}; });
   }
-  auto& asperity = options.asperity;
-  asperity.law = table.choice("asperity_law", {"fit", "exact"}) == "fit"
-                     ? film::AsperityOptions::Law::kFit
-                     : film::AsperityOptions::Law::kExact;
-  asperity.factor = table.number_or("asperity_factor", asperity.factor, Range::between(1e-12, 1e3));
-  asperity.modulus =
-      table.number_or("asperity_modulus_gpa", asperity.modulus * 1e-9, Range::between(1e-6, 1e5)) *
-      1e9;
-  asperity.roughness = table.number_or("summit_roughness_um", asperity.roughness / kMicro,
-                                       Range::between(1e-4, 1e3)) *
-                       kMicro;
+  read_asperities(table, options.asperity);
   options.damping.loss_factor = table.number_or("asperity_loss_factor", options.damping.loss_factor,
                                                 Range::between(0.0, 0.6));
   options.friction.coefficient = table.number_or(
@@ -166,6 +182,8 @@ film::PistonLinerOptions read_contact(const Config& table) {
   read_bore(table, options.bore);
   read_ends(table, options.ends);
   read_oil(table, options);
+  read_viscosity(table, options);
+  read_liner_oil(table, options);
   read_surfaces(table, options);
   return options;
 }

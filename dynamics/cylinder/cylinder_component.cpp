@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/cylinder_component.hpp"
 
+#include <cmath>
+
 #include "dynamics/component/body_component.hpp"
 #include "dynamics/cylinder/cylinder_effects.hpp"
+#include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
@@ -22,9 +25,15 @@ std::vector<std::filesystem::path> CylinderComponent::inputs() const {
 
 ComponentSize CylinderComponent::size() const {
   ComponentSize size{.modes = 3, .film_cells = 0};  // of the rod
-  if (spec_.contact)
-    size.film_cells =
-        int64_t{2} * spec_.contact->cells_around * spec_.contact->cells_along;  // of two pads
+  if (!spec_.contact) return size;
+  film::PistonLinerOptions contact = *spec_.contact;
+  double along = contact.cells_along;
+  if (contact.liner_layer) {  // one field, where a cell of the pad has four
+    set_layer_range(crank_, contact);
+    along += 0.25 * contact.liner_layer->cells((contact.skirt_top - contact.skirt_bottom) /
+                                               contact.cells_along);
+  }
+  size.film_cells = std::llround(2.0 * contact.cells_around * along);  // of two pads
   return size;
 }
 

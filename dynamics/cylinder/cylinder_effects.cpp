@@ -38,7 +38,25 @@ void add_contact(const CylinderSpec& cylinder, const std::string& ends, Cylinder
                                        : "contact.cavitation, oil in streamers across the gap"
                                  : "contact.cavitation = false: every cell is full; "
                                    "oil_thickness_um, initial_fill, supply_fill are not used");
-  table.add("asperity contact", contact && effects.asperities, "contact.asperities",
+  const bool film = contact && effects.film;
+  const auto add_oil = [&](const char* effect, bool on, const char* key) {
+    table.add(effect, film && on, !contact ? absent : film ? key : "no film");
+  };
+  const film::ViscosityOptions oil = film ? cylinder.contact->oil : film::ViscosityOptions{};
+  add_oil("oil layer on the liner", film && cylinder.contact->liner_layer.has_value(),
+          "contact.liner_oil");
+  add_oil("viscosity over temperature", oil.by_temperature(),
+          oil.by_temperature() ? "contact.oil.law, instead of contact.viscosity_pa_s"
+                               : "contact.oil.law");
+  add_oil("viscosity over pressure", oil.pressure_coefficient > 0.0,
+          "contact.oil.pressure_coefficient_1_gpa");
+  add_oil("viscosity over shear rate", oil.cross.has_value(), "contact.oil.shear_rate_1_s");
+  add_oil("friction factors", film && cylinder.contact->roughness.stress_factors,
+          "contact.friction_factors");
+  table.add("asperity contact", contact && effects.asperities,
+            contact && cylinder.contact->asperity.from_summits
+                ? "contact.asperities, eq. (11) by summit data instead of contact.asperity_factor"
+                : "contact.asperities",
             contact && !effects.film ? name : "");
   const bool damped = contact && effects.asperities && cylinder.contact->damping.loss_factor > 0.0;
   table.add("damping of the contact", damped,

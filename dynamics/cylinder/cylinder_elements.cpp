@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/cylinder_elements.hpp"
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
 #include "dynamics/force/joint.hpp"
@@ -105,6 +107,16 @@ std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const Slid
                                     std::array{pin[0], pin[4], pin[5]}, block);
 }
 
+void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options) {
+  film::LinerLayerOptions& layer = *options.liner_layer;
+  constexpr double kBeyond = 10e-3;  // [m]
+  const double e = crank.pin_offset(), l = crank.rod_length(), r = crank.radius();
+  double reach = options.skirt_top;
+  for (const film::RingOptions& ring : layer.rings) reach = std::max(reach, ring.height);
+  layer.bottom = std::sqrt((l - r) * (l - r) - e * e) + options.skirt_bottom - kBeyond;
+  layer.top = std::sqrt((l + r) * (l + r) - e * e) + reach + kBeyond;
+}
+
 LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,
                            const PinNode& pin) {
   System& system = bodies.model.system;
@@ -144,6 +156,7 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
   };
   film::PistonLinerOptions options = *spec.contact;
   options.name = spec.name_of(options.name);
+  if (options.liner_layer) set_layer_range(crank, options);
   auto element = with_context(spec.contact_where, [&] {
     return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
   });

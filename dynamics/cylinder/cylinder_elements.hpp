@@ -29,6 +29,10 @@ struct LinerContact {
   std::optional<LinerFit> liner;  // of an elastic block
 };
 
+/// Sets the heights of the layer on the liner, which `options` has: from below the skirt's lowest
+/// position, where it pushes oil, to above that of the highest ring.
+void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options);
+
 // Each function requests the coordinates that its element needs, in the order in which they are to
 // be numbered, and returns the element. InputError for sets that a body lacks.
 

@@ -36,6 +36,12 @@ double five_halves_bessel(double l) {
           (2.0 * l * l + 5.0) * std::cyl_bessel_k(0.25, x));
 }
 
+double contact_factor(double density, double radius, double roughness) {
+  const double crowding = density * radius * roughness;
+  return 16.0 * std::numbers::sqrt2 * std::numbers::pi / 15.0 * crowding * crowding *
+         std::sqrt(roughness / radius);
+}
+
 Asperity::Asperity(const AsperityOptions& options)
     : options_(options), scale_(options.factor * options.modulus) {
   if (!(options.factor > 0.0) || !(options.modulus > 0.0) || !(options.roughness > 0.0))

@@ -17,16 +17,25 @@ double greenwood_tripp(int twice_n, double l);
 /// K_{1/4}(l^2/4)], l > 0.
 double five_halves_bessel(double l);
 
+/// K of eq. (11) of the paper, (16 sqrt(2) pi / 15) (sigma_s beta eta)^2 sqrt(sigma_s / beta), to
+/// be used with F_5/2: the printed 16 sqrt(2 pi) / 15 and F_1/2 are misprints by the convention of
+/// Greenwood and Tripp 1970.
+///
+/// @param density eta, summits per area [1/m2]. @param radius beta of a summit [m]. @param
+/// roughness sigma_s, standard deviation of the summit heights [m].
+double contact_factor(double density, double radius, double roughness);
+
 struct AsperityOptions {
   enum class Law { kFit, kExact };
   Law law = Law::kFit;        // fit 4.4086e-5 (4 - h/sigma)^6.804 of eq. (12), or the exact F_5/2
-  double factor = 1e-3;       // K of eq. (12) [1], 0.0003 to 0.003
+  double factor = 1e-3;       // K of eq. (12) [1], 0.0003 to 0.003, or contact_factor()
   double modulus = 53.3e9;    // E* [Pa]
   double roughness = 0.5e-6;  // sigma_s, standard deviation of the summit heights [m]
+  bool from_summits = false;  // K is that of eq. (11)
 };
 
-/// p_a(h) = K E* F(h / sigma_s), eq. (12) of the paper; Greenwood and Tripp 1970. Elastic: damping
-/// is in contact_damping.hpp.
+/// p_a(h) = K E* F(h / sigma_s), eq. (12) of the paper, or (11) with K = contact_factor();
+/// Greenwood and Tripp 1970. Elastic: damping is in contact_damping.hpp.
 class Asperity {
  public:
   struct Contact {

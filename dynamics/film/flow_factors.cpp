@@ -26,10 +26,26 @@ constexpr std::array<PressureRow, 7> kPressureTable{{{1.0 / 9.0, 1.48, 0.42},
 struct ShearRow {
   double peklenik, a1, alpha1, alpha2, alpha3, a2;
 };
-constexpr std::array<ShearRow, 4> kShearTable{{{1.0 / 3.0, 1.858, 1.01, 0.76, 0.03, 1.561},
+constexpr std::array<ShearRow, 7> kShearTable{{{1.0 / 9.0, 2.046, 1.12, 0.78, 0.03, 1.856},
+                                               {1.0 / 6.0, 1.962, 1.08, 0.77, 0.03, 1.754},
+                                               {1.0 / 3.0, 1.858, 1.01, 0.76, 0.03, 1.561},
                                                {1.0, 1.899, 0.98, 0.92, 0.05, 1.126},
                                                {3.0, 1.560, 0.85, 1.13, 0.08, 0.556},
-                                               {6.0, 1.290, 0.62, 1.09, 0.08, 0.388}}};
+                                               {6.0, 1.290, 0.62, 1.09, 0.08, 0.388},
+                                               {9.0, 1.011, 0.54, 1.07, 0.08, 0.295}}};
+
+struct StressRow {
+  double peklenik, a3, alpha4, alpha5, alpha6, d, s, lowest;
+};
+constexpr std::array<StressRow, 7> kStressTable{
+    {{1.0 / 9.0, 14.1, 2.45, 2.30, 0.10, 1.51, 0.52, 1.0},
+     {1.0 / 6.0, 13.4, 2.42, 2.30, 0.10, 1.51, 0.54, 1.0},
+     {1.0 / 3.0, 12.3, 2.32, 2.30, 0.10, 1.47, 0.58, 1.0},
+     {1.0, 11.1, 2.31, 2.38, 0.11, 1.40, 0.66, 0.75},
+     {3.0, 9.8, 2.25, 2.80, 0.18, 0.98, 0.79, 0.5},
+     {6.0, 10.1, 2.25, 2.90, 0.18, 0.97, 0.91, 0.5},
+     {9.0, 8.7, 2.15, 2.97, 0.18, 0.73, 0.91, 0.5}}};
+constexpr double kStressBegin = 0.5, kStressEnd = 7.0;
 
 template <typename Table>
 [[noreturn]] void refuse(const Table& table, double peklenik, const char* what) {
@@ -109,6 +125,30 @@ ValueSlope shear_flow_factor(double ratio, double peklenik) {
   }
   if (clamped) factor.slope = 0.0;
   return factor;
+}
+
+ValueSlope shear_stress_factor(double ratio, double peklenik) {
+  const StressRow& row = find_row(kStressTable, peklenik, "shear stress factor");
+  const double h = std::clamp(ratio, kStressBegin, kStressEnd);
+  ValueSlope factor;
+  factor.value = row.a3 * std::pow(h, row.alpha4) * std::exp(h * (row.alpha6 * h - row.alpha5));
+  if (ratio > kStressEnd) {
+    factor.value *= std::exp(kStressEnd - ratio);
+    factor.slope = -factor.value;
+  } else if (ratio >= kStressBegin) {
+    factor.slope = factor.value * (row.alpha4 / h - row.alpha5 + 2.0 * row.alpha6 * h);
+  }
+  return factor;
+}
+
+double lowest_stress_ratio(double peklenik) {
+  return find_row(kStressTable, peklenik, "shear stress factor").lowest;
+}
+
+ValueSlope pressure_stress_factor(double ratio, double peklenik) {
+  const StressRow& row = find_row(kStressTable, peklenik, "shear stress factor");
+  const double decay = row.d * std::exp(-row.s * std::max(ratio, row.lowest));
+  return {1.0 - decay, ratio < row.lowest ? 0.0 : row.s * decay};
 }
 
 // With t = d / (3 sigma) and z = H / 3 the mean is 1/(3 sigma) of the integral of 35/32 (1 - t^2)^3

@@ -27,9 +27,25 @@ ValueSlope pressure_flow_factor(double ratio, double peklenik);
 /// Patir-Cheng shear flow factor of one rough wall, Phi_s = A1 H^a1 e^{-a2 H + a3 H^2} (H <= 5), A2
 /// e^{-H/4} (H > 5).
 ///
-/// gamma 1/3, 1, 3 or 6 (InputError otherwise). Slope by H. Source: Patir and Cheng 1979, table 2.
+/// gamma as of the pressure flow factor. Slope by H. Source: Patir and Cheng 1979, table 2.
 /// Below `lowest_ratio` the factor is constant.
 ValueSlope shear_flow_factor(double ratio, double peklenik);
+
+/// Patir-Cheng shear stress factor of one rough wall, phi_fs = A3 H^a4 e^{-a5 H + a6 H^2}, by which
+/// mu U / h of the smooth wall opposite exceeds phi_f mu U / h; 0.5 <= H <= 7.
+///
+/// gamma as of the pressure flow factor. Slope by H. Source: Patir and Cheng 1979, table 3. Below
+/// its range it is constant; beyond, where they set it 0 (from at most 0.02), it falls as e^{-H}.
+ValueSlope shear_stress_factor(double ratio, double peklenik);
+
+/// Patir-Cheng factor of the shear by a pressure gradient, phi_fp = 1 - D e^{-s H}, of the smooth
+/// wall opposite a rough one: (h/2) dp/dx phi_fp.
+///
+/// gamma as of the pressure flow factor. Slope by H. Source: Patir and Cheng 1979, table 3. Below
+/// `lowest_stress_ratio` it is constant and positive.
+ValueSlope pressure_stress_factor(double ratio, double peklenik);
+/// Lower end of the range of phi_fp: 1 for gamma < 1, 0.75 for 1, 0.5 above.
+double lowest_stress_ratio(double peklenik);
 
 /// Mean of sigma / h over the roughness, phi_f / H: shear stress on the wall is mu U / sigma times
 /// this.

@@ -34,33 +34,36 @@ void Friction::clear(const Cover* cover) {
   share_slope_ = cover->share_slope.replicate(columns, 1);
 }
 
-// Poiseuille part: the sum over axial faces of (s_a + s_b)/4 (p_b - p_a) L, written per cell as w p
-// with w = L/4 (s_before - s_after); at a pad's end the cell's own thickness replaces that of the
+// Poiseuille part: the sum over axial faces of (l_a + l_b)/4 (p_b - p_a) L, written per cell as w p
+// with w = L/4 (l_before - l_after); at a pad's end the cell's own thickness replaces that of the
 // missing neighbour. Outside the liner, where 1/h may not be finite, there is none.
-void Friction::add_film(const Reynolds& solution, const FilmCells& film,
-                        const Eigen::ArrayXd& inverse, const Eigen::ArrayXd& inverse_slope,
-                        double viscosity, double speed) {
+void Friction::add_film(const Reynolds& solution, const FilmPressure& pressure,
+                        const ShearThickness& shear, double viscosity, double speed) {
   const PadGrid& grid = solution.grid();
-  const Eigen::ArrayXd &p = solution.pressure(), &s = film.content;
+  const Eigen::ArrayXd &p = pressure.value, &l = shear.lever;
   const int n_j = grid.n_axial();
   for (int i = 0; i < grid.n_angle(); ++i) {
     const double quarter = 0.25 * grid.arc(i);
     for (int j = 0; j < n_j; ++j) {
       const int c = grid.cell(i, j), before = grid.cell(i, std::max(j - 1, 0)),
                 after = grid.cell(i, std::min(j + 1, n_j - 1));
-      const double drag = -viscosity * speed * grid.area()[c];
-      const double lever = quarter * (s[before] - s[after]);
+      const double thickening = pressure.thickening != nullptr ? (*pressure.thickening)[c] : 1.0;
+      const double drag = -viscosity * speed * grid.area()[c] * thickening;
+      const double lever = quarter * (l[before] - l[after]);
       const double share = share_[c], own = share * p[c];
       const double pressure_jump = (after == c ? -own : share_[after] * p[after]) -
                                    (before == c ? -own : share_[before] * p[before]);
-      gap_slope_[c] += quarter * pressure_jump * film.d_content[c];
+      gap_slope_[c] += quarter * pressure_jump * shear.lever_slope[c];
       if (share == 0.0) continue;
       const ValueSlope sheared = solution.sheared(c);
-      const double force = drag * sheared.value * inverse[c] + lever * p[c];
+      const double force = drag * sheared.value * shear.inverse[c] + lever * p[c];
       force_[c] += share * force;
       height_slope_[c] += share_slope_[c] * force;
-      gap_slope_[c] += share * drag * sheared.value * inverse_slope[c];
-      film_slope_[c] += share * (solution.is_full(c) ? lever : drag * sheared.slope * inverse[c]);
+      gap_slope_[c] += share * drag * sheared.value * shear.inverse_slope[c];
+      film_slope_[c] +=
+          share * (solution.is_full(c) ? lever : drag * sheared.slope * shear.inverse[c]);
+      if (pressure.thickening != nullptr && solution.is_full(c))
+        film_slope_[c] += share * pressure.coefficient * drag * sheared.value * shear.inverse[c];
     }
   }
 }

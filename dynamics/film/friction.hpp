@@ -5,6 +5,7 @@
 
 #include "dynamics/film/grid.hpp"
 #include "dynamics/film/reynolds.hpp"
+#include "dynamics/film/roughness.hpp"
 
 namespace clatter::film {
 
@@ -13,13 +14,22 @@ struct FrictionOptions {
   double reversal_speed = 1e-2;  // u_0 of the smoothed sign U / sqrt(U^2 + u_0^2) [m/s]
 };
 
+/// Film pressure [Pa] and where oil thickens with it, n each.
+struct FilmPressure {
+  const Eigen::ArrayXd& value;
+  /// mu over that at p = 0; null: 1. `coefficient` is its logarithmic slope by p [1/Pa].
+  const Eigen::ArrayXd* thickening = nullptr;
+  double coefficient = 0.0;
+};
+
 /// Axial force of each cell on the piston that slides at U along z past a liner at rest:
 ///
-///   f = -mu U a (1/h) A + (h/2) dp/dz A - mu_a p_c A U / sqrt(U^2 + u_0^2)
+///   f = -mu U a (1/h) A + (l/2) dp/dz A - mu_a p_c A U / sqrt(U^2 + u_0^2)
 ///
 /// a is the sheared fraction of a cell's area (Reynolds::sheared), 1 when full. The film's part is
 /// the reaction to the shear on the liner wall, mu U/h - (h/2) dp/dz (Couette and Poiseuille); the
-/// pressure on the slope of the skirt is contained in it, because the liner wall is straight.
+/// pressure on the slope of the skirt is contained in it, because the liner wall is straight. 1/h
+/// and l are those of rough walls, RoughFilm::shear().
 /// Derivative: df = gap_slope dh + rate_slope dh' + film_slope dx, where x is p in a full cell and
 /// theta in a cavitated one. Summed along one axial column of cells both are exact.
 class Friction {
@@ -29,10 +39,9 @@ class Friction {
   /// Sets all arrays to zero before the contributions of a new state, which are limited to the
   /// part of the pad inside the liner; null: all of it.
   void clear(const Cover* cover = nullptr);
-  /// Adds film shear; `inverse` and `inverse_slope` are the effective 1/h and its derivative
-  /// (RoughFilm).
-  void add_film(const Reynolds& solution, const FilmCells& film, const Eigen::ArrayXd& inverse,
-                const Eigen::ArrayXd& inverse_slope, double viscosity, double speed);
+  /// Adds film shear; `viscosity` [Pa s] at p = 0, `speed` U [m/s].
+  void add_film(const Reynolds& solution, const FilmPressure& pressure, const ShearThickness& shear,
+                double viscosity, double speed);
   /// Adds contact friction; `contact` p_c [Pa], `contact_slope` dp_c/dh, n, and `rate_slope`
   /// dp_c/dh' [Pa s/m], n, or none for an elastic contact.
   void add_contact(const PadGrid& grid, const Eigen::ArrayXd& contact,

@@ -5,7 +5,7 @@
 
 namespace clatter::film {
 
-OilContent::OilContent(const Reynolds& film) {
+OilContent::OilContent(const Reynolds& film, bool by_flows) : by_flows_(by_flows) {
   const int n = film.grid().size();
   for (Eigen::ArrayXd* values : {&content_, &profile_, &before_, &stage_content_, &stage_profile_})
     values->setZero(n);
@@ -23,7 +23,8 @@ void OilContent::start(const Eigen::ArrayXd& content) {
 const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector<double>& weights) {
   before_ = content_;
   for (size_t j = 0; j < weights.size(); ++j) before_ += weights[j] * rates_[j];
-  if (film.cavitation() && before_.minCoeff() < 0.0) {
+  limited_ = film.cavitation() && before_.minCoeff() < 0.0;
+  if (limited_) {
     sent_.setZero();
     for (size_t j = 0; j < weights.size(); ++j) sent_ += weights[j] * flows_[j];
     film.limit_outflow(content_, sent_, before_);
@@ -31,9 +32,24 @@ const Eigen::ArrayXd& OilContent::before(const Reynolds& film, const std::vector
   return before_;
 }
 
+void OilContent::volumes(const Reynolds& film, const std::vector<double>& weights, double kappa,
+                         Eigen::ArrayXd& moved) const {
+  moved = kappa * film.flows();
+  if (limited_) {
+    moved += sent_;
+    return;
+  }
+  for (size_t j = 0; j < weights.size(); ++j) moved += weights[j] * flows_[j];
+}
+
 void OilContent::finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index,
                               double kappa) {
-  stage_content_ = film.density() * space;
+  if (by_flows_) {
+    film.leaving(film.flows(), stage_content_);
+    stage_content_ = (before_ - kappa * stage_content_).max(0.0);  // below by rounding
+  } else {
+    stage_content_ = film.density() * space;
+  }
   stage_profile_ = film.profile();
   rates_.at(static_cast<size_t>(index)) = (stage_content_ - before_) / kappa;
   flows_.at(static_cast<size_t>(index)) = film.flows();

@@ -18,7 +18,9 @@ namespace clatter::film {
 /// leaves one cell still enters the next.
 class OilContent {
  public:
-  explicit OilContent(const Reynolds& film);
+  /// `by_flows`: the content changes by exactly the flows, to be accounted for, instead of being
+  /// that of the solution, from which it differs by the residual of the linear solver (1e-13).
+  explicit OilContent(const Reynolds& film, bool by_flows = false);
 
   /// The run begins with `content` [m], n, and no rates.
   void start(const Eigen::ArrayXd& content);
@@ -26,6 +28,10 @@ class OilContent {
   const Eigen::ArrayXd& before(const Reynolds& film, const std::vector<double>& weights);
   /// Keeps the solution of stage `index` with storage s `space` [m], n, and `kappa` [s].
   void finish_stage(const Reynolds& film, const Eigen::ArrayXd& space, int index, double kappa);
+  /// Volumes that the step moved up to the solved stage, as Reynolds::flows() [m3]; before
+  /// finish_stage(). They are what its content changed by.
+  void volumes(const Reynolds& film, const std::vector<double>& weights, double kappa,
+               Eigen::ArrayXd& moved) const;
   /// Discards the stages of a rejected step.
   void begin_step() { last_ = 0; }
   /// The last stage becomes the state.
@@ -46,6 +52,8 @@ class OilContent {
   std::array<Eigen::ArrayXd, 4> rates_;  // m' of the stages [m/s]; [0]: of the last accepted step
   std::array<Eigen::ArrayXd, 4> flows_;  // Reynolds::flows() of the same [m3/s]
   int last_ = 0;
+  bool limited_ = false;  // `before_` follows from `sent_`
+  bool by_flows_ = false;
 };
 
 }  // namespace clatter::film

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dynamics/film/gap_map.hpp"
+#include "dynamics/film/liner_layer.hpp"
 #include "dynamics/film/oil_content.hpp"
 #include "dynamics/film/piston_liner.hpp"
 
@@ -11,15 +12,33 @@ namespace clatter::film {
 
 /// Oil film of one pad.
 struct PadFilm {
-  PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation)
-      : reynolds(grid, edges, cavitation), oil(reynolds) {
+  PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation, bool accounted)
+      : reynolds(grid, edges, cavitation), oil(reynolds, accounted) {
     cells.resize(grid.size());
-    for (Eigen::ArrayXd* values : {&inverse, &inverse_slope}) values->setZero(grid.size());
+    for (Eigen::ArrayXd* values : {&shear.inverse, &shear.inverse_slope})
+      values->setZero(grid.size());
   }
   Reynolds reynolds;
   FilmCells cells;
   OilContent oil;
-  Eigen::ArrayXd inverse, inverse_slope;  // effective 1/h of the shear
+  ShearThickness shear;
+  Eigen::ArrayXd viscosity_ratio, viscosity_ratio_slope;  // over the reference; empty: constant
+  Eigen::ArrayXd thick_pressure, thickening;  // p [Pa] and exp(alpha p); empty: p is reynolds'
+
+  const Eigen::ArrayXd& pressure() const {
+    return thickening.size() > 0 ? thick_pressure : reynolds.pressure();
+  }
+};
+
+/// What a pad knows of the oil beyond its edges.
+struct PadLayer {
+  PadLayer(const LinerLayerOptions& options, const PadGrid& grid) : layer(options, grid) {}
+  LinerLayer layer;
+  Eigen::ArrayXd lower, upper;  // thickness that its edges meet [m], n_angle
+  Eigen::ArrayXd moved;         // Reynolds::flows() times time of the last stage [m3]
+  EdgeVolumes volumes;
+  double first = 0.0;  // oil of pad and liner at the start [m3]
+  OilBalance balance;  // of the last accepted step
 };
 
 struct PistonLiner::Pad {
@@ -50,6 +69,7 @@ struct PistonLiner::Pad {
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::optional<LinerShapeMap> liner_shape;
   std::optional<PadFilm> film;
+  std::optional<PadLayer> layer;
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]
   Eigen::ArrayXd contact_elastic;                         // p_a [Pa]
   Eigen::ArrayXd contact_rate_slope, contact_loss;        // dp_c/dh' [Pa s/m], loss [W/m2]; damped

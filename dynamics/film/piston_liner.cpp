@@ -40,7 +40,13 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     options_.initial_fill = options_.supply_fill = 1.0;
     options_.oil_thickness = std::numeric_limits<double>::infinity();
   }
-  if (on.film) rough_ = std::make_unique<RoughFilm>(options_.roughness);
+  if (on.film) {
+    rough_ = std::make_unique<RoughFilm>(options_.roughness);
+    viscosity_ = std::make_unique<Viscosity>(options_.oil, options_.viscosity);
+    options_.viscosity = viscosity_->reference();
+  } else {
+    options_.liner_layer.reset();
+  }
   if (on.asperities) asperity_ = std::make_unique<Asperity>(options_.asperity);
   if (on.asperities && options_.damping.loss_factor > 0.0)
     damping_ = std::make_unique<ContactDamping>(options_.damping);
@@ -59,6 +65,11 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   } else {
     axial_ = axial_motion(size(), at_.pin(), bodies_.bore_axis, nullptr);
   }
+  if (options_.liner_layer) {
+    LinerLayerOptions& layer = *options_.liner_layer;
+    layer.bottom = std::max(layer.bottom, options_.ends.bottom);
+    layer.top = std::min(layer.top, options_.ends.top);
+  }
   height_by_y_.setZero(size());
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
   add_pad("thrust", 0.0);
@@ -74,9 +85,13 @@ void PistonLiner::add_pad(const char* name, double centre) {
   if (options_.bore) pad.liner_shape.emplace(*options_.bore, grid);
   if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
     pad.ends.emplace(options_.ends, grid);
-  const Edge open =
-      Edge::supply(options_.supply_pressure, options_.supply_fill, options_.oil_thickness);
-  if (on.film) pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation);
+  if (on.film) {
+    const Edge open = Edge::supply(viscosity_->reduced(options_.supply_pressure),
+                                   options_.supply_fill, options_.oil_thickness);
+    pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation,
+                     options_.liner_layer.has_value());
+  }
+  if (options_.liner_layer) pad.layer.emplace(*options_.liner_layer, grid);
   if (on.asperities)
     for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
       values->setZero(grid.size());
@@ -109,6 +124,15 @@ void PistonLiner::check() const {
   require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
   require(o.oil_thickness > 0.0, o.name, "oil_thickness", o.oil_thickness, "> 0 m");
   require(o.supply_pressure >= 0.0, o.name, "supply_pressure", o.supply_pressure, ">= 0 Pa");
+  require(!o.liner_layer || std::isfinite(o.oil_thickness), o.name, "oil_thickness",
+          o.oil_thickness, "finite: the layer on the liner at the start");
+  require(!o.liner_layer || (o.supply_pressure == 0.0 && o.supply_fill == 1.0), o.name,
+          "supply_fill", o.supply_fill,
+          "1, and no supply pressure: the layer on the liner supplies the skirt");
+  require(!o.liner_layer || o.effects.cavitation, o.name, "cavitation", 0.0,
+          "on: the layer on the liner does not fill the gap");
+  require(o.oil.pressure_coefficient >= 0.0 && o.oil.pressure_coefficient < 1e-6, o.name,
+          "pressure_coefficient", o.oil.pressure_coefficient, "0 to 1e-6 1/Pa");
   require(static_cast<bool>(bodies_.stroke), o.name, "stroke", 0.0, "a stroke law");
 }
 
@@ -173,6 +197,9 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
   pad.film->oil.start(
       (options_.initial_fill * pad.film->cells.content).min(layers * options_.oil_thickness) *
       pad.area / pad.grid.area());
+  if (!pad.layer) return;
+  pad.layer->layer.start(bodies_.stroke(stage.time - stage.kappa).position, options_.oil_thickness);
+  pad.layer->first = pad.layer->layer.volume() + (pad.film->oil.content() * pad.grid.area()).sum();
 }
 
 void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
@@ -182,11 +209,24 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
     throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
                                 fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
   rough_->thicknesses(pad.gap, film.cells);
+  if (viscosity_->varies()) {
+    viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
+                      film.viscosity_ratio_slope);
+    divide_conductance(film.viscosity_ratio, film.viscosity_ratio_slope, film.cells);
+  }
   // The liner slides past the grid at -U: the mean wall velocity is half of that.
   FilmStage inner{stage.kappa, options_.viscosity, 0.0, -0.5 * speed, false, options_.bulk_modulus};
   if (running_) inner.profile_before = &film.oil.profile();
   inner.cavity = options_.cavity;
   if (pad.ends) inner.cover = &pad.cover;
+  if (pad.layer) meet_layer(pad, stage);
+  solve_film_equations(pad, stage, inner);
+  pad.load += pad.area * film.pressure();
+}
+
+void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,
+                                       const FilmStage& inner) {
+  PadFilm& film = *pad.film;
   try {
     pad.film_solves +=
         film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
@@ -194,15 +234,26 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
                                 fmt::format("{} pad: {}", pad.name, error.what()));
   }
-  pad.load += pad.area * film.reynolds.pressure();
+  if (viscosity_->pressure_coefficient() > 0.0 &&
+      !viscosity_->pressure(film.reynolds.pressure(), film.thick_pressure, film.thickening))
+    throw dynamics::StepRefused(options_.name + ": no film pressure carries the load",
+                                fmt::format("{} pad: {:.3g} Pa reduced pressure", pad.name,
+                                            film.reynolds.pressure().maxCoeff()));
 }
 
 void PistonLiner::update_friction(Pad& pad, double speed) {
   if (pad.film) {
     PadFilm& film = *pad.film;
-    rough_->inverse_gap(pad.gap, film.cells, film.inverse, film.inverse_slope);
-    pad.friction->add_film(film.reynolds, film.cells, film.inverse, film.inverse_slope,
-                           options_.viscosity, speed);
+    rough_->shear(pad.gap, film.cells, film.shear);
+    if (viscosity_->varies())
+      multiply_shear(film.viscosity_ratio, film.viscosity_ratio_slope, film.shear.inverse,
+                     film.shear.inverse_slope);
+    FilmPressure pressure{film.pressure()};
+    if (film.thickening.size() > 0) {
+      pressure.thickening = &film.thickening;
+      pressure.coefficient = viscosity_->pressure_coefficient();
+    }
+    pad.friction->add_film(film.reynolds, pressure, film.shear, options_.viscosity, speed);
   }
   if (asperity_)
     pad.friction->add_contact(pad.grid, pad.contact, pad.contact_slope, pad.contact_rate_slope,

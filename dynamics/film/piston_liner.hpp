@@ -16,13 +16,15 @@ namespace clatter::film {
 
 /// Fields of one pad at the last evaluated state, n_angle x n_axial each.
 struct PadSnapshot {
-  std::string name;            // "thrust", "antithrust"
-  Eigen::VectorXd angle;       // cell centres, from the thrust side [rad]
-  Eigen::VectorXd axial;       // cell centres, z from the pin centre [m]
-  RowMatrix gap;               // h [m]
-  RowMatrix pressure;          // film [Pa]; empty without film
-  RowMatrix fill;              // theta [1]; empty without film
-  RowMatrix contact_pressure;  // asperities [Pa]; empty without asperities
+  std::string name;              // "thrust", "antithrust"
+  Eigen::VectorXd angle;         // cell centres, from the thrust side [rad]
+  Eigen::VectorXd axial;         // cell centres, z from the pin centre [m]
+  RowMatrix gap;                 // h [m]
+  RowMatrix pressure;            // film [Pa]; empty without film
+  RowMatrix fill;                // theta [1]; empty without film
+  RowMatrix contact_pressure;    // asperities [Pa]; empty without asperities
+  Eigen::VectorXd liner_height;  // cells of the layer on the liner, engine z [m]; empty without
+  RowMatrix liner_oil;           // its thickness, n_angle x cells [m], 0 under the pad
 };
 
 /// Film, asperity contact and friction between skirt and liner (paper, sections 2.2.2 and 2.2.3).
@@ -64,6 +66,8 @@ class PistonLiner : public dynamics::ForceElement {
   long film_solves() const;
   /// Worst mass residual of the last evaluation (0 without film).
   double film_residual() const;
+  /// The oil of both pads and of the liner that they pass; none unless the layer is remembered.
+  std::optional<OilBalance> oil_balance() const;
 
  private:
   struct Pad;
@@ -76,6 +80,11 @@ class PistonLiner : public dynamics::ForceElement {
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
+  void solve_film_equations(Pad& pad, const dynamics::Stage& stage, const FilmStage& inner);
+  void meet_layer(Pad& pad, const dynamics::Stage& stage);
+  void accept_layer(Pad& pad, double time);
+  static void balance_oil(Pad& pad);
+  double travel(const dynamics::Stage& stage) const;
   void start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                      const Eigen::VectorXd& v);
   void update_contact(Pad& pad);
@@ -100,12 +109,15 @@ class PistonLiner : public dynamics::ForceElement {
   AxialMotion axial_;
   std::vector<std::unique_ptr<Pad>> pads_;
   std::unique_ptr<RoughFilm> rough_;
+  std::unique_ptr<Viscosity> viscosity_;
   std::unique_ptr<Asperity> asperity_;
   std::unique_ptr<ContactDamping> damping_;
   StrokeState stroke_;
-  std::array<double, 4> stroke_rates_{};  // z_B' at the finished stages of this step [m/s]
-  bool running_ = false;                  // false: the content is still the initial one
-  std::vector<int> touched_row_;          // of a coordinate in the response's tangent; -1: none
+  std::array<double, 4> stroke_rates_{};    // z_B' at the finished stages of this step [m/s]
+  double step_begin_ = 0.0, travel_ = 0.0;  // start of this step [s], stroke up to its last stage
+                                            // [m]; with the layer on the liner
+  bool running_ = false;                    // false: the content is still the initial one
+  std::vector<int> touched_row_;            // of a coordinate in the response's tangent; -1: none
   int touched_count_ = 0;
 };
 

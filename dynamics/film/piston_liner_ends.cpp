@@ -39,7 +39,7 @@ double PistonLiner::end_force(const Pad& pad) const {
 void PistonLiner::add_end_tangent(Pad& pad) const {
   const Eigen::VectorXd& height = pad.map.height_by_column();
   Eigen::ArrayXd load_slope = Eigen::ArrayXd::Zero(pad.grid.size());
-  if (pad.film) load_slope += pad.area_slope * pad.film->reynolds.pressure();
+  if (pad.film) load_slope += pad.area_slope * pad.film->pressure();
   double curve = 0.0;
   if (asperity_) {
     const Eigen::ArrayXd by_gap = pad.area_slope * pad.contact_elastic;

@@ -26,10 +26,14 @@ Eigen::Matrix3Xd PistonLiner::friction_tangent(const Pad& pad) const {
 void PistonLiner::update_tangent(Pad& pad) {
   const Eigen::VectorXd& height = pad.map.height_by_column();
   pad.gap_directions = pad.gap_by_y;
-  if (pad.film)
+  if (pad.film) {
     pad.film->reynolds.sensitivities(pad.gap_directions, pad.derivative, &height);
-  else
+    const Eigen::ArrayXd& thickening = pad.film->thickening;  // dp/dP of full cells
+    for (Eigen::Index c = 0; c < thickening.size(); ++c)
+      if (pad.film->reynolds.is_full(static_cast<int>(c))) pad.derivative.row(c) *= thickening[c];
+  } else {
     pad.derivative.setZero(pad.grid.size(), height.size());
+  }
   pad.tangent.setZero(height.size(), height.size());
   if (pad.friction) {
     const Eigen::Matrix3Xd slide = axial_.slide(Eigen::all, pad.map.columns());

@@ -13,8 +13,10 @@
 #include "dynamics/film/cover.hpp"
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
+#include "dynamics/film/liner_layer.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
+#include "dynamics/film/viscosity.hpp"
 
 namespace clatter::film {
 
@@ -45,6 +47,7 @@ struct PistonLinerOptions {
       ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 
   double viscosity = 0.01;    // of the oil at the liner's temperature [Pa s]
+  ViscosityOptions oil;       // laws of temperature, pressure and shear; none: constant
   double bulk_modulus = 1e9;  // of the oil [Pa]; 0: incompressible
   // Without cavitation the next three do not apply: every cell is full.
   double initial_fill = 1.0;  // fraction of the gap filled with oil at the start, 0 to 1
@@ -54,6 +57,10 @@ struct PistonLinerOptions {
   /// and at inflow: the skirt slides into it at its full speed. Infinite: only the fills above
   /// apply.
   double oil_thickness = std::numeric_limits<double>::infinity();
+  /// The layer is remembered where the skirt leaves it, `oil_thickness` only its start and what the
+  /// ends of the liner bring; absent: it is renewed at every inflow. With cavitation, without
+  /// supply pressure and with a supply fill of 1.
+  std::optional<LinerLayerOptions> liner_layer;
   double supply_pressure = 0.0;  // gauge pressure at all edges of the pads [Pa], >= 0
   RoughnessOptions roughness{0.2e-6, 0.5e-6, 1.0, false};
   AsperityOptions asperity;

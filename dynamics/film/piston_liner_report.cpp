@@ -8,7 +8,8 @@
 
 namespace clatter::film {
 
-void PistonLiner::begin_step(double) {
+void PistonLiner::begin_step(double time) {
+  step_begin_ = time;
   for (const auto& pad : pads_)
     if (pad->film) pad->film->oil.begin_step();
 }
@@ -28,19 +29,24 @@ StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
 }
 
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
+  if (options_.liner_layer) travel_ = travel(stage);
   stroke_rates_.at(static_cast<size_t>(stage.index)) = bodies_.stroke(stage.time).velocity;
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
+    if (pad->layer) film.oil.volumes(film.reynolds, stage.weights, stage.kappa, pad->layer->moved);
     film.oil.finish_stage(film.reynolds, film.cells.content * pad->area / pad->grid.area(),
                           stage.index, stage.kappa);
   }
 }
 
-void PistonLiner::accept_step(double) {
+void PistonLiner::accept_step(double time) {
   running_ = true;
-  for (const auto& pad : pads_)
-    if (pad->film) pad->film->oil.accept_step();
+  for (const auto& pad : pads_) {
+    if (!pad->film) continue;
+    pad->film->oil.accept_step();
+    if (pad->layer) accept_layer(*pad, time);
+  }
 }
 
 dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const {
@@ -51,7 +57,7 @@ dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd
     const Eigen::ArrayXd gap_rate =
         (pad->gap_by_y * pad->v).array() + pad->gap_by_height * stroke_.velocity;
     power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
-    if (pad->film) power.lost -= (area * pad->film->reynolds.pressure() * gap_rate).sum();
+    if (pad->film) power.lost -= (area * pad->film->pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
     if (damping_) power.lost += (area * pad->contact_loss).sum();
     if (!pad->friction) continue;
@@ -79,8 +85,8 @@ void PistonLiner::record(dynamics::History& history) const {
       }
     }
     if (pad->film) {
-      film_load += (pad->area * pad->film->reynolds.pressure()).sum();
-      film_peak = std::max(film_peak, pad->film->reynolds.pressure().maxCoeff());
+      film_load += (pad->area * pad->film->pressure()).sum();
+      film_peak = std::max(film_peak, pad->film->pressure().maxCoeff());
       oil += (pad->area * pad->film->cells.content * pad->film->reynolds.fill()).sum();
       space += (pad->area * pad->film->cells.content).sum();
     }
@@ -104,26 +110,46 @@ void PistonLiner::record(dynamics::History& history) const {
   history.put("contact_pressure_max", "Pa", contact_peak);
   history.put("asperity_share", "1", normal > 0.0 ? contact_load / normal : 0.0);
   history.put("film_fill", "1", space > 0.0 ? oil / space : 0.0);
+  const std::optional<OilBalance> balance = oil_balance();
+  if (!balance) return;
+  history.put("oil_in_gap", "m3", balance->gap);
+  history.put("oil_on_liner", "m3", balance->liner);
+  history.put("oil_supplied", "m3", balance->supplied);
+  history.put("oil_scraped", "m3", balance->scraped);
+  history.put("oil_dripped", "m3", balance->dripped);
+  history.put("oil_over_sides", "m3", balance->sides);
+  history.put("oil_over_ends", "m3", balance->ends);
 }
 
 std::vector<double> PistonLiner::save() const {
   std::vector<double> state{running_ ? 1.0 : 0.0};
-  for (const auto& pad : pads_)
+  for (const auto& pad : pads_) {
     if (pad->film) pad->film->oil.save(state);
+    if (!pad->layer) continue;
+    state.push_back(pad->layer->first);
+    pad->layer->layer.save(state);
+  }
   return state;
 }
 
 void PistonLiner::restore(const std::vector<double>& state) {
   size_t expected = 1;
-  for (const auto& pad : pads_)
+  for (const auto& pad : pads_) {
     if (pad->film) expected += pad->film->oil.saved_size();
+    if (pad->layer) expected += 1 + pad->layer->layer.saved_size();
+  }
   if (state.size() != expected)
     throw InputError(options_.name + ": the saved film state has " + std::to_string(state.size()) +
                      " numbers, expected " + std::to_string(expected));
   running_ = state[0] != 0.0;
   auto next = state.begin() + 1;
-  for (const auto& pad : pads_)
+  for (const auto& pad : pads_) {
     if (pad->film) next = pad->film->oil.restore(next);
+    if (!pad->layer) continue;
+    pad->layer->first = *next++;
+    next = pad->layer->layer.restore(next);
+    balance_oil(*pad);
+  }
 }
 
 long PistonLiner::film_solves() const {
@@ -154,10 +180,14 @@ std::vector<PadSnapshot> PistonLiner::snapshot() const {
     for (int j = 0; j < n_j; ++j) one.axial[j] = pad->grid.axial(j);
     one.gap = field(pad->gap);
     if (pad->film) {
-      one.pressure = field(pad->film->reynolds.pressure());
+      one.pressure = field(pad->film->pressure());
       one.fill = field(pad->film->reynolds.fill());
     }
     if (asperity_) one.contact_pressure = field((pad->area > 0.0).select(pad->contact, 0.0));
+    if (pad->layer) {
+      one.liner_height = pad->layer->layer.heights();
+      one.liner_oil = pad->layer->layer.thickness();
+    }
     all.push_back(std::move(one));
   }
   return all;

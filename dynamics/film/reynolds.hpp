@@ -9,6 +9,7 @@
 #include "core/base/matrix.hpp"
 #include "dynamics/film/banded_lu.hpp"
 #include "dynamics/film/cover.hpp"
+#include "dynamics/film/edge_volumes.hpp"
 #include "dynamics/film/flow_factors.hpp"
 #include "dynamics/film/grid.hpp"
 #include "dynamics/film/split_search.hpp"
@@ -151,6 +152,14 @@ class Reynolds {
   /// Volume that flowed out over the edges and ends in the stage, kappa * sum of q n L [m3] (flow
   /// [m3/s] when steady).
   double outflow() const { return outflow_; }
+
+  /// Layers on the sliding wall beyond the first and the last axial edge, by column [m], n_angle
+  /// each, instead of those of the edges; for the solutions that follow.
+  void set_outside_layers(const Eigen::ArrayXd& begin, const Eigen::ArrayXd& end);
+  /// What flows that are listed as `flows` take out of each cell, n: div q [m/s].
+  void leaving(const Eigen::ArrayXd& flows, Eigen::ArrayXd& rate) const;
+  /// Sums volumes that are listed as `flows` over the edges and ends [m3].
+  void add_up_edges(const Eigen::ArrayXd& moved, EdgeVolumes& volumes) const;
 
   /// Exact derivatives of the last solution along the k gap fields `dh` (n x k) [m]: row c of
   /// `derivative` is dp/d(.) for a full cell and dtheta/d(.) for a cavitated one. `height` (k) [m]:

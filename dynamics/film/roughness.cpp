@@ -15,7 +15,11 @@ RoughFilm::RoughFilm(const RoughnessOptions& options) : options_(options) {
     throw InputError(fmt::format("roughness: found {} m and {} m, expected >= 0", options.piston,
                                  options.liner));
   sigma_ = std::hypot(options.piston, options.liner);
-  if (!options.flow_factors) return;
+  if (!options.flow_factors) {
+    if (options.stress_factors)
+      throw InputError("friction_factors: found them without flow_factors, expected both");
+    return;
+  }
   if (sigma_ == 0.0)
     throw InputError("flow_factors: both walls are smooth, expected a roughness > 0");
   // A product, not a difference of squares, which a fused multiply-add leaves above 0 for equal
@@ -76,18 +80,42 @@ void RoughFilm::apply_factors(double h, int cell, FilmCells& film) const {
   set(options_.peklenik, carry, film.carry[cell], film.d_carry[cell]);
 }
 
-void RoughFilm::inverse_gap(const Eigen::ArrayXd& h, const FilmCells& film, Eigen::ArrayXd& value,
-                            Eigen::ArrayXd& slope) const {
+void RoughFilm::shear(const Eigen::ArrayXd& h, const FilmCells& film, ShearThickness& shear) const {
+  shear.lever = film.content;
+  shear.lever_slope = film.d_content;
   if (!options_.flow_factors) {
-    value = film.content.inverse();
-    slope = -film.d_content * value.square();
+    shear.inverse = film.content.inverse();
+    shear.inverse_slope = -film.d_content * shear.inverse.square();
     return;
   }
   for (Eigen::Index i = 0; i < h.size(); ++i) {
     const ValueSlope mean = mean_inverse_gap(h[i] / sigma_);
-    value[i] = mean.value / sigma_;
-    slope[i] = mean.slope / (sigma_ * sigma_);
+    shear.inverse[i] = mean.value / sigma_;
+    shear.inverse_slope[i] = mean.slope / (sigma_ * sigma_);
+    if (options_.stress_factors) add_stress_factors(h[i], static_cast<int>(i), shear);
   }
+}
+
+// Both continue below their ranges: phi_fs / H as it is there, phi_fp h in proportion to h_T.
+void RoughFilm::add_stress_factors(double h, int cell, ShearThickness& shear) const {
+  const double ratio = h / sigma_, at = std::max(ratio, lowest_ratio(3.0));
+  const ValueSlope fs = shear_stress_factor(at, options_.peklenik);
+  shear.inverse[cell] += fs.value / (at * sigma_);
+  if (ratio >= at) shear.inverse_slope[cell] += (fs.slope - fs.value / at) / (at * sigma_ * sigma_);
+  const double lowest = lowest_stress_ratio(options_.peklenik);
+  const ValueSlope h_t{shear.lever[cell], shear.lever_slope[cell]};
+  ValueSlope own;
+  if (ratio < lowest) {
+    const double share = pressure_stress_factor(lowest, options_.peklenik).value * lowest * sigma_ /
+                         mean_gap(lowest * sigma_, sigma_).value;
+    own = {share * h_t.value, share * h_t.slope};
+  } else {
+    const ValueSlope fp = pressure_stress_factor(ratio, options_.peklenik);
+    own = {fp.value * h, fp.value + ratio * fp.slope};
+  }
+  const double piston = 0.5 * (1.0 + share_difference_), liner = 0.5 * (1.0 - share_difference_);
+  shear.lever[cell] = piston * own.value + liner * (2.0 * h_t.value - own.value);
+  shear.lever_slope[cell] = piston * own.slope + liner * (2.0 * h_t.slope - own.slope);
 }
 
 }  // namespace clatter::film

@@ -13,6 +13,14 @@ struct RoughnessOptions {
   double liner = 0.0;         // rms height of the wall that slides past [m]
   double peklenik = 1.0;      // pattern: correlation length along the axis over that around it [1]
   bool flow_factors = false;  // Patir-Cheng factors; off: only the mean gap h_T replaces h
+  bool stress_factors = false;  // their phi_fs and phi_fp of the friction; with flow_factors only
+};
+
+/// What shear needs of the thicknesses, cell by cell, n each: effective 1/h [1/m] and the thickness
+/// l of the pressure gradient's part, l/2 dp/dz [m], with their slopes by the gap h.
+struct ShearThickness {
+  Eigen::ArrayXd inverse, inverse_slope;
+  Eigen::ArrayXd lever, lever_slope;
 };
 
 /// Thicknesses of a film between rough walls, averaged after Patir and Cheng 1978, 1979:
@@ -26,7 +34,8 @@ struct RoughnessOptions {
 /// are h, which must then be positive.
 class RoughFilm {
  public:
-  /// InputError for roughness below 0 or a pattern that is not in the tables.
+  /// InputError for roughness below 0, a pattern that is not in the tables, or stress factors
+  /// without flow factors.
   explicit RoughFilm(const RoughnessOptions& options);
 
   double sigma() const { return sigma_; }
@@ -35,13 +44,18 @@ class RoughFilm {
   double lowest_gap() const { return -4.0 * sigma_; }
   /// Fills `film` for the gaps `h` [m], n.
   void thicknesses(const Eigen::ArrayXd& h, FilmCells& film) const;
-  /// Effective 1/h of the shear stress [1/m] and its slope by h: phi_f / h with flow factors, 1 /
-  /// h_T without.
-  void inverse_gap(const Eigen::ArrayXd& h, const FilmCells& film, Eigen::ArrayXd& value,
-                   Eigen::ArrayXd& slope) const;
+  /// Effective 1/h of the shear stress: 1 / h_T, with flow factors phi_f / h, with stress factors
+  /// (phi_f + phi_fs) / h; l = h_T, with stress factors V_p phi_fp h + V_l (2 h_T - phi_fp h).
+  ///
+  /// phi_fs and phi_fp are those of a smooth wall opposite a rough one, which feels all of the
+  /// tangential force. The rough wall gets the reaction, part of it as pressure on its asperities,
+  /// which the shear on it alone (phi_f - phi_fs) lacks. So both are exact in the model when one
+  /// wall is smooth, and weighted by the variances V when none is.
+  void shear(const Eigen::ArrayXd& h, const FilmCells& film, ShearThickness& shear) const;
 
  private:
   void apply_factors(double h, int cell, FilmCells& film) const;
+  void add_stress_factors(double h, int cell, ShearThickness& shear) const;
   RoughnessOptions options_;
   double sigma_ = 0.0;
   double share_difference_ = 0.0;  // V_p - V_l

@@ -161,6 +161,7 @@ double CycleRun::change() const {
 
 void CycleRun::report(RunResult& result) const {
   result.energy_residue = energy_.residue();
+  result.oil.reset();
   result.energy_exchanged = energy_.now().exchanged;
   result.periodicity = before_ ? before_->difference() : CycleDifference{};
   result.samples = recorder_.samples();
@@ -168,6 +169,11 @@ void CycleRun::report(RunResult& result) const {
   result.warnings = accuracy_warnings(method_->estimate().bodies(method_->weights()),
                                       scene_.steps.accuracy, method_->estimate().steps());
   for (const std::string& warning : pressure_.warnings()) result.warnings.push_back(warning);
+  for (const auto& component : model_->components) {
+    const film::PistonLiner* contact = component->contact();
+    const auto oil = contact != nullptr ? contact->oil_balance() : std::nullopt;
+    if (oil && (!result.oil || oil->residue() > result.oil->residue())) result.oil = oil;
+  }
   for (const auto& component : model_->components)
     for (const std::string& warning : component->warnings()) result.warnings.push_back(warning);
 }

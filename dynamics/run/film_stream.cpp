@@ -14,11 +14,14 @@ void FilmStream::add() {
       file_->write(run::path(group, "angle_deg"),
                    Eigen::VectorXd(pad.angle * (180.0 / std::numbers::pi)));
       file_->write(run::path(group, "axial"), pad.axial);
+      if (pad.liner_height.size() > 0)
+        file_->write(run::path(group, "liner_height"), pad.liner_height);
     }
     fields_.add(run::path(group, "gap"), pad.gap);
     fields_.add(run::path(group, "pressure"), pad.pressure);
     fields_.add(run::path(group, "fill"), pad.fill);
     fields_.add(run::path(group, "contact_pressure"), pad.contact_pressure);
+    fields_.add(run::path(group, "liner_oil"), pad.liner_oil);
   }
   first_ = false;
 }

@@ -10,6 +10,11 @@ const std::vector<CertificateField<RunCertificate>>& RunCertificate::fields() {
   static const std::vector<CertificateField<C>> list = {
       {"energy_residue", &C::energy_residue, "", "largest imbalance over the energy exchanged"},
       {"energy_exchanged", &C::energy_exchanged, "J", "that energy"},
+      {"oil_residue", &C::oil_residue, "",
+       "largest of the contacts: oil that is missing since the start, over what moved; absent "
+       "unless "
+       "a scene has [contact.liner_oil]"},
+      {"oil_moved", &C::oil_moved, "m3", "what moved there"},
       {"complete", &C::complete, "", "1: it ran to the end"},
       {"cycles", &C::cycles, "", "completed cycles; 1 for a scene without an engine"},
       {"steps_accepted", &C::steps_accepted, "", "accepted steps"},

@@ -43,6 +43,10 @@ RunCertificate run_certificate(const RunResult& result) {
   RunCertificate numbers{result.periodicity};
   numbers.energy_residue = result.energy_residue;
   numbers.energy_exchanged = result.energy_exchanged;
+  if (result.oil) {
+    numbers.oil_residue = result.oil->residue();
+    numbers.oil_moved = result.oil->moved;
+  }
   numbers.complete = result.complete ? 1.0 : 0.0;
   numbers.cycles = result.cycles;
   const StepStatistics& s = result.statistics;

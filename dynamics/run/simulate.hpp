@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/h5_file.hpp"
+#include "dynamics/film/oil_balance.hpp"
 #include "dynamics/run/checkpoint.hpp"
 #include "dynamics/run/model.hpp"
 #include "dynamics/run/run_certificate.hpp"
@@ -24,12 +25,13 @@ struct RunResult {
   int64_t samples = 0;    // in the file
   int64_t most_held = 0;  // largest count of recorded numbers in memory
   StepStatistics statistics;
-  int cycles = 0;                     // completed; 1 for a scene without an engine
-  bool complete = false;              // false: interrupted inside a cycle
-  std::string failure;                // why the integration failed; empty: it did not
-  double energy_residue = 0.0;        // of the reported cycle
-  double energy_exchanged = 0.0;      // [J]
-  CycleDifference periodicity;        // of the reported cycle
+  int cycles = 0;                       // completed; 1 for a scene without an engine
+  bool complete = false;                // false: interrupted inside a cycle
+  std::string failure;                  // why the integration failed; empty: it did not
+  double energy_residue = 0.0;          // of the reported cycle
+  double energy_exchanged = 0.0;        // [J]
+  std::optional<film::OilBalance> oil;  // of the contact that misses most of it; none remembered
+  CycleDifference periodicity;          // of the reported cycle
   std::vector<std::string> warnings;  // of the reported cycle: accuracy, film pressure, components
 };
 

@@ -22,6 +22,18 @@ TEST(Asperity, FitAndExactIntegralGiveTheReferenceFigures) {
   }
 }
 
+TEST(Asperity, FactorOfSummitsIsThatOfGreenwoodAndTripp) {
+  // eta beta sigma = 0.2 and sigma / beta = 0.01: 16 sqrt(2) pi / 15 x 0.04 x 0.1.
+  EXPECT_NEAR(contact_factor(8e9, 50e-6, 0.5e-6), 4.7390751 * 0.04 * 0.1, 1e-9);
+  // Eq. (11) term by term against eq. (12) with the K that it gives.
+  const double eta = 1e10, beta = 20e-6, sigma = 0.4e-6, modulus = 53.3e9, gap = 0.5e-6;
+  const Asperity law(
+      {AsperityOptions::Law::kExact, contact_factor(eta, beta, sigma), modulus, sigma});
+  const double direct = 16.0 * std::sqrt(2.0) * M_PI / 15.0 * std::pow(sigma * beta * eta, 2) *
+                        modulus * std::sqrt(sigma / beta) * five_halves_bessel(gap / sigma);
+  EXPECT_NEAR(law.at(gap).pressure / direct, 1.0, 1e-8);
+}
+
 TEST(Asperity, IntegralAgreesWithItsBesselForm) {
   // The Bessel form loses digits by cancellation as l grows: 1e-10 holds to l = 4.
   for (double l : {0.05, 0.3, 1.0, 2.0, 3.0, 4.0})

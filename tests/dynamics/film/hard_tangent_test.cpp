@@ -23,6 +23,7 @@ struct Regime {
   double viscosity = 0.01;  // [Pa s]; little, where asperities are to carry a share
   LinerEnds ends{};         // of the liner; the pad is from 0.223 to 0.293 m
   Cavity cavity = Cavity::kLayer;
+  bool oil_laws = false;  // all laws of the viscosity, factors of friction, oil on the liner
 };
 void PrintTo(const Regime& regime, std::ostream* out) { *out << regime.name; }
 
@@ -134,6 +135,19 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
     options.skirt.ovality = 8e-6;
     options.roughness = {0.4e-6, 0.3e-6, 1.0, regime.flow_factors};
     options.asperity.law = regime.law;
+    if (regime.oil_laws) {
+      options.roughness.stress_factors = regime.flow_factors;
+      options.oil.vogel = {regime.viscosity / std::exp(5.0), 1000.0, 180.0};
+      options.oil.height = {0.2, 0.3};
+      options.oil.temperature = {380.0, 390.0};
+      options.oil.pressure_coefficient = 2e-8;
+      options.oil.cross = {1e6, 0.4, 0.8};
+      if (std::isfinite(regime.layer)) {
+        options.liner_layer.emplace();
+        options.liner_layer->bottom = 0.05;
+        options.liner_layer->top = 0.35;
+      }
+    }
     const auto element = make_element(options, elastic, offset);
     Eigen::VectorXd y = pushed(*element, elastic, regime.depth, 2e-5);
     double cavitated = 0.0, contact = 0.0;
@@ -146,7 +160,14 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
 }
 
 constexpr ContactEffects kAll{true, true, true, true};
+constexpr ContactEffects kFilm{true, true, false, true};
 constexpr LinerEnds kCut{0.24, 0.285};
+
+Regime with_oil_laws(Regime regime) {
+  regime.oil_laws = true;
+  return regime;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Regimes, Tangent,
     ::testing::Values(Regime{"full film",
@@ -230,6 +251,12 @@ INSTANTIATE_TEST_SUITE_P(
                              AsperityOptions::Law::kFit, 1e-5, INFINITY, 1e-6, kCut},
                       Regime{"thin layer over an end", 5e-6, 1.0, 5e-6, kAll, false,
                              AsperityOptions::Law::kFit, 20e-3, 1e-6, 0.01, kCut},
+                      with_oil_laws({"full film, laws of the oil", 30e-6, 1.0, 15e-6, kFilm, true,
+                                     AsperityOptions::Law::kFit, 20e-3, INFINITY, 0.05}),
+                      with_oil_laws({"mixed, laws of the oil", 5e-6, 1.0, 6.2e-6, kAll, true,
+                                     AsperityOptions::Law::kExact, 1e-5, INFINITY, 1e-6, kCut}),
+                      with_oil_laws({"thin layer that is remembered", 5e-6, 1.0, 5e-6, kAll, false,
+                                     AsperityOptions::Law::kFit, 20e-3, 1e-6}),
                       Regime{"streamers over an end", 5e-6, 1.0, 5e-6, kAll, false,
                              AsperityOptions::Law::kFit, 20e-3, 1e-6, 0.01, kCut,
                              Cavity::kStriated}),

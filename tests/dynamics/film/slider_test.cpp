@@ -24,8 +24,9 @@ Wedge solve_wedge(const std::function<double(double)>& gap, int cells) {
   film.solve(cells_of, {}, {1.0, 1.0, 0.0, 0.5, true});
   // In the frame of the grid the opposite wall runs at +1, so this body slides at -1.
   Friction friction({0.1, 1e-2}, grid.size());
-  friction.add_film(film, cells_of, cells_of.content.inverse(),
-                    -cells_of.content.square().inverse(), 1.0, -1.0);
+  const ShearThickness shear{cells_of.content.inverse(), -cells_of.content.square().inverse(),
+                             cells_of.content, cells_of.d_content};
+  friction.add_film(film, {film.pressure()}, shear, 1.0, -1.0);
   return {load(film), film.pressure().maxCoeff(), friction.force().sum(), film.residual()};
 }
 

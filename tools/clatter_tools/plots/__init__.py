@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures from artefacts: one function per picture, one style for all."""
-from . import accelerations, distortion, drive, faces, film, loop, piston, quality, radiation, shape, speed, style, tensioner, valves
+from . import accelerations, distortion, drive, faces, film, loop, piston, quality, radiation, shape, speed, stribeck, style, tensioner, valves
 
 PICTURES = {
     "piston": piston.draw,
@@ -15,6 +15,7 @@ PICTURES = {
     "drive": drive.draw,
     "loop": loop.draw,
     "speed": speed.draw,
+    "stribeck": stribeck.draw,
     "tensioner": tensioner.draw,
     "valves": valves.draw,
 }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The piston-liner contact and the layer of oil on the liner.
+#include "dynamics/film/pad_state.hpp"
+
+namespace clatter::film {
+
+// From the start of the step to this stage, as the film's speed has it.
+double PistonLiner::travel(const dynamics::Stage& stage) const {
+  double elapsed = stage.kappa;
+  for (double weight : stage.weights) elapsed += weight;
+  const double start = bodies_.stroke(stage.time - elapsed).velocity;
+  double sum = stage.kappa * bodies_.stroke(stage.time).velocity;
+  for (size_t j = 0; j < stage.weights.size(); ++j)
+    sum += stage.weights[j] * (j == 0 ? start : stroke_rates_.at(j));
+  return sum;
+}
+
+void PistonLiner::meet_layer(Pad& pad, const dynamics::Stage& stage) {
+  PadLayer& on_liner = *pad.layer;
+  on_liner.layer.meet(travel(stage), on_liner.lower, on_liner.upper);
+  pad.film->reynolds.set_outside_layers(on_liner.lower, on_liner.upper);
+}
+
+void PistonLiner::accept_layer(Pad& pad, double time) {
+  PadLayer& on_liner = *pad.layer;
+  const StrokeState stroke = bodies_.stroke(time);
+  std::vector<double> left;
+  for (const RingOptions& ring : options_.liner_layer->rings)
+    left.push_back(
+        ring_layer(ring, viscosity_->at_height(stroke.position + ring.height), stroke.velocity));
+  pad.film->reynolds.add_up_edges(on_liner.moved, on_liner.volumes);
+  on_liner.layer.advance(time - step_begin_, travel_, on_liner.volumes, left);
+  balance_oil(pad);
+}
+
+void PistonLiner::balance_oil(Pad& pad) {
+  PadLayer& on_liner = *pad.layer;
+  on_liner.balance = on_liner.layer.balance();
+  on_liner.balance.gap = (pad.film->oil.content() * pad.grid.area()).sum();
+  on_liner.balance.first = on_liner.first;
+}
+
+std::optional<OilBalance> PistonLiner::oil_balance() const {
+  if (!options_.liner_layer) return std::nullopt;
+  OilBalance sum;
+  for (const auto& pad : pads_) sum += pad->layer->balance;
+  return sum;
+}
+
+}  // namespace clatter::film
