@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/radial_shape_layout.hpp"
 #include "core/base/h5_file.hpp"
 #include "core/base/json_line.hpp"
 #include "modal/cylinder_points.hpp"
 
 namespace clatter::modal {
 
-inline constexpr const char* kShapeSchema = "clatter/shape/1";
 
 /// What to compute.
 struct ShapeOptions {

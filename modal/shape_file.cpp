@@ -101,11 +101,11 @@ void write_shape(H5File& file, const Shape& shape) {
   file.set("/", "surface", shape.surface);
   file.set("/", "radius", shape.extent.radius);
   file.set("/", "rigid_kept", shape.rigid_kept ? 1 : 0);
-  file.write("axis_point", Eigen::VectorXd(shape.axes.axis_point));
-  file.write("axis", Eigen::VectorXd(shape.axes.axis));
-  file.write("zero_angle", Eigen::VectorXd(shape.axes.zero_angle));
-  file.write("height", shape.height);
-  file.write("angle", shape.angle);
+  file.write(kShapeAxisPoint, Eigen::VectorXd(shape.axes.axis_point));
+  file.write(kShapeAxis, Eigen::VectorXd(shape.axes.axis));
+  file.write(kShapeZeroAngle, Eigen::VectorXd(shape.axes.zero_angle));
+  file.write(kShapeHeight, shape.height);
+  file.write(kShapeAngle, shape.angle);
   file.write("covered", IndexMatrix(shape.covered));
   for (const ShapeCase& one : shape.cases) {
     const std::string group = "cases/" + one.name;

@@ -19,8 +19,9 @@ std::vector<BodySpec> CylinderComponent::reduced_bodies() const {
 }
 
 std::vector<std::filesystem::path> CylinderComponent::inputs() const {
-  if (!spec_.gas) return {};
-  return {spec_.gas->table};
+  std::vector<std::filesystem::path> files = spec_.shape_files;
+  if (spec_.gas) files.push_back(spec_.gas->table);
+  return files;
 }
 
 ComponentSize CylinderComponent::size() const {

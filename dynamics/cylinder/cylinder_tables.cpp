@@ -10,6 +10,7 @@
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
+#include "dynamics/cylinder/shape_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -108,7 +109,16 @@ CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double
   cylinder.piston = read_piston(*piston);
   if (const auto table = tables.find_table("block")) cylinder.bore = read_bore(*table);
   if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
-  if (const auto table = tables.find_table("contact")) cylinder.contact = read_contact(*table);
+  if (const auto table = tables.find_table("contact")) {
+    cylinder.contact = read_contact(*table);
+    for (const auto& [key, shapes] : {std::pair{"bore_shape", &cylinder.contact->bore_shapes},
+                                      {"skirt_shape", &cylinder.contact->skirt_shapes}}) {
+      SurfaceShapes found = read_surface_shapes(*table, key);
+      *shapes = std::move(found.shapes);
+      cylinder.shape_files.insert(cylinder.shape_files.end(), found.files.begin(),
+                                  found.files.end());
+    }
+  }
   cylinder.contact_where = tables.where("contact");
   cylinder.pin_offset_where = tables.table("engine").where("pin_offset_mm");
   cylinder.small_end = read_law(tables, "small_end");

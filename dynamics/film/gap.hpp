@@ -34,11 +34,11 @@ struct SkirtShape {
 /// Relief at the cell centres of `pad` [m], n. InputError when the table does not ascend.
 Eigen::ArrayXd skirt_relief(const SkirtShape& shape, const PadGrid& pad);
 
-/// Deviation of the liner from its cylinder, at rest: warm, bolted, worn. Bilinear, constant beyond
-/// its ends.
+/// Deviation of the liner (or skirt) from its cylinder, at rest: warm, bolted, worn. Bilinear,
+/// constant beyond its ends.
 struct LinerShape {
   Eigen::VectorXd angle;   // n_a, pad angles [rad], ascending, within one turn; closed periodically
-  Eigen::VectorXd height;  // n_z, engine z [m], ascending
+  Eigen::VectorXd height;  // n_z, engine z (of a skirt: from the pin) [m], ascending
   Eigen::MatrixXd deviation;  // n_a x n_z, outward positive [m]
 };
 

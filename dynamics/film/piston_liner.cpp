@@ -82,7 +82,13 @@ void PistonLiner::add_pad(const char* name, double centre) {
   pads_.push_back(std::make_unique<Pad>(name, grid, GapMap(bodies_, at_, grid, height_by_y_)));
   Pad& pad = *pads_.back();
   pad.rest = options_.clearance + skirt_relief(options_.skirt, grid);
-  if (options_.bore) pad.liner_shape.emplace(*options_.bore, grid);
+  Eigen::ArrayXd slope = Eigen::ArrayXd::Zero(grid.size()), skirt = slope;
+  for (const LinerShape& shape : options_.skirt_shapes)
+    LinerShapeMap(shape, grid).add(0.0, skirt, slope);
+  pad.rest -= skirt;
+  if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
+  for (const LinerShape& shape : options_.bore_shapes)
+    pad.liner_shapes.emplace_back(shape, grid);
   if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
     pad.ends.emplace(options_.ends, grid);
   if (on.film) {
@@ -148,7 +154,8 @@ void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
-  if (pad.liner_shape) pad.liner_shape->add(height, pad.gap, pad.gap_by_height);
+  for (const LinerShapeMap& shape : pad.liner_shapes)
+    shape.add(height, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
 }

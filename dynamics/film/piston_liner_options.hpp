@@ -43,6 +43,8 @@ struct PistonLinerOptions {
   int cells_along = 40;                               // cells of a pad along the axis
   SkirtShape skirt;
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
+  /// Added to that deviation, and to the skirt outward: heights are engine z, and z from the pin.
+  std::vector<LinerShape> bore_shapes, skirt_shapes;
   LinerEnds
       ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 
