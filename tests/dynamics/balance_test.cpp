@@ -64,7 +64,7 @@ TEST(Balanced, LeavesNoInertiaResultantOfTheRigidMechanismOnTheBlock) {
     const double x = engine.bodies[1].model.grid("liner_4").axis_point.x();
     Vector6 largest = Vector6::Zero(), left = Vector6::Zero();
     for (int degrees = -360; degrees < 360; degrees += 7) {
-      const double t = degrees * std::numbers::pi / 180.0 / spec.speed;
+      const double t = degrees * std::numbers::pi / 180.0 / spec.clock.speed;
       const Vector6 on_block = reactions(spec, testing::cylinder_of(*model).crank(), mass, x, t);
       Vector6 sum = on_block;
       for (const Load& load : model->system.loads())
