@@ -91,7 +91,7 @@ class Output(stages.PipelineTest):
 class Commands(stages.PipelineTest):
     """`clatter-modal statics ...`: what a program does besides its usual job."""
     COMMANDS = {"mesh": ["faces", "export"], "modal": ["statics", "shape", "compare", "export"], "condense": ["export", "add-rows"],
-                "recover": ["sound", "listen"]}
+                "recover": ["sound", "listen"], "dynamics": ["response"]}
     # Options that became commands: (stage, arguments, words of the error).
     OLD = [("mesh", ["--faces", "beam.step"], "--faces is now a command: clatter-mesh faces PART"),
            ("modal", ["beam.fe.h5", "--static", "-o", "x.static.h5"], "--static is now a command: clatter-modal statics MODEL"),
