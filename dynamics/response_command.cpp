@@ -19,9 +19,8 @@ struct ResponseArguments {
 void respond(const ResponseArguments& a, const CommonOptions& common) {
   StepClock clock;
   ResponseSummary made;
-  Provenance provenance{run::kSchema,
-                        fmt::format("force = \"{}\"\nbody = \"{}\"\n", a.force, a.body),
-                        {a.run}};
+  Provenance provenance{
+      run::kSchema, fmt::format("force = \"{}\"\nbody = \"{}\"\n", a.force, a.body), {a.run}};
   write_artefact(a.output, provenance, clock, common, [&](H5File& file) {
     made = write_response(a.run, a.force, a.body, file);
     clock.lap("periodic response");

@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/radial_shape_layout.hpp"
 #include "core/base/h5_file.hpp"
 #include "core/base/json_line.hpp"
+#include "core/base/radial_shape_layout.hpp"
 #include "modal/cylinder_points.hpp"
 
 namespace clatter::modal {
-
 
 /// What to compute.
 struct ShapeOptions {

@@ -113,13 +113,14 @@ void require_same_air(const SoundTable& table, const Options& options) {
 }
 
 std::vector<RunSound> radiate(const RunBody& body, const rom::ReducedModel& model,
-                              const rom::SkinRows& T, const Options& options, const std::vector<Panel>& panels,
+                              const rom::SkinRows& T, const Options& options,
+                              const std::vector<Panel>& panels,
                               const std::vector<Analysis>& analyses) {
   if (options.sound.empty()) return {};
   const SoundTable table = read_sound(options.sound, body.rom_sha256(), model.size());
   require_same_air(table, options);
-  const PanelParts parts =
-      with_context(options.sound.string(), [&] { return panel_parts(table, model.skin.triangles, T, panels); });
+  const PanelParts parts = with_context(
+      options.sound.string(), [&] { return panel_parts(table, model.skin.triangles, T, panels); });
   std::vector<RunSound> sounds;
   for (const Analysis& analysis : analyses) {
     if (analysis.piece.segments() > 1) {
@@ -241,9 +242,8 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   if (!options.sound.empty()) clock.lap("radiated sound");
   certify_sound(summary, summary.certificate);
   const Analysis* const of_lines = analysis_with_lines(summary.analyses);
-  const std::vector<ChosenLine> lines = with_context(options.origin, [&] {
-    return choose_lines_of(of_lines, summary, body.clock().step_s);
-  });
+  const std::vector<ChosenLine> lines = with_context(
+      options.origin, [&] { return choose_lines_of(of_lines, summary, body.clock().step_s); });
 
   file.set("/", "body", body.name());
   write_conventions(file, options, summary.limit, model.valid_to_hz);
@@ -254,6 +254,9 @@ Summary recover(const RunBody& body, const rom::ReducedModel& model, const Optio
   if (of_lines != nullptr)
     summary.lines = write_lines(file, *of_lines, lines, writer, options.lines.quantities,
                                 options.output.single);
+  if (of_lines != nullptr && !options.sound.empty())
+    if (const auto acoustic = read_acoustic_velocity(options.sound, model.size()))
+      write_acoustic_lines(file, *acoustic, of_lines->velocity, lines);
   if (options.frames.on)
     summary.frames =
         write_frames(file, body, writer, frames.piece, frames.samples, options.frames.quantities);

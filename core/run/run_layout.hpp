@@ -22,7 +22,8 @@ inline constexpr const char* kAcceleration = "a";      // [m/s2]
 inline constexpr const char* kRom = "rom";             // attribute: path from the run file's folder
 inline constexpr const char* kRomHash = "rom_sha256";  // attribute
 
-// Group kForces has a group for each body with the recorded forces on it by name: n_t x r, on q [N].
+// Group kForces has a group for each body with the recorded forces on it by name: n_t x r, on q
+// [N].
 inline constexpr const char* kForces = "forces";
 
 /// "<group>/<member>".

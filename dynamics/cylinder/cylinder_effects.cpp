@@ -62,9 +62,8 @@ void add_contact(const CylinderSpec& cylinder, const std::string& ends, Cylinder
   table.add("damping of the contact", damped,
             contact && !effects.asperities ? "no asperities" : "contact.asperity_loss_factor");
   table.add("friction", contact && effects.friction, "contact.friction");
-  const size_t shapes = contact ? cylinder.contact->bore_shapes.size() +
-                                      cylinder.contact->skirt_shapes.size()
-                                : 0;
+  const size_t shapes =
+      contact ? cylinder.contact->bore_shapes.size() + cylinder.contact->skirt_shapes.size() : 0;
   table.add("shapes of bore and skirt", shapes > 0,
             shapes > 0 ? fmt::format("{} added", shapes) : "no contact.bore_shape, skirt_shape");
   table.add("ends of the liner", !ends.empty(),

@@ -65,8 +65,8 @@ struct CylinderSpec {
   std::optional<GasSpec> gas;
   std::optional<film::PistonLinerOptions> contact;
   std::vector<std::filesystem::path> shape_files;  // of [[contact.bore_shape]], skirt_shape
-  std::string contact_where;     // "file:line: contact", for messages
-  std::string pin_offset_where;  // "file:line: engine.pin_offset_mm"
+  std::string contact_where;                       // "file:line: contact", for messages
+  std::string pin_offset_where;                    // "file:line: engine.pin_offset_mm"
   RadialLaw small_end, big_end;
   GuideLaw guide;  // [pin_guide]
 

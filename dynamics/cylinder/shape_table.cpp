@@ -67,8 +67,8 @@ film::LinerShape of_file(const Config& entry, const std::filesystem::path& path)
       !deviation.allFinite())
     entry.fail("file", fmt::format("found {} x {} deviations in {}, expected {} heights x {} "
                                    "angles, all finite",
-                                   deviation.cols(), deviation.rows(), path.string(),
-                                   height.size(), angle.size()));
+                                   deviation.cols(), deviation.rows(), path.string(), height.size(),
+                                   angle.size()));
   if (up < 0.0) {
     height.reverseInPlace();
     deviation = deviation.rowwise().reverse().eval();
@@ -123,9 +123,9 @@ film::LinerShape of_order(const Config& entry) {
     entry.fail("amplitude_um", fmt::format("found {} values, expected one for each of {} heights",
                                            amplitude.size(), height.size()));
   const int n = order == 0.0 ? 1 : kAngles;
-  film::LinerShape shape{
-      Eigen::VectorXd(n), Eigen::Map<const Eigen::VectorXd>(height.data(), std::ssize(height)),
-      Eigen::MatrixXd(n, std::ssize(height))};
+  film::LinerShape shape{Eigen::VectorXd(n),
+                         Eigen::Map<const Eigen::VectorXd>(height.data(), std::ssize(height)),
+                         Eigen::MatrixXd(n, std::ssize(height))};
   for (int i = 0; i < n; ++i) {
     shape.angle(i) = kTurn * i / n;
     for (size_t k = 0; k < amplitude.size(); ++k)
@@ -155,9 +155,9 @@ SurfaceShapes read_surface_shapes(const Config& contact, const char* key) {
     shape.deviation *= entry.number_or("factor", 1.0, Range::between(-1e3, 1e3));
     constexpr double kLargest = 0.01;  // [m]
     if (!(shape.deviation.cwiseAbs().maxCoeff() <= kLargest))
-      entry.fail("factor", fmt::format("found deviations of {:.3g} mm, expected at most {:g}",
-                                       shape.deviation.cwiseAbs().maxCoeff() / kMilli,
-                                       kLargest / kMilli));
+      entry.fail("factor",
+                 fmt::format("found deviations of {:.3g} mm, expected at most {:g}",
+                             shape.deviation.cwiseAbs().maxCoeff() / kMilli, kLargest / kMilli));
     found.shapes.push_back(std::move(shape));
   }
   return found;

@@ -87,8 +87,7 @@ void PistonLiner::add_pad(const char* name, double centre) {
     LinerShapeMap(shape, grid).add(0.0, skirt, slope);
   pad.rest -= skirt;
   if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
-  for (const LinerShape& shape : options_.bore_shapes)
-    pad.liner_shapes.emplace_back(shape, grid);
+  for (const LinerShape& shape : options_.bore_shapes) pad.liner_shapes.emplace_back(shape, grid);
   if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
     pad.ends.emplace(options_.ends, grid);
   if (on.film) {
@@ -154,8 +153,7 @@ void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
-  for (const LinerShapeMap& shape : pad.liner_shapes)
-    shape.add(height, pad.gap, pad.gap_by_height);
+  for (const LinerShapeMap& shape : pad.liner_shapes) shape.add(height, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
 }

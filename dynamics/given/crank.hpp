@@ -16,8 +16,9 @@ enum class Rotation { kForward, kBackward };
 ///
 /// theta = crank angle - firing with 0 at firing top dead centre of the crank. The crank pin is at
 /// (y, z) = (-s r sin theta, r cos theta), s = 1 forward and -1 backward: the gas force pushes the
-/// piston toward s y, the thrust side, after top dead centre. The rod's angle phi about x obeys sin phi = (y_c - e)/l and the pin
-/// is at z_B = z_c + l cos phi (Heywood 1988, section 2.2, for e = 0).
+/// piston toward s y, the thrust side, after top dead centre. The rod's angle phi about x obeys sin
+/// phi = (y_c - e)/l and the pin is at z_B = z_c + l cos phi (Heywood 1988, section 2.2, for e =
+/// 0).
 class SliderCrank {
  public:
   /// Lengths [m]. `firing`: where the crankshaft's angle is at this cylinder's firing top dead

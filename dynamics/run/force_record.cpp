@@ -32,9 +32,8 @@ bool is_listed(const ForceRecordSpec& spec, const std::string& name) {
 
 }  // namespace
 
-ForceRecord::ForceRecord(Model& model, const LoadedBodies& bodies,
-                         const ForceRecordSpec& spec, const Tableau& method, H5File& file,
-                         double begin, double end, double step)
+ForceRecord::ForceRecord(Model& model, const LoadedBodies& bodies, const ForceRecordSpec& spec,
+                         const Tableau& method, H5File& file, double begin, double end, double step)
     : model_(model),
       method_(method),
       file_(file),
@@ -67,8 +66,7 @@ void ForceRecord::find(const ForceRecordSpec& spec) {
       const auto row = std::find(rows.begin(), rows.end(), coordinates[i]);
       part.row.push_back(static_cast<int>(row - rows.begin()));
     }
-    if (!part.row.empty() && is_wanted(system.element(e).name()))
-      parts_.push_back(std::move(part));
+    if (!part.row.empty() && is_wanted(system.element(e).name())) parts_.push_back(std::move(part));
   }
   for (size_t l = 0; l < system.loads().size(); ++l)
     if (system.loads()[l].body == body_ && is_wanted(system.loads()[l].term))

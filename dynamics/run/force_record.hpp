@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Forces on a body that are recorded, so that their effect can be computed alone (response_file.hpp).
+// Forces on a body that are recorded, so that their effect can be computed alone
+// (response_file.hpp).
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,9 +16,9 @@ namespace clatter::dynamics {
 /// The sum of the forces on one body of some elements and loads, sampled.
 ///
 /// Impulses are summed with the method's own weights, dt sum b_i f_i over its stages, as the
-/// integrator does. A sample is their mean over one sampling interval around its instant, so that no
-/// impact is lost; the first and last sample have half an interval. Instantaneous impulses of rigid
-/// impacts are not forces and are left out.
+/// integrator does. A sample is their mean over one sampling interval around its instant, so that
+/// no impact is lost; the first and last sample have half an interval. Instantaneous impulses of
+/// rigid impacts are not forces and are left out.
 class ForceRecord {
  public:
   /// `model` and `file` outlive the record. InputError when no force on the body has such a name.

@@ -39,8 +39,8 @@ class Oscillators {
     fft_.fwd(force, sampled);
     if (omega_squared > 0.0) eta[0] = force[0] / omega_squared;
     for (size_t k = 1; 2 * k < n_; ++k) {
-      const double w = 2.0 * std::numbers::pi * static_cast<double>(k) /
-                       (step_ * static_cast<double>(n_));
+      const double w =
+          2.0 * std::numbers::pi * static_cast<double>(k) / (step_ * static_cast<double>(n_));
       const double mean = mean_factor(static_cast<double>(k) / static_cast<double>(n_));
       const std::complex<double> i(0.0, 1.0);
       eta[k] = force[k] / mean / (omega_squared - w * w + i * w * damping);

@@ -7,8 +7,8 @@
 
 namespace clatter::dynamics {
 
-/// Motion at uniform instants, n_t x n_m each: displacements, velocities, and accelerations as means
-/// over one interval around the instant.
+/// Motion at uniform instants, n_t x n_m each: displacements, velocities, and accelerations as
+/// means over one interval around the instant.
 struct PeriodicMotion {
   RowMatrix eta, v, a;
 };
@@ -20,8 +20,8 @@ struct PeriodicMotion {
 /// @param force n_t x n_m, means over the intervals around n_t = n + 1 instants `step` apart; the
 /// first and the last row, half an interval each, are the two halves of one instant. T = n step.
 /// @param damping >= 0, n_m [1/s]; @param omega_squared >= 0, n_m [1/s2]
-/// A mode with omega_squared = 0 moves without its mean force, about zero. A mode without damping has
-/// a solution unless T is a multiple of its period.
+/// A mode with omega_squared = 0 moves without its mean force, about zero. A mode without damping
+/// has a solution unless T is a multiple of its period.
 PeriodicMotion periodic_response(const RowMatrix& force, double step,
                                  const Eigen::VectorXd& omega_squared,
                                  const Eigen::VectorXd& damping);

@@ -36,9 +36,9 @@ RecordedForce find_force(const H5File& run, const std::string& force, const std:
     throw InputError(fmt::format(
         "{}: forces: found none, expected forces recorded by [[recorded_force]] of the scene",
         where));
-  throw InputError(fmt::format("{}: forces: found {}, expected {}", where, fmt::join(all, ", "),
-                               found.empty() ? fmt::format("\"{}\"", force)
-                                             : "--force and --body that name one of them"));
+  throw InputError(fmt::format(
+      "{}: forces: found {}, expected {}", where, fmt::join(all, ", "),
+      found.empty() ? fmt::format("\"{}\"", force) : "--force and --body that name one of them"));
 }
 
 LoadedBody body_of(const H5File& run, const std::string& name) {
@@ -46,8 +46,7 @@ LoadedBody body_of(const H5File& run, const std::string& name) {
   BodySpec spec;
   spec.name = name;
   spec.rom = run.get_string(group, run::kRom);
-  if (spec.rom.is_relative())
-    spec.rom = (run.path().parent_path() / spec.rom).lexically_normal();
+  if (spec.rom.is_relative()) spec.rom = (run.path().parent_path() / spec.rom).lexically_normal();
   spec.elastic = run.get_string(group, "model") == "elastic";
   LoadedBody body = load_body(spec);
   if (body.sha256 != run.get_string(group, run::kRomHash))
@@ -75,14 +74,13 @@ ResponseSummary write_response(const std::filesystem::path& path, const std::str
   const std::string times = run::path(run::kOutput, run::kTime);
   const std::vector<double> time = run.read_doubles(times);
   const RowMatrix forces = run.read_rows(run::path(run::path(run::kForces, name), force));
-  if (forces.rows() != std::ssize(time) || forces.rows() < 3 ||
-      forces.cols() != body.model.size())
+  if (forces.rows() != std::ssize(time) || forces.rows() < 3 || forces.cols() != body.model.size())
     throw InputError(fmt::format("{}: forces/{}/{}: found {} x {}, expected {} samples x {}",
                                  path.string(), name, force, forces.rows(), forces.cols(),
                                  time.size(), body.model.size()));
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  const PeriodicMotion motion = periodic_response(
-      forces * body.modal.shapes, step, body.modal.omega_squared, body.modal.damping);
+  const PeriodicMotion motion = periodic_response(forces * body.modal.shapes, step,
+                                                  body.modal.omega_squared, body.modal.damping);
 
   file.write(times, time);
   file.set(times, "unit", "s");

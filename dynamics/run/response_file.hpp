@@ -18,10 +18,10 @@ struct ResponseSummary {
 };
 
 /// Writes into `file` what clatter-recover reads of a run: the times of the run in `path`, and of
-/// the body on which the recorded force `force` acts the periodic motion q, v, a (n_t x r) under that
-/// force alone. The body is free: mounts and all other forces count only when they are among the
-/// recorded ones. The sum over all forces of a run that repeats is the motion of the run, but for
-/// the mean of rigid motions.
+/// the body on which the recorded force `force` acts the periodic motion q, v, a (n_t x r) under
+/// that force alone. The body is free: mounts and all other forces count only when they are among
+/// the recorded ones. The sum over all forces of a run that repeats is the motion of the run, but
+/// for the mean of rigid motions.
 /// @param force empty: the only one; @param body empty: any
 /// @throws InputError for a run without such a force, or with another reduced model than the file's
 ResponseSummary write_response(const std::filesystem::path& path, const std::string& force,

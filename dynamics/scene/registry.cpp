@@ -76,7 +76,8 @@ const std::vector<ComponentKind>& component_kinds() {
 }
 
 void check_known(const Config& root) {
-  for (const char* key : {"title", "time", "accuracy", "recorded_force"}) static_cast<void>(root.has(key));
+  for (const char* key : {"title", "time", "accuracy", "recorded_force"})
+    static_cast<void>(root.has(key));
   for (const ComponentKind& kind : component_kinds())
     for (const std::string& table : kind.tables) static_cast<void>(root.has(key_of(table)));
   root.finish_table();

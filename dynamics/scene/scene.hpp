@@ -30,7 +30,7 @@ struct Scene {
   double film_every = 0.0;          // between stored film fields [s]; 0: none
   std::optional<CrankClock> clock;  // of an engine scene: runs are cycles of it
   std::vector<ForceRecordSpec> forces;
-  ComponentList components;         // in the order in which they are added to a model
+  ComponentList components;  // in the order in which they are added to a model
 };
 
 /// Reads and checks a scene; InputError "file:line: key: found ..., expected ...".

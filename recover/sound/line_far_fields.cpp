@@ -114,8 +114,8 @@ PanelParts panel_parts(const SoundTable& table, const IndexMatrix& triangles,
   for (const auto& [members, part] : number)
     for (size_t p = 0; p < panels.size(); ++p)
       out.belongs(part, static_cast<Eigen::Index>(p)) = members[p];
-  out.flows = group_flows(table.flow, triangles, T, part_of_face,
-                          static_cast<int>(number.size()), table.samples.front().far.cols());
+  out.flows = group_flows(table.flow, triangles, T, part_of_face, static_cast<int>(number.size()),
+                          table.samples.front().far.cols());
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kOffset = 0.8e-3;  // of the pin [m]
 
-/// An engine and its image, with the pin on the other side: scenes and what their samples differ by.
+/// An engine and its image, with the pin on the other side: scenes and what their samples differ
+/// by.
 class MirrorImage : public testing::SlapScenes {
  protected:
   /// Runs both engines with `changes`.

@@ -13,8 +13,8 @@ struct Mirror {
   std::vector<double> sign;
 };
 
-/// A synthetic model (synthetic.hpp) and its mirror image: displacements along y and rotations about
-/// x and z change their signs, patches of a grid change places. Without skin.
+/// A synthetic model (synthetic.hpp) and its mirror image: displacements along y and rotations
+/// about x and z change their signs, patches of a grid change places. Without skin.
 rom::ReducedModel mirrored(const rom::ReducedModel& model, Mirror& mirror);
 
 }  // namespace clatter::dynamics::testing

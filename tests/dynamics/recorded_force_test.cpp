@@ -30,9 +30,9 @@ RowMatrix cosine_means(Eigen::Index n, double w) {
 
 /// Largest error of a mode's velocity under cos(w t), relative to its amplitude.
 double harmonic_error(double omega, double damping, double w, Eigen::Index n) {
-  const PeriodicMotion motion = periodic_response(
-      cosine_means(n, w), 1.0 / static_cast<double>(n), Eigen::VectorXd::Constant(1, omega * omega),
-      Eigen::VectorXd::Constant(1, damping));
+  const PeriodicMotion motion = periodic_response(cosine_means(n, w), 1.0 / static_cast<double>(n),
+                                                  Eigen::VectorXd::Constant(1, omega * omega),
+                                                  Eigen::VectorXd::Constant(1, damping));
   const std::complex<double> i(0.0, 1.0), v = i * w / (omega * omega - w * w + i * w * damping);
   double worst = 0.0;
   for (Eigen::Index k = 0; k <= n; ++k) {
@@ -77,8 +77,9 @@ class RecordedForce : public testing::SlapScenes {
  protected:
   /// An elastic block under the mounts, with `forces` recorded.
   std::string engine(const std::string& forces) {
-    return std::string("[time]\ncycles = 6\noutput_step_us = 20.0\n[contact]\ncavitation = false\n"
-                       "[accuracy]\ntolerance = 1e-3\n[engine]\nbalanced = true\n") +
+    return std::string(
+               "[time]\ncycles = 6\noutput_step_us = 20.0\n[contact]\ncavitation = false\n"
+               "[accuracy]\ntolerance = 1e-3\n[engine]\nbalanced = true\n") +
            testing::kElasticBlock + R"(
 [[mount]]
 body = "block"
@@ -102,8 +103,7 @@ of = ["gas on block", "crank_pin", "pin_guide", "mount 1", "balance of the other
 
 TEST_F(RecordedForce, ImpulsesAreThoseOfTheIntegrator) {
   const H5File run = recorded(scene(engine(kAll)), "run");
-  const RowMatrix force =
-      run.read_rows("forces/block/slap") + run.read_rows("forces/block/others");
+  const RowMatrix force = run.read_rows("forces/block/slap") + run.read_rows("forces/block/others");
   const RowMatrix v = run.read_rows("bodies/block/v");
   const LoadedBodies bodies = load_bodies(scene(engine(kAll)));
   const LoadedBody& block = *find_body(bodies, "block");
@@ -117,8 +117,8 @@ TEST_F(RecordedForce, ImpulsesAreThoseOfTheIntegrator) {
   const Eigen::RowVectorXd momentum = (v.row(n) - v.row(0)) * block.model.M_rr * R;
   const Eigen::RowVectorXd of_forces = impulse * R;
   const double scale = step * (force * R).cwiseAbs().colwise().sum().maxCoeff();
-  EXPECT_LT((momentum - of_forces).cwiseAbs().maxCoeff(), 1e-6 * scale)
-      << momentum << "\n" << of_forces;
+  EXPECT_LT((momentum - of_forces).cwiseAbs().maxCoeff(), 1e-6 * scale) << momentum << "\n"
+                                                                        << of_forces;
 }
 
 TEST_F(RecordedForce, PartsSumUpToTheMotionOfTheRun) {

@@ -140,8 +140,8 @@ void expect_flows_of_the_map(const Mesh6& mesh, const sound::Surface& wrap,
   const rom::Skin skin = skin_of(mesh);
   std::vector<int32_t> group;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) group.push_back(f % 3 == 0 ? 1 : 0);
-  const std::vector<RowMatrix> flows = group_flows(
-      map.flow, skin.triangles, rom::SkinRows(skin.T), group, 2, wrap.node_count());
+  const std::vector<RowMatrix> flows =
+      group_flows(map.flow, skin.triangles, rom::SkinRows(skin.T), group, 2, wrap.node_count());
   const Eigen::MatrixXcd velocity =
       (map.map * Eigen::MatrixXd(skin.T)).cast<std::complex<double>>();
   const Eigen::MatrixXd whole = sound::node_flow(wrap, velocity).real();

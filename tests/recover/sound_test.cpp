@@ -201,7 +201,8 @@ TEST_F(SoundRun, StrongestLineIsThatOfTheSoundPowerNotOfTheErp) {
   });
   const std::string rule = "[spectrum]\nto_hz = 1500\n[lines]\nstrongest = 1\n";
   const std::vector<double> by_erp = recovered(rule).lines.frequency_hz;
-  const std::vector<double> by_power = recovered("sound = 'part.sound.h5'\n" + rule).lines.frequency_hz;
+  const std::vector<double> by_power =
+      recovered("sound = 'part.sound.h5'\n" + rule).lines.frequency_hz;
   ASSERT_EQ(by_erp.size(), 1u);
   ASSERT_EQ(by_power.size(), 1u);
   EXPECT_NEAR(by_erp[0], 1000.0 / 3.0, 1e-6);
