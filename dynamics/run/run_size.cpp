@@ -37,7 +37,9 @@ RunSize predict_size(const Scene& scene, const LoadedBodies& bodies) {
   // q, v and a of each coordinate, time and angle; eta and v of the cycle before and, while another
   // one follows, of this cycle.
   const int64_t checkpoints = scene.clock ? std::min(scene.time.cycles - 1, 2) : 0;
-  const int64_t numbers = 3 * size.coordinates + 2 + checkpoints * 2 * modes;
+  int64_t numbers = 3 * size.coordinates + 2 + checkpoints * 2 * modes;
+  for (const ForceRecordSpec& force : scene.forces)
+    if (const LoadedBody* body = find_body(bodies, force.body)) numbers += body->model.size();
   size.sample_bytes = 8.0 * static_cast<double>(size.samples) * static_cast<double>(numbers);
   if (film_cells > 0 && scene.film_every > 0.0) {
     size.film_fields = std::llround(std::ceil(span / scene.film_every));

@@ -8,6 +8,7 @@
 
 #include "dynamics/run/periodic_response.hpp"
 #include "dynamics/run/response_file.hpp"
+#include "dynamics/run/run_size.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/refusal.hpp"
 
@@ -138,6 +139,16 @@ TEST_F(RecordedForce, PartsSumUpToTheMotionOfTheRun) {
   EXPECT_LT((v - parts).norm(), 0.12 * v.norm());
   EXPECT_GT(slap.norm(), 0.3 * v.norm());
   EXPECT_GT((v - slap).norm(), 0.3 * v.norm());
+}
+
+TEST_F(RecordedForce, CountInTheSizeOfTheRun) {
+  const Scene with = scene(engine(kAll));
+  const LoadedBodies bodies = load_bodies(with);
+  const RunSize size = predict_size(with, bodies);
+  const double without = predict_size(scene(engine("")), bodies).sample_bytes;
+  const double block = find_body(bodies, "block")->model.size();
+  EXPECT_DOUBLE_EQ(size.sample_bytes - without,
+                   2.0 * 8.0 * static_cast<double>(size.samples) * block);
 }
 
 TEST_F(RecordedForce, AreRefusedByName) {
