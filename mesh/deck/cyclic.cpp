@@ -200,6 +200,7 @@ class Unfolding {
     if (!deck_.distributing.empty()) fail(deck_.distributing[0].where, "a distributing coupling");
     if (!deck_.equations.empty()) fail(deck_.equations[0].where, "an equation");
     if (!deck_.ties.empty()) fail(deck_.ties[0].where, "a tie");
+    if (!deck_.bolts.empty()) fail(deck_.bolts[0].where, "a bolt");
     if (!deck_.springs.empty()) fail(deck_.springs[0].where, "a spring");
     if (!deck_.masses.empty()) fail(deck_.masses[0].where, "a mass");
     for (const Region& region : deck_.regions)

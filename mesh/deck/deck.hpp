@@ -18,8 +18,9 @@ namespace clatter::mesh::deck {
 
 /// A node that belongs to no cell: reference node of couplings and masses, six DoFs.
 struct Point {
-  int32_t id = 0;      // number in the deck
-  Eigen::Vector3d at;  // basic frame
+  int32_t id = 0;        // number in the deck
+  Eigen::Vector3d at;    // basic frame
+  bool of_bolt = false;  // the reference of a Bolt: its only motion is along the bolt
 };
 
 /// Mesh nodes and points in one numbering: 0 ... n_nodes - 1 are mesh nodes, n_nodes + p is
@@ -92,6 +93,14 @@ struct Tie {
   std::string name, where;
   std::string slave, master;  // surfaces of the mesh
   double distance = -1.0;     // largest tied gap; < 0: default of the assembler
+};
+
+/// A bolt, cut through: u_slave - u_master = d direction, d the displacement of `reference`.
+struct Bolt {
+  std::string where;
+  std::string slave, master;  // surfaces of the mesh: the two sides of the cut
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  NodeIndex reference = 0;  // a point
 };
 
 /// sum coefficient * u = 0, or *EQUATION / MPC.
@@ -172,6 +181,7 @@ struct Deck {
   std::vector<Rigid> rigid;
   std::vector<Distributing> distributing;
   std::vector<Tie> ties;
+  std::vector<Bolt> bolts;
   std::vector<Equation> equations;
   std::vector<Spring> springs;
   std::vector<Mass> masses;

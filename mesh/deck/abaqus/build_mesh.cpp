@@ -30,9 +30,11 @@ std::vector<int32_t> take_nodes(const Numbering& numbering, Mesh& mesh) {
 // Cells of one type and region form one block, in the order of the deck.
 class Blocks {
  public:
-  Blocks(const Numbering& numbering, const std::vector<int32_t>& region,
-         const std::vector<int32_t>& node, Mesh& mesh)
-      : numbering_(numbering), region_(region), node_(node), mesh_(mesh) {}
+  Blocks(const Model& model, Mesh& mesh)
+      : numbering_(model.numbering),
+        region_(model.region_of_cell),
+        node_map_(model.node_map),
+        mesh_(mesh) {}
 
   void run() {
     struct Size {
@@ -78,14 +80,15 @@ class Blocks {
     const auto row = static_cast<Eigen::Index>(block.ids.size());
     for (size_t i = 0; i < p.size(); ++i) {
       const int32_t from = table.nodes[cell * p.size() + i];
-      block.nodes(row, p[i]) = node_[static_cast<size_t>(from)];
+      block.nodes(row, p[i]) =
+          node_map_.mesh_node_of(table.first + static_cast<int32_t>(cell), from);
     }
     block.ids.push_back(table.ids[cell]);
   }
 
   const Numbering& numbering_;
   const std::vector<int32_t>& region_;
-  const std::vector<int32_t>& node_;
+  const NodeMap& node_map_;
   Mesh& mesh_;
 };
 
@@ -100,9 +103,9 @@ void build_mesh(Model& model) {
                     model.source.where(model.source.origin())));
   }
   build_regions(model);
-  std::vector<int32_t> node = take_nodes(model.numbering, model.deck.mesh);
-  Blocks(model.numbering, model.region_of_cell, node, model.deck.mesh).run();
-  model.node_map.set_mesh_nodes(std::move(node));
+  model.node_map.set_mesh_nodes(take_nodes(model.numbering, model.deck.mesh));
+  cut_bolts(model);
+  Blocks(model, model.deck.mesh).run();
 }
 
 }  // namespace clatter::mesh::deck::abaqus

@@ -6,52 +6,19 @@
 #include <set>
 
 #include "mesh/deck/abaqus/cells.hpp"
+#include "mesh/deck/abaqus/face_rows.hpp"
 #include "mesh/deck/abaqus/model.hpp"
 #include "mesh/deck/node_sets.hpp"
 
 namespace clatter::mesh::deck::abaqus {
 namespace {
 
-// Rows of a face of a cell, in our order: `count` entries.
-struct FaceRows {
-  std::array<int32_t, kMaxFaceNodes> rows;
-  size_t count, corners;
-  auto begin() const { return rows.begin(); }
-  auto end() const { return rows.begin() + static_cast<long>(count); }
-};
-
-FaceRows face_rows(const Numbering& numbering, CellFaceId id) {
-  const CellType type = numbering.table_of(id.first).type;
-  const CellFace& face = traits(type).faces[static_cast<size_t>(id.second)];
-  const std::span<const int> p = traits(type).to_abaqus;
-  const auto rows = numbering.nodes_of(id.first);
-  FaceRows out{{},
-               static_cast<size_t>(traits(face.type).nodes),
-               static_cast<size_t>(traits(face.type).corners)};
-  for (size_t i = 0; i < out.count; ++i) {
-    out.rows[i] =
-        rows[static_cast<size_t>(std::find(p.begin(), p.end(), face.nodes[i]) - p.begin())];
-  }
-  return out;
-}
-
 // A candidate for a free face, by its sorted corners: the same for both cells that share it.
 struct Candidate {
-  std::array<int32_t, 4> corners;
+  FaceCorners corners;
   CellFaceId id;
   bool chosen;
 };
-
-Candidate candidate(const FaceRows& face, CellFaceId id, bool chosen) {
-  Candidate out{{-1, -1, -1, -1}, id, chosen};
-  std::copy_n(face.rows.begin(), face.corners, out.corners.begin());
-  std::sort(out.corners.begin(), out.corners.end());
-  return out;
-}
-
-int32_t face_count(const Numbering& numbering, int32_t cell) {
-  return static_cast<int32_t>(traits(numbering.table_of(cell).type).faces.size());
-}
 
 // Faces of all other cells whose nodes are all selected.
 void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
@@ -66,7 +33,7 @@ void add_neighbours(const Numbering& numbering, const std::vector<bool>& chosen,
     for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
       const FaceRows face = face_rows(numbering, {cell, f});
       if (std::all_of(face.begin(), face.end(), is_selected)) {
-        faces.push_back(candidate(face, {cell, f}, false));
+        faces.push_back({sorted_corners(face), {cell, f}, false});
       }
     }
   }
@@ -84,7 +51,7 @@ std::vector<CellFaceId> free_faces(const Numbering& numbering, const std::vector
     for (int32_t f = 0; f < face_count(numbering, cell); ++f) {
       const FaceRows face = face_rows(numbering, {cell, f});
       if (!std::all_of(face.begin(), face.end(), wanted)) continue;
-      all.push_back(candidate(face, {cell, f}, true));
+      all.push_back({sorted_corners(face), {cell, f}, true});
       for (const int32_t row : face) selected[static_cast<size_t>(row)] = true;
     }
   }
@@ -132,12 +99,17 @@ class SurfaceReader {
                                                     "NODE",
                                                     *keyword.find("TYPE")));
     }
-    std::vector<CellFaceId> faces;
-    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, model_.source), faces);
+    const std::vector<CellFaceId> faces = faces_of(use, card);
     // Without faces because the user ignores its elements: not in the mesh.
     const bool none = faces.empty() && card.size() > 0;
     model_.surface_names[key] =
         none ? "" : add_surface(model_, numbering_.public_name(use, name), faces);
+  }
+
+  std::vector<CellFaceId> faces_of(size_t use, const Card& card) {
+    std::vector<CellFaceId> faces;
+    for (size_t i = 0; i < card.size(); ++i) add_line(use, card.line(i, model_.source), faces);
+    return faces;
   }
 
  private:
@@ -198,7 +170,7 @@ std::string add_surface(Model& model, const std::string& name,
   for (const CellFaceId& id : faces) {
     if (!known.insert(id).second) continue;
     FaceRows face = face_rows(model.numbering, id);
-    for (int32_t& row : face.rows) row = model.node_map.mesh_node(row);
+    for (int32_t& row : face.rows) row = model.node_map.mesh_node_of(id.first, row);
     const CellType type = model.numbering.table_of(id.first).type;
     surface.add(traits(type).faces[static_cast<size_t>(id.second)].type, face.rows);
   }
@@ -225,6 +197,25 @@ std::string surface_named(Model& model, size_t use, const std::string& name, Ori
   if (rows == nullptr && model.refusals.has_lost(folded(name))) throw FollowUp();
   if (rows == nullptr) model.source.fail(origin, fmt::format("found no surface {}", shown(name)));
   return model.surface_names[key] = surface_of_nodes(model, *rows, name, origin);
+}
+
+std::vector<CellFaceId> faces_named(Model& model, size_t use, const std::string& name,
+                                    Origin origin) {
+  const std::string key = key_of(model, use, name);
+  for (size_t other = 0; other < model.numbering.uses().size(); ++other) {
+    for (const Card& card : model.numbering.uses()[other].scope->cards) {
+      if (card.keyword().key != "SURFACE" ||
+          key_of(model, other, card.keyword().choice("NAME", "")) != key) {
+        continue;
+      }
+      if (card.keyword().choice("TYPE", "ELEMENT") != "ELEMENT") {
+        model.source.fail(
+            origin, fmt::format("found a surface {} of nodes, expected one of faces", shown(name)));
+      }
+      return SurfaceReader(model).faces_of(other, card);
+    }
+  }
+  model.source.fail(origin, fmt::format("found no surface {}", shown(name)));
 }
 
 const std::vector<int32_t>* node_surface(const Model& model, size_t use, const std::string& name) {

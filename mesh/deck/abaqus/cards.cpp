@@ -80,6 +80,7 @@ constexpr std::array kRoles = {
     Entry{"MASS", Role::kModel},
     Entry{"MPC", Role::kModel},
     Entry{"ORIENTATION", Role::kModel},
+    Entry{"PRE-TENSIONSECTION", Role::kModel},
     Entry{"RETAINEDNODALDOFS", Role::kModel},
     Entry{"RIGIDBODY", Role::kModel},
     Entry{"ROTARYINERTIA", Role::kModel},

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/deck/abaqus/bolt_cut.hpp"
+#include "mesh/deck/abaqus/face_rows.hpp"
 #include "mesh/deck/abaqus/node_map.hpp"
 #include "mesh/deck/abaqus/numbering.hpp"
 #include "mesh/deck/abaqus/sets.hpp"
@@ -37,6 +39,7 @@ struct Model {
   std::map<std::string, const Card*> amplitudes;                    // by folded name
   std::vector<int32_t> region_of_cell;                              // index into Mesh::regions
   int64_t faces = 0;                                                // of all surfaces
+  std::vector<BoltCut> cuts;                                        // of *PRE-TENSION SECTION
 };
 
 /// Calls body(use, card) for each card with one of those keys, use by use, in the order of the
@@ -65,6 +68,12 @@ void build_systems(Model& model);
 void build_mesh(Model& model);
 /// *SOLID SECTION -> regions of the mesh and of the deck, Model::region_of_cell.
 void build_regions(Model& model);
+/// *PRE-TENSION SECTION, before cells are copied: the cut's nodes get copies on one side.
+void cut_bolts(Model& model);
+/// The same cards, after build_surfaces() -> Deck::bolts.
+void build_bolts(Model& model);
+/// Temperatures of the cuts' copies; InputError for what the reference node of a bolt cannot have.
+void finish_bolts(Model& model);
 /// *TRANSFORM -> Deck::systems and NodeMap.
 void build_transforms(Model& model);
 /// *INITIAL CONDITIONS, TYPE=TEMPERATURE -> Model::initial and the materials' reference
@@ -102,9 +111,8 @@ void build_cyclic(Model& model);
 /// Name in Deck::systems of an orientation; InputError at `origin` if it is missing.
 std::string system_named(const Model& model, size_t use, const std::string& name, Origin origin);
 
-/// Adds a surface of faces (cell, face of its traits), each once, under an unused name that begins
-/// with `name`; returns the name.
-using CellFaceId = std::pair<int32_t, int32_t>;
+/// Adds a surface of faces, each once, under an unused name that begins with `name`; returns the
+/// name.
 std::string add_surface(Model& model, const std::string& name,
                         const std::vector<CellFaceId>& faces);
 
@@ -113,6 +121,9 @@ std::string add_surface(Model& model, const std::string& name,
 std::string surface_named(Model& model, size_t use, const std::string& name, Origin origin);
 std::string surface_of_nodes(Model& model, const std::vector<int32_t>& rows,
                              const std::string& name, Origin origin);
+/// Faces of a *SURFACE of TYPE=ELEMENT, whether build_surfaces() has been called or not.
+std::vector<CellFaceId> faces_named(Model& model, size_t use, const std::string& name,
+                                    Origin origin);
 /// Rows of a *SURFACE of TYPE=NODE; null for others.
 const std::vector<int32_t>* node_surface(const Model& model, size_t use, const std::string& name);
 

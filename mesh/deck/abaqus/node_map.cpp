@@ -13,6 +13,12 @@ NodeIndex NodeMap::require(int32_t row) {
   return node_index != kNone ? node_index : add_point(row);
 }
 
+int32_t NodeMap::mesh_node_of(int32_t cell, int32_t row) const {
+  if (copies_.empty()) return mesh_node(row);
+  const auto copy = copies_.find({cell, row});
+  return copy != copies_.end() ? copy->second : mesh_node(row);
+}
+
 bool NodeMap::is_point(NodeIndex node_index) const {
   return node_index >= static_cast<NodeIndex>(deck_.mesh.nodes.rows());
 }

@@ -28,6 +28,10 @@ class NodeMap {
   NodeIndex find(int32_t row) const;
   /// The mesh node, whatever has its rotations; kNone for points.
   int32_t mesh_node(int32_t row) const { return mesh_node_[static_cast<size_t>(row)]; }
+  /// Cell `cell` has the mesh node `copy` in place of that of `row`.
+  void set_copy(int32_t cell, int32_t row, int32_t copy) { copies_[{cell, row}] = copy; }
+  /// The mesh node of `row` in a cell.
+  int32_t mesh_node_of(int32_t cell, int32_t row) const;
   bool is_point(NodeIndex node_index) const;
   /// A point that moves with a mesh node and has rotations as well.
   NodeIndex point_upon(int32_t row);
@@ -48,8 +52,9 @@ class NodeMap {
   const Numbering& numbering_;
   Deck& deck_;
   std::vector<int32_t> mesh_node_;
-  std::map<int32_t, NodeIndex> point_of_;     // by row; also points on mesh nodes
-  std::map<int32_t, NodeIndex> rotation_of_;  // by row
+  std::map<std::pair<int32_t, int32_t>, int32_t> copies_;  // by cell and row
+  std::map<int32_t, NodeIndex> point_of_;                  // by row; also points on mesh nodes
+  std::map<int32_t, NodeIndex> rotation_of_;               // by row
   std::vector<std::string> system_names_ = {""};
   std::vector<int32_t> system_of_;  // by row, empty where there is no *TRANSFORM
 };

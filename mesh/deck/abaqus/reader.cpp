@@ -25,6 +25,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_systems(model);
   refusals.require([&] { build_mesh(model); });
   build_surfaces(model);
+  build_bolts(model);
   build_transforms(model);
   build_initial_temperature(model);
   build_couplings(model);
@@ -35,6 +36,7 @@ Deck read(Source& source, const std::string& name, const ReadOptions& options) {
   build_equations(model);
   finish_couplings(model);
   build_steps(model);
+  finish_bolts(model);
   build_sets(model);
   build_cyclic(model);
   refusals.raise();

@@ -65,7 +65,10 @@ class StepWriter {
               regions.empty() ? "" : fmt::format("regions = [{}]\n", fmt::join(regions, ", "))),
           one.omega_squared);
     }
-    if (!step_.temperature.empty())
+    if (!step_.temperature.empty() && !expands())
+      text_ += fmt::format("\n# {} ({}) has temperatures, and no material expands\n", step_.name,
+                           step_.where);
+    else if (!step_.temperature.empty())
       add("heat",
           fmt::format("kind = \"temperature\"\nfield = {}\nreference = {}\n",
                       toml_text(step_.temperature), reference_temperature()),
@@ -85,6 +88,8 @@ class StepWriter {
   }
 
   Eigen::Vector3d direction(const Step::NodalForce& force) const {
+    for (const Bolt& bolt : deck_.bolts)
+      if (bolt.reference == force.node_index) return bolt.direction;
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(force.direction % 3);
     if (force.system.empty()) return unit;
     const System& system = deck_.systems.at(force.system);
@@ -151,6 +156,13 @@ class StepWriter {
         prescribe(*support, static_cast<DofMask>(support->dofs & ~kTranslations), target);
       }
     }
+  }
+
+  bool expands() const {
+    return std::any_of(deck_.materials.begin(), deck_.materials.end(), [](const auto& named) {
+      const std::vector<double>& alpha = named.second.expansion;
+      return std::any_of(alpha.begin(), alpha.end(), [](double value) { return value != 0.0; });
+    });
   }
 
   /// Reference temperature of the materials with expansion; it must be the same for all.

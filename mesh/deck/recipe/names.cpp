@@ -21,7 +21,8 @@ int32_t RecipeNames::label(int32_t node) const {
 }
 
 std::string RecipeNames::point(NodeIndex node_index) const {
-  return fmt::format("point_{}", deck_.points[static_cast<size_t>(node_index - n_nodes_)].id);
+  const Point& point = deck_.points[static_cast<size_t>(node_index - n_nodes_)];
+  return fmt::format("{}_{}", point.of_bolt ? "bolt" : "point", point.id);
 }
 
 std::string RecipeNames::node(NodeIndex node_index) {

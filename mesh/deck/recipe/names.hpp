@@ -22,7 +22,7 @@ class RecipeNames {
   explicit RecipeNames(Deck& deck);
 
   bool is_point(NodeIndex node_index) const { return node_index >= n_nodes_; }
-  /// "point_12": its number in the deck.
+  /// "point_12", "bolt_12": its number in the deck.
   std::string point(NodeIndex node_index) const;
   /// "node_12": the node set of that node alone.
   std::string node(NodeIndex node_index);

@@ -36,6 +36,10 @@ class RecipeWriter {
       put("\n[[straight_edges]]  # cells of the deck without these mid-side nodes\nnode_set = {}\n",
           toml_text(kHangingMidSideNodes));
     for (const Tie& tie : deck_.ties) add_tie(tie);
+    for (const Bolt& bolt : deck_.bolts)
+      put("\n[[bolt]]  # {}\nname = {}\nslave = {}\nmaster = {}\ndirection = {}\n", bolt.where,
+          toml_text(names_.point(bolt.reference)), toml_text(bolt.slave), toml_text(bolt.master),
+          toml_list(numbers(bolt.direction)));
     for (const Equation& equation : deck_.equations)
       put("\n[[equation]]  # {}\n{}", equation.where, terms_text(equation.terms));
     for (const Spring& spring : deck_.springs) add_spring(spring);
@@ -136,8 +140,10 @@ class RecipeWriter {
   }
 
   void points() {
-    for (const Point& point : deck_.points)
+    for (const Point& point : deck_.points) {
+      if (point.of_bolt) continue;
       put("\n[[point]]\nname = \"point_{}\"\nat = {}\n", point.id, toml_list(numbers(point.at)));
+    }
     for (const auto& [name, set] : names_.points_on_nodes())
       put("\n[[point]]\nname = {}\nnode_set = {}\n", toml_text(name), toml_text(set));
   }
