@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, info, levels, motored_cycle, report, sweep
+from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -44,6 +44,8 @@ def parser():
     export_command.add_arguments(one)
     one = commands.add_parser("motored-cycle", help="write the pressure table of a motored engine, for [gas] of a scene")
     motored_cycle.add_arguments(one)
+    one = commands.add_parser("fired-cycle", help="write the pressure table of a fired engine, for [gas] of a scene")
+    fired_cycle.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     one.add_argument("--snakemake", action="store_true", help="of clatter.smk instead, for a Snakefile")
     return top
@@ -126,6 +128,8 @@ def main(arguments, rules):
             export_command.write_export(options)
         elif options.command == "motored-cycle":
             motored_cycle.write_motored_cycle(options)
+        elif options.command == "fired-cycle":
+            fired_cycle.write_fired_cycle(options)
         elif options.command == "rules":
             print(pathlib.Path(rules).with_suffix(".smk") if options.snakemake else rules)
     except BadArtefact as error:

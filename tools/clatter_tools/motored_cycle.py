@@ -47,18 +47,28 @@ class MotoredCycle:
         return self.intake * (self.volume(self.closed) / self.volume(wrapped)) ** self.exponent
 
 
+def heading(cycle, kind):
+    """The first line of a table: what the cylinder is."""
+    return (f"# {kind} cycle: bore {cycle.bore * 1e3:.6g} mm, stroke {cycle.stroke * 1e3:.6g} mm, rod {cycle.rod * 1e3:.6g} mm, "
+            f"pin offset {cycle.pin_offset * 1e3:.6g} mm, ratio {cycle.compression_ratio:.6g}, n = {cycle.exponent:.6g}, "
+            f"intake {cycle.intake * 1e-5:.6g} bar")
+
+
 def table(cycle, step):
     """"crank_angle [deg], pressure [bar]" over -360 to 360 deg every `step` [rad], with a heading."""
-    lines = [f"# motored cycle: bore {cycle.bore * 1e3:.6g} mm, stroke {cycle.stroke * 1e3:.6g} mm, rod {cycle.rod * 1e3:.6g} mm, "
-             f"pin offset {cycle.pin_offset * 1e3:.6g} mm, ratio {cycle.compression_ratio:.6g}, n = {cycle.exponent:.6g}, "
-             f"intake {cycle.intake * 1e-5:.6g} bar",
+    lines = [heading(cycle, "motored"),
              f"# p = p_IVC (V_IVC / V)^n, valves closed from {-cycle.closed / DEGREE:.6g} to {cycle.closed / DEGREE:.6g} deg; "
-             "0 deg = firing TDC; absolute pressure",
-             "crank_angle [deg], pressure [bar]"]
+             "0 deg = firing TDC; absolute pressure"]
+    return with_rows(lines, cycle.pressure, step)
+
+
+def with_rows(lines, pressure, step):
+    """The text of a table: heading, column names, pressure(theta) [Pa] over -360 to 360 deg every `step` [rad]."""
+    lines = [*lines, "crank_angle [deg], pressure [bar]"]
     rows = math.floor(4.0 * math.pi / step + 0.5)
     for i in range(rows + 1):
         theta = -2.0 * math.pi + 4.0 * math.pi * i / rows
-        lines.append(f"{theta / DEGREE:.10g}, {cycle.pressure(theta) * 1e-5:.12g}")
+        lines.append(f"{theta / DEGREE:.10g}, {pressure(theta) * 1e-5:.12g}")
     return "\n".join(lines) + "\n"
 
 
@@ -74,17 +84,20 @@ OPTIONS = (("bore-mm", 107.0, 0.1, 1e4, "bore [mm]"),
            ("step-deg", 1.0, 0.001, 180.0, "rows every so many degrees of crank angle"))
 
 
-def add_arguments(command):
+def add_arguments(command, wanted=OPTIONS):
     """Declares the options of `clatter motored-cycle`."""
     command.add_argument("output", metavar="out.csv")
-    for name, default, _, _, text in OPTIONS:
-        command.add_argument(f"--{name}", type=float, default=default, metavar="X", help=f"{text}; default {default:g}")
+    for name, default, _, _, text in wanted:
+        shown = text if default is None else f"{text}; default {default:g}"
+        command.add_argument(f"--{name}", type=float, default=default, metavar="X", help=shown)
 
 
-def check(options):
+def check(options, wanted=OPTIONS):
     """BadArtefact for an option outside its limits (also nan) and for a rod that is too short."""
-    for name, _, low, high, _ in OPTIONS:
+    for name, default, low, high, _ in wanted:
         value = getattr(options, name.replace("-", "_"))
+        if value is None and default is None:
+            continue
         if not low <= value <= high:
             raise BadArtefact(f"--{name}: found {value:g}, expected at least {low:.4g} and at most {high:.4g}")
     radius, offset = 0.5 * options.stroke_mm, abs(options.pin_offset_mm)
@@ -93,19 +106,29 @@ def check(options):
                           f"rod > radius + offset, {radius:g} + {offset:g} mm")
 
 
-def write_motored_cycle(options):
-    """Writes the table that the options describe, complete or not at all; prints the peak pressure."""
-    check(options)
-    cycle = MotoredCycle(1e-3 * options.bore_mm, 1e-3 * options.stroke_mm, 1e-3 * options.rod_mm, 1e-3 * options.pin_offset_mm,
-                         options.compression_ratio, options.exponent, 1e5 * options.intake_bar, DEGREE * options.closed_deg)
-    text, part = table(cycle, DEGREE * options.step_deg), f"{options.output}.part"
+def cycle_of(options):
+    """The MotoredCycle of the options."""
+    return MotoredCycle(1e-3 * options.bore_mm, 1e-3 * options.stroke_mm, 1e-3 * options.rod_mm, 1e-3 * options.pin_offset_mm,
+                        options.compression_ratio, options.exponent, 1e5 * options.intake_bar, DEGREE * options.closed_deg)
+
+
+def write_text(path, text):
+    """Writes a table complete or not at all; CannotWrite."""
+    part = f"{path}.part"
     try:
         with open(part, "w", encoding="ascii") as file:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(part, options.output)
+        os.replace(part, path)
     except OSError as error:
         pathlib.Path(part).unlink(missing_ok=True)
-        raise CannotWrite(f"{options.output}: cannot be written: {error.strerror}") from error
+        raise CannotWrite(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def write_motored_cycle(options):
+    """Writes the table that the options describe; prints the peak pressure."""
+    check(options)
+    cycle = cycle_of(options)
+    write_text(options.output, table(cycle, DEGREE * options.step_deg))
     print(f"{options.output}: peak {1e-5 * cycle.pressure(0.0):.2f} bar")
