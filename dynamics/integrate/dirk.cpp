@@ -15,8 +15,9 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   first_.time = now_.time + c;
   first_.kappa = second_.kappa = kappa;
   first_.weights[0] = w_10;
-  eta_tilde_ = now_.eta + w_10 * now_.v;
-  v_tilde_ = now_.v + w_10 * now_.a;
+  op.rates(now_, eta_rate_[0], v_rate_[0]);
+  eta_tilde_ = now_.eta + w_10 * eta_rate_[0];
+  v_tilde_ = now_.v + w_10 * v_rate_[0];
   eta_guess_ = now_.eta + c * now_.v + 0.5 * c * c * now_.a;
   StageState& mid = stages_[0];
   if (!solver_.solve(first_, op, eta_tilde_, v_tilde_, eta_guess_, mid)) return failed();
@@ -26,8 +27,9 @@ Integrator::Verdict Dirk::attempt(double dt, const StageOperator& op) {
   second_.time = now_.time + dt;
   second_.weights[0] = w_20;
   second_.weights[1] = w_21;
-  eta_tilde_ = now_.eta + w_20 * now_.v + w_21 * mid.v;
-  v_tilde_ = now_.v + w_20 * now_.a + w_21 * mid.a;
+  op.rates(mid, eta_rate_[1], v_rate_[1]);
+  eta_tilde_ = now_.eta + w_20 * eta_rate_[0] + w_21 * eta_rate_[1];
+  v_tilde_ = now_.v + w_20 * v_rate_[0] + w_21 * v_rate_[1];
   eta_guess_ = mid.eta + (dt - c) * mid.v + 0.5 * (dt - c) * (dt - c) * mid.a;
   if (!solver_.solve(second_, op, eta_tilde_, v_tilde_, eta_guess_, stages_[1])) return failed();
   if (!options_.fixed) {
@@ -44,8 +46,9 @@ double Dirk::error(double dt, const StageOperator& op) {
   const auto& b_hat = tableau_->b_hat;
   const double d0 = dt * (b[0] - b_hat[0]), d1 = dt * (b[1] - b_hat[1]),
                d2 = dt * (b[2] - b_hat[2]);
-  eta_tilde_ = d0 * now_.v + d1 * stages_[0].v + d2 * stages_[1].v;
-  v_tilde_ = d0 * now_.a + d1 * stages_[0].a + d2 * stages_[1].a;
+  op.rates(stages_[1], eta_rate_[2], v_rate_[2]);
+  eta_tilde_ = d0 * eta_rate_[0] + d1 * eta_rate_[1] + d2 * eta_rate_[2];
+  v_tilde_ = d0 * v_rate_[0] + d1 * v_rate_[1] + d2 * v_rate_[2];
   op.filter(eta_tilde_, v_tilde_, e_eta_);
   e_v_ = (e_eta_ - eta_tilde_) / op.kappa();
   system_.interface(e_eta_, e_y_);

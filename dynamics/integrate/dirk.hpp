@@ -22,6 +22,7 @@ class Dirk : public Integrator {
 
   Stage first_{0.0, 0.0, 1, {0.0}}, second_{0.0, 0.0, 2, {0.0, 0.0}};
   Eigen::VectorXd eta_tilde_, v_tilde_, eta_guess_, e_y_;
+  Eigen::VectorXd eta_rate_[3], v_rate_[3];  // of the start and of the stages
 };
 
 }  // namespace clatter::dynamics

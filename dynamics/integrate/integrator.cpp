@@ -57,7 +57,8 @@ int Integrator::rung_for(double dt) const {
 
 std::unique_ptr<StageOperator> Integrator::make_operator(double kappa) {
   const Stopwatch clock;
-  auto op = std::make_unique<StageOperator>(system_, kappa);
+  auto op =
+      std::make_unique<StageOperator>(system_, kappa, options_.exact_modes ? tableau_->d : 0.0);
   ++statistics_.operators;
   statistics_.operator_seconds += clock.seconds();
   return op;
@@ -73,8 +74,8 @@ void Integrator::start(double time, const VectorXd& eta, const VectorXd& v) {
   system_.start_frames(time);
   system_.begin_step(time);
   const Stage stage{time + options_.first, options_.first, 0, {}};
-  const auto op = make_operator(options_.first);
-  if (!solver_.solve(stage, *op, eta, v, eta, now_)) {
+  const StageOperator op(system_, options_.first);
+  if (!solver_.solve(stage, op, eta, v, eta, now_)) {
     const auto& last = solver_.last();
     throw NumericsError(fmt::format("start at {:.6g} s: no consistent state was found ({})", time,
                                     last.kind.empty() ? "Newton did not converge" : last.reason()));

@@ -27,10 +27,11 @@ namespace clatter::dynamics {
 struct StepOptions {
   const Tableau* method = &tr_bdf2();
   Accuracy accuracy;
-  double largest = 1e-4;    // largest step of the ladder [s]
-  double smallest = 1e-10;  // floor: below it the run ends with a NumericsError [s]
-  double first = 1e-7;      // length of the starting stage and first step [s]
-  bool fixed = false;       // every step has `largest`; no error test (order tests)
+  double largest = 1e-4;     // largest step of the ladder [s]
+  double smallest = 1e-10;   // floor: below it the run ends with a NumericsError [s]
+  double first = 1e-7;       // length of the starting stage and first step [s]
+  bool exact_modes = false;  // free modes move exactly (exact_mode.hpp); of two-stage methods
+  bool fixed = false;        // every step has `largest`; no error test (order tests)
 };
 
 /// Is called with each finished stage; used for the energy balance.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/integrate/stage_operator.hpp"
 
+#include "dynamics/integrate/exact_mode.hpp"
+
 namespace clatter::dynamics {
 
 using Eigen::MatrixXd;
@@ -15,14 +17,40 @@ void scatter(const VectorXd& values, const std::vector<int>& indices, VectorXd& 
 
 }  // namespace
 
-StageOperator::StageOperator(const System& system, double kappa) : system_(&system), kappa_(kappa) {
-  const Eigen::ArrayXd mu = system.inertia().array() / (kappa * kappa);
-  const Eigen::ArrayXd delta = system.damping().array() / kappa;
-  H_ = (mu + delta + system.omega_squared().array()).inverse();
-  per_force_ = H_ / (kappa * kappa);
-  per_velocity_ = system.damping() + kappa * system.omega_squared();
-  from_eta_ = H_.array() * (mu + delta);
-  from_v_ = H_.array() * system.inertia().array() / kappa;
+StageOperator::StageOperator(const System& system, double kappa, double diagonal)
+    : system_(&system), kappa_(kappa) {
+  const auto N = system.modes();
+  const VectorXd &mu = system.inertia(), &delta = system.damping(),
+                 &omega_squared = system.omega_squared();
+  alpha_.setZero(N);
+  beta_.setOnes(N);
+  VectorXd* const columns[] = {&H_,         &per_force_, &per_velocity_, &v_of_v_, &v_of_a_,
+                               &rate_of_v_, &rate_of_a_, &from_eta_,     &from_v_};
+  for (VectorXd* column : columns) column->resize(N);
+  for (Eigen::Index k = 0; k < N; ++k) {
+    const bool moves = mu(k) > 0.0;
+    const ExactMode fit = moves && diagonal > 0.0
+                              ? exact_mode(omega_squared(k), delta(k), kappa / diagonal, diagonal)
+                              : ExactMode{};
+    alpha_(k) = fit.alpha;
+    beta_(k) = fit.beta;
+    const double c = 1.0 - kappa * fit.alpha,
+                 per_omega = fit.alpha == 0.0 ? 0.0 : fit.alpha / omega_squared(k);
+    v_of_v_(k) = 1.0 / c;
+    v_of_a_(k) = kappa * fit.beta / c;
+    rate_of_v_(k) = fit.beta - per_omega * delta(k);
+    rate_of_a_(k) = -per_omega;
+    per_velocity_(k) = delta(k) + v_of_a_(k) * omega_squared(k);
+    per_force_(k) = moves ? 1.0 / (c + kappa * fit.beta * per_velocity_(k))
+                          : 1.0 / (kappa * delta(k) + kappa * kappa * omega_squared(k));
+    H_(k) = kappa * (rate_of_v_(k) * v_of_a_(k) + rate_of_a_(k)) * per_force_(k);
+    // A stage without forces that begins at (e_eta, e_v).
+    const double eta_of_a = kappa * (rate_of_v_(k) * v_of_a_(k) + rate_of_a_(k));
+    from_eta_(k) = 1.0 - eta_of_a * per_force_(k) * omega_squared(k);
+    from_v_(k) =
+        moves ? kappa * rate_of_v_(k) * v_of_v_(k) - eta_of_a * per_force_(k) * per_velocity_(k)
+              : 0.0;
+  }
   moving_share_.setZero(system.interface_size());
   for (int b = 0; b < static_cast<int>(system.bodies().size()); ++b) {
     const MatrixXd& P = system.P(b);
@@ -38,10 +66,17 @@ StageOperator::StageOperator(const System& system, double kappa) : system_(&syst
   for (auto* scratch : {&picked_, &scaled_}) scratch->resize(system.bodies().size());
 }
 
-void StageOperator::acceleration(const VectorXd& eta_tilde, const VectorXd& v_tilde,
-                                 const VectorXd& F, VectorXd& a) const {
-  a = per_force_.array() * (F.array() - system_->omega_squared().array() * eta_tilde.array() -
-                            per_velocity_.array() * v_tilde.array());
+void StageOperator::settle(const VectorXd& eta_tilde, const VectorXd& v_tilde, const VectorXd& F,
+                           StageState& out) const {
+  out.a = per_force_.array() * (F.array() - system_->omega_squared().array() * eta_tilde.array() -
+                                per_velocity_.array() * v_tilde.array());
+  out.v = v_of_v_.cwiseProduct(v_tilde) + v_of_a_.cwiseProduct(out.a);
+  out.eta = eta_tilde + kappa_ * (rate_of_v_.cwiseProduct(out.v) + rate_of_a_.cwiseProduct(out.a));
+}
+
+void StageOperator::rates(const StageState& state, VectorXd& eta, VectorXd& v) const {
+  eta = rate_of_v_.cwiseProduct(state.v) + rate_of_a_.cwiseProduct(state.a);
+  v = beta_.cwiseProduct(state.a) + alpha_.cwiseProduct(state.v);
 }
 
 void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd& filtered) const {

@@ -8,23 +8,16 @@ using Eigen::VectorXd;
 StageSolver::StageSolver(System& system, const ErrorWeights& weights, StepStatistics& statistics)
     : system_(system), statistics_(statistics), newton_(system, weights, statistics) {}
 
-void StageSolver::settle(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
-                         const VectorXd& v_tilde, StageState& out) {
-  op.acceleration(eta_tilde, v_tilde, F_, out.a);
-  out.v = v_tilde + stage.kappa * out.a;
-  out.eta = eta_tilde + stage.kappa * out.v;
-}
-
 bool StageSolver::solve(const Stage& stage, const StageOperator& op, const VectorXd& eta_tilde,
                         const VectorXd& v_tilde, const VectorXd& eta_guess, StageState& out) {
   ++statistics_.stages;
   system_.load_force(stage.time, F_);
-  settle(stage, op, eta_tilde, v_tilde, out);
+  op.settle(eta_tilde, v_tilde, F_, out);
   system_.interface<3>({&out.eta, &eta_tilde, &eta_guess}, {&y_pred_, &y_tilde_, &out.y});
   last_ = newton_.solve(stage, op, y_pred_, y_tilde_, out.y, f_);
   if (last_.outcome != StageNewton::Outcome::kConverged) return false;
   system_.add_interface_force(f_, F_);
-  settle(stage, op, eta_tilde, v_tilde, out);
+  op.settle(eta_tilde, v_tilde, F_, out);
   if (!is_finite(out)) return false;
   out.time = stage.time;
   system_.interface<2>({&out.eta, &out.v}, {&out.y, &out.v_y});

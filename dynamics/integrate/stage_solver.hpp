@@ -26,8 +26,6 @@ class StageSolver {
   StageNewton& newton() { return newton_; }
 
  private:
-  void settle(const Stage& stage, const StageOperator& op, const Eigen::VectorXd& eta_tilde,
-              const Eigen::VectorXd& v_tilde, StageState& out);
   bool is_finite(const StageState& state);
 
   System& system_;

@@ -110,6 +110,11 @@ void read_steps(const Config& root, Scene& scene) {
           : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
   for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
     if (known->name == method) scene.steps.method = known;
+  scene.steps.exact_modes = time.flag_or("exact_modes", false);
+  if (scene.steps.exact_modes && scene.steps.method->stages != 2)
+    time.fail("exact_modes", fmt::format("found true with method \"{}\", expected one of two "
+                                         "stages, \"sdirk2\" or \"tr-bdf2\"",
+                                         method));
   const auto step = [&](const char* key, double fallback) {
     const double resolved = kTimeResolution * whole / kMicro;
     return number_within(time, key, fallback, resolved, span / kMicro) * kMicro;
