@@ -11,7 +11,7 @@ constexpr const char* kEpilog =
     R"(A part is described in TOML (lengths in length_unit, default mm):
 
   name = "beam"
-  kind = "box"                    # block, piston, box, cylinder or cad
+  kind = "box"                    # block, piston, rod, box, cylinder or cad
   [box]
   size = [200.0, 20.0, 10.0]
   [mesh]

@@ -5,6 +5,12 @@
 
 namespace clatter::dynamics {
 
+RodProperties two_mass_rod(const RodProperties& rod) {
+  RodProperties two = rod;
+  two.inertia = rod.mass * rod.centre * (rod.length - rod.centre);
+  return two;
+}
+
 ModalBody make_rigid_rod(const std::string& name, const RodProperties& rod) {
   const Eigen::Vector3d masses(rod.mass, rod.mass, rod.inertia);
   ModalBody body;

@@ -31,6 +31,12 @@ LoadedBody make_loaded_body(const BodySpec& spec, rom::ReducedModel model) {
     body.sampled = body.modal.shapes.rightCols(floating.W.rows()) * floating.W;
     body.first_sampled = kSpatial;
   }
+  if (spec.motion == BodyMotion::kRod) {
+    body.rod = with_context(spec.where, [&] { return make_elastic_rod(body.model, body.modal); });
+    body.modal = body.rod->body;
+    body.sampled = body.rod->shapes;
+    body.first_sampled = kRodPlanar;
+  }
   if (spec.motion == BodyMotion::kDrive && body.model.inertia.empty())
     throw InputError(
         fmt::format("{}: {}: found no inertia invariants, expected those of a frame that turns: "

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "core/rom/reduced_model.hpp"
+#include "dynamics/body/elastic_rod.hpp"
 #include "dynamics/body/floating_body.hpp"
 #include "dynamics/body/modal_body.hpp"
 
 namespace clatter::dynamics {
 
 /// What the frame of a body with a reduced model does: it rests, or its cylinder moves it; it moves
-/// freely in space (floating_body.hpp); a drive turns it (moving_frame.hpp).
-enum class BodyMotion { kGiven, kSpace, kDrive };
+/// freely in space (floating_body.hpp); a drive turns it (moving_frame.hpp); it is the rod of a
+/// slider-crank (elastic_rod.hpp).
+enum class BodyMotion { kGiven, kSpace, kDrive, kRod };
 
 /// A body with a reduced model: [piston], [block], [[body]].
 struct BodySpec {
@@ -47,8 +49,10 @@ struct LoadedBody {
   rom::ReducedModel model;  // without its skin
   ModalBody modal;
   std::optional<ElasticShapes> shapes;  // of one that moves in space
+  std::optional<ElasticRod> rod;        // of one that is a rod
   /// Reduced coordinates q = sampled * (coordinates of the system's body, from first_sampled on).
-  /// In space they are those of the deformation, in the body's mean axes.
+  /// In space they are those of the deformation, in the body's mean axes; of a rod with its small
+  /// motion out of the plane.
   Eigen::MatrixXd sampled;
   int first_sampled = 0;
 };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/balance.hpp"
 
+#include "dynamics/cylinder/cylinder_rod.hpp"
+
 namespace clatter::dynamics {
 
 Wrench mechanism_inertia(const EngineSpec& engine, const SliderCrank& crank, const Wrench& piston,
                          const Eigen::Vector2d& pin, double time) {
   const Motion<double> stroke = crank.piston_pin(time);
   const Motion<double> angle = crank.rod_angle(time);
-  const Motion<Eigen::Vector2d> centre = crank.rod_point(time, engine.rod.centre);
+  const Motion<Eigen::Vector2d> centre = rod_centre(engine.rod, crank, time);
   const Eigen::Vector3d pin_at(pin.x(), pin.y(), stroke.position);
   const Eigen::Vector3d rod_at(pin.x(), centre.position.x(), centre.position.y());
   Wrench rod = Wrench::Zero();

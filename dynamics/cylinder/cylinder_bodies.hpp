@@ -21,6 +21,7 @@ struct CylinderBodies {
   /// The elastic block, or nullptr.
   const LoadedBody* block() const;
   int piston_index() const { return model.body(spec.name_of("piston")); }
+  /// Of a rod with a body: not of a massless one.
   int rod_index() const { return model.body(spec.name_of("rod")); }
   int block_index() const { return model.body("block"); }
 

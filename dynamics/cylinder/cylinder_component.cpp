@@ -7,6 +7,7 @@
 #include "dynamics/cylinder/cylinder_effects.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
+#include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
 
@@ -15,7 +16,10 @@ namespace clatter::dynamics {
 std::vector<BodySpec> CylinderComponent::reduced_bodies() const {
   BodySpec piston = spec_.piston;
   piston.name = spec_.name_of("piston");
-  return {piston};
+  if (spec_.rod.model != RodModel::kElastic) return {piston};
+  BodySpec rod = spec_.rod.body;
+  rod.name = spec_.name_of("rod");
+  return {piston, rod};
 }
 
 std::vector<std::filesystem::path> CylinderComponent::inputs() const {
@@ -25,7 +29,9 @@ std::vector<std::filesystem::path> CylinderComponent::inputs() const {
 }
 
 ComponentSize CylinderComponent::size() const {
-  ComponentSize size{.modes = 3, .film_cells = 0};  // of the rod
+  ComponentSize size;
+  if (spec_.rod.model == RodModel::kRigid || spec_.rod.model == RodModel::kTwoMass)
+    size.modes = kRodPlanar;
   if (!spec_.contact) return size;
   film::PistonLinerOptions contact = *spec_.contact;
   double along = contact.cells_along;
@@ -39,7 +45,8 @@ ComponentSize CylinderComponent::size() const {
 }
 
 void CylinderComponent::add_bodies(ModelBuilder& model) {
-  model.add_body(make_rigid_rod(spec_.name_of("rod"), spec_.engine.rod), spec_.piston.where);
+  spec_.engine.rod = rod_of(spec_, model.loaded);
+  add_rod_body(spec_, model);
   model.set_moving_frame(spec_.name_of("piston"));
 }
 
@@ -47,11 +54,19 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
   const CylinderBodies bodies{spec_, model};
   check_piston_axis(bodies);
   piston_ = bodies.piston_index();
-  rod_ = bodies.rod_index();
+  if (spec_.rod.model != RodModel::kMassless) rod_ = bodies.rod_index();
   pin_axis_ = bodies.axes().pin;
   pin_ = pin_node(bodies);
-  model.system.add_element(pin_joint(bodies, crank_, pin_));
-  model.system.add_element(crank_joint(bodies, crank_));
+  auto pin = pin_joint(bodies, crank_, pin_);
+  auto crank_pin = crank_joint(bodies, crank_);
+  if (spec_.rod.model == RodModel::kMassless) {
+    model.system.add_element(massless_rod(bodies, std::move(pin), std::move(crank_pin)));
+  } else {
+    model.system.add_element(std::move(pin));
+    model.system.add_element(std::move(crank_pin));
+  }
+  for (auto& element : elastic_rod_elements(bodies, crank_))
+    model.system.add_element(std::move(element));
   model.system.add_element(pin_guide(bodies, crank_, pin_));
   if (!spec_.contact) return;
   LinerContact contact = liner_contact(bodies, crank_, pin_);
@@ -68,6 +83,8 @@ void CylinderComponent::add_loads(ModelBuilder& model) {
 
 void CylinderComponent::add_body_effects(const ModelBuilder& model, EffectTable& effects) const {
   add_body_effect(*find_body(model.loaded, spec_.name_of("piston")), effects);
+  const LoadedBody* rod = find_body(model.loaded, spec_.name_of("rod"));
+  if (rod != nullptr && rod->rod) add_body_effect(*rod, effects);
 }
 
 void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effects) const {
@@ -77,9 +94,11 @@ void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effe
 }
 
 std::map<int, Eigen::Vector3d> CylinderComponent::frames(double time) const {
-  const Eigen::Vector2d rod = crank_.rod_point(time, spec_.engine.rod.centre).position;
-  return {{piston_, {pin_axis_.x(), pin_axis_.y(), crank_.piston_pin(time).position}},
-          {rod_, {pin_axis_.x(), rod.x(), rod.y()}}};
+  std::map<int, Eigen::Vector3d> frames{
+      {piston_, {pin_axis_.x(), pin_axis_.y(), crank_.piston_pin(time).position}}};
+  const Eigen::Vector2d rod = rod_centre(spec_.engine.rod, crank_, time).position;
+  if (rod_ >= 0) frames[rod_] = {pin_axis_.x(), rod.x(), rod.y()};
+  return frames;
 }
 
 Eigen::Vector2d CylinderComponent::secondary_motion(double time, const Eigen::VectorXd& y) const {

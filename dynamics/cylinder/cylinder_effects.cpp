@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/cylinder_effects.hpp"
 
+#include "dynamics/cylinder/cylinder_rod.hpp"
+
 namespace clatter::dynamics {
 namespace {
 
@@ -78,15 +80,16 @@ void add_cylinder_effects(const CylinderSpec& cylinder, bool on_block, const std
                           EffectTable& effects) {
   CylinderRows table(cylinder, effects);
   table.add("inertia of the piston", true, "eq. (10): frame moves with z_B(t), does not turn");
-  table.add("inertia of the rod", true, "moving and turning frame, exact in the plane");
+  const std::vector<RodEffect> rod = rod_effects(cylinder);
+  table.add(rod[0].name, rod[0].on, rod[0].why, rod[0].element);
   table.add("inertia of the block", false, "p* = 0: its frame is at rest");
   const bool balanced = cylinder.engine.balanced && on_block;
   table.add("balance by other cylinders", balanced,
             !balanced && cylinder.engine.balanced ? "no elastic block"
                                                   : "engine.balanced, on the block's rigid modes");
   table.add("gas pressure", cylinder.gas.has_value(), cylinder.gas ? "[gas]" : "no [gas]");
-  table.add("rod joint at the pin", true, "[small_end]", "pin");
-  table.add("rod joint at the crank", true, "[big_end]", "crank_pin");
+  for (size_t i = 1; i < rod.size(); ++i)
+    table.add(rod[i].name, rod[i].on, rod[i].why, rod[i].element);
   table.add("pin guide", true, "[pin_guide]: along the pin and about y, z", "pin_guide");
   add_contact(cylinder, ends, table);
 }

@@ -5,21 +5,11 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
-#include "dynamics/force/joint.hpp"
+#include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/force/pin_guide.hpp"
 
 namespace clatter::dynamics {
 namespace {
-
-/// An end of the rod at `arm` from its centre of mass.
-std::unique_ptr<RodAnchor> rod_end(const CylinderBodies& bodies, const SliderCrank& crank,
-                                   double arm) {
-  System& system = bodies.model.system;
-  const int rod = bodies.rod_index();
-  const std::vector<int> y{system.coordinate(rod, 0), system.coordinate(rod, 1),
-                           system.coordinate(rod, 2)};
-  return std::make_unique<RodAnchor>(y, crank, arm);
-}
 
 /// A contact grid with the y indices of its patches and of the rigid motion that fits them.
 struct GridOfBody {
@@ -76,18 +66,18 @@ PinNode pin_node(const CylinderBodies& bodies) {
   return pin;
 }
 
-std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                        const PinNode& pin) {
+std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
+                                 const PinNode& pin) {
   PointWeights centre;
   centre.add(pin[1], 1.0, 0.0);
   centre.add(pin[2], 0.0, 1.0);
-  return std::make_unique<Joint>(
-      bodies.spec.name_of("pin"), std::make_unique<LinearAnchor>(std::move(centre)),
-      rod_end(bodies, crank, bodies.spec.engine.rod.small_arm()), bodies.spec.small_end);
+  return std::make_unique<Joint>(bodies.spec.name_of("pin"),
+                                 std::make_unique<LinearAnchor>(std::move(centre)),
+                                 rod_end(bodies, crank, true), bodies.spec.small_end);
 }
 
-std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
-  auto rod = rod_end(bodies, crank, bodies.spec.engine.rod.big_arm());
+std::unique_ptr<Joint> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
+  auto rod = rod_end(bodies, crank, false);
   PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies) : PointWeights{};
   return std::make_unique<Joint>(bodies.spec.name_of("crank_pin"), std::move(rod),
                                  std::make_unique<LinearAnchor>(std::move(centre)),

@@ -9,7 +9,7 @@
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/film/piston_liner.hpp"
-#include "dynamics/force/element.hpp"
+#include "dynamics/force/joint.hpp"
 #include "dynamics/given/crank.hpp"
 
 namespace clatter::dynamics {
@@ -37,9 +37,9 @@ void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options
 // be numbered, and returns the element. InputError for sets that a body lacks.
 
 PinNode pin_node(const CylinderBodies& bodies);
-std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                        const PinNode& pin);
-std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank);
+std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
+                                 const PinNode& pin);
+std::unique_ptr<Joint> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank);
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
                                         const PinNode& pin);
 LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dynamics/cylinder/balance.hpp"
+#include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/given/load_table.hpp"
 
 namespace clatter::dynamics {
@@ -35,18 +36,12 @@ std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& cra
 std::vector<Load> frame_inertia(const CylinderBodies& bodies, const SliderCrank& crank) {
   const std::string& name = bodies.spec.name;
   const std::string term = name.empty() ? "inertia frame" : name + " inertia frame";
-  const auto load = [&](int body, int direction, TimeFunction acceleration) {
-    return Load{term, body, frame_force(bodies.model.system, body, direction),
-                ramped(bodies.model.time, std::move(acceleration))};
-  };
-  const int piston = bodies.piston_index(), rod = bodies.rod_index();
-  const double centre = bodies.spec.engine.rod.centre;
-  return {load(piston, 2, [crank](double t) { return crank.piston_pin(t).acceleration; }),
-          load(rod, 1,
-               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.x(); }),
-          load(rod, 2,
-               [crank, centre](double t) { return crank.rod_point(t, centre).acceleration.y(); }),
-          load(rod, 3, [crank](double t) { return crank.rod_angle(t).acceleration; })};
+  const int piston = bodies.piston_index();
+  const auto stroke = [crank](double t) { return crank.piston_pin(t).acceleration; };
+  std::vector<Load> loads{Load{term, piston, frame_force(bodies.model.system, piston, 2),
+                               ramped(bodies.model.time, stroke)}};
+  for (Load& load : rod_inertia(bodies, crank, term)) loads.push_back(std::move(load));
+  return loads;
 }
 
 }  // namespace

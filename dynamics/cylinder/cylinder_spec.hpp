@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/body/rigid_rod.hpp"
-#include "dynamics/component/loaded_body.hpp"
+#include "dynamics/cylinder/rod_spec.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/force/pin_guide.hpp"
 #include "dynamics/force/radial_law.hpp"
@@ -60,6 +60,7 @@ struct BoreSpec {
 struct CylinderSpec {
   std::string name;  // empty: the only one of its scene
   EngineSpec engine;
+  RodSpec rod;
   PistonSpec piston;
   std::optional<BoreSpec> bore;  // of a scene with a block, which may be rigid
   std::optional<GasSpec> gas;

@@ -10,26 +10,16 @@
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
+#include "dynamics/cylinder/parked_cylinder.hpp"
+#include "dynamics/cylinder/rod_table.hpp"
 #include "dynamics/cylinder/shape_table.hpp"
 
 namespace clatter::dynamics {
 namespace {
 
-void read_rod(const Config& rod, RodProperties& out) {
-  out.length = rod.number("length_mm", Range::between(1.0, 1e5)) * kMilli;
-  out.mass = rod.number("mass_kg", Range::between(1e-6, 1e6));
-  // Beyond these the radius of gyration is over the length, or under a thousandth of it.
-  const double largest = out.mass * out.length * out.length;
-  out.inertia = rod.number("inertia_kg_m2", Range::positive());
-  if (!(out.inertia >= 1e-6 * largest && out.inertia <= largest))
-    rod.fail("inertia_kg_m2",
-             fmt::format("found {:g}, expected at least {:.3g} and at most {:.3g}, mass x length^2",
-                         out.inertia, 1e-6 * largest, largest));
-  out.centre = rod.number("centre_mm", Range::between(0.0, out.length / kMilli)) * kMilli;
-}
-
 /// @param tables of the cylinder.
-EngineSpec read_engine(const Config& tables, const CrankClock& clock, double firing) {
+EngineSpec read_engine(const Config& tables, const CrankClock& clock, double firing,
+                       const RodProperties& rod) {
   const Config table = tables.table("engine");
   EngineSpec engine;
   engine.clock = clock;
@@ -39,10 +29,9 @@ EngineSpec read_engine(const Config& tables, const CrankClock& clock, double fir
   engine.balanced = table.flag_or("balanced", false);
   if (table.choice("rotation", {"forward", "backward"}) == "backward")
     engine.rotation = Rotation::kBackward;
-  const Config rod = tables.table("rod");
-  read_rod(rod, engine.rod);
+  engine.rod = rod;
   const bool by_offset = engine.rod.length > 0.5 * engine.stroke;
-  with_context(by_offset ? table.where("pin_offset_mm") : rod.where("length_mm"),
+  with_context(by_offset ? table.where("pin_offset_mm") : tables.table("rod").where("length_mm"),
                [&] { engine.crank(); });
   return engine;
 }
@@ -105,7 +94,9 @@ CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double
   const auto piston = tables.find_table("piston");
   if (!piston) tables.fail("piston", "found nothing, expected [piston]");
   CylinderSpec cylinder;
-  cylinder.engine = read_engine(tables, clock, firing);
+  const DescribedRod rod = read_rod(tables.table("rod"));
+  cylinder.rod = rod.spec;
+  cylinder.engine = read_engine(tables, clock, firing, rod.properties);
   cylinder.piston = read_piston(*piston);
   if (const auto table = tables.find_table("block")) cylinder.bore = read_bore(*table);
   if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
@@ -137,6 +128,7 @@ ComponentList read_cylinders(const Config& root) {
     return {std::make_shared<CylinderComponent>(read_cylinder(root, clock, 0.0))};
   ComponentList cylinders;
   std::set<std::string> names;
+  bool all_parked = true;
   for (const Config& table : root.tables("cylinder")) {
     const std::string name = read_name(table);
     if (!names.insert(name).second)
@@ -144,8 +136,14 @@ ComponentList read_cylinders(const Config& root) {
     const double firing = table.number_or("firing_deg", 0.0, Range::between(-720.0, 720.0));
     CylinderSpec spec = read_cylinder(table.with_fallback(root), clock, firing * kDegree);
     spec.name = name;
+    if (table.flag_or("parked", false)) {
+      cylinders.push_back(std::make_shared<ParkedCylinder>(name));
+      continue;
+    }
+    all_parked = false;
     cylinders.push_back(std::make_shared<CylinderComponent>(std::move(spec)));
   }
+  if (all_parked) root.fail("cylinder", "found all of them parked, expected one that is not");
   return cylinders;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "dynamics/force/massless_rod.hpp"
 #include "dynamics/force/mount.hpp"
 
 namespace clatter::dynamics {
@@ -15,9 +16,12 @@ namespace {
 constexpr double kFree = 1e-3;
 
 /// Modal coordinates of the unit motions of the whole, about the origin; empty where a body is
-/// neither free as a rigid body nor in a frame that a component knows.
+/// neither free as a rigid body nor in a frame that a component knows, and where a rod without
+/// mass, which is no body, would stay behind.
 std::optional<Eigen::MatrixXd> motions_of_all(const Model& model, double time) {
   const System& system = model.system;
+  for (int e = 0; e < system.elements(); ++e)
+    if (dynamic_cast<const MasslessRod*>(&system.element(e)) != nullptr) return std::nullopt;
   std::map<int, Eigen::Vector3d> frames;
   for (const auto& component : model.components) frames.merge(component->frames(time));
   Eigen::MatrixXd motions(system.modes(), 6);

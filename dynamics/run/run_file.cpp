@@ -35,7 +35,7 @@ void write_body(H5File& file, const LoadedBody& body) {
   file.set(group, run::kRom, rom.lexically_proximate(folder).string());
   file.set(group, run::kRomHash, body.sha256);
   file.set(group, "model", body.spec.elastic ? "elastic" : "rigid");
-  static constexpr const char* kFrames[] = {"given", "space", "drive"};
+  static constexpr const char* kFrames[] = {"given", "space", "drive", "rod"};
   file.set(group, "frame", kFrames[static_cast<int>(body.spec.motion)]);
 }
 

@@ -8,6 +8,7 @@
 #include "mesh/geometry/cad_geometry.hpp"
 #include "mesh/geometry/piston_geometry.hpp"
 #include "mesh/geometry/primitive_geometry.hpp"
+#include "mesh/geometry/rod_geometry.hpp"
 
 namespace clatter::mesh {
 
@@ -26,6 +27,8 @@ PartGeometry build_part(GmshSession& session, const Config& config) {
     part = build_block(session, read_block(config.table(kind)));
   } else if (kind == "piston") {
     part = build_piston(session, read_piston(config.table(kind)));
+  } else if (kind == "rod") {
+    part = build_rod(session, read_rod(config.table(kind)));
   } else if (kind == "box") {
     part = build_box(session, config.table(kind));
   } else if (kind == "cylinder") {
@@ -34,7 +37,7 @@ PartGeometry build_part(GmshSession& session, const Config& config) {
     part = build_cad(session, config.table(kind), read_length_unit(config).name);
   } else {
     config.fail("kind",
-                fmt::format("found '{}', expected block, piston, box, cylinder or cad", kind));
+                fmt::format("found '{}', expected block, piston, rod, box, cylinder or cad", kind));
   }
   part.unit = read_length_unit(config).name;
   const auto own = read_named_surfaces(config);

@@ -41,8 +41,8 @@ struct LengthUnit {
 };
 LengthUnit read_length_unit(const Config& config);
 
-/// Builds the part of key `kind` ("block", "piston", "box", "cylinder", "cad") from the table of
-/// the same name, and adds the user's surfaces [surface.NAME].
+/// Builds the part of key `kind` ("block", "piston", "rod", "box", "cylinder", "cad") from the
+/// table of the same name, and adds the user's surfaces [surface.NAME].
 PartGeometry build_part(GmshSession& session, const Config& config);
 
 /// The only solid of a list; NumericsError for more: a boolean of connected shapes has failed.

@@ -249,6 +249,27 @@ rom::ReducedModel two_bore_block(double radius, int strips, int rows) {
   return model;
 }
 
+rom::ReducedModel four_bore_block(double radius, int strips, int rows) {
+  Assembly parts;
+  for (int k = 1; k <= 4; ++k)
+    add_bore(parts, std::to_string(k), 0.13 * (k - 2.5), radius, strips, rows,
+             Eigen::Vector2d::Zero(), fmt::format("head_{}", k));
+  for (int k = 1; k <= 5; ++k)
+    parts.node(fmt::format("main_{}", k), "bearing", Vector3d(0.13 * (k - 3), 0.0, 0.0), 8.0,
+               2100.0 + 80.0 * k);
+  for (const double x : {-0.25, 0.25})
+    for (const double y : {-0.15, 0.15})
+      parts.node("mounts", "mount", Vector3d(x, y, 0.05), 20.0, 900.0);
+  rom::ReducedModel model = parts.finish("block");
+  model.alpha = 2e-6;
+  for (int k = 1; k <= 4; ++k) {
+    VectorXd& load = model.loads[fmt::format("head_{}_gas", k)];
+    load = VectorXd::Zero(model.size());
+    load(model.set(fmt::format("head_{}", k)).dofs[2]) = std::numbers::pi * radius * radius;
+  }
+  return model;
+}
+
 void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model) {
   H5File file = H5File::create(path);
   write_provenance(file, {"clatter/rom/1", "", {}});

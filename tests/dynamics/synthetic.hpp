@@ -28,6 +28,10 @@ rom::ReducedModel elastic_block(double radius, int strips, int rows,
 /// load "head_3_gas" on "head_3".
 rom::ReducedModel two_bore_block(double radius, int strips, int rows);
 
+/// Four bores 130 mm apart with "liner_1" .. "liner_4", each with "_axial" and the unit load
+/// "head_1_gas" .. "head_4_gas"; bearings "main_1" .. "main_5", "mounts".
+rom::ReducedModel four_bore_block(double radius, int strips, int rows);
+
 /// Writes the model as a .rom.h5.
 void write_rom(const std::filesystem::path& path, const rom::ReducedModel& model);
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Inertia of the small motions of an elastic rod in its turning frame.
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/force/element.hpp"
+#include "dynamics/given/crank.hpp"
+
+namespace clatter::dynamics {
+
+/// What the small motions zeta of a rod, u = N zeta in its own axes about its centre of mass,
+/// change of its inertia about x and of its angular momentum:
+///   J = I + 2 g zeta + zeta^T S zeta,   L = J w + zeta^T G zeta'
+struct RodCoupling {
+  Eigen::VectorXd stretch;      // g, integral of rho (y N_y + z N_z), n
+  Eigen::MatrixXd square;       // S, integral of rho (N_y^T N_y + N_z^T N_z), n x n
+  Eigen::MatrixXd circulation;  // G, integral of rho (N_y^T N_z - N_z^T N_y), n x n, skew
+  double inertia = 0.0;         // I [kg m2]
+};
+
+/// Terms of eq. (9) of the paper for a rod whose frame is that of the ideal slider-crank, turned by
+/// the rod's own deviation theta from it; w = phi' of the ideal rod. Of first order in theta and
+/// zeta:
+///   on zeta    w^2 S zeta + w' G zeta + 2 w (G zeta' + g theta')
+///   on theta   -2 (w' g zeta + w g zeta')
+/// The load w^2 g is not part of it. The centre of mass has mass of its own and needs no term, and
+/// a rotation theta alone none: that of a rigid rod is exact. Its work is energy that the
+/// prescribed motion puts in.
+class RodFrame : public ForceElement {
+ public:
+  /// @param coordinates y indices of the modal coordinates of theta, then of zeta, 1 + n.
+  RodFrame(std::string name, std::vector<int> coordinates, RodCoupling coupling,
+           const SliderCrank& crank);
+
+  std::string name() const override { return name_; }
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, Response& response) override;
+  Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
+
+ private:
+  std::string name_;
+  SliderCrank crank_;
+  Eigen::MatrixXd by_square_, by_rate_;  // (1 + n) square: of w^2, w', 2 w
+  Eigen::MatrixXd by_turning_;
+  Eigen::MatrixXd by_y_, by_v_;  // of the last time: the force is by_y y + by_v v
+  double time_;
+};
+
+}  // namespace clatter::dynamics
