@@ -9,7 +9,7 @@ NAVIGATION = {
     "Programs": [("mesh/README.md", "mesh"), ("mesh/deck/README.md", "mesh/deck"), ("assembly/README.md", "assembly"),
                  ("modal/README.md", "modal"), ("condense/README.md", "condense"), ("dynamics/README.md", "dynamics"),
                  ("dynamics/film/README.md", "dynamics/film"), ("dynamics/profile/README.md", "dynamics/profile"), ("dynamics/chain/README.md", "dynamics/chain"),
-                 ("dynamics/hydraulic/README.md", "dynamics/hydraulic"),
+                 ("dynamics/hydraulic/README.md", "dynamics/hydraulic"), ("dynamics/ring/README.md", "dynamics/ring"),
                  ("dynamics/shaft/README.md", "dynamics/shaft"), ("dynamics/valve/README.md", "dynamics/valve"), ("recover/README.md", "recover"),
                  ("tools/clatter_tools/report_page/README.md", "report")],
     "Samples": [("samples/beam/README.md", "beam"), ("samples/cpp/README.md", "cpp"),

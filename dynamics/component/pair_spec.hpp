@@ -22,6 +22,9 @@ struct PairSpec {
 /// The keys of the table `number` (from 1) of `kind`: name, a, b, stiffness_n_m, damping_n_s_m.
 PairSpec read_pair(const Config& table, const std::string& kind, size_t number);
 
+/// The keys name, a and b of it.
+PairSpec read_pair_points(const Config& table, const std::string& kind, size_t number);
+
 /// The ports of both; b is at the same point as a at the start where it gives none.
 struct PairPorts {
   std::unique_ptr<Port> a, b;

@@ -10,6 +10,7 @@
 #include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
+#include "dynamics/cylinder/ring_table.hpp"
 
 namespace clatter::dynamics {
 
@@ -25,6 +26,8 @@ std::vector<BodySpec> CylinderComponent::reduced_bodies() const {
 std::vector<std::filesystem::path> CylinderComponent::inputs() const {
   std::vector<std::filesystem::path> files = spec_.shape_files;
   if (spec_.gas) files.push_back(spec_.gas->table);
+  for (const JointSpec* joint : {&spec_.small_end, &spec_.big_end})
+    files.insert(files.end(), joint->files.begin(), joint->files.end());
   return files;
 }
 
@@ -68,15 +71,19 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
   for (auto& element : elastic_rod_elements(bodies, crank_))
     model.system.add_element(std::move(element));
   model.system.add_element(pin_guide(bodies, crank_, pin_));
+  gas_ = gas_pressure(spec_);
   if (!spec_.contact) return;
-  LinerContact contact = liner_contact(bodies, crank_, pin_);
+  check_scaled_shapes(spec_, bodies.block() != nullptr);
+  LinerContact contact = liner_contact(bodies, crank_, pin_, gas_);
   contact_ = contact.element.get();
   liner_ = std::move(contact.liner);
   model.system.add_element(std::move(contact.element));
+  auto rings = ring_pack(bodies, crank_, pin_, gauge_pressure(bodies, crank_, gas_));
+  rings_ = rings.get();
+  if (rings) model.system.add_element(std::move(rings));
 }
 
 void CylinderComponent::add_loads(ModelBuilder& model) {
-  gas_ = gas_pressure(spec_);
   for (Load& load : cylinder_loads({spec_, model}, crank_, gas_))
     model.system.add_load(std::move(load));
 }
@@ -120,8 +127,8 @@ void CylinderComponent::record(const System& system, const StageState& state,
   if (gas_) history.put("gas_pressure", "Pa", (*gas_)(crank_.angle(state.time)));
   for (int e = elements_.first; e < elements_.end; ++e) {
     const ForceElement& element = system.element(e);
-    // The joints' histories have their names, those of the contact are the cylinder's.
-    history.set_prefix(&element == contact_ ? prefix : "");
+    // The joints' histories have their names, those of contact and rings are the cylinder's.
+    history.set_prefix(&element == contact_ || &element == rings_ ? prefix : "");
     element.record(history);
   }
   history.set_prefix("");

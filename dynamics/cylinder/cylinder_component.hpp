@@ -13,7 +13,7 @@
 namespace clatter::dynamics {
 
 /// One cylinder. Its bodies are "piston", with a reduced model, and "rod"; its elements "pin",
-/// "crank_pin", "pin_guide" and "piston_liner"; its histories those of the elements and
+/// "crank_pin", "pin_guide", "piston_liner" and "rings"; its histories those of the elements and
 /// piston_lateral [m], piston_tilt [rad] (against the liner) and gas_pressure [Pa]. All names of a
 /// named cylinder "c1" begin with "c1_".
 class CylinderComponent : public Component {
@@ -55,6 +55,7 @@ class CylinderComponent : public Component {
   Eigen::Vector2d pin_axis_ = Eigen::Vector2d::Zero();  // (x, y) of the pin's centre [m]
   PinNode pin_{-1, -1, -1, -1, -1, -1};
   const film::PistonLiner* contact_ = nullptr;
+  const ForceElement* rings_ = nullptr;
   std::optional<LinerFit> liner_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/cylinder/cylinder_effects.hpp"
 
+#include <algorithm>
+
 #include "dynamics/cylinder/cylinder_rod.hpp"
 
 namespace clatter::dynamics {
@@ -68,10 +70,37 @@ void add_contact(const CylinderSpec& cylinder, const std::string& ends, Cylinder
       contact ? cylinder.contact->bore_shapes.size() + cylinder.contact->skirt_shapes.size() : 0;
   table.add("shapes of bore and skirt", shapes > 0,
             shapes > 0 ? fmt::format("{} added", shapes) : "no contact.bore_shape, skirt_shape");
+  const size_t scaled = cylinder.scaled_bore.size() + cylinder.scaled_skirt.size();
+  table.add("shapes scaled over the cycle", scaled > 0,
+            scaled > 0 ? fmt::format("{} added", scaled) : "no scale, scale_table of a shape");
   table.add("ends of the liner", !ends.empty(),
             !contact       ? absent
             : ends.empty() ? "no contact.liner_bottom_mm, liner_top_mm, no elastic liner"
                            : ends);
+}
+
+void add_joint(const JointSpec& joint, const std::string& key, const std::string& with,
+               const std::string& element, CylinderRows& table) {
+  const bool is_table = std::holds_alternative<RadialTable>(joint.law);
+  const std::string at = "the " + with;
+  table.add("rod joint at " + at, true,
+            joint.film ? "[" + key + "], an oil film instead of a spring"
+            : is_table ? "[" + key + "], a table instead of a spring"
+                       : "[" + key + "]",
+            element);
+  table.add("friction of the rod at " + at, joint.film || joint.friction,
+            joint.film ? "of the oil film" : key + ".friction_coefficient, friction_table");
+}
+
+void add_rings(const CylinderSpec& cylinder, CylinderRows& table) {
+  const auto any = [&](double RingSpec::*coefficient) {
+    return std::any_of(cylinder.rings.begin(), cylinder.rings.end(),
+                       [&](const RingSpec& ring) { return ring.*coefficient > 0.0; });
+  };
+  const bool face = any(&RingSpec::boundary), groove = any(&RingSpec::groove);
+  table.add("friction of the rings", face, "contact.ring.friction_coefficient",
+            face || groove ? "rings" : "");
+  table.add("friction in the ring grooves", groove, "contact.ring.groove_coefficient");
 }
 
 }  // namespace
@@ -88,10 +117,14 @@ void add_cylinder_effects(const CylinderSpec& cylinder, bool on_block, const std
             !balanced && cylinder.engine.balanced ? "no elastic block"
                                                   : "engine.balanced, on the block's rigid modes");
   table.add("gas pressure", cylinder.gas.has_value(), cylinder.gas ? "[gas]" : "no [gas]");
-  for (size_t i = 1; i < rod.size(); ++i)
-    table.add(rod[i].name, rod[i].on, rod[i].why, rod[i].element);
+  if (cylinder.rod.model == RodModel::kElastic)
+    table.add(rod[1].name, rod[1].on, rod[1].why, rod[1].element);
+  const bool joined = cylinder.rod.model == RodModel::kMassless;
+  add_joint(cylinder.small_end, "small_end", "pin", joined ? "rod" : "pin", table);
+  add_joint(cylinder.big_end, "big_end", "crank", joined ? "" : "crank_pin", table);
   table.add("pin guide", true, "[pin_guide]: along the pin and about y, z", "pin_guide");
   add_contact(cylinder, ends, table);
+  add_rings(cylinder, table);
 }
 
 }  // namespace clatter::dynamics

@@ -2,14 +2,52 @@
 #include "dynamics/cylinder/cylinder_elements.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
+#include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
+#include "dynamics/cylinder/journal_joint.hpp"
+#include "dynamics/cylinder/ring_table.hpp"
+#include "dynamics/cylinder/shape_scale.hpp"
+#include "dynamics/force/joint_friction.hpp"
 #include "dynamics/force/pin_guide.hpp"
 
 namespace clatter::dynamics {
 namespace {
+
+/// An end of the rod with its rotation, of which the ideal one is prescribed; of an elastic rod
+/// that of its rigid motion. A massless one has no coordinate, and no friction.
+JournalSide rod_side(const CylinderBodies& bodies, const SliderCrank& crank, bool small) {
+  std::optional<int> turn;
+  if (bodies.spec.rod.model != RodModel::kMassless)
+    turn = bodies.model.system.coordinate(bodies.rod_index(), 2);
+  return {rod_end(bodies, crank, small),
+          {turn, [crank](double time) { return crank.rod_angle(time).velocity; }}};
+}
+
+/// The sides of a joint on which forces are recorded, and the other one.
+struct JointSides {
+  JournalSide a, b;
+};
+
+/// The joint by its law. @param journal_first side a is the journal, else b.
+std::unique_ptr<ForceElement> rod_joint(const std::string& name, const JointSpec& spec,
+                                        JointSides sides, bool journal_first) {
+  if (spec.film) {
+    const BearingFilm film(spec.film->size, spec.film->model);
+    if (!journal_first) std::swap(sides.a, sides.b);
+    return std::make_unique<JournalJoint>(name, std::move(sides.a), std::move(sides.b), film,
+                                          journal_first ? 1.0 : -1.0);
+  }
+  if (spec.friction)
+    return std::make_unique<FrictionJoint>(name, std::move(sides.a.point), std::move(sides.b.point),
+                                           spec.law, *spec.friction, sides.a.rotation,
+                                           sides.b.rotation);
+  return std::make_unique<Joint>(name, std::move(sides.a.point), std::move(sides.b.point),
+                                 spec.law);
+}
 
 /// A contact grid with the y indices of its patches and of the rigid motion that fits them.
 struct GridOfBody {
@@ -71,17 +109,18 @@ std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank
   PointWeights centre;
   centre.add(pin[1], 1.0, 0.0);
   centre.add(pin[2], 0.0, 1.0);
-  return std::make_unique<Joint>(bodies.spec.name_of("pin"),
-                                 std::make_unique<LinearAnchor>(std::move(centre)),
-                                 rod_end(bodies, crank, true), bodies.spec.small_end);
+  JournalSide piston{std::make_unique<LinearAnchor>(std::move(centre)), {pin[3], {}}};
+  return rod_joint(bodies.spec.name_of("pin"), bodies.spec.small_end,
+                   {std::move(piston), rod_side(bodies, crank, true)}, true);
 }
 
-std::unique_ptr<Joint> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
-  auto rod = rod_end(bodies, crank, false);
+std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
+  JournalSide rod = rod_side(bodies, crank, false);
   PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies) : PointWeights{};
-  return std::make_unique<Joint>(bodies.spec.name_of("crank_pin"), std::move(rod),
-                                 std::make_unique<LinearAnchor>(std::move(centre)),
-                                 bodies.spec.big_end);
+  JournalSide shaft{std::make_unique<LinearAnchor>(std::move(centre)),
+                    {std::nullopt, [crank](double time) { return crank.spin(time); }}};
+  return rod_joint(bodies.spec.name_of("crank_pin"), bodies.spec.big_end,
+                   {std::move(rod), std::move(shaft)}, false);
 }
 
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
@@ -107,8 +146,21 @@ void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options
   layer.top = std::sqrt((l + r) * (l + r) - e * e) + reach + kBeyond;
 }
 
+LinerSide liner_side(const CylinderBodies& bodies) {
+  GridOfBody grid =
+      grid_of(*bodies.block(), bodies.block_index(), bodies.spec.bore->liner, bodies.model.system);
+  const AxialCoordinate axial = liner_axial(bodies, bodies.axes());
+  std::vector<int> coordinates = std::move(grid.coordinates);
+  coordinates.insert(coordinates.end(), grid.fit.begin(), grid.fit.end());
+  return {std::move(grid.surface),
+          std::move(coordinates),
+          {grid.fit[1], grid.fit[2]},
+          axial.coordinate,
+          axial.at};
+}
+
 LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,
-                           const PinNode& pin) {
+                           const PinNode& pin, const std::optional<Spline>& gas) {
   System& system = bodies.model.system;
   const CylinderSpec& spec = bodies.spec;
   film::PistonLinerBodies surfaces;
@@ -146,7 +198,14 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
   };
   film::PistonLinerOptions options = *spec.contact;
   options.name = spec.name_of(options.name);
-  if (options.liner_layer) set_layer_range(crank, options);
+  if (options.liner_layer) {
+    set_layer_range(crank, options);
+    load_layer_rings(spec.rings, gauge_pressure(bodies, crank, gas), *options.liner_layer);
+  }
+  for (const auto& [specs, shapes] : {std::pair{&spec.scaled_bore, &options.scaled_bore},
+                                      {&spec.scaled_skirt, &options.scaled_skirt}})
+    for (const ScaledShapeSpec& shape : *specs)
+      shapes->push_back(scaled_shape(shape, spec, crank, gas));
   auto element = with_context(spec.contact_where, [&] {
     return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
   });

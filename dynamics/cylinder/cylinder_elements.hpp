@@ -11,6 +11,7 @@
 #include "dynamics/film/piston_liner.hpp"
 #include "dynamics/force/joint.hpp"
 #include "dynamics/given/crank.hpp"
+#include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
 
@@ -33,16 +34,29 @@ struct LinerContact {
 /// position, where it pushes oil, to above that of the highest ring.
 void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options);
 
+/// The bore of an elastic block as a side of elements between piston and liner.
+struct LinerSide {
+  film::ElasticSurface surface;
+  std::vector<int>
+      coordinates;  // y indices of its patches, then of the rigid motion that fits them
+  LinerFit fit;
+  int axial;                 // y index of the coordinate that takes axial forces on it
+  Eigen::Vector2d axial_at;  // (x, y) of their line of action [m]
+};
+
 // Each function requests the coordinates that its element needs, in the order in which they are to
 // be numbered, and returns the element. InputError for sets that a body lacks.
 
 PinNode pin_node(const CylinderBodies& bodies);
-std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                 const PinNode& pin);
-std::unique_ptr<Joint> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank);
+std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin);
+std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank);
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
                                         const PinNode& pin);
+/// Of a cylinder on an elastic block.
+LinerSide liner_side(const CylinderBodies& bodies);
+/// @param gas the cylinder's pressure, when it has one.
 LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& crank,
-                           const PinNode& pin);
+                           const PinNode& pin, const std::optional<Spline>& gas);
 
 }  // namespace clatter::dynamics

@@ -13,10 +13,7 @@ namespace {
 std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& crank,
                             const Spline& gas) {
   const CylinderSpec& spec = bodies.spec;
-  const auto pressure =
-      ramped(bodies.model.time, [crank, gas, ambient = spec.gas->ambient](double t) {
-        return gas(crank.angle(t)) - ambient;
-      });
+  const TimeFunction pressure = gauge_pressure(bodies, crank, gas);
   std::vector<Load> loads;
   const auto add = [&](const LoadedBody& body, int index, const std::string& load,
                        const std::string& term) {
@@ -49,6 +46,13 @@ std::vector<Load> frame_inertia(const CylinderBodies& bodies, const SliderCrank&
 std::optional<Spline> gas_pressure(const CylinderSpec& spec) {
   if (!spec.gas) return std::nullopt;
   return read_gas_table(spec.gas->table, spec.gas->column, spec.gas->interpolation);
+}
+
+TimeFunction gauge_pressure(const CylinderBodies& bodies, const SliderCrank& crank,
+                            const std::optional<Spline>& gas) {
+  if (!gas) return {};
+  return ramped(bodies.model.time, [crank, table = *gas, ambient = bodies.spec.gas->ambient](
+                                       double t) { return table(crank.angle(t)) - ambient; });
 }
 
 std::vector<Load> cylinder_loads(const CylinderBodies& bodies, const SliderCrank& crank,

@@ -13,6 +13,10 @@ namespace clatter::dynamics {
 /// Absolute pressure over the crank angle from firing TDC [Pa] of a cylinder with [gas].
 std::optional<Spline> gas_pressure(const CylinderSpec& spec);
 
+/// Gauge pressure over time [Pa], which grows over the ramp of the start; empty without `gas`.
+TimeFunction gauge_pressure(const CylinderBodies& bodies, const SliderCrank& crank,
+                            const std::optional<Spline>& gas);
+
 /// Gas on piston and head, inertia of the frames of piston and rod, and the balance. All of them
 /// grow over the ramp of the start. InputError for unit loads that do not exist.
 /// @param gas the cylinder's pressure, when it has one.

@@ -90,8 +90,9 @@ std::unique_ptr<Anchor> rod_end(const CylinderBodies& bodies, const SliderCrank&
   return std::make_unique<ElasticRodAnchor>(y, crank, from_centre.tail<2>());
 }
 
-std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies, std::unique_ptr<Joint> pin,
-                                           std::unique_ptr<Joint> crank_pin) {
+std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies,
+                                           std::unique_ptr<ForceElement> pin,
+                                           std::unique_ptr<ForceElement> crank_pin) {
   return std::make_unique<MasslessRod>(bodies.spec.name_of("rod"), std::move(pin),
                                        std::move(crank_pin));
 }
@@ -180,9 +181,6 @@ std::vector<RodEffect> rod_effects(const CylinderSpec& spec) {
               {"rod guide", true, "[pin_guide]: an elastic rod along and about y, z", "rod_guide"}};
       break;
   }
-  const bool joined = spec.rod.model == RodModel::kMassless;
-  rows.push_back({"rod joint at the pin", true, "[small_end]", joined ? "rod" : "pin"});
-  rows.push_back({"rod joint at the crank", true, "[big_end]", joined ? "" : "crank_pin"});
   return rows;
 }
 

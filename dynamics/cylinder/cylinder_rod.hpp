@@ -23,8 +23,9 @@ Motion<Eigen::Vector2d> rod_centre(const RodProperties& rod, const SliderCrank& 
 /// An end of the rod, as joints see it. @param small the small end; else the big end.
 std::unique_ptr<Anchor> rod_end(const CylinderBodies& bodies, const SliderCrank& crank, bool small);
 /// Joins the two joints of a massless rod to one element.
-std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies, std::unique_ptr<Joint> pin,
-                                           std::unique_ptr<Joint> crank_pin);
+std::unique_ptr<ForceElement> massless_rod(const CylinderBodies& bodies,
+                                           std::unique_ptr<ForceElement> pin,
+                                           std::unique_ptr<ForceElement> crank_pin);
 /// Inertia and guide of an elastic rod; none for the others.
 std::vector<std::unique_ptr<ForceElement>> elastic_rod_elements(const CylinderBodies& bodies,
                                                                 const SliderCrank& crank);
@@ -33,7 +34,7 @@ std::vector<std::unique_ptr<ForceElement>> elastic_rod_elements(const CylinderBo
 std::vector<Load> rod_inertia(const CylinderBodies& bodies, const SliderCrank& crank,
                               const std::string& term);
 
-/// A row of the table of effects.
+/// A row of the table of effects: inertia, and of an elastic rod its guide.
 struct RodEffect {
   std::string name;
   bool on;

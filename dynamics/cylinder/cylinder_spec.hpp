@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "dynamics/body/rigid_rod.hpp"
+#include "dynamics/component/loaded_body.hpp"
+#include "dynamics/cylinder/joint_spec.hpp"
 #include "dynamics/cylinder/rod_spec.hpp"
+#include "dynamics/cylinder/shape_scale.hpp"
 #include "dynamics/film/piston_liner_options.hpp"
 #include "dynamics/force/pin_guide.hpp"
-#include "dynamics/force/radial_law.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
+#include "dynamics/ring/ring_law.hpp"
 
 namespace clatter::dynamics {
 
@@ -65,10 +68,12 @@ struct CylinderSpec {
   std::optional<BoreSpec> bore;  // of a scene with a block, which may be rigid
   std::optional<GasSpec> gas;
   std::optional<film::PistonLinerOptions> contact;
+  std::vector<RingSpec> rings;  // [[contact.ring]]
+  std::vector<ScaledShapeSpec> scaled_bore, scaled_skirt;
   std::vector<std::filesystem::path> shape_files;  // of [[contact.bore_shape]], skirt_shape
   std::string contact_where;                       // "file:line: contact", for messages
   std::string pin_offset_where;                    // "file:line: engine.pin_offset_mm"
-  RadialLaw small_end, big_end;
+  JointSpec small_end, big_end;
   GuideLaw guide;  // [pin_guide]
 
   /// The name of one of its bodies, elements or histories in files: "piston", or of a named

@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -11,6 +12,7 @@
 #include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/cylinder/parked_cylinder.hpp"
+#include "dynamics/cylinder/ring_table.hpp"
 #include "dynamics/cylinder/rod_table.hpp"
 #include "dynamics/cylinder/shape_table.hpp"
 
@@ -34,20 +36,6 @@ EngineSpec read_engine(const Config& tables, const CrankClock& clock, double fir
   with_context(by_offset ? table.where("pin_offset_mm") : tables.table("rod").where("length_mm"),
                [&] { engine.crank(); });
   return engine;
-}
-
-RadialLaw read_law(const Config& tables, std::string_view key) {
-  RadialLaw law;
-  const auto table = tables.find_table(key);
-  if (!table) return law;
-  law.clearance =
-      table->number_or("clearance_um", law.clearance / kMicro, Range::between(0.0, 1e5)) * kMicro;
-  law.soft_stiffness =
-      table->number_or("soft_stiffness_n_m", law.soft_stiffness, Range::between(0.0, 1e15));
-  law.exponent = table->number_or("exponent", law.exponent, Range{1.0, 3.0, false});
-  law.stiffness = table->number_or("stiffness", law.stiffness, Range::between(1.0, 1e27));
-  law.damping = table->number_or("damping_n_s_m", law.damping, Range::between(0.0, 1e12));
-  return law;
 }
 
 GuideLaw read_guide(const Config& tables) {
@@ -102,18 +90,28 @@ CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double
   if (const auto table = tables.find_table("gas")) cylinder.gas = read_gas(*table);
   if (const auto table = tables.find_table("contact")) {
     cylinder.contact = read_contact(*table);
-    for (const auto& [key, shapes] : {std::pair{"bore_shape", &cylinder.contact->bore_shapes},
-                                      {"skirt_shape", &cylinder.contact->skirt_shapes}}) {
+    cylinder.rings = read_rings(*table, *cylinder.contact);
+    for (const auto& [key, shapes, scaled] :
+         {std::tuple{"bore_shape", &cylinder.contact->bore_shapes, &cylinder.scaled_bore},
+          {"skirt_shape", &cylinder.contact->skirt_shapes, &cylinder.scaled_skirt}}) {
       SurfaceShapes found = read_surface_shapes(*table, key);
       *shapes = std::move(found.shapes);
+      *scaled = std::move(found.scaled);
       cylinder.shape_files.insert(cylinder.shape_files.end(), found.files.begin(),
                                   found.files.end());
     }
   }
   cylinder.contact_where = tables.where("contact");
   cylinder.pin_offset_where = tables.table("engine").where("pin_offset_mm");
-  cylinder.small_end = read_law(tables, "small_end");
-  cylinder.big_end = read_law(tables, "big_end");
+  cylinder.small_end = read_joint(tables, "small_end");
+  cylinder.big_end = read_joint(tables, "big_end");
+  for (const auto& [key, joint] :
+       {std::pair{"small_end", &cylinder.small_end}, {"big_end", &cylinder.big_end}}) {
+    if (cylinder.rod.model == RodModel::kMassless && (joint->friction || joint->film))
+      tables.fail(key,
+                  "found friction or an oil film with rod.model = \"massless\", expected "
+                  "neither: such a rod bears no moment");
+  }
   cylinder.guide = read_guide(tables);
   return cylinder;
 }

@@ -60,18 +60,6 @@ void read_temperature(const Config& oil, film::ViscosityOptions& laws) {
   for (const double value : celsius) laws.temperature.push_back(value + kCelsius);
 }
 
-film::RingOptions read_ring(const Config& ring, double skirt_top) {
-  film::RingOptions options;
-  options.height = ring.number("height_mm", kAnyHeight) * kMilli;
-  if (!(options.height > skirt_top))
-    ring.fail("height_mm", fmt::format("found {:g}, expected above skirt_top_mm, {:g}",
-                                       options.height / kMilli, skirt_top / kMilli));
-  options.face_radius = ring.number("face_radius_mm", Range::between(1e-2, 1e4)) * kMilli;
-  options.load = ring.number("load_n_mm", Range::between(1e-4, 1e4)) / kMilli;
-  options.least = ring.number_or("least_um", 0.0, Range::between(0.0, 1e3)) * kMicro;
-  return options;
-}
-
 }  // namespace
 
 void read_viscosity(const Config& table, film::PistonLinerOptions& options) {
@@ -104,6 +92,8 @@ void read_liner_oil(const Config& table, film::PistonLinerOptions& options) {
   if (options.supply_pressure > 0.0 || options.supply_fill < 1.0)
     table.fail(options.supply_pressure > 0.0 ? "supply_pressure_bar" : "supply_fill",
                "found beside contact.liner_oil, which supplies the skirt; expected one of the two");
+  if (oil->has("ring"))
+    oil->fail("ring", "found here, expected [[contact.ring]]: a ring has friction as well");
   film::LinerLayerOptions& layer = options.liner_layer.emplace();
   layer.cell = oil->number_or("cell_mm", 0.0, Range::between(0.0, 100.0)) * kMilli;
   if (layer.cell > 0.0 && layer.cell < 0.01 * kMilli)
@@ -118,8 +108,6 @@ void read_liner_oil(const Config& table, film::PistonLinerOptions& options) {
   if (layer.splash > 0.0)
     layer.splash_thickness = oil->number("splash_thickness_um", Range::between(1e-3, 1e5)) * kMicro;
   if (oil->has("most_um")) layer.most = oil->number("most_um", Range::between(1e-3, 1e5)) * kMicro;
-  for (const Config& ring : oil->tables("ring"))
-    layer.rings.push_back(read_ring(ring, options.skirt_top));
 }
 
 }  // namespace clatter::dynamics

@@ -158,7 +158,12 @@ SurfaceShapes read_surface_shapes(const Config& contact, const char* key) {
       entry.fail("factor",
                  fmt::format("found deviations of {:.3g} mm, expected at most {:g}",
                              shape.deviation.cwiseAbs().maxCoeff() / kMilli, kLargest / kMilli));
-    found.shapes.push_back(std::move(shape));
+    if (auto scale = read_shape_scale(entry)) {
+      if (!scale->table.empty()) found.files.push_back(scale->table);
+      found.scaled.push_back({std::move(shape), std::move(*scale)});
+    } else {
+      found.shapes.push_back(std::move(shape));
+    }
   }
   return found;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/config.hpp"
+#include "dynamics/cylinder/shape_scale.hpp"
 #include "dynamics/film/gap.hpp"
 
 namespace clatter::dynamics {
@@ -12,11 +13,13 @@ namespace clatter::dynamics {
 /// Shapes that are added to a surface, and the files in which they are.
 struct SurfaceShapes {
   std::vector<film::LinerShape> shapes;
+  std::vector<ScaledShapeSpec> scaled;  // those with a factor over the cycle
   std::vector<std::filesystem::path> files;
 };
 
 /// Reads all entries of `contact`.key: a case of a shape file, columns of a table by angle, or an
-/// order around with amplitudes along the height. InputError "file:line: key: ...".
+/// order around with amplitudes along the height, with or without a factor over the crank angle.
+/// InputError "file:line: key: ...".
 SurfaceShapes read_surface_shapes(const Config& contact, const char* key);
 
 }  // namespace clatter::dynamics

@@ -27,8 +27,9 @@ double LinerLayerOptions::cells(double row) const {
   return std::ceil((top - bottom) / (cell > 0.0 ? cell : row) - kSliver);
 }
 
-double ring_layer(const RingOptions& ring, double viscosity, double speed) {
-  return std::max(ring.least, kRing * viscosity * std::abs(speed) * ring.face_radius / ring.load);
+double ring_layer(const RingOptions& ring, double viscosity, double speed, double gas_load) {
+  return std::max(ring.least,
+                  kRing * viscosity * std::abs(speed) * ring.face_radius / (ring.load + gas_load));
 }
 
 LinerLayer::LinerLayer(const LinerLayerOptions& options, const PadGrid& pad)

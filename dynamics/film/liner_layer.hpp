@@ -2,6 +2,7 @@
 #pragma once
 // The oil on the liner where no skirt covers it, remembered height by height.
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct RingOptions {
   double face_radius = 0.0;  // R of its face along the stroke [m]
   double load = 0.0;         // W', radial load on a unit length of the circumference [N/m]
   double least = 0.0;        // least layer that it leaves [m]: that in the valleys of the honing
+  /// What gas behind the ring adds to W' over time [N/m]; empty: nothing.
+  std::function<double(double time)> gas_load = {};
 };
 
 /// Thickness of the layer that a flooded ring leaves, t = 3/2 mu U R / W', at least `least` [m].
@@ -25,8 +28,8 @@ struct RingOptions {
 /// rupture where p = dp/dx = 0 (Martin 1916: h_0 = 4.895 mu (U/2) R / W'). The film there, 1.2257
 /// h_0, is carried at U/2; the product of the two factors over 4 is 3/2 to rounding. No squeeze, no
 /// starvation: a layer that is thinner than this passes below the ring as it is.
-/// @param viscosity mu [Pa s]. @param speed |U| [m/s].
-double ring_layer(const RingOptions& ring, double viscosity, double speed);
+/// @param viscosity mu [Pa s]. @param speed |U| [m/s]. @param gas_load of W' [N/m].
+double ring_layer(const RingOptions& ring, double viscosity, double speed, double gas_load = 0.0);
 
 /// The layer and what supplies and thins it.
 struct LinerLayerOptions {

@@ -68,6 +68,7 @@ struct PistonLiner::Pad {
   RowMatrix gap_directions;         // dh/dy for the film, n x k
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::vector<LinerShapeMap> liner_shapes;
+  std::optional<ScaledGap> scaled;
   std::optional<PadFilm> film;
   std::optional<PadLayer> layer;
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]

@@ -72,6 +72,8 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   }
   height_by_y_.setZero(size());
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
+  for (const auto* shapes : {&options_.scaled_bore, &options_.scaled_skirt})
+    for (const ScaledShape& shape : *shapes) scales_.add(shape.scale);
   add_pad("thrust", 0.0);
   add_pad("antithrust", std::numbers::pi);
 }
@@ -88,6 +90,11 @@ void PistonLiner::add_pad(const char* name, double centre) {
   pad.rest -= skirt;
   if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
   for (const LinerShape& shape : options_.bore_shapes) pad.liner_shapes.emplace_back(shape, grid);
+  if (!scales_.empty()) {
+    pad.scaled.emplace(grid);
+    for (const ScaledShape& scaled : options_.scaled_bore) pad.scaled->add_bore(scaled.shape);
+    for (const ScaledShape& scaled : options_.scaled_skirt) pad.scaled->add_skirt(scaled.shape);
+  }
   if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
     pad.ends.emplace(options_.ends, grid);
   if (on.film) {
@@ -147,13 +154,16 @@ double PistonLiner::stroke_height(double position, const Eigen::VectorXd& y) con
   return height;
 }
 
-// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z.
-void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y) {
+// Cover, gap and their derivatives at one state; `position` is the pin centre's ideal engine z,
+// `scales` the factors of the shapes that have one.
+void PistonLiner::update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
+                             const Eigen::VectorXd& y) {
   const double height = stroke_height(position, y);
   if (pad.ends) update_cover(pad, height);
   pad.gap = pad.rest;
   pad.gap_by_height.setZero();
   for (const LinerShapeMap& shape : pad.liner_shapes) shape.add(height, pad.gap, pad.gap_by_height);
+  if (pad.scaled) pad.scaled->add(height, scales, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
 }
@@ -162,6 +172,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
                            const Eigen::VectorXd& v, bool with_tangent,
                            dynamics::Response& response) {
   stroke_ = stroke_at(stage);
+  if (!scales_.empty()) scaled_ = scales_.at(stage);
   parallel_tasks(static_cast<int>(pads_.size()), [&](int k) {
     evaluate_pad(*pads_[static_cast<size_t>(k)], stage, y, v, with_tangent);
   });
@@ -171,7 +182,7 @@ void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& 
 void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                const Eigen::VectorXd& v, bool with_tangent) {
   if (pad.film && !running_) start_content(pad, stage, y, v);
-  update_gap(pad, stroke_.position, y);
+  update_gap(pad, stroke_.position, scaled_, y);
   if (!pad.gap.allFinite())
     throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
   pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
@@ -192,7 +203,8 @@ void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eig
 void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                                 const Eigen::VectorXd& v) {
   const Eigen::VectorXd y_start = y - stage.kappa * v;
-  update_gap(pad, bodies_.stroke(stage.time - stage.kappa).position, y_start);
+  const double start = stage.time - stage.kappa;
+  update_gap(pad, bodies_.stroke(start).position, scales_.exact(start), y_start);
   if (lowest_gap(pad) <= rough_->lowest_gap())
     throw InputError(fmt::format(
         "{}: found a smallest gap of {:.3g} m at the start, expected more than {:.3g} m",

@@ -75,7 +75,8 @@ class PistonLiner : public dynamics::ForceElement {
   void add_pad(const char* name, double centre);
   void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v, bool with_tangent);
-  void update_gap(Pad& pad, double position, const Eigen::VectorXd& y);
+  void update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
+                  const Eigen::VectorXd& y);
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
@@ -113,6 +114,8 @@ class PistonLiner : public dynamics::ForceElement {
   std::unique_ptr<Asperity> asperity_;
   std::unique_ptr<ContactDamping> damping_;
   StrokeState stroke_;
+  CycleScales scales_;                      // of shapes of bore and skirt
+  std::vector<ScaleState> scaled_;          // at the last stage
   std::array<double, 4> stroke_rates_{};    // z_B' at the finished stages of this step [m/s]
   double step_begin_ = 0.0, travel_ = 0.0;  // start of this step [s], stroke up to its last stage
                                             // [m]; with the layer on the liner

@@ -25,7 +25,8 @@ void PistonLiner::damp_contact(Pad& pad) {
   for (Eigen::Index c = 0; c < pad.gap.size(); ++c) {
     const double elastic = pad.contact[c];
     if (elastic == 0.0) continue;
-    const double rate = rates[c] + pad.gap_by_height[c] * stroke_.velocity;
+    double rate = rates[c] + pad.gap_by_height[c] * stroke_.velocity;
+    if (pad.scaled) rate += pad.scaled->rate()[c];
     const ContactDamping::Ratio ratio = damping_->at(rate);
     pad.contact[c] *= ratio.value;
     pad.contact_slope[c] *= ratio.value;
@@ -38,6 +39,7 @@ void PistonLiner::damp_contact(Pad& pad) {
 void PistonLiner::update_rate_tangent(Pad& pad, double kappa, const Eigen::VectorXd& v) {
   Eigen::ArrayXd turning = pad.gap_by_height / kappa;
   pad.map.add_slope(v, turning);
+  if (pad.scaled) turning += pad.scaled->rate_slope();
   pad.map.rows(1.0 / kappa, stroke_height(stroke_.velocity, v), turning, pad.rate_by_y);
 }
 

@@ -26,8 +26,8 @@ void PistonLiner::accept_layer(Pad& pad, double time) {
   const StrokeState stroke = bodies_.stroke(time);
   std::vector<double> left;
   for (const RingOptions& ring : options_.liner_layer->rings)
-    left.push_back(
-        ring_layer(ring, viscosity_->at_height(stroke.position + ring.height), stroke.velocity));
+    left.push_back(ring_layer(ring, viscosity_->at_height(stroke.position + ring.height),
+                              stroke.velocity, ring.gas_load ? ring.gas_load(time) : 0.0));
   pad.film->reynolds.add_up_edges(on_liner.moved, on_liner.volumes);
   on_liner.layer.advance(time - step_begin_, travel_, on_liner.volumes, left);
   balance_oil(pad);

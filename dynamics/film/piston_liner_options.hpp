@@ -11,6 +11,7 @@
 #include "dynamics/film/asperity.hpp"
 #include "dynamics/film/contact_damping.hpp"
 #include "dynamics/film/cover.hpp"
+#include "dynamics/film/cycle_scale.hpp"
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
 #include "dynamics/film/liner_layer.hpp"
@@ -45,6 +46,7 @@ struct PistonLinerOptions {
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
   /// Added to that deviation, and to the skirt outward: heights are engine z, and z from the pin.
   std::vector<LinerShape> bore_shapes, skirt_shapes;
+  std::vector<ScaledShape> scaled_bore, scaled_skirt;  // the same times a factor in the cycle
   LinerEnds
       ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 

@@ -31,6 +31,7 @@ StrokeState PistonLiner::stroke_at(const dynamics::Stage& stage) const {
 void PistonLiner::finish_stage(const dynamics::Stage& stage) {
   if (options_.liner_layer) travel_ = travel(stage);
   stroke_rates_.at(static_cast<size_t>(stage.index)) = bodies_.stroke(stage.time).velocity;
+  scales_.finish_stage(stage);
   for (const auto& pad : pads_) {
     if (!pad->film) continue;
     PadFilm& film = *pad->film;
@@ -54,8 +55,12 @@ dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd
   for (const auto& pad : pads_) {
     pad->map.gather(v, pad->v);
     const Eigen::ArrayXd& area = pad->area;
-    const Eigen::ArrayXd gap_rate =
+    Eigen::ArrayXd gap_rate =
         (pad->gap_by_y * pad->v).array() + pad->gap_by_height * stroke_.velocity;
+    if (pad->scaled) {  // what moves the walls works on the load
+      gap_rate += pad->scaled->rate();
+      power.input -= (pad->load * pad->scaled->rate()).sum();
+    }
     power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
     if (pad->film) power.lost -= (area * pad->film->pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/force/joint.hpp"
 
+#include <utility>
+
 namespace clatter::dynamics {
 namespace {
 
@@ -11,22 +13,23 @@ std::vector<int> both(const Anchor& a, const Anchor& b) {
 }
 
 /// dF/dd of F(e) n: slope along n, F/e across.
-Eigen::Matrix2d planar_stiffness(const RadialLaw& law, const Eigen::Vector2d& d, double e) {
-  if (e < 1e-15) return law.slope(0.0) * Eigen::Matrix2d::Identity();
+Eigen::Matrix2d planar_stiffness(const RadialForce& law, const RadialPoint& at,
+                                 const Eigen::Vector2d& d, double e) {
+  if (e < 1e-15) return radial_point(law, 0.0).slope * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d n = d / e;
-  const double across = law.force(e) / e;
-  return across * Eigen::Matrix2d::Identity() + (law.slope(e) - across) * n * n.transpose();
+  const double across = at.force / e;
+  return across * Eigen::Matrix2d::Identity() + (at.slope - across) * n * n.transpose();
 }
 
 }  // namespace
 
 Joint::Joint(std::string name, std::unique_ptr<Anchor> a, std::unique_ptr<Anchor> b,
-             const RadialLaw& law)
+             RadialForce law)
     : ForceElement(both(*a, *b)),
       name_(std::move(name)),
       a_(std::move(a)),
       b_(std::move(b)),
-      law_(law) {}
+      law_(std::move(law)) {}
 
 void Joint::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
                      bool with_tangent, Response& response) {
@@ -36,8 +39,9 @@ void Joint::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::
   b_->find(stage.time, y.tail(n_b), v.tail(n_b), at_b_);
   const Eigen::Vector2d d = at_a_.d - at_b_.d, rate = at_a_.rate - at_b_.rate;
   const double e = d.norm();
-  Eigen::Vector2d force = -law_.damping * rate;
-  if (e > 0.0) force -= law_.force(e) / e * d;
+  const RadialPoint at = radial_point(law_, e);
+  Eigen::Vector2d force = -at.damping * rate;
+  if (e > 0.0) force -= at.force / e * d;
   last_ = {force, rate, at_a_.prescribed - at_b_.prescribed, e};
 
   G_.resize(2, n_a + n_b);
@@ -46,17 +50,22 @@ void Joint::evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::
   response.force.noalias() = G_.transpose() * force;
   if (!with_tangent) return;
   dF_.resize(2, n_a + n_b);
-  dF_.noalias() = -planar_stiffness(law_, d, e) * G_;
-  dF_ -= law_.damping / stage.kappa * G_;
-  dF_.leftCols(n_a) -= law_.damping * at_a_.B;
-  dF_.rightCols(n_b) += law_.damping * at_b_.B;
+  dF_.noalias() = -planar_stiffness(law_, at, d, e) * G_;
+  dF_ -= at.damping / stage.kappa * G_;
+  dF_.leftCols(n_a) -= at.damping * at_a_.B;
+  dF_.rightCols(n_b) += at.damping * at_b_.B;
+  if (at.damping_slope != 0.0 && e > 0.0) {
+    along_.noalias() = (at.damping_slope / e * d).transpose() * G_;
+    dF_.noalias() -= rate * along_;
+  }
   response.tangent.noalias() = G_.transpose().lazyProduct(dF_);
   a_->add_curvature(stage.time, y.head(n_a), force, response.tangent.topLeftCorner(n_a, n_a));
   b_->add_curvature(stage.time, y.tail(n_b), -force, response.tangent.bottomRightCorner(n_b, n_b));
 }
 
 Power Joint::power(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
-  return {law_.energy(finished_.eccentricity), law_.damping * finished_.rate.squaredNorm(),
+  const double e = finished_.eccentricity;
+  return {radial_energy(law_, e), radial_point(law_, e).damping * finished_.rate.squaredNorm(),
           -finished_.force.dot(finished_.prescribed)};
 }
 

@@ -5,17 +5,16 @@
 
 #include "dynamics/force/anchor.hpp"
 #include "dynamics/force/element.hpp"
-#include "dynamics/force/radial_law.hpp"
+#include "dynamics/force/radial_table.hpp"
 
 namespace clatter::dynamics {
 
-/// Force on point A: -F(e) n - c d', with d = d_A - d_B, e = |d|, n = d / e; the opposite on B.
+/// Force on point A: -F(e) n - c(e) d', with d = d_A - d_B, e = |d|, n = d / e; the opposite on B.
 /// Its power balance, force . v + dE/dt + lost = input, holds exactly; `input` is the power of the
 /// rod's prescribed rotation on the joint's force.
 class Joint : public ForceElement {
  public:
-  Joint(std::string name, std::unique_ptr<Anchor> a, std::unique_ptr<Anchor> b,
-        const RadialLaw& law);
+  Joint(std::string name, std::unique_ptr<Anchor> a, std::unique_ptr<Anchor> b, RadialForce law);
 
   std::string name() const override { return name_; }
   void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
@@ -34,12 +33,18 @@ class Joint : public ForceElement {
   };
   const Instant& accepted() const { return accepted_; }
 
+ protected:
+  /// Of the last evaluation, and dF/dy of its last tangent, 2 x n_e.
+  const Instant& last() const { return last_; }
+  const PlanarRows& force_by_y() const { return dF_; }
+
  private:
   std::string name_;
   std::unique_ptr<Anchor> a_, b_;
-  RadialLaw law_;
+  RadialForce law_;
   AnchorState at_a_, at_b_;
-  PlanarRows G_, dF_;  // dd/dy and dF/dy, 2 x n_e
+  PlanarRows G_, dF_;         // dd/dy and dF/dy, 2 x n_e
+  Eigen::RowVectorXd along_;  // dc/dy, of a damping that varies
   Instant last_, finished_, accepted_;
 };
 

@@ -25,8 +25,8 @@ std::vector<int> joined(const Joint& pin, const Joint& crank_pin) {
 
 }  // namespace
 
-MasslessRod::MasslessRod(std::string name, std::unique_ptr<Joint> pin,
-                         std::unique_ptr<Joint> crank_pin)
+MasslessRod::MasslessRod(std::string name, std::unique_ptr<ForceElement> pin,
+                         std::unique_ptr<ForceElement> crank_pin)
     : ForceElement(joined(*pin, *crank_pin)),
       name_(std::move(name)),
       pin_(std::move(pin)),

@@ -17,9 +17,11 @@ namespace clatter::dynamics {
 /// under the tableau of the method; y are the coordinates of what the joints join.
 class MasslessRod : public ForceElement {
  public:
-  /// @param pin joint of a point and an end of the rod, @param crank_pin of the other end and a
-  /// point, in this order; the rod's three coordinates have no indices in y: any will do.
-  MasslessRod(std::string name, std::unique_ptr<Joint> pin, std::unique_ptr<Joint> crank_pin);
+  /// @param pin joint without friction of a point and an end of the rod, @param crank_pin of the
+  /// other end and a point, in this order; the rod's three coordinates have no indices in y: any
+  /// will do.
+  MasslessRod(std::string name, std::unique_ptr<ForceElement> pin,
+              std::unique_ptr<ForceElement> crank_pin);
 
   std::string name() const override { return name_; }
   /// StepRefused when the balance is not found.
@@ -42,7 +44,7 @@ class MasslessRod : public ForceElement {
   Eigen::Vector3d balance(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v);
 
   std::string name_;
-  std::unique_ptr<Joint> pin_, crank_pin_;
+  std::unique_ptr<ForceElement> pin_, crank_pin_;
   Eigen::Index n_pin_, n_crank_;  // of the points that they join
   Response at_pin_, at_crank_;    // the rod's coordinates are the last, the first three
   Eigen::VectorXd y_pin_, v_pin_, y_crank_, v_crank_;

@@ -13,9 +13,11 @@ struct RadialLaw {
   double exponent = 1.0;        // n >= 1
   double damping = 1e4;         // linear on the relative velocity [N s/m]
 
-  double force(double e) const;   // [N]
-  double slope(double e) const;   // dF/de [N/m]
-  double energy(double e) const;  // integral of F from 0 [J]
+  double force(double e) const;                        // [N]
+  double slope(double e) const;                        // dF/de [N/m]
+  double energy(double e) const;                       // integral of F from 0 [J]
+  double damping_at(double) const { return damping; }  // [N s/m]
+  double damping_slope(double) const { return 0.0; }   // by e [N s/m2]
 
  private:
   double blend() const;  // w [m]

@@ -32,6 +32,7 @@ class SliderCrank {
   /// Angular velocity of the crankshaft about +x [rad/s].
   double spin(double time) const { return sign_ * clock_.turn(time).velocity; }
   double angle(double time) const { return clock_.angle(time) - firing_; }  // theta [rad]
+  double speed(double time) const { return clock_.turn(time).velocity; }    // theta' [rad/s]
   double time(double angle) const { return clock_.time(angle + firing_); }
 
   Motion<Eigen::Vector2d> crank_pin(double time) const;  // (y, z) [m]

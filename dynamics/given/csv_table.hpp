@@ -22,9 +22,9 @@ struct CsvColumns {
 ///     -180, 1.0
 ///
 /// Separators: comma or semicolon. Units: deg, rad, rad/s, rpm, s, ms, us, Pa, kPa, bar, MPa, N,
-/// kN, N m, m, mm, um, K, degC, 1; each is converted to SI. InputError "file:line: ..." for a
-/// missing header, an unknown unit, a missing or extra cell, a value that is not a finite number,
-/// an abscissa that does not ascend.
+/// kN, N m, N s/m, N s/mm, m, mm, um, K, degC, 1; each is converted to SI. InputError "file:line:
+/// ..." for a missing header, an unknown unit, a missing or extra cell, a value that is not a
+/// finite number, an abscissa that does not ascend.
 CsvColumns read_csv(const std::filesystem::path& path, const std::string& column);
 
 }  // namespace clatter::dynamics

@@ -57,4 +57,17 @@ double Spline::operator()(double at) const {
          h * t * u * (slope_[i] * u - slope_[right] * t);
 }
 
+double Spline::slope(double at) const {
+  if (period_ > 0.0) at -= period_ * std::floor((at - x_.front()) / period_);
+  if (at < x_.front() || at > x_.back() || x_.size() == 1) return 0.0;
+  const auto right =
+      static_cast<size_t>(std::upper_bound(x_.begin() + 1, x_.end() - 1, at) - x_.begin());
+  const size_t i = right - 1;
+  const double h = x_[right] - x_[i], t = (at - x_[i]) / h, u = 1.0 - t;
+  const double secant = (y_[right] - y_[i]) / h;
+  if (kind_ == Kind::kLinear) return secant;
+  return 6.0 * t * u * secant + slope_[i] * u * (1.0 - 3.0 * t) +
+         slope_[right] * t * (3.0 * t - 2.0);
+}
+
 }  // namespace clatter::dynamics

@@ -17,6 +17,9 @@ class Spline {
   Spline(Kind kind, std::vector<double> x, std::vector<double> y, double period = 0.0);
 
   double operator()(double at) const;
+  /// dy/dx; at a point of a linear one that of the interval after it (at the end, before it), 0
+  /// beyond the ends.
+  double slope(double at) const;
 
  private:
   Kind kind_;

@@ -191,9 +191,10 @@ class Run(stages.PipelineTest):
 
     def test_dynamics(self):
         self.named(slap__run__toml="step.run.toml", cam__run__toml="step.run.toml", drive__run__toml="step.run.toml",
-                   valve__run__toml="step.run.toml")
+                   valve__run__toml="step.run.toml", slap_rings__run__toml="step.run.toml")
         self.run_blocks("dynamics/README.md")
         self.run_blocks("dynamics/film/README.md")
+        self.run_blocks("dynamics/ring/README.md")
         self.run_blocks("dynamics/chain/README.md")
         self.run_blocks("dynamics/shaft/README.md")
         self.run_blocks("dynamics/valve/README.md")

@@ -117,6 +117,9 @@ INSTANTIATE_TEST_SUITE_P(
                       EngineVariant{.name = "dry_offset", .film = false, .pin_offset = 1.2e-3},
                       EngineVariant{.name = "one_bearing", .bearings = {"main_4"}},
                       EngineVariant{.name = "off_axis", .bearings = {"main_4", "main_5", "sensor"}},
+                      EngineVariant{.name = "rings", .rings = true, .pin_offset = 1.2e-3},
+                      EngineVariant{
+                          .name = "rings_without_axial_set", .liner_axial = false, .rings = true},
                       EngineVariant{.name = "no_bearing", .pin_offset = 1e-3, .bearings = {}}),
     [](const auto& info) { return info.param.name; });
 

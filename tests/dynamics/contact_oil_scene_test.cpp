@@ -25,7 +25,7 @@ tolerance = 1e-2
 splash_um_s = 400
 splash_thickness_um = 8
 most_um = 30
-[[contact.liner_oil.ring]]
+[[contact.ring]]
 height_mm = 40
 face_radius_mm = 20
 load_n_mm = 1.5
@@ -173,7 +173,7 @@ TEST_F(ContactOil, TheFillIsTheOutcomeOfTheSupply) {
             scene(std::string(
                       "[time]\ncycles = 1\n[accuracy]\ntolerance = 1e-2\n[contact.liner_oil]\n") +
                   splash +
-                  "[[contact.liner_oil.ring]]\nheight_mm = 40\nface_radius_mm = 20\n"
+                  "[[contact.ring]]\nheight_mm = 40\nface_radius_mm = 20\n"
                   "load_n_mm = 10\nleast_um = 0.2\n"),
             name)
             .read_doubles("history/oil_on_liner");
@@ -185,7 +185,7 @@ TEST_F(ContactOil, TheFillIsTheOutcomeOfTheSupply) {
 }
 
 TEST_F(ContactOil, HardN10_ItsNumbersAreRefusedOutsideTheirRanges) {
-  const std::string ring = "[[contact.liner_oil.ring]]\n",
+  const std::string ring = "[[contact.ring]]\n",
                     rest = "height_mm = 40\nface_radius_mm = 20\nload_n_mm = 1\n",
                     vogel = "[contact.oil]\nlaw = \"vogel\"\n";
   struct Key {
@@ -199,13 +199,11 @@ TEST_F(ContactOil, HardN10_ItsNumbersAreRefusedOutsideTheirRanges) {
       {"contact.liner_oil.splash_thickness_um",
        "[contact.liner_oil]\nsplash_um_s = 5\nsplash_thickness_um = {}\n"},
       {"contact.liner_oil.most_um", "[contact.liner_oil]\nmost_um = {}\n"},
-      {"contact.liner_oil.ring[0].height_mm",
-       ring + "face_radius_mm = 20\nload_n_mm = 1\nheight_mm = {}\n"},
-      {"contact.liner_oil.ring[0].face_radius_mm",
+      {"contact.ring[0].height_mm", ring + "face_radius_mm = 20\nload_n_mm = 1\nheight_mm = {}\n"},
+      {"contact.ring[0].face_radius_mm",
        ring + "height_mm = 40\nload_n_mm = 1\nface_radius_mm = {}\n"},
-      {"contact.liner_oil.ring[0].load_n_mm",
-       ring + "height_mm = 40\nface_radius_mm = 20\nload_n_mm = {}\n"},
-      {"contact.liner_oil.ring[0].least_um", ring + rest + "least_um = {}\n", true},
+      {"contact.ring[0].load_n_mm", ring + "height_mm = 40\nface_radius_mm = 20\nload_n_mm = {}\n"},
+      {"contact.ring[0].least_um", ring + rest + "least_um = {}\n", true},
       {"contact.oil.vogel_a_pa_s",
        vogel + "vogel_b_k = 1000\nvogel_c_c = -90\ntemperature_c = 90\nvogel_a_pa_s = {}\n"},
       {"contact.oil.vogel_b_k",

@@ -131,7 +131,7 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   testing::write_motored_cycle(gas.table, cycle, std::numbers::pi / 720.0);
   cylinder.gas = gas;
   // Nearly rigid joints without clearance: 40 kN press 1e11 N/m by 0.4 um.
-  cylinder.small_end = cylinder.big_end = RadialLaw{0.0, 0.0, 1e11, 1.0, 3e5};
+  cylinder.small_end.law = cylinder.big_end.law = RadialLaw{0.0, 0.0, 1e11, 1.0, 3e5};
   scene.components = {std::make_shared<CylinderComponent>(cylinder)};
   const double area = 8.992e-3;
   LoadedBodies bodies;

@@ -89,6 +89,16 @@ TEST_F(MirrorImage, OfElasticPartsOnMounts) {
   }
 }
 
+TEST_F(MirrorImage, OfRingsAndFrictionOfThePins) {
+  run(std::string("[contact]\ncavitation = false\n[accuracy]\ntolerance = 1e-3\n"
+                  "[[contact.ring]]\nheight_mm = 45\nface_radius_mm = 20\nload_n_mm = 0.5\n"
+                  "width_mm = 2.5\nthickness_mm = 4\ngas_share = 1\nfriction_coefficient = 0.1\n"
+                  "groove_coefficient = 0.05\n[small_end]\nfriction_coefficient = 0.05\n"
+                  "diameter_mm = 40\n[big_end]\nfriction_coefficient = 0.02\ndiameter_mm = 70\n") +
+      testing::kElasticBlock);
+  for (const char* what : {"q", "v", "a"}) EXPECT_LT(difference("piston", what), 1e-8) << what;
+}
+
 TEST_F(MirrorImage, OfACrankWhoseSpeedFluctuates) {
   const std::string uneven = "[[engine.order]]\norder = 2\namplitude_rpm = 60\nphase_deg = 40\n";
   run("[contact]\ncavitation = false\n" + uneven);

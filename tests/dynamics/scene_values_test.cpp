@@ -59,6 +59,8 @@ std::vector<NumberKey> engine_numbers() {
                           "small_end.stiffness",
                           "big_end.exponent",
                           "big_end.stiffness",
+                          "small_end.reversal_speed_rad_s",
+                          "big_end.reversal_speed_rad_s",
                           "contact.bore_mm",
                           "contact.pad_span_deg",
                           "contact.cells_around",
@@ -97,6 +99,8 @@ std::vector<NumberKey> engine_numbers() {
                           "contact.piston_roughness_um",
                           "contact.liner_roughness_um",
                           "contact.asperity_loss_factor",
+                          "small_end.friction_coefficient",
+                          "big_end.friction_coefficient",
                           "contact.friction_coefficient"})
     keys.push_back({key, in(key), kZero | kTiny});
   for (const char* key : {"engine.pin_offset_mm", "contact.skirt_bottom_mm", "contact.skirt_top_mm",

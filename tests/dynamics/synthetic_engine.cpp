@@ -46,6 +46,16 @@ SyntheticEngine::SyntheticEngine(const EngineVariant& variant) {
   cylinder.bore =
       BoreSpec{"liner_4", variant.liner_axial ? "liner_4_axial" : "", variant.bearings, ""};
   if (variant.contact) cylinder.contact = contact_of(variant);
+  if (variant.rings) {
+    RingSpec ring;
+    ring.height = 45e-3;
+    ring.face_radius = 20e-3;
+    ring.load = 1000.0;
+    ring.mass = 0.03;
+    ring.boundary = ring.groove = 0.1;
+    cylinder.rings = {ring};
+    cylinder.small_end.friction = PinFriction{2e-3, 0.5};
+  }
   const MountSpec mount{"block", "", {"mounts"}, {1e5, 1e5, 2e5}, {1e3, 1e3, 2e3}};
   scene.components = {std::make_shared<CylinderComponent>(cylinder),
                       std::make_shared<BlockComponent>(block),

@@ -19,6 +19,7 @@ struct EngineVariant {
   bool contact = true;  // between piston and liner
   bool film = true;
   bool balanced = false;
+  bool rings = false;             // with friction, as the pin has
   double pin_offset = 0.0;        // [m]
   double dry_clearance = 0.5e-6;  // without film [m]
   std::vector<std::string> bearings{"main_4", "main_5"};
