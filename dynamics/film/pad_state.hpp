@@ -50,6 +50,7 @@ struct PistonLiner::Pad {
     area_slope.setZero(n);
   }
   bool covers(Eigen::Index cell) const { return area[cell] > 0.0; }
+  std::string place() const { return grid.periodic() ? name : name + " pad"; }
   std::string name;
   PadGrid grid;
   GapMap map;                    // k columns

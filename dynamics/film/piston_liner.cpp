@@ -19,7 +19,15 @@ void require(bool holds, const std::string& name, const char* key, double found,
     throw InputError(fmt::format("{}: {}: found {}, expected {}", name, key, found, expected));
 }
 
+// Cells around the entire skirt: fewer do not resolve a gap that varies with its sine.
+constexpr int kLeastAround = 8;
+
+/// The entire skirt begins and ends at the pin, where the film is closed.
 PadGrid make_grid(const PistonLinerOptions& options, double centre) {
+  if (options.span == SkirtSpan::kWhole)
+    return PadGrid::uniform(-0.5 * std::numbers::pi, 1.5 * std::numbers::pi, options.cells_around,
+                            options.skirt_bottom, options.skirt_top, options.cells_along,
+                            options.bore_radius, true);
   return PadGrid::uniform(centre - 0.5 * options.pad_span, centre + 0.5 * options.pad_span,
                           options.cells_around, options.skirt_bottom, options.skirt_top,
                           options.cells_along, options.bore_radius);
@@ -72,6 +80,10 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   }
   height_by_y_.setZero(size());
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
+  if (options_.span == SkirtSpan::kWhole) {
+    add_pad("skirt", 0.0);
+    return;
+  }
   add_pad("thrust", 0.0);
   add_pad("antithrust", std::numbers::pi);
 }
@@ -122,8 +134,10 @@ void PistonLiner::check() const {
   require(o.clearance >= 0.0, o.name, "clearance", o.clearance, ">= 0 m");
   require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
   require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
-  require(o.pad_span > 0.0 && o.pad_span < std::numbers::pi, o.name, "pad_span", o.pad_span,
+  require(o.pad_span > 0.0 && o.pad_span <= std::numbers::pi, o.name, "pad_span", o.pad_span,
           "between 0 and pi rad");
+  require(o.span == SkirtSpan::kPads || o.cells_around >= kLeastAround, o.name, "cells_around",
+          o.cells_around, "at least 8 around the entire skirt");
   require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
   require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
   require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
@@ -173,7 +187,7 @@ void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eig
   if (pad.film && !running_) start_content(pad, stage, y, v);
   update_gap(pad, stroke_.position, y);
   if (!pad.gap.allFinite())
-    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
+    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.place());
   pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
   pad.map.gather(v, pad.v);
   pad.load.setZero();
@@ -212,7 +226,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   const double lowest = lowest_gap(pad);
   if (lowest <= rough_->lowest_gap())
     throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
-                                fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
+                                fmt::format("{:.3g} m on the {}", lowest, pad.place()));
   rough_->thicknesses(pad.gap, film.cells);
   if (viscosity_->varies()) {
     viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
@@ -237,12 +251,12 @@ void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,
         film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
-                                fmt::format("{} pad: {}", pad.name, error.what()));
+                                fmt::format("{}: {}", pad.place(), error.what()));
   }
   if (viscosity_->pressure_coefficient() > 0.0 &&
       !viscosity_->pressure(film.reynolds.pressure(), film.thick_pressure, film.thickening))
     throw dynamics::StepRefused(options_.name + ": no film pressure carries the load",
-                                fmt::format("{} pad: {:.3g} Pa reduced pressure", pad.name,
+                                fmt::format("{}: {:.3g} Pa reduced pressure", pad.place(),
                                             film.reynolds.pressure().maxCoeff()));
 }
 

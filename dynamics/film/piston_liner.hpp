@@ -16,7 +16,7 @@ namespace clatter::film {
 
 /// Fields of one pad at the last evaluated state, n_angle x n_axial each.
 struct PadSnapshot {
-  std::string name;              // "thrust", "antithrust"
+  std::string name;              // "thrust", "antithrust"; "skirt" of the entire one
   Eigen::VectorXd angle;         // cell centres, from the thrust side [rad]
   Eigen::VectorXd axial;         // cell centres, z from the pin centre [m]
   RowMatrix gap;                 // h [m]

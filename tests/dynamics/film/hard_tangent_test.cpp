@@ -24,6 +24,7 @@ struct Regime {
   LinerEnds ends{};         // of the liner; the pad is from 0.223 to 0.293 m
   Cavity cavity = Cavity::kLayer;
   bool oil_laws = false;  // all laws of the viscosity, factors of friction, oil on the liner
+  SkirtSpan span = SkirtSpan::kPads;
 };
 void PrintTo(const Regime& regime, std::ostream* out) { *out << regime.name; }
 
@@ -121,6 +122,7 @@ TEST_P(Tangent, HardR6_AnalyticTangentAgreesWithCentralDifferences) {
   // The pin offset adds levers of the axial forces.
   for (const auto& [elastic, offset] : {std::pair{false, 0.0}, {true, 0.0}, {true, 2e-3}}) {
     PistonLinerOptions options;
+    options.span = regime.span;
     options.cells_around = 8;
     options.cells_along = 9;
     options.clearance = regime.clearance;
@@ -165,6 +167,11 @@ constexpr LinerEnds kCut{0.24, 0.285};
 
 Regime with_oil_laws(Regime regime) {
   regime.oil_laws = true;
+  return regime;
+}
+
+Regime whole(Regime regime) {
+  regime.span = SkirtSpan::kWhole;
   return regime;
 }
 
@@ -257,6 +264,10 @@ INSTANTIATE_TEST_SUITE_P(
                                      AsperityOptions::Law::kExact, 1e-5, INFINITY, 1e-6, kCut}),
                       with_oil_laws({"thin layer that is remembered", 5e-6, 1.0, 5e-6, kAll, false,
                                      AsperityOptions::Law::kFit, 20e-3, 1e-6}),
+                      whole({"full film around the skirt", 30e-6, 1.0, 15e-6, kFilm, false,
+                             AsperityOptions::Law::kFit}),
+                      whole({"mixed around the skirt", 5e-6, 1.0, 6.2e-6, kAll, true,
+                             AsperityOptions::Law::kFit, 1e-5, INFINITY, 1e-6, kCut}),
                       Regime{"streamers over an end", 5e-6, 1.0, 5e-6, kAll, false,
                              AsperityOptions::Law::kFit, 20e-3, 1e-6, 0.01, kCut,
                              Cavity::kStriated}),
