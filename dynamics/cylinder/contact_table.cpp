@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/cylinder/oil_table.hpp"
+#include "dynamics/cylinder/recess_table.hpp"
 #include "dynamics/film/roughness.hpp"
 
 namespace clatter::dynamics {
@@ -186,6 +187,7 @@ film::PistonLinerOptions read_contact(const Config& table) {
   read_oil(table, options);
   read_viscosity(table, options);
   read_liner_oil(table, options);
+  options.recesses = read_recesses(table);
   read_surfaces(table, options);
   return options;
 }

@@ -58,6 +58,9 @@ void add_contact(const CylinderSpec& cylinder, const std::string& ends, Cylinder
             !contact ? absent
             : whole  ? "contact.span = \"whole\", contact.pad_span_deg is not used"
                      : "contact.span = \"pads\"");
+  const size_t recesses = contact ? cylinder.contact->recesses.size() : 0;
+  table.add("grooves and windows", recesses > 0,
+            recesses > 0 ? fmt::format("{} contact.recess", recesses) : "no contact.recess");
   table.add("asperity contact", contact && effects.asperities,
             contact && cylinder.contact->asperity.from_summits
                 ? "contact.asperities, eq. (11) by summit data instead of contact.asperity_factor"

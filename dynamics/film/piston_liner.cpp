@@ -47,6 +47,10 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   if (!on.cavitation) {  // every cell is full: no setting of partial filling applies
     options_.initial_fill = options_.supply_fill = 1.0;
     options_.oil_thickness = std::numeric_limits<double>::infinity();
+    for (Recess& recess : options_.recesses) {
+      recess.kind = Recess::Kind::kGroove;
+      recess.fill = 1.0;
+    }
   }
   if (on.film) {
     rough_ = std::make_unique<RoughFilm>(options_.roughness);
@@ -82,10 +86,11 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
   if (options_.span == SkirtSpan::kWhole) {
     add_pad("skirt", 0.0);
-    return;
+  } else {
+    add_pad("thrust", 0.0);
+    add_pad("antithrust", std::numbers::pi);
   }
-  add_pad("thrust", 0.0);
-  add_pad("antithrust", std::numbers::pi);
+  check_recesses();
 }
 
 void PistonLiner::add_pad(const char* name, double centre) {
@@ -98,6 +103,7 @@ void PistonLiner::add_pad(const char* name, double centre) {
   for (const LinerShape& shape : options_.skirt_shapes)
     LinerShapeMap(shape, grid).add(0.0, skirt, slope);
   pad.rest -= skirt;
+  if (!options_.recesses.empty()) add_recesses(pad);
   if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
   for (const LinerShape& shape : options_.bore_shapes) pad.liner_shapes.emplace_back(shape, grid);
   if (std::isfinite(options_.ends.bottom) || std::isfinite(options_.ends.top))
@@ -105,8 +111,7 @@ void PistonLiner::add_pad(const char* name, double centre) {
   if (on.film) {
     const Edge open = Edge::supply(viscosity_->reduced(options_.supply_pressure),
                                    options_.supply_fill, options_.oil_thickness);
-    pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation,
-                     options_.liner_layer.has_value());
+    pad.film.emplace(grid, Edges{open, open, open, open, open}, options_);
   }
   if (options_.liner_layer) pad.layer.emplace(*options_.liner_layer, grid);
   if (on.asperities)
@@ -170,6 +175,7 @@ void PistonLiner::update_gap(Pad& pad, double position, const Eigen::VectorXd& y
   for (const LinerShapeMap& shape : pad.liner_shapes) shape.add(height, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
+  if (pad.recesses) place_recesses(pad, position);
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
@@ -238,6 +244,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   if (running_) inner.profile_before = &film.oil.profile();
   inner.cavity = options_.cavity;
   if (pad.ends) inner.cover = &pad.cover;
+  if (pad.recesses) inner.recesses = &pad.recesses->cells;
   if (pad.layer) meet_layer(pad, stage);
   solve_film_equations(pad, stage, inner);
   pad.load += pad.area * film.pressure();

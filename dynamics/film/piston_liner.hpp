@@ -76,6 +76,10 @@ class PistonLiner : public dynamics::ForceElement {
   void evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eigen::VectorXd& y,
                     const Eigen::VectorXd& v, bool with_tangent);
   void update_gap(Pad& pad, double position, const Eigen::VectorXd& y);
+  void check_recesses() const;
+  void add_recesses(Pad& pad);
+  void place_recesses(Pad& pad, double position) const;
+  double recess_power(const Pad& pad) const;
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;

@@ -14,6 +14,7 @@
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
 #include "dynamics/film/liner_layer.hpp"
+#include "dynamics/film/recess.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
 #include "dynamics/film/viscosity.hpp"
@@ -49,6 +50,7 @@ struct PistonLinerOptions {
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
   /// Added to that deviation, and to the skirt outward: heights are engine z, and z from the pin.
   std::vector<LinerShape> bore_shapes, skirt_shapes;
+  std::vector<Recess> recesses;  // grooves and windows; pressures of grooves in Pa
   LinerEnds
       ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 
@@ -73,6 +75,9 @@ struct PistonLinerOptions {
   ContactDampingOptions damping;
   FrictionOptions friction;
 };
+
+/// Whether film and reservoirs exchange oil.
+bool has_grooves(const PistonLinerOptions& options);
 
 /// Stroke position and velocity of the piston's reference point (pin centre) along engine z.
 struct StrokeState {
