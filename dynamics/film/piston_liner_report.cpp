@@ -88,9 +88,15 @@ void PistonLiner::record(dynamics::History& history) const {
     if (pad->film) {
       film_load += (pad->area * pad->film->pressure()).sum();
       film_peak = std::max(film_peak, pad->film->pressure().maxCoeff());
-      const Eigen::ArrayXd held = pad->carrying().select(pad->area * pad->film->cells.content, 0.0);
-      oil += (held * pad->film->reynolds.fill()).sum();
-      space += held.sum();
+      if (pad->recesses) {
+        const Eigen::ArrayXd room =
+            pad->carrying().select(pad->area * pad->film->cells.content, 0.0);
+        oil += (room * pad->film->reynolds.fill()).sum();
+        space += room.sum();
+      } else {
+        oil += (pad->area * pad->film->cells.content * pad->film->reynolds.fill()).sum();
+        space += (pad->area * pad->film->cells.content).sum();
+      }
     }
     if (asperity_) {
       contact_load += (pad->area * pad->contact).sum();
