@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/cylinder/oil_table.hpp"
+#include "dynamics/cylinder/recess_table.hpp"
 #include "dynamics/film/roughness.hpp"
 
 namespace clatter::dynamics {
@@ -161,12 +162,14 @@ film::PistonLinerOptions read_contact(const Config& table) {
     table.fail("skirt_top_mm",
                fmt::format("found {:g}, expected above skirt_bottom_mm, {:g}",
                            options.skirt_top / kMilli, options.skirt_bottom / kMilli));
+  const bool whole = table.choice("span", {"pads", "whole"}) == "whole";
+  options.span = whole ? film::SkirtSpan::kWhole : film::SkirtSpan::kPads;
   options.pad_span =
-      table.number_or("pad_span_deg", options.pad_span / kDegree, Range{1.0, 179.0, false}) *
+      table.number_or("pad_span_deg", options.pad_span / kDegree, Range{1.0, 180.0, false}) *
       kDegree;
-  const Range cells{2.0, 400.0, false};
-  options.cells_around =
-      static_cast<int>(table.integer_or("cells_around", options.cells_around, cells));
+  const Range cells{2.0, 400.0, false}, around{whole ? 8.0 : 2.0, 400.0, false};
+  options.cells_around = static_cast<int>(table.integer_or(
+      "cells_around", whole ? 4 * options.cells_around : options.cells_around, around));
   options.cells_along =
       static_cast<int>(table.integer_or("cells_along", options.cells_along, cells));
 
@@ -184,6 +187,7 @@ film::PistonLinerOptions read_contact(const Config& table) {
   read_oil(table, options);
   read_viscosity(table, options);
   read_liner_oil(table, options);
+  options.recesses = read_recesses(table);
   read_surfaces(table, options);
   return options;
 }

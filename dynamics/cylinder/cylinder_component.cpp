@@ -43,7 +43,8 @@ ComponentSize CylinderComponent::size() const {
     along += 0.25 * contact.liner_layer->cells((contact.skirt_top - contact.skirt_bottom) /
                                                contact.cells_along);
   }
-  size.film_cells = std::llround(2.0 * contact.cells_around * along);  // of two pads
+  const double pads = contact.span == film::SkirtSpan::kWhole ? 1.0 : 2.0;
+  size.film_cells = std::llround(pads * contact.cells_around * along);
   return size;
 }
 

@@ -57,6 +57,14 @@ void add_contact(const CylinderSpec& cylinder, const std::string& ends, Cylinder
   add_oil("viscosity over shear rate", oil.cross.has_value(), "contact.oil.shear_rate_1_s");
   add_oil("friction factors", film && cylinder.contact->roughness.stress_factors,
           "contact.friction_factors");
+  const bool whole = contact && cylinder.contact->span == film::SkirtSpan::kWhole;
+  table.add("gap around the entire skirt", whole,
+            !contact ? absent
+            : whole  ? "contact.span = \"whole\", contact.pad_span_deg is not used"
+                     : "contact.span = \"pads\"");
+  const size_t recesses = contact ? cylinder.contact->recesses.size() : 0;
+  table.add("grooves and windows", recesses > 0,
+            recesses > 0 ? fmt::format("{} contact.recess", recesses) : "no contact.recess");
   table.add("asperity contact", contact && effects.asperities,
             contact && cylinder.contact->asperity.from_summits
                 ? "contact.asperities, eq. (11) by summit data instead of contact.asperity_factor"

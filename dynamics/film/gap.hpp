@@ -96,7 +96,9 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// has eight entries: w is made a coordinate of its own (System::combined_coordinate).
 class PatchMap {
  public:
-  /// Cells of `pad` are at axial position pad.axial(j) + offset in the frame of `surface`.
+  /// Cells of `pad` are at axial position pad.axial(j) + offset in the frame of `surface`. A
+  /// periodic pad also has cells between strips of patches that are not adjacent: there B goes
+  /// linearly in the angle from one strip to the next, so that the gap is continuous around.
   PatchMap(const ElasticSurface& surface, const PadGrid& pad);
 
   int patches() const { return static_cast<int>(rigid_.rows()); }

@@ -12,8 +12,9 @@ namespace clatter::film {
 
 /// Oil film of one pad.
 struct PadFilm {
-  PadFilm(const PadGrid& grid, const Edges& edges, bool cavitation, bool accounted)
-      : reynolds(grid, edges, cavitation), oil(reynolds, accounted) {
+  PadFilm(const PadGrid& grid, const Edges& edges, const PistonLinerOptions& options)
+      : reynolds(grid, edges, options.effects.cavitation, has_grooves(options)),
+        oil(reynolds, options.liner_layer.has_value()) {
     cells.resize(grid.size());
     for (Eigen::ArrayXd* values : {&shear.inverse, &shear.inverse_slope})
       values->setZero(grid.size());
@@ -41,6 +42,15 @@ struct PadLayer {
   OilBalance balance;  // of the last accepted step
 };
 
+/// Grooves and windows of a pad.
+struct PadRecesses {
+  RecessMap map;
+  bool moves;  // some are on the liner
+  RecessCells cells;
+  double moved = 0.0,
+         moved_sum = 0.0;  // volume into grooves since the start [m3], and without sign
+};
+
 struct PistonLiner::Pad {
   Pad(std::string pad_name, PadGrid pad_grid, GapMap gap_map)
       : name(std::move(pad_name)), grid(std::move(pad_grid)), map(std::move(gap_map)) {
@@ -49,7 +59,10 @@ struct PistonLiner::Pad {
     area = grid.area();
     area_slope.setZero(n);
   }
-  bool covers(Eigen::Index cell) const { return area[cell] > 0.0; }
+  bool in_recess(Eigen::Index cell) const { return recesses && recesses->cells.covered(cell); }
+  /// Inside the liner and not in a recess, n.
+  Eigen::Array<bool, Eigen::Dynamic, 1> carrying() const;
+  std::string place() const { return grid.periodic() ? name : name + " pad"; }
   std::string name;
   PadGrid grid;
   GapMap map;                    // k columns
@@ -69,6 +82,7 @@ struct PistonLiner::Pad {
   RowMatrix derivative;             // dx/dy of the film, then d(load)/dy, n x k
   std::vector<LinerShapeMap> liner_shapes;
   std::optional<ScaledGap> scaled;
+  std::optional<PadRecesses> recesses;
   std::optional<PadFilm> film;
   std::optional<PadLayer> layer;
   Eigen::ArrayXd contact, contact_slope, contact_energy;  // p_c [Pa], dp_c/dh, energy [J/m2]

@@ -49,8 +49,11 @@ Strips strips_of(const rom::ContactGrid& grid) {
   return strips;
 }
 
-CylinderStencil stencil_of(const rom::ContactGrid& grid) {
-  const Strips strips = strips_of(grid);
+/// `closed`: across the spaces between strips, too.
+CylinderStencil stencil_of(const rom::ContactGrid& grid, bool closed) {
+  Strips strips = strips_of(grid);
+  if (closed && strips.neighbours.size() > 1)
+    std::fill(strips.neighbours.begin(), strips.neighbours.end(), 1);
   return CylinderStencil(strips.angles, strips.neighbours, grid.axial);
 }
 
@@ -125,7 +128,9 @@ Eigen::MatrixXd rigid_fit(const ElasticSurface& surface) {
 }
 
 PatchMap::PatchMap(const ElasticSurface& surface, const PadGrid& pad)
-    : pad_(pad), stencil_(stencil_of(surface.grid)), rigid_(radial_motions(surface)) {
+    : pad_(pad),
+      stencil_(stencil_of(surface.grid, pad.periodic())),
+      rigid_(radial_motions(surface)) {
   const rom::ContactGrid& grid = surface.grid;
   if (std::abs(std::abs(grid.axis.z()) - 1.0) > 1e-6)
     throw InputError(fmt::format("contact grid: axis ({:.3g}, {:.3g}, {:.3g}), expected along z",

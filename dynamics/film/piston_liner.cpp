@@ -19,7 +19,15 @@ void require(bool holds, const std::string& name, const char* key, double found,
     throw InputError(fmt::format("{}: {}: found {}, expected {}", name, key, found, expected));
 }
 
+// Cells around the entire skirt: fewer do not resolve a gap that varies with its sine.
+constexpr int kLeastAround = 8;
+
+/// The entire skirt begins and ends at the pin, where the film is closed.
 PadGrid make_grid(const PistonLinerOptions& options, double centre) {
+  if (options.span == SkirtSpan::kWhole)
+    return PadGrid::uniform(-0.5 * std::numbers::pi, 1.5 * std::numbers::pi, options.cells_around,
+                            options.skirt_bottom, options.skirt_top, options.cells_along,
+                            options.bore_radius, true);
   return PadGrid::uniform(centre - 0.5 * options.pad_span, centre + 0.5 * options.pad_span,
                           options.cells_around, options.skirt_bottom, options.skirt_top,
                           options.cells_along, options.bore_radius);
@@ -39,6 +47,10 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   if (!on.cavitation) {  // every cell is full: no setting of partial filling applies
     options_.initial_fill = options_.supply_fill = 1.0;
     options_.oil_thickness = std::numeric_limits<double>::infinity();
+    for (Recess& recess : options_.recesses) {
+      recess.kind = Recess::Kind::kGroove;
+      recess.fill = 1.0;
+    }
   }
   if (on.film) {
     rough_ = std::make_unique<RoughFilm>(options_.roughness);
@@ -74,8 +86,13 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
   for (const auto* shapes : {&options_.scaled_bore, &options_.scaled_skirt})
     for (const ScaledShape& shape : *shapes) scales_.add(shape.scale);
-  add_pad("thrust", 0.0);
-  add_pad("antithrust", std::numbers::pi);
+  if (options_.span == SkirtSpan::kWhole) {
+    add_pad("skirt", 0.0);
+  } else {
+    add_pad("thrust", 0.0);
+    add_pad("antithrust", std::numbers::pi);
+  }
+  check_recesses();
 }
 
 void PistonLiner::add_pad(const char* name, double centre) {
@@ -88,6 +105,7 @@ void PistonLiner::add_pad(const char* name, double centre) {
   for (const LinerShape& shape : options_.skirt_shapes)
     LinerShapeMap(shape, grid).add(0.0, skirt, slope);
   pad.rest -= skirt;
+  if (!options_.recesses.empty()) add_recesses(pad);
   if (options_.bore) pad.liner_shapes.emplace_back(*options_.bore, grid);
   for (const LinerShape& shape : options_.bore_shapes) pad.liner_shapes.emplace_back(shape, grid);
   if (!scales_.empty()) {
@@ -100,8 +118,7 @@ void PistonLiner::add_pad(const char* name, double centre) {
   if (on.film) {
     const Edge open = Edge::supply(viscosity_->reduced(options_.supply_pressure),
                                    options_.supply_fill, options_.oil_thickness);
-    pad.film.emplace(grid, Edges{open, open, open, open, open}, on.cavitation,
-                     options_.liner_layer.has_value());
+    pad.film.emplace(grid, Edges{open, open, open, open, open}, options_);
   }
   if (options_.liner_layer) pad.layer.emplace(*options_.liner_layer, grid);
   if (on.asperities)
@@ -129,8 +146,10 @@ void PistonLiner::check() const {
   require(o.clearance >= 0.0, o.name, "clearance", o.clearance, ">= 0 m");
   require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
   require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
-  require(o.pad_span > 0.0 && o.pad_span < std::numbers::pi, o.name, "pad_span", o.pad_span,
+  require(o.pad_span > 0.0 && o.pad_span <= std::numbers::pi, o.name, "pad_span", o.pad_span,
           "between 0 and pi rad");
+  require(o.span == SkirtSpan::kPads || o.cells_around >= kLeastAround, o.name, "cells_around",
+          o.cells_around, "at least 8 around the entire skirt");
   require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
   require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
   require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");
@@ -166,6 +185,7 @@ void PistonLiner::update_gap(Pad& pad, double position, const std::vector<ScaleS
   if (pad.scaled) pad.scaled->add(height, scales, pad.gap, pad.gap_by_height);
   pad.map.move(height);
   pad.map.add(y, pad.gap, pad.gap_by_height);
+  if (pad.recesses) place_recesses(pad, position);
 }
 
 void PistonLiner::evaluate(const dynamics::Stage& stage, const Eigen::VectorXd& y,
@@ -184,7 +204,7 @@ void PistonLiner::evaluate_pad(Pad& pad, const dynamics::Stage& stage, const Eig
   if (pad.film && !running_) start_content(pad, stage, y, v);
   update_gap(pad, stroke_.position, scaled_, y);
   if (!pad.gap.allFinite())
-    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.name + " pad");
+    throw dynamics::StepRefused(options_.name + ": gap is not finite", pad.place());
   pad.map.rows(1.0, 0.0, pad.gap_by_height, pad.gap_by_y);
   pad.map.gather(v, pad.v);
   pad.load.setZero();
@@ -224,7 +244,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   const double lowest = lowest_gap(pad);
   if (lowest <= rough_->lowest_gap())
     throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
-                                fmt::format("{:.3g} m on the {} pad", lowest, pad.name));
+                                fmt::format("{:.3g} m on the {}", lowest, pad.place()));
   rough_->thicknesses(pad.gap, film.cells);
   if (viscosity_->varies()) {
     viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
@@ -236,6 +256,7 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   if (running_) inner.profile_before = &film.oil.profile();
   inner.cavity = options_.cavity;
   if (pad.ends) inner.cover = &pad.cover;
+  if (pad.recesses) inner.recesses = &pad.recesses->cells;
   if (pad.layer) meet_layer(pad, stage);
   solve_film_equations(pad, stage, inner);
   pad.load += pad.area * film.pressure();
@@ -249,12 +270,12 @@ void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,
         film.reynolds.solve(film.cells, film.oil.before(film.reynolds, stage.weights), inner);
   } catch (const NumericsError& error) {
     throw dynamics::StepRefused(options_.name + ": the film's equations were not solved",
-                                fmt::format("{} pad: {}", pad.name, error.what()));
+                                fmt::format("{}: {}", pad.place(), error.what()));
   }
   if (viscosity_->pressure_coefficient() > 0.0 &&
       !viscosity_->pressure(film.reynolds.pressure(), film.thick_pressure, film.thickening))
     throw dynamics::StepRefused(options_.name + ": no film pressure carries the load",
-                                fmt::format("{} pad: {:.3g} Pa reduced pressure", pad.name,
+                                fmt::format("{}: {:.3g} Pa reduced pressure", pad.place(),
                                             film.reynolds.pressure().maxCoeff()));
 }
 

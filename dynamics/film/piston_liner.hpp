@@ -16,7 +16,7 @@ namespace clatter::film {
 
 /// Fields of one pad at the last evaluated state, n_angle x n_axial each.
 struct PadSnapshot {
-  std::string name;              // "thrust", "antithrust"
+  std::string name;              // "thrust", "antithrust"; "skirt" of the entire one
   Eigen::VectorXd angle;         // cell centres, from the thrust side [rad]
   Eigen::VectorXd axial;         // cell centres, z from the pin centre [m]
   RowMatrix gap;                 // h [m]
@@ -77,6 +77,10 @@ class PistonLiner : public dynamics::ForceElement {
                     const Eigen::VectorXd& v, bool with_tangent);
   void update_gap(Pad& pad, double position, const std::vector<ScaleState>& scales,
                   const Eigen::VectorXd& y);
+  void check_recesses() const;
+  void add_recesses(Pad& pad);
+  void place_recesses(Pad& pad, double position) const;
+  double recess_power(const Pad& pad) const;
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;

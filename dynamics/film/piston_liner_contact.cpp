@@ -11,6 +11,9 @@ void PistonLiner::update_contact(Pad& pad) {
     pad.contact_slope[c] = contact.slope;
     pad.contact_energy[c] = contact.energy;
   }
+  if (pad.recesses)
+    for (Eigen::ArrayXd* values : {&pad.contact, &pad.contact_slope, &pad.contact_energy})
+      *values *= 1.0 - pad.recesses->cells.share;
   pad.contact_elastic = pad.contact;
   if (damping_) damp_contact(pad);
   pad.load += pad.area * pad.contact;

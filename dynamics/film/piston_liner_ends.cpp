@@ -24,9 +24,14 @@ void PistonLiner::update_cover(Pad& pad, double height) const {
   pad.area_slope = pad.grid.area() * pad.cover.share_slope.replicate(columns, 1);
 }
 
-// Smallest gap inside the liner [m]; infinite when the pad is outside.
+Eigen::Array<bool, Eigen::Dynamic, 1> PistonLiner::Pad::carrying() const {
+  if (!recesses) return area > 0.0;
+  return area > 0.0 && recesses->cells.share < 1.0;
+}
+
+// Smallest gap that can carry [m]; infinite when the pad is outside the liner.
 double PistonLiner::lowest_gap(const Pad& pad) const {
-  return (pad.area > 0.0).select(pad.gap, INFINITY).minCoeff();
+  return pad.carrying().select(pad.gap, INFINITY).minCoeff();
 }
 
 // Force along the stroke on the piston where asperities are pressed together as a row slides in

@@ -29,6 +29,10 @@ void PistonLiner::accept_layer(Pad& pad, double time) {
     left.push_back(ring_layer(ring, viscosity_->at_height(stroke.position + ring.height),
                               stroke.velocity, ring.gas_load ? ring.gas_load(time) : 0.0));
   pad.film->reynolds.add_up_edges(on_liner.moved, on_liner.volumes);
+  if (has_grooves(options_)) {
+    pad.recesses->moved += on_liner.volumes.recesses;
+    pad.recesses->moved_sum += on_liner.volumes.recesses_moved;
+  }
   on_liner.layer.advance(time - step_begin_, travel_, on_liner.volumes, left);
   balance_oil(pad);
 }
@@ -38,6 +42,9 @@ void PistonLiner::balance_oil(Pad& pad) {
   on_liner.balance = on_liner.layer.balance();
   on_liner.balance.gap = (pad.film->oil.content() * pad.grid.area()).sum();
   on_liner.balance.first = on_liner.first;
+  if (!pad.recesses) return;
+  on_liner.balance.grooves = pad.recesses->moved;
+  on_liner.balance.moved += pad.recesses->moved_sum;
 }
 
 std::optional<OilBalance> PistonLiner::oil_balance() const {

@@ -15,6 +15,7 @@
 #include "dynamics/film/friction.hpp"
 #include "dynamics/film/gap.hpp"
 #include "dynamics/film/liner_layer.hpp"
+#include "dynamics/film/recess.hpp"
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
 #include "dynamics/film/viscosity.hpp"
@@ -29,8 +30,11 @@ struct ContactEffects {
   bool friction = true;    // film shear and contact friction along the stroke
 };
 
-/// Parameters with their defaults. Two pads: thrust side (around +y) and anti-thrust side (around
-/// -y).
+/// Which part of the skirt has a gap: two pads, on the thrust side (around +y) and the anti-thrust
+/// side (around -y), between which no oil passes; or all of it, one film closed around.
+enum class SkirtSpan { kPads, kWhole };
+
+/// Parameters with their defaults.
 struct PistonLinerOptions {
   std::string name = "piston_liner";
   ContactEffects effects;
@@ -39,14 +43,16 @@ struct PistonLinerOptions {
   double clearance = 20e-6;      // warm radial clearance where the skirt is widest [m], >= 0
   double skirt_bottom = -45e-3;  // lower end of the pads, z from the pin centre [m]
   double skirt_top = 25e-3;      // upper end of the pads, z from the pin centre [m]
-  double pad_span = 80.0 * std::numbers::pi / 180.0;  // angle that each pad covers [rad], under pi
-  int cells_around = 10;                              // cells of a pad along the circumference
-  int cells_along = 40;                               // cells of a pad along the axis
+  SkirtSpan span = SkirtSpan::kPads;
+  double pad_span = 80.0 * std::numbers::pi / 180.0;  // angle that each pad covers [rad], up to pi
+  int cells_around = 10;  // cells of a pad, or of the entire skirt, along the circumference
+  int cells_along = 40;   // cells along the axis
   SkirtShape skirt;
   std::optional<LinerShape> bore;  // deviation of the liner at rest; absent: a cylinder
   /// Added to that deviation, and to the skirt outward: heights are engine z, and z from the pin.
   std::vector<LinerShape> bore_shapes, skirt_shapes;
   std::vector<ScaledShape> scaled_bore, scaled_skirt;  // the same times a factor in the cycle
+  std::vector<Recess> recesses;  // grooves and windows; pressures of grooves in Pa
   LinerEnds
       ends;  // of the liner; infinite: those of an elastic liner's patches, a rigid one has none
 
@@ -71,6 +77,9 @@ struct PistonLinerOptions {
   ContactDampingOptions damping;
   FrictionOptions friction;
 };
+
+/// Whether film and reservoirs exchange oil.
+bool has_grooves(const PistonLinerOptions& options);
 
 /// Stroke position and velocity of the piston's reference point (pin centre) along engine z.
 struct StrokeState {

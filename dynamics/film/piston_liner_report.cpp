@@ -64,6 +64,7 @@ dynamics::Power PistonLiner::power(const Eigen::VectorXd&, const Eigen::VectorXd
     power.input -= ((pad->load * pad->gap_by_height).sum() + end_force(*pad)) * stroke_.velocity;
     if (pad->film) power.lost -= (area * pad->film->pressure() * gap_rate).sum();
     if (asperity_) power.stored += (area * pad->contact_energy).sum();
+    if (asperity_ && pad->recesses) power.input += recess_power(*pad);
     if (damping_) power.lost += (area * pad->contact_loss).sum();
     if (!pad->friction) continue;
     const Eigen::Vector3d rub = friction_wrench(*pad);
@@ -92,8 +93,15 @@ void PistonLiner::record(dynamics::History& history) const {
     if (pad->film) {
       film_load += (pad->area * pad->film->pressure()).sum();
       film_peak = std::max(film_peak, pad->film->pressure().maxCoeff());
-      oil += (pad->area * pad->film->cells.content * pad->film->reynolds.fill()).sum();
-      space += (pad->area * pad->film->cells.content).sum();
+      if (pad->recesses) {
+        const Eigen::ArrayXd room =
+            pad->carrying().select(pad->area * pad->film->cells.content, 0.0);
+        oil += (room * pad->film->reynolds.fill()).sum();
+        space += room.sum();
+      } else {
+        oil += (pad->area * pad->film->cells.content * pad->film->reynolds.fill()).sum();
+        space += (pad->area * pad->film->cells.content).sum();
+      }
     }
     if (asperity_) {
       contact_load += (pad->area * pad->contact).sum();
@@ -124,6 +132,7 @@ void PistonLiner::record(dynamics::History& history) const {
   history.put("oil_dripped", "m3", balance->dripped);
   history.put("oil_over_sides", "m3", balance->sides);
   history.put("oil_over_ends", "m3", balance->ends);
+  if (has_grooves(options_)) history.put("oil_into_grooves", "m3", balance->grooves);
 }
 
 std::vector<double> PistonLiner::save() const {
@@ -133,6 +142,8 @@ std::vector<double> PistonLiner::save() const {
     if (!pad->layer) continue;
     state.push_back(pad->layer->first);
     pad->layer->layer.save(state);
+    if (has_grooves(options_))
+      state.insert(state.end(), {pad->recesses->moved, pad->recesses->moved_sum});
   }
   return state;
 }
@@ -142,6 +153,7 @@ void PistonLiner::restore(const std::vector<double>& state) {
   for (const auto& pad : pads_) {
     if (pad->film) expected += pad->film->oil.saved_size();
     if (pad->layer) expected += 1 + pad->layer->layer.saved_size();
+    if (pad->layer && has_grooves(options_)) expected += 2;
   }
   if (state.size() != expected)
     throw InputError(options_.name + ": the saved film state has " + std::to_string(state.size()) +
@@ -153,6 +165,10 @@ void PistonLiner::restore(const std::vector<double>& state) {
     if (!pad->layer) continue;
     pad->layer->first = *next++;
     next = pad->layer->layer.restore(next);
+    if (has_grooves(options_)) {
+      pad->recesses->moved = *next++;
+      pad->recesses->moved_sum = *next++;
+    }
     balance_oil(*pad);
   }
 }
@@ -186,7 +202,7 @@ std::vector<PadSnapshot> PistonLiner::snapshot() const {
     one.gap = field(pad->gap);
     if (pad->film) {
       one.pressure = field(pad->film->pressure());
-      one.fill = field(pad->film->reynolds.fill());
+      one.fill = field(pad->film->reynolds.fill().min(1.0));  // a window holds more than its gap
     }
     if (asperity_) one.contact_pressure = field((pad->area > 0.0).select(pad->contact, 0.0));
     if (pad->layer) {

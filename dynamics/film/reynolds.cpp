@@ -33,8 +33,8 @@ void FilmCells::set_smooth(const Eigen::ArrayXd& h) {
     values->setOnes(h.size());
 }
 
-Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
-    : grid_(grid), edges_(edges), cavitation_(cavitation) {
+Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, bool reservoirs)
+    : grid_(grid), edges_(edges), cavitation_(cavitation), reservoirs_(reservoirs) {
   build_faces();
   number_cells();
   const int n = grid_.size();
@@ -59,7 +59,9 @@ Reynolds::Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation)
   rim_conduct_.resize(rims_.size());
   rim_carry_.resize(rims_.size());
   rim_entering_.resize(rims_.size());
-  flows_.setZero(static_cast<Eigen::Index>(faces_.size() + rims_.size()) + n);
+  if (reservoirs_) exchange_.setZero(n);
+  flows_.setZero(static_cast<Eigen::Index>(faces_.size() + rims_.size()) +
+                 (reservoirs_ ? 2 : 1) * n);
 }
 
 void Reynolds::build_faces() {
@@ -123,9 +125,12 @@ void Reynolds::guess_split() {
   if (!started_ && !stage_.steady)
     for (int c = 0; c < grid_.size(); ++c)
       full_[static_cast<size_t>(c)] = before_[c] >= storage_[c];
+  if (stage_.recesses != nullptr) guess_recesses();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const double theta = fill_[upstream_of(f)];
-    limited_[f] = layers() ? ratio_[f] * theta > 1.0 : lift_[f] != 0.0 && theta < lowest_lifted(f);
+    limited_[f] = within_window(f) ? false
+                  : layers()       ? ratio_[f] * theta > 1.0
+                                   : lift_[f] != 0.0 && theta < lowest_lifted(f);
   }
   for (size_t r = 0; r < rims_.size(); ++r)
     rim_limited_[r] = rim_ratio_[r] * fill_[rims_[r].cell] > 1.0;
@@ -147,7 +152,7 @@ bool Reynolds::update_split() {
     if (is_full(c)) highest = std::max(highest, value(c));
   violated_.clear();
   for (int c = 0; c < n; ++c)
-    if (is_full(c) ? value(c) < -kBorder * highest : value(c) > 1.0 + kBorder)
+    if (!in_recess(c) && (is_full(c) ? value(c) < -kBorder * highest : value(c) > 1.0 + kBorder))
       violated_.push_back(c);
   // A full cell carries as much as its face takes, and so at first when it cavitates.
   for (size_t f = 0; f < faces_.size(); ++f) {
@@ -189,7 +194,7 @@ bool Reynolds::update_split() {
 
 // A state within rounding of its bound stays.
 bool Reynolds::violates_limit(size_t face, double theta) const {
-  if (carry_[face] == 0.0) return false;
+  if (carry_[face] == 0.0 || within_window(face)) return false;
   const bool limited = limited_[face] != 0;
   if (layers()) {
     const double excess = ratio_[face] * theta - 1.0;

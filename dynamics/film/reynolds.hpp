@@ -12,6 +12,7 @@
 #include "dynamics/film/edge_volumes.hpp"
 #include "dynamics/film/flow_factors.hpp"
 #include "dynamics/film/grid.hpp"
+#include "dynamics/film/recess.hpp"
 #include "dynamics/film/split_search.hpp"
 
 namespace clatter::film {
@@ -86,6 +87,9 @@ struct FilmStage {
   /// Part of the pad inside the liner, which slides with its ends at 2 U_m along the axis. Null:
   /// all of it. Not when steady.
   const Cover* cover = nullptr;
+  /// Grooves and windows (recess.hpp); null: none. Windows not when steady and not without
+  /// cavitation.
+  const RecessCells* recesses = nullptr;
 };
 
 /// JFO film in stage form, conserving mass for any Runge-Kutta tableau:
@@ -113,6 +117,11 @@ struct FilmStage {
 /// leaves with it as it is uncovered; as it is covered it brings as much as flows in over an edge.
 /// Cells outside (w = 0) have the edge's pressure and no content.
 ///
+/// A cell that a groove covers has the pressure and the fill of its reservoir, which takes what its
+/// balance lacks; in one that a window covers theta is not bounded and p = 0. A face between such a
+/// cell and another has the thickness of the other and half of its width as distance: the edge lies
+/// on the face.
+///
 /// The unknown of a full cell is p (theta = 1), of a cavitated cell theta (p = 0). For a given
 /// split into full and cavitated cells, and into faces within and at their bounds, the system is
 /// linear, and its matrix is a column-diagonally dominant M-matrix; the split is found by an active
@@ -121,7 +130,8 @@ class Reynolds {
  public:
   /// `cavitation` false: every cell stays full and p may be negative (full Sommerfeld); m~ must
   /// then be that of full cells.
-  Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation);
+  /// `reservoirs`: there are grooves.
+  Reynolds(const PadGrid& grid, const Edges& edges, bool cavitation, bool reservoirs = false);
 
   /// Solves; `content_before` is m~ [m], n (not read when steady). Returns the number of linear
   /// solves. Throws NumericsError when no split is found or the matrix is singular.
@@ -138,12 +148,14 @@ class Reynolds {
   /// layers.
   Eigen::ArrayXd profile() const;
   /// Fraction of a cell's area that is sheared between the walls, and its slope by theta: theta for
-  /// streamers; 2 theta - 1, not below 0, for layers of at most half of the gap on both walls.
+  /// streamers; 2 theta - 1, not below 0, for layers of at most half of the gap on both walls; less
+  /// what is in a recess.
   ValueSlope sheared(int cell) const;
   /// Largest mass residual of a cell relative to the largest terms of its balance.
   double residual() const { return residual_; }
   /// Volume flow over each face (from its first cell to its second), then over each open edge
-  /// (outward) and out of each cell over the end of the liner [m3/s].
+  /// (outward), out of each cell over the end of the liner, and where there are grooves out of each
+  /// cell into them [m3/s].
   const Eigen::ArrayXd& flows() const { return flows_; }
   /// Reduces the volumes `sent` [m3] (as `flows`) that earlier stages moved, so that no cell gives
   /// more than it held and received, and sets `before` = content - div(sent) / area >= 0 [m], n.
@@ -201,10 +213,31 @@ class Reynolds {
     void to_cells(double& by_a, double& by_b) const;
   };
   Inside inside(const Face& face) const;
+  Inside covered_part(const Face& face) const;
   Inside inside(const Rim& rim) const;
   bool outside(int cell) const {
     return partial_ && stage_.cover->share[cell % grid_.n_axial()] == 0.0;
   }
+  bool in_recess(int cell) const {
+    return stage_.recesses != nullptr && stage_.recesses->covered(cell) && !outside(cell);
+  }
+  bool in_groove(int cell) const { return in_recess(cell) && !stage_.recesses->window[cell]; }
+  bool in_window(int cell) const { return in_recess(cell) && stage_.recesses->window[cell]; }
+  /// The liner carries all of its oil across a window.
+  bool within_window(size_t face) const {
+    return in_window(faces_[face].a) && in_window(faces_[face].b);
+  }
+  /// The pressure or the fill of a cell is given.
+  bool fixed(int cell) const { return outside(cell) || in_groove(cell); }
+  bool beside_groove(int cell) const {
+    return stage_.recesses != nullptr && stage_.recesses->share[cell] > 0.0 &&
+           !stage_.recesses->covered(cell) && !outside(cell);
+  }
+  int content_cell(size_t face) const;
+  void edge_of_recess(const Face& face, Inside& in) const;
+  void guess_recesses();
+  void weigh_reservoirs(double mobility);
+  void add_reservoirs(double mobility, const RowMatrix& dh);
   void weigh_ends();
   FaceFill end_law(int cell) const;
   double end_thickness(int cell) const;
@@ -236,7 +269,7 @@ class Reynolds {
 
   PadGrid grid_;
   Edges edges_;
-  bool cavitation_;
+  bool cavitation_, reservoirs_;
   std::vector<Face> faces_;
   std::vector<Rim> rims_;
   std::vector<int> row_;  // cell -> row of the banded system
@@ -254,7 +287,8 @@ class Reynolds {
   // conductance, carried volume and lift of faces, the same of rims.
   Eigen::ArrayXd storage_, squeeze_, before_;
   std::vector<double> conduct_, carry_, lift_, rim_conduct_, rim_carry_, rim_entering_;
-  Eigen::ArrayXd covered_;  // volume per thickness that the stage covers at the end, by cell [1/m]
+  Eigen::ArrayXd exchange_;  // conductance to the groove beside, n; empty: no grooves
+  Eigen::ArrayXd covered_;   // volume per thickness that the stage covers at the end, by cell [1/m]
   std::vector<double> ratio_, rim_ratio_;  // of layers, 2 (1 + l) s / c, on faces and open edges
   double volume_scale_ = 1.0, pressure_scale_ = 1.0;
   FilmCells film_;  // of the last solve

@@ -21,6 +21,12 @@ void Reynolds::Inside::to_cells(double& by_a, double& by_b) const {
 }
 
 Reynolds::Inside Reynolds::inside(const Face& face) const {
+  Inside in = covered_part(face);
+  if (stage_.recesses != nullptr) edge_of_recess(face, in);
+  return in;
+}
+
+Reynolds::Inside Reynolds::covered_part(const Face& face) const {
   Inside in{.distance = face.distance};
   if (!partial_) return in;
   const Cover& cover = *stage_.cover;

@@ -12,7 +12,10 @@ void Reynolds::set_outside_layers(const Eigen::ArrayXd& begin, const Eigen::Arra
 }
 
 void Reynolds::leaving(const Eigen::ArrayXd& flows, Eigen::ArrayXd& rate) const {
-  rate = flows.tail(grid_.size());
+  const int n = grid_.size();
+  const auto ends = static_cast<Eigen::Index>(faces_.size() + rims_.size());
+  rate = flows.segment(ends, n);
+  if (reservoirs_) rate += flows.tail(n);
   Eigen::Index k = 0;
   for (const Face& face : faces_) {
     rate[face.a] += flows[k];
@@ -36,8 +39,11 @@ void Reynolds::add_up_edges(const Eigen::ArrayXd& moved, EdgeVolumes& volumes) c
       volumes.sides_moved += std::abs(volume);
     }
   }
-  volumes.ends = moved.tail(grid_.size()).sum();
-  volumes.ends_moved = moved.tail(grid_.size()).abs().sum();
+  volumes.ends = moved.segment(k, grid_.size()).sum();
+  volumes.ends_moved = moved.segment(k, grid_.size()).abs().sum();
+  if (!reservoirs_) return;
+  volumes.recesses = moved.tail(grid_.size()).sum();
+  volumes.recesses_moved = moved.tail(grid_.size()).abs().sum();
 }
 
 }  // namespace clatter::film

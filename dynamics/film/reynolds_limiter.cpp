@@ -23,6 +23,7 @@ double Reynolds::lift(const Face& face, double speed) const {
   const int beyond = speed > 0.0 ? face.beyond_a : face.beyond_b;
   const double here = (*profile)[upstream], whole = layers() ? here : 1.0 - here;
   if (beyond < 0 || whole <= 0.0 || outside(beyond) || outside(downstream)) return 0.0;
+  if (in_recess(upstream) || in_recess(beyond) || in_recess(downstream)) return 0.0;
   const double up = here - (*profile)[beyond], down = (*profile)[downstream] - here;
   if (up * down <= 0.0) return 0.0;
   return std::clamp(up * down / (up + down) / whole, -1.0, 1.0);
@@ -75,9 +76,11 @@ Eigen::ArrayXd Reynolds::profile() const {
 }
 
 ValueSlope Reynolds::sheared(int cell) const {
-  if (is_full(cell) || !layers()) return {fill_[cell], is_full(cell) ? 0.0 : 1.0};
+  if (in_recess(cell)) return {0.0, 0.0};
+  const double land = beside_groove(cell) ? 1.0 - stage_.recesses->share[cell] : 1.0;
+  if (is_full(cell) || !layers()) return {land * fill_[cell], is_full(cell) ? 0.0 : land};
   const bool both_walls = fill_[cell] > 0.5;
-  return {both_walls ? 2.0 * fill_[cell] - 1.0 : 0.0, both_walls ? 2.0 : 0.0};
+  return {both_walls ? land * (2.0 * fill_[cell] - 1.0) : 0.0, both_walls ? land * 2.0 : 0.0};
 }
 
 // In each pass a cell gives at most what it held and what the pass before let in: flows only fall.
@@ -90,7 +93,7 @@ void Reynolds::limit_outflow(const Eigen::ArrayXd& content, Eigen::ArrayXd& sent
     const int from = inside ? faces_[at].a
                      : at < faces_.size() + rims_.size()
                          ? rims_[at - faces_.size()].cell
-                         : static_cast<int>(at - faces_.size() - rims_.size());
+                         : static_cast<int>(at - faces_.size() - rims_.size()) % grid_.size();
     const int to = inside ? faces_[at].b : -1;
     return sent[k] > 0.0 ? std::pair{from, to} : std::pair{to, from};
   };

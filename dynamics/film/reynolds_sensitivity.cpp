@@ -40,8 +40,8 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
     by_b *= dg[b];
     const int upstream = upstream_of(f);
     if (carries_content(f)) {
-      (upstream == a ? by_a : by_b) +=
-          moved * 2.0 * (1.0 + lift_[f]) * fill_[upstream] * film.d_content[upstream];
+      (content_cell(f) == a ? by_a : by_b) +=
+          moved * 2.0 * (1.0 + lift_[f]) * fill_[upstream] * film.d_content[content_cell(f)];
     } else {
       const double drag = moved * fill_on_face(f);
       const auto [c_a, c_b] = in.beside(film.carry[a], film.carry[b]);
@@ -80,6 +80,7 @@ void Reynolds::sensitivities(const RowMatrix& dh, RowMatrix& derivative,
   }
   for (int c = 0; partial_ && c < grid_.size(); ++c)
     if (outside(c)) row(c).setZero();
+  if (reservoirs_ && stage_.recesses != nullptr) add_reservoirs(mobility, dh);
   lu_.solve_rows(work_.data(), static_cast<int>(work_.cols()));
   derivative.resize(grid_.size(), k);
   for (int c = 0; c < grid_.size(); ++c)

@@ -33,7 +33,7 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     // At least 1: a cell that fills must not carry less than it will when it is full.
     if (layers())
       ratio_[f] = std::max(
-          2.0 * (1.0 + lift_[f]) * film.content[upstream_of(f)] / face_carry(c_a, c_b), 1.0);
+          2.0 * (1.0 + lift_[f]) * film.content[content_cell(f)] / face_carry(c_a, c_b), 1.0);
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
@@ -65,21 +65,28 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
   }
   squeeze_ = storage_ * (stage.bulk_modulus > 0.0 ? pressure_scale_ / stage.bulk_modulus : 0.0);
   if (partial_) weigh_ends();
+  if (reservoirs_) weigh_reservoirs(mobility);
 }
 
-// The row of a cell outside the liner holds only its pressure.
+// The row of a cell outside the liner or in a groove holds only what is given.
 void Reynolds::assemble() {
   lu_.set_zero();
   auto row_of = [this](int cell) { return row_[static_cast<size_t>(cell)]; };
   auto add = [&](int cell, int unknown, double value) {
-    if (!outside(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
+    if (!fixed(cell)) lu_.at(row_of(cell), row_of(unknown)) += value;
   };
   auto give = [&](int cell, double value) {
-    if (!outside(cell)) x_[row_of(cell)] += value;
+    if (!fixed(cell)) x_[row_of(cell)] += value;
   };
   for (int c = 0; c < grid_.size(); ++c) {
     if (outside(c)) {
       x_[row_of(c)] = edges_.liner_end.pressure / pressure_scale_;
+      lu_.at(row_of(c), row_of(c)) = 1.0;
+      continue;
+    }
+    if (in_groove(c)) {
+      x_[row_of(c)] =
+          is_full(c) ? stage_.recesses->pressure[c] / pressure_scale_ : stage_.recesses->fill[c];
       lu_.at(row_of(c), row_of(c)) = 1.0;
       continue;
     }
@@ -117,6 +124,11 @@ void Reynolds::assemble() {
     else
       give(rim.cell, -(carried > 0.0 ? carried : rim_entering_[r]));
   }
+  for (int c = 0; reservoirs_ && c < grid_.size(); ++c) {
+    if (exchange_[c] == 0.0) continue;
+    give(c, exchange_[c] * stage_.recesses->pressure[c] / pressure_scale_);
+    if (is_full(c)) add(c, c, exchange_[c]);
+  }
   for (int c = 0; partial_ && c < grid_.size(); ++c) {
     if (covered_[c] == 0.0) continue;
     const FaceFill law = end_law(c);
@@ -139,7 +151,10 @@ void Reynolds::unpack() {
     const double value = x_[row_[static_cast<size_t>(c)]];
     const bool full = is_full(c);
     pressure_[c] = full ? (cavitation_ ? std::max(value, 0.0) : value) * pressure_scale_ : 0.0;
-    fill_[c] = outside(c) ? 0.0 : full ? 1.0 : std::clamp(value, 0.0, 1.0);  // beyond by rounding
+    // Beyond the bounds by rounding; a window holds more than its own gap.
+    fill_[c] = outside(c) ? 0.0
+               : full     ? 1.0
+                          : std::clamp(value, 0.0, in_window(c) ? INFINITY : 1.0);
   }
 }
 
@@ -180,12 +195,23 @@ void Reynolds::measure() {
     double flow = partial_ ? std::abs(covered_[c]) * end_thickness(c) : 0.0;
     balance[c] += flow;
     magnitude_[c] += std::abs(flow);
-    if (outside(c))
+    double given = 0.0;  // into a groove
+    if (reservoirs_ && exchange_[c] > 0.0) {
+      given = exchange_[c] * (pressure_[c] - stage_.recesses->pressure[c]) / pressure_scale_;
+      balance[c] += given;
+      magnitude_[c] +=
+          exchange_[c] * (pressure_[c] + stage_.recesses->pressure[c]) / pressure_scale_;
+    }
+    if (in_groove(c))
+      given = -balance[c];
+    else if (outside(c))
       flow = -balance[c];
     else if (magnitude_[c] > 0.0)
       residual_ = std::max(residual_, std::abs(balance[c]) / magnitude_[c]);
-    flows_[static_cast<Eigen::Index>(faces_.size() + rims_.size()) + c] = flow * flow_scale;
-    out += flow;
+    const auto at = static_cast<Eigen::Index>(faces_.size() + rims_.size()) + c;
+    flows_[at] = flow * flow_scale;
+    if (reservoirs_) flows_[at + grid_.size()] = given * flow_scale;
+    out += flow + given;
   }
   outflow_ = out * volume_scale_;
 }

@@ -24,7 +24,8 @@ std::string position_of_largest(const film::PistonLiner& contact) {
     largest = one.pressure(i, j);
   }
   if (pad == nullptr) return "the skirt";
-  return fmt::format("the {} side at {:.1f} deg, {:.1f} mm from the pin", pad->name,
+  return fmt::format("the {} at {:.1f} deg, {:.1f} mm from the pin",
+                     pad->name == "skirt" ? pad->name : pad->name + " side",
                      pad->angle[around] * 180.0 / std::numbers::pi, 1e3 * pad->axial[along]);
 }
 

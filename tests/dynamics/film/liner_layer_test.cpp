@@ -339,6 +339,19 @@ TEST(LinerLayer, NoOilIsMissingAfterACycleWithEveryEffect) {
   }
 }
 
+TEST(LinerLayer, NoOilIsMissingAroundTheEntireSkirtAndNoneLeavesOverSides) {
+  PistonLinerOptions options = busy();
+  options.span = SkirtSpan::kWhole;
+  options.cells_around = 12;
+  Held piston(options);
+  piston.rest[1] = 6e-6;
+  revolve(piston, dynamics::tr_bdf2(), 500);
+  const OilBalance oil = *piston.element->oil_balance();
+  EXPECT_LT(oil.residue(), 1e-10);
+  EXPECT_EQ(oil.sides, 0.0);
+  EXPECT_GT(oil.moved, 10.0 * oil.first * 0.1);
+}
+
 TEST(LinerLayer, AMirroredPistonHasAMirroredLayer) {
   const auto run = [](double lateral) {
     Held piston(busy());

@@ -242,6 +242,12 @@ TEST(PistonLiner, RefusesParametersOutOfRangeAndAGapThatIsClosedAtTheStart) {
                  "initial_fill: found 1.2, expected 0 to 1");
   expect_refused([](PistonLinerOptions& o) { o.pad_span = 3.5; },
                  "pad_span: found 3.5, expected between 0 and pi rad");
+  expect_refused(
+      [](PistonLinerOptions& o) {
+        o.span = SkirtSpan::kWhole;
+        o.cells_around = 6;
+      },
+      "cells_around: found 6, expected at least 8 around the entire skirt");
   expect_refused([](PistonLinerOptions& o) { o.skirt_top = o.skirt_bottom; },
                  "skirt_top: found " + fmt::format("{}", small_scene().skirt_bottom) +
                      ", expected above skirt_bottom");

@@ -87,7 +87,9 @@ def edges(centres):
 
 
 def label_pads(axes, pads):
-    """The middle angle of each pad below the lowest row."""
+    """The middle angle of each pad, or both sides of an entire skirt, below the lowest row."""
     for k, axis in enumerate(axes):
-        middle = float(np.mean(list(pads.values())[k % len(pads)]["angle_deg"][()]))
-        axis.set_xticks([middle], [f"{middle:.0f}"])
+        angles = list(pads.values())[k % len(pads)]["angle_deg"][()]
+        entire = angles[-1] - angles[0] > 180.0
+        shown = [0.0, 180.0] if entire else [float(np.mean(angles))]
+        axis.set_xticks(shown, [f"{angle:.0f}" for angle in shown])
