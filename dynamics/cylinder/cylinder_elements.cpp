@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "dynamics/cylinder/clearance.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
 #include "dynamics/force/joint.hpp"
 #include "dynamics/force/pin_guide.hpp"
@@ -157,6 +158,7 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
   film::PistonLinerOptions options = *spec.contact;
   options.name = spec.name_of(options.name);
   if (options.liner_layer) set_layer_range(crank, options);
+  if (options.warm_clearance) set_stroke(crank, *options.warm_clearance);
   auto element = with_context(spec.contact_where, [&] {
     return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
   });

@@ -17,6 +17,7 @@
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
 #include "dynamics/film/viscosity.hpp"
+#include "dynamics/film/warm_clearance.hpp"
 
 namespace clatter::film {
 
@@ -35,7 +36,10 @@ struct PistonLinerOptions {
   ContactEffects effects;
 
   double bore_radius = 53.5e-3;  // [m]
-  double clearance = 20e-6;      // warm radial clearance where the skirt is widest [m], >= 0
+  double clearance = 20e-6;  // radial, of the surfaces to which shapes are added, where the skirt
+                             // is widest [m], >= 0
+  /// In the place of `clearance`, which then follows from it and may be negative.
+  std::optional<WarmClearance> warm_clearance;
   double skirt_bottom = -45e-3;  // lower end of the pads, z from the pin centre [m]
   double skirt_top = 25e-3;      // upper end of the pads, z from the pin centre [m]
   double pad_span = 80.0 * std::numbers::pi / 180.0;  // angle that each pad covers [rad], under pi
