@@ -4,6 +4,7 @@
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
 #   make docs       the site in build/docs           make lint      format, self-contained headers
+#   make study-paper, study-parameters   studies of the piston slap, after make demo
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -20,9 +21,9 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check setup-validate configure build build-tests demo check validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-demo setup-check setup-validate configure build build-tests demo study-paper study-parameters check validate sanitize format lint docs deb levels install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,7p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,8p' Makefile
 
 setup: ; @tools/setup build
 setup-demo: ; @tools/setup build demo
@@ -45,6 +46,11 @@ demo: setup-demo build
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS)
 	@tools/clatter report samples/truck_diesel
 	@tools/clatter report --html samples/truck_diesel
+
+# Oil and clearance as in the paper, and one parameter at a time.
+study-paper study-parameters: setup-demo build
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) models
+	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS) $@
 
 check: setup-check build-tests
 	@$(CTEST) -LE long

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/cylinder/clearance.hpp"
 #include "dynamics/cylinder/oil_table.hpp"
 #include "dynamics/cylinder/recess_table.hpp"
 #include "dynamics/film/roughness.hpp"
@@ -154,7 +155,7 @@ void read_surfaces(const Config& table, film::PistonLinerOptions& options) {
 film::PistonLinerOptions read_contact(const Config& table) {
   film::PistonLinerOptions options;
   options.bore_radius = 0.5 * table.number("bore_mm", Range::between(0.1, 1e4)) * kMilli;
-  options.clearance = table.number("clearance_um", Range::between(0.0, 1e5)) * kMicro;
+  read_clearance(table, options);
   options.skirt_bottom =
       table.number_or("skirt_bottom_mm", options.skirt_bottom / kMilli, kHeight) * kMilli;
   options.skirt_top = table.number_or("skirt_top_mm", options.skirt_top / kMilli, kHeight) * kMilli;

@@ -6,7 +6,7 @@
 
 namespace clatter::dynamics {
 
-/// Reads [contact]; every key except `bore_mm` and `clearance_um` has a default. `lubrication =
+/// Reads [contact]; every key except `bore_mm` and the clearance has a default. `lubrication =
 /// "none"` switches the film off. Heights are z from the pin's centre.
 film::PistonLinerOptions read_contact(const Config& table);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/component/body_component.hpp"
+#include "dynamics/cylinder/clearance.hpp"
 #include "dynamics/cylinder/cylinder_effects.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
@@ -99,6 +100,7 @@ void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effe
   const bool on_block = spec_.bore && model.has_body("block");
   const std::string ends = contact_ != nullptr ? liner_ends_text(crank_, contact_->options()) : "";
   add_cylinder_effects(spec_, on_block, ends, effects);
+  if (contact_ != nullptr) add_clearance_effect(spec_.name, crank_, contact_->options(), effects);
 }
 
 std::map<int, Eigen::Vector3d> CylinderComponent::frames(double time) const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "dynamics/cylinder/clearance.hpp"
 #include "dynamics/cylinder/crank_centre.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
@@ -202,6 +203,7 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
     set_layer_range(crank, options);
     load_layer_rings(spec.rings, gauge_pressure(bodies, crank, gas), *options.liner_layer);
   }
+  if (options.warm_clearance) set_stroke(crank, *options.warm_clearance);
   for (const auto& [specs, shapes] : {std::pair{&spec.scaled_bore, &options.scaled_bore},
                                       {&spec.scaled_skirt, &options.scaled_skirt}})
     for (const ScaledShapeSpec& shape : *specs)

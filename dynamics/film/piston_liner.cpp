@@ -82,6 +82,9 @@ PistonLiner::PistonLiner(PistonLinerOptions options, PistonLinerBodies bodies,
     layer.bottom = std::max(layer.bottom, options_.ends.bottom);
     layer.top = std::min(layer.top, options_.ends.top);
   }
+  if (options_.warm_clearance)
+    options_.clearance =
+        options_.warm_clearance->minimum - nearest_point(options_, *options_.warm_clearance).gap;
   height_by_y_.setZero(size());
   for (const auto& [coordinate, factor] : axial_.height) height_by_y_[coordinate] += factor;
   for (const auto* shapes : {&options_.scaled_bore, &options_.scaled_skirt})
@@ -143,7 +146,8 @@ void PistonLiner::check() const {
   auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
   require(o.effects.film || o.effects.asperities, o.name, "effects", 0.0,
           "film or asperities on: otherwise nothing separates skirt and liner");
-  require(o.clearance >= 0.0, o.name, "clearance", o.clearance, ">= 0 m");
+  const double clearance = o.warm_clearance ? o.warm_clearance->minimum : o.clearance;
+  require(clearance >= 0.0, o.name, "clearance", clearance, ">= 0 m");
   require(o.bore_radius > 0.0, o.name, "bore_radius", o.bore_radius, "> 0 m");
   require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
   require(o.pad_span > 0.0 && o.pad_span <= std::numbers::pi, o.name, "pad_span", o.pad_span,

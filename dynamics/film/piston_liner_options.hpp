@@ -19,6 +19,7 @@
 #include "dynamics/film/reynolds.hpp"
 #include "dynamics/film/roughness.hpp"
 #include "dynamics/film/viscosity.hpp"
+#include "dynamics/film/warm_clearance.hpp"
 
 namespace clatter::film {
 
@@ -40,7 +41,10 @@ struct PistonLinerOptions {
   ContactEffects effects;
 
   double bore_radius = 53.5e-3;  // [m]
-  double clearance = 20e-6;      // warm radial clearance where the skirt is widest [m], >= 0
+  double clearance = 20e-6;  // radial, of the surfaces to which shapes are added, where the skirt
+                             // is widest [m], >= 0
+  /// In the place of `clearance`, which then follows from it and may be negative.
+  std::optional<WarmClearance> warm_clearance;
   double skirt_bottom = -45e-3;  // lower end of the pads, z from the pin centre [m]
   double skirt_top = 25e-3;      // upper end of the pads, z from the pin centre [m]
   SkirtSpan span = SkirtSpan::kPads;

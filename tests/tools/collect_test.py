@@ -70,6 +70,11 @@ class Collect(unittest.TestCase):
             self.assertAlmostEqual(sweep["sound/power/rms"][1, 3] ** 2, 1e-6, delta=1e-18)
             self.assertEqual((sweep["sound/power/level_db"][1], sweep["sound/power/level_dba"][1]), (60.0, 40.0))
             self.assertAlmostEqual(sweep["sensors/sensor_liner.y/rms"][1, 40], 0.5 / np.sqrt(2.0), delta=1e-12)
+            self.assertEqual(sweep["title"][0], b"x")
+            self.assertTrue(np.isnan(sweep["slap/peak"][0]))
+            self.assertAlmostEqual(sweep["slap/time"][1], 0.44e-3, delta=0.03e-3)  # an impact at 0.3 ms, a quarter of its period later
+            self.assertGreater(sweep["slap/peak"][1], sweep["slap/block_peak"][1])
+            self.assertEqual(sweep["slap/liner_db"].shape, (4, len(sweep["slap/mid_hz"])))
             (speed, order, rms, unit), = orders.of_sweep(sweep, "panels/exposed")
             self.assertAlmostEqual(speed, 2000.0, delta=1e-6)
             self.assertEqual((order[3], unit), (1.5, "W^0.5"))

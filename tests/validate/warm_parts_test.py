@@ -32,9 +32,12 @@ class WarmParts(unittest.TestCase):
                 celsius = file["heat/full_load/temperature"][()] - 273.15
                 self.assertTrue(low < celsius.max() < high, celsius.max())
                 self.assertGreater(celsius.min(), 50.0)
-                self.assertLess(file["certificate"].attrs["heat_balance_full_load"], 1e-10)
-                heat = file["heat/full_load/heat"][()]
-                self.assertLess(abs(heat.sum()), 1e-9 * abs(heat).sum())
+                for case in ("full_load", "motored"):
+                    self.assertLess(file["certificate"].attrs[f"heat_balance_{case}"], 1e-10)
+                    heat = file[f"heat/{case}/heat"][()]
+                    self.assertLess(abs(heat.sum()), 1e-9 * abs(heat).sum())
+                motored = file["heat/motored/temperature"][()] - 273.15
+                self.assertTrue(70.0 < motored.min() < motored.max() < 120.0, motored.max())
 
     def test_the_supports_carry_nothing_but_what_does_not_balance(self):
         for part, cases in (("piston", ["thermal"]), ("block", ["thermal", "assembly", "gas"])):
@@ -57,6 +60,12 @@ class WarmParts(unittest.TestCase):
                 mean = self.amplitudes(name, "thermal")[:, 0]
                 self.assertGreater(mean[-1], 1.4 * mean[0])
                 self.assertGreater(mean.min(), 30.0)
+
+    def test_motored_they_are_nearly_cylinders(self):
+        for name, low, high in (("liner_4.shape.h5", 35.0, 45.0), ("skirt.shape.h5", 85.0, 100.0)):
+            with self.subTest(name=name):
+                deviation, covered = self.read(name, "cases/motored/deviation", "covered")
+                self.assertTrue(low < 1e6 * deviation[covered > 0].min() < 1e6 * deviation[covered > 0].max() < high)
 
     def test_bolts_make_the_liner_oval_and_four_lobed_at_its_upper_end(self):
         found = self.amplitudes("liner_4.shape.h5", "assembly")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter collect`: levels, orders and cost of all runs of a sweep in one file."""
+"""`clatter collect`: levels, orders, slaps and cost of all runs of a sweep in one file."""
 import os
 import pathlib
 import tomllib
@@ -7,7 +7,7 @@ import tomllib
 import h5py
 import numpy as np
 
-from . import artefact, chains, orders, sweep_list
+from . import artefact, chains, orders, slap_rows, sweep_list
 from .artefact import BadArtefact, CannotWrite, schema_of, text
 
 AT = "analysis/cycle"
@@ -30,7 +30,7 @@ def flat(table, prefix=""):
 
 
 def scenes(folder):
-    """[(name, {changed key: value})] of the scenes of the last sweep into a folder, numbers in order. Scenes that sweep.mk does not
+    """[(name, title, {changed key: value})] of the scenes of the last sweep into a folder, numbers in order. Scenes that sweep.mk does not
     list are of an earlier sweep, and make does not run them again when their base changes."""
     found, names = [], sweep_list.names(folder)
     for path in folder.glob("*.run.toml"):
@@ -41,10 +41,11 @@ def scenes(folder):
                 table = tomllib.load(stream)
             except tomllib.TOMLDecodeError as error:
                 raise BadArtefact(f"{path}: not TOML: {error}") from error
-        found.append((path.name.removesuffix(".run.toml"), flat({k: v for k, v in table.items() if k not in ("base", "title")})))
+        name = path.name.removesuffix(".run.toml")
+        found.append((name, str(table.get("title", name)), flat({k: v for k, v in table.items() if k not in ("base", "title")})))
     if not found:
         raise BadArtefact(f"{folder}: found no scene, expected those of `clatter sweep`")
-    return sorted(found, key=lambda scene: [value if isinstance(value, (int, float)) else 0.0 for value in scene[1].values()] + [scene[0]])
+    return sorted(found, key=lambda scene: [value if isinstance(value, (int, float)) else 0.0 for value in scene[2].values()] + [scene[0]])
 
 
 def state_of(folder, name):
@@ -89,17 +90,20 @@ class Sweep:
 
     def __init__(self, folder):
         self.scenes = scenes(folder)
-        self.states = [state_of(folder, name) for name, _ in self.scenes]
+        self.states = [state_of(folder, name) for name, *_ in self.scenes]
         self.spectra = [{} for _ in self.scenes]
         self.levels = [{} for _ in self.scenes]
+        self.slaps = [{} for _ in self.scenes]
         self.cost = np.full((len(self.scenes), 2, 2), np.nan)  # of run and field: seconds, peak GiB
-        for row, (name, _) in enumerate(self.scenes):
+        for row, (name, *_) in enumerate(self.scenes):
             run, field = (folder / f"{name}.{kind}.h5" for kind in ("run", "field"))
             if self.states[row] == "complete":
                 self.spectra[row], self.cost[row, 0] = of_histories(run)
             if field.exists() and self.states[row] == "complete":
                 found, self.levels[row], self.cost[row, 1] = of_field(field)
                 self.spectra[row].update(found)
+                with artefact.open_artefact(field, "field") as file:
+                    self.slaps[row] = slap_rows.of_field(file)
 
     def speeds(self):
         """Of the crank [rpm], nan where nothing turns or ran."""
@@ -139,12 +143,13 @@ def fill(sweep, file):
         one.attrs["unit"], one.attrs["meaning"] = np.bytes_(unit), np.bytes_(meaning)
 
     file.attrs["schema"] = np.bytes_(schema_of("sweep"))
-    put("name", [name for name, _ in sweep.scenes], "1", "scenes, a row of all other datasets each")
+    put("name", [name for name, *_ in sweep.scenes], "1", "scenes, a row of all other datasets each")
+    put("title", [title.encode() for _, title, _ in sweep.scenes], "1", "titles of the scenes")
     put("state", sweep.states, "1", "complete, failed, interrupted or missing")
     put("speed_rpm", sweep.speeds(), "1/min", "mean speed of the crank")
     put("cost", sweep.cost.reshape(len(sweep.scenes), 4), "s, GiB, s, GiB", "seconds and peak memory of run and field")
-    for key in sorted({key for _, keys in sweep.scenes for key in keys}):
-        values = [keys.get(key, np.nan) for _, keys in sweep.scenes]
+    for key in sorted({key for *_, keys in sweep.scenes for key in keys}):
+        values = [keys.get(key, np.nan) for *_, keys in sweep.scenes]
         numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
         put(f"keys/{key}", np.array(values, float) if numbers else [str(value) for value in values], "as in the scene", "value of the key")
     names = sorted({name for one in sweep.spectra for name in one})
@@ -158,6 +163,7 @@ def fill(sweep, file):
         what = "sound power" if name == "sound/power" else "equivalent radiated power"
         put(f"{name}/level_db", pairs[:, 0], "dB re 1 pW", f"{what} of the cycle")
         put(f"{name}/level_dba", pairs[:, 1], "dB(A) re 1 pW", "the same, A-weighted")
+    slap_rows.fill(sweep.slaps, put)
     put("order", 0.5 * np.arange(width), "1", "half orders, columns of rms")
 
 
@@ -172,6 +178,6 @@ def write_collection(options):
     counts = {state: sweep.states.count(state) for state in dict.fromkeys(sweep.states)}
     print(f"{path}: {len(sweep.scenes)} runs, " + ", ".join(f"{count} {state}" for state, count in counts.items()))
     for state in (*UNFINISHED, "missing"):
-        names = [name for (name, _), one in zip(sweep.scenes, sweep.states) if one == state]
+        names = [name for (name, *_), one in zip(sweep.scenes, sweep.states) if one == state]
         if names:
             print(f"{state}: {', '.join(names)}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter sweep`: scenes that change keys of another one, one for each combination of values, and their make rules."""
+"""`clatter sweep`: scenes that change keys of another one, one for each combination of values or one parameter at a time, and their make rules."""
 import decimal
 import itertools
 import math
@@ -8,6 +8,7 @@ import pathlib
 import re
 import tomllib
 
+from . import parameters
 from .artefact import BadArtefact, CannotWrite
 
 MOST = 100_000  # scenes
@@ -19,7 +20,7 @@ FRAGMENT = """# Written by `clatter sweep`: the runs and fields of {folder}/, fo
 {name}_fields := $({name}_names:%={folder}/%.field.h5)
 """
 DEPENDENCIES = "-include $(wildcard {folder}/*.h5.d)\n"
-FIELDS = """$({name}_fields): {folder}/%.field.h5: {folder}/%.run.h5 {field} $(clatter_recover)
+FIELDS = """{targets}: {folder}/%.field.h5: {folder}/%.run.h5 {field} $(clatter_recover)
 	$(CLATTER_LAUNCH) $(clatter_recover) $< -c {field} -o $@ --depfile $@.d $(CLATTER_FLAGS)
 """
 
@@ -27,9 +28,11 @@ FIELDS = """$({name}_fields): {folder}/%.field.h5: {folder}/%.run.h5 {field} $(c
 def add_arguments(command):
     """Declares the arguments of `clatter sweep`."""
     command.add_argument("base", metavar="base.run.toml", help="the scene that all others change")
-    command.add_argument("keys", nargs="+", metavar="key=values",
+    command.add_argument("keys", nargs="*", metavar="key=values",
                          help="1000:3000:50 (first, last, step), a,b,c, or one value; several keys give all combinations. "
                               "Entries of tables go by their name: drive.crank.speed_rpm=1000:6000:200")
+    command.add_argument("--parameters", metavar="file.toml", help="parameters that are varied one at a time instead, after a scene of "
+                         "the base itself (tools/clatter_tools/parameters.py); keys then have one value each, in all scenes")
     command.add_argument("-o", "--output", metavar="folder", help="of the scenes; default: the base's name with _sweep")
     command.add_argument("--field", metavar="file.toml", help="settings of clatter-recover for all runs; default: those that clatter.mk finds")
 
@@ -89,15 +92,17 @@ def write_changed(path, text):
     os.replace(part, path)
 
 
-def scene_text(base, keys, values):
-    """A scene with these values; keys of one table in one line each, as TOML's dotted keys."""
+def scene_text(keys, values, title=None):
+    """What a scene with these values has after the name of its base; keys of one table in one line each, as TOML's dotted keys."""
     changes = [f"{key} = {literal(value)}" for key, value in zip(keys, values)]
-    title = "" if "title" in keys else f"title = {literal(', '.join(changes))}\n"
-    return f"base = {literal(base)}\n{title}" + "\n".join(changes) + "\n"
+    first = "" if "title" in keys else f"title = {literal(title or ', '.join(changes))}\n"
+    return first + "\n".join(changes) + "\n"
 
 
 def read_keys(arguments):
     """(keys, the values of each scene) of all key=values: every combination."""
+    if not arguments:
+        raise BadArtefact("found neither key=values nor --parameters, expected one of them")
     parsed = [parse(argument) for argument in arguments]
     keys = [key for key, _ in parsed]
     for key in keys:
@@ -109,16 +114,37 @@ def read_keys(arguments):
     return keys, list(itertools.product(*(values for _, values in parsed)))
 
 
-def write_files(base, folder, keys, combinations, field):
-    """The scenes by name, and the fragment; returns the number of scenes."""
-    names = file_names(combinations)
+def write_scenes(base, folder, texts, field, own_fields):
+    """The scenes, {name: text of their changes by scene_text without its first line}, and the fragment; `own_fields`: {name: settings
+    of clatter-recover} of scenes with others than `field`."""
     folder.mkdir(parents=True, exist_ok=True)
-    above = os.path.relpath(base, folder)
-    for name, values in zip(names, combinations):
-        write_changed(folder / f"{name}.run.toml", scene_text(above, keys, values))
-    rules = FRAGMENT + (FIELDS if field else "") + DEPENDENCIES
-    write_changed(folder / "sweep.mk", rules.format(name=folder.name, folder=folder, names=" ".join(names), field=field))
+    first = f"base = {literal(os.path.relpath(base, folder))}\n"
+    for name, text in texts.items():
+        write_changed(folder / f"{name}.run.toml", first + text)
+    rules = FRAGMENT.format(name=folder.name, folder=folder, names=" ".join(texts))
+    for settings in dict.fromkeys([field, *own_fields.values()] if field else own_fields.values()):
+        same = [name for name in texts if own_fields.get(name, field) == settings]
+        targets = f"$({folder.name}_fields)" if len(same) == len(texts) else " ".join(f"{folder}/{name}.field.h5" for name in same)
+        rules += FIELDS.format(targets=targets, folder=folder, field=settings) if same else ""
+    write_changed(folder / "sweep.mk", rules + DEPENDENCIES.format(folder=folder))
+
+
+def write_files(base, folder, keys, combinations, field):
+    """The scenes of all combinations; returns their number."""
+    names = file_names(combinations)
+    write_scenes(base, folder, {name: scene_text(keys, values) for name, values in zip(names, combinations)}, field, {})
     return len(names)
+
+
+def write_parameters(base, folder, file, keys, field):
+    """The base and each value of each parameter of a file; `keys` have one value each, in all scenes. Returns the number of scenes."""
+    names, combinations = read_keys(keys) if keys else ([], [()])
+    if len(combinations) > 1:
+        raise BadArtefact(f"{', '.join(keys)}: found several values beside --parameters, expected one of each key")
+    scenes = parameters.scenes(parameters.read(file))
+    texts = {one.name: scene_text([*one.keys, *names], [*one.keys.values(), *combinations[0]], one.title) for one in scenes}
+    write_scenes(base, folder, texts, field, {one.name: one.field for one in scenes if one.field})
+    return len(texts)
 
 
 def write_sweep(options):
@@ -126,10 +152,12 @@ def write_sweep(options):
     base = pathlib.Path(options.base)
     if not base.is_file():
         raise BadArtefact(f"{base}: no such file, expected a scene, name.run.toml")
-    keys, combinations = read_keys(options.keys)
     folder = pathlib.Path(options.output or base.name.split(".")[0] + "_sweep")
     try:
-        count = write_files(base, folder, keys, combinations, options.field)
+        if options.parameters:
+            count = write_parameters(base, folder, options.parameters, options.keys, options.field)
+        else:
+            count = write_files(base, folder, *read_keys(options.keys), options.field)
     except OSError as error:
         raise CannotWrite(f"{folder}: cannot be written: {error.strerror}") from error
     print(f"{folder}: {count} scenes, and sweep.mk with $({folder.name}_runs) and $({folder.name}_fields) for a Makefile that "
