@@ -171,6 +171,10 @@ film::PistonLinerOptions read_contact(const Config& table) {
   const Range cells{2.0, 400.0, false}, around{whole ? 8.0 : 2.0, 400.0, false};
   options.cells_around = static_cast<int>(table.integer_or(
       "cells_around", whole ? 4 * options.cells_around : options.cells_around, around));
+  if (whole && options.cells_around % 2 != 0)
+    table.fail("cells_around", fmt::format("found {}, expected an even number around the entire "
+                                           "skirt: another is not symmetric",
+                                           options.cells_around));
   options.cells_along =
       static_cast<int>(table.integer_or("cells_along", options.cells_along, cells));
 

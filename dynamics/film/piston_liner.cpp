@@ -19,7 +19,8 @@ void require(bool holds, const std::string& name, const char* key, double found,
     throw InputError(fmt::format("{}: {}: found {}, expected {}", name, key, found, expected));
 }
 
-// Cells around the entire skirt: fewer do not resolve a gap that varies with its sine.
+// Cells around the entire skirt: fewer do not resolve a gap that varies with its sine. An odd
+// number is not symmetric about the thrust plane.
 constexpr int kLeastAround = 8;
 
 /// The entire skirt begins and ends at the pin, where the film is closed.
@@ -152,8 +153,9 @@ void PistonLiner::check() const {
   require(o.skirt_top > o.skirt_bottom, o.name, "skirt_top", o.skirt_top, "above skirt_bottom");
   require(o.pad_span > 0.0 && o.pad_span <= std::numbers::pi, o.name, "pad_span", o.pad_span,
           "between 0 and pi rad");
-  require(o.span == SkirtSpan::kPads || o.cells_around >= kLeastAround, o.name, "cells_around",
-          o.cells_around, "at least 8 around the entire skirt");
+  require(o.span == SkirtSpan::kPads || (o.cells_around >= kLeastAround && o.cells_around % 2 == 0),
+          o.name, "cells_around", o.cells_around,
+          "an even number of at least 8 around the entire skirt");
   require(!o.effects.film || o.viscosity > 0.0, o.name, "viscosity", o.viscosity, "> 0 Pa s");
   require(share(o.initial_fill), o.name, "initial_fill", o.initial_fill, "0 to 1");
   require(share(o.supply_fill), o.name, "supply_fill", o.supply_fill, "0 to 1");

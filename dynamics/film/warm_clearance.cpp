@@ -42,6 +42,13 @@ struct SampledPad {
     skirt -= outward;
     if (o.bore) shapes.emplace_back(*o.bore, grid);
     for (const LinerShape& shape : o.bore_shapes) shapes.emplace_back(shape, grid);
+    is_deep.setConstant(grid.size(), false);
+    std::vector<Recess> recesses = o.recesses;
+    std::erase_if(recesses, [](const Recess& recess) { return recess.on_liner; });
+    if (recesses.empty()) return;
+    RecessCells cells;
+    RecessMap(std::move(recesses), grid).at(0.0, cells);
+    is_deep = cells.share == 1.0;
   }
 
   void find_nearest(double pin, const LinerEnds& ends, NearestPoint& nearest) {
@@ -52,6 +59,7 @@ struct SampledPad {
       const double height = grid.axial(j);
       if (pin + height < ends.bottom || pin + height > ends.top) continue;
       for (int i = 0; i < grid.n_angle(); ++i) {
+        if (is_deep[grid.cell(i, j)]) continue;
         const double gap = skirt[grid.cell(i, j)] + liner[grid.cell(i, j)];
         if (gap < nearest.gap) nearest = {gap, grid.angle(i), height, pin};
       }
@@ -60,6 +68,7 @@ struct SampledPad {
 
   PadGrid grid;
   Eigen::ArrayXd skirt, liner;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_deep;  // in a groove or window of the skirt
   std::vector<LinerShapeMap> shapes;
 };
 

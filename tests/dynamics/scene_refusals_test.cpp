@@ -67,6 +67,8 @@ TEST_F(SceneRefusals, NameTheKeyOfAContradiction) {
   expect("[contact]\nspan = \"half\"\n", "changed.run.toml:3: contact.span: ");
   expect("[contact]\nspan = \"whole\"\ncells_around = 6\n",
          "changed.run.toml:4: contact.cells_around: found 6, expected");
+  expect("[contact]\nspan = \"whole\"\ncells_around = 45\n",
+         "changed.run.toml:4: contact.cells_around: found 45, expected an even number");
   expect("[contact]\nprofile_height_mm = [0, 2, 1]\nprofile_relief_um = [0, 1, 2]\n",
          "changed.run.toml:3: contact.profile_height_mm: found 1 after 2, expected ascending");
   expect("[contact]\nprofile_height_mm = [0, 2]\nprofile_relief_um = [0]\n",

@@ -247,7 +247,7 @@ TEST(PistonLiner, RefusesParametersOutOfRangeAndAGapThatIsClosedAtTheStart) {
         o.span = SkirtSpan::kWhole;
         o.cells_around = 6;
       },
-      "cells_around: found 6, expected at least 8 around the entire skirt");
+      "cells_around: found 6, expected an even number of at least 8 around the entire skirt");
   expect_refused([](PistonLinerOptions& o) { o.skirt_top = o.skirt_bottom; },
                  "skirt_top: found " + fmt::format("{}", small_scene().skirt_bottom) +
                      ", expected above skirt_bottom");
