@@ -126,6 +126,24 @@ TEST(JournalJoint, TangentAndPowerAreExact) {
   }
 }
 
+TEST(JournalJoint, ForcesAndMomentsOfBothSidesCancel) {
+  JournalJoint joint = journal_joint();
+  Eigen::VectorXd y = 8e-6 * test::random_vector(6, 3), v = 0.02 * test::random_vector(6, 5);
+  y(5) = 0.0;  // the rod's rotation: its end is at its ideal position, moved by its centre
+  Response response;
+  joint.evaluate({kTime, 1e-6, 1, {}}, gathered(joint, y), gathered(joint, v), false, response);
+  const auto f = [&](int coordinate) { return response.force(place(joint, coordinate)); };
+  EXPECT_GT(std::hypot(f(0), f(1)), 1.0);
+  EXPECT_NEAR(f(0) + f(3), 0.0, 1e-12 * std::abs(f(0)));
+  EXPECT_NEAR(f(1) + f(4), 0.0, 1e-12 * std::abs(f(1)));
+  // About the bearing's centre: the force on the pin acts at the pin's, d away.
+  const Eigen::Vector2d end = 0.14 * rod_direction(kCrank.rod_angle(kTime).position);
+  const double on_rod = f(5) - (end.x() * f(4) - end.y() * f(3));
+  const double couple = (y(0) - y(3)) * f(1) - (y(1) - y(4)) * f(0);
+  EXPECT_NEAR(f(2) + on_rod + couple, 0.0, 1e-9 * std::abs(couple) + 1e-12 * std::abs(f(5)));
+  EXPECT_GT(std::abs(couple), 1e-6);
+}
+
 TEST(JournalJoint, SeesTheMeanRotationOfPinAndRod) {
   // Pin and rod turning at w in opposite directions carry nothing; both at w carry as one at 2 w
   // against one at rest: the wedge has the mean of both speeds.

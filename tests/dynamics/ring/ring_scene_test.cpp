@@ -147,7 +147,7 @@ struct NumberKey {
   const char* key;
   bool zero;  // is allowed
 };
-TEST_F(Rings, HardN10_TheirNumbersAreRefusedOutsideTheirRanges) {
+TEST_F(Rings, TheirNumbersAreRefusedOutsideTheirRanges) {
   const NumberKey keys[] = {{"face_radius_mm", false}, {"load_n_mm", false},
                             {"least_um", true},        {"width_mm", false},
                             {"thickness_mm", false},   {"mass_g", true},
