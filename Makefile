@@ -3,6 +3,7 @@
 #   make build      the six executables          make install   PREFIX=/usr/local DESTDIR=
 #   make demo       samples/truck_diesel         make validate  the longer comparisons as well
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
+#   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, self-contained headers
 #   make study-paper, study-parameters   studies of the piston slap, after make demo
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
@@ -21,11 +22,12 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-demo setup-check setup-validate configure build build-tests demo study-paper study-parameters check validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study-paper study-parameters check check-mpi validate sanitize format lint docs deb levels install clean
 help:
-	@sed -n 's/^# \{0,1\}//;2,8p' Makefile
+	@sed -n 's/^# \{0,1\}//;2,9p' Makefile
 
 setup: ; @tools/setup build
+setup-mpi: ; @tools/setup build mpi
 setup-demo: ; @tools/setup build demo
 setup-check: ; @tools/setup build demo check
 setup-validate: ; @tools/setup build demo check browser
@@ -54,6 +56,14 @@ study-paper study-parameters: setup-demo build
 
 check: setup-check build-tests
 	@$(CTEST) -LE long
+
+# The programs of several processes; the others stay without MPI.
+build-mpi: setup-mpi
+	@$(MAKE) --no-print-directory configure CONFIGURE_FLAGS="$(CONFIGURE_FLAGS) -DCLATTER_MPI=ON"
+	@tools/time_left cmake --build $(BUILD) -j$(JOBS) --target stages ranks_programs
+
+check-mpi: setup-check build-mpi
+	@ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -L mpi
 
 validate: setup-validate build-tests
 	@$(CTEST)

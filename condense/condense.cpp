@@ -12,6 +12,7 @@
 #include "condense/basis/modal_damping.hpp"
 #include "condense/certify/certificate.hpp"
 #include "condense/rows/recovery_rows.hpp"
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/fe/free_motions.hpp"
 
@@ -151,10 +152,21 @@ CondenseOptions read_condense_options(const Config& config) {
 rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
                            StepClock& clock) {
   const PartitionedModel part = partition_model(model, options.boundary);
-  report_repeated(part.dofs);
   clock.lap("partition");
-  const SkinRecovery recovery(part, options.skin, options.rows);
-  const StaticPart statics = static_part(part, recovery.unknowns(), clock, options.order);
+  return condense(part, options, clock);
+}
+
+rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& options,
+                           StepClock& clock) {
+  const fe::FeModel& model = part.full;
+  if (options.inertia_invariants && part.shared)
+    throw InputError(
+        fmt::format("{}: inertia_invariants: found true, which clatter-condense computes, expected "
+                    "false with several processes",
+                    model.name));
+  report_repeated(part.dofs);
+  SkinRecovery recovery(part, options.skin, options.rows);
+  StaticPart statics = static_part(part, recovery.unknowns(), clock, options.order);
   SearchedBasis found = options.modes.accurate_to_hz > 0.0
                             ? search_cutoff(part, statics, options.modes, clock)
                             : SearchedBasis{craig_bampton(part, statics, options.modes, clock), {}};
@@ -162,9 +174,15 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
   const int dropped = drop_dependent(source);
 
   std::map<std::string, Eigen::VectorXd> loads = reduced_loads(model, part.dofs, source.basis);
-  const RowMatrix& static_rows = statics.reduction.rows;
-  rom::Skin skin = recovery.recover(static_rows, source.basis.shapes);
-  RecoveredSets rows = recovery.recover_sets(static_rows, source.basis.shapes);
+  RowMatrix& static_rows = statics.reduction.rows;
+  Eigen::MatrixXd gathered;
+  if (part.shared) {
+    gathered = source.basis.shapes;
+    recovery.gather(part, static_rows, gathered);
+  }
+  const Eigen::MatrixXd& shapes = part.shared ? gathered : source.basis.shapes;
+  rom::Skin skin = recovery.recover(static_rows, shapes);
+  RecoveredSets rows = recovery.recover_sets(static_rows, shapes);
   rows.sets.insert(part.dofs.sets.begin(), part.dofs.sets.end());
   rows.grids.insert(part.dofs.grids.begin(), part.dofs.grids.end());
   clock.lap("loads and skin rows");
@@ -205,7 +223,7 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
     record(interface.report, reduced.certificate);
     clock.lap(fmt::format("{} interface modes", interface.report.modes));
   }
-  certify(reduced, model, source, {motions, part.free.all_free()}, dropped, options.certificate);
+  certify(reduced, part, source, {motions, part.free.all_free()}, dropped, options.certificate);
   clock.lap("certificate");
   return reduced;
 }

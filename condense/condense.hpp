@@ -38,6 +38,11 @@ CondenseOptions read_condense_options(const Config& config);
 rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& options,
                            StepClock& clock);
 
+/// The same for a part in blocks, which a team may share: then rank 0 receives the complete model,
+/// the others one without rows of the skin and of sets besides the boundary.
+rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& options,
+                           StepClock& clock);
+
 /// Lines for the user on the contents of the reduced model and what was verified.
 std::vector<std::string> describe(const rom::ReducedModel& reduced);
 

@@ -7,7 +7,6 @@
 
 #include "condense/add_rows.hpp"
 #include "condense/certify/verify.hpp"
-#include "condense/condense.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
@@ -22,7 +21,8 @@ struct CondenseArguments {
   double verify_hz = std::nan("");  // not a number: no verification
 };
 
-void condense_part(const CondenseArguments& a, const CommonOptions& common) {
+void condense_part(const CondenseArguments& a, const Reducer& reducer,
+                   const CommonOptions& common) {
   if (a.verify_hz < 0.0)
     throw InputError(
         fmt::format("command line: --verify: found {}, expected 0 or more", a.verify_hz));
@@ -33,16 +33,8 @@ void condense_part(const CondenseArguments& a, const CommonOptions& common) {
   if (a.uncertified)
     options.certificate = options.modes.prove_count = options.modes.estimate_error = false;
   options.order = rom::read_elimination_order(a.output);
-  const fe::FeModel model = fe::read_fe_model(a.model);
-  fe::require_unknowns(model, "a reduction");
-  clock.lap(fmt::format("read {} DoF", model.size()));
-  rom::ReducedModel reduced = condense(model, options, clock);
-  for (const std::string& text : describe(reduced)) print_result(text);
-  if (!std::isnan(a.verify_hz)) {
-    const modes::Comparison compared = verify(reduced, model, a.verify_hz);
-    clock.lap("verification by the full model");
-    if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
-  }
+  const rom::ReducedModel reduced = reducer.reduce(a.model, options, a.verify_hz, common, clock);
+  if (!reducer.writes) return;
   write_artefact(a.output, {rom::kRomSchema, config.resolved(), {a.model, a.config}}, clock, common,
                  [&](H5File& file) {
                    rom::write_reduced_model(file, reduced);
@@ -53,7 +45,23 @@ void condense_part(const CondenseArguments& a, const CommonOptions& common) {
 
 }  // namespace
 
-void declare_condense(CommandLine& line) {
+Reducer one_process_reducer() {
+  return {[](const std::filesystem::path& path, const CondenseOptions& options, double verify_hz,
+             const CommonOptions&, StepClock& clock) {
+    const fe::FeModel model = fe::read_fe_model(path);
+    fe::require_unknowns(model, "a reduction");
+    clock.lap(fmt::format("read {} DoF", model.size()));
+    rom::ReducedModel reduced = condense(model, options, clock);
+    for (const std::string& text : describe(reduced)) print_result(text);
+    if (std::isnan(verify_hz)) return reduced;
+    const modes::Comparison compared = verify(reduced, model, verify_hz);
+    clock.lap("verification by the full model");
+    if (!compared.modes.empty()) print_result(modes::table_of(compared).back());
+    return reduced;
+  }};
+}
+
+void declare_condense(CommandLine& line, const Reducer& reducer) {
   const auto a = std::make_shared<CondenseArguments>();
   line.positional("model", a->model, "assembled part (.fe.h5)");
   line.option("-c,--config", a->config, "what to retain (.rom.toml)", true);
@@ -61,12 +69,13 @@ void declare_condense(CommandLine& line) {
   line.flag("--no-certificate", a->uncertified,
             "omit costly checks: the count of modes, the spectrum and condition of the reduced "
             "matrices; the file records this");
-  line.option("--verify", a->verify_hz,
-              "compare with modes of the full model up to this frequency [Hz] and put the largest "
-              "error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
+  if (reducer.verifies)
+    line.option("--verify", a->verify_hz,
+                "compare with modes of the full model up to this frequency [Hz] and put the "
+                "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
   line.blas();
   line.memory_limit();
-  line.action([a](const CommonOptions& common) { condense_part(*a, common); });
+  line.action([a, reducer](const CommonOptions& common) { condense_part(*a, reducer, common); });
 }
 
 }  // namespace clatter::condense

@@ -41,7 +41,8 @@ std::pair<modes::ModesOptions, std::string> choose_options(const ModesArguments&
   return {options, resolved};
 }
 
-void compute_modes(const ModesArguments& a, const CommonOptions& common) {
+void compute_modes(const ModesArguments& a, const ModeFinder& finder, const CommonOptions& common) {
+  finder.begin(common);
   check_result_exports(a.exports);
   StepClock clock;
   const auto [options, resolved] = choose_options(a);
@@ -49,13 +50,13 @@ void compute_modes(const ModesArguments& a, const CommonOptions& common) {
   rom::ReducedModel reduced;
   fe::FeModel full;
   if (H5File::open(a.model).get_string("/", "schema") == rom::kRomSchema) {
+    if (!finder.writes) return;
     reduced = rom::read_reduced_model(a.model);
     part = modes::analyse(reduced, options);
   } else {
-    full = fe::read_fe_model(a.model);
-    clock.lap(fmt::format("read {} DoF", full.size()));
-    part = modes::analyse(full, options);
+    part = finder.of_fe_model(a.model, options, full, clock);
   }
+  if (!finder.writes) return;
   clock.lap("modes");
   for (const std::string& line : modes::describe(part)) print_result(line);
   warn_of_first_frequency(part);
@@ -71,7 +72,18 @@ void compute_modes(const ModesArguments& a, const CommonOptions& common) {
 
 }  // namespace
 
-void declare_modes(CommandLine& line) {
+ModeFinder one_process_finder() {
+  ModeFinder finder;
+  finder.of_fe_model = [](const std::filesystem::path& path, const modes::ModesOptions& options,
+                          fe::FeModel& model, StepClock& clock) {
+    model = fe::read_fe_model(path);
+    clock.lap(fmt::format("read {} DoF", model.size()));
+    return modes::analyse(model, options);
+  };
+  return finder;
+}
+
+void declare_modes(CommandLine& line, const ModeFinder& finder) {
   const auto a = std::make_shared<ModesArguments>();
   line.positional("model", a->model, "assembled (.fe.h5) or reduced (.rom.h5) part");
   line.option("-c,--config", a->config, "what to compute (.modes.toml)");
@@ -82,7 +94,7 @@ void declare_modes(CommandLine& line) {
               "also write the shapes for ParaView (repeatable): all in one .vtu, or a series .pvd");
   line.blas();
   line.memory_limit();
-  line.action([a](const CommonOptions& common) { compute_modes(*a, common); });
+  line.action([a, finder](const CommonOptions& common) { compute_modes(*a, finder, common); });
 }
 
 }  // namespace clatter::modal

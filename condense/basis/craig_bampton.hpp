@@ -24,7 +24,7 @@ struct CraigBampton : Reduction {
 
 /// Results for a boundary that do not depend on the modes added.
 struct StaticPart {
-  std::shared_ptr<const sparse::SupernodalFactor> factor_ii;
+  std::shared_ptr<const sparse::Factor> factor_ii;
   StaticReduction reduction;
   rom::EliminationOrder order;  // of K_ii
 };

@@ -5,40 +5,12 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/fe/dof_label.hpp"
 
 namespace clatter::condense {
-namespace {
-
-/// Rejects a boundary that leaves one of the free motions possible.
-void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
-                          const fe::FreeMotions& free) {
-  if (free.count() == 0) return;
-  const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
-  const Eigen::VectorXd& strength = svd.singularValues();
-  const double limit = 1e-6 * strength.maxCoeff();
-  Eigen::Index rank = 0;
-  while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
-  if (rank == free.count()) return;
-  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
-  const Eigen::VectorXd motion = free.unit * combination;
-  Eigen::Index most = 0;
-  (free.q * combination).cwiseAbs().maxCoeff(&most);
-  throw InputError(
-      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
-                  "not the {}, largest at {}: "
-                  "add a set that holds it{}",
-                  partition.boundary.size(), rank,
-                  free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
-                  fe::motion_name(motion, fe::characteristic_length(model)),
-                  fe::describe_dof(model, static_cast<int32_t>(most)),
-                  free.bodies > 1 ? ", or join what is not connected" : ""));
-}
-
-}  // namespace
 
 DofPartition partition_dofs(const fe::FeModel& model, const std::vector<std::string>& set_names) {
   DofPartition partition;
@@ -115,13 +87,64 @@ PartitionedMatrix partition_matrix(const SparseMatrix& lower, const DofPartition
   return blocks;
 }
 
+void check_boundary_holds(const fe::FeModel& model, const DofPartition& partition,
+                          const fe::FreeMotions& free) {
+  if (free.count() == 0) return;
+  const Eigen::MatrixXd held = free.q(partition.boundary, Eigen::all);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeFullV);
+  const Eigen::VectorXd& strength = svd.singularValues();
+  const double limit = 1e-6 * strength.maxCoeff();
+  Eigen::Index rank = 0;
+  while (rank < strength.size() && strength[rank] > limit && strength[rank] > 0.0) ++rank;
+  if (rank == free.count()) return;
+  const Eigen::VectorXd combination = svd.matrixV().col(free.count() - 1);
+  const Eigen::VectorXd motion = free.unit * combination;
+  Eigen::Index most = 0;
+  (free.q * combination).cwiseAbs().maxCoeff(&most);
+  throw InputError(
+      fmt::format("boundary: its {} coordinates hold {} of the {} {} rigid motions, "
+                  "not the {}, largest at {}: "
+                  "add a set that holds it{}",
+                  partition.boundary.size(), rank,
+                  free.bodies > 1 ? fmt::format("{} bodies'", free.bodies) : "body's", free.count(),
+                  fe::motion_name(motion, fe::characteristic_length(model)),
+                  fe::describe_dof(model, static_cast<int32_t>(most)),
+                  free.bodies > 1 ? ", or join what is not connected" : ""));
+}
+
 PartitionedModel partition_model(const fe::FeModel& model,
                                  const std::vector<std::string>& boundary) {
-  PartitionedModel part{model, partition_dofs(model, boundary), {}, {}, fe::free_motions(model)};
+  PartitionedModel part{model, partition_dofs(model, boundary), {},
+                        {},    fe::free_motions(model),         nullptr};
   check_boundary_holds(model, part.dofs, part.free);
   part.K = partition_matrix(model.K, part.dofs);
   part.M = partition_matrix(model.M, part.dofs);
   return part;
+}
+
+const sparse::RowTeam& PartitionedModel::team() const {
+  return shared ? shared->interior().team() : sparse::one_process();
+}
+
+std::shared_ptr<const sparse::MatrixPencil> PartitionedModel::interior() const {
+  if (shared) return {shared, &shared->interior()};
+  return std::make_shared<sparse::LocalPencil>(K.ii, M.ii);
+}
+
+std::shared_ptr<const sparse::MatrixPencil> PartitionedModel::whole() const {
+  if (shared) return {shared, &shared->whole()};
+  return std::make_shared<sparse::LocalPencil>(full.K, full.M);
+}
+
+std::vector<int32_t> PartitionedModel::interior_of_whole() const {
+  if (!shared) return dofs.interior;
+  std::vector<int32_t> first(dofs.interior.size());
+  std::iota(first.begin(), first.end(), 0);
+  return first;
+}
+
+Eigen::MatrixXd PartitionedModel::rows_of_whole(const Eigen::MatrixXd& all) const {
+  return shared ? Eigen::MatrixXd(all(shared->whole_dofs(), Eigen::all)) : all;
 }
 
 }  // namespace clatter::condense

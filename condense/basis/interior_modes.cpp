@@ -10,7 +10,6 @@
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/named.hpp"
-#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -38,19 +37,18 @@ void take_report(const sparse::ModeSet& modes, const ModeRequest& request, Inter
   out.cutoff_hz = std::min(out.cutoff_hz, sparse::hz_of_value(modes.next_value));
 }
 
-InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                    const sparse::SupernodalFactor& factor_ii,
+InteriorModes fixed_interface_modes(const PartitionedModel& part, const sparse::Factor& factor_ii,
                                     const ModeRequest& request) {
   const bool guyan = request.count == 0 && request.fmax_hz == 0.0;
   sparse::EigenOptions options = eigen_options(request);
   options.sigma = 0.0;  // K_ii itself is definite and already factorised
   if (guyan) options.count = 1;
-  sparse::ModeSet modes = sparse::solve_modes(K.ii, M.ii, options, &factor_ii);
+  sparse::ModeSet modes = sparse::solve_modes(*part.interior(), options, &factor_ii);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = 0.5 * out.cutoff_hz;
   if (guyan) {
-    out.vectors.resize(K.ii.rows(), 0);
+    out.vectors.resize(part.K.ib.rows(), 0);
     out.residuals.resize(0);
     return out;
   }
@@ -59,25 +57,25 @@ InteriorModes fixed_interface_modes(const PartitionedMatrix& K, const Partitione
   return out;
 }
 
-InteriorModes own_modes(const PartitionedModel& part, const sparse::SupernodalFactor& factor_ii,
+InteriorModes own_modes(const PartitionedModel& part, const sparse::Factor& factor_ii,
                         const ModeRequest& request) {
-  const fe::FeModel& model = part.full;
-  const MatrixXd& motions = part.free.q;
+  const MatrixXd motions = part.rows_of_whole(part.free.q);
+  const auto whole = part.whole();
   sparse::EigenOptions options = eigen_options(request);
   options.rigid = motions;
   if (request.count > 0) options.count += static_cast<int>(motions.cols());
-  const sparse::ModeSet modes = sparse::solve_modes(model.K, model.M, options);
+  const sparse::ModeSet modes = sparse::solve_modes(*whole, options);
   InteriorModes out;
   take_report(modes, request, out);
   out.accurate_to_hz = out.cutoff_hz;
   out.own_modes = std::max(0, modes.size() - static_cast<int>(motions.cols()));
-  MatrixXd shapes(model.size(), motions.cols() + out.own_modes);
+  MatrixXd shapes(whole->rows(), motions.cols() + out.own_modes);
   shapes.leftCols(motions.cols()) = motions;
   shapes.rightCols(out.own_modes) = modes.vectors.rightCols(out.own_modes);
-  const MatrixXd inertia = sparse::SymmetricProduct(model.M) * shapes;
-  const MatrixXd force = inertia(part.dofs.interior, Eigen::all);
+  const MatrixXd inertia = *whole->mass({}) * shapes;
+  const MatrixXd force = inertia(part.interior_of_whole(), Eigen::all);
   ShapeBasis basis =
-      shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), part.K.ii, part.M.ii);
+      shape_basis(factor_ii.solve(force), MatrixXd(force.rows(), 0), *part.interior());
   if (!basis.dependent.empty())
     warn(fmt::format("{} of {} rigid and own modes depend on the static shapes and were dropped",
                      basis.dependent.size(), force.cols()));
@@ -106,10 +104,10 @@ MatrixXd interior_loads(const PartitionedModel& part, const std::vector<std::str
   return forces;
 }
 
-void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
-                        const PartitionedMatrix& M, const sparse::SupernodalFactor& factor_ii,
-                        const std::vector<std::string>& names, InteriorModes& out) {
-  const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, K.ii, M.ii);
+void append_load_shapes(const MatrixXd& forces, const PartitionedModel& part,
+                        const sparse::Factor& factor_ii, const std::vector<std::string>& names,
+                        InteriorModes& out) {
+  const ShapeBasis basis = shape_basis(factor_ii.solve(forces), out.vectors, *part.interior());
   std::vector<std::string> dropped;
   for (const int j : basis.dependent) dropped.push_back(names[static_cast<size_t>(j)]);
   if (!dropped.empty())
@@ -126,17 +124,16 @@ void append_load_shapes(const MatrixXd& forces, const PartitionedMatrix& K,
 
 }  // namespace
 
-InteriorModes interior_modes(const PartitionedModel& part,
-                             const sparse::SupernodalFactor& factor_ii, const ModeRequest& request,
-                             StepClock& clock) {
+InteriorModes interior_modes(const PartitionedModel& part, const sparse::Factor& factor_ii,
+                             const ModeRequest& request, StepClock& clock) {
   const MatrixXd forces = interior_loads(part, request.load_shapes);
   InteriorModes out = request.own_modes ? own_modes(part, factor_ii, request)
-                                        : fixed_interface_modes(part.K, part.M, factor_ii, request);
+                                        : fixed_interface_modes(part, factor_ii, request);
   if (request.accurate_to_hz > 0.0) out.accurate_to_hz = request.accurate_to_hz;
   clock.lap(fmt::format("{} {} modes", request.own_modes ? out.own_modes : out.vectors.cols(),
                         request.own_modes ? "own" : "fixed-interface"));
   if (forces.cols() == 0) return out;
-  append_load_shapes(forces, part.K, part.M, factor_ii, request.load_shapes, out);
+  append_load_shapes(forces, part, factor_ii, request.load_shapes, out);
   clock.lap(fmt::format("{} load shapes", out.load_shapes));
   return out;
 }

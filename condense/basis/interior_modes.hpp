@@ -55,8 +55,7 @@ struct InteriorModes {
 ///
 /// @param factor_ii of K_ii. InputError for an unknown load and one that prescribes displacements;
 /// NumericsError as solve_modes. Dropped shapes are reported by name. Steps go to `clock`.
-InteriorModes interior_modes(const PartitionedModel& part,
-                             const sparse::SupernodalFactor& factor_ii, const ModeRequest& request,
-                             StepClock& clock);
+InteriorModes interior_modes(const PartitionedModel& part, const sparse::Factor& factor_ii,
+                             const ModeRequest& request, StepClock& clock);
 
 }  // namespace clatter::condense

@@ -12,9 +12,9 @@ namespace clatter::condense {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii,
-                           SparseMatrix K_ib)
-    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)) {
+ReducedBasis::ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
+                           const sparse::RowTeam& team)
+    : factor_(std::move(factor_ii)), K_ib_(std::move(K_ib)), team_(&team) {
   shapes.resize(K_ib_.rows(), 0);
 }
 
@@ -34,15 +34,17 @@ MatrixXd ReducedBasis::project(const Eigen::Ref<const MatrixXd>& f_i,
                                const Eigen::Ref<const MatrixXd>& f_b) const {
   MatrixXd out(size(), f_i.cols());
   out.topRows(boundary()) = at_boundary(f_i, f_b);
-  out.bottomRows(shapes.cols()) = sparse::transposed_product(shapes, f_i);
+  out.bottomRows(shapes.cols()) = team_->sum(sparse::transposed_product(shapes, f_i));
   return out;
 }
 
-ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const StaticReduction& statics, const ReducedBasis& basis) {
+ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
+                        const ReducedBasis& basis) {
   constexpr Index kBlock = 64;
-  const sparse::SymmetricProduct stiffness(K.ii), mass(M.ii);
-  const SparseMatrix M_bi = M.ib.transpose();
+  const auto interior = part.interior();
+  const auto stiffness = interior->stiffness({}), mass = interior->mass({});
+  const sparse::RowTeam& team = part.team();
+  const SparseMatrix M_bi = part.M.ib.transpose();
   const Index n_b = basis.boundary(), r = basis.size(), k = r - n_b;
   ReducedMatrices out;
   out.M_rr = out.K_rr = MatrixXd::Zero(r, r);
@@ -52,13 +54,13 @@ ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
     const Index count = std::min(kBlock, k - first);
     const auto X = basis.shapes.middleCols(first, count);
     const auto known = basis.shapes.leftCols(first + count);
-    MatrixXd image = mass * X;
-    out.M_rr.block(0, n_b + first, n_b, count) = basis.at_boundary(image, M_bi * X);
+    MatrixXd image = *mass * X;
+    out.M_rr.block(0, n_b + first, n_b, count) = basis.at_boundary(image, team.sum(M_bi * X));
     out.M_rr.block(n_b, n_b + first, known.cols(), count) =
-        sparse::transposed_product(known, image);
-    image = stiffness * X;
+        team.sum(sparse::transposed_product(known, image));
+    image = *stiffness * X;
     out.K_rr.block(n_b, n_b + first, known.cols(), count) =
-        sparse::transposed_product(known, image);
+        team.sum(sparse::transposed_product(known, image));
   }
   out.M_rr.triangularView<Eigen::StrictlyLower>() = out.M_rr.transpose();
   out.K_rr.triangularView<Eigen::StrictlyLower>() = out.K_rr.transpose();

@@ -7,7 +7,8 @@
 
 #include "condense/basis/dof_partition.hpp"
 #include "condense/basis/static_reduction.hpp"
-#include "core/sparse/factor/supernodal_factor.hpp"
+#include "core/sparse/factor/factor.hpp"
+#include "core/sparse/row_team.hpp"
 
 namespace clatter::condense {
 
@@ -17,8 +18,9 @@ namespace clatter::condense {
 class ReducedBasis {
  public:
   ReducedBasis() = default;
-  /// @param K_ib n_i x n_b.
-  ReducedBasis(std::shared_ptr<const sparse::SupernodalFactor> factor_ii, SparseMatrix K_ib);
+  /// @param K_ib n_i x n_b. @param team shares the rows of the interior.
+  ReducedBasis(std::shared_ptr<const sparse::Factor> factor_ii, SparseMatrix K_ib,
+               const sparse::RowTeam& team = sparse::one_process());
 
   Eigen::MatrixXd shapes;  // X, n_i x k
 
@@ -34,8 +36,9 @@ class ReducedBasis {
                           const Eigen::Ref<const Eigen::MatrixXd>& f_b) const;
 
  private:
-  std::shared_ptr<const sparse::SupernodalFactor> factor_;
+  std::shared_ptr<const sparse::Factor> factor_;
   SparseMatrix K_ib_;
+  const sparse::RowTeam* team_ = &sparse::one_process();
 };
 
 /// The matrices on the basis, eq. (14) of the paper.
@@ -45,8 +48,8 @@ struct ReducedMatrices {
 
 /// V^T A V from the boundary blocks of the static sweep; columns of X are processed in blocks. Psi
 /// and X are orthogonal in K.
-ReducedMatrices project(const PartitionedMatrix& K, const PartitionedMatrix& M,
-                        const StaticReduction& statics, const ReducedBasis& basis);
+ReducedMatrices project(const PartitionedModel& part, const StaticReduction& statics,
+                        const ReducedBasis& basis);
 
 /// V^T f for a load f on all n DoFs of the model.
 Eigen::VectorXd project_load(const Eigen::VectorXd& load, const DofPartition& partition,

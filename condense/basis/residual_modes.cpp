@@ -8,7 +8,6 @@
 #include "core/sparse/dense_product.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
-#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::condense {
 namespace {
@@ -18,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Rows i of A (u_i; u_b).
-MatrixXd interior_rows(const sparse::SymmetricProduct& A_ii, const SparseMatrix& A_ib,
+MatrixXd interior_rows(const sparse::SymmetricOperator& A_ii, const SparseMatrix& A_ib,
                        const MatrixXd& u_i, const MatrixXd& u_b) {
   MatrixXd out = A_ii * u_i;
   out += A_ib * u_b;
@@ -45,16 +44,17 @@ Ritz elastic_modes(const MatrixXd& K_rr, const MatrixXd& M_rr, const MatrixXd& m
 /// The passes; X holds the added vectors, with the boundary held.
 class Correction {
  public:
-  Correction(Reduction& reduction, const sparse::SupernodalFactor& factor,
-             const PartitionedMatrix& K, const PartitionedMatrix& M, const MatrixXd& motions)
+  Correction(Reduction& reduction, const sparse::Factor& factor, const PartitionedModel& part,
+             const MatrixXd& motions)
       : reduction_(reduction),
         factor_(factor),
-        K_(K),
-        M_(M),
+        K_(part.K),
+        M_(part.M),
         motions_(motions),
-        K_ii_(K.ii),
-        M_ii_(M.ii) {
-    X_.resize(K.ii.rows(), 0);
+        team_(part.team()),
+        K_ii_(part.interior()->stiffness({})),
+        M_ii_(part.interior()->mass({})) {
+    X_.resize(K_.ib.rows(), 0);
     border();
   }
 
@@ -68,14 +68,15 @@ class Correction {
   /// K_rr and M_rr with the rows and columns of X added.
   void border();
   MatrixXd bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
-                    const sparse::SymmetricProduct& A_ii) const;
+                    const sparse::SymmetricOperator& A_ii) const;
 
   Reduction& reduction_;
-  const sparse::SupernodalFactor& factor_;
+  const sparse::Factor& factor_;
   const PartitionedMatrix& K_;
   const PartitionedMatrix& M_;
   const MatrixXd& motions_;
-  sparse::SymmetricProduct K_ii_, M_ii_;
+  const sparse::RowTeam& team_;
+  std::unique_ptr<sparse::SymmetricOperator> K_ii_, M_ii_;
   MatrixXd X_;              // n_i x m
   MatrixXd K_rr_, M_rr_;    // bordered
   VectorXd pseudo_values_;  // of X
@@ -84,23 +85,23 @@ class Correction {
 };
 
 MatrixXd Correction::bordered(const MatrixXd& A_rr, const PartitionedMatrix& A,
-                              const sparse::SymmetricProduct& A_ii) const {
+                              const sparse::SymmetricOperator& A_ii) const {
   const Index r = A_rr.rows(), m = X_.cols();
   MatrixXd out(r + m, r + m);
   out.topLeftCorner(r, r) = A_rr;
   if (m == 0) return out;
   const MatrixXd image = A_ii * X_;
-  const MatrixXd image_b = A.ib.transpose() * X_;
+  const MatrixXd image_b = team_.sum(A.ib.transpose() * X_);
   out.topRightCorner(r, m) = reduction_.basis.project(image, image_b);
   out.bottomLeftCorner(m, r) = out.topRightCorner(r, m).transpose();
-  const MatrixXd corner = sparse::transposed_product(X_, image);
+  const MatrixXd corner = team_.sum(sparse::transposed_product(X_, image));
   out.bottomRightCorner(m, m) = 0.5 * (corner + corner.transpose());
   return out;
 }
 
 void Correction::border() {
-  K_rr_ = bordered(reduction_.K_rr, K_, K_ii_);
-  M_rr_ = bordered(reduction_.M_rr, M_, M_ii_);
+  K_rr_ = bordered(reduction_.K_rr, K_, *K_ii_);
+  M_rr_ = bordered(reduction_.M_rr, M_, *M_ii_);
 }
 
 VectorXd Correction::estimate(double limit) {
@@ -110,11 +111,13 @@ VectorXd Correction::estimate(double limit) {
   MatrixXd u_i = basis.interior(ritz_.vectors.topRows(r));
   sparse::add_product(1.0, X_, ritz_.vectors.bottomRows(X_.cols()), u_i);
   const MatrixXd u_b = ritz_.vectors.topRows(basis.boundary());
-  const MatrixXd force = interior_rows(M_ii_, M_.ib, u_i, u_b) * ritz_.values.asDiagonal() -
-                         interior_rows(K_ii_, K_.ib, u_i, u_b);
+  const MatrixXd force = interior_rows(*M_ii_, M_.ib, u_i, u_b) * ritz_.values.asDiagonal() -
+                         interior_rows(*K_ii_, K_.ib, u_i, u_b);
   delta_ = factor_.solve(force);
   VectorXd error(p);
-  for (Index j = 0; j < p; ++j) error[j] = 0.5 * force.col(j).dot(delta_.col(j)) / ritz_.values[j];
+  for (Index j = 0; j < p; ++j) error[j] = force.col(j).dot(delta_.col(j));
+  team_.sum(error.data(), p);
+  for (Index j = 0; j < p; ++j) error[j] = 0.5 * error[j] / ritz_.values[j];
   return error;
 }
 
@@ -126,7 +129,7 @@ void Correction::improve(const std::vector<Index>& chosen) {
   }
   // K-orthonormal first, since norms differ by many powers of ten; then M-orthonormal with K
   // diagonal, as fixed-interface modes are.
-  MatrixXd gram = sparse::transposed_product(vectors, K_ii_ * vectors);
+  MatrixXd gram = team_.sum(sparse::transposed_product(vectors, *K_ii_ * vectors));
   const VectorXd unit = gram.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(unit.asDiagonal() * gram * unit.asDiagonal());
   const Index rank = (eig.eigenvalues().array() > 1e-10).count();
@@ -135,7 +138,7 @@ void Correction::improve(const std::vector<Index>& chosen) {
   MatrixXd basis = MatrixXd::Zero(vectors.rows(), rank);
   sparse::add_product(1.0, vectors, to_unit, basis);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> nu(
-      sparse::transposed_product(basis, M_ii_ * basis));
+      team_.sum(sparse::transposed_product(basis, *M_ii_ * basis)));
   const MatrixXd to_modes =
       (nu.eigenvectors() * nu.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal())
           .rowwise()
@@ -160,11 +163,11 @@ void Correction::append(ResidualReport& report) {
 
 }  // namespace
 
-ResidualReport add_residual_modes(Reduction& reduction, const sparse::SupernodalFactor& factor_ii,
-                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  const MatrixXd& motions, double limit_hz, double target) {
+ResidualReport add_residual_modes(Reduction& reduction, const sparse::Factor& factor_ii,
+                                  const PartitionedModel& part, const MatrixXd& motions,
+                                  double limit_hz, double target) {
   constexpr int kPasses = 4;
-  Correction correction(reduction, factor_ii, K, M, motions);
+  Correction correction(reduction, factor_ii, part, motions);
   ResidualReport report;
   report.estimated = true;
   std::vector<char> corrected;  // by index in the ascending list, which passes hardly reorder

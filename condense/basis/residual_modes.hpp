@@ -2,7 +2,6 @@
 #pragma once
 // Basis vectors that represent the truncated fixed-interface modes, and the remaining error.
 #include "condense/basis/reduced_basis.hpp"
-#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::condense {
 
@@ -30,8 +29,8 @@ struct ResidualReport {
 /// every estimate is below `target`, at most four times.
 /// @param motions n_b x m, boundary rows of the free rigid motions, which are no elastic modes.
 /// @param target relative frequency error; 0 only estimates.
-ResidualReport add_residual_modes(Reduction& reduction, const sparse::SupernodalFactor& factor_ii,
-                                  const PartitionedMatrix& K, const PartitionedMatrix& M,
-                                  const Eigen::MatrixXd& motions, double limit_hz, double target);
+ResidualReport add_residual_modes(Reduction& reduction, const sparse::Factor& factor_ii,
+                                  const PartitionedModel& part, const Eigen::MatrixXd& motions,
+                                  double limit_hz, double target);
 
 }  // namespace clatter::condense

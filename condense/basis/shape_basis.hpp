@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/base/sparse.hpp"
+#include "core/sparse/eigen/matrix_pencil.hpp"
 
 namespace clatter::condense {
 
@@ -18,9 +18,9 @@ struct ShapeBasis {
 /// The part of `shapes` that `kept` does not span. A shape with a remainder below 1e-9 in the norm
 /// of M after projection on `kept` and the shapes before it is dropped as dependent; Gram-Schmidt
 /// in the mass inner product, twice, in blocks.
-/// @param shapes n x m, of any length, zero too; kept n x p, eigenvectors of (K, M) with unit modal
-/// mass; K, M n x n, lower triangles, positive definite.
+/// @param shapes n x m, of any length, zero too; kept n x p, eigenvectors of the pencil (K, M), n x
+/// n, positive definite, with unit modal mass.
 ShapeBasis shape_basis(const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& kept,
-                       const SparseMatrix& K, const SparseMatrix& M);
+                       const sparse::MatrixPencil& pencil);
 
 }  // namespace clatter::condense

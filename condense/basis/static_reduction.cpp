@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <barrier>
+#include <cmath>
 
 #include "condense/basis/schur_mass.hpp"
 #include "core/base/blas_kernel.hpp"
@@ -279,22 +280,36 @@ bool sweep_is_cheaper(const sparse::SupernodeTree& tree) {
   return 2.0 * tree.size * n_b * n_b <= schur_mass_flops(tree);
 }
 
+/// What carry_rigid_motions needs of the matrices.
+struct BoundaryBlocks {
+  const PartitionedMatrix& K;
+  const PartitionedMatrix& M;
+  const sparse::SymmetricOperator& M_ii;
+  const sparse::RowTeam& team;
+};
+
+double norm_of(const MatrixXd& x, const sparse::RowTeam& team) {
+  return std::sqrt(team.sum(x.squaredNorm()));
+}
+
 /// Removes rounding in Psi from the mass properties. Psi + E P represents the rigid motions, where
 /// E = r_i - Psi r_b and P = r_b^+ give the change of least norm; the kept rows get this change,
 /// and M_bb the symmetric change of least rank that gives it the momentum of these motions.
-void carry_rigid_motions(const sparse::SupernodalFactor& factor_ii, const PartitionedMatrix& K,
-                         const PartitionedMatrix& M, const RigidMotions& rigid,
-                         const std::vector<int32_t>& kept, StaticReduction& out) {
+void carry_rigid_motions(const sparse::Factor& factor_ii, const BoundaryBlocks& blocks,
+                         const RigidMotions& rigid, const std::vector<int32_t>& kept,
+                         StaticReduction& out) {
+  const auto& [K, M, M_ii, team] = blocks;
   const MatrixXd &r_b = rigid.at_boundary, &r_i = rigid.inside;
-  out.rigid_error = (r_i + factor_ii.solve(K.ib * r_b)).norm() / r_i.norm();
+  out.rigid_error = norm_of(r_i + factor_ii.solve(K.ib * r_b), team) / norm_of(r_i, team);
   const MatrixXd P = r_b.completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd left = r_i(kept, Eigen::all) - out.rows * r_b;
   out.rows += left * P;
 
-  const MatrixXd inertia = sparse::SymmetricProduct(M.ii) * r_i + M.ib * r_b;
+  const MatrixXd inertia = M_ii * r_i + M.ib * r_b;
   const MatrixXd carried = -factor_ii.boundary_product(inertia);  // Psi^T f
-  const MatrixXd momentum = M.bb * r_b + M.ib.transpose() * r_i + carried +
-                            P.transpose() * (r_i.transpose() * inertia - r_b.transpose() * carried);
+  const MatrixXd momentum =
+      M.bb * r_b + team.sum(M.ib.transpose() * r_i) + carried +
+      P.transpose() * (team.sum(r_i.transpose() * inertia) - r_b.transpose() * carried);
   const MatrixXd change = (momentum - out.M_bb * r_b) * P;
   out.M_bb += change + change.transpose() - P.transpose() * (r_b.transpose() * change);
   out.M_bb = (0.5 * (out.M_bb + out.M_bb.transpose())).eval();
@@ -316,7 +331,36 @@ StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
   out.rows.swap(sweep.rows);
   out.M_bb = M.bb + (with_mass ? MatrixXd(sweep.half_mass + sweep.half_mass.transpose())
                                : schur_mass(factor_ii, M.ii, M.ib));
-  if (rigid.at_boundary.cols() > 0) carry_rigid_motions(factor_ii, K, M, rigid, kept, out);
+  if (rigid.at_boundary.cols() > 0)
+    carry_rigid_motions(factor_ii, {K, M, sparse::SymmetricProduct(M.ii), sparse::one_process()},
+                        rigid, kept, out);
+  return out;
+}
+
+StaticReduction reduce_by_solves(const sparse::Factor& factor_ii, const PartitionedModel& part,
+                                 const RigidMotions& rigid, const std::vector<int32_t>& kept) {
+  constexpr Index kBlock = 64;
+  const PartitionedMatrix &K = part.K, &M = part.M;
+  const sparse::RowTeam& team = part.team();
+  const auto mass = part.interior()->mass({});
+  const Index n_b = K.bb.cols();
+  StaticReduction out;
+  out.K_bb = K.bb - factor_ii.boundary_part();
+  out.M_bb = M.bb;
+  out.rows.resize(static_cast<Index>(kept.size()), n_b);
+  Progress progress("constraint modes", static_cast<double>(n_b));
+  for (Index first = 0; first < n_b; first += kBlock) {
+    const Index count = std::min(kBlock, n_b - first);
+    const MatrixXd Psi = -factor_ii.solve(MatrixXd(K.ib.middleCols(first, count)));
+    out.rows.middleCols(first, count) = Psi(kept, Eigen::all);
+    const MatrixXd inertia = *mass * Psi + MatrixXd(M.ib.middleCols(first, count));
+    out.M_bb.middleCols(first, count) +=
+        team.sum(M.ib.transpose() * Psi) - factor_ii.boundary_product(inertia);
+    progress.update(static_cast<double>(first + count));
+  }
+  out.M_bb = (0.5 * (out.M_bb + out.M_bb.transpose())).eval();
+  if (rigid.at_boundary.cols() > 0)
+    carry_rigid_motions(factor_ii, {K, M, *mass, team}, rigid, kept, out);
   return out;
 }
 

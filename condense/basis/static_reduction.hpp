@@ -45,4 +45,11 @@ StaticReduction reduce_statically(const sparse::SupernodalFactor& factor_ii,
                                   const RigidMotions& rigid, const std::vector<int32_t>& kept,
                                   StaticMass method = StaticMass::kCheaper);
 
+/// The same with a factor that gives only solutions: columns of Psi in blocks,
+///   M_bb = M_bb + M_bi Psi + Psi^T (M_ii Psi + M_ib),   Psi^T f = -K_bi K_ii^{-1} f,
+/// of which none is kept but the requested rows. For a team `kept` and the rows are those of this
+/// process.
+StaticReduction reduce_by_solves(const sparse::Factor& factor_ii, const PartitionedModel& part,
+                                 const RigidMotions& rigid, const std::vector<int32_t>& kept);
+
 }  // namespace clatter::condense

@@ -18,8 +18,9 @@ namespace {
 constexpr double kMassLimit = 1e-9;    // hard case B5
 constexpr double kRigidLimit = 1e-10;  // hard case B4
 
-Eigen::MatrixXd rigid_mass(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
-  return rigid.transpose() * multiply_symmetric(M, rigid);
+Eigen::MatrixXd rigid_mass(const PartitionedModel& part) {
+  const Eigen::MatrixXd rigid = part.rows_of_whole(part.full.rigid);
+  return part.team().sum(rigid.transpose() * part.whole()->mass_times(rigid));
 }
 
 double scaled_condition(const Eigen::MatrixXd& M_rr) {
@@ -113,18 +114,18 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
   return residue;
 }
 
-void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
+void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum) {
   rom::ReducedCertificate& out = reduced.certificate;
   const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
   const rom::MassProperties found = mass_properties_of(reduced_mass);
-  const rom::MassProperties full = mass_properties_of(rigid_mass(model.M, model.rigid));
+  const rom::MassProperties full = mass_properties_of(rigid_mass(part));
   out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, free.q);
   out.rigid_shape_error = source.rigid_error;
   const bool free_body = free.all_free;  // a held body cannot move rigidly
   if (free_body) {
     out.mass_error = compare_mass(found, full).largest();
-    out.mass_error_elements = compare_mass(found, model.mass).largest();
+    out.mass_error_elements = compare_mass(found, part.full.mass).largest();
   }
   out.certified = spectrum ? 1.0 : 0.0;
   out.dropped_vectors = dropped + source.interior.dropped;

@@ -43,7 +43,7 @@ struct ReducedMotions {
 /// own modes all of it; residual modes help the body's own modes alone, so that
 /// frequency_error_joined is the accuracy of a body joined to others (absent with own modes).
 /// Throws NumericsError when the reduction did not preserve the rigid motions or the mass.
-void certify(rom::ReducedModel& reduced, const fe::FeModel& model, const CraigBampton& source,
+void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum);
 
 }  // namespace clatter::condense

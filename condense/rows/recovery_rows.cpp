@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "condense/rows/recovery_rows.hpp"
 
+#include <numeric>
+
 #include "core/base/named.hpp"
 #include "core/base/threads.hpp"
 
@@ -45,6 +47,25 @@ SkinRecovery::SkinRecovery(const PartitionedModel& part, const std::vector<std::
     row_[dof] = static_cast<int32_t>(unknowns_.size());
     unknowns_.push_back(static_cast<int32_t>(k));
   }
+}
+
+void SkinRecovery::gather(const PartitionedModel& part, RowMatrix& static_rows,
+                          Eigen::MatrixXd& shapes) {
+  const sparse::RowTeam& team = part.team();
+  std::vector<int32_t> dofs;
+  for (const int32_t k : unknowns_) dofs.push_back(part.dofs.interior[static_cast<size_t>(k)]);
+  dofs = team.gather(dofs);
+  shapes = team.gather(RowMatrix(shapes(unknowns_, Eigen::all)));
+  static_rows = team.gather(static_rows);
+  if (team.rank() > 0) {
+    faces_ = {};
+    sets_.clear();
+    return;
+  }
+  unknowns_.resize(dofs.size());
+  std::iota(unknowns_.begin(), unknowns_.end(), 0);
+  for (size_t k = 0; k < dofs.size(); ++k)
+    row_[static_cast<size_t>(dofs[k])] = static_cast<int32_t>(k);
 }
 
 rom::Skin SkinRecovery::recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const {

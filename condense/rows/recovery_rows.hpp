@@ -28,6 +28,11 @@ class SkinRecovery {
                const std::vector<std::string>& sets);
   /// Interior DoFs (indices into part.dofs.interior) that move the skin and the sets, ascending.
   const std::vector<int32_t>& unknowns() const { return unknowns_; }
+  /// Brings the rows of all processes to rank 0, where recover() and recover_sets() then work with
+  /// them; elsewhere nothing is left to recover.
+  /// @param static_rows Psi at unknowns(); shapes X, n_i x k; both become those at the unknowns of
+  /// all processes.
+  void gather(const PartitionedModel& part, RowMatrix& static_rows, Eigen::MatrixXd& shapes);
   /// The skin with T_skin = T(skin nodes, :) V.
   /// @param static_rows Psi at unknowns(), rows x n_b; shapes X, n_i x k.
   rom::Skin recover(const RowMatrix& static_rows, const Eigen::MatrixXd& shapes) const;

@@ -207,15 +207,17 @@ void CommandLine::blas() {
 }
 
 int CommandLine::run(int argc, char** argv) {
-  return run_guarded(impl_->app.get_name(), [&] {
-    // --json also applies to errors in the command line.
-    set_json(std::find(argv, argv + argc, std::string_view("--json")) != argv + argc);
-    Impl& chosen = impl_->choose(argc > 1 ? argv[1] : "");
-    if (!impl_->parse(chosen, argc, argv)) return 0;
-    chosen.apply();
-    chosen.action(chosen.common);
-    return 0;
-  });
+  return run_guarded(impl_->app.get_name(), [&] { return run_or_throw(argc, argv); });
+}
+
+int CommandLine::run_or_throw(int argc, char** argv) {
+  // --json also applies to errors in the command line.
+  set_json(std::find(argv, argv + argc, std::string_view("--json")) != argv + argc);
+  Impl& chosen = impl_->choose(argc > 1 ? argv[1] : "");
+  if (!impl_->parse(chosen, argc, argv)) return 0;
+  chosen.apply();
+  chosen.action(chosen.common);
+  return 0;
 }
 
 }  // namespace clatter

@@ -68,6 +68,8 @@ class CommandLine {
   /// Parses, applies the common options and calls the action of the chosen command; returns the
   /// exit code. Every error is one line on stderr (core/base/error.hpp).
   int run(int argc, char** argv);
+  /// The same, but errors are the caller's, as in programs of several processes.
+  int run_or_throw(int argc, char** argv);
 
  private:
   struct Impl;

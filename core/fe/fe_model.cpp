@@ -33,6 +33,14 @@ void check_lower(const H5File& file, const std::string& dataset, const SparseMat
   }
 }
 
+/// A matrix of the stored shape without entries.
+SparseMatrix shape_of_sparse(const H5File& file, const std::string& group) {
+  const std::vector<int64_t> shape = file.get_ints(group, "shape");
+  if (shape.size() != 2 || shape[0] < 0 || shape[1] < 0)
+    refuse(file, group, fmt::format("a shape of {} numbers", shape.size()), "rows and columns");
+  return {shape[0], shape[1]};
+}
+
 void check_matrices(const H5File& file, const FeModel& model) {
   const Eigen::Index n = model.K.rows();
   const Eigen::Index n_nodes = model.nodes.rows();
@@ -98,12 +106,13 @@ void write_fe_model(H5File& file, const FeModel& model) {
   write_cells(file, model.cells);
 }
 
-FeModel read_fe_model(const std::filesystem::path& path) {
+FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices) {
   const H5File file = open_artefact(path, kFeSchema);
   FeModel model;
   model.name = file.get_string("/", "name");
-  model.M = read_sparse(file, "M");
-  model.K = read_sparse(file, "K");
+  const bool complete = matrices == FeMatrices::kRead;
+  model.M = complete ? read_sparse(file, "M") : shape_of_sparse(file, "M");
+  model.K = complete ? read_sparse(file, "K") : shape_of_sparse(file, "K");
   model.T = read_sparse(file, "T");
   model.nodes = file.read_rows("nodes");
   model.rigid = file.read_matrix("rigid");

@@ -95,6 +95,9 @@ void write_fe_model(H5File& file, const FeModel& model);
 /// Reads a model; checks schema, shapes, index ranges, finite values, a positive diagonal of M and
 /// K, and that every DoF of a set exists. n is 0 where supports hold every DoF.
 /// InputError names the file, dataset, found and expected.
-FeModel read_fe_model(const std::filesystem::path& path);
+/// @param matrices kLeftOut: K and M have their shape and no entries, for programs that read them
+/// in parts.
+enum class FeMatrices { kRead, kLeftOut };
+FeModel read_fe_model(const std::filesystem::path& path, FeMatrices matrices = FeMatrices::kRead);
 
 }  // namespace clatter::fe

@@ -19,27 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kNoForce = 1e-10;  // rounding of assembly and elimination leaves some 1e-13
 
-/// Disjoint sets of DoFs (Tarjan's union-find with path halving).
-class Union {
- public:
-  explicit Union(Index size) : above_(static_cast<size_t>(size)) {
-    std::iota(above_.begin(), above_.end(), 0);
-  }
-  int32_t root(int32_t i) {
-    while (above(i) != i) i = above(i) = above(above(i));
-    return i;
-  }
-  void join(int32_t i, int32_t j) {
-    const int32_t a = root(i), b = root(j);
-    above(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  int32_t& above(int32_t i) { return above_[static_cast<size_t>(i)]; }
-  std::vector<int32_t> above_;
-};
-
-void join_entries(const SparseMatrix& lower, Union& sets) {
+void join_entries(const SparseMatrix& lower, DofUnion& sets) {
   for (int j = 0; j < lower.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(lower, j); it; ++it)
       if (it.value() != 0.0) sets.join(static_cast<int32_t>(it.row()), j);
@@ -85,35 +65,73 @@ std::vector<std::vector<Index>> rows_of(const std::vector<int>& body, int bodies
 
 }  // namespace
 
+DofUnion::DofUnion(Index size) : above_(static_cast<size_t>(size)) {
+  std::iota(above_.begin(), above_.end(), 0);
+}
+
+int32_t DofUnion::root(int32_t i) {
+  while (above(i) != i) i = above(i) = above(above(i));
+  return i;
+}
+
+void DofUnion::join(int32_t i, int32_t j) {
+  const int32_t a = root(i), b = root(j);
+  above(std::max(a, b)) = std::min(a, b);
+}
+
+void DofUnion::join_all(const std::vector<int32_t>& roots) {
+  for (size_t i = 0; i < roots.size(); ++i) join(static_cast<int32_t>(i), roots[i]);
+}
+
+std::vector<int32_t> DofUnion::roots() {
+  std::vector<int32_t> out(above_.size());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = root(static_cast<int32_t>(i));
+  return out;
+}
+
+std::vector<int> numbered_sets(DofUnion& sets) {
+  const std::vector<int32_t> roots = sets.roots();
+  std::vector<int> number(roots.size(), -1);
+  int count = 0;
+  for (size_t i = 0; i < roots.size(); ++i) {
+    const auto root = static_cast<size_t>(roots[i]);  // not after i
+    number[i] = root == i ? count++ : number[root];
+  }
+  return number;
+}
+
 std::vector<int> bodies_of(const SparseMatrix& K, const SparseMatrix& M) {
-  Union sets(K.cols());
+  DofUnion sets(K.cols());
   join_entries(K, sets);
   join_entries(M, sets);
-  std::vector<int> body(static_cast<size_t>(K.cols()), -1);
-  int count = 0;
-  for (int32_t i = 0; i < K.cols(); ++i) {
-    const int32_t root = sets.root(i);  // not after i
-    body[static_cast<size_t>(i)] = root == i ? count++ : body[static_cast<size_t>(root)];
-  }
-  return body;
+  return numbered_sets(sets);
 }
 
 FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& rigid) {
+  return free_motions(
+      RigidProducts{bodies_of(K, M), [&](const MatrixXd& x) { return multiply_symmetric(M, x); },
+                    [&](const MatrixXd& x) { return multiply_symmetric(K, x); },
+                    [&](const MatrixXd& x) { return magnitude_product(K, x); }},
+      rigid);
+}
+
+FreeMotions free_motions(const RigidProducts& products, const MatrixXd& rigid) {
   FreeMotions out;
-  const std::vector<int> body = bodies_of(K, M);
+  const std::vector<int>& body = products.body;
+  const auto size_of_all = static_cast<Index>(body.size());
   out.bodies = body.empty() ? 0 : 1 + *std::max_element(body.begin(), body.end());
   const auto rows = rows_of(body, out.bodies);
   // All bodies share the same six columns; each has its own rows.
-  const MatrixXd momentum = multiply_symmetric(M, rigid);
-  MatrixXd motion = MatrixXd::Zero(K.cols(), 6);
+  const MatrixXd momentum = products.mass(rigid);
+  MatrixXd motion = MatrixXd::Zero(size_of_all, 6);
   std::vector<MatrixXd> moving;
   for (const auto& own : rows) {
     const MatrixXd R = rigid(own, Eigen::all);
     moving.push_back(moving_combinations(R.transpose() * momentum(own, Eigen::all)));
     motion(own, Eigen::seqN(0, moving.back().cols())) = R * moving.back();
   }
-  const VectorXd size = magnitude_product(K, motion).rowwise().maxCoeff();
-  MatrixXd force = multiply_symmetric(K, motion);
+  const VectorXd size = products.magnitude(motion).rowwise().maxCoeff();
+  MatrixXd force = products.stiffness(motion);
   for (Index i = 0; i < force.rows(); ++i) force.row(i) *= size[i] > 0.0 ? 1.0 / size[i] : 0.0;
 
   std::vector<MatrixXd> free;
@@ -121,7 +139,7 @@ FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M, const Mat
     free.push_back(forceless(force(rows[b], Eigen::seqN(0, moving[b].cols()))));
     out.body.insert(out.body.end(), static_cast<size_t>(free[b].cols()), static_cast<int>(b));
   }
-  out.q = MatrixXd::Zero(K.cols(), static_cast<Index>(out.body.size()));
+  out.q = MatrixXd::Zero(size_of_all, static_cast<Index>(out.body.size()));
   out.unit.resize(6, out.q.cols());
   Index at = 0;
   for (size_t b = 0; b < rows.size(); ++b) {

@@ -2,6 +2,7 @@
 #pragma once
 // Rigid-body motions left free by the supports, found from geometry before any eigenvalue solve.
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,39 @@ struct FreeMotions {
 /// @param K, M n x n, symmetric, lower triangle. @param rigid n x 6, unit rigid-body motions.
 FreeMotions free_motions(const SparseMatrix& K, const SparseMatrix& M,
                          const Eigen::MatrixXd& rigid);
+/// The same by products, where no process has all of K and M.
+struct RigidProducts {
+  using Product = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& x)>;  // x is n x m
+  std::vector<int> body;                                                     // n, as bodies_of
+  Product mass, stiffness;
+  Product magnitude;  // |K| |x|
+};
+FreeMotions free_motions(const RigidProducts& products, const Eigen::MatrixXd& rigid);
 /// The same for a model with its supports: none if held, six if free.
 FreeMotions free_motions(const fe::FeModel& model);
 
 /// The free motions of a reduced model restricted to coordinates `left`, |left| x m, M-orthonormal;
 /// rows of K_rr are scaled by its diagonal, since their zeros are accurate only to rounding.
 Eigen::MatrixXd free_motions(const rom::ReducedModel& model, const std::vector<int32_t>& left);
+
+/// Disjoint sets of DoFs (Tarjan's union-find with path halving).
+class DofUnion {
+ public:
+  explicit DofUnion(Eigen::Index size);
+  /// Members of `roots` with one value become one set.
+  void join_all(const std::vector<int32_t>& roots);
+  void join(int32_t i, int32_t j);
+  /// The first DoF of the set of each DoF.
+  std::vector<int32_t> roots();
+
+ private:
+  int32_t root(int32_t i);
+  int32_t& above(int32_t i) { return above_[static_cast<size_t>(i)]; }
+  std::vector<int32_t> above_;
+};
+
+/// Sets numbered from 0, in the order of their first DoFs.
+std::vector<int> numbered_sets(DofUnion& sets);
 
 /// Zero-based body of each DoF: DoFs that neither K nor M connects belong to different bodies.
 std::vector<int> bodies_of(const SparseMatrix& K, const SparseMatrix& M);

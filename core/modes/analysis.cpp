@@ -121,6 +121,16 @@ SparseMatrix principal_submatrix(const SparseMatrix& lower, const std::vector<in
 }
 
 PartModes analyse(const fe::FeModel& model, const ModesOptions& options) {
+  return analyse(model, options,
+                 [&](const std::vector<int32_t>& left, const sparse::EigenOptions& eigen) {
+                   if (options.fixed.empty())
+                     return solve_named(model, left, model.K, model.M, eigen);
+                   return solve_named(model, left, principal_submatrix(model.K, left),
+                                      principal_submatrix(model.M, left), eigen);
+                 });
+}
+
+PartModes analyse(const fe::FeModel& model, const ModesOptions& options, const ModeSolver& solve) {
   fe::require_unknowns(model, "modes");
   PartModes part;
   part.name = model.name;
@@ -130,13 +140,8 @@ PartModes analyse(const fe::FeModel& model, const ModesOptions& options) {
   part.displacements = [&model](const auto& q) -> Eigen::MatrixXd { return model.T * q; };
   const std::vector<int32_t> left = dofs_left(model, options.fixed);
   const sparse::EigenOptions eigen = eigen_options(options, static_cast<int>(left.size()));
-  if (options.fixed.empty()) {
-    part.modes = solve_named(model, left, model.K, model.M, eigen);
-    return part;
-  }
-  part.modes = solve_named(model, left, principal_submatrix(model.K, left),
-                           principal_submatrix(model.M, left), eigen);
-  spread(left, model.size(), part.modes.vectors);
+  part.modes = solve(left, eigen);
+  if (!options.fixed.empty()) spread(left, model.size(), part.modes.vectors);
   return part;
 }
 

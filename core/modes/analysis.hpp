@@ -47,6 +47,14 @@ struct PartModes {
 /// InputError for an unknown set.
 PartModes analyse(const fe::FeModel& model, const ModesOptions& options);
 
+/// The modes of the DoFs `left` (ascending) of a part: all of them, or none where another process
+/// receives them.
+using ModeSolver = std::function<sparse::ModeSet(const std::vector<int32_t>& left,
+                                                 const sparse::EigenOptions& options)>;
+
+/// The same by another solver; K and M of the model may be left out.
+PartModes analyse(const fe::FeModel& model, const ModesOptions& options, const ModeSolver& solve);
+
 /// Modes of a reduced part, which must outlive them, by a dense solver; shapes on its skin.
 PartModes analyse(const rom::ReducedModel& model, const ModesOptions& options);
 

@@ -133,7 +133,7 @@ TEST(ShapeBasisTest, SpansWhatIsNewAndNamesWhatIsNot) {
   shapes.col(0) << 5.0, 1e-6, 0.0, 0.0;
   shapes.col(1) << 1.0, 3e-6, 0.0, 0.0;
   shapes.col(3) << 0.0, 1e6, 1e6, 0.0;
-  const ShapeBasis basis = shape_basis(shapes, MatrixXd::Identity(4, 1), K, M);
+  const ShapeBasis basis = shape_basis(shapes, MatrixXd::Identity(4, 1), sparse::LocalPencil(K, M));
   EXPECT_EQ(basis.dependent, (std::vector<int>{1, 2}));
   ASSERT_EQ(basis.values.size(), 2);
   EXPECT_NEAR(basis.values[0], 2.0, 1e-12);

@@ -65,6 +65,19 @@ TEST_P(StaticReductionTest, EqualsTheProjectionOnTheShapes) {
   }
 }
 
+TEST(StaticReductionBySolves, EqualsTheSweep) {
+  const Case c;
+  const PartitionedModel part = partition_model(c.model, {"left", "right", "point"});
+  const std::vector<int32_t> kept{0, 7, 31};
+  const StaticReduction swept = reduce_statically(*c.factor, c.K, c.M, c.rigid(), kept);
+  const StaticReduction solved = reduce_by_solves(*c.factor, part, c.rigid(), kept);
+  EXPECT_LT((solved.M_bb - swept.M_bb).norm(), 1e-12 * swept.M_bb.norm());
+  EXPECT_EQ((solved.K_bb - swept.K_bb).norm(), 0.0);
+  EXPECT_LT((solved.rows - swept.rows).norm(), 1e-12 * swept.rows.norm());
+  // K_bb without its coupling is another matrix: the comparison can fail.
+  EXPECT_GT((solved.K_bb - c.K.bb).norm(), 0.1 * swept.K_bb.norm());
+}
+
 TEST_P(StaticReductionTest, ThreadsShareTheColumnsOut) {
   const Case c;
   set_thread_count(1);

@@ -20,6 +20,7 @@ LIBRARIES = {
     "core/sound": {"core/base"},
     "core/fe": {"core/base", "core/mesh", "core/rom"},
     "core/modes": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
+    "core/ranks": {"core/base", "core/mesh", "core/rom", "core/fe", "core/sparse"},
 }
 # Stages: each is one program, writes files for the next one, and uses no other stage.
 STAGES = {
@@ -43,6 +44,8 @@ HEADER_OWNERS = {
     r"CLI/.*": ["core/base/command_line"],
     r"nlohmann/.*": ["core/base/json_line"],
     r"lapack\.h": ["core/sound/complex_lu", "core/sparse/dense_eigen", "core/sparse/factor/front", "dynamics/integrate/dense_lu"],
+    r"mpi\.h": ["core/ranks/mpi_", "core/sparse/factor/mumps_"],
+    r"dmumps_c\.h": ["core/ranks/mumps_", "core/sparse/factor/mumps_"],
     r"metis\.h": ["core/sparse/factor/metis_", "mesh/part/metis_"],
 }
 HEAVY = ("libgmsh", "libcholmod", "libarpack", "libmetis")
@@ -245,6 +248,12 @@ class Linking(unittest.TestCase):
                 libraries = loaded(self.executable(stage))
                 print(stage, "links", " ".join(sorted(name.split(".so")[0] for name in needed(self.executable(stage)))))
                 self.assertEqual([name for name in libraries if name.startswith("libgmsh")], [])
+
+    def test_hardN13_programs_of_one_process_load_no_mpi(self):
+        for stage in ("assembly", "modal", "condense", "dynamics", "recover"):
+            with self.subTest(stage=stage):
+                libraries = loaded(self.executable(stage))
+                self.assertEqual([name for name in libraries if name.startswith(("libmpi.", "libdmumps-"))], [])
 
     def test_hardH6_one_libhdf5_per_executable(self):
         for stage in STAGES:

@@ -259,7 +259,7 @@ void remove_known(const KnownMotions& known, EigenResult& out) {
 
 /// Refines the pairs of a projection until a step lowers no wanted frequency by more than
 /// `accuracy`.
-void refine(const ShiftInvert& problem, const SymmetricProduct& mass, const AmlsOptions& options,
+void refine(const ShiftInvert& problem, const SymmetricOperator& mass, const AmlsOptions& options,
             EigenResult& out) {
   for (int step = 0; step < options.max_refinements; ++step) {
     const VectorXd before = out.values;
@@ -285,8 +285,8 @@ EigenResult solve_amls(ShiftedPencil& pencil, const AmlsOptions& options) {
       std::max(8, options.count / 20);  // the highest Ritz vectors are the least accurate
   const int requested = static_cast<int>(std::min<Index>(options.count + spare + known, size));
   require_room(size, requested, 0);
-  const SupernodalFactor& factor = pencil.factor();
-  const SubtreeProduct A(factor, pencil.mass());
+  const SupernodalFactor& factor = pencil.local_factor();
+  const SubtreeProduct A(factor, pencil.local_mass());
   const double nu = ModeDensity(A, size, options.seed).nu_above(options.count + known);
   double highest = std::max(1.0 / nu + problem.sigma, 0.0) * options.cutoff * options.cutoff;
   EigenResult out;

@@ -28,14 +28,25 @@ Index default_block(Index wanted, Index size) {
   return size < kSmall || wanted < 12 ? 8 : 16;
 }
 
+constexpr uint64_t kSeedStep = 1000003;  // between the random numbers of two processes
+
 Index block_of(const BlockLanczosOptions& options, Index size) {
   const Index requested = options.block > 0 ? options.block : default_block(options.count, size);
   return (requested + kLanes - 1) / kLanes * kLanes;
 }
 
-BasisSize room_left(const BlockLanczosOptions& options, Index block, Index size) {
+/// Unknowns of all processes, and the most of one.
+Index size_of(const ShiftInvert& problem) {
+  return static_cast<Index>(problem.team->sum(static_cast<double>(problem.size)));
+}
+Index largest_part(const ShiftInvert& problem) {
+  return static_cast<Index>(-problem.team->least(-static_cast<double>(problem.size)));
+}
+
+BasisSize room_left(const BlockLanczosOptions& options, Index block, Index size,
+                    const RowTeam& team) {
   const auto ample = static_cast<double>(size) * static_cast<double>(5 * options.count + 8 * block);
-  const double left = memory_left_gib(gib_of_doubles(ample));
+  const double left = team.least(memory_left_gib(gib_of_doubles(ample)));
   const double least =
       gib_of_doubles(static_cast<double>(size) * static_cast<double>(3 * block + options.count));
   require_memory(fmt::format("the vectors of {} modes", options.count), least,
@@ -76,7 +87,8 @@ class Run {
 
   const ShiftInvert& problem_;
   const BlockLanczosOptions& options_;
-  Index n_, b_, wanted_;
+  const RowTeam& team_;
+  Index n_, b_, wanted_;  // n: rows of this process
   BasisSize room_;
   Index limit_;
   Index size_ = 0;    // columns whose image under Op is in T_
@@ -95,15 +107,16 @@ class Run {
 Run::Run(const ShiftInvert& problem, const BlockLanczosOptions& options)
     : problem_(problem),
       options_(options),
+      team_(*problem.team),
       n_(problem.size),
-      b_(block_of(options, problem.size)),
+      b_(block_of(options, size_of(problem))),
       wanted_(options.count),
-      room_(room_left(options, b_, n_)),
+      room_(room_left(options, b_, largest_part(problem), team_)),
       limit_(room_.columns),
       Y_(n_, b_),
       MY_(n_, b_),
       V_(n_, limit_ + b_, room_.storage),
-      engine_(options.seed) {
+      engine_(options.seed + kSeedStep * static_cast<uint64_t>(team_.rank())) {
   T_ = MatrixXd::Zero(limit_, limit_);
 }
 
@@ -124,7 +137,7 @@ void Run::start() {
 
 void Run::remove(Index first, Index last, MatrixXd& H) {
   if (first >= last) return;
-  const MatrixXd part = V_.coefficients(first, last, MY_);
+  const MatrixXd part = team_.sum(V_.coefficients(first, last, MY_));
   V_.subtract(first, part, Y_);
   H.middleRows(first, last - first) += part;
   refresh_image();
@@ -139,7 +152,7 @@ MatrixXd Run::orthonormalise(Index begin) {
   MatrixXd R = MatrixXd::Identity(b_, b_);
   bool repeat = true;
   for (int pass = 0; pass < 2 || (repeat && pass < 4); ++pass) {
-    const MatrixXd lengths = gram(Y_, MY_);
+    const MatrixXd lengths = team_.sum(gram(Y_, MY_));
     indefinite_ = indefinite_ || lengths.diagonal().minCoeff() <
                                      -kIndefinite * lengths.diagonal().cwiseAbs().maxCoeff();
     const VectorXd scale = lengths.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -172,7 +185,7 @@ bool Run::expand() {
   const Index next = size_ + b_;
   problem_.solve(MY_.data.get(), Y_.data.get(), static_cast<int>(b_));
   solves_ += b_;
-  if (!Y_.finite()) return false;
+  if (team_.any(!Y_.finite())) return false;
   refresh_image();
   // Op is symmetric, so the new block is coupled only to the last two (and to the vectors that a
   // restart kept); the second pass removes rounding components of the others. They must not enter
@@ -201,6 +214,8 @@ bool Run::project() {
   if (!eig.ok) return false;
   nu_ = eig.values.reverse();
   S_ = eig.vectors.rowwise().reverse();
+  team_.agree(nu_.data(), nu_.size());  // processors of two kinds round differently
+  team_.agree(S_.data(), S_.size());
   return true;
 }
 
@@ -333,14 +348,14 @@ VectorXd first_ritz_values(const ShiftInvert& problem, uint64_t seed) {
 EigenResult solve_block_lanczos(const ShiftInvert& problem, const BlockLanczosOptions& options) {
   EigenResult refused;
   refused.status = EigenStatus::kBadInput;
-  const int64_t block = block_of(options, problem.size);
+  const int64_t size = size_of(problem), block = block_of(options, size);
   if (options.count < 1) {
     refused.message = fmt::format("{} modes requested, expected at least 1", options.count);
     return refused;
   }
-  if (2 * int64_t{options.count} + 6 * block > problem.size) {
-    refused.message = fmt::format("{} modes of {} unknowns are too many for the subspace",
-                                  options.count, problem.size);
+  if (2 * int64_t{options.count} + 6 * block > size) {
+    refused.message =
+        fmt::format("{} modes of {} unknowns are too many for the subspace", options.count, size);
     return refused;
   }
   return Run(problem, options).solve();

@@ -14,8 +14,6 @@
 #include "core/sparse/eigen/mode_check.hpp"
 #include "core/sparse/eigen/mode_source.hpp"
 #include "core/sparse/eigen/refinement.hpp"
-#include "core/sparse/factor/inertia.hpp"
-#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::sparse {
 namespace {
@@ -31,8 +29,7 @@ constexpr int kExtra = 3;  // extra modes, to find a gap after the wanted ones
 /// State of one solve_modes() call.
 class Search {
  public:
-  Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-         const SupernodalFactor* factor);
+  Search(const MatrixPencil& pencil, const EigenOptions& options, const Factor* factor);
   ModeSet run();
 
  private:
@@ -59,31 +56,27 @@ class Search {
   /// The count is consistent with the errors of the values: no contradiction, but no proof.
   bool may_agree() const;
   void keep_first(Index count);
-  /// A residual is above the limit and not explained by rounding.
+  /// A residual is above the limit.
   bool worth_refining() const;
   void finish();
 
-  const SparseMatrix& K_;
-  const SparseMatrix& M_;
+  const MatrixPencil& pencil_;
   const EigenOptions& options_;
-  const Index n_;
+  const Index n_;      // of the team
   ModeSource source_;  // internally, rows of large problems are in elimination order
   ModeSet modes_;
 };
 
-void check_request(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options) {
+void check_request(const MatrixPencil& pencil, const EigenOptions& options) {
   if ((options.count > 0) == (options.fmax_hz > 0.0) || options.count < 0 ||
       !std::isfinite(options.fmax_hz)) {
     throw InputError(fmt::format(
         "modes: found count = {} and fmax_hz = {}, expected exactly one of them to be positive",
         options.count, options.fmax_hz));
   }
-  if (K.rows() != M.rows() || K.rows() == 0) {
-    throw InputError(fmt::format("modes: K has {} rows and M {}", K.rows(), M.rows()));
-  }
-  if (options.count > K.rows()) {
+  if (options.count > pencil.size()) {
     throw InputError(fmt::format("modes: found count = {}, expected at most {} (the unknowns)",
-                                 options.count, K.rows()));
+                                 options.count, pencil.size()));
   }
 }
 
@@ -91,10 +84,9 @@ Index values_below(const VectorXd& values, double limit) {
   return (values.array() < limit).count();
 }
 
-Search::Search(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-               const SupernodalFactor* factor)
-    : K_(K), M_(M), options_(options), n_(K.rows()), source_(K, M, options, factor) {
-  modes_.massless = bounds_of(K, M).massless;
+Search::Search(const MatrixPencil& pencil, const EigenOptions& options, const Factor* factor)
+    : pencil_(pencil), options_(options), n_(pencil.size()), source_(pencil, options, factor) {
+  modes_.massless = pencil.bounds().massless;
 }
 
 EigenResult Search::solve(int count, int retry) {
@@ -132,7 +124,7 @@ bool Search::may_agree() const {
 void Search::prove(double limit) {
   modes_.proof.limit = limit;
   if (!options_.prove_count) return;
-  const InertiaCount count = count_below(K_, M_, limit, source_.order());
+  const InertiaCount count = pencil_.count_below(limit, source_.order());
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
     throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; choose another limit",
@@ -257,18 +249,11 @@ void Search::find_by_limit() {
 void Search::keep_first(Index count) {
   modes_.values.conservativeResize(count);
   if (approximate()) modes_.errors.conservativeResize(count);
-  modes_.vectors.conservativeResize(n_, count);
+  modes_.vectors.conservativeResize(pencil_.rows(), count);
 }
 
 bool Search::worth_refining() const {
-  if (modes_.residuals.maxCoeff() <= options_.max_residual) return false;
-  const SparseMatrix stiffness = reordered(K_, source_.order());
-  const SparseMatrix inertia = reordered(M_, source_.order());
-  for (Index j = 0; j < modes_.size(); ++j)
-    if (!(modes_.residuals[j] <= options_.max_residual) &&
-        !(beyond_rounding(stiffness, inertia, modes_.values[j], modes_.vectors.col(j)) <= 1.0))
-      return true;
-  return false;
+  return !(modes_.residuals.maxCoeff() <= options_.max_residual);
 }
 
 void Search::finish() {
@@ -278,11 +263,13 @@ void Search::finish() {
   modes_.seconds = source_.seconds();
   const std::vector<int64_t>& order = source_.order();
   if (modes_.size() > 0) {
-    const SymmetricProduct stiffness(small() ? K_ : reordered(K_, order));
-    std::optional<SymmetricProduct> own;
-    if (small()) own.emplace(M_);
-    const SymmetricProduct& inertia = own ? *own : source_.mass();
-    const auto measure = [&] { modes_.residuals = residuals_of(stiffness, inertia, modes_); };
+    const std::unique_ptr<SymmetricOperator> stiffness = pencil_.stiffness(order);
+    std::unique_ptr<SymmetricOperator> own;
+    if (small()) own = pencil_.mass({});
+    const SymmetricOperator& inertia = own ? *own : source_.mass();
+    const auto measure = [&] {
+      modes_.residuals = residuals_of(*stiffness, inertia, modes_, pencil_.team());
+    };
     measure();
     // With massless DoFs, one step removes rounding components of infinite modes.
     const int least = modes_.massless > 0 ? 1 : 0;
@@ -295,11 +282,11 @@ void Search::finish() {
       measure();
     }
   }
-  restore_order(order, modes_);
-  if (!approximate()) refuse_residuals(K_, M_, modes_, options_.max_residual);
+  restore_order(order, modes_, pencil_.team());
+  if (!approximate()) refuse_residuals(pencil_, modes_, options_.max_residual);
   modes_.solves += source_.solves();
   modes_.factors = source_.factors();
-  insert_rigid(K_, source_.rigid(), options_.rigid.has_value(), modes_);
+  insert_rigid(pencil_, source_.rigid(), options_.rigid.has_value(), modes_);
 }
 
 ModeSet Search::run() {
@@ -321,14 +308,21 @@ VectorXd ModeSet::frequencies_hz() const {
 }
 
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-                    const SupernodalFactor* factor) {
-  check_request(K, M, options);
-  const auto masses = K.rows() - bounds_of(K, M).massless;
+                    const Factor* factor) {
+  if (K.rows() != M.rows() || K.rows() == 0)
+    throw InputError(fmt::format("modes: K has {} rows and M {}", K.rows(), M.rows()));
+  return solve_modes(LocalPencil(K, M), options, factor);
+}
+
+ModeSet solve_modes(const MatrixPencil& pencil, const EigenOptions& options, const Factor* factor) {
+  check_request(pencil, options);
+  const int64_t n = pencil.size(), masses = n - pencil.bounds().massless;
   if (masses == 0) throw InputError("modes: found M = 0, expected some mass");
-  if (masses < K.rows() && masses <= options.dense_limit && K.rows() > options.dense_limit &&
-      factor == nullptr)
-    return solve_few_masses(K, M, options);
-  return Search(K, M, options, factor).run();
+  const LocalMatrices* local = pencil.local();
+  if (masses < n && masses <= options.dense_limit && n > options.dense_limit && factor == nullptr &&
+      local != nullptr)
+    return solve_few_masses(local->K, local->M, options);
+  return Search(pencil, options, factor).run();
 }
 
 }  // namespace clatter::sparse

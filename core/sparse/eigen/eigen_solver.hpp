@@ -8,9 +8,9 @@
 
 #include "core/base/sparse.hpp"
 #include "core/sparse/eigen/eigen_method.hpp"
+#include "core/sparse/eigen/matrix_pencil.hpp"
 #include "core/sparse/eigen/mode_values.hpp"
 #include "core/sparse/eigen/shift_invert.hpp"
-#include "core/sparse/factor/supernodal_factor.hpp"
 
 namespace clatter::sparse {
 
@@ -72,6 +72,10 @@ struct ModeSet {
 /// Throws InputError for an invalid request; NumericsError when the solver does not converge, a
 /// residual is too large, or the count does not match after all retries.
 ModeSet solve_modes(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-                    const SupernodalFactor* factor = nullptr);
+                    const Factor* factor = nullptr);
+
+/// The same where a team may share the rows; then by block Lanczos, whatever the size.
+ModeSet solve_modes(const MatrixPencil& pencil, const EigenOptions& options,
+                    const Factor* factor = nullptr);
 
 }  // namespace clatter::sparse

@@ -12,7 +12,8 @@ namespace clatter::sparse {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-KnownMotions::KnownMotions(MatrixXd U, MatrixXd MU) : U_(std::move(U)), MU_(std::move(MU)) {}
+KnownMotions::KnownMotions(MatrixXd U, MatrixXd MU, const RowTeam& team)
+    : U_(std::move(U)), MU_(std::move(MU)), team_(team) {}
 
 void KnownMotions::remove(double* x, int count) const {
   if (U_.cols() == 0) return;
@@ -29,6 +30,7 @@ void KnownMotions::remove(double* x, int count) const {
   });
   MatrixXd sum = MatrixXd::Zero(U_.cols(), count);
   for (const MatrixXd& one : part) sum += one;
+  team_.sum(sum.data(), sum.size());
   parallel_pieces(pieces, [&](int64_t begin, int64_t end) {
     for (Index k = begin; k < end; ++k) {
       const Index rows = std::min(kRows, n - k * kRows);
@@ -37,10 +39,11 @@ void KnownMotions::remove(double* x, int count) const {
   });
 }
 
-MatrixXd orthonormal_in_mass(const SparseMatrix& M, const MatrixXd& R) {
+MatrixXd orthonormal_in_mass(const MatrixPencil& pencil, const MatrixXd& R) {
   MatrixXd U = R;
   for (int pass = 0; pass < 2 && U.cols() > 0; ++pass) {
-    const Eigen::LLT<MatrixXd> gram(U.transpose() * multiply_symmetric(M, U));
+    const Eigen::LLT<MatrixXd> gram(
+        pencil.team().sum(MatrixXd(U.transpose() * pencil.mass_times(U))));
     if (gram.info() != Eigen::Success)
       throw NumericsError("modes: the rigid-body motions are linearly dependent in M");
     U = gram.matrixU().solve<Eigen::OnTheRight>(U).eval();

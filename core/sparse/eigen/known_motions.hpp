@@ -3,7 +3,7 @@
 // Projects eigenvectors that are known in advance out of an operator.
 #include <Eigen/Core>
 
-#include "core/base/sparse.hpp"
+#include "core/sparse/eigen/matrix_pencil.hpp"
 #include "core/sparse/eigen/shift_invert.hpp"
 
 namespace clatter::sparse {
@@ -14,7 +14,7 @@ namespace clatter::sparse {
 class KnownMotions {
  public:
   /// @param U n x m, M-orthonormal, rows in the order of the problem; @param MU M U.
-  KnownMotions(Eigen::MatrixXd U, Eigen::MatrixXd MU);
+  KnownMotions(Eigen::MatrixXd U, Eigen::MatrixXd MU, const RowTeam& team = one_process());
   Eigen::Index count() const { return U_.cols(); }
   const Eigen::MatrixXd& vectors() const { return U_; }
   /// x <- P x for `count` row-major vectors, n x count; bitwise reproducible for any number of
@@ -23,9 +23,10 @@ class KnownMotions {
 
  private:
   Eigen::MatrixXd U_, MU_;
+  const RowTeam& team_;
 };
 
-/// A basis of span(R) with U^T M U = 1; R n x m, of full rank in M.
-Eigen::MatrixXd orthonormal_in_mass(const SparseMatrix& M, const Eigen::MatrixXd& R);
+/// A basis of span(R) with U^T M U = 1, M that of `pencil`; R n x m, of full rank in M.
+Eigen::MatrixXd orthonormal_in_mass(const MatrixPencil& pencil, const Eigen::MatrixXd& R);
 
 }  // namespace clatter::sparse

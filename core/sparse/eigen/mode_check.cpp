@@ -23,9 +23,16 @@ constexpr double kZeroUnknown = 2.0;   // the same where zeros are recognised on
 constexpr double kResolved = 1e-10;    // of the shift; smaller values are zero to rounding
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
+VectorXd norms_of(const RowMatrix& x, const RowTeam& team) {
+  VectorXd squares = x.colwise().squaredNorm();
+  team.sum(squares.data(), squares.size());
+  return squares.cwiseSqrt();
+}
+
 }  // namespace
 
-VectorXd residuals_of(const SymmetricProduct& K, const SymmetricProduct& M, const ModeSet& modes) {
+VectorXd residuals_of(const SymmetricOperator& K, const SymmetricOperator& M, const ModeSet& modes,
+                      const RowTeam& team) {
   const Index n = K.size();
   VectorXd out(modes.size());
   RowMatrix x, force, inertia;
@@ -37,27 +44,26 @@ VectorXd residuals_of(const SymmetricProduct& K, const SymmetricProduct& M, cons
     K.multiply(x.data(), force.data(), static_cast<int>(count));
     M.multiply(x.data(), inertia.data(), static_cast<int>(count));
     const auto values = modes.values.segment(first, count);
-    const VectorXd length = inertia.colwise().norm();
+    const VectorXd length = norms_of(inertia, team);
     force -= inertia * values.asDiagonal();
-    out.segment(first, count) = force.colwise().norm().transpose().array() /
-                                ((values.array() - modes.sigma).abs() * length.array());
+    out.segment(first, count) =
+        norms_of(force, team).array() / ((values.array() - modes.sigma).abs() * length.array());
   }
   return out;
 }
 
-double beyond_rounding(const SparseMatrix& K, const SparseMatrix& M, double value,
-                       const VectorXd& x) {
-  const VectorXd inertia = value * multiply_symmetric(M, x);
-  const double rest = (multiply_symmetric(K, x) - inertia).norm();
-  return rest / (magnitude_product(K, x).norm() + inertia.norm()) / kBackward;
+double beyond_rounding(const MatrixPencil& pencil, double value, const VectorXd& x) {
+  const RowTeam& team = pencil.team();
+  const VectorXd inertia = value * pencil.mass_times(x);
+  const double rest = team.norms(pencil.stiffness_times(x) - inertia)[0];
+  return rest / (team.norms(pencil.magnitude_times(x))[0] + team.norms(inertia)[0]) / kBackward;
 }
 
-void refuse_residuals(const SparseMatrix& K, const SparseMatrix& M, const ModeSet& modes,
-                      double most) {
+void refuse_residuals(const MatrixPencil& pencil, const ModeSet& modes, double most) {
   for (Index j = 0; j < modes.size(); ++j) {
     if (modes.residuals[j] <= most) continue;
     const double backward =
-        kBackward * beyond_rounding(K, M, modes.values[j], modes.vectors.col(j));
+        kBackward * beyond_rounding(pencil, modes.values[j], modes.vectors.col(j));
     if (backward <= kBackward) continue;
     throw NumericsError(
         fmt::format("modes: mode {} at {:.6g} Hz has residual {:.1e}, expected at most {:.1e}, and "
@@ -67,7 +73,8 @@ void refuse_residuals(const SparseMatrix& K, const SparseMatrix& M, const ModeSe
   }
 }
 
-void restore_order(const std::vector<int64_t>& order, ModeSet& modes) {
+void restore_order(const std::vector<int64_t>& order, ModeSet& modes, const RowTeam& team) {
+  VectorXd highest(modes.size()), lowest(modes.size());  // of the largest entries of the processes
   parallel_pieces(modes.size(), [&](int64_t begin, int64_t end) {
     VectorXd inside;
     for (int64_t j = begin; j < end; ++j) {
@@ -75,24 +82,36 @@ void restore_order(const std::vector<int64_t>& order, ModeSet& modes) {
       if (!order.empty()) inside = x;
       for (size_t i = 0; i < order.size(); ++i) x[order[i]] = inside[static_cast<Index>(i)];
       Index largest = 0;
-      x.cwiseAbs().maxCoeff(&largest);
-      if (x[largest] < 0.0) x *= -1.0;
+      if (x.size() > 0) x.cwiseAbs().maxCoeff(&largest);
+      lowest[j] = x.size() > 0 ? x[largest] : 0.0;
+      highest[j] = -lowest[j];
     }
+  });
+  team.least(highest.data(), highest.size());
+  team.least(lowest.data(), lowest.size());
+  parallel_pieces(modes.size(), [&](int64_t begin, int64_t end) {
+    for (int64_t j = begin; j < end; ++j)
+      if (lowest[j] < highest[j]) modes.vectors.col(j) *= -1.0;
   });
 }
 
-void insert_rigid(const SparseMatrix& K, const Eigen::MatrixXd& rigid, bool known_beforehand,
+void insert_rigid(const MatrixPencil& pencil, const Eigen::MatrixXd& rigid, bool known_beforehand,
                   ModeSet& modes) {
-  const Index n = K.rows(), found = modes.size(), known = rigid.cols();
+  const RowTeam& team = pencil.team();
+  const Index n = pencil.rows(), found = modes.size(), known = rigid.cols();
   modes.rounding = VectorXd::Zero(known + found);
   modes.known_rigid = modes.rigid = static_cast<int>(known);
   // |x|^T |K| |x| <= sum_i x_i^2 sum_j |K_ij|
-  const VectorXd row_sums = magnitude_product(K, VectorXd::Ones(n));
+  const VectorXd row_sums = pencil.magnitude_times(VectorXd::Ones(n));
   // Unknown zeros were computed as 1 / nu + sigma.
   const double zero = known_beforehand ? kZeroKnown : kZeroUnknown;
   const double unresolved = known_beforehand ? 0.0 : kResolved * std::abs(modes.sigma);
+  VectorXd uncertain_of(found);
+  for (Index j = 0; j < found; ++j)
+    uncertain_of[j] = kEps * modes.vectors.col(j).cwiseAbs2().dot(row_sums);
+  team.sum(uncertain_of.data(), found);
   for (Index j = 0; j < found; ++j) {
-    const double uncertain = kEps * modes.vectors.col(j).cwiseAbs2().dot(row_sums);
+    const double uncertain = uncertain_of[j];
     const double value = std::abs(modes.values[j]);
     if (value <= std::max(zero * uncertain, unresolved))
       ++modes.rigid;
@@ -107,9 +126,8 @@ void insert_rigid(const SparseMatrix& K, const Eigen::MatrixXd& rigid, bool know
   };
   prepend(modes.values, VectorXd::Zero(known));
   if (modes.errors.size() > 0) prepend(modes.errors, VectorXd::Zero(known));
-  const VectorXd force = multiply_symmetric(K, rigid).colwise().norm();
-  prepend(modes.residuals,
-          force.cwiseQuotient(magnitude_product(K, rigid).colwise().norm().transpose()));
+  const VectorXd force = team.norms(pencil.stiffness_times(rigid));
+  prepend(modes.residuals, force.cwiseQuotient(team.norms(pencil.magnitude_times(rigid))));
   // In place: the vectors may fill half the memory.
   modes.vectors.conservativeResize(n, known + found);
   double* data = modes.vectors.data();

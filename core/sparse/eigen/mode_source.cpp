@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sparse/eigen/mode_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/sparse/eigen/amls.hpp"
 #include "core/sparse/eigen/arpack_solver.hpp"
@@ -18,23 +21,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd rigid_modes(const SparseMatrix& M, const EigenOptions& options) {
-  if (!options.rigid) return MatrixXd(M.rows(), 0);
-  return orthonormal_in_mass(M, *options.rigid);
+MatrixXd rigid_modes(const MatrixPencil& problem, const EigenOptions& options) {
+  if (!options.rigid) return MatrixXd(problem.rows(), 0);
+  return orthonormal_in_mass(problem, *options.rigid);
 }
 
 }  // namespace
 
-ModeSource::ModeSource(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-                       const SupernodalFactor* factor)
-    : K_(K),
-      M_(M),
+ModeSource::ModeSource(const MatrixPencil& problem, const EigenOptions& options,
+                       const Factor* factor)
+    : given_(problem),
       options_(options),
-      n_(K.rows()),
-      rigid_(rigid_modes(M, options)),
+      n_(problem.size()),
+      rigid_(rigid_modes(problem, options)),
       wanted_{options.count - static_cast<int>(rigid_.cols()),
               options.fmax_hz > 0.0 ? value_of_hz(options.fmax_hz) : 0.0},
-      pencil_(K, M, options.factor, rigid_) {
+      pencil_(problem, options.factor, rigid_) {
   if (dense()) return;
   if (factor != nullptr)
     pencil_.use(*factor, options.sigma.value_or(0.0));
@@ -58,13 +60,19 @@ EigenResult ModeSource::attempt(int count, int retry) {
   if (dense()) return by_dense(count);
   const bool room = 2 * count + 6 * 24 < n_;
   if (room && options_.method == EigenMethod::kBlockLanczos) return by_block_lanczos(count, retry);
+  if (given_.local() == nullptr)
+    throw InputError(
+        fmt::format("modes: found {} of {} unknowns by {}, expected fewer, by {}: the "
+                    "only eigen_solver of several processes",
+                    count, n_, name_of(options_.method), name_of(EigenMethod::kBlockLanczos)));
   pencil_.find_shift(wanted_, options_.seed);
   if (room && options_.method == EigenMethod::kAmls) return by_amls(count, retry);
   return by_arpack(count, retry);
 }
 
 EigenResult ModeSource::by_dense(int count) {
-  const MatrixXd K = dense_symmetric(K_), M = dense_symmetric(M_);
+  const auto& [K_full, M_full] = *given_.local();
+  const MatrixXd K = dense_symmetric(K_full), M = dense_symmetric(M_full);
   dense_sigma_ = options_.sigma.value_or(dense_shift(K, M));
   method_ = "dense";
   return solve_dense(K, M, rigid_, options_.sigma, count);
@@ -113,8 +121,11 @@ VectorXd ModeSource::start(int retry) const {
 }
 
 int ModeSource::estimated_below(double limit) {
+  if (given_.local() == nullptr)
+    return static_cast<int>(given_.count_below(limit, order()).negative - rigid_.cols());
   pencil_.find_shift(wanted_, options_.seed);
-  const ModeDensity density(SubtreeProduct(pencil_.factor(), pencil_.mass()), n_, options_.seed);
+  const ModeDensity density(SubtreeProduct(pencil_.local_factor(), pencil_.local_mass()), n_,
+                            options_.seed);
   solves_ += ModeDensity::kSolves;
   return static_cast<int>(density.count_above(1.0 / (limit - sigma())));
 }

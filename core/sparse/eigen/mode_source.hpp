@@ -12,12 +12,11 @@ namespace clatter::sparse {
 
 class ModeSource {
  public:
-  /// @param K, M, options, factor as in solve_modes; must outlive this.
-  ModeSource(const SparseMatrix& K, const SparseMatrix& M, const EigenOptions& options,
-             const SupernodalFactor* factor);
+  /// @param problem, options, factor as in solve_modes; must outlive this.
+  ModeSource(const MatrixPencil& problem, const EigenOptions& options, const Factor* factor);
 
   /// Whether a dense solver is used: rows keep their order, else they are in elimination order.
-  bool dense() const { return n_ <= options_.dense_limit; }
+  bool dense() const { return n_ <= options_.dense_limit && given_.local() != nullptr; }
   /// The lowest `count` modes besides the rigid-body modes; each retry uses other start vectors.
   EigenResult solve(int count, int retry);
   /// Estimated number of modes below a value [rad2/s2]; for sparse problems.
@@ -29,7 +28,7 @@ class ModeSource {
   const std::string& method() const { return method_; }
   const std::vector<int64_t>& order() const { return pencil_.order(); }
   const ShiftInvert& problem() const { return pencil_.problem(); }
-  const SymmetricProduct& mass() const { return pencil_.mass(); }
+  const SymmetricOperator& mass() const { return pencil_.mass(); }
   const FactorReport& report() const { return pencil_.report(); }
   /// Totals so far: solves with a factor, factorisations, seconds in the solvers.
   int64_t solves() const { return solves_ + pencil_.solves(); }
@@ -47,10 +46,9 @@ class ModeSource {
   /// The caller's start vector in elimination order; empty when there is none.
   Eigen::VectorXd start(int retry) const;
 
-  const SparseMatrix& K_;
-  const SparseMatrix& M_;
+  const MatrixPencil& given_;
   const EigenOptions& options_;
-  const Eigen::Index n_;
+  const Eigen::Index n_;  // of the team
   const Eigen::MatrixXd rigid_;
   const Wanted wanted_;
   ShiftedPencil pencil_;

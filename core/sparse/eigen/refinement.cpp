@@ -21,7 +21,7 @@ constexpr Index kTileHeight = 2048;  // rows processed at a time
 
 }  // namespace
 
-void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, MatrixXd& X,
+void refine_modes(const ShiftInvert& problem, const SymmetricOperator& mass_of, MatrixXd& X,
                   VectorXd& values) {
   const Index m = X.cols(), n = X.rows();
   MatrixXd shifted = MatrixXd::Zero(m, m), mass = shifted;  // upper triangles of the projections
@@ -49,6 +49,8 @@ void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, M
     take_image(first);
     project(first, mass);
   }
+  problem.team->sum(shifted.data(), shifted.size());
+  problem.team->sum(mass.data(), mass.size());
   const DenseEigen ritz = symmetric_eigen(mass.transpose(), shifted.transpose());
   if (!ritz.ok) throw NumericsError("modes: the refined vectors are linearly dependent");
   const VectorXd nu = ritz.values.reverse();

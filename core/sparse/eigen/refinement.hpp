@@ -10,7 +10,7 @@ namespace clatter::sparse {
 /// values <- their Rayleigh quotients, ascending. The component at lambda_k in the vector of
 /// lambda_j shrinks by (lambda_j - sigma) / (lambda_k - sigma). Throws NumericsError when the
 /// vectors are linearly dependent.
-void refine_modes(const ShiftInvert& problem, const SymmetricProduct& mass_of, Eigen::MatrixXd& X,
+void refine_modes(const ShiftInvert& problem, const SymmetricOperator& mass_of, Eigen::MatrixXd& X,
                   Eigen::VectorXd& values);
 
 }  // namespace clatter::sparse

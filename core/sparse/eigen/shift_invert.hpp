@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "core/sparse/row_team.hpp"
+
 namespace clatter::sparse {
 
 /// The spectral transformation nu = 1 / (lambda - sigma) (Ericsson and Ruhe, 1980): the wanted
@@ -13,7 +15,8 @@ namespace clatter::sparse {
 struct ShiftInvert {
   /// y = A x for `count` row-major vectors, size x count; y must not alias x.
   using Apply = std::function<void(const double* x, double* y, int count)>;
-  int64_t size = 0;
+  int64_t size = 0;                      // rows of this process
+  const RowTeam* team = &one_process();  // shares the rows
   double sigma = 0.0;  // [rad2/s2], below every eigenvalue, so that K - sigma M is definite
   Apply solve;         // (K - sigma M)^{-1} x
   Apply mass;          // M x

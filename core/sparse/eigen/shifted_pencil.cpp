@@ -17,7 +17,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kRounding = 2e-15;  // |sigma| over the highest eigenvalue: rounding level of K
+constexpr double kLooseCondition =
+    5e14;                         // condition of K - sigma M: sigma M is at the rounding level of K
 constexpr double kCloser = 1e-4;  // next shift over the lowest Ritz value, which is an upper bound
 constexpr double kBelow = 1e-2;   // the same when the shift was too small
 constexpr double kFar = 1e5;      // ratio of lowest eigenvalue to a shift that is too small
@@ -28,29 +29,16 @@ constexpr int kMoves = 8;
 
 }  // namespace
 
-double PencilBounds::smallest_shift() const { return kRounding * top; }
-
 double Wanted::highest(double lowest) const {
   if (limit > 0.0) return std::max(limit, lowest);
   return lowest * std::pow(std::max(count, 1), 2.0 / 3.0);
 }
 
-PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M) {
-  PencilBounds out;
-  for (int j = 0; j < K.cols(); ++j) {
-    const double m = M.coeff(j, j);
-    if (m > 0.0)
-      out.top = std::max(out.top, K.coeff(j, j) / m);
-    else
-      ++out.massless;
-  }
-  return out;
-}
-
-ShiftedPencil::ShiftedPencil(const SparseMatrix& K, const SparseMatrix& M,
-                             const FactorOptions& options, const MatrixXd& rigid)
-    : K_(K), M_(M), options_(options), given_rigid_(rigid) {
-  full_problem_.size = problem_.size = K.cols();
+ShiftedPencil::ShiftedPencil(const MatrixPencil& pencil, const FactorOptions& options,
+                             const MatrixXd& rigid)
+    : pencil_(pencil), options_(options), given_rigid_(rigid) {
+  full_problem_.size = problem_.size = pencil.rows();
+  full_problem_.team = problem_.team = &pencil.team();
   full_problem_.solve = [this](const double* x, double* y, int count) {
     parallel_pieces(full_problem_.size * count,
                     [&](int64_t begin, int64_t end) { std::copy(x + begin, x + end, y + begin); });
@@ -67,16 +55,15 @@ ShiftedPencil::ShiftedPencil(const SparseMatrix& K, const SparseMatrix& M,
 }
 
 void ShiftedPencil::set_order(const std::vector<int64_t>& order) {
-  if (!order_.empty()) return;
+  if (mass_) return;
   order_ = order;
-  const SparseMatrix mass = reordered(M_, order_);
-  mass_ = std::make_unique<SymmetricProduct>(mass);
-  MatrixXd U = given_rigid_(order_, Eigen::all);
+  mass_ = pencil_.mass(order_);
+  MatrixXd U = order_.empty() ? given_rigid_ : MatrixXd(given_rigid_(order_, Eigen::all));
   MatrixXd MU = *mass_ * U;
-  rigid_ = std::make_unique<KnownMotions>(std::move(U), std::move(MU));
+  rigid_ = std::make_unique<KnownMotions>(std::move(U), std::move(MU), pencil_.team());
 }
 
-void ShiftedPencil::use(const SupernodalFactor& given, double sigma) {
+void ShiftedPencil::use(const Factor& given, double sigma) {
   given_ = &given;
   full_problem_.sigma = problem_.sigma = sigma;
   report_ = given.report();
@@ -86,21 +73,28 @@ void ShiftedPencil::use(const SupernodalFactor& given, double sigma) {
 void ShiftedPencil::shift_to(double sigma) {
   own_.reset();
   full_problem_.sigma = problem_.sigma = sigma;
-  const SupernodalFactor& made = factor();
+  const Factor& made = factor();
   if (factors_ == 1) report_ = made.report();
   set_order(made.permutation());
 }
 
-const SupernodalFactor& ShiftedPencil::factor() {
+const Factor& ShiftedPencil::factor() {
   if (given_ != nullptr) return *given_;
   if (!own_) {
-    const SparseMatrix shifted = K_ - problem_.sigma * M_;
     FactorOptions options = options_;
     if (!order_.empty()) options.permutation = order_;  // same sparsity pattern
-    own_ = std::make_unique<SupernodalFactor>(shifted, options);
+    own_ = pencil_.factor(problem_.sigma, options);
     ++factors_;
   }
   return *own_;
+}
+
+const SupernodalFactor& ShiftedPencil::local_factor() {
+  return dynamic_cast<const SupernodalFactor&>(factor());
+}
+
+const SymmetricProduct& ShiftedPencil::local_mass() const {
+  return dynamic_cast<const SymmetricProduct&>(*mass_);
 }
 
 bool ShiftedPencil::try_shift(double sigma) {
@@ -117,15 +111,15 @@ void ShiftedPencil::start_shift(bool known) {
   // residuals and by the count.
   rigid_complete_ = known;
   if (known && given_rigid_.cols() == 0 && try_shift(0.0)) return;
-  least_ = bounds_of(K_, M_).smallest_shift();
+  least_ = pencil_.bounds().smallest_shift();
   moves_left_ = kMoves;
-  shift_from(std::max(-default_shift(K_, M_), least_));
+  shift_from(std::max(-pencil_.default_shift(), least_));
 }
 
 void ShiftedPencil::shift_from(double size) {
   const FactorOptions strict = options_;
   options_.min_rcond = 0.0;
-  options_.max_condition = 1.0 / kRounding;
+  options_.max_condition = kLooseCondition;
   while (!try_shift(-size)) {
     if (moves_left_-- <= 0) {
       options_ = strict;

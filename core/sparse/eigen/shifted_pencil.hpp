@@ -5,20 +5,11 @@
 #include <vector>
 
 #include "core/sparse/eigen/known_motions.hpp"
+#include "core/sparse/eigen/matrix_pencil.hpp"
 #include "core/sparse/eigen/shift_invert.hpp"
 #include "core/sparse/factor/supernodal_factor.hpp"
-#include "core/sparse/symmetric_product.hpp"
 
 namespace clatter::sparse {
-
-/// Properties of K and M that limit the shift.
-struct PencilBounds {
-  double top = 0.0;               // largest K_jj / M_jj [rad2/s2]: about the highest eigenvalue
-  int64_t massless = 0;           // DoFs without mass; each gives an infinite eigenvalue
-  double smallest_shift() const;  // |sigma| below which sigma M is lost in the rounding of K
-};
-
-PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
 
 /// The requested modes: all below a limit, or the `count` lowest.
 struct Wanted {
@@ -30,15 +21,15 @@ struct Wanted {
 
 class ShiftedPencil {
  public:
-  /// @param K, M n x n, symmetric, lower triangle; must outlive this.
+  /// @param pencil K and M; must outlive this.
   /// @param rigid n x m, M-orthonormal, K rigid = 0; may have no columns.
-  ShiftedPencil(const SparseMatrix& K, const SparseMatrix& M, const FactorOptions& options,
+  ShiftedPencil(const MatrixPencil& pencil, const FactorOptions& options,
                 const Eigen::MatrixXd& rigid);
   ShiftedPencil(const ShiftedPencil&) = delete;
   ShiftedPencil& operator=(const ShiftedPencil&) = delete;
 
   /// Uses a factor of K - sigma M from the caller.
-  void use(const SupernodalFactor& given, double sigma);
+  void use(const Factor& given, double sigma);
   /// Factorises K - sigma M, with the permutation of the first factorisation. Throws
   /// NotPositiveDefinite.
   void shift_to(double sigma);
@@ -60,12 +51,16 @@ class ShiftedPencil {
   const ShiftInvert& problem() const { return problem_; }
   /// The complete operator, including rigid-body motions.
   const ShiftInvert& full_problem() const { return full_problem_; }
-  const SymmetricProduct& mass() const { return *mass_; }
+  const SymmetricOperator& mass() const { return *mass_; }
+  /// The same where one process has all rows.
+  const SymmetricProduct& local_mass() const;
   const KnownMotions& rigid() const { return *rigid_; }
   const std::vector<int64_t>& order() const { return order_; }
   double sigma() const { return problem_.sigma; }
   /// The factor; recomputed after release_factor().
-  const SupernodalFactor& factor();
+  const Factor& factor();
+  /// The same where one process has all rows.
+  const SupernodalFactor& local_factor();
   void release_factor() { own_.reset(); }
   const FactorReport& report() const { return report_; }
   /// Solves with a factor to find the shift, and number of factorisations.
@@ -78,14 +73,13 @@ class ShiftedPencil {
   /// -size, or the smallest multiple of it by powers of 30 at which K - sigma M has a factor.
   void shift_from(double size);
 
-  const SparseMatrix& K_;
-  const SparseMatrix& M_;
+  const MatrixPencil& pencil_;
   FactorOptions options_;
   const Eigen::MatrixXd& given_rigid_;
-  const SupernodalFactor* given_ = nullptr;
-  std::unique_ptr<SupernodalFactor> own_;
+  const Factor* given_ = nullptr;
+  std::unique_ptr<Factor> own_;
   std::vector<int64_t> order_;
-  std::unique_ptr<SymmetricProduct> mass_;
+  std::unique_ptr<SymmetricOperator> mass_;
   std::unique_ptr<KnownMotions> rigid_;
   ShiftInvert problem_, full_problem_;
   FactorReport report_;

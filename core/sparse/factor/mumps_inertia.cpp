@@ -3,6 +3,9 @@
 
 #include <dmumps_c.h>
 #include <fmt/format.h>
+#ifdef CLATTER_MUMPS_MPI
+#include <mpi.h>
+#endif
 
 #include <cmath>
 #include <mutex>
@@ -12,6 +15,15 @@
 
 namespace clatter::sparse {
 namespace {
+
+/// What MUMPS calls the processes that factorise: this one alone.
+MUMPS_INT own_communicator() {
+#ifdef CLATTER_MUMPS_MPI
+  return static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
+#else
+  return -987654;  // the value that the sequential library expects
+#endif
+}
 
 enum Job { kStart = -1, kEnd = -2, kAnalyse = 1, kFactorise = 2 };
 
@@ -27,7 +39,7 @@ class Mumps {
   Mumps() {
     data_.par = 1;
     data_.sym = 2;
-    data_.comm_fortran = -987654;  // the value that the sequential library expects
+    data_.comm_fortran = own_communicator();
     run(kStart);
     for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;
     icntl(4) = 0;

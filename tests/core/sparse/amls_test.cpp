@@ -25,7 +25,8 @@ using test::spring_box;
 /// AMLS with its own factor, as called by solve_modes.
 EigenResult direct(const test::Pencil& box, const AmlsOptions& options) {
   const MatrixXd nothing_known(box.K.rows(), 0);
-  ShiftedPencil pencil(box.K, box.M, {}, nothing_known);
+  const LocalPencil matrices(box.K, box.M);
+  ShiftedPencil pencil(matrices, {}, nothing_known);
   pencil.shift_to(default_shift(box.K, box.M));
   return solve_amls(pencil, options);
 }

@@ -44,7 +44,7 @@ TEST(Eigen, ResidualsAboveTheirLimitAreRefined) {
   spoiled.vectors.col(8) += 1e-6 * Eigen::VectorXd::Unit(box.K.rows(), 17);
   spoiled.residuals[8] = 1.0;
   try {
-    refuse_residuals(box.K, box.M, spoiled, 1e-5);
+    refuse_residuals(LocalPencil(box.K, box.M), spoiled, 1e-5);
     FAIL();
   } catch (const NumericsError& error) {
     EXPECT_NE(std::string(error.what()).find("mode 9 at"), std::string::npos) << error.what();

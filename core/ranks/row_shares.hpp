@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// Which rank has which rows, and the exchange of rows between ranks.
+#include <cstdint>
+#include <vector>
+
+#include "core/ranks/ranks.hpp"
+
+namespace clatter::ranks {
+
+/// Indices 0 .. n-1 in elimination order, the n_b boundary ones last. Each rank has a contiguous
+/// part of the interior, which nested dissection makes compact in space, and one of the boundary.
+class RowShares {
+ public:
+  RowShares(int64_t interior, int64_t boundary, int ranks);
+  int64_t size() const { return interior_ + boundary_; }
+  int64_t interior() const { return interior_; }
+  int64_t boundary() const { return boundary_; }
+  int ranks() const { return ranks_; }
+  int owner(int64_t index) const;
+  /// The indices of a rank: its interior ones, then its boundary ones, ascending.
+  std::vector<int64_t> rows_of(int rank, bool with_boundary) const;
+  /// The row of an index on its owner.
+  int64_t local(int64_t index) const;
+
+ private:
+  static int64_t first(int64_t size, int rank, int ranks) { return size * rank / ranks; }
+  int64_t interior_, boundary_;
+  int ranks_;
+};
+
+/// Moves rows from their owners to where they are needed.
+class RowExchange {
+ public:
+  /// @param wanted indices whose values this rank needs, each any number of times.
+  RowExchange(const Ranks& ranks, const RowShares& shares, const std::vector<int64_t>& wanted);
+  /// y: row k is row wanted[k]; x and y row-major with `count` values a row. Collective.
+  void fetch(const double* x, double* y, int count) const;
+  /// The reverse: row wanted[k] of x, on its owner, is row k of y.
+  void deliver(const double* y, double* x, int count) const;
+
+ private:
+  const Ranks& ranks_;
+  std::vector<std::vector<int64_t>> mine_;    // by rank: own rows that it wants
+  std::vector<std::vector<int64_t>> places_;  // by rank: rows of y that come from it
+};
+
+}  // namespace clatter::ranks

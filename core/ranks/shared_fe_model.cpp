@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/ranks/shared_fe_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/error.hpp"
+#include "core/base/h5_slab.hpp"
+#include "core/sparse/factor/ordering.hpp"
+
+namespace clatter::ranks {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Columns [first, first + columns) of a stored lower triangle.
+struct Columns {
+  int64_t first = 0;
+  std::vector<int64_t> starts;  // columns + 1, from 0
+  std::vector<int32_t> rows;
+};
+
+[[noreturn]] void refuse_matrix(const std::filesystem::path& path, const std::string& group,
+                                const std::string& what) {
+  throw InputError(fmt::format("{}: {}: {}", path.string(), group, what));
+}
+
+Columns read_columns(const std::filesystem::path& path, const std::string& group, int64_t n,
+                     int64_t first, int64_t count) {
+  const auto indptr = read_part_of_ints(path, group + "/indptr", first, count + 1);
+  Columns out;
+  out.first = first;
+  if (!std::is_sorted(indptr.begin(), indptr.end()) || indptr.front() < 0)
+    refuse_matrix(path, group, "indptr falls, expected ascending offsets");
+  for (const int32_t at : indptr) out.starts.push_back(int64_t{at} - indptr.front());
+  out.rows = read_part_of_ints(path, group + "/indices", indptr.front(), out.starts.back());
+  for (int64_t c = 0; c < count; ++c) {
+    int64_t above = first + c - 1;
+    for (int64_t k = out.starts[static_cast<size_t>(c)]; k < out.starts[static_cast<size_t>(c) + 1];
+         ++k) {
+      const int32_t row = out.rows[static_cast<size_t>(k)];
+      if (row <= above || row >= n)
+        refuse_matrix(path, group,
+                      fmt::format("column {} has row index {}, expected ascending within {} to {}",
+                                  first + c, row, first + c, n - 1));
+      above = row;
+    }
+  }
+  return out;
+}
+
+/// A symmetric positive semidefinite matrix has no negative diagonal entry; where one is zero, the
+/// column is zero.
+void check_diagonal(const std::filesystem::path& path, const std::string& group,
+                    const Columns& columns, const std::vector<double>& values) {
+  for (size_t c = 0; c + 1 < columns.starts.size(); ++c) {
+    const auto begin = static_cast<size_t>(columns.starts[c]);
+    const auto end = static_cast<size_t>(columns.starts[c + 1]);
+    const int64_t column = columns.first + static_cast<int64_t>(c);
+    if (begin == end) continue;
+    if (columns.rows[begin] != column)
+      refuse_matrix(path, fmt::format("{}, column {}", group, column),
+                    "found a column that does not start on the diagonal, expected the lower "
+                    "triangle");
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = values.begin() + static_cast<std::ptrdiff_t>(end);
+    const bool alone = std::all_of(first + 1, last, [](double value) { return value == 0.0; });
+    if (!std::all_of(first, last, [](double value) { return std::isfinite(value); }))
+      refuse_matrix(path, group, fmt::format("column {} holds a value that is not finite", column));
+    if (!(*first > 0.0 || (*first == 0.0 && alone)))
+      refuse_matrix(path, fmt::format("{}, column {}", group, column),
+                    fmt::format("found diagonal {:g}, expected a positive number, or an empty "
+                                "column",
+                                *first));
+  }
+}
+
+/// Pattern of the block of the DoFs `interior` of K, lower triangle; the values are zero.
+SparseMatrix interior_pattern(const std::filesystem::path& path,
+                              const std::vector<int32_t>& interior, int64_t n) {
+  const Columns K = read_columns(path, "K", n, 0, n);
+  std::vector<int32_t> place(static_cast<size_t>(n), -1);
+  for (size_t k = 0; k < interior.size(); ++k)
+    place[static_cast<size_t>(interior[k])] = static_cast<int32_t>(k);
+  std::vector<int32_t> starts{0}, rows;
+  rows.reserve(K.rows.size());
+  for (const int32_t column : interior) {
+    const auto c = static_cast<size_t>(column);
+    for (int64_t k = K.starts[c]; k < K.starts[c + 1]; ++k)
+      if (const int32_t row = place[static_cast<size_t>(K.rows[static_cast<size_t>(k)])]; row >= 0)
+        rows.push_back(row);
+    starts.push_back(static_cast<int32_t>(rows.size()));
+  }
+  const std::vector<double> zeros(rows.size(), 0.0);
+  const auto size = static_cast<Index>(interior.size());
+  return Eigen::Map<const SparseMatrix>(size, size, static_cast<Index>(rows.size()), starts.data(),
+                                        rows.data(), zeros.data());
+}
+
+Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
+                     const std::string& group, const Numbering& numbering,
+                     const RowShares& shares) {
+  const int64_t n = shares.size();
+  const int64_t first = n * ranks.rank() / ranks.size();
+  const int64_t count = n * (ranks.rank() + 1) / ranks.size() - first;
+  const Columns columns = read_columns(path, group, n, first, count);
+  const int64_t offset =
+      count > 0 ? read_part_of_ints(path, group + "/indptr", first, 1).front() : 0;
+  const auto values = read_part_of_doubles(path, group + "/data", offset, columns.starts.back());
+  check_diagonal(path, group, columns, values);
+  std::vector<Entries> out(static_cast<size_t>(ranks.size()));
+  const auto send = [&](int32_t row, int32_t column, double value) {
+    out[static_cast<size_t>(shares.owner(row))].push_back({row, column, value});
+  };
+  for (int64_t c = 0; c < count; ++c) {
+    const int32_t j = numbering.index[static_cast<size_t>(first + c)];
+    for (int64_t k = columns.starts[static_cast<size_t>(c)];
+         k < columns.starts[static_cast<size_t>(c) + 1]; ++k) {
+      const int32_t i = numbering.index[static_cast<size_t>(columns.rows[static_cast<size_t>(k)])];
+      send(i, j, values[static_cast<size_t>(k)]);
+      if (i != j) send(j, i, values[static_cast<size_t>(k)]);
+    }
+  }
+  Entries own;
+  for (const Entries& part : ranks.exchange(out)) own.insert(own.end(), part.begin(), part.end());
+  std::sort(own.begin(), own.end(), [](const Entry& a, const Entry& b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+  return own;
+}
+
+/// Places of the own rows.
+std::vector<int32_t> own_places(const Ranks& ranks, const RowShares& shares, const PartRows& rows) {
+  std::vector<int32_t> own;
+  for (const int64_t row : shares.rows_of(ranks.rank(), rows.extent == Extent::kWhole))
+    own.push_back(rows.places()[static_cast<size_t>(row)]);
+  return own;
+}
+
+/// The bodies of all ranks' entries.
+std::vector<int> bodies_of(const Ranks& ranks, const SharedMatrices& matrices,
+                           const PartRows& rows) {
+  const std::vector<int32_t>& places = rows.places();
+  const auto n = static_cast<Index>(places.size());
+  fe::DofUnion own(n);
+  for (const Entries* part : {&matrices.K, &matrices.M})
+    for (const Entry& entry : *part)
+      if (entry.value != 0.0 && entry.row < n && entry.column < n)
+        own.join(places[static_cast<size_t>(entry.row)], places[static_cast<size_t>(entry.column)]);
+  std::vector<std::vector<int32_t>> out(static_cast<size_t>(ranks.size()));
+  out[0] = own.roots();
+  fe::DofUnion all(n);
+  for (const std::vector<int32_t>& roots : ranks.exchange(out))
+    if (!roots.empty()) all.join_all(roots);
+  std::vector<int32_t> body;
+  if (ranks.rank() == 0) {
+    const std::vector<int> numbered = fe::numbered_sets(all);
+    body.assign(numbered.begin(), numbered.end());
+  }
+  ranks.share(body);
+  return {body.begin(), body.end()};
+}
+
+}  // namespace
+
+Numbering number_dofs(const Ranks& ranks, const std::filesystem::path& path,
+                      const std::vector<int32_t>& interior, const std::vector<int32_t>& boundary,
+                      const rom::EliminationOrder& known) {
+  Numbering out;
+  out.boundary = static_cast<int64_t>(boundary.size());
+  const auto n = static_cast<int64_t>(interior.size() + boundary.size());
+  if (ranks.rank() == 0) {
+    const SparseMatrix pattern = interior_pattern(path, interior, n);
+    out.stored = known;
+    out.stored.method = "given";
+    if (!known.fits(pattern)) {
+      const sparse::FillOrder found =
+          sparse::fill_reducing_order(pattern, sparse::Ordering::kMetis);
+      out.stored = {found.order, rom::sha256_of_pattern(pattern),
+                    sparse::ordering_name(found.method), 0};
+    }
+  }
+  ranks.share(out.stored.permutation);
+  out.stored.pattern = ranks.share(out.stored.pattern);
+  out.stored.method = ranks.share(out.stored.method);
+  for (const int32_t row : out.stored.permutation)
+    out.dof.push_back(interior[static_cast<size_t>(row)]);
+  out.dof.insert(out.dof.end(), boundary.begin(), boundary.end());
+  out.index.resize(out.dof.size());
+  for (size_t k = 0; k < out.dof.size(); ++k)
+    out.index[static_cast<size_t>(out.dof[k])] = static_cast<int32_t>(k);
+  return out;
+}
+
+SharedMatrices read_matrices(const Ranks& ranks, const std::filesystem::path& path,
+                             const Numbering& numbering, const RowShares& shares) {
+  return {read_entries(ranks, path, "K", numbering, shares),
+          read_entries(ranks, path, "M", numbering, shares)};
+}
+
+fe::FreeMotions free_motions(const Ranks& ranks, const SharedMatrices& matrices,
+                             const RowShares& shares, const PartRows& rows, const MatrixXd& rigid) {
+  const bool whole = rows.extent == Extent::kWhole;
+  const std::vector<int32_t> own = own_places(ranks, shares, rows);
+  const SharedMatrix K(ranks, shares, matrices.K, whole), M(ranks, shares, matrices.M, whole);
+  const auto with = [&](const auto& product) {
+    return [&, product](const MatrixXd& x) {
+      MatrixXd all = MatrixXd::Zero(x.rows(), x.cols());
+      all(own, Eigen::all) = product(MatrixXd(x(own, Eigen::all)));
+      return ranks.sum(std::move(all));
+    };
+  };
+  return fe::free_motions(
+      fe::RigidProducts{bodies_of(ranks, matrices, rows),
+                        with([&](const MatrixXd& x) { return MatrixXd(M * x); }),
+                        with([&](const MatrixXd& x) { return MatrixXd(K * x); }),
+                        with([&](const MatrixXd& x) { return K.magnitude_times(x); })},
+      rigid);
+}
+
+}  // namespace clatter::ranks

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// K and M of an eigenproblem, held by this process alone or by a team.
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/base/sparse.hpp"
+#include "core/sparse/factor/factor.hpp"
+#include "core/sparse/factor/inertia.hpp"
+#include "core/sparse/row_team.hpp"
+#include "core/sparse/symmetric_product.hpp"
+
+namespace clatter::sparse {
+
+/// Properties of K and M that limit the shift.
+struct PencilBounds {
+  double top = 0.0;               // largest K_jj / M_jj [rad2/s2]: about the highest eigenvalue
+  int64_t massless = 0;           // DoFs without mass; each gives an infinite eigenvalue
+  double smallest_shift() const;  // |sigma| below which sigma M is lost in the rounding of K
+};
+
+PencilBounds bounds_of(const SparseMatrix& K, const SparseMatrix& M);
+
+/// Complete matrices of one process, n x n, symmetric, lower triangles.
+struct LocalMatrices {
+  const SparseMatrix& K;  // [N/m]
+  const SparseMatrix& M;  // [kg]
+};
+
+/// K x = lambda M x, symmetric, n x n, M positive semidefinite. Tall matrices have rows() rows:
+/// those of this process.
+class MatrixPencil {
+ public:
+  virtual ~MatrixPencil() = default;
+  virtual int64_t size() const = 0;       // n, of the team
+  virtual Eigen::Index rows() const = 0;  // of this process
+  virtual const RowTeam& team() const = 0;
+  virtual PencilBounds bounds() const = 0;
+  /// A negative shift below the first elastic eigenvalue (mode_values.hpp).
+  virtual double default_shift() const = 0;
+  /// Of K - sigma M. Throws NotPositiveDefinite, or NumericsError when it does not fit into memory.
+  virtual std::unique_ptr<Factor> factor(double sigma, const FactorOptions& options) const = 0;
+  /// Eigenvalues below a limit; `order` is a fill-reducing permutation, may be empty.
+  virtual InertiaCount count_below(double limit, const std::vector<int64_t>& order) const = 0;
+  /// Fast products in elimination order: row j is row order[j]; empty: unchanged.
+  virtual std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const = 0;
+  virtual std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const = 0;
+  /// K x, M x and |K| |x| with entrywise magnitudes, for a few columns.
+  virtual Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const = 0;
+  virtual Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const = 0;
+  virtual Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const = 0;
+  /// The complete matrices; null where a team shares them.
+  virtual const LocalMatrices* local() const { return nullptr; }
+};
+
+/// The pencil of one process.
+class LocalPencil : public MatrixPencil {
+ public:
+  /// @param K, M must outlive this.
+  LocalPencil(const SparseMatrix& K, const SparseMatrix& M) : own_{K, M} {}
+  int64_t size() const override { return own_.K.cols(); }
+  Eigen::Index rows() const override { return own_.K.cols(); }
+  const RowTeam& team() const override { return one_process(); }
+  PencilBounds bounds() const override;
+  double default_shift() const override;
+  std::unique_ptr<Factor> factor(double sigma, const FactorOptions& options) const override;
+  InertiaCount count_below(double limit, const std::vector<int64_t>& order) const override;
+  std::unique_ptr<SymmetricOperator> stiffness(const std::vector<int64_t>& order) const override;
+  std::unique_ptr<SymmetricOperator> mass(const std::vector<int64_t>& order) const override;
+  Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& x) const override;
+  Eigen::MatrixXd mass_times(const Eigen::MatrixXd& x) const override;
+  Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const override;
+  const LocalMatrices* local() const override { return &own_; }
+
+ private:
+  LocalMatrices own_;
+};
+
+}  // namespace clatter::sparse

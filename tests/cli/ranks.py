@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the programs of several processes for tests, and compares reduced models."""
+import os
+import subprocess
+
+import h5py
+import numpy as np
+import scipy.linalg
+import stages
+
+# As root Open MPI asks for two confirmations; there are more ranks than cores here.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1",
+               "OPENBLAS_NUM_THREADS": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
+
+
+def command(program, count, *arguments):
+    return [*MPIRUN, "-n", str(count), str(stages.BIN / f"clatter-{program}-mpi"), *map(str, arguments), "--threads", "1"]
+
+
+def run(program, count, *arguments, folder, **environment):
+    """Runs clatter-<program>-mpi on `count` ranks; returns the finished process with its output."""
+    return subprocess.run(command(program, count, *arguments), cwd=folder, text=True, capture_output=True, timeout=300,
+                          env={**ENVIRONMENT, **environment})
+
+
+def read(path):
+    """The matrices, frequencies, loads, rows and certificate of a reduced model."""
+    with h5py.File(path) as file:
+        model = {name: file[name][()] for name in ("M_rr", "K_rr", "fixed_interface_hz")}
+        model["T"] = file["skin/T"][()] if "skin/T" in file else np.zeros((0, len(model["M_rr"])))
+        model["loads"] = {name: load[()] for name, load in file.get("loads", {}).items()}
+        model["boundary"] = len(model["M_rr"]) - len(model["fixed_interface_hz"])
+        model["certificate"] = {name: float(value) for name, value in file["certificate"].attrs.items()}
+        model["order"] = file["ordering/permutation"][()]
+    return model
+
+
+def with_signs_of(model, other):
+    """The same model with the signs of the other's modes."""
+    n_b = model["boundary"]
+    sign = np.sign(np.sum(model["M_rr"][:n_b] * other["M_rr"][:n_b], axis=0))
+    sign[:n_b] = 1.0
+    return {**model, "M_rr": sign[:, None] * model["M_rr"] * sign, "K_rr": sign[:, None] * model["K_rr"] * sign,
+            "T": model["T"] * sign, "loads": {name: load * sign for name, load in model["loads"].items()}}
+
+
+def largest_difference(a, b):
+    """Over the largest entry."""
+    return np.abs(a - b).max() / np.abs(b).max() if b.size else 0.0
+
+
+def frequencies(model):
+    """Of the reduced model itself [Hz], ascending."""
+    values = scipy.linalg.eigh(model["K_rr"], model["M_rr"], eigvals_only=True)
+    return np.sqrt(np.maximum(values, 0.0)) / (2.0 * np.pi)
