@@ -77,13 +77,17 @@ LinerShapeMap::LinerShapeMap(const LinerShape& shape, const PadGrid& pad)
     throw InputError(fmt::format(
         "liner shape: found {} x {} deviations, expected {} angles x {} heights",
         shape.deviation.rows(), shape.deviation.cols(), shape.angle.size(), shape.height.size()));
+  for (int i = 0; i < pad.n_angle(); ++i) columns_.push_back(stencil_.at_angle(pad.angle(i)));
+  rows_.resize(static_cast<size_t>(pad.n_axial()));
 }
 
 void LinerShapeMap::add(double offset, Eigen::ArrayXd& h, Eigen::ArrayXd& slope) const {
+  for (int j = 0; j < pad_.n_axial(); ++j)
+    rows_[static_cast<size_t>(j)] = stencil_.at_axial(pad_.axial(j) + offset);
   for (int i = 0; i < pad_.n_angle(); ++i) {
-    const auto around = stencil_.at_angle(pad_.angle(i));
+    const CylinderStencil::Angular& around = columns_[static_cast<size_t>(i)];
     for (int j = 0; j < pad_.n_axial(); ++j) {
-      const auto along = stencil_.at_axial(pad_.axial(j) + offset);
+      const CylinderStencil::Axial& along = rows_[static_cast<size_t>(j)];
       auto line = [&](int k) {
         return (1.0 - around.weight) * shape_.deviation(around.first, k) +
                around.weight * shape_.deviation(around.second, k);

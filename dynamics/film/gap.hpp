@@ -139,6 +139,8 @@ class LinerShapeMap {
   LinerShape shape_;
   PadGrid pad_;
   CylinderStencil stencil_;
+  std::vector<CylinderStencil::Angular> columns_;     // of the pad's cells
+  mutable std::vector<CylinderStencil::Axial> rows_;  // at the last offset
 };
 
 /// Radial displacement of the cells under unit rigid motions x, y, z, rx, ry, rz about the origin

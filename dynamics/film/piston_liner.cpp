@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
@@ -248,9 +249,7 @@ void PistonLiner::start_content(Pad& pad, const dynamics::Stage& stage, const Ei
 void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double speed) {
   PadFilm& film = *pad.film;
   const double lowest = lowest_gap(pad);
-  if (lowest <= rough_->lowest_gap())
-    throw dynamics::StepRefused(options_.name + ": gap below the film's minimum",
-                                fmt::format("{:.3g} m on the {}", lowest, pad.place()));
+  if (lowest <= rough_->lowest_gap()) refuse_gap(pad, lowest);
   rough_->thicknesses(pad.gap, film.cells);
   if (viscosity_->varies()) {
     viscosity_->ratio(pad.grid, stroke_.position, speed, film.cells, film.viscosity_ratio,
@@ -266,6 +265,17 @@ void PistonLiner::solve_film(Pad& pad, const dynamics::Stage& stage, double spee
   if (pad.layer) meet_layer(pad, stage);
   solve_film_equations(pad, stage, inner);
   pad.load += pad.area * film.pressure();
+}
+
+void PistonLiner::refuse_gap(const Pad& pad, double lowest) const {
+  const auto carrying = pad.carrying();
+  int cell = 0;
+  while (!(carrying[cell] && pad.gap[cell] == lowest)) ++cell;
+  throw dynamics::StepRefused(
+      options_.name + ": gap below the film's minimum",
+      fmt::format("{:.3g} m on the {} at {:.1f} deg, {:.1f} mm from the pin", lowest, pad.place(),
+                  pad.grid.angle(cell / pad.grid.n_axial()) * 180.0 / std::numbers::pi,
+                  1e3 * pad.grid.axial(cell % pad.grid.n_axial())));
 }
 
 void PistonLiner::solve_film_equations(Pad& pad, const dynamics::Stage& stage,

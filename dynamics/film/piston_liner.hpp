@@ -84,6 +84,7 @@ class PistonLiner : public dynamics::ForceElement {
   void find_ends(const rom::ContactGrid& grid);
   void update_cover(Pad& pad, double height) const;
   double lowest_gap(const Pad& pad) const;
+  [[noreturn]] void refuse_gap(const Pad& pad, double lowest) const;
   void solve_film(Pad& pad, const dynamics::Stage& stage, double speed);
   void solve_film_equations(Pad& pad, const dynamics::Stage& stage, const FilmStage& inner);
   void meet_layer(Pad& pad, const dynamics::Stage& stage);

@@ -105,7 +105,7 @@ void PistonLiner::record(dynamics::History& history) const {
     }
     if (asperity_) {
       contact_load += (pad->area * pad->contact).sum();
-      contact_peak = std::max(contact_peak, pad->contact.maxCoeff());
+      contact_peak = std::max(contact_peak, (pad->area > 0.0).select(pad->contact, 0.0).maxCoeff());
     }
     if (pad->friction) {
       rubbing += pad->friction->force().sum();

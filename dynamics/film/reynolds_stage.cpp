@@ -25,6 +25,11 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     const Face& face = faces_[f];
     const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;
     const Inside in = inside(face);
+    if (in.length == 0.0) {  // outside, where walls that overlap have no thickness at all
+      conduct_[f] = carry_[f] = lift_[f] = 0.0;
+      ratio_[f] = 1.0;
+      continue;
+    }
     const auto [g_a, g_b] = in.beside(g[face.a], g[face.b]);
     const auto [c_a, c_b] = in.beside(film.carry[face.a], film.carry[face.b]);
     weigh_one(face_conductance(g_a, g_b), face_carry(c_a, c_b), face.length, in, face.axial,
@@ -37,6 +42,11 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
   }
   for (size_t r = 0; r < rims_.size(); ++r) {
     const Rim& rim = rims_[r];
+    if (outside(rim.cell)) {
+      rim_conduct_[r] = rim_carry_[r] = rim_entering_[r] = 0.0;
+      rim_ratio_[r] = 1.0;
+      continue;
+    }
     const double g = (rim.axial ? film.flow_axial : film.flow_angle)[rim.cell];
     weigh_one(g * g * g, film.carry[rim.cell], rim.length, inside(rim), rim.axial, rim_conduct_[r],
               rim_carry_[r]);

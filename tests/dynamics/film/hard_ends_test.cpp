@@ -229,6 +229,43 @@ TEST(HardN9, OilThatTheSkirtBringsBackIsBoundedByTheSupply) {
   }
 }
 
+// A skirt that is pressed out of the bore overlaps the liner's extension: there the mean gap of
+// rough walls underflows to 0.
+TEST(HardN9, WallsThatOverlapOutsideTheLinerAreNeverUsed) {
+  const PadGrid grid = PadGrid::uniform(-0.2, 0.2, 3, -0.045, 0.025, 14, 0.0535);
+  const CoverMap ends(LinerEnds{kBottom, 0.5}, grid);
+  Cover cover;
+  ends.at(kBottom + 0.02, cover);
+  const Edge open = Edge::supply(2e4, 0.7, 5e-6);
+  for (const double speed : {-3.0, 3.0}) {
+    const auto solved = [&](double outside, RowMatrix& derivative) {
+      Eigen::ArrayXd gap = Eigen::ArrayXd::Constant(grid.size(), 12e-6);
+      for (int c = 0; c < grid.size(); ++c)
+        if (cover.share[c % grid.n_axial()] == 0.0) gap[c] = outside;
+      Reynolds film(grid, {open, open, open, open, open}, true);
+      FilmStage stage{1e-5, 0.01, 0.0, speed, false, 2e8};
+      stage.cavity = Cavity::kLayer;
+      stage.cover = &cover;
+      const Eigen::ArrayXd before = 11e-6 * cover.of_cells(grid.n_angle());
+      film.solve(smooth(gap), before, stage);
+      const Eigen::VectorXd height = Eigen::VectorXd::Ones(1);
+      film.sensitivities(RowMatrix::Ones(grid.size(), 1), derivative, &height);
+      return film;
+    };
+    RowMatrix expected, found;
+    const Reynolds open_gap = solved(10e-6, expected);
+    for (const double outside : {0.0, -50e-6}) {
+      const Reynolds overlap = solved(outside, found);
+      EXPECT_TRUE(overlap.flows().allFinite());
+      EXPECT_EQ((overlap.flows() - open_gap.flows()).abs().maxCoeff(), 0.0);
+      EXPECT_EQ((overlap.fill() - open_gap.fill()).abs().maxCoeff(), 0.0);
+      EXPECT_TRUE(found.allFinite());
+      EXPECT_EQ((found - expected).cwiseAbs().maxCoeff(), 0.0);
+    }
+    EXPECT_LT(cover.share.minCoeff(), 1e-12);
+  }
+}
+
 TEST(HardN9, MassIsKeptWhileRowsLeaveAndReturn) {
   const int cells = 20;
   const PadGrid grid = strip(-0.045, 0.025, cells);
