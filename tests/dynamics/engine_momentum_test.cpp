@@ -130,29 +130,8 @@ class EngineMomentum : public ::testing::TestWithParam<Engine> {
     testing::write_rom(folder_ / "piston.rom.h5",
                        testing::rigid_piston(1.9, 4e-3, std::numbers::pi * 0.0535 * 0.0535));
     testing::write_rom(folder_ / "rod.rom.h5", testing::rod_model(testing::rod_truss(2e9, 0.3)));
-    std::string text = R"(
-[time]
-ramp_deg = 20
-[block]
-model = "elastic"
-mode_limit_hz = 3000.0
-[contact]
-lubrication = "none"
-clearance_um = 2.0
-asperity_loss_factor = 0.3
-[[mount]]
-sets = ["mounts"]
-stiffness_n_m = [1e3, 1e3, 2e3]
-damping_n_s_m = [1e1, 1e1, 2e1]
-)" + GetParam().rod;
-    const int firing[] = {0, 180, 540, 360};
-    for (int k = 1; k <= GetParam().cylinders; ++k)
-      text += fmt::format(
-          "[[cylinder]]\nname = \"c{0}\"\nfiring_deg = {1}\n[cylinder.block]\nliner = "
-          "\"liner_{0}\"\n"
-          "liner_axial = \"liner_{0}_axial\"\nbearings = [\"main_{0}\", \"main_{2}\"]\ngas_load = "
-          "\"head_{0}_gas\"\n",
-          k, firing[k - 1], k + 1);
+    std::string text = "[time]\nramp_deg = 20\n" + testing::dry_engine(1e3) + GetParam().rod;
+    for (int k = 1; k <= GetParam().cylinders; ++k) text += testing::in_line_cylinder(k);
     scene_ = std::make_unique<Scene>(testing::changed_scene(folder_, text));
     bodies_ = load_bodies(*scene_);
   }

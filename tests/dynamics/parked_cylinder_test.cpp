@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An engine whose pistons are all disconnected but one is that with this one cylinder.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/dynamics/slap_scene.hpp"
@@ -17,31 +16,9 @@ class ParkedCylinders : public testing::SlapScenes {
   }
   /// The third of four in-line cylinders, and the others as `parked` says.
   static std::string engine(bool with_others, const std::string& parked) {
-    std::string text = R"(
-[time]
-cycles = 1
-[block]
-model = "elastic"
-mode_limit_hz = 3000.0
-[contact]
-lubrication = "none"
-clearance_um = 2.0
-asperity_loss_factor = 0.3
-[[mount]]
-sets = ["mounts"]
-stiffness_n_m = [1e4, 1e4, 2e4]
-damping_n_s_m = [1e2, 1e2, 2e2]
-)";
-    const int firing[] = {0, 180, 540, 360};
-    for (int k = 1; k <= 4; ++k) {
-      if (k != 3 && !with_others) continue;
-      text += fmt::format(
-          "[[cylinder]]\nname = \"c{0}\"\nfiring_deg = {1}\n{2}[cylinder.block]\nliner = "
-          "\"liner_{0}\"\nliner_axial = \"liner_{0}_axial\"\nbearings = [\"main_{0}\", "
-          "\"main_{3}\"]"
-          "\ngas_load = \"head_{0}_gas\"\n",
-          k, firing[k - 1], k == 3 ? "" : parked, k + 1);
-    }
+    std::string text = "[time]\ncycles = 1\n" + testing::dry_engine(1e4);
+    for (int k = 1; k <= 4; ++k)
+      if (k == 3 || with_others) text += testing::in_line_cylinder(k, k == 3 ? "" : parked);
     return text;
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/dynamics/slap_scene.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -59,6 +60,39 @@ cells_around = 6
 cells_along = 6
 oil_thickness_um = 5.0
 )";
+}
+
+std::string dry_engine(double stiffness) {
+  return fmt::format(R"(
+[block]
+model = "elastic"
+mode_limit_hz = 3000.0
+[contact]
+lubrication = "none"
+clearance_um = 2.0
+asperity_loss_factor = 0.3
+[[mount]]
+sets = ["mounts"]
+stiffness_n_m = [{0}, {0}, {1}]
+damping_n_s_m = [{2}, {2}, {3}]
+)",
+                     stiffness, 2.0 * stiffness, 1e-2 * stiffness, 2e-2 * stiffness);
+}
+
+std::string in_line_cylinder(int number, const std::string& keys) {
+  const int firing[] = {0, 180, 540, 360};
+  return fmt::format(R"(
+[[cylinder]]
+name = "c{0}"
+firing_deg = {1}
+{3}
+[cylinder.block]
+liner = "liner_{0}"
+liner_axial = "liner_{0}_axial"
+bearings = ["main_{0}", "main_{2}"]
+gas_load = "head_{0}_gas"
+)",
+                     number, firing[number - 1], number + 1, keys);
 }
 
 Scene changed_scene(const fs::path& folder, const std::string& changes) {

@@ -41,6 +41,11 @@ gas_load = "head_4_gas"
 mode_limit_hz = 8000.0
 )";
 
+/// A dry skirt on four_bore_block(), elastic on mounts of this stiffness [N/m].
+std::string dry_engine(double stiffness);
+/// Cylinder "c<number>" of that block, 1 to 4, with further keys of its own.
+std::string in_line_cylinder(int number, const std::string& keys = "");
+
 /// Tests of scenes that change that of write_slap_scene().
 class SlapScenes : public ::testing::Test {
  protected:
