@@ -7,6 +7,7 @@
 #include "dynamics/cylinder/cylinder_effects.hpp"
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
+#include "dynamics/cylinder/gas_force.hpp"
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
 
@@ -21,6 +22,7 @@ std::vector<BodySpec> CylinderComponent::reduced_bodies() const {
 std::vector<std::filesystem::path> CylinderComponent::inputs() const {
   std::vector<std::filesystem::path> files = spec_.shape_files;
   if (spec_.gas) files.push_back(spec_.gas->table);
+  if (!spec_.engine.speed_table.empty()) files.push_back(spec_.engine.speed_table);
   return files;
 }
 
@@ -53,6 +55,12 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
   model.system.add_element(pin_joint(bodies, crank_, pin_));
   model.system.add_element(crank_joint(bodies, crank_));
   model.system.add_element(pin_guide(bodies, crank_, pin_));
+  if (spec_.has_free_crank()) {
+    turn_ = model.system.coordinate(model.body(CrankBody::kName), spec_.crankshaft->turn());
+    if (const auto gas = gas_pressure(spec_))
+      for (auto& force : gas_forces(bodies, crank_, *gas))
+        model.system.add_element(std::move(force));
+  }
   if (!spec_.contact) return;
   LinerContact contact = liner_contact(bodies, crank_, pin_);
   contact_ = contact.element.get();
@@ -98,7 +106,9 @@ void CylinderComponent::record(const System& system, const StageState& state,
   history.set_prefix(prefix);
   history.put("piston_lateral", "m", motion.x());
   history.put("piston_tilt", "rad", motion.y());
-  if (gas_) history.put("gas_pressure", "Pa", (*gas_)(crank_.angle(state.time)));
+  if (gas_)
+    history.put("gas_pressure", "Pa",
+                (*gas_)(crank_angle(crank_, state.time, turn_ >= 0 ? state.y(turn_) : 0.0)));
   for (int e = elements_.first; e < elements_.end; ++e) {
     const ForceElement& element = system.element(e);
     // The joints' histories have their names, those of the contact are the cylinder's.

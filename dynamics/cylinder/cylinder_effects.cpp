@@ -87,6 +87,8 @@ void add_cylinder_effects(const CylinderSpec& cylinder, bool on_block, const std
   table.add("gas pressure", cylinder.gas.has_value(), cylinder.gas ? "[gas]" : "no [gas]");
   table.add("rod joint at the pin", true, "[small_end]", "pin");
   table.add("rod joint at the crank", true, "[big_end]", "crank_pin");
+  if (!cylinder.crankshaft)
+    table.add("main bearings", false, "no [crank]: its centre follows block.bearings");
   table.add("pin guide", true, "[pin_guide]: along the pin and about y, z", "pin_guide");
   add_contact(cylinder, ends, table);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "dynamics/cylinder/crank_centre.hpp"
+#include "dynamics/cylinder/crank_pin.hpp"
 #include "dynamics/force/joint.hpp"
 #include "dynamics/force/pin_guide.hpp"
 
@@ -88,10 +88,8 @@ std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const Slid
 
 std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
   auto rod = rod_end(bodies, crank, bodies.spec.engine.rod.big_arm());
-  PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies) : PointWeights{};
   return std::make_unique<Joint>(bodies.spec.name_of("crank_pin"), std::move(rod),
-                                 std::make_unique<LinearAnchor>(std::move(centre)),
-                                 bodies.spec.big_end);
+                                 crank_pin(bodies, crank), bodies.spec.big_end);
 }
 
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
