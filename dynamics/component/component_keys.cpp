@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/units.hpp"
+#include "dynamics/given/speed_table.hpp"
 
 namespace clatter::dynamics {
 
@@ -22,6 +23,16 @@ void read_body(const Config& table, const std::string& name, BodySpec& body) {
 CrankClock read_crank_clock(const Config& engine) {
   const Range speeds = Range::between(0.01, 1e5);
   constexpr double kRpm = std::numbers::pi / 30.0;
+  if (engine.has("speed_table")) {
+    for (const char* key : {"speed_rpm", "order"})
+      if (engine.has(key)) engine.fail(key, "found with speed_table, expected one of both");
+    CrankClock clock =
+        read_speed_table(engine.path("speed_table"), engine.text_or("speed_column", ""));
+    if (!(clock.speed >= speeds.min * kRpm && clock.speed <= speeds.max * kRpm))
+      engine.fail("speed_table", fmt::format("found a mean of {:g} rpm, expected {:g} to {:g}",
+                                             clock.speed / kRpm, speeds.min, speeds.max));
+    return clock;
+  }
   CrankClock clock{engine.number("speed_rpm", speeds) * kRpm};
   for (const Config& one : engine.tables("order")) {
     SpeedOrder order;

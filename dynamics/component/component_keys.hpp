@@ -32,7 +32,7 @@ void read_error_scales(const Config& table, Body& body) {
 /// rom, model, mode_limit_hz and the scales of the error test.
 void read_body(const Config& table, const std::string& name, BodySpec& body);
 
-/// speed_rpm and [[engine.order]] of [engine].
+/// speed_rpm and [[engine.order]] of [engine], or speed_table and speed_column.
 CrankClock read_crank_clock(const Config& engine);
 
 /// The key "interpolation", "linear" | "cubic".

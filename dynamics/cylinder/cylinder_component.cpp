@@ -9,6 +9,7 @@
 #include "dynamics/cylinder/cylinder_elements.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
+#include "dynamics/cylinder/gas_force.hpp"
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
 #include "dynamics/cylinder/ring_table.hpp"
@@ -29,6 +30,7 @@ std::vector<std::filesystem::path> CylinderComponent::inputs() const {
   if (spec_.gas) files.push_back(spec_.gas->table);
   for (const JointSpec* joint : {&spec_.small_end, &spec_.big_end})
     files.insert(files.end(), joint->files.begin(), joint->files.end());
+  if (!spec_.engine.speed_table.empty()) files.push_back(spec_.engine.speed_table);
   return files;
 }
 
@@ -74,6 +76,12 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
     model.system.add_element(std::move(element));
   model.system.add_element(pin_guide(bodies, crank_, pin_));
   gas_ = gas_pressure(spec_);
+  if (spec_.has_free_crank()) {
+    turn_ = model.system.coordinate(model.body(CrankBody::kName), spec_.crankshaft->turn());
+    if (gas_)
+      for (auto& force : gas_forces(bodies, crank_, *gas_))
+        model.system.add_element(std::move(force));
+  }
   if (!spec_.contact) return;
   check_scaled_shapes(spec_, bodies.block() != nullptr);
   LinerContact contact = liner_contact(bodies, crank_, pin_, gas_);
@@ -127,7 +135,9 @@ void CylinderComponent::record(const System& system, const StageState& state,
   history.set_prefix(prefix);
   history.put("piston_lateral", "m", motion.x());
   history.put("piston_tilt", "rad", motion.y());
-  if (gas_) history.put("gas_pressure", "Pa", (*gas_)(crank_.angle(state.time)));
+  if (gas_)
+    history.put("gas_pressure", "Pa",
+                (*gas_)(crank_angle(crank_, state.time, turn_ >= 0 ? state.y(turn_) : 0.0)));
   for (int e = elements_.first; e < elements_.end; ++e) {
     const ForceElement& element = system.element(e);
     // The joints' histories have their names, those of contact and rings are the cylinder's.

@@ -51,7 +51,8 @@ class CylinderComponent : public Component {
   CylinderSpec spec_;
   SliderCrank crank_;
   std::optional<Spline> gas_;
-  int piston_ = -1, rod_ = -1;                          // indices in a model
+  int piston_ = -1, rod_ = -1;  // indices in a model
+  int turn_ = -1;               // y index of the rotation of a free crank from that of the clock
   Eigen::Vector2d pin_axis_ = Eigen::Vector2d::Zero();  // (x, y) of the pin's centre [m]
   PinNode pin_{-1, -1, -1, -1, -1, -1};
   const film::PistonLiner* contact_ = nullptr;

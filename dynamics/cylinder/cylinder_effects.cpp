@@ -130,6 +130,8 @@ void add_cylinder_effects(const CylinderSpec& cylinder, bool on_block, const std
   const bool joined = cylinder.rod.model == RodModel::kMassless;
   add_joint(cylinder.small_end, "small_end", "pin", joined ? "rod" : "pin", table);
   add_joint(cylinder.big_end, "big_end", "crank", joined ? "" : "crank_pin", table);
+  if (!cylinder.crankshaft)
+    table.add("main bearings", false, "no [crank]: its centre follows block.bearings");
   table.add("pin guide", true, "[pin_guide]: along the pin and about y, z", "pin_guide");
   add_contact(cylinder, ends, table);
   add_rings(cylinder, table);

@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/clearance.hpp"
-#include "dynamics/cylinder/crank_centre.hpp"
+#include "dynamics/cylinder/crank_pin.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
 #include "dynamics/cylinder/cylinder_rod.hpp"
 #include "dynamics/cylinder/journal_joint.hpp"
@@ -117,9 +117,12 @@ std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank
 
 std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
   JournalSide rod = rod_side(bodies, crank, false);
-  PointWeights centre = bodies.block() != nullptr ? crank_centre(bodies) : PointWeights{};
-  JournalSide shaft{std::make_unique<LinearAnchor>(std::move(centre)),
-                    {std::nullopt, [crank](double time) { return crank.spin(time); }}};
+  std::optional<int> turn;
+  if (bodies.spec.has_free_crank())
+    turn = bodies.model.system.coordinate(bodies.model.body(CrankBody::kName),
+                                          bodies.spec.crankshaft->turn());
+  JournalSide shaft{crank_pin(bodies, crank),
+                    {turn, [crank](double time) { return crank.spin(time); }}};
   return rod_joint(bodies.spec.name_of("crank_pin"), bodies.spec.big_end,
                    {std::move(rod), std::move(shaft)}, false);
 }

@@ -15,17 +15,11 @@ std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& cra
   const CylinderSpec& spec = bodies.spec;
   const TimeFunction pressure = gauge_pressure(bodies, crank, gas);
   std::vector<Load> loads;
-  const auto add = [&](const LoadedBody& body, int index, const std::string& load,
-                       const std::string& term) {
-    if (load.empty()) return;
-    const Eigen::VectorXd modal = body.modal.shapes.transpose() * unit_load(body.model, load);
-    loads.push_back({term, index, modal, pressure});
-  };
-  add(bodies.piston(), bodies.piston_index(), spec.piston.gas_load,
-      "gas on " + spec.name_of("piston"));
-  if (bodies.block() != nullptr)
-    add(*bodies.block(), bodies.block_index(), spec.bore->gas_load,
-        spec.name.empty() ? "gas on block" : spec.name + " gas on block");
+  for (const GasLoad& load : gas_unit_loads(bodies)) {
+    const Eigen::VectorXd modal =
+        load.body->modal.shapes.transpose() * unit_load(load.body->model, load.unit_load);
+    loads.push_back({load.term, load.index, modal, pressure});
+  }
   return loads;
 }
 
@@ -42,6 +36,21 @@ std::vector<Load> frame_inertia(const CylinderBodies& bodies, const SliderCrank&
 }
 
 }  // namespace
+
+std::vector<GasLoad> gas_unit_loads(const CylinderBodies& bodies) {
+  const CylinderSpec& spec = bodies.spec;
+  std::vector<GasLoad> loads;
+  const auto add = [&](const LoadedBody& body, int index, const std::string& load,
+                       const std::string& term) {
+    if (!load.empty()) loads.push_back({&body, index, load, term});
+  };
+  add(bodies.piston(), bodies.piston_index(), spec.piston.gas_load,
+      "gas on " + spec.name_of("piston"));
+  if (bodies.block() != nullptr)
+    add(*bodies.block(), bodies.block_index(), spec.bore->gas_load,
+        spec.name.empty() ? "gas on block" : spec.name + " gas on block");
+  return loads;
+}
 
 std::optional<Spline> gas_pressure(const CylinderSpec& spec) {
   if (!spec.gas) return std::nullopt;
@@ -61,7 +70,7 @@ std::vector<Load> cylinder_loads(const CylinderBodies& bodies, const SliderCrank
   const auto append = [&](std::vector<Load> loads) {
     for (Load& load : loads) all.push_back(std::move(load));
   };
-  if (gas) append(gas_loads(bodies, crank, *gas));
+  if (gas && !bodies.spec.has_free_crank()) append(gas_loads(bodies, crank, *gas));
   append(frame_inertia(bodies, crank));
   std::vector<Load> balance = balance_loads(bodies, crank);
   for (Load& load : balance) load.value = ramped(bodies.model.time, std::move(load.value));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/body/crank_body.hpp"
 #include "dynamics/body/rigid_rod.hpp"
 #include "dynamics/component/loaded_body.hpp"
 #include "dynamics/cylinder/joint_spec.hpp"
@@ -30,6 +31,7 @@ struct EngineSpec {
   RodProperties rod;
   double firing = 0.0;  // angle of the crankshaft at this cylinder's firing TDC [rad]
   Rotation rotation = Rotation::kForward;
+  std::filesystem::path speed_table;  // of the clock; empty: it has none
 
   SliderCrank crank() const {
     return SliderCrank(0.5 * stroke, rod.length, pin_offset, clock, firing, rotation);
@@ -74,7 +76,9 @@ struct CylinderSpec {
   std::string contact_where;                       // "file:line: contact", for messages
   std::string pin_offset_where;                    // "file:line: engine.pin_offset_mm"
   JointSpec small_end, big_end;
-  GuideLaw guide;  // [pin_guide]
+  GuideLaw guide;                       // [pin_guide]
+  std::optional<CrankBody> crankshaft;  // [crank]; absent: it turns ideally and has no mass
+  bool has_free_crank() const { return crankshaft && crankshaft->is_free; }
 
   /// The name of one of its bodies, elements or histories in files: "piston", or of a named
   /// cylinder "c1_piston".

@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/component/crank_keys.hpp"
 #include "dynamics/cylinder/contact_table.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/cylinder/parked_cylinder.hpp"
@@ -26,6 +27,7 @@ EngineSpec read_engine(const Config& tables, const CrankClock& clock, double fir
   EngineSpec engine;
   engine.clock = clock;
   engine.firing = firing;
+  if (table.has("speed_table")) engine.speed_table = table.path("speed_table");
   engine.stroke = table.number("stroke_mm", Range::between(0.1, 1e4)) * kMilli;
   engine.pin_offset = table.number_or("pin_offset_mm", 0.0, Range::between(-1e4, 1e4)) * kMilli;
   engine.balanced = table.flag_or("balanced", false);
@@ -122,8 +124,12 @@ ComponentList read_cylinders(const Config& root) {
   const auto engine = root.find_table("engine");
   if (!engine) return {};
   const CrankClock clock = read_crank_clock(*engine);
-  if (!root.has("cylinder"))
-    return {std::make_shared<CylinderComponent>(read_cylinder(root, clock, 0.0))};
+  const std::optional<CrankBody> crankshaft = read_crank_body(root);
+  if (!root.has("cylinder")) {
+    CylinderSpec spec = read_cylinder(root, clock, 0.0);
+    spec.crankshaft = crankshaft;
+    return {std::make_shared<CylinderComponent>(std::move(spec))};
+  }
   ComponentList cylinders;
   std::set<std::string> names;
   bool all_parked = true;
@@ -139,6 +145,7 @@ ComponentList read_cylinders(const Config& root) {
       continue;
     }
     all_parked = false;
+    spec.crankshaft = crankshaft;
     cylinders.push_back(std::make_shared<CylinderComponent>(std::move(spec)));
   }
   if (all_parked) root.fail("cylinder", "found all of them parked, expected one that is not");

@@ -13,12 +13,18 @@ Motion<double> CrankClock::turn(double time) const {
     turn.velocity += one.amplitude * std::cos(angle);
     turn.acceleration -= one.amplitude * w * std::sin(angle);
   }
+  if (deviation) {
+    const SplinePoint more = deviation->at(time);
+    turn.position += more.value;
+    turn.velocity += more.first;
+    turn.acceleration += more.second;
+  }
   return turn;
 }
 
 double CrankClock::time(double angle) const {
   double time = angle / speed;
-  if (orders.empty()) return time;
+  if (is_uniform()) return time;
   for (int i = 0; i < 50; ++i) {
     const Motion<double> now = turn(time);
     const double step = (now.position - angle) / now.velocity;

@@ -11,6 +11,7 @@
 #include "dynamics/component/rigid_body_component.hpp"
 #include "dynamics/component/spring_component.hpp"
 #include "dynamics/component/stop_component.hpp"
+#include "dynamics/crank/crank_component.hpp"
 #include "dynamics/cylinder/cylinder_component.hpp"
 #include "dynamics/hydraulic/hydraulic_component.hpp"
 #include "dynamics/shaft/cam_torque_component.hpp"
@@ -35,8 +36,11 @@ const std::vector<ComponentKind>& component_kinds() {
   static const std::vector<ComponentKind> kinds{
       {{"[engine]", "[rod]", "[piston]", "[gas]", "[contact]", "[small_end]", "[big_end]",
         "[pin_guide]", "[[cylinder]]"},
-       "slider-crank at constant speed with piston, rod, joints, guide, skirt in its liner, gas",
+       "slider-crank with piston, rod, joints, guide, skirt in its liner, gas",
        read_cylinders},
+      {{"[crank]"},
+       "the crankshaft as a body in main bearings, its rotation prescribed or free",
+       read_crank},
       {{"[block]"}, "the engine block, a reduced part; rigid: the ground", read_block},
       {{"[[body]]"},
        "a reduced part whose frame is at rest, moves in space, or turns with a drive",

@@ -39,7 +39,7 @@ std::optional<CrankClock> read_clock(const Config& root) {
 
 void check_engine(const Config& root) {
   for (const char* key : {"piston", "block", "gas", "contact", "rod", "small_end", "big_end",
-                          "pin_guide", "cylinder"}) {
+                          "pin_guide", "cylinder", "crank"}) {
     if (root.has(key) && !root.has("engine"))
       root.fail(key, "found without [engine], expected [engine] with speed and stroke");
   }

@@ -46,19 +46,17 @@ JournalMotion ShaftBearing::journal(const PairMotion& motion) const {
           motion.spin(axes_.axis) + assumed_spin_};
 }
 
-JournalBearing::JournalBearing(std::string name, std::unique_ptr<Port> journal,
-                               std::unique_ptr<Port> housing, const ShaftAxes& axes,
-                               const Eigen::Vector3d& offset, const ThrustLaw& thrust,
-                               const BearingFilm& film)
+FilmedBearing::FilmedBearing(std::string name, std::unique_ptr<Port> journal,
+                             std::unique_ptr<Port> housing, const ShaftAxes& axes,
+                             const Eigen::Vector3d& offset, const ThrustLaw& thrust)
     : ShaftBearing(std::move(name), std::move(journal), std::move(housing), axes, offset, thrust),
-      film_(film),
       eccentricity_name_(history_name(this->name(), "_eccentricity")),
       friction_name_(history_name(this->name(), "_friction")) {}
 
-PairForce JournalBearing::force(double, const PairMotion& motion) const {
+PairForce FilmedBearing::force(double, const PairMotion& motion) const {
   PairForce law = thrust_force(motion);
   const JournalMotion at = journal(motion);
-  const FilmForce film = film_.force(at, name());
+  const FilmForce film = film_force(at);
   // Force on u and v and moment about the axis; by offset, velocity and spin.
   const int u = axes_.first(), v = axes_.second(), w = axes_.axis, rows[] = {u, v, 3 + w};
   for (int k = 0; k < 3; ++k) {
@@ -72,21 +70,21 @@ PairForce JournalBearing::force(double, const PairMotion& motion) const {
   law.force(v) = film.value(1);
   law.moment(w) = film.value(2);
   law.lost -= film.value.head<2>().dot(at.velocity) + film.value(2) * at.spin;
-  last_ = {film_.eccentricity(at), film.value(2)};
+  last_ = {at.offset.norm() / size().radial_clearance(), film.value(2)};
   return law;
 }
 
-void JournalBearing::finish_stage(const Stage& stage) {
+void FilmedBearing::finish_stage(const Stage& stage) {
   PortElement::finish_stage(stage);
   finished_ = last_;
 }
 
-void JournalBearing::accept_step(double time) {
+void FilmedBearing::accept_step(double time) {
   PortElement::accept_step(time);
   accepted_ = finished_;
 }
 
-void JournalBearing::record(History& history) const {
+void FilmedBearing::record(History& history) const {
   PortElement::record(history);
   history.put(eccentricity_name_, "1", accepted_.eccentricity);
   history.put(friction_name_, "N m", accepted_.friction);

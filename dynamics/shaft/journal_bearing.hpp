@@ -3,6 +3,7 @@
 // Bearings of shafts.
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "dynamics/force/port_element.hpp"
 #include "dynamics/shaft/bearing_film.hpp"
@@ -39,12 +40,12 @@ class ShaftBearing : public PortElement {
   double assumed_spin_ = 0.0;  // [rad/s]
 };
 
-/// A plain bearing with an oil film (bearing_film.hpp). All power that it takes is lost.
-class JournalBearing : public ShaftBearing {
+/// A plain bearing with an oil film, whose law of the force is another's. All power that it takes
+/// is lost.
+class FilmedBearing : public ShaftBearing {
  public:
-  JournalBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
-                 const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust,
-                 const BearingFilm& film);
+  FilmedBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
+                const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust);
   void finish_stage(const Stage& stage) override;
   void accept_step(double time) override;
   /// Also `<name>_eccentricity`, relative, and `<name>_friction` [N m], the moment on the journal.
@@ -52,15 +53,36 @@ class JournalBearing : public ShaftBearing {
 
  protected:
   PairForce force(double time, const PairMotion& motion) const override;
+  virtual FilmForce film_force(const JournalMotion& motion) const = 0;
+  virtual const BearingSize& size() const = 0;
 
  private:
   struct State {
     double eccentricity = 0.0, friction = 0.0;
   };
-  BearingFilm film_;
   std::string eccentricity_name_, friction_name_;
   mutable State last_;
   State finished_, accepted_;
+};
+
+/// A plain bearing whose film is an impedance (bearing_film.hpp).
+class JournalBearing : public FilmedBearing {
+ public:
+  JournalBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
+                 const ShaftAxes& axes, const Eigen::Vector3d& offset, const ThrustLaw& thrust,
+                 const BearingFilm& film)
+      : FilmedBearing(std::move(name), std::move(journal), std::move(housing), axes, offset,
+                      thrust),
+        film_(film) {}
+
+ protected:
+  FilmForce film_force(const JournalMotion& motion) const override {
+    return film_.force(motion, name());
+  }
+  const BearingSize& size() const override { return film_.size(); }
+
+ private:
+  BearingFilm film_;
 };
 
 /// A bearing of constant stiffness and damping in all directions across the axis, without friction.

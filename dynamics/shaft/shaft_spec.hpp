@@ -58,6 +58,10 @@ struct ShaftSpec {
   Eigen::Vector3d point(double at) const { return centre + at * axes.unit(); }
 };
 
+/// diameter_mm, width_mm, clearance (relative) and viscosity_mpa_s of a bearing. InputError for a
+/// width over diameter outside of 0.12 to 1, where the impedances hold.
+BearingSize read_bearing_size(const Config& table);
+
 /// Reads one [[shaft]] of the scene `root`, whose [[drive]] may give its speed. InputError for
 /// sections with gaps, discs and bearings beside the shaft or of the same name.
 ShaftSpec read_shaft(const Config& root, const Config& table);

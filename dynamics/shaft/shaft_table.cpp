@@ -87,20 +87,6 @@ ShaftDiscSpec read_disc(const Config& table, const ShaftSections& shaft) {
   return disc;
 }
 
-BearingSize read_size(const Config& table) {
-  BearingSize size;
-  size.diameter = table.number("diameter_mm", kDiameterMm) * kMilli;
-  size.width = table.number("width_mm", kDiameterMm) * kMilli;
-  size.clearance = table.number("clearance", Range::between(1e-6, 0.1));
-  size.viscosity = table.number("viscosity_mpa_s", Range::between(1e-4, 1e6)) * kMilli;
-  const double x = size.width / size.diameter;
-  if (!(x >= 0.12 && x <= 1.0))
-    table.fail("width_mm", fmt::format("found {:g}, which is {:.3g} of the diameter, expected 0.12 "
-                                       "to 1, where the film's formulas hold",
-                                       size.width / kMilli, x));
-  return size;
-}
-
 ShaftBearingSpec read_bearing(const Config& table, const ShaftSections& shaft) {
   ShaftBearingSpec bearing;
   bearing.name = read_name(table);
@@ -113,7 +99,7 @@ ShaftBearingSpec read_bearing(const Config& table, const ShaftSections& shaft) {
     bearing.damping = table.number_or("damping_n_s_m", 0.0, kDamping);
   } else {
     bearing.film = model == "moes" ? BearingModel::kMoes : BearingModel::kButenschoen;
-    bearing.size = read_size(table);
+    bearing.size = read_bearing_size(table);
   }
   bearing.thrust.stiffness = table.number_or("thrust_stiffness_n_m", 0.0, kStiffness);
   bearing.thrust.damping = table.number_or("thrust_damping_n_s_m", 0.0, kDamping);
@@ -139,6 +125,20 @@ double read_start_speed(const Config& root, const Config& table) {
 }
 
 }  // namespace
+
+BearingSize read_bearing_size(const Config& table) {
+  BearingSize size;
+  size.diameter = table.number("diameter_mm", kDiameterMm) * kMilli;
+  size.width = table.number("width_mm", kDiameterMm) * kMilli;
+  size.clearance = table.number("clearance", Range::between(1e-6, 0.1));
+  size.viscosity = table.number("viscosity_mpa_s", Range::between(1e-4, 1e6)) * kMilli;
+  const double x = size.width / size.diameter;
+  if (!(x >= 0.12 && x <= 1.0))
+    table.fail("width_mm", fmt::format("found {:g}, which is {:.3g} of the diameter, expected 0.12 "
+                                       "to 1, where the film's formulas hold",
+                                       size.width / kMilli, x));
+  return size;
+}
 
 ShaftSpec read_shaft(const Config& root, const Config& table) {
   ShaftSpec shaft;

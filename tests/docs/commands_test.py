@@ -197,6 +197,7 @@ class Run(stages.PipelineTest):
         self.run_blocks("dynamics/ring/README.md")
         self.run_blocks("dynamics/chain/README.md")
         self.run_blocks("dynamics/shaft/README.md")
+        self.run_blocks("dynamics/crank/README.md")
         self.run_blocks("dynamics/valve/README.md")
 
     def test_recover(self):

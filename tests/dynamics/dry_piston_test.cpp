@@ -121,7 +121,8 @@ TEST(RigidDryPiston, MovesOnTheSamplesRodAndGasLikeTheConstrainedMechanism) {
   scene.clock = CrankClock{2000.0 * std::numbers::pi / 30.0};
   CylinderSpec cylinder;
   cylinder.engine =
-      EngineSpec{*scene.clock, 0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}};
+      EngineSpec{*scene.clock,       0.130, 0.0, false, RodProperties{0.210, 2.2, 0.02, 0.07}, 0.0,
+                 Rotation::kForward, {}};
   PistonSpec& piston = cylinder.piston;
   piston.name = "piston";
   piston.elastic = false;

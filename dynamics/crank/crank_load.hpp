@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The torque that loads a crankshaft whose rotation is free.
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/component/run_time.hpp"
+#include "dynamics/crank/mean_torque.hpp"
+#include "dynamics/force/crank_port.hpp"
+#include "dynamics/force/element.hpp"
+#include "dynamics/given/spline.hpp"
+
+namespace clatter::dynamics {
+
+/// A torque against the rotation: of one of these laws.
+struct CrankLoadLaw {
+  double constant = 0.0;                 // [N m]
+  std::optional<double> at_speed;        // it grows with the square of the speed from here [rad/s]
+  std::optional<Spline> table;           // over the crank's angle [N m]
+  std::optional<MeanTorque> controller;  // holds the mean speed
+};
+
+/// That torque on the rotation rx of the crank from its clock, with the angle theta + d and the
+/// speed of the crank itself; d is rx in the direction of rotation. The reaction is on the ground.
+class CrankLoad : public ForceElement {
+ public:
+  static constexpr double kLargest = 0.5;  // deviation from the clock [rad]
+
+  /// @param turn y index of rx. @param ramp of the start.
+  CrankLoad(int turn, CrankClock clock, Rotation rotation, CrankLoadLaw law, TimeFunction ramp);
+  std::string name() const override { return "crank load"; }
+  /// StepRefused where the crank is further from its clock than kLargest.
+  void evaluate(const Stage& stage, const Eigen::VectorXd& y, const Eigen::VectorXd& v,
+                bool with_tangent, Response& response) override;
+  void begin_step(double time) override;
+  void finish_stage(const Stage&) override { finished_ = last_; }
+  void accept_step(double time) override;
+  Power power(const Eigen::VectorXd&, const Eigen::VectorXd& v) const override {
+    return {0.0, 0.0, -sign_ * finished_.torque * v(0)};
+  }
+  /// `crank_load_torque` [N m], `crank_deviation` [rad] from the clock, `crank_speed` [rad/s].
+  void record(History& history) const override;
+  std::vector<double> save() const override;
+  void restore(const std::vector<double>& state) override;
+  /// The largest deviation of the speed from that of the clock since the last restore() [rad/s].
+  double largest_rate() const { return largest_rate_; }
+
+ private:
+  struct State {
+    double torque = 0.0, angle = 0.0, rate = 0.0;
+  };
+  double sign_;
+  CrankClock clock_;
+  CrankLoadLaw law_;
+  TimeFunction ramp_;
+  State last_, finished_, accepted_;
+  double time_ = 0.0, largest_rate_ = 0.0;
+};
+
+}  // namespace clatter::dynamics
