@@ -78,6 +78,7 @@ std::vector<NumberKey> engine_numbers() {
   for (const char* key : {"rod.centre_mm",
                           "time.ramp_deg",
                           "gas.ambient_bar",
+                          "rod.mode_limit_hz",
                           "piston.mode_limit_hz",
                           "small_end.clearance_um",
                           "small_end.soft_stiffness_n_m",
