@@ -58,7 +58,6 @@ StageOperator::StageOperator(const System& system, double kappa, double diagonal
     const VectorXd all = P.cwiseAbs2() * H;
     const VectorXd moving =
         P.cwiseAbs2() * H.cwiseProduct(system.bodies()[static_cast<size_t>(b)].inertia);
-    all_ += static_cast<double>(P.rows() * P.rows() * P.cols());
     const auto& rows = system.rows(b);
     for (Eigen::Index i = 0; i < all.size(); ++i)
       if (all(i) > 0.0) moving_share_(rows[static_cast<size_t>(i)]) = moving(i) / all(i);
@@ -87,15 +86,6 @@ void StageOperator::filter(const VectorXd& e_eta, const VectorXd& e_v, VectorXd&
 void StageOperator::form_S(int body, const std::vector<int>& rows, MatrixXd& S) const {
   const MatrixXd& P = system_->P(body);
   const auto n = static_cast<Eigen::Index>(rows.size());
-  if (S_.empty()) formed_ += static_cast<double>(n * n * P.cols());
-  if (!S_.empty() || formed_ > all_) {
-    const auto all = this->S(body);
-    S.resize(n, n);
-    for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index i = 0; i < n; ++i)
-        S(i, j) = all(rows[static_cast<size_t>(i)], rows[static_cast<size_t>(j)]);
-    return;
-  }
   MatrixXd &picked = picked_[static_cast<size_t>(body)],
            &scaled = scaled_[static_cast<size_t>(body)];
   picked.resize(n, P.cols());

@@ -39,9 +39,7 @@ class StageOperator {
   /// Share of the diagonal of S that is due to modes with inertia, n_y, 0 to 1: of a change of y by
   /// unbalanced forces this much is motion that has kinetic energy.
   const Eigen::VectorXd& moving_share() const { return moving_share_; }
-  /// Writes S of one body in some of its rows (indices in System::rows), n x n. It is formed in
-  /// these rows, until that has cost as much as S of all rows, which is then formed once and kept:
-  /// the rows that are touched change with the motion, and few step lengths are used often.
+  /// Writes S of one body in some of its rows (indices in System::rows), n x n.
   void form_S(int body, const std::vector<int>& rows, Eigen::MatrixXd& S) const;
   /// S of one body, in the order of its rows; that of all bodies is formed at the first call.
   Eigen::Map<const Eigen::MatrixXd> S(int body) const;
@@ -63,8 +61,6 @@ class StageOperator {
   Eigen::VectorXd moving_share_;
   mutable std::vector<double> S_;                         // of all bodies; empty: not formed
   mutable std::vector<size_t> S_starts_;                  // per body
-  mutable double formed_ = 0.0;                           // entries by form_S times modes
-  double all_ = 0.0;                                      // the same of S of all bodies
   mutable std::vector<Eigen::VectorXd> part_, modal_;     // per body: its rows, its modes or rows
   mutable std::vector<Eigen::MatrixXd> picked_, scaled_;  // per body: rows of P, and times H
 };

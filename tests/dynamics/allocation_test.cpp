@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/base/threads.hpp"
+#include "dynamics/film/piston_liner.hpp"
 #include "dynamics/force/stop.hpp"
 #include "dynamics/profile/mattress.hpp"
 #include "dynamics/profile/tooth_gap.hpp"
@@ -99,6 +101,54 @@ TEST(Allocation, ContactsOfLinksTakeNoMemory) {
   EXPECT_EQ(allocations, 0);
   EXPECT_GT(on_bush.depth, 0.0);
   EXPECT_GT(on_plate.depth, 0.0);
+}
+
+/// Allocations of a rigid piston's contact and of its first step.
+long allocations_of(film::PistonLinerOptions options) {
+  options.cells_around = options.cells_along = 8;
+  options.clearance = 20e-6;
+  options.oil_thickness = 5e-6;
+  film::PistonLinerBodies bodies;
+  bodies.stroke = [](double) { return film::StrokeState{0.2, 3.0}; };
+  std::vector<int> coordinates{0, 1, 2, 3, 4, 5};
+  Response response;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(6);
+  const Stage first{1e-6, 1e-6, 0, {}};
+  allocations = 0;
+  counting = true;
+  film::PistonLiner contact(std::move(options), std::move(bodies), std::move(coordinates));
+  contact.begin_step(0.0);
+  contact.evaluate(first, rest, rest, true, response);
+  contact.finish_stage(first);
+  contact.accept_step(1e-6);
+  counting = false;
+  return allocations;
+}
+
+TEST(Allocation, EffectsOfTheContactThatAreOffTakeNoMemory) {
+  film::PistonLinerOptions plain, layer, laws, shaped;
+  layer.liner_layer.emplace();
+  layer.liner_layer->bottom = 0.1;
+  layer.liner_layer->top = 0.3;
+  laws.oil.walther = film::WaltherLaw{{313.0, 373.0}, {1.08e-4, 1.45e-5}, 860.0};
+  laws.oil.temperature = {370.0, 400.0};
+  laws.oil.height = {0.1, 0.3};
+  laws.oil.pressure_coefficient = 2e-8;
+  const auto dry = [](film::PistonLinerOptions options) {
+    options.effects.film = false;
+    return allocations_of(std::move(options));
+  };
+  set_thread_count(1);  // threads of the pads take memory of their own
+  const long film = allocations_of(plain), none = dry(plain);
+  EXPECT_LT(none, film);
+  for (const auto& options : {layer, laws}) {
+    EXPECT_GT(allocations_of(options), film);  // on
+    EXPECT_EQ(dry(options), none);             // without a film there is no oil
+  }
+  shaped.bore_shapes.push_back(
+      {Eigen::VectorXd::Zero(1), Eigen::Vector2d(0.1, 0.3), Eigen::RowVector2d(0.0, 1e-5)});
+  EXPECT_GT(allocations_of(shaped), film);
+  set_thread_count(0);
 }
 
 class StepLoop : public ::testing::TestWithParam<const Tableau*> {};

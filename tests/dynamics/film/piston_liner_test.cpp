@@ -284,7 +284,8 @@ TEST(PistonLiner, GapsBelowTheMinimumAreOneKindOfRefusal) {
   ASSERT_EQ(details.size(), 3U);
   EXPECT_EQ(details[0].front(), '-');
   EXPECT_NE(details[0], details[1]);
-  EXPECT_EQ(details[0].substr(details[0].find(' ')), " m on the thrust pad");
+  EXPECT_EQ(details[0].find(" m on the thrust pad at -5.0 deg, "), details[0].find(' '));
+  EXPECT_NE(details[0].find("mm from the pin"), std::string::npos);
 }
 
 }  // namespace
