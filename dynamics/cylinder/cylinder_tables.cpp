@@ -80,10 +80,12 @@ BoreSpec read_bore(const Config& table) {
 }
 
 /// @param tables of the cylinder: the scene's own, or those of a [[cylinder]] over them.
-CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double firing) {
+CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double firing,
+                           const std::optional<CrankBody>& crankshaft) {
   const auto piston = tables.find_table("piston");
   if (!piston) tables.fail("piston", "found nothing, expected [piston]");
   CylinderSpec cylinder;
+  cylinder.crankshaft = crankshaft;
   const DescribedRod rod = read_rod(tables.table("rod"));
   cylinder.rod = rod.spec;
   cylinder.engine = read_engine(tables, clock, firing, rod.properties);
@@ -107,6 +109,10 @@ CylinderSpec read_cylinder(const Config& tables, const CrankClock& clock, double
   cylinder.pin_offset_where = tables.table("engine").where("pin_offset_mm");
   cylinder.small_end = read_joint(tables, "small_end");
   cylinder.big_end = read_joint(tables, "big_end");
+  if (cylinder.rod.model == RodModel::kMassless && cylinder.has_free_crank())
+    tables.table("rod").fail("model",
+                             "found \"massless\" with crank.speed = \"free\", expected a "
+                             "rod with mass");
   for (const auto& [key, joint] :
        {std::pair{"small_end", &cylinder.small_end}, {"big_end", &cylinder.big_end}}) {
     if (cylinder.rod.model == RodModel::kMassless && (joint->friction || joint->film))
@@ -125,11 +131,8 @@ ComponentList read_cylinders(const Config& root) {
   if (!engine) return {};
   const CrankClock clock = read_crank_clock(*engine);
   const std::optional<CrankBody> crankshaft = read_crank_body(root);
-  if (!root.has("cylinder")) {
-    CylinderSpec spec = read_cylinder(root, clock, 0.0);
-    spec.crankshaft = crankshaft;
-    return {std::make_shared<CylinderComponent>(std::move(spec))};
-  }
+  if (!root.has("cylinder"))
+    return {std::make_shared<CylinderComponent>(read_cylinder(root, clock, 0.0, crankshaft))};
   ComponentList cylinders;
   std::set<std::string> names;
   bool all_parked = true;
@@ -138,14 +141,14 @@ ComponentList read_cylinders(const Config& root) {
     if (!names.insert(name).second)
       table.fail("name", fmt::format("found a second \"{}\", expected each name once", name));
     const double firing = table.number_or("firing_deg", 0.0, Range::between(-720.0, 720.0));
-    CylinderSpec spec = read_cylinder(table.with_fallback(root), clock, firing * kDegree);
+    CylinderSpec spec =
+        read_cylinder(table.with_fallback(root), clock, firing * kDegree, crankshaft);
     spec.name = name;
     if (table.flag_or("parked", false)) {
       cylinders.push_back(std::make_shared<ParkedCylinder>(name));
       continue;
     }
     all_parked = false;
-    spec.crankshaft = crankshaft;
     cylinders.push_back(std::make_shared<CylinderComponent>(std::move(spec)));
   }
   if (all_parked) root.fail("cylinder", "found all of them parked, expected one that is not");
