@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <numeric>
+#include <optional>
 #include <thread>
 
 #include "core/base/error.hpp"
@@ -49,17 +50,26 @@ class Messages {
   std::vector<MPI_Request> requests_;
 };
 
-/// Whether all ranks come here within a few seconds.
-bool all_arrive() {
+/// The end of this rank's work.
+enum class End { kDone, kFailed };
+
+/// The lowest rank that failed, or their number; none where after a failure not all ranks come here
+/// within a few seconds: then some wait for this one elsewhere.
+std::optional<int> lowest_failed(End end) {
   constexpr auto kPatience = std::chrono::seconds(3);
   constexpr auto kPause = std::chrono::milliseconds(5);
+  int rank = 0, size = 1;
+  MPI_Comm_rank(kAll, &rank);
+  MPI_Comm_size(kAll, &size);
+  const int own = end == End::kFailed ? rank : size;
+  int lowest = size, done = 0;
   MPI_Request request;
-  MPI_Ibarrier(kAll, &request);
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  int done = 0;
+  MPI_Iallreduce(&own, &lowest, 1, MPI_INT, MPI_MIN, kAll, &request);
+  const auto limit = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (done != 0 || std::chrono::steady_clock::now() > end) return done != 0;
+    if (done != 0) return lowest;
+    if (end == End::kFailed && std::chrono::steady_clock::now() > limit) return std::nullopt;
     std::this_thread::sleep_for(kPause);
   }
 }
@@ -68,12 +78,13 @@ bool all_arrive() {
 int end_after(const std::string& program, const std::string& message, ExitCode code) {
   int rank = 0;
   MPI_Comm_rank(kAll, &rank);
-  if (all_arrive()) {
-    if (rank == 0) report_error(program, message, code);
+  const std::optional<int> lowest = lowest_failed(End::kFailed);
+  if (lowest) {
+    if (rank == *lowest) report_error(program, message, code);
     MPI_Finalize();
     return static_cast<int>(code);
   }
-  report_error(program, "rank " + std::to_string(rank) + ": " + message, code);
+  report_error(program, fmt::format("rank {}: {}", rank, message), code);
   MPI_Abort(kAll, static_cast<int>(code));
   return static_cast<int>(code);
 }
@@ -183,6 +194,7 @@ int run_ranks(const std::string& program, int& argc, char**& argv,
     const Ranks all;
     if (all.rank() > 0) set_log_sink([](bool, const std::string&) {});  // rank 0 speaks for all
     const int code = body(all);
+    (void)lowest_failed(End::kDone);
     MPI_Finalize();
     return code;
   } catch (const Error& error) {

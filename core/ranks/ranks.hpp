@@ -62,9 +62,9 @@ class Ranks : public sparse::RowTeam {
   mutable int64_t sent_ = 0;
 };
 
-/// Runs `body` on all ranks of an MPI program and returns its exit code. When all ranks fail, rank
-/// 0 prints the error, and every rank ends with its code. When one fails alone, for example because
-/// its memory is short, it prints the error and ends all ranks with the code.
+/// Runs `body` on all ranks of an MPI program and returns its exit code. The lowest rank that fails
+/// prints its error; each that fails ends with its code. Where others wait for a rank that failed
+/// alone, for example because its memory is short, it ends all ranks with the code.
 int run_ranks(const std::string& program, int& argc, char**& argv,
               const std::function<int(const Ranks&)>& body);
 

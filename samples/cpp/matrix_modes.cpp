@@ -7,6 +7,7 @@
 
 #include "core/base/matrix_text.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 
 int main(int argc, char** argv) {
   if (argc < 3) {

@@ -14,13 +14,17 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
 
 
-def command(program, count, *arguments):
-    return [*MPIRUN, "-n", str(count), str(stages.BIN / f"clatter-{program}-mpi"), *map(str, arguments), "--threads", "1"]
+def program(name):
+    return [str(stages.BIN / f"clatter-{name}-mpi")]
 
 
-def run(program, count, *arguments, folder, **environment):
-    """Runs clatter-<program>-mpi on `count` ranks; returns the finished process with its output."""
-    return subprocess.run(command(program, count, *arguments), cwd=folder, text=True, capture_output=True, timeout=300,
+def command(name, count, *arguments):
+    return [*MPIRUN, "-n", str(count), *program(name), *map(str, arguments), "--threads", "1"]
+
+
+def run(name, count, *arguments, folder, **environment):
+    """Runs clatter-<name>-mpi on `count` ranks; returns the finished process with its output."""
+    return subprocess.run(command(name, count, *arguments), cwd=folder, text=True, capture_output=True, timeout=300,
                           env={**ENVIRONMENT, **environment})
 
 

@@ -7,6 +7,7 @@ import time
 import unittest
 
 import h5py
+import interrupted_test
 import numpy as np
 import ranks
 import stages
@@ -113,6 +114,18 @@ class Failures(OfRanks):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("use more ranks", done.stderr)
         self.assertFalse((self.folder / "failed.rom.h5").exists())
+
+    def test_a_full_disk_on_the_rank_that_writes(self):
+        small = interrupted_test.HardH2DiskFull.small_disk(self)
+        target = small / "beam.rom.h5"
+        target.write_bytes(b"the older artefact")
+        free = os.statvfs(small)
+        (small / "filler").write_bytes(b"\0" * max(0, free.f_bavail * free.f_frsize - 16384))
+        done = self.condense(count=2, output=target)
+        errors = [line for line in done.stderr.splitlines() if "error:" in line]
+        self.assertEqual((done.returncode, len(errors)), (4, 1), done.stderr)
+        self.assertEqual(target.read_bytes(), b"the older artefact")
+        self.assertFalse((small / "beam.rom.h5.part").exists())
 
     def test_a_killed_rank_ends_all_and_leaves_nothing(self):
         process = subprocess.Popen(ranks.command("condense", 3, "beam.fe.h5", "-c", "beam.rom.toml", "-o", "killed.rom.h5"),

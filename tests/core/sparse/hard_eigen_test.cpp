@@ -14,6 +14,7 @@
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "core/sparse/eigen/eigen_solver.hpp"
 #include "core/sparse/factor/inertia.hpp"
+#include "core/sparse/factor/supernodal_factor.hpp"
 #include "core/sparse/symmetric_product.hpp"
 #include "tests/core/sparse/four_cylinders.hpp"
 #include "tests/core/sparse/spring_models.hpp"
