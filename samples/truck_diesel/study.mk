@@ -74,7 +74,7 @@ $(study_blocks:=.field.toml): %.field.toml: speeds.field.toml
 	sed 's/block.sound.h5/$*.sound.h5/' $< >$@
 
 # Pistons of another density [kg/m3], crown [mm] or pin offset [mm], without the surfaces of the heat flow.
-study_pistons := $(addprefix piston_,density2100 density3300 crown13 crown21 offset-0.5 offset0.5)
+study_pistons := $(addprefix piston_,density2100 density3300 crown13 crown20 offset-0.5 offset0.5)
 plain_piston := sed '/^. Surfaces of the heat flow/,$$d' piston.mesh.toml
 $(filter piston_density%,$(study_pistons:=.mesh.toml)): piston_density%.mesh.toml: piston.mesh.toml
 	$(plain_piston) >$@
