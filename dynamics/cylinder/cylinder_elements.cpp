@@ -105,8 +105,8 @@ PinNode pin_node(const CylinderBodies& bodies) {
   return pin;
 }
 
-std::unique_ptr<Joint> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                 const PinNode& pin) {
+std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin) {
   PointWeights centre;
   centre.add(pin[1], 1.0, 0.0);
   centre.add(pin[2], 0.0, 1.0);

@@ -12,7 +12,6 @@ namespace {
 
 std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& crank,
                             const Spline& gas) {
-  const CylinderSpec& spec = bodies.spec;
   const TimeFunction pressure = gauge_pressure(bodies, crank, gas);
   std::vector<Load> loads;
   for (const GasLoad& load : gas_unit_loads(bodies)) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kRod = 3;  // coordinates
 
-std::vector<int> joined(const Joint& pin, const Joint& crank_pin) {
+std::vector<int> joined(const ForceElement& pin, const ForceElement& crank_pin) {
   std::vector<int> all(pin.coordinates().begin(), pin.coordinates().end() - kRod);
   all.insert(all.end(), crank_pin.coordinates().begin() + kRod, crank_pin.coordinates().end());
   return all;
