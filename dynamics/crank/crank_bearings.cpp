@@ -52,7 +52,7 @@ std::unique_ptr<ForceElement> bearing_element(const CrankBearingSpec& bearing,
                                            offset, ThrustLaw{}, linear->stiffness, linear->damping);
   if (const auto* table = std::get_if<TableBearingSpec>(&bearing.law))
     return std::make_unique<TableBearing>(name, std::move(journal), std::move(housing), kAxes,
-                                          offset, RadialTable(table->table, table->column),
+                                          offset, BearingTable(table->table, table->column),
                                           table->damping);
   if (const auto* film = std::get_if<JournalFilmOptions>(&bearing.law))
     return std::make_unique<FilmBearing>(name, std::move(journal), std::move(housing), kAxes,

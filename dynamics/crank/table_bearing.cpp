@@ -9,8 +9,8 @@
 namespace clatter::dynamics {
 namespace {
 
-std::pair<TurnTable, double> read_radial_table(const std::filesystem::path& path,
-                                               const std::string& column) {
+std::pair<TurnTable, double> read_bearing_table(const std::filesystem::path& path,
+                                                const std::string& column) {
   CsvColumns table = read_csv(path, column);
   const auto fail = [&](size_t row, const std::string& said) {
     throw InputError(fmt::format("{}:{}: {}", path.string(), table.lines[row], said));
@@ -33,8 +33,8 @@ std::pair<TurnTable, double> read_radial_table(const std::filesystem::path& path
 
 }  // namespace
 
-RadialTable::RadialTable(const std::filesystem::path& path, const std::string& column)
-    : RadialTable(read_radial_table(path, column)) {}
+BearingTable::BearingTable(const std::filesystem::path& path, const std::string& column)
+    : BearingTable(read_bearing_table(path, column)) {}
 
 PairForce TableBearing::force(double, const PairMotion& motion) const {
   PairForce law = thrust_force(motion);

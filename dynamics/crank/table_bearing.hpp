@@ -12,17 +12,17 @@
 namespace clatter::dynamics {
 
 /// Radial force over the eccentricity: a monotone cubic with its exact integral.
-class RadialTable {
+class BearingTable {
  public:
   /// Reads a table over lengths from 0, force 0, whose forces do not fall. InputError
   /// "file:line: ..." otherwise.
-  RadialTable(const std::filesystem::path& path, const std::string& column);
+  BearingTable(const std::filesystem::path& path, const std::string& column);
   double largest() const { return largest_; }  // eccentricity [m]
   /// Energy [J], force [N], stiffness [N/m] at an eccentricity [m].
   Motion<double> at(double eccentricity) const { return table_.at(eccentricity); }
 
  private:
-  RadialTable(std::pair<TurnTable, double> table)
+  BearingTable(std::pair<TurnTable, double> table)
       : table_(std::move(table.first)), largest_(table.second) {}
   TurnTable table_;  // force for speed, eccentricity for time: its angle is the energy
   double largest_;
@@ -33,7 +33,7 @@ class TableBearing : public ShaftBearing {
  public:
   /// @param damping [N s/m].
   TableBearing(std::string name, std::unique_ptr<Port> journal, std::unique_ptr<Port> housing,
-               const ShaftAxes& axes, const Eigen::Vector3d& offset, RadialTable table,
+               const ShaftAxes& axes, const Eigen::Vector3d& offset, BearingTable table,
                double damping)
       : ShaftBearing(std::move(name), std::move(journal), std::move(housing), axes, offset, {}),
         table_(std::move(table)),
@@ -44,7 +44,7 @@ class TableBearing : public ShaftBearing {
   PairForce force(double time, const PairMotion& motion) const override;
 
  private:
-  RadialTable table_;
+  BearingTable table_;
   double damping_;
 };
 

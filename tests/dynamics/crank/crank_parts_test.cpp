@@ -122,7 +122,7 @@ TEST(CrankBearing, TangentsAreDifferenceQuotients) {
   options.size = {85e-3, 30e-3, 1e-3, 10e-3};
   options.cells_around = 36;
   options.cells_along = 3;
-  TableBearing table("table", journal(), housing(), x, none, RadialTable(written(kRadial), ""),
+  TableBearing table("table", journal(), housing(), x, none, BearingTable(written(kRadial), ""),
                      1e4);
   FilmBearing film("film", journal(), housing(), x, none, options);
   CrankGyroscope gyroscope({0, 1}, 0.8, kUneven, Rotation::kBackward);
@@ -142,7 +142,7 @@ TEST(CrankBearing, TangentsAreDifferenceQuotients) {
 }
 
 TEST(CrankBearing, OfATableHasItsForcesAndTheirEnergy) {
-  const RadialTable table(written(kRadial), "");
+  const BearingTable table(written(kRadial), "");
   EXPECT_DOUBLE_EQ(table.largest(), 50e-6);
   EXPECT_NEAR(table.at(20e-6).velocity, 1e3, 1e-9);
   EXPECT_NEAR(table.at(40e-6).velocity, 8e3, 1e-9);
@@ -150,7 +150,7 @@ TEST(CrankBearing, OfATableHasItsForcesAndTheirEnergy) {
   for (int i = 0; i < 5000; ++i) energy += 1e-8 * table.at((i + 0.5) * 1e-8).velocity;
   EXPECT_NEAR(table.at(50e-6).position, energy, 1e-6 * energy);
   const auto refusal = [](const std::string& text) {
-    return test::refusal_of([&] { RadialTable(written(text), ""); });
+    return test::refusal_of([&] { BearingTable(written(text), ""); });
   };
   EXPECT_NE(refusal("e [um], F [bar]\n0, 0\n1, 1\n").find("expected a force"), std::string::npos);
   EXPECT_NE(refusal("e [um], F [N]\n1, 0\n2, 1\n").find("table.csv:2: found 0 N at 1e-06 m"),
