@@ -21,10 +21,11 @@ namespace {
 /// An end of the rod with its rotation, of which the ideal one is prescribed; of an elastic rod
 /// that of its rigid motion. A massless one has no coordinate, and no friction.
 JournalSide rod_side(const CylinderBodies& bodies, const SliderCrank& crank, bool small) {
+  auto point = rod_end(bodies, crank, small);
   std::optional<int> turn;
   if (bodies.spec.rod.model != RodModel::kMassless)
     turn = bodies.model.system.coordinate(bodies.rod_index(), 2);
-  return {rod_end(bodies, crank, small),
+  return {std::move(point),
           {turn, [crank](double time) { return crank.rod_angle(time).velocity; }}};
 }
 
@@ -117,12 +118,12 @@ std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const Slid
 
 std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
   JournalSide rod = rod_side(bodies, crank, false);
+  auto centre = crank_pin(bodies, crank);
   std::optional<int> turn;
   if (bodies.spec.has_free_crank())
     turn = bodies.model.system.coordinate(bodies.model.body(CrankBody::kName),
                                           bodies.spec.crankshaft->turn());
-  JournalSide shaft{crank_pin(bodies, crank),
-                    {turn, [crank](double time) { return crank.spin(time); }}};
+  JournalSide shaft{std::move(centre), {turn, [crank](double time) { return crank.spin(time); }}};
   return rod_joint(bodies.spec.name_of("crank_pin"), bodies.spec.big_end,
                    {std::move(rod), std::move(shaft)}, false);
 }

@@ -25,7 +25,8 @@ void Reynolds::weigh(const FilmCells& film, const Eigen::ArrayXd& content_before
     const Face& face = faces_[f];
     const Eigen::ArrayXd& g = face.axial ? film.flow_axial : film.flow_angle;
     const Inside in = inside(face);
-    if (in.length == 0.0) {  // outside, where walls that overlap have no thickness at all
+    if (in.length == 0.0 &&
+        in.carried == 0.0) {  // outside, where walls that overlap have no thickness at all
       conduct_[f] = carry_[f] = lift_[f] = 0.0;
       ratio_[f] = 1.0;
       continue;

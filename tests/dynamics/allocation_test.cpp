@@ -60,7 +60,7 @@ namespace clatter::dynamics {
 namespace {
 
 /// Runs `steps` accepted steps after as many before them. Memory is taken for operators of step
-/// sizes that are new and for what is said of stages that failed, less than 16 times each and 4
+/// sizes that are new and for what is said of stages that failed, less than 24 times each and 4
 /// times for each of `bodies`, where they are named, and for nothing else.
 void expect_no_allocations(Integrator& method, int steps, long long bodies = 0) {
   const auto rare = [&] {
@@ -72,7 +72,7 @@ void expect_no_allocations(Integrator& method, int steps, long long bodies = 0) 
   counting = true;
   for (int i = 0; i < steps; ++i) method.step(1e9);
   counting = false;
-  EXPECT_LE(allocations, (16 + 4 * bodies) * (rare() - before));
+  EXPECT_LE(allocations, (24 + 4 * bodies) * (rare() - before));
   EXPECT_LE(rare() - before, 20);
 }
 
