@@ -51,7 +51,7 @@ EFFECTS = {
     "no friction": "[contact]\nfriction = false\n",
     "and oil remembered on the liner": slap_large.LINER_OIL,
     "and laws of the oil": OIL_LAWS,
-    "and warm shapes": slap_large.shapes(135.0, SAMPLE),
+    "shapes of full load": slap_large.shapes(0.0, SAMPLE),
     "all": "",
 }
 

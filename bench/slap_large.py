@@ -15,15 +15,14 @@ SAMPLE = Path(__file__).resolve().parent.parent / "samples" / "truck_diesel"
 SHAPES = ["liner_4.shape.h5", "skirt.shape.h5"]  # make warm
 STRIPS_ROWS = {1: (10, 30), 4: (5, 15)}  # strips of a sector and rows: 2 sectors, 600 patches in total
 PARTS = {1: "block", 4: "engine"}
-# Cold; two of four pistons start at bottom dead centre, where 135 um are less than the skirt's growth.
-CLEARANCE_UM = {1: 135.0, 4: 145.0}
+CLEARANCE_UM = {1: 0.0, 4: 10.0}  # smallest warm gap; two of four pistons start at bottom dead centre, where it is smallest
 
 LINER_OIL = """[contact.liner_oil]
 splash_um_s = 100.0
 splash_thickness_um = 10.0
 most_um = 50.0
 
-[[contact.liner_oil.ring]]
+[[contact.ring]]
 height_mm = 42.0
 face_radius_mm = 15.0
 load_n_mm = 0.5
@@ -32,12 +31,10 @@ least_um = 0.2
 
 
 def shapes(clearance_um, folder="."):
-    """[contact] with the warm shapes of `make warm` instead of a cone, as in slap_warm.run.toml."""
+    """[contact] with the shapes of full load, about as in slap_warm.run.toml."""
     liner, skirt = (Path(folder) / name for name in SHAPES)
     return f"""[contact]
-clearance_um = {clearance_um}
-bore_height_mm = []
-bore_widening_um = []
+minimum_warm_clearance_um = {clearance_um}
 barrel_apex_mm = -5.0
 barrel_top_um = 80.0
 barrel_bottom_um = 25.0
