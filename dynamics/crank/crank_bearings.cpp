@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/component/law_table.hpp"
 #include "dynamics/crank/film_bearing.hpp"
 #include "dynamics/crank/table_bearing.hpp"
 #include "dynamics/force/crank_port.hpp"
@@ -51,9 +52,9 @@ std::unique_ptr<ForceElement> bearing_element(const CrankBearingSpec& bearing,
     return std::make_unique<LinearBearing>(name, std::move(journal), std::move(housing), kAxes,
                                            offset, ThrustLaw{}, linear->stiffness, linear->damping);
   if (const auto* table = std::get_if<TableBearingSpec>(&bearing.law))
-    return std::make_unique<TableBearing>(name, std::move(journal), std::move(housing), kAxes,
-                                          offset, BearingTable(table->table, table->column),
-                                          table->damping);
+    return std::make_unique<TableBearing>(
+        name, std::move(journal), std::move(housing), kAxes, offset,
+        read_rising_table({table->table, table->column, "m", "N"}), table->damping);
   if (const auto* film = std::get_if<JournalFilmOptions>(&bearing.law))
     return std::make_unique<FilmBearing>(name, std::move(journal), std::move(housing), kAxes,
                                          offset, *film);

@@ -18,6 +18,7 @@ class RisingTable {
   double value(double x) const;
   double slope(double x) const;     // dy/dx
   double integral(double x) const;  // of y from 0, exact
+  double last() const { return x_.back(); }
 
  private:
   double part(size_t k, double x) const;
