@@ -110,7 +110,7 @@ void read_steps(const Config& root, Scene& scene) {
           : time.choice("method", {"tr-bdf2", "sdirk2", "predictor-corrector"});
   for (const Tableau* known : {&sdirk2(), &tr_bdf2(), &predictor_corrector()})
     if (known->name == method) scene.steps.method = known;
-  scene.steps.exact_modes = time.flag_or("exact_modes", false);
+  scene.steps.exact_modes = time.flag_or("exact_modes", scene.steps.method->stages == 2);
   if (scene.steps.exact_modes && scene.steps.method->stages != 2)
     time.fail("exact_modes", fmt::format("found true with method \"{}\", expected one of two "
                                          "stages, \"sdirk2\" or \"tr-bdf2\"",
