@@ -28,7 +28,7 @@ pictures/study-10.png: paper_oil/6_10.field.h5 paper_dry/10.field.h5
 pictures/study-%.png: $(clatter_tool)
 	$(clatter_tool) plot acceleration $(filter %.h5,$^) -o $@
 
-# What the paper lists as influences, one at a time (parameters.toml): `make study-parameters -j2`, 25 short runs and
+# What the paper lists as influences, one at a time (parameters.toml): `make study-parameters -j2`, 28 short runs and
 # the reduced models that they need.
 .PHONY: study-parameters
 study-parameters: parameters.txt
@@ -52,6 +52,7 @@ $(call of_parameter,pin-offset): parameters/pin-offset_%.run.h5: piston_offset%.
 $(call of_parameter,piston-density): parameters/piston-density_%.run.h5: piston_density%.rom.h5
 $(call of_parameter,crown-thickness): parameters/crown-thickness_%.run.h5: piston_crown%.rom.h5
 $(call of_parameter,intake-pressure): parameters/intake-pressure_%.run.h5: motored_%bar.csv
+$(call of_parameter,fired-load): parameters/fired-load_%.run.h5: fired_%bar.csv
 $(call of_parameter,liner-modulus): parameters/liner-modulus_%.run.h5: block_liner%.rom.h5
 $(call of_parameter,damping-of-the-block): parameters/damping-of-the-block_%.run.h5: block_damping%.rom.h5
 of_parameter_field = $(filter parameters/$(1)_%,$(parameters_fields))
@@ -92,3 +93,5 @@ $(study_pistons:=.rom.h5): %.rom.h5: %.fe.h5 piston.rom.toml $(clatter_condense)
 	$(CLATTER_LAUNCH) $(clatter_condense) $< -c piston.rom.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
 motored_%bar.csv: $(clatter_tool)
 	$(clatter_tool) motored-cycle --intake-bar $* $@
+fired_%bar.csv: $(clatter_tool)
+	$(clatter_tool) fired-cycle --imep-bar $* --intake-bar 2.2 $@
