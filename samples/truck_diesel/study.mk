@@ -19,7 +19,7 @@ $(paper_oil_fields) $(paper_dry_fields): block.sound.h5
 study.txt: $(paper_oil_fields) $(paper_dry_fields) $(clatter_tool)
 	$(clatter_tool) collect paper_oil
 	$(clatter_tool) collect paper_dry
-	$(clatter_tool) study paper_oil/sweep.h5 paper_dry/sweep.h5 --csv study.csv >$@.part
+	$(clatter_tool) slaps paper_oil/sweep.h5 paper_dry/sweep.h5 --csv study.csv >$@.part
 	mv $@.part $@
 # Liner and block with film; liner with and without oil, 0 and 10 um.
 pictures/study-8.png: paper_oil/6_0.field.h5
@@ -43,7 +43,7 @@ $(parameters_runs): block.rom.h5 piston.rom.h5 $(shapes)
 $(parameters_fields): block.sound.h5
 parameters.txt: $(parameters_fields) $(clatter_tool)
 	$(clatter_tool) collect parameters
-	$(clatter_tool) study parameters/sweep.h5 --parameters parameters.toml --csv parameters.csv --picture pictures/parameters.png >$@.part
+	$(clatter_tool) slaps parameters/sweep.h5 --parameters parameters.toml --csv parameters.csv --picture pictures/parameters.png >$@.part
 	mv $@.part $@
 
 # The reduced models and pressures that they name.

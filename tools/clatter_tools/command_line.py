@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, study, sweep
+from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
@@ -38,8 +38,8 @@ def parser():
     sweep.add_arguments(one)
     one = commands.add_parser("collect", help="put levels, orders and cost of all runs of a sweep into one file")
     collect.add_arguments(one)
-    one = commands.add_parser("study", help="rank the slaps of sweeps, or show them by parameter")
-    study.add_arguments(one)
+    one = commands.add_parser("slaps", help="rank the slaps of sweeps, or show them by parameter")
+    slaps.add_arguments(one)
     one = commands.add_parser("levels", help="draw overall levels over the speed of several runs")
     levels.add_arguments(one)
     one = commands.add_parser("export", help="write a field file's surface motion for acoustic programs")
@@ -124,8 +124,8 @@ def main(arguments, rules):
             sweep.write_sweep(options)
         elif options.command == "collect":
             collect.write_collection(options)
-        elif options.command == "study":
-            study.write_study(options)
+        elif options.command == "slaps":
+            slaps.write_slaps(options)
         elif options.command == "levels":
             levels.write_levels(options)
         elif options.command == "export":

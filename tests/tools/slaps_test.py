@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter sweep --parameters`, and what `clatter study` says about its runs."""
+"""`clatter sweep --parameters`, and what `clatter slaps` says about its runs."""
 import csv
 import pathlib
 import subprocess
@@ -10,7 +10,7 @@ import unittest
 import h5py
 
 import synthetic
-from clatter_tools import collect, parameters, study
+from clatter_tools import collect, parameters, slaps
 from clatter_tools.artefact import BadArtefact
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -80,7 +80,7 @@ class Study(unittest.TestCase):
         self.sweep()
         self.write_runs()
         self.run_command("collect", "all")
-        done = self.run_command("study", "all/sweep.h5", "--parameters", "parameters.toml", "--picture", "p.png", "--csv", "p.csv")
+        done = self.run_command("slaps", "all/sweep.h5", "--parameters", "parameters.toml", "--picture", "p.png", "--csv", "p.csv")
         lines = done.stdout.splitlines()
         order = [line.split("  ")[0] for line in lines[2:7]]
         self.assertEqual(order, ["pin offset [mm] -0.5", "pin offset [mm] 0 (base)", "pin offset [mm] 0.5", "lubrication none",
@@ -96,15 +96,15 @@ class Study(unittest.TestCase):
         self.sweep()
         self.write_runs()
         self.run_command("collect", "all")
-        lines = self.run_command("study", "all/sweep.h5").stdout.splitlines()
+        lines = self.run_command("slaps", "all/sweep.h5").stdout.splitlines()
         self.assertEqual([line.split("  ")[0] for line in lines[2:6]], ["pin offset -0.5 mm", "base", "lubrication none", "pin offset 0.5 mm"])
         self.assertIn("third octaves of the acceleration of the block over the cycle", "\n".join(lines))
         # 1.5 times the amplitude is 3.5 dB in all bands.
-        rows = {row.name: row for row in study.rows_of(self.folder / "all/sweep.h5")}
+        rows = {row.name: row for row in slaps.rows_of(self.folder / "all/sweep.h5")}
         loud, base = (rows[name].bands["liner"] for name in ("pin-offset_0.5", "base"))
         self.assertAlmostEqual((loud - base).mean(), 3.52, delta=0.02)
 
-    def test_what_is_no_study_is_refused(self):
+    def test_wrong_parameters_are_refused(self):
         def refused(text, said):
             (self.folder / "wrong.toml").write_text(text)
             with self.assertRaisesRegex(BadArtefact, said):
@@ -120,7 +120,7 @@ class Study(unittest.TestCase):
         self.assertIn("found neither key=values nor --parameters", self.run_command("sweep", "slap.run.toml", code=2).stderr)
         self.sweep()
         collect.write(collect.Sweep(self.folder / "all"), self.folder / "empty.h5")
-        self.assertIn("empty.h5: found no slap, expected fields with sensors of liner and block", self.run_command("study", "empty.h5", code=2).stderr)
+        self.assertIn("empty.h5: found no slap, expected fields with sensors of liner and block", self.run_command("slaps", "empty.h5", code=2).stderr)
 
 
 if __name__ == "__main__":
