@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The studies of this folder, included by its Makefile. Both take up where they were interrupted.
 
+# What the accuracy of the slap costs (study.toml): `make study`; page and tables are in study/.
+.PHONY: study
+study:
+	$(clatter_tool) study study.toml -j2
+slap_study.run.h5: block.rom.h5 piston.rom.h5
+slap_study.field.h5: slap_study.run.h5 speeds.field.toml block.sound.h5 $(clatter_recover)
+	$(CLATTER_LAUNCH) $(clatter_recover) $< -c speeds.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
 # Figures 8 to 10 of the paper with four layers of oil and without: `make study-paper -j2`, ten runs.
 .PHONY: study-paper
 study-paper: study.txt $(addprefix pictures/study-,8.png 9.png 10.png)
