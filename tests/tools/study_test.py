@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 
 from clatter_tools.artefact import BadArtefact, schema_of
-from clatter_tools.study import convergence, findings, plan, quantities, run, toml_text
+from clatter_tools.study import convergence, effects, findings, plan, quantities, run, toml_text
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
@@ -31,9 +31,10 @@ for file in $([[ $0 != *dynamics ]] || sed -nE 's/^(base|rom) = "(.*)"/\\2/p' *.
   case $file in *.h5) take < <(tr ' ' '\\n' < "$GIVEN/of-$(stat -Lc %i "$file")");; *) take < "$file";; esac
 done
 kind=${output%.h5}; kind=${kind##*.}
+[ $kind = run ] && : ${made[both]:=0.0}
 [ $kind = run ] && [ -e $GIVEN/fail ] && { echo told to fail >&2; exit 2; }
 [ "${made[h]}" = 20.0 ] && { echo too coarse >&2; exit 2; }
-of="h=${made[h]} n=${made[n]:--} tau=${made[tau]:--} both=${made[both]:-0.0}"
+of="h=${made[h]} n=${made[n]:--} tau=${made[tau]:--} both=${made[both]:--}"
 cp "$GIVEN/$kind $of" "$output.part"
 echo "$of" > "$GIVEN/of-$(stat -c %i "$output.part")"
 mv "$output.part" "$output"
@@ -78,22 +79,42 @@ file = "part.rom.h5"
 take = "dataset"
 path = "result/value"
 """
+SMALL = """
+[[setting]]
+name = "cell size"
+unit = "mm"
+key = "part.mesh.toml:mesh.h"
+values = [2.0, 1.0]
+
+[[setting]]
+name = "tolerance"
+key = "slap.run.toml:accuracy.tau"
+values = [0.2, 0.1]
+
+[[quantity]]
+name = "value"
+file = "slap.field.h5"
+take = "dataset"
+path = "result/value"
+"""
 H, TAU, N = 2.0, 0.2, 2
 
 
 def write_given(folder, both=0.0):
-    """The artefacts of all combinations of values."""
+    """The artefacts of all combinations of values; `both` is an effect of the scene, which makes the run three seconds longer."""
     for h, n, tau in itertools.product((4.0, 2.0, 1.0, 0.5), (None, 1, 2, 4, 8), (None, 0.4, 0.3, 0.2, 0.1, 0.05, 0.025)):
-        value = exact(h, tau or 1.0, n or 1.0, both)
+        value = exact(h, tau or 1.0, n or 1.0, both if tau else 0.0)
         for kind, seconds in SECONDS.items():
             if (kind in ("mesh", "fe")) != (n is None) or (kind in ("run", "field")) != (tau is not None):
                 continue
-            own = 0.0 if kind == "mesh" else both
+            own = both if kind in ("run", "field") else "-"
             with h5py.File(folder / f"{kind} h={h} n={n or '-'} tau={tau or '-'} both={own}", "w") as file:
                 file.attrs["schema"] = schema_of(kind)
                 file["result/value"], file["result/curve"] = value, [value, 2.0 * value]
                 timing = file.create_group("timing")
-                timing.attrs["total_seconds"], timing.attrs["peak_gib"] = seconds(h, n, tau), 0.125 * (n or 0)
+                timing.attrs["total_seconds"], timing.attrs["peak_gib"] = seconds(h, n, tau) + 3.0 * (both != 0.0 and kind == "run"), 0.125 * (n or 0)
+                if kind == "run":
+                    file["effects/name"], file["effects/state"] = ["both", "rings"], ["on" if both else "off", "off"]
 
 
 def exact(h=H, tau=TAU, n=N, both=0.0):
@@ -108,7 +129,8 @@ class StandIns(unittest.TestCase):
     def setUpClass(cls):
         cls.given = pathlib.Path(tempfile.mkdtemp(prefix="clatter-study-"))
         cls.addClassCleanup(shutil.rmtree, cls.given)
-        write_given(cls.given, cls.both)
+        for both in {0.0, cls.both}:
+            write_given(cls.given, both)
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -121,9 +143,9 @@ class StandIns(unittest.TestCase):
         for stage in STAGES:
             (programs / f"clatter-{stage}").write_text(STAND_IN)
             (programs / f"clatter-{stage}").chmod(0o755)
-        for name, text in {"Makefile": MAKEFILE, "part.mesh.toml": f"[mesh]\nh = {H}", "part.fe.toml": f"[more]\nboth = {self.both}",
+        for name, text in {"Makefile": MAKEFILE, "part.mesh.toml": f"[mesh]\nh = {H}", "part.fe.toml": "",
                            "part.rom.toml": f"[basis]\nn = {N}", "slap.run.toml": 'base = "engine.run.toml"\nrom = "part.rom.h5"',
-                           "engine.run.toml": f"[accuracy]\ntau = {TAU}", "field.toml": "", "study.toml": STUDY}.items():
+                           "engine.run.toml": f"[accuracy]\ntau = {TAU}\n[more]\nboth = {self.both}", "field.toml": "", "study.toml": STUDY}.items():
             self.write(name, text)
         self.environment = {**os.environ, "CLATTER_BIN": str(programs), "GIVEN": str(self.given), "MAKEFLAGS": ""}
         patched = unittest.mock.patch.dict(os.environ, self.environment)
@@ -180,10 +202,9 @@ class Numbers(StandIns):
             self.assertAlmostEqual(file["stage/peak_gib"][at].max(), 0.125 * N, delta=1e-12)
             # What the tolerance does is no error of the part.
             self.assertEqual(file["quantity/of the part/budget"][1], 0.0)
-        base = 0.1 + 1000.0 / H**3 + 0.5 * N + 2.0 / TAU + 0.25
         coarse, fine = abs(8.0 * 0.4) / reference, abs(8.0 * 0.05) / reference
-        self.assertIn(f"tolerance, value: {100 * coarse:.2g} % costs {base - 5:.0f} s (0.4), 1.6 % costs {base:.0f} s (0.2, the base), "
-                      f"{100 * fine:.2g} % costs {base + 30:.0f} s (0.05); below 2 % cell size rules", said)
+        self.assertIn(f"tolerance, value: {100 * coarse:.2g} % costs 5.2 s (0.4), 1.6 % costs 10 s (0.2, the base), "
+                      f"{100 * fine:.2g} % costs 40 s (0.05); below 2 % cell size rules; 126 s of other stages", said)
         self.assertIn("tolerance, of the part: no value changes it", said)
         self.assertIn("sum / run 1.00", said)
         with open(self.folder / "study/study.csv", newline="") as stream:
@@ -214,14 +235,50 @@ class Interaction(StandIns):
         open_ = not 0.5 <= sums / difference <= 2.0
         self.assertEqual("NOT CLOSED" in "\n".join(findings.report(study)), open_)
 
+    def test_an_effect_is_switched_off_and_its_change_and_cost_are_known(self):
+        self.write("study.toml", STUDY[STUDY.index("[[quantity]]"):] + """
+            [[effect]]
+            name = "tolerance as an effect"
+            key = "slap.run.toml:accuracy.tau"
+            off = 0.1
+            """)
+        with unittest.mock.patch.dict(effects.KNOWN, {"both": [("more.both", 0.0, None)], "rings": [("more.both", 0.0, None)]}):
+            found = effects.make(self.folder / "study.toml", 2)
+        self.assertEqual([(one.name, one.to) for one in found.switches], [("both", "off"), ("tolerance as an effect", "off")])
+        base = exact(both=-40.0)
+        self.assertAlmostEqual(found.switches[0].changes[0].number(), exact() - base, delta=1e-12)
+        self.assertAlmostEqual(found.switches[1].changes[0].number(), exact(tau=0.1, both=-40.0) - base, delta=1e-12)
+        seconds = 0.1 + 1000.0 / H**3 + 0.5 * N + 2.0 / TAU + 3.0 + 0.25
+        self.assertAlmostEqual(found.switches[0].saved, 3.0 / seconds, delta=1e-12)
+        # Of the part nothing changes; of the value it does, by more than the 1 % that is small.
+        lines = effects.report(found)
+        self.assertEqual(lines[0], f"both: value {100 * (exact() / base - 1):+.2g} %, of the part +0 %, 2 % of the time: keep")
+        found.plan.quantities[0].small = 1.0
+        self.assertTrue(effects.report(found)[0].endswith("leave out"), effects.report(found)[0])
+        self.assertIn("without it 7 % more time: costs nothing, keep", effects.report(found)[1])
+        self.assertIn("both,off,", effects.write(found).read_text())
+
+    def test_only_the_scene_runs_again_without_an_effect(self):
+        self.write("study.toml", STUDY[STUDY.index("[[quantity]]"):])
+        self.calls()
+        with unittest.mock.patch.dict(effects.KNOWN, {"both": [("more.both", 0.0, None)]}):
+            effects.make(self.folder / "study.toml", 2)
+        made = [line.split(" ")[0] for line in self.calls()]
+        self.assertEqual(sorted(made), sorted(["part.mesh.h5", "part.fe.h5", "part.rom.h5", *2 * ["slap.run.h5", "slap.field.h5"]]))
+
 
 class Sharing(StandIns):
+    """Two settings with the base and a finer value each."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("study.toml", SMALL)
+
     def test_what_variants_have_in_common_is_made_once_and_nothing_twice(self):
         self.study()
         count = {kind: sum(one.endswith(f".{kind}.h5") for one in self.made) for kind in SECONDS}
-        # Four meshes; a reduced model of each, three more with other modes, one with everything refined; of each a run, and three with
-        # other tolerances.
-        self.assertEqual(count, {"mesh": 4, "fe": 4, "rom": 8, "run": 11, "field": 11})
+        # Two meshes and their reduced models; runs of both with both tolerances.
+        self.assertEqual(count, {"mesh": 2, "fe": 2, "rom": 2, "run": 4, "field": 4})
         self.study()
         self.assertEqual(self.made, [])
         self.assertEqual(list(self.folder.glob("*.h5")), [])
@@ -231,13 +288,14 @@ class Sharing(StandIns):
 
     def test_a_new_value_and_a_changed_file_make_only_what_is_new(self):
         self.study()
-        self.write("study.toml", STUDY.replace("[0.4, 0.2, 0.1, 0.05]", "[0.4, 0.2, 0.1, 0.05, 0.025]"))
+        self.write("study.toml", SMALL.replace("[0.2, 0.1]", "[0.4, 0.2, 0.1]"))
         self.study()
-        self.assertEqual(sorted(self.made), ["slap.field.h5", "slap.field.h5", "slap.run.h5", "slap.run.h5"])
+        self.assertEqual(sorted(self.made), ["slap.field.h5", "slap.run.h5"])
         self.write("field.toml", "# new\n")
         self.study()
         self.assertEqual(set(self.made), {"slap.field.h5"})
         # The scene that another one is based on has the key: it counts.
+        scene = (self.folder / "engine.run.toml").read_text()
         self.write("engine.run.toml", "[accuracy]\ntau = 0.3")
         self.study()
         self.assertEqual(set(self.made), {"slap.run.h5", "slap.field.h5"})
@@ -254,29 +312,29 @@ class Sharing(StandIns):
         self.assertEqual(set(self.made), {"slap.field.h5"})
         self.write("Makefile", MAKEFILE)
         # An older state is still there.
-        self.write("engine.run.toml", f"[accuracy]\ntau = {TAU}")
+        self.write("engine.run.toml", scene)
         self.study()
         self.assertEqual(self.made, [])
 
     def test_what_make_finds_up_to_date_in_the_folder_is_taken_over(self):
-        self.write("study.toml", "reuse = true\n" + STUDY)
+        self.write("study.toml", "reuse = true\n" + SMALL)
         subprocess.run(["make", "slap.field.h5"], cwd=self.folder, check=True, capture_output=True)
         (self.folder / "field.toml").write_text("# newer\n")
         later = (self.folder / "slap.field.h5").stat().st_mtime_ns + 1_000_000
         os.utime(self.folder / "field.toml", ns=(later, later))
         self.study()
         count = {kind: sum(one.endswith(f".{kind}.h5") for one in self.made) for kind in SECONDS}
-        self.assertEqual(count, {"mesh": 3, "fe": 3, "rom": 7, "run": 10, "field": 11})
+        self.assertEqual(count, {"mesh": 1, "fe": 1, "rom": 1, "run": 3, "field": 4})
         # What the pipeline's folder gets later does not change what the study has.
         (self.folder / "part.rom.h5").unlink()
         self.study()
         self.assertEqual(self.made, [])
 
     def test_a_failed_variant_is_reported_and_the_rest_is_complete(self):
-        self.write("study.toml", STUDY.replace("[4.0,", "[20.0, 4.0,"))
+        self.write("study.toml", SMALL.replace("[2.0,", "[20.0, 2.0,"))
         study = self.study()
         self.assertRegex("\n".join(findings.report(study)), r"cell size 20 mm +missing")
-        self.assertAlmostEqual(study.lines[0][0].order, 2.0, delta=1e-6)
+        self.assertAlmostEqual(study.budgets[0].closure(), 1.0, delta=1e-9)
         self.assertEqual([one.name for one, value in zip(study.variants, study.values[0]) if value is None], ["cell size 20 mm"])
 
     def test_a_base_that_fails_is_reported_and_resumed(self):

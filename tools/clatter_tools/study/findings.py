@@ -21,11 +21,12 @@ def seconds_text(seconds):
 
 
 def points(study, quantity, number):
-    """[(variant, seconds, error)] of a setting that nothing beats in both, the reference itself left out; by falling error."""
+    """[(variant, seconds, error)] of a setting that nothing beats in both, the reference itself left out; by falling error. Seconds are of
+    the stages that the setting changes."""
     line = study.lines[quantity].get(number)
     if line is None:
         return []
-    rows = [(variant, study.cost(variant, quantity), study.scaled(quantity, error.size())) for variant, error in zip(line.variants, line.errors)]
+    rows = [(variant, study.cost_of_setting(variant, quantity, number), study.scaled(quantity, error.size())) for variant, error in zip(line.variants, line.errors)]
     rows = sorted((row for row in rows if row[2] > NOTHING * study.size(quantity) and math.isfinite(row[1])), key=lambda row: (row[1], row[2]))
     best, found = math.inf, []
     for row in rows:
@@ -58,7 +59,8 @@ def sentence(study, quantity, number):
         name = study.plan.settings[other[1]].name
         end = f"; below {error_text(study, quantity, other[0])} {name} rules" if other[0] < found[0][2] else \
             f"; {name} rules throughout with {error_text(study, quantity, other[0])}"
-    return f"{where}: {', '.join(parts)}{end}"
+    others = study.cost(BASE, quantity) - study.cost_of_setting(BASE, quantity, number)
+    return f"{where}: {', '.join(parts)}{end}; {seconds_text(others)} of other stages"
 
 
 def sentences(study):
@@ -101,7 +103,7 @@ def closure_text(found):
     ratio = found.closure()
     if not math.isfinite(ratio):
         return "-"
-    return f"sum / run {ratio:.2f}{'' if 1.0 / CLOSED <= ratio <= CLOSED else ': NOT CLOSED, the settings act on each other'}"
+    return f"sum / run {ratio:.2f}{'' if 1.0 / CLOSED <= ratio <= CLOSED else ': NOT CLOSED, the settings act on each other or the quantity jumps'}"
 
 
 def variant_rows(study, quantity):

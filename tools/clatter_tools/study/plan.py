@@ -10,7 +10,8 @@ from . import quantities
 MOST_VALUES = 100
 REFERENCES = ("auto", "finest", "richardson")
 COSTS = ("seconds", "processor")
-TOP = {"pipeline", "check", "reuse", "cost", "setting", "quantity"}
+TOP = {"pipeline", "check", "reuse", "cost", "setting", "quantity", "effect"}
+EFFECT = {"name", "key", "off", "on"}
 SETTING = {"name", "unit", "key", "keys", "values", "base", "reference", "sizes"}
 
 
@@ -31,6 +32,15 @@ class Setting:
 
 
 @dataclasses.dataclass
+class Effect:
+    """key: (file, path of keys); off, on: its values; None: it cannot be switched so."""
+    name: str
+    key: tuple
+    off: object
+    on: object
+
+
+@dataclasses.dataclass
 class Plan:
     path: pathlib.Path
     pipeline: pathlib.Path
@@ -39,6 +49,7 @@ class Plan:
     cost: str
     settings: list
     quantities: list
+    effects: list
 
     @property
     def output(self):
@@ -61,8 +72,8 @@ def read_toml(path):
         raise BadArtefact(f"{path}: not TOML: {error}") from error
 
 
-def read(path):
-    """The Plan of a study file."""
+def read(path, required="setting"):
+    """The Plan of a study file; `required`: "setting" where it must have settings, else it may be without."""
     path = pathlib.Path(path)
     if path.suffix != ".toml":
         raise BadArtefact(f"{path}: found this name, expected one that ends in .toml")
@@ -72,9 +83,10 @@ def read(path):
     if not (pipeline / "Makefile").is_file():
         raise BadArtefact(f"{path}: pipeline: found no Makefile in {pipeline}, expected a folder with one")
     entries = {}
-    for kind in ("setting", "quantity"):
-        entries[kind] = table.get(kind)
-        if not isinstance(entries[kind], list) or not entries[kind] or not all(isinstance(one, dict) for one in entries[kind]):
+    for kind in ("setting", "quantity", "effect"):
+        entries[kind] = table.get(kind, [])
+        if not isinstance(entries[kind], list) or not all(isinstance(one, dict) for one in entries[kind]) or \
+                (not entries[kind] and kind in (required, "quantity")):
             raise BadArtefact(f"{path}: found no [[{kind}]], expected at least one")
     cost = table.get("cost", COSTS[0])
     switches = {"check": table.get("check", True), "reuse": table.get("reuse", False)}
@@ -85,7 +97,8 @@ def read(path):
         raise BadArtefact(f"{path}: cost: found {cost!r}, expected {' or '.join(COSTS)}")
     settings = [setting(f"{path}: setting[{k}]", one) for k, one in enumerate(entries["setting"])]
     wanted = [quantities.read(f"{path}: quantity[{k}]", one, path.parent) for k, one in enumerate(entries["quantity"])]
-    for kind, found in (("setting", settings), ("quantity", wanted)):
+    effects = [effect(f"{path}: effect[{k}]", one) for k, one in enumerate(entries["effect"])]
+    for kind, found in (("setting", settings), ("quantity", wanted), ("effect", effects)):
         names = [one.name for one in found]
         for name in names:
             if names.count(name) > 1:
@@ -94,7 +107,7 @@ def read(path):
     for file, steps in keys:
         if keys.count((file, steps)) > 1:
             raise BadArtefact(f"{path}: found {file}:{'.'.join(steps)} twice, expected a key in one setting only")
-    return Plan(path, pipeline, switches["check"], switches["reuse"], cost, settings, wanted)
+    return Plan(path, pipeline, switches["check"], switches["reuse"], cost, settings, wanted, effects)
 
 
 def check_keys(where, table, known):
@@ -139,6 +152,15 @@ def setting(where, entry):
     if reference == "richardson" and (sizes is None or len(sizes) < 3):
         raise BadArtefact(f"{where}.reference: found richardson, expected at least three values with step sizes for it")
     return Setting(name, unit, keys, values, base, reference, sizes)
+
+
+def effect(where, entry):
+    """A table [[effect]]."""
+    check_keys(where, entry, EFFECT)
+    key = key_of(where, text_of(where, entry, "key"))
+    if "off" not in entry and "on" not in entry:
+        raise BadArtefact(f"{where}: found neither off nor on, expected the value that switches the effect off, on, or both")
+    return Effect(text_of(where, entry, "name"), key, entry.get("off"), entry.get("on"))
 
 
 def key_of(where, text):

@@ -71,13 +71,15 @@ def number(value):
 
 @dataclasses.dataclass
 class Quantity:
-    """keys: those of `take`; exact: a Value, or None; relative: whether errors are relative."""
+    """keys: those of `take`; exact: a Value, or None; relative: whether errors are relative; small: a change, as errors are given, that does not
+    matter."""
     name: str
     file: str
     take: str
     keys: dict
     unit: str
     relative: bool
+    small: float
     exact: Value = None
 
     def of(self, path):
@@ -231,7 +233,9 @@ TAKE = {
     "cost": Extractor(lambda file: totals(file)[0], "s"),
     "dataset": Extractor(of_dataset, "", {"path": (TEXT, ...), "reduce": (TEXT, "last"), "column": (NUMBERS, 0), "last_cycle_only": ((bool,), True)}),
 }
-COMMON = {"name", "file", "take", "unit", "error", "exact"}
+COMMON = {"name", "file", "take", "unit", "error", "exact", "small"}
+SMALL = 0.01       # relative change that does not matter
+SMALL_DB = 0.1
 
 
 def extract(path, take, keys):
@@ -277,7 +281,10 @@ def read(where, entry, folder):
     error = entry.get("error", "absolute" if unit.startswith(DB) or take in ("slap_time", "rings_until") or keys.get("reduce") == "curve" else "relative")
     if error not in ("relative", "absolute"):
         raise BadArtefact(f"{where}.error: found {error!r}, expected relative or absolute")
-    return Quantity(entry["name"], entry["file"], take, keys, unit, error == "relative", exact(f"{where}.exact", entry.get("exact"), folder))
+    small = entry.get("small", SMALL if error == "relative" else SMALL_DB if unit.startswith(DB) else None)
+    if small is not None and (not isinstance(small, NUMBERS) or isinstance(small, bool) or not 0.0 <= small < float("inf")):
+        raise BadArtefact(f"{where}.small: found {small!r}, expected a number from 0, in units of the error (0.01: 1 %)")
+    return Quantity(entry["name"], entry["file"], take, keys, unit, error == "relative", small, exact(f"{where}.exact", entry.get("exact"), folder))
 
 
 def exact(where, entry, folder):

@@ -16,13 +16,21 @@ class Failed(Exception):
 
 @dataclasses.dataclass
 class Stage:
-    """An artefact of a variant: its name, seconds and peak memory [GiB] of its stage, processor seconds of its commands; for which of the
-    quantities' files it is needed."""
+    """An artefact of a variant: its name and that of its folder, seconds and peak memory [GiB] of its stage, processor seconds of its
+    commands; for which of the quantities' files it is needed."""
     name: str
+    folder: str
     seconds: float
     peak_gib: float
     processor: float
     needed_by: set
+
+
+def cost_of(wanted, stages, quantity=None):
+    """Seconds of stages by the plan's `cost`: of those that a quantity needs, or all."""
+    file = None if quantity is None else wanted.quantities[quantity].file
+    found = [getattr(one, wanted.cost) for one in stages if file is None or file in one.needed_by]
+    return sum(found) if found else float("nan")
 
 
 @dataclasses.dataclass
@@ -38,10 +46,19 @@ class Study:
     budgets: list = dataclasses.field(default_factory=list)
 
     def cost(self, variant, quantity=None):
-        """Seconds of the stages of a variant that a quantity needs, without one of all, by the plan's `cost`; nan where one is not known."""
-        file = None if quantity is None else self.plan.quantities[quantity].file
-        wanted = [getattr(one, self.plan.cost) for one in self.stages[variant] if file is None or file in one.needed_by]
-        return sum(wanted) if wanted else float("nan")
+        """Seconds of the stages of a variant that a quantity needs, without one of all; nan where one is not known."""
+        return cost_of(self.plan, self.stages[variant], quantity)
+
+    def affected(self, number):
+        """Names of the artefacts that a setting changes."""
+        base = {one.name: one.folder for one in self.stages[BASE]}
+        return {stage.name for one, stages in zip(self.variants, self.stages) if one.setting == number for stage in stages
+                if base.get(stage.name) != stage.folder}
+
+    def cost_of_setting(self, variant, quantity, number):
+        """As cost, of the stages that a setting changes; the others cost the same with all its values."""
+        names = self.affected(number)
+        return cost_of(self.plan, [one for one in self.stages[variant] if one.name in names], quantity)
 
     def error(self, quantity, variant):
         """Size of the total error, relative where the quantity says so; nan where the variant has no value."""
@@ -65,28 +82,63 @@ class Study:
 def make(path, jobs):
     """The Study of a study file: makes what is missing."""
     wanted = plan.read(path)
-    targets = list(dict.fromkeys(one.file for one in wanted.quantities))
-    pipeline = Pipeline(wanted.pipeline, targets)
+    pipeline = pipeline_of(wanted)
     base = variants.base_values(wanted, pipeline)
     found = variants.variants_of(wanted, base)
-    made = store.Store(pipeline, wanted.output)
-    artefacts = []
-    for one in found:
-        files = store.VariantFiles(made, variants.changed_tables(wanted, pipeline, base, one))
-        artefacts.append([files.artefact(target) for target in targets])
+    made = Making(wanted, pipeline)
+    artefacts = [made.add(variants.changed_tables(wanted, pipeline, base, one)) for one in found]
     check_settings(wanted, found, artefacts)
-    if wanted.reuse:
-        made.reuse(artefacts[BASE])
-    made.prepare()
-    print(f"{wanted.path}: {len(found)} variants, {len(made.made)} artefacts, {len(made.missing())} to be made", flush=True)
-    if made.missing():
-        made.make(jobs)
-    for one, own in zip(found, artefacts):
-        made.show(one.folder, own)
-    missing = [one for one in artefacts[BASE] if not made.path(one).exists()]
-    if missing:
-        raise Failed(f"{wanted.path}: the base has no {missing[0].name}: see what its stage says above; the same command resumes")
-    return numbers(wanted, found, made, artefacts, targets)
+    made.make([one.folder for one in found], artefacts, jobs)
+    return numbers(wanted, found, made, artefacts)
+
+
+def pipeline_of(wanted):
+    return Pipeline(wanted.pipeline, list(dict.fromkeys(one.file for one in wanted.quantities)))
+
+
+class Making:
+    """The artefacts of variants: those of the quantities' files of each."""
+
+    def __init__(self, wanted, pipeline):
+        self.wanted, self.pipeline = wanted, pipeline
+        self.targets = list(dict.fromkeys(one.file for one in wanted.quantities))
+        self.store = store.Store(pipeline, wanted.output)
+
+    def add(self, changed):
+        """[Made] of a variant with changed TOML files, {name: tables}."""
+        files = store.VariantFiles(self.store, changed)
+        return [files.artefact(target) for target in self.targets]
+
+    def make(self, folders, artefacts, jobs):
+        """Makes what is missing of variants, the base first; Failed where it is the base."""
+        if self.wanted.reuse:
+            self.store.reuse(artefacts[BASE])
+        self.store.prepare()
+        print(f"{self.wanted.path}: {len(artefacts)} variants, {len(self.store.made)} artefacts, {len(self.store.missing())} to be made", flush=True)
+        if self.store.missing():
+            self.store.make(jobs)
+        for folder, own in zip(folders, artefacts):
+            self.store.show(folder, own)
+        missing = [one for one in artefacts[BASE] if not self.store.path(one).exists()]
+        if missing:
+            raise Failed(f"{self.wanted.path}: the base has no {missing[0].name}: see what its stage says above; the same command resumes")
+
+    def values(self, own):
+        """[Value or None] of the quantities of a variant."""
+        files = {one.name: self.store.path(one) for one in own}
+        return [one.of(files[one.file]) if files[one.file].exists() else None for one in self.wanted.quantities]
+
+    def stages(self, own):
+        """The stages of a variant, each once; none where it is not complete."""
+        if not all(self.store.path(one).exists() for one in own):
+            return []
+        found = {one.folder: one for target in own for one in [*target.inputs.values(), target] if one.name.endswith(".h5")}
+        stages = []
+        for one in found.values():
+            needed_by = {target.name for target in own if one in [*target.inputs.values(), target]}
+            with artefact.open_artefact(self.store.path(one)) as file:
+                stages.append(Stage(one.name, one.folder, *artefact.totals(file), self.store.processor_seconds(one), needed_by))
+        return stages
 
 
 def check_settings(wanted, found, artefacts):
@@ -98,14 +150,9 @@ def check_settings(wanted, found, artefacts):
             raise BadArtefact(f"{wanted.path}: {setting.name}: found no quantity that depends on {files}, expected at least one")
 
 
-def numbers(wanted, found, made, artefacts, targets):
-    """Reads the artefacts."""
-    values, stages = [], []
-    for own in artefacts:
-        files = {target: made.path(one) for target, one in zip(targets, own)}
-        values.append([one.of(files[one.file]) if files[one.file].exists() else None for one in wanted.quantities])
-        whole = all(path.exists() for path in files.values())
-        stages.append(stages_of(made, own) if whole else [])
+def numbers(wanted, found, made, artefacts):
+    """The Study of what was made."""
+    values, stages = [made.values(own) for own in artefacts], [made.stages(own) for own in artefacts]
     study = Study(wanted, found, [list(one) for one in zip(*values)], stages)
     for quantity, own in enumerate(wanted.quantities):
         known = study.values[quantity]
@@ -116,19 +163,6 @@ def numbers(wanted, found, made, artefacts, targets):
         study.references.append(reference)
         study.budgets.append(convergence.budget(lines, known[BASE], refined, reference))
     return study
-
-
-def stages_of(made, own):
-    """The stages of a variant, each once."""
-    found = {one.folder: one for target in own for one in [*target.inputs.values(), target]}
-    stages = []
-    for one in found.values():
-        needed_by = {target.name for target in own if one in [*target.inputs.values(), target]}
-        if not one.name.endswith(".h5"):
-            continue
-        with artefact.open_artefact(made.path(one)) as file:
-            stages.append(Stage(one.name, *artefact.totals(file), made.processor_seconds(one), needed_by))
-    return stages
 
 
 def is_refined(wanted, variant):
