@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`clatter study` with stand-ins for the stages, whose errors and seconds are known exactly."""
 import csv
+import fcntl
 import itertools
+import math
 import os
 import pathlib
 import shutil
@@ -15,7 +17,7 @@ import h5py
 import numpy as np
 
 from clatter_tools.artefact import BadArtefact, schema_of
-from clatter_tools.study import convergence, effects, findings, plan, quantities, run, toml_text
+from clatter_tools.study import convergence, effects, findings, plan, proposal, quantities, run, toml_text
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
@@ -100,9 +102,9 @@ path = "result/value"
 H, TAU, N = 2.0, 0.2, 2
 
 
-def write_given(folder, both=0.0):
+def write_given(folder, both=0.0, lengths=(4.0, 2.0, 1.0, 0.5), modes=(None, 1, 2, 4, 8), tolerances=(None, 0.4, 0.3, 0.2, 0.1, 0.05, 0.025)):
     """The artefacts of all combinations of values; `both` is an effect of the scene, which makes the run three seconds longer."""
-    for h, n, tau in itertools.product((4.0, 2.0, 1.0, 0.5), (None, 1, 2, 4, 8), (None, 0.4, 0.3, 0.2, 0.1, 0.05, 0.025)):
+    for h, n, tau in itertools.product(lengths, modes, tolerances):
         value = exact(h, tau or 1.0, n or 1.0, both if tau else 0.0)
         for kind, seconds in SECONDS.items():
             if (kind in ("mesh", "fe")) != (n is None) or (kind in ("run", "field")) != (tau is not None):
@@ -221,6 +223,42 @@ class Numbers(StandIns):
         # 100 and the modes' rest of 3 / 8^3 against 90.
         self.assertRegex(said, rf"not of these settings +\+{100 * (10.0 + 3.0 / 8**3) / 90.0:.3g} %")
         self.assertRegex(said, rf"against the exact value +\+{100 * (exact() / 90.0 - 1.0):.3g} %")
+
+
+class Proposals(StandIns):
+    """Errors of different settings add up and seconds are products, as in the model."""
+
+    def test_the_cheapest_settings_are_found_and_hold_in_a_run(self):
+        study = self.study()
+        reference = study.references[0].values[0]
+        for within, seconds in ((2.0, math.inf), (0.7, math.inf), (4.0, 200.0)):
+            best, _ = proposal.propose(study, 0, within / reference, seconds)
+            h, tau, n = (value[0] for value in best.values)
+            write_given(self.given, 0.0, [h], [None, n], [None, tau])
+            error, spent = proposal.prove(study, 0, best, 2)
+            self.assertAlmostEqual(error, abs(exact(h, tau, n) - reference) / reference, delta=1e-12)
+            self.assertLessEqual(error * reference, within)
+            self.assertLessEqual(spent, seconds)
+            # A middle between tested values is rounded, its seconds are interpolated.
+            self.assertAlmostEqual(best.seconds / spent, 1.0, delta=0.02)
+            self.assertAlmostEqual(best.expected / error, 1.0, delta=0.35)
+            parts = [0.5 * h**2, 8.0 * tau, 3.0 / n**3 - 3.0 / 8**3]
+            self.assertLessEqual(sum(map(abs, parts)), 1.05 * best.most * reference)
+
+    def test_no_tested_settings_are_cheaper(self):
+        study = self.study()
+        reference = study.references[0].values[0]
+        best, _ = proposal.propose(study, 0, 1.5 / reference)
+        seconds = [0.1 + 1000.0 / h**3 + 0.5 * n + 2.0 / tau + 0.25 for h, tau, n in itertools.product((4.0, 2.0, 1.0, 0.5), (0.4, 0.2, 0.1, 0.05), (1, 2, 4))
+                   if 0.5 * h**2 + 8.0 * tau + 3.0 / n**3 - 3.0 / 8**3 <= 1.5]
+        self.assertLessEqual(best.seconds, min(seconds) + 1e-9)
+
+    def test_what_cannot_be_reached_is_said_with_the_nearest(self):
+        self.write("study.toml", SMALL)
+        line = self.command("--within", "value 0.001 %", code=3)
+        self.assertIn("no settings of this study are within 0.001 %: add finer values, or ask for less", line)
+        self.assertIn("--within: found 'level 1', expected a quantity and an error, as \"value 0.5\"; known: value", self.command("--within", "level 1", code=2))
+        self.assertIn("--seconds: found 3, expected a positive number, and --within", self.command("--seconds", "3", code=2))
 
 
 class Interaction(StandIns):
@@ -345,6 +383,16 @@ class Sharing(StandIns):
         (self.given / "fail").unlink()
         self.study()
         self.assertEqual({one.split(".")[1] for one in self.made}, {"run", "field"})
+
+    def test_two_studies_do_not_work_in_one_folder(self):
+        (self.folder / "study").mkdir()
+        with open(self.folder / "study/.lock", "w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            with self.assertRaisesRegex(BadArtefact, "another clatter study works in this folder"):
+                self.study()
+            self.assertEqual(self.calls(), [])
+        self.study()
+        self.assertEqual(len(self.made), 14)
 
     def test_launchers_come_before_each_stage(self):
         os.environ["CLATTER_LAUNCH"] = "env LAUNCHED=cluster"

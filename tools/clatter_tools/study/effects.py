@@ -27,7 +27,7 @@ KNOWN = {
     "oil film": [("contact.lubrication", "none", "film")],
     "cavitation": [("contact.cavitation", False, True)],
     "viscosity over pressure": [("contact.oil.pressure_coefficient_1_gpa", 0.0, None)],
-    "friction factors": [("contact.friction_factors", False, True)],
+    "friction factors": [("contact.friction_factors", False, None)],
     "gap around the entire skirt": [("contact.span", "pads", None)],
     "grooves and windows": [("contact.recess", [], None)],
     "asperity contact": [("contact.asperities", False, True)],

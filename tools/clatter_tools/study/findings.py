@@ -17,7 +17,7 @@ def error_text(study, quantity, error):
 
 
 def seconds_text(seconds):
-    return f"{seconds:.0f} s" if seconds >= 10.0 else f"{seconds:.1f} s"
+    return f"{seconds:.0f} s" if seconds >= 10.0 else f"{seconds:.2g} s"
 
 
 def points(study, quantity, number):

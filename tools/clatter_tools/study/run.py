@@ -111,14 +111,15 @@ class Making:
 
     def make(self, folders, artefacts, jobs):
         """Makes what is missing of variants, the base first; Failed where it is the base."""
-        if self.wanted.reuse:
-            self.store.reuse(artefacts[BASE])
-        self.store.prepare()
-        print(f"{self.wanted.path}: {len(artefacts)} variants, {len(self.store.made)} artefacts, {len(self.store.missing())} to be made", flush=True)
-        if self.store.missing():
-            self.store.make(jobs)
-        for folder, own in zip(folders, artefacts):
-            self.store.show(folder, own)
+        with self.store.alone():
+            if self.wanted.reuse:
+                self.store.reuse(artefacts[BASE])
+            self.store.prepare()
+            print(f"{self.wanted.path}: {len(artefacts)} variants, {len(self.store.made)} artefacts, {len(self.store.missing())} to be made", flush=True)
+            if self.store.missing():
+                self.store.make(jobs)
+            for folder, own in zip(folders, artefacts):
+                self.store.show(folder, own)
         missing = [one for one in artefacts[BASE] if not self.store.path(one).exists()]
         if missing:
             raise Failed(f"{self.wanted.path}: the base has no {missing[0].name}: see what its stage says above; the same command resumes")

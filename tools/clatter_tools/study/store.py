@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Artefacts known by what they depend on: each is made once by the pipeline's own rules, in a folder of its own."""
+import contextlib
 import dataclasses
+import fcntl
 import hashlib
 import os
 import pathlib
@@ -88,6 +90,21 @@ class Store:
             if path.suffix not in LEFT_OUT and not path.name.startswith(".") and path.resolve() != self.folder.resolve() \
                     and not self.pipeline.is_made(path.name):
                 link(folder / path.name, os.path.relpath(path.resolve(), folder.resolve()))
+
+    @contextlib.contextmanager
+    def alone(self):
+        """The study's folder for this process; BadArtefact where another one has it."""
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            lock = open(self.folder / ".lock", "w", encoding="utf-8")
+        except OSError as error:
+            raise CannotWrite(f"{self.folder}: cannot be written: {error.strerror}") from error
+        with lock:  # closing it gives the folder back, as the end of the process does
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError as error:
+                raise BadArtefact(f"{self.folder}: another clatter study works in this folder, expected one at a time") from error
+            yield
 
     def makefile(self):
         targets = {one.folder: f"made/{one.folder}/{one.name}" for one in self.made.values()}
