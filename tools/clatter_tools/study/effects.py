@@ -18,6 +18,7 @@ import re
 from .. import artefact
 from ..artefact import text
 from . import plan, results, run, toml_text
+from .findings import digits
 from .run import BASE
 
 # Effect of a run: [(key of the scene, value that switches off, on; None: it cannot be switched so)].
@@ -42,7 +43,7 @@ SAVES = 0.02  # of the seconds: less is no reason to leave an effect out
 @dataclasses.dataclass
 class Switch:
     """An effect switched from what the scene has: to "off" or "on" by {file: tables}; `changes`: by quantity [Value or None]; `saved`: share of the
-    seconds that is saved, negative where it costs more."""
+    seconds that is saved, negative where it costs more, of the stages that the effect changes."""
     name: str
     to: str
     tables: dict
@@ -114,18 +115,26 @@ def make(path, jobs):
     artefacts = [base] + [made.add(one.tables) for one in switches]
     made.make(["base", *(re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches)], artefacts, jobs)
     found = Effects(wanted, made.values(base), switches)
-    before = run.cost_of(wanted, made.stages(base))
+    before = made.stages(base)
     for one, own in zip(switches, artefacts[BASE + 1:]):
         one.changes = [None if value is None else value.minus(old) for value, old in zip(made.values(own), found.base)]
-        one.saved = 1.0 - run.cost_of(wanted, made.stages(own)) / before
+        one.saved = saved(wanted, before, made.stages(own))
     return found
+
+
+def saved(wanted, before, after):
+    """Share of the seconds that is saved, of the stages that an effect changes; nan where one of them is missing."""
+    base = {stage.name: stage.folder for stage in before}
+    changed = {stage.name for stage in after if base.get(stage.name) != stage.folder}
+    spent = [run.cost_of(wanted, [stage for stage in stages if stage.name in changed]) for stages in (before, after)]
+    return 1.0 - spent[1] / spent[0]
 
 
 def change_text(effects, quantity, change):
     """"+0.02 dB(A)", "-3.1 %"; of a curve the largest change."""
     own = effects.plan.quantities[quantity]
     value = effects.scaled(quantity, change.number())
-    return f"{100.0 * value:+.2g} %" if own.relative else f"{value:+.2g} {own.unit}".rstrip()
+    return f"{digits(100.0 * value, '+')} %" if own.relative else f"{digits(value, '+')} {own.unit}".rstrip()
 
 
 def advice(effects, one):

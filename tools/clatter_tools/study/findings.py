@@ -13,7 +13,12 @@ NOTHING = 1e-6  # of a quantity: differences that are no effect of a setting
 def error_text(study, quantity, error):
     """"0.35 %", "0.2 dB(A)"."""
     own = study.plan.quantities[quantity]
-    return f"{100.0 * error:.2g} %" if own.relative else f"{error:.2g} {own.unit}".rstrip()
+    return f"{digits(100.0 * error)} %" if own.relative else f"{digits(error)} {own.unit}".rstrip()
+
+
+def digits(value, sign=""):
+    """Two digits, of larger numbers all before the point."""
+    return f"{value:{sign}.2g}" if abs(value) < 99.5 else f"{value:{sign}.0f}"
 
 
 def seconds_text(seconds):
