@@ -9,6 +9,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import tomllib
 import unittest
 import unittest.mock
@@ -34,6 +35,7 @@ for file in $([[ $0 != *dynamics ]] || sed -nE 's/^(base|rom) = "(.*)"/\\2/p' *.
 done
 kind=${output%.h5}; kind=${kind##*.}
 [ $kind = run ] && : ${made[both]:=0.0}
+[ $kind = run ] && [ -e $GIVEN/wait ] && { touch $GIVEN/waiting; exec sleep 60; }
 [ $kind = run ] && [ -e $GIVEN/fail ] && { echo told to fail >&2; exit 2; }
 [ "${made[h]}" = 20.0 ] && { echo too coarse >&2; exit 2; }
 of="h=${made[h]} n=${made[n]:--} tau=${made[tau]:--} both=${made[both]:--}"
@@ -383,6 +385,23 @@ class Sharing(StandIns):
         (self.given / "fail").unlink()
         self.study()
         self.assertEqual({one.split(".")[1] for one in self.made}, {"run", "field"})
+
+    def test_an_interrupted_study_leaves_nothing_half_made_and_resumes(self):
+        for name in ("wait", "waiting"):
+            self.addCleanup((self.given / name).unlink, missing_ok=True)
+        (self.given / "wait").touch()
+        process = subprocess.Popen([SOURCE / "tools/clatter", "study", "study.toml"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until = time.monotonic() + 60.0
+        while not (self.given / "waiting").exists() and time.monotonic() < until:
+            time.sleep(0.02)
+        process.terminate()
+        self.assertEqual(process.wait(timeout=30), 3)
+        self.assertEqual([path.name for path in self.folder.glob("study/made/*/*.run.h5*") if not path.is_symlink()], [])
+        before = self.calls()
+        self.assertIn("part.rom.h5 ", before)
+        (self.given / "wait").unlink()
+        self.study()
+        self.assertEqual(len(before) + len(self.made), 14)
 
     def test_two_studies_do_not_work_in_one_folder(self):
         (self.folder / "study").mkdir()

@@ -6,11 +6,16 @@ from ..study import convergence, findings
 from ..study.run import BASE
 from . import style
 
+WIDTH = 12.0  # inches
+COLUMNS = 4   # of the legend
+LINEAR = 5.0  # range of an abscissa up to which it is linear
+
 
 def picture(study, quantity):
     """One quantity: three axes."""
     own = study.plan.quantities[quantity]
-    figure, axes = style.figure(1, 3, height=3.2)
+    figure, axes = style.figure(1, 3, height=3.4)
+    figure.set_size_inches(WIDTH, 4.2)
     factor, unit = (100.0, "%") if own.relative else (1.0, own.unit)
     draw_pareto(axes[0, 0], study, quantity, factor)
     draw_lines(axes[0, 1], study, quantity, factor)
@@ -18,7 +23,10 @@ def picture(study, quantity):
     for axis in axes[0, :2]:
         axis.set_ylabel(f"error [{unit}]")
     axes[0, 2].set_xlabel(f"error of the base [{unit}]")
-    style.headline(figure, own.name)
+    handles, labels = axes[0, 1].get_legend_handles_labels()
+    rows = -(-len(labels) // COLUMNS)
+    style.headline(figure, "\n".join([own.name] + [" "] * rows))
+    figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.0, 1.0 - 0.24 / figure.get_figheight()), ncol=COLUMNS, fontsize=9, borderaxespad=0.0)
     return figure
 
 
@@ -30,7 +38,7 @@ def draw_pareto(axis, study, quantity, factor):
     errors = [one if one > least else float("nan") for one in errors]
     for number, setting in enumerate(study.plan.settings):
         chosen = [k for k, one in enumerate(study.variants) if one.setting == number]
-        axis.plot([seconds[k] for k in chosen], [errors[k] for k in chosen], "o", markersize=4, color=colour(number), label=setting.name)
+        axis.plot([seconds[k] for k in chosen], [errors[k] for k in chosen], "o", markersize=4, color=colour(number))
     refined = [k for k, one in enumerate(study.variants) if one.setting is None and k != BASE]
     axis.plot([seconds[k] for k in refined], [errors[k] for k in refined], "s", markersize=5, color="#333333")
     axis.plot([seconds[BASE]], [errors[BASE]], "o", markersize=9, markerfacecolor="none", color="#333333")
@@ -38,11 +46,11 @@ def draw_pareto(axis, study, quantity, factor):
     axis.plot([seconds[k] for k in front], [errors[k] for k in front], "-", color="#888888", linewidth=1.0, zorder=0)
     logarithmic(axis, [one for one in errors if one > 0.0], [one for one in seconds if one > 0.0])
     axis.set_xlabel("seconds")
-    style.legend(axis, 2)
 
 
 def draw_lines(axis, study, quantity, factor):
-    """Error from the setting's reference over the refinement: how much smaller the step is than the coarsest."""
+    """Error from the setting's reference over the refinement: how much smaller the step is than the coarsest; all settings have an entry
+    of the legend."""
     found, steps = [], []
     least = findings.NOTHING * factor * study.size(quantity)
     for number, line in study.lines[quantity].items():
@@ -59,7 +67,6 @@ def draw_lines(axis, study, quantity, factor):
         steps += x
     logarithmic(axis, found, [1.0, *steps])
     axis.set_xlabel("refinement")
-    style.legend(axis, 1)
 
 
 def draw_budget(axis, study, quantity, factor):
@@ -83,7 +90,7 @@ def logarithmic(axis, errors, x):
     """Logarithmic axes with plain numbers, where there is something to show on them."""
     if errors:
         axis.set_yscale("log")
-    if x:
+    if x and max(x) > LINEAR * min(x):
         axis.set_xscale("log")
         few = max(x) / min(x) < 30.0
         axis.xaxis.set_major_locator(style.matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""study.html: sentences, diagrams and tables of a study as one page in the style of `clatter report --html`, without scripts."""
+"""study.html: sentences, diagrams and tables of a study as one page in the style of `clatter report --html`, without scripts; the diagrams
+as pictures besides."""
 import html
 import io
 import re
 
+from ..parameters import slug
 from ..plots import study_curves, style
 from ..report_page import PAGE
 from . import findings, results
@@ -19,6 +21,9 @@ FRAME = """<!DOCTYPE html>
 <title>{title}</title>
 <style>
 {style}
+figure svg {{ max-width: 100%; height: auto; background: #ffffff; }}
+td {{ white-space: normal; }}
+.card {{ overflow-x: auto; }}
 </style>
 </head>
 <body>
@@ -32,7 +37,7 @@ FRAME = """<!DOCTYPE html>
 
 
 def write(study):
-    """Writes study.html into the study's folder; returns its path."""
+    """Writes study.html and a picture of each quantity into the study's folder; returns the path of the page."""
     style.apply()
     body = [section("What accuracy costs", summary(study))]
     for quantity, own in enumerate(study.plan.quantities):
@@ -59,7 +64,7 @@ def diagram(study, quantity):
     stream = io.StringIO()
     figure = study_curves.picture(study, quantity)
     figure.savefig(stream, format="svg", metadata={"Date": None})
-    style.plt.close(figure)
+    style.save(figure, study.plan.output / f"{slug(study.plan.quantities[quantity].name)}.png")
     text = stream.getvalue()
     text = text[text.index("<svg"):]
     return re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>q{quantity}-", text)
