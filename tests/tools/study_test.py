@@ -354,6 +354,22 @@ class Sharing(StandIns):
         self.study()
         self.assertEqual(self.made, [])
 
+    def test_a_file_that_only_a_stage_knows_counts_after_the_first_run(self):
+        self.write("deck.inc", "1")
+        self.study()
+        meshes = list(self.folder.glob("study/made/part.mesh-*"))
+        for folder in meshes:
+            (folder / "part.mesh.h5.d").write_text("part.mesh.h5: part.mesh.toml \\\n  deck.inc\n")
+        self.study()
+        self.assertEqual(self.made, [])
+        newest = max((folder / "part.mesh.h5").stat().st_mtime_ns for folder in meshes)
+        os.utime(self.folder / "deck.inc", ns=(newest + 1, newest + 1))
+        oldest = min(meshes, key=lambda folder: (folder / "part.mesh.h5").stat().st_mtime_ns)
+        (oldest / "part.mesh.h5.d").unlink()
+        self.study()
+        self.assertEqual(sorted(set(self.made)), ["part.fe.h5", "part.mesh.h5", "part.rom.h5", "slap.field.h5", "slap.run.h5"])
+        self.assertEqual(self.made.count("part.mesh.h5"), 1)
+
     def test_what_make_finds_up_to_date_in_the_folder_is_taken_over(self):
         self.write("study.toml", "reuse = true\n" + SMALL)
         subprocess.run(["make", "slap.field.h5"], cwd=self.folder, check=True, capture_output=True)

@@ -42,5 +42,9 @@ The total error of a variant, in the diagrams, is against the exact value where 
 what Richardson's extrapolation says about the rest. Quantities that are curves (third octaves) have vectors of differences; their size is the largest entry.
 
 pipeline.py asks make, variants.py changes TOML files, store.py makes artefacts, quantities.py reads them, convergence.py has the
-numbers, findings.py the sentences, results.py the file, page.py the page.
+numbers, findings.py the sentences, results.py the file, page.py the page, effects.py and proposal.py the options --effects and --within.
+
+Limits: seconds of stages that ran beside others are longer than on an idle machine (cost = "processor", or -j1); with CLATTER_LAUNCH on other
+machines processor seconds are not known, cost = "seconds" is. CLATTER_FLAGS (threads) is no part of the digests. A finest value that is its own
+reference has no error in the budget: what is beyond it is not seen.
 """

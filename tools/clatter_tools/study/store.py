@@ -55,6 +55,24 @@ class Store:
     def missing(self):
         return [made for made in self.made.values() if not self.path(made).exists()]
 
+    def read_newer(self, made):
+        """Whether the stage of an artefact read a file, as its dependency file says, that neither make nor a TOML file names (one that a deck
+        includes) and that has changed since."""
+        path = self.path(made)
+        listed = path.with_name(path.name + ".d")
+        if not path.exists() or not listed.exists():
+            return False
+        inputs = listed.read_text(encoding="utf-8").replace("\\\n", " ").split("\n", 1)[0].partition(":")[2].split()
+        others = [path.parent / name for name in inputs if name not in made.texts and name not in made.inputs]
+        return any(one.exists() and one.stat().st_mtime_ns > path.stat().st_mtime_ns for one in others)
+
+    def drop_stale(self):
+        """Removes artefacts that read_newer finds, and those that depend on them."""
+        stale = {one.folder for one in self.made.values() if self.read_newer(one)}
+        for one in self.made.values():
+            if one.folder in stale or any(other.folder in stale for other in one.inputs.values()):
+                self.path(one).unlink(missing_ok=True)
+
     def reuse(self, made):
         """Takes artefacts, [Made] of the folder as it is, over from the pipeline's folder where make finds them up to date."""
         wanted = {other.name: other for target in made for other in [*target.inputs.values(), target] if other in self.missing()}
@@ -72,6 +90,7 @@ class Store:
     def prepare(self):
         """Folders with everything that make needs for the missing artefacts, and study.mk."""
         try:
+            self.drop_stale()
             for made in self.missing():
                 self.fill(self.folder / "made" / made.folder, made)
             self.folder.mkdir(parents=True, exist_ok=True)
