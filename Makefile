@@ -5,7 +5,7 @@
 #   make check      every test but the long ones     make sanitize  the same with ASan and UBSan
 #   make check-mpi  clatter-condense-mpi by several processes, and its tests
 #   make docs       the site in build/docs           make lint      format, self-contained headers
-#   make study-paper, study-parameters   studies of the piston slap, after make demo
+#   make study      what accuracy costs, of beam and slap; make study-paper, study-parameters   figures and influences of the slap
 #   make deb        a Debian package in build/, for x86-64 processors of two generations
 JOBS ?= $(shell nproc)
 PRESET ?= release
@@ -22,7 +22,7 @@ export ASAN_OPTIONS := alloc_dealloc_mismatch=0
 endif
 
 .NOTPARALLEL:
-.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study-paper study-parameters check check-mpi validate sanitize format lint docs deb levels install clean
+.PHONY: help setup setup-mpi setup-demo setup-check setup-validate configure build build-mpi build-tests demo study study-paper study-parameters check check-mpi validate sanitize format lint docs deb levels install clean
 help:
 	@sed -n 's/^# \{0,1\}//;2,9p' Makefile
 
@@ -48,6 +48,10 @@ demo: setup-demo build
 	@$(MAKE) --no-print-directory -C samples/truck_diesel CLATTER_BIN=$(BIN) -j$(JOBS)
 	@tools/clatter report samples/truck_diesel
 	@tools/clatter report --html samples/truck_diesel
+
+# Errors and seconds over settings of two samples; an hour at most, taken up where it was interrupted.
+study: setup-demo build
+	@for sample in beam truck_diesel; do $(MAKE) --no-print-directory -C samples/$$sample CLATTER_BIN=$(BIN) study || exit $$?; done
 
 # Oil and clearance as in the paper, and one parameter at a time.
 study-paper study-parameters: setup-demo build

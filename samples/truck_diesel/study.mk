@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The studies of this folder, included by its Makefile. Both take up where they were interrupted.
 
+# What the accuracy of the slap costs (study.toml): `make study`; page and tables are in study/.
+.PHONY: study
+study:
+	$(clatter_tool) study study.toml -j2
+slap_study.run.h5: block.rom.h5 piston.rom.h5
+slap_study.field.h5: slap_study.run.h5 speeds.field.toml block.sound.h5 $(clatter_recover)
+	$(CLATTER_LAUNCH) $(clatter_recover) $< -c speeds.field.toml -o $@ --depfile $@.d $(CLATTER_FLAGS)
+
 # Figures 8 to 10 of the paper with four layers of oil and without: `make study-paper -j2`, ten runs.
 .PHONY: study-paper
 study-paper: study.txt $(addprefix pictures/study-,8.png 9.png 10.png)
@@ -19,7 +27,7 @@ $(paper_oil_fields) $(paper_dry_fields): block.sound.h5
 study.txt: $(paper_oil_fields) $(paper_dry_fields) $(clatter_tool)
 	$(clatter_tool) collect paper_oil
 	$(clatter_tool) collect paper_dry
-	$(clatter_tool) study paper_oil/sweep.h5 paper_dry/sweep.h5 --csv study.csv >$@.part
+	$(clatter_tool) slaps paper_oil/sweep.h5 paper_dry/sweep.h5 --csv study.csv >$@.part
 	mv $@.part $@
 # Liner and block with film; liner with and without oil, 0 and 10 um.
 pictures/study-8.png: paper_oil/6_0.field.h5
@@ -43,7 +51,7 @@ $(parameters_runs): block.rom.h5 piston.rom.h5 $(shapes)
 $(parameters_fields): block.sound.h5
 parameters.txt: $(parameters_fields) $(clatter_tool)
 	$(clatter_tool) collect parameters
-	$(clatter_tool) study parameters/sweep.h5 --parameters parameters.toml --csv parameters.csv --picture pictures/parameters.png >$@.part
+	$(clatter_tool) slaps parameters/sweep.h5 --parameters parameters.toml --csv parameters.csv --picture pictures/parameters.png >$@.part
 	mv $@.part $@
 
 # The reduced models and pressures that they name.

@@ -39,7 +39,7 @@ def copy_sample(test_class, name):
     test_class.addClassCleanup(shutil.rmtree, root)
     (root / "tools").symlink_to(SOURCE / "tools")
     return shutil.copytree(SOURCE / "samples" / name, root / "samples" / name,
-                           ignore=shutil.ignore_patterns("*.h5", "*.d", "*.xdmf", "*.png", "*.txt", "*.checkpoint"))
+                           ignore=shutil.ignore_patterns("*.h5", "*.d", "*.xdmf", "*.png", "*.txt", "*.checkpoint", "study"))
 
 
 def make(folder, *arguments):

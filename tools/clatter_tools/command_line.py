@@ -7,8 +7,10 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, study, sweep
+from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
+from .study import command as study
+from .study.run import Failed
 
 EPILOG = """the stages: clatter-mesh, clatter-assembly, clatter-modal, clatter-condense, clatter-dynamics,
 clatter-recover; each has --help. A Makefile of ten lines includes the rules: include $(shell clatter rules)"""
@@ -38,7 +40,9 @@ def parser():
     sweep.add_arguments(one)
     one = commands.add_parser("collect", help="put levels, orders and cost of all runs of a sweep into one file")
     collect.add_arguments(one)
-    one = commands.add_parser("study", help="rank the slaps of sweeps, or show them by parameter")
+    one = commands.add_parser("slaps", help="rank the slaps of sweeps, or show them by parameter")
+    slaps.add_arguments(one)
+    one = commands.add_parser("study", help="what accuracy costs: errors and seconds over settings of a pipeline")
     study.add_arguments(one)
     one = commands.add_parser("levels", help="draw overall levels over the speed of several runs")
     levels.add_arguments(one)
@@ -124,6 +128,8 @@ def main(arguments, rules):
             sweep.write_sweep(options)
         elif options.command == "collect":
             collect.write_collection(options)
+        elif options.command == "slaps":
+            slaps.write_slaps(options)
         elif options.command == "study":
             study.write_study(options)
         elif options.command == "levels":
@@ -139,6 +145,9 @@ def main(arguments, rules):
     except BadArtefact as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 2
+    except Failed as error:
+        print(f"clatter: error: {error}", file=sys.stderr)
+        return 3
     except CannotWrite as error:
         print(f"clatter: error: {error}", file=sys.stderr)
         return 4

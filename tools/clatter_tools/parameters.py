@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parameters of a study that are varied one at a time: the file of `clatter sweep --parameters`.
+"""Parameters of a sweep that are varied one at a time: the file of `clatter sweep --parameters`.
 
     [[parameter]]
     name = "pin offset"                # of the scenes (pin-offset_0.5) and in tables and pictures

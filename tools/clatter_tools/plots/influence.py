@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sound power and liner peak over each parameter of a study."""
+"""Sound power and liner peak over each parameter of a sweep."""
 from .. import parameters
 from . import style
 
@@ -7,7 +7,7 @@ COLUMNS = 4
 
 
 def picture(found):
-    """`found`: influences of study.py, the strongest first; two rows of axes for each line of parameters, the base as a ring."""
+    """`found`: influences of slaps.py, the strongest first; two rows of axes for each line of parameters, the base as a ring."""
     lines = -(-len(found) // COLUMNS)
     figure, axes = style.figure(2 * lines, COLUMNS, height=1.7)
     for axis in axes.flat:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`clatter study`: what the runs of sweeps say about a slap, ranked, or by parameter, as a table, CSV and picture."""
+"""`clatter slaps`: what the runs of sweeps say about a slap, ranked, or by parameter, as a table, CSV and picture."""
 import csv
 import dataclasses
 import math
@@ -31,7 +31,7 @@ class Row:
 
 
 def add_arguments(command):
-    """Declares the arguments of `clatter study`."""
+    """Declares the arguments of `clatter slaps`."""
     command.add_argument("files", nargs="+", metavar="sweep.h5", help="of `clatter collect`, with sensors of liner and block and the sound power")
     command.add_argument("--parameters", metavar="file.toml", help="that of `clatter sweep --parameters`: levels by parameter instead of a ranking")
     command.add_argument("--csv", metavar="file.csv", help="all numbers, third octaves as well")
@@ -98,7 +98,7 @@ def influences(rows, found):
         if len(pairs) > 1:
             result.append(Influence(one, [value for value, _ in pairs], [row for _, row in pairs]))
     if not result:
-        raise BadArtefact("study: found no run of the parameters, expected the sweep of this file of parameters")
+        raise BadArtefact("slaps: found no run of the parameters, expected the sweep of this file of parameters")
     return sorted(result, key=lambda one: -one.range_db())
 
 
@@ -135,8 +135,8 @@ def write_csv(path, rows):
         raise CannotWrite(f"{path}: cannot be written: {error.strerror}") from error
 
 
-def write_study(options):
-    """`clatter study`: prints the table; writes CSV and picture."""
+def write_slaps(options):
+    """`clatter slaps`: prints the table; writes CSV and picture."""
     rows = [row for path in options.files for row in rows_of(path)]
     if not rows:
         raise BadArtefact(f"{', '.join(options.files)}: found no complete run with a sound power, expected at least one")

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command `clatter study`."""
+import argparse
+
+from .. import study as study_package
+from ..artefact import BadArtefact
+from . import effects, findings, proposal, quantities, results, run
+
+
+def add_arguments(command):
+    """Declares the arguments of `clatter study`."""
+    command.formatter_class = argparse.RawDescriptionHelpFormatter
+    command.description = study_package.__doc__
+    command.epilog = f"{quantities.__doc__}\n{effects.__doc__}\n{proposal.__doc__}"
+    command.add_argument("study", metavar="study.toml", help="names pipeline, settings and quantities, as above")
+    command.add_argument("-j", "--jobs", type=int, default=1, help="number of stages that run in parallel")
+    command.add_argument("--effects", action="store_true", help="switch each effect of the scenes off or on instead: what it changes, what it costs")
+    command.add_argument("--within", metavar="'QUANTITY ERROR'", help="propose the cheapest settings for an error, as \"sound power 0.5\" or \"height 2 %%\", and prove them by a run")
+    command.add_argument("--seconds", type=float, default=float("inf"), metavar="S", help="of --within: at most so many seconds")
+
+
+def write_study(options):
+    """`clatter study`: makes what is missing, prints tables and sentences, writes study.h5, CSV and page; of effects sentences and CSV."""
+    jobs = max(1, options.jobs)
+    if options.effects and options.within:
+        raise BadArtefact("--within: found it beside --effects, expected one of them")
+    if options.seconds != float("inf") and not (options.within and options.seconds > 0.0):
+        raise BadArtefact(f"--seconds: found {options.seconds:g}, expected a positive number, and --within")
+    if options.effects:
+        found = effects.make(options.study, jobs)
+        print("\n".join(effects.report(found)))
+        print(f"\n{effects.write(found)}")
+        return
+    study = run.make(options.study, jobs)
+    if options.within:
+        proposal.answer(study, options.within, options.seconds, jobs)
+        return
+    print("\n".join(findings.report(study)))
+    paths = results.write(study)
+    from . import page  # which loads matplotlib
+    paths.append(page.write(study))
+    print(f"\n{', '.join(map(str, paths))}")

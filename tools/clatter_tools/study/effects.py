@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter study --effects`: each effect of a scene switched off, or on where a default is enough, what that changes and what it saves.
+
+Which effects a scene has, and whether they are on, is what its run says (group effects). KNOWN has the keys that switch them; others are named
+in the study file:
+
+    [[effect]]
+    name = "friction in the joints"
+    key = "drive.run.toml:chain.chain.joint.friction"
+    off = 0.0                          # and on = value for an effect that is off
+"""
+import copy
+import csv
+import dataclasses
+import math
+import re
+
+from .. import artefact
+from ..artefact import text
+from . import plan, results, run, toml_text
+from .findings import digits
+from .run import BASE
+
+# Effect of a run: [(key of the scene, value that switches off, on; None: it cannot be switched so)].
+KNOWN = {
+    "elastic piston": [("piston.model", "rigid", "elastic")],
+    "balance by other cylinders": [("engine.balanced", False, None)],
+    "oil film": [("contact.lubrication", "none", "film")],
+    "cavitation": [("contact.cavitation", False, True)],
+    "viscosity over pressure": [("contact.oil.pressure_coefficient_1_gpa", 0.0, None)],
+    "friction factors": [("contact.friction_factors", False, None)],
+    "gap around the entire skirt": [("contact.span", "pads", None)],
+    "grooves and windows": [("contact.recess", [], None)],
+    "asperity contact": [("contact.asperities", False, True)],
+    "damping of the contact": [("contact.asperity_loss_factor", 0.0, 0.05)],
+    "friction": [("contact.friction", False, True)],
+    "shapes of bore and skirt": [("contact.bore_shape", [], None), ("contact.skirt_shape", [], None)],
+    "gravity": [("gravity_m_s2", 0.0, 9.81)],
+}
+SAVES = 0.02  # of the seconds: less is no reason to leave an effect out
+
+
+@dataclasses.dataclass
+class Switch:
+    """An effect switched from what the scene has: to "off" or "on" by {file: tables}; `changes`: by quantity [Value or None]; `saved`: share of the
+    seconds that is saved, negative where it costs more, of the stages that the effect changes."""
+    name: str
+    to: str
+    tables: dict
+    changes: list = dataclasses.field(default_factory=list)
+    saved: float = float("nan")
+
+
+def switches_of(wanted, pipeline, states):
+    """The Switches of a scene's effects; `states`: {scene file: {effect: "on" or "off"}}."""
+    found = []
+    for file, effects in states.items():
+        for name, state in effects.items():
+            values = [(key.split("."), off if state == "on" else on) for key, off, on in KNOWN.get(name, [])]
+            if values and all(value is not None for _, value in values):
+                found.append(switch(wanted, pipeline, name, file, "off" if state == "on" else "on", values))
+    for one in wanted.effects:
+        file, path = one.key
+        value = pipeline.base_value(file, path)
+        to = "on" if one.off is None or (one.on is not None and value == one.off) else "off"
+        found.append(switch(wanted, pipeline, one.name, file, to, [(path, one.on if to == "on" else one.off)]))
+    return found
+
+
+def switch(wanted, pipeline, name, file, to, values):
+    tables = copy.deepcopy(pipeline.table(file))
+    for path, value in values:
+        toml_text.set_value(f"{wanted.path}: {name}: {file}", tables, path, value)
+    return Switch(name, to, {file: tables})
+
+
+def states_of(made, own):
+    """{scene file: {effect: state}} of the runs of a variant whose scenes are in the pipeline's folder."""
+    found = {}
+    for one in {one.name: one for target in own for one in [*target.inputs.values(), target]}.values():
+        scene = one.name.removesuffix(".h5") + ".toml"
+        if one.name.endswith(".run.h5") and (made.pipeline.folder / scene).is_file():
+            with artefact.open_artefact(made.store.path(one), "run") as file:
+                if "effects/name" in file:
+                    found[scene] = {text(name): text(state) for name, state in zip(file["effects/name"][()], file["effects/state"][()])}
+    return found
+
+
+@dataclasses.dataclass
+class Effects:
+    """base: values of the quantities; switches in the order of their effects."""
+    plan: plan.Plan
+    base: list
+    switches: list
+
+    def scaled(self, quantity, difference):
+        """A change of a quantity in the units of its errors."""
+        size = self.base[quantity].size()
+        return difference / size if self.plan.quantities[quantity].relative and size > 0.0 else difference
+
+    def small(self, quantity):
+        """A change that does not matter, in the units of errors."""
+        own = self.plan.quantities[quantity].small
+        return 0.01 * self.base[quantity].size() if own is None else own
+
+
+def make(path, jobs):
+    """The Effects of a study file: makes the base, then the scenes with one effect switched."""
+    wanted = plan.read(path, required="quantity")
+    pipeline = run.pipeline_of(wanted)
+    made = run.Making(wanted, pipeline)
+    base = made.add({})
+    made.make(["base"], [base], jobs)
+    switches = switches_of(wanted, pipeline, states_of(made, base))
+    artefacts = [base] + [made.add(one.tables) for one in switches]
+    made.make(["base", *(re.sub(r"[^\w.+=-]+", "-", f"{one.to}-{one.name}") for one in switches)], artefacts, jobs)
+    found = Effects(wanted, made.values(base), switches)
+    before = made.stages(base)
+    for one, own in zip(switches, artefacts[BASE + 1:]):
+        one.changes = [None if value is None else value.minus(old) for value, old in zip(made.values(own), found.base)]
+        one.saved = saved(wanted, before, made.stages(own))
+    return found
+
+
+def saved(wanted, before, after):
+    """Share of the seconds that is saved, of the stages that an effect changes; nan where one of them is missing."""
+    base = {stage.name: stage.folder for stage in before}
+    changed = {stage.name for stage in after if base.get(stage.name) != stage.folder}
+    spent = [run.cost_of(wanted, [stage for stage in stages if stage.name in changed]) for stages in (before, after)]
+    return 1.0 - spent[1] / spent[0]
+
+
+def change_text(effects, quantity, change):
+    """"+0.02 dB(A)", "-3.1 %"; of a curve the largest change."""
+    own = effects.plan.quantities[quantity]
+    value = effects.scaled(quantity, change.number())
+    return f"{digits(100.0 * value, '+')} %" if own.relative else f"{digits(value, '+')} {own.unit}".rstrip()
+
+
+def advice(effects, one):
+    """"leave out", "keep", "switch on" or "leave off"; what could not be run is said."""
+    if any(change is None for change in one.changes):
+        return f"cannot be switched {one.to} here: see what its stage said"
+    matters = any(effects.scaled(k, change.size()) > effects.small(k) for k, change in enumerate(one.changes))
+    if one.to == "on":
+        return "switch on" if matters else "leave off"
+    if matters:
+        return "keep"
+    return "leave out" if one.saved > SAVES else "costs nothing, keep"
+
+
+def sentence(effects, one):
+    """"friction: height of the slap -3.1 %, sound power +0.02 dB(A), 8 % of the time: leave out"."""
+    name = one.name if one.to == "off" else f"{one.name} (off)"
+    known = [f"{effects.plan.quantities[k].name} {change_text(effects, k, change)}" for k, change in enumerate(one.changes) if change is not None]
+    share = one.saved if one.to == "off" else -one.saved
+    time = [f"{100.0 * share:.0f} % of the time" if share >= 0.0 else f"without it {-100.0 * share:.0f} % more time"] if math.isfinite(share) else []
+    return f"{name}: {', '.join([*known, *time]) or 'not known'}: {advice(effects, one)}"
+
+
+def report(effects):
+    """All lines that are printed; a change of a quantity is that by switching the effect off (on where it says so)."""
+    if not effects.switches:
+        return ["no effect of the scenes can be switched by a key that is known; [[effect]] names others"]
+    return [sentence(effects, one) for one in effects.switches]
+
+
+def write(effects):
+    """effects.csv in the study's folder."""
+    def fill(part):
+        with open(part, "w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream)
+            names = [f"{one.name} [{'1' if one.relative else one.unit}]" for one in effects.plan.quantities]
+            writer.writerow(["effect", "switched", *names, "share of the seconds saved", "advice"])
+            for one in effects.switches:
+                changes = ["" if change is None else f"{effects.scaled(k, change.number()):.6g}" for k, change in enumerate(one.changes)]
+                writer.writerow([one.name, one.to, *changes, f"{one.saved:.4g}", advice(effects, one)])
+
+    return results.whole(effects.plan.output / "effects.csv", fill)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a study says: a sentence for each setting and quantity, and tables as text."""
+import math
+
+from ..slaps import table
+from .run import BASE
+
+SHOWN = 3       # points of a sentence
+CLOSED = 2.0    # factor within which a budget is closed
+NOTHING = 1e-6  # of a quantity: differences that are no effect of a setting
+
+
+def error_text(study, quantity, error):
+    """"0.35 %", "0.2 dB(A)"."""
+    own = study.plan.quantities[quantity]
+    return f"{digits(100.0 * error)} %" if own.relative else f"{digits(error)} {own.unit}".rstrip()
+
+
+def digits(value, sign=""):
+    """Two digits, of larger numbers all before the point."""
+    return f"{value:{sign}.2g}" if abs(value) < 99.5 else f"{value:{sign}.0f}"
+
+
+def seconds_text(seconds):
+    return f"{seconds:.0f} s" if seconds >= 10.0 else f"{seconds:.2g} s"
+
+
+def points(study, quantity, number):
+    """[(variant, seconds, error)] of a setting that nothing beats in both, the reference itself left out; by falling error. Seconds are of
+    the stages that the setting changes."""
+    line = study.lines[quantity].get(number)
+    if line is None:
+        return []
+    rows = [(variant, study.cost_of_setting(variant, quantity, number), study.scaled(quantity, error.size())) for variant, error in zip(line.variants, line.errors)]
+    rows = sorted((row for row in rows if row[2] > NOTHING * study.size(quantity) and math.isfinite(row[1])), key=lambda row: (row[1], row[2]))
+    best, found = math.inf, []
+    for row in rows:
+        if row[2] < best:
+            best = row[2]
+            found.append(row)
+    return found
+
+
+def ruler(study, quantity, number):
+    """(error, number) of the other setting with the largest error of the base; None without one."""
+    others = [(study.scaled(quantity, part.size()), one) for one, part in study.budgets[quantity].parts if one != number]
+    return max(others, default=None)
+
+
+def sentence(study, quantity, number):
+    """"tolerance: 0.5 % costs 14 s, 0.05 % costs 160 s; below 0.2 % the cell size rules"."""
+    setting, own = study.plan.settings[number], study.plan.quantities[quantity]
+    found = points(study, quantity, number)
+    where = f"{setting.name}, {own.name}"
+    if not found:
+        return f"{where}: {'not known, its finest value could not be made' if number not in study.lines[quantity] else 'no value changes it'}"
+    middle = next((row for row in found[1:-1] if row[0] == BASE), found[len(found) // 2])
+    chosen = found if len(found) <= SHOWN else [found[0], middle, found[-1]]
+    parts = [f"{error_text(study, quantity, error)} costs {seconds_text(seconds)} "
+             f"({setting.label(study.variants[variant].values[number])}{', the base' if variant == BASE else ''})" for variant, seconds, error in chosen]
+    other = ruler(study, quantity, number)
+    end = ""
+    if other and other[0] > found[-1][2]:
+        name = study.plan.settings[other[1]].name
+        end = f"; below {error_text(study, quantity, other[0])} {name} rules" if other[0] < found[0][2] else \
+            f"; {name} rules throughout with {error_text(study, quantity, other[0])}"
+    others = study.cost(BASE, quantity) - study.cost_of_setting(BASE, quantity, number)
+    return f"{where}: {', '.join(parts)}{end}; {seconds_text(others)} of other stages"
+
+
+def sentences(study):
+    return [sentence(study, quantity, number) for quantity in range(len(study.plan.quantities)) for number in range(len(study.plan.settings))]
+
+
+def order_text(line):
+    """"2.0 (Richardson)" or "finest"."""
+    known = [one for one in line.orders if math.isfinite(one)]
+    orders = ", ".join(f"{one:.2f}" if math.isfinite(one) else "-" for one in line.orders) if known else "-"
+    return orders, "Richardson" if line.source == "richardson" else "finest"
+
+
+def budget_rows(study, quantity):
+    """The budget of the error of a quantity's base: rows of cells, the first is the head."""
+    own, found = study.plan.quantities[quantity], study.budgets[quantity]
+    rows = [[f"error of the base, {own.name}", "difference", "orders", "reference"]]
+    for number, part in found.parts:
+        orders, source = order_text(study.lines[quantity][number])
+        rows.append([study.plan.settings[number].name, signed(study, quantity, part), orders, source])
+    rows.append(["sum, from the finest values", signed(study, quantity, found.sum), "", ""])
+    if found.refined is not None:
+        rows.append(["a run with all of them", signed(study, quantity, found.refined), "", closure_text(found)])
+    if own.exact is not None:
+        rest = found.total
+        for _, part in found.parts:
+            rest = rest.minus(part)
+        rows.append(["not of these settings", signed(study, quantity, rest), "", ""])
+        rows.append(["against the exact value", signed(study, quantity, found.total), "", ""])
+    return rows
+
+
+def signed(study, quantity, difference):
+    error = study.scaled(quantity, difference.number())
+    return f"{100.0 * error:+.3g} %" if study.plan.quantities[quantity].relative else f"{error:+.3g} {study.plan.quantities[quantity].unit}"
+
+
+def closure_text(found):
+    """Whether the sum of the parts is what the refined run shows."""
+    ratio = found.closure()
+    if not math.isfinite(ratio):
+        return "-"
+    return f"sum / run {ratio:.2f}{'' if 1.0 / CLOSED <= ratio <= CLOSED else ': NOT CLOSED, the settings act on each other or the quantity jumps'}"
+
+
+def variant_rows(study, quantity):
+    """Value, total error and cost of all variants: rows of cells, the first is the head."""
+    own = study.plan.quantities[quantity]
+    rows = [[f"{own.name}{f' [{own.unit}]' if own.unit else ''}", "value", "total error", "seconds"]]
+    for k, one in enumerate(study.variants):
+        value = study.values[quantity][k]
+        if value is None:
+            rows.append([one.name, "missing", "", ""])
+            continue
+        shown = f"{value.number():.6g}" if value.is_number else f"{len(value.values)} values"
+        rows.append([one.name, shown, error_text(study, quantity, study.error(quantity, k)), f"{study.cost(k, quantity):.3g}"])
+    return rows
+
+
+def report(study):
+    """All lines that `clatter study` prints."""
+    lines = []
+    for quantity in range(len(study.plan.quantities)):
+        for rows in (variant_rows(study, quantity), budget_rows(study, quantity)):
+            lines += [*table(rows[0], rows[1:]), ""]
+    return [*lines, *sentences(study)]

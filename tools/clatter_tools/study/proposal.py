@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`clatter study --within`: the cheapest settings for a requested error, by what the study has measured, proved by a run.
+
+Model: the differences from the references of the settings add up, and the seconds of each artefact are those of the base times a factor for each
+setting. Between two tested values of a setting with step sizes there is one more candidate in the middle (of logarithms), with interpolated
+difference and factors. A finest value that is itself the reference counts with half its difference from the next coarser one.
+Settings are chosen by the sum of the magnitudes; what is expected is the magnitude of the sum.
+"""
+import dataclasses
+import itertools
+import math
+
+from ..artefact import BadArtefact
+from . import findings, plan, run, variants
+from .quantities import Value
+from .run import BASE
+
+MOST = 300_000  # combinations
+
+
+@dataclasses.dataclass
+class Candidate:
+    """A value of a setting: its difference from the setting's reference, and factors of the seconds by artefact."""
+    value: tuple
+    difference: Value
+    factors: dict
+
+    def worse_than(self, other, scaled):
+        """Whether another one has neither a larger error nor any larger factor."""
+        names = {*self.factors, *other.factors}
+        return other is not self and scaled(other.difference.size()) <= scaled(self.difference.size()) and \
+            all(other.factors.get(name, 1.0) <= self.factors.get(name, 1.0) for name in names)
+
+
+@dataclasses.dataclass
+class Proposal:
+    """values: of all settings; expected: |sum of the differences|; most: sum of their magnitudes, in the units of errors; seconds."""
+    values: tuple
+    expected: float
+    most: float
+    seconds: float
+
+
+def candidates(study, quantity, number):
+    """Those of a setting; of one whose line is not known the base only."""
+    setting, line = study.plan.settings[number], study.lines[quantity].get(number)
+    base = {stage.name: getattr(stage, study.plan.cost) for stage in study.stages[BASE]}
+    if line is None:
+        zero = study.values[quantity][BASE].minus(study.values[quantity][BASE])
+        return [Candidate(study.variants[BASE].values[number], zero, {})]
+    names, found = study.affected(number), []
+    for variant, difference in zip(line.variants, line.errors):
+        factors = {stage.name: max(getattr(stage, study.plan.cost), 1e-9) / max(base[stage.name], 1e-9)
+                   for stage in study.stages[variant] if stage.name in names}
+        found.append(Candidate(study.variants[variant].values[number], difference, factors))
+    if line.source == "finest" and len(found) > 1:
+        found[-1].difference = found[-2].difference.times(0.5)
+    sizes = setting.sizes if setting.sizes and len(line.variants) == len(setting.values) else None
+    return found + (between(found, sizes) if sizes else [])
+
+
+def between(tested, sizes):
+    """A candidate in the middle between neighbours whose values are the step sizes or their inverses."""
+    found = []
+    for one, other, h, finer in zip(tested, tested[1:], sizes, sizes[1:]):
+        value = middle_value(one.value, other.value, h, finer)
+        if value is None or not one.difference.is_number or one.value == other.value:
+            continue
+        pair = [float(part.difference.values[0]) for part in (one, other)]
+        same = pair[0] * pair[1] > 0.0
+        difference = math.copysign(math.sqrt(pair[0] * pair[1]), pair[0]) if same else 0.5 * (pair[0] + pair[1])
+        factors = {name: math.sqrt(one.factors.get(name, 1.0) * other.factors.get(name, 1.0)) for name in {*one.factors, *other.factors}}
+        found.append(Candidate(value, Value(one.difference.values * 0.0 + difference, one.difference.at), factors))
+    return found
+
+
+def middle_value(one, other, h, finer):
+    """The value between two whose numbers that change are proportional to the step sizes or their inverses; None where they are not, or
+    where they are whole numbers without one between them."""
+    found = []
+    for a, b in zip(one, other):
+        if a == b:
+            found.append(a)
+            continue
+        if not plan.is_number(a) or not plan.is_number(b) or a * b <= 0 or \
+                not any(math.isclose(a / b, ratio, rel_tol=1e-9) for ratio in (h / finer, finer / h)):
+            return None
+        middle = math.copysign(math.sqrt(a * b), a)
+        if isinstance(a, int) and isinstance(b, int):
+            middle = round(middle)
+            if middle in (a, b):
+                return None
+        else:
+            middle = float(f"{middle:.3g}")
+        found.append(middle)
+    return tuple(found)
+
+
+def propose(study, quantity, within, seconds=math.inf):
+    """The cheapest Proposal whose error is at most `within` (in the units of errors) and whose seconds are at most `seconds`; where there is
+    none, (None, the one with the smallest error within the seconds, or of all)."""
+    scaled = lambda difference: study.scaled(quantity, difference)  # noqa: E731
+    lists = [candidates(study, quantity, number) for number in range(len(study.plan.settings))]
+    lists = [[one for one in own if not any(one.worse_than(other, scaled) and not other.worse_than(one, scaled) for other in own)] for own in lists]
+    if math.prod(map(len, lists)) > MOST:
+        tested = [{value for value in setting.values} for setting in study.plan.settings]
+        lists = [[one for one in own if one.value in values] or own for own, values in zip(lists, tested)]
+    if math.prod(map(len, lists)) > MOST:
+        raise run.Failed(f"{study.plan.path}: found {math.prod(map(len, lists))} combinations of values, expected at most {MOST}")
+    file = study.plan.quantities[quantity].file
+    base = {stage.name: getattr(stage, study.plan.cost) for stage in study.stages[BASE] if file in stage.needed_by}
+    best = least = None
+    for chosen in itertools.product(*lists):
+        most = scaled(sum(one.difference.size() for one in chosen))
+        spent = sum(own * math.prod(one.factors.get(name, 1.0) for one in chosen) for name, own in base.items())
+        key = (spent > seconds, most, spent)
+        if least is None or key < least[0]:
+            least = (key, chosen, most, spent)
+        if most <= within and spent <= seconds and (best is None or (spent, most) < best[0]):
+            best = ((spent, most), chosen, most, spent)
+    return tuple(proposal_of(study, quantity, one) if one else None for one in (best, least))
+
+
+def proposal_of(study, quantity, found):
+    _, chosen, most, spent = found
+    total = chosen[0].difference
+    for one in chosen[1:]:
+        total = total.plus(one.difference)
+    return Proposal(tuple(one.value for one in chosen), study.scaled(quantity, total.size()), most, spent)
+
+
+def prove(study, quantity, proposal, jobs):
+    """(error, seconds) of a run with the proposed settings; Failed where it cannot be made."""
+    wanted, base = study.plan, study.variants[BASE].values
+    pipeline = run.pipeline_of(wanted)
+    made = run.Making(wanted, pipeline)
+    variant = variants.Variant("proposed", proposal.values)
+    artefacts = [made.add({}), made.add(variants.changed_tables(wanted, pipeline, base, variant))]
+    made.make(["base", variant.folder], artefacts, jobs)
+    value = made.values(artefacts[1])[quantity]
+    if value is None:
+        raise run.Failed(f"{wanted.path}: the proposed settings cannot be run: see what the stage says above")
+    error = study.scaled(quantity, value.minus(study.references[quantity]).size())
+    return error, run.cost_of(wanted, made.stages(artefacts[1]), quantity)
+
+
+def requested(study, text):
+    """(quantity, error in the units of errors) of "sound power 0.5" or "height of the slap 2 %"."""
+    name, _, number = text.removesuffix("%").rstrip().rpartition(" ")
+    names = [one.name for one in study.plan.quantities]
+    try:
+        within = float(number)
+    except ValueError:
+        within = float("nan")
+    if name not in names or not 0.0 < within < math.inf:
+        raise BadArtefact(f"--within: found {text!r}, expected a quantity and an error, as \"{names[0]} 0.5\"; known: {', '.join(names)}")
+    quantity = names.index(name)
+    if text.endswith("%"):
+        return quantity, 0.01 * within * (1.0 if study.plan.quantities[quantity].relative else study.references[quantity].size())
+    return quantity, study.scaled(quantity, within)
+
+
+def report(study, quantity, proposal):
+    """Lines: the settings, what is expected."""
+    lines = [f"{setting.name} = {setting.label(value)}{' (the base)' if value == base else ''}"
+             for setting, value, base in zip(study.plan.settings, proposal.values, study.variants[BASE].values)]
+    return [*lines, f"expected: an error of {findings.error_text(study, quantity, proposal.expected)} (at most "
+            f"{findings.error_text(study, quantity, proposal.most)}), {findings.seconds_text(proposal.seconds)}"]
+
+
+def answer(study, text, seconds, jobs):
+    """`clatter study --within`: prints the proposal and its proof."""
+    quantity, within = requested(study, text)
+    best, least = propose(study, quantity, within, seconds)
+    if best is None:
+        print("\n".join(["the nearest:", *report(study, quantity, least)]))
+        raise run.Failed(f"{study.plan.path}: no settings of this study are within {findings.error_text(study, quantity, within)}"
+                         f"{f' and {seconds:g} s' if math.isfinite(seconds) else ''}: add finer values, or ask for less")
+    print("\n".join(report(study, quantity, best)), flush=True)
+    error, spent = prove(study, quantity, best, jobs)
+    print(f"the run: {findings.error_text(study, quantity, error)}, {findings.seconds_text(spent)}"
+          f"{'' if error <= within else ': MORE THAN REQUESTED'}")

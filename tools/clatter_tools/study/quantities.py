@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Quantities of interest: numbers and curves taken from artefacts.
+
+| take | from | own keys | what |
+|---|---|---|---|
+| frequency | modes, rom | number | that mode's frequency in the file's order, of a reduced model that of its own matrices [Hz] |
+| line | field | sensor, at_hz | amplitude (peak) of the acceleration's line that is nearest to a frequency, of a channel by its label [m/s2] |
+| slap_time, slap_height, rings_until | field | | of the liner's acceleration above 300 Hz around firing TDC (slap.py) [s, m/s2, s] |
+| third_octaves | field | of, from_hz, to_hz | curve of levels: of "sound", of panels/NAME (ERP) or of sensors/LABEL (acceleration); [dB] |
+| power_dba | field | | sound power [dB(A) re 1 pW] |
+| erp_dba | field | panel | equivalent radiated power of a panel [dB(A) re 1 pW] |
+| order | run, field | of, order | RMS of half an engine order: of a history, of sensors/LABEL, panels/NAME, or "sound" |
+| link_force | run | chain | largest tension of the joints of a chain over the last cycle [N] |
+| loss | run | element | mean power that a force element loses over the last cycle (energy/terms) [W]: friction and film of piston_liner |
+| cost | any | | seconds of the stage |
+| dataset | any | path, reduce, column, last_cycle | any dataset or attribute (group@name), reduced to a number or kept as a curve |
+
+reduce is one of first, last, min, max, largest (of magnitudes), range, mean, rms, curve. A curve of a history is at POINTS equal steps of the crank angle of
+its last cycle, or of its time.
+"""
+import dataclasses
+
+import numpy as np
+
+from .. import fields, orders, slap_rows
+from ..artefact import BadArtefact, dataset, open_artefact, text, totals
+from ..histories import crank_angle, has
+
+POINTS = 1440
+CYCLE_DEG = 720.0
+DB = "dB"
+REDUCTIONS = {
+    "first": lambda x: x[0], "last": lambda x: x[-1], "min": np.min, "max": np.max, "largest": lambda x: np.max(np.abs(x)), "range": np.ptp,
+    "mean": np.mean, "rms": lambda x: np.sqrt(np.mean(np.square(x))),
+}
+
+
+@dataclasses.dataclass
+class Value:
+    """A number, or a curve: values at `at`; of a number both have one entry."""
+    values: np.ndarray
+    at: np.ndarray
+
+    def minus(self, other):
+        """The difference where both are known."""
+        common, mine, others = np.intersect1d(np.round(self.at, 6), np.round(other.at, 6), return_indices=True)
+        return Value(self.values[mine] - other.values[others], self.at[mine]) if len(common) else Value(np.array([np.nan]), np.zeros(1))
+
+    def plus(self, other):
+        return self.minus(Value(-other.values, other.at))
+
+    def times(self, factor):
+        return Value(factor * self.values, self.at)
+
+    def size(self):
+        """The largest magnitude."""
+        return float(np.max(np.abs(self.values)))
+
+    @property
+    def is_number(self):
+        return len(self.values) == 1
+
+    def number(self):
+        """With its sign; of a curve the entry of the largest magnitude."""
+        return float(self.values[np.argmax(np.abs(self.values))]) if np.isfinite(self.values).all() else float("nan")
+
+
+def number(value):
+    return Value(np.array([float(value)]), np.zeros(1))
+
+
+@dataclasses.dataclass
+class Quantity:
+    """keys: those of `take`; exact: a Value, or None; relative: whether errors are relative; small: a change, as errors are given, that does not
+    matter."""
+    name: str
+    file: str
+    take: str
+    keys: dict
+    unit: str
+    relative: bool
+    small: float
+    exact: Value = None
+
+    def of(self, path):
+        return extract(path, self.take, self.keys)
+
+
+@dataclasses.dataclass
+class Extractor:
+    """take: function of an open file and the keys of a quantity; keys: {name: (kind, default)}, without default ... ."""
+    take: object
+    unit: str
+    keys: dict = dataclasses.field(default_factory=dict)
+
+
+NUMBERS, TEXT = (int, float), (str,)
+
+
+def frequency(file, number):
+    wanted = int(number)
+    if "frequency_hz" in file:
+        found = dataset(file, "frequency_hz")
+    else:
+        from scipy.linalg import eigh
+        squared = eigh(dataset(file, "K_rr"), dataset(file, "M_rr"), eigvals_only=True)
+        found = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * np.pi)
+    if not 1 <= wanted <= len(found):
+        raise BadArtefact(f"{file.filename}: found {len(found)} modes, expected mode {wanted}")
+    return found[wanted - 1]
+
+
+def line(file, sensor, at_hz):
+    at = fields.piece(file, "cycle", *fields.pieces(file))
+    for name in fields.sensor_names(file, at):
+        labels = [text(one) for one in dataset(file, f"{at}/sensors/{name}/labels")]
+        if sensor in labels:
+            hz = dataset(file, f"{at}/frequency_hz")
+            row, column = int(np.argmin(np.abs(hz - at_hz))), labels.index(sensor)
+            return np.hypot(*(dataset(file, f"{at}/sensors/{name}/spectrum/acceleration_{part}")[row, column] for part in ("re", "im")))
+    raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {sensor}")
+
+
+def of_slap(name):
+    def take(file):
+        found = slap_rows.of_field(file)
+        if not found:
+            raise BadArtefact(f"{file.filename}: found no slap, expected a cycle with sensors of liner and block")
+        return found[name]
+    return take
+
+
+def third_octaves(file, of, from_hz, to_hz):
+    at = fields.piece(file, "cycle", *fields.pieces(file))
+    kind, _, name = of.partition("/")
+    if kind == "sensors":
+        found = [(f"{at}/sensors/{one}", labels.index(name)) for one in fields.sensor_names(file, at)
+                 for labels in [[text(label) for label in dataset(file, f"{at}/sensors/{one}/labels")]] if name in labels]
+        if not found:
+            raise BadArtefact(f"{file.filename}: {at}/sensors: found no channel {name}")
+        levels = dataset(file, f"{found[0][0]}/third_octave/acceleration_db")[:, found[0][1]]
+    else:
+        levels = dataset(file, f"{at}/sound/third_octave/power_db" if kind == "sound" else f"{at}/panels/{name}/third_octave/erp_db")
+    mid = dataset(file, f"{at}/third_octave/mid_hz")[:len(levels)]
+    inside = (mid >= from_hz) & (mid <= to_hz)
+    if not inside.any():
+        raise BadArtefact(f"{file.filename}: found no third octave from {from_hz:g} to {to_hz:g} Hz")
+    return Value(levels[inside], mid[inside])
+
+
+def power_dba(file):
+    at = fields.piece(file, "cycle", *fields.pieces(file))
+    found = fields.sound_power(file, at)
+    if found is None:
+        raise BadArtefact(f"{file.filename}: {at}/sound: found nothing, expected a field whose field.toml names a sound file")
+    return found.dba
+
+
+def erp_dba(file, panel):
+    at = fields.piece(file, "cycle", *fields.pieces(file))
+    return file[fields.panel(file, at, panel)].attrs["erp_dba"]
+
+
+def of_order(file, of, order):
+    kind, _, name = of.partition("/")
+    found = orders.of_sound(file) if of == "sound" else orders.of_panel(file, name) if kind == "panels" and name else \
+        orders.of_field(file, name) if kind == "sensors" and name else orders.of_run(file, of)
+    return orders.of_order(found[1], found[2], order)
+
+
+def last_cycle(file, count):
+    """Slice of the samples of the last complete cycle, all of them where there is none."""
+    angle = crank_angle(file) if has(file, "crank_angle_deg") else np.zeros(0)
+    if len(angle) != count or angle[-1] - angle[0] < CYCLE_DEG:
+        return slice(None)
+    return slice(int(np.searchsorted(angle, angle[-1] - CYCLE_DEG - 1e-6)), None)
+
+
+def link_force(file, chain):
+    group = file.get("history", {})
+    found = [name for name in group if name.startswith(f"{chain}_tension_") and not name.endswith("_min")]
+    if not found:
+        raise BadArtefact(f"{file.filename}: history: found no {chain}_tension_..., expected a chain named {chain}")
+    return max(np.max(values[last_cycle(file, len(values))]) for values in (dataset(file, f"history/{name}") for name in found))
+
+
+def loss(file, element):
+    lost, time, angle = (dataset(file, f"energy/{name}") for name in (f"terms/{element} lost", "time", "crank_angle_deg"))
+    first = int(np.searchsorted(angle, angle[-1] - CYCLE_DEG - 1e-6)) if angle[-1] - angle[0] >= CYCLE_DEG else 0
+    return (lost[-1] - lost[first]) / (time[-1] - time[first])
+
+
+def of_dataset(file, path, reduce, column, last_cycle_only):
+    group, at, name = path.partition("@")
+    if at:
+        if group not in file or name not in file[group].attrs:
+            raise BadArtefact(f"{file.filename}: {group}: found no attribute {name}")
+        return file[group].attrs[name]
+    values = np.asarray(dataset(file, path), float)
+    if values.ndim == 2:
+        if not 0 <= column < values.shape[1]:
+            raise BadArtefact(f"{file.filename}: {path}: found {values.shape[1]} columns, expected column {column}")
+        values = values[:, int(column)]
+    if values.ndim > 2 or values.size == 0:
+        raise BadArtefact(f"{file.filename}: {path}: found {' x '.join(map(str, values.shape))} values, expected a number, vector or table")
+    values = np.atleast_1d(values)
+    window = last_cycle(file, len(values)) if last_cycle_only else slice(None)
+    return REDUCTIONS[reduce](values[window]) if reduce != "curve" else curve(file, values, window)
+
+
+def curve(file, values, window):
+    """At POINTS equal steps of the crank angle or time of a history; of anything else by its rows."""
+    for name in ("crank_angle_deg", "time"):
+        if has(file, name) and file[f"history/{name}"].shape == values.shape:
+            x = dataset(file, f"history/{name}")[window]
+            grid = np.linspace(0.0, 1.0, POINTS + 1)
+            return Value(np.interp(grid, (x - x[0]) / (x[-1] - x[0]), values[window]), grid)
+    return Value(values[window], np.arange(len(values[window]), dtype=float))
+
+
+TAKE = {
+    "frequency": Extractor(frequency, "Hz", {"number": (NUMBERS, ...)}),
+    "line": Extractor(line, "m/s2", {"sensor": (TEXT, ...), "at_hz": (NUMBERS, ...)}),
+    "slap_time": Extractor(of_slap("time"), "s"),
+    "slap_height": Extractor(of_slap("peak"), "m/s2"),
+    "rings_until": Extractor(of_slap("rings_until"), "s"),
+    "third_octaves": Extractor(third_octaves, DB, {"of": (TEXT, ...), "from_hz": (NUMBERS, 0.0), "to_hz": (NUMBERS, 1e9)}),
+    "power_dba": Extractor(power_dba, "dB(A)"),
+    "erp_dba": Extractor(erp_dba, "dB(A)", {"panel": (TEXT, "exposed")}),
+    "order": Extractor(of_order, "", {"of": (TEXT, ...), "order": (NUMBERS, ...)}),
+    "link_force": Extractor(link_force, "N", {"chain": (TEXT, ...)}),
+    "loss": Extractor(loss, "W", {"element": (TEXT, ...)}),
+    "cost": Extractor(lambda file: totals(file)[0], "s"),
+    "dataset": Extractor(of_dataset, "", {"path": (TEXT, ...), "reduce": (TEXT, "last"), "column": (NUMBERS, 0), "last_cycle_only": ((bool,), True)}),
+}
+COMMON = {"name", "file", "take", "unit", "error", "exact", "small"}
+SMALL = 0.01       # relative change that does not matter
+SMALL_DB = 0.1
+
+
+def extract(path, take, keys):
+    """The Value of an artefact; BadArtefact where it has none that is finite."""
+    with open_artefact(path) as file:
+        found = TAKE[take].take(file, **keys)
+    found = found if isinstance(found, Value) else number(found)
+    if not np.isfinite(found.values).all():
+        raise BadArtefact(f"{path}: {take}: found {found.values[~np.isfinite(found.values)][0]}, expected a finite number")
+    return found
+
+
+def own_keys(where, entry, common):
+    """(take, its keys with their defaults) of an entry, which may have `common` ones besides."""
+    take = entry.get("take")
+    if take not in TAKE:
+        raise BadArtefact(f"{where}.take: found {take!r}, expected one of {', '.join(TAKE)}")
+    known, found = TAKE[take].keys, {}
+    for key in entry:
+        if key not in known and key not in common:
+            raise BadArtefact(f"{where}.{key}: unknown key of {take}, expected one of {', '.join([*known, *sorted(common)])}")
+    for key, (kinds, default) in known.items():
+        value = entry.get(key, default)
+        if value is ...:
+            raise BadArtefact(f"{where}.{key}: not found, expected it for {take}")
+        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds) or value == "":
+            raise BadArtefact(f"{where}.{key}: found {value!r}, expected a {'number' if kinds == NUMBERS else 'text' if kinds == TEXT else 'true or false'}")
+        found[key] = value
+    if take == "dataset" and found["reduce"] not in (*REDUCTIONS, "curve"):
+        raise BadArtefact(f"{where}.reduce: found {found['reduce']!r}, expected one of {', '.join([*REDUCTIONS, 'curve'])}")
+    return take, found
+
+
+def read(where, entry, folder):
+    """The Quantity of a table [[quantity]]; `folder`: from which the files of `exact` are named."""
+    take, keys = own_keys(where, entry, COMMON)
+    for key in ("name", "file"):
+        if not isinstance(entry.get(key), str) or not entry[key]:
+            raise BadArtefact(f"{where}.{key}: found {entry.get(key)!r}, expected a text")
+    if not entry["file"].endswith(".h5") or "/" in entry["file"]:
+        raise BadArtefact(f"{where}.file: found {entry['file']}, expected an artefact of the pipeline's folder, as slap.field.h5")
+    unit = entry.get("unit", TAKE[take].unit)
+    error = entry.get("error", "absolute" if unit.startswith(DB) or take in ("slap_time", "rings_until") or keys.get("reduce") == "curve" else "relative")
+    if error not in ("relative", "absolute"):
+        raise BadArtefact(f"{where}.error: found {error!r}, expected relative or absolute")
+    small = entry.get("small", SMALL if error == "relative" else SMALL_DB if unit.startswith(DB) else None)
+    if small is not None and (not isinstance(small, NUMBERS) or isinstance(small, bool) or not 0.0 <= small < float("inf")):
+        raise BadArtefact(f"{where}.small: found {small!r}, expected a number from 0, in units of the error (0.01: 1 %)")
+    return Quantity(entry["name"], entry["file"], take, keys, unit, error == "relative", small, exact(f"{where}.exact", entry.get("exact"), folder))
+
+
+def exact(where, entry, folder):
+    """A number, or what is taken from another file."""
+    if entry is None:
+        return None
+    if isinstance(entry, NUMBERS) and not isinstance(entry, bool) and np.isfinite(entry):
+        return number(entry)
+    if not isinstance(entry, dict) or not isinstance(entry.get("file"), str):
+        raise BadArtefact(f"{where}: found {entry!r:.80}, expected a number or {{ file = ..., take = ... }}")
+    take, keys = own_keys(where, entry, {"file", "take"})
+    return extract(folder / entry["file"], take, keys)
