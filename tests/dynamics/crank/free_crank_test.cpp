@@ -12,7 +12,9 @@
 #include "dynamics/given/load_table.hpp"
 #include "dynamics/ring/ring_law.hpp"
 #include "tests/dynamics/element_check.hpp"
+#include "tests/dynamics/rod_truss.hpp"
 #include "tests/dynamics/slap_scene.hpp"
+#include "tests/dynamics/synthetic.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -190,6 +192,26 @@ TEST_F(FreeCranks, MoveWhateverTheirClockDoes) {
     const bool force = name == "side_force" || name.starts_with("ring_");
     EXPECT_LT(apart, (force ? 5e-3 : 5e-4) * most) << name;
   }
+}
+
+TEST_F(FreeCranks, StretchAnElasticRodWhateverTheirClockDoes) {
+  testing::write_rom(folder_ / "rod.rom.h5", testing::rod_model(testing::rod_truss(2e9, 0.3)));
+  const std::string described =
+      std::string(kAtOnce) +
+      "[accuracy]\ntolerance = 1e-5\n[contact]\ncavitation = false\nviscosity_pa_s = 0.02\n"
+      "clearance_um = 10\n[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n"
+      "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n[crank.load]\nlaw = \"constant\"\n"
+      "torque_n_m = 0\n";
+  RowMatrix of[2];
+  for (const int k : {0, 1}) {
+    of[k] = recorded(scene(described + (k == 1 ? kUneven : "")), k == 1 ? "uneven" : "even")
+                .read_rows("bodies/rod/q");
+    EXPECT_LT(result_.energy_residue, 1e-5);
+  }
+  ASSERT_EQ(of[0].rows(), of[1].rows());
+  const double most = of[0].cwiseAbs().maxCoeff(), apart = (of[0] - of[1]).cwiseAbs().maxCoeff();
+  std::printf("rod's deformation: %.1e of %.3g\n", apart / most, most);
+  EXPECT_LT(apart, 2e-3 * most);
 }
 
 TEST_F(FreeCranks, HaveTangentsAndPowersAtTheirOwnSpeed) {
