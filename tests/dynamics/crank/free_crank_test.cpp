@@ -198,7 +198,7 @@ TEST_F(FreeCranks, StretchAnElasticRodWhateverTheirClockDoes) {
   testing::write_rom(folder_ / "rod.rom.h5", testing::rod_model(testing::rod_truss(2e9, 0.3)));
   const std::string described =
       std::string(kAtOnce) +
-      "[accuracy]\ntolerance = 1e-5\n[contact]\ncavitation = false\nviscosity_pa_s = 0.02\n"
+      "[accuracy]\ntolerance = 1e-4\n[contact]\ncavitation = false\nviscosity_pa_s = 0.02\n"
       "clearance_um = 10\n[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n"
       "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n[crank.load]\nlaw = \"constant\"\n"
       "torque_n_m = 0\n";
@@ -211,7 +211,7 @@ TEST_F(FreeCranks, StretchAnElasticRodWhateverTheirClockDoes) {
   ASSERT_EQ(of[0].rows(), of[1].rows());
   const double most = of[0].cwiseAbs().maxCoeff(), apart = (of[0] - of[1]).cwiseAbs().maxCoeff();
   std::printf("rod's deformation: %.1e of %.3g\n", apart / most, most);
-  EXPECT_LT(apart, 2e-3 * most);
+  EXPECT_LT(apart, 4e-3 * most);
 }
 
 TEST_F(FreeCranks, HaveTangentsAndPowersAtTheirOwnSpeed) {
