@@ -21,8 +21,6 @@ double unbalance_force(const UnbalanceSpec& unbalance, const Motion<double>& tur
          (turn.velocity * turn.velocity * u(axis) - turn.acceleration * across(axis));
 }
 
-constexpr double kLargestRate = 0.02;  // deviation of the speed over the speed, without a warning
-
 }  // namespace
 
 std::vector<std::filesystem::path> CrankComponent::inputs() const {
@@ -83,11 +81,9 @@ void CrankComponent::add_load(ModelBuilder& model) {
     case CrankLoadSpec::Law::kConstant:
       break;
   }
-  auto element = std::make_unique<CrankLoad>(model.system.coordinate(body_, spec_.body.turn()),
-                                             spec_.clock, spec_.rotation, std::move(law),
-                                             ramped(model.time, [](double) { return 1.0; }));
-  load_ = element.get();
-  model.system.add_element(std::move(element));
+  model.system.add_element(std::make_unique<CrankLoad>(
+      model.system.coordinate(body_, spec_.body.turn()), spec_.clock, spec_.rotation,
+      std::move(law), ramped(model.time, [](double) { return 1.0; })));
 }
 
 void CrankComponent::add_loads(ModelBuilder& model) {
@@ -152,15 +148,6 @@ void CrankComponent::record(const System& system, const StageState& state, Histo
     }
   }
   Component::record(system, state, history);
-}
-
-std::vector<std::string> CrankComponent::warnings() const {
-  if (load_ == nullptr || load_->largest_rate() <= kLargestRate * spec_.clock.speed) return {};
-  return {
-      fmt::format("the speed of the free crank differs by up to {:.2g} % from that of its clock, "
-                  "with which the "
-                  "skirts slide on their oil: give its orders as [[engine.order]]",
-                  100.0 * load_->largest_rate() / spec_.clock.speed)};
 }
 
 std::map<int, Eigen::Vector3d> CrankComponent::frames(double) const {

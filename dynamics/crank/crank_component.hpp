@@ -10,8 +10,6 @@
 
 namespace clatter::dynamics {
 
-class CrankLoad;
-
 /// The body "crankshaft" on whose pins the cylinders act. Histories: those of bearings and load;
 /// crankshaft_y, _z [m], crankshaft_tilt_y, _tilt_z [rad] of the centre of mass;
 /// `<bearing>_offset_y`, `_offset_z` [m] of the journal in its bearing.
@@ -32,8 +30,6 @@ class CrankComponent : public Component {
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
 
   void record(const System& system, const StageState& state, History& history) const override;
-  /// A speed that differs much from that of the clock, by which skirts slide.
-  std::vector<std::string> warnings() const override;
   std::map<int, Eigen::Vector3d> frames(double time) const override;
 
   const CrankSpec& spec() const { return spec_; }
@@ -44,7 +40,6 @@ class CrankComponent : public Component {
   int body_ = -1;                 // in a model
   std::vector<int> coordinates_;  // y indices of y, z, ry, rz in bearings
   std::vector<BearingOrbit> orbits_;
-  const CrankLoad* load_ = nullptr;
 };
 
 /// The crankshaft of an engine scene, if it has one.

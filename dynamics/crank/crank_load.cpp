@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -52,7 +51,6 @@ void CrankLoad::begin_step(double time) {
 void CrankLoad::accept_step(double time) {
   accepted_ = finished_;
   time_ = time;
-  largest_rate_ = std::max(largest_rate_, std::abs(accepted_.rate));
   if (law_.controller) law_.controller->accept_step(time, accepted_.angle, accepted_.rate);
 }
 
@@ -67,7 +65,6 @@ std::vector<double> CrankLoad::save() const {
 }
 
 void CrankLoad::restore(const std::vector<double>& state) {
-  largest_rate_ = 0.0;
   if (law_.controller) law_.controller->restore(state);
 }
 

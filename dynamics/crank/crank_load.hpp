@@ -44,8 +44,6 @@ class CrankLoad : public ForceElement {
   void record(History& history) const override;
   std::vector<double> save() const override;
   void restore(const std::vector<double>& state) override;
-  /// The largest deviation of the speed from that of the clock since the last restore() [rad/s].
-  double largest_rate() const { return largest_rate_; }
 
  private:
   struct State {
@@ -56,7 +54,7 @@ class CrankLoad : public ForceElement {
   CrankLoadLaw law_;
   TimeFunction ramp_;
   State last_, finished_, accepted_;
-  double time_ = 0.0, largest_rate_ = 0.0;
+  double time_ = 0.0;
 };
 
 }  // namespace clatter::dynamics

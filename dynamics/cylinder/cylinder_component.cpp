@@ -13,6 +13,7 @@
 #include "dynamics/cylinder/liner_ends_text.hpp"
 #include "dynamics/cylinder/piston_axis.hpp"
 #include "dynamics/cylinder/ring_table.hpp"
+#include "dynamics/cylinder/rod_joints.hpp"
 
 namespace clatter::dynamics {
 
@@ -85,10 +86,11 @@ void CylinderComponent::add_elements(ModelBuilder& model) {
   if (!spec_.contact) return;
   check_scaled_shapes(spec_, bodies.block() != nullptr);
   LinerContact contact = liner_contact(bodies, crank_, pin_, gas_);
-  contact_ = contact.element.get();
+  contact_ = contact.contact;
+  contact_element_ = contact.element.get();
   liner_ = std::move(contact.liner);
   model.system.add_element(std::move(contact.element));
-  auto rings = ring_pack(bodies, crank_, pin_, gauge_pressure(bodies, crank_, gas_));
+  auto rings = ring_pack(bodies, crank_, pin_, gas_);
   rings_ = rings.get();
   if (rings) model.system.add_element(std::move(rings));
 }
@@ -123,7 +125,9 @@ Eigen::Vector2d CylinderComponent::secondary_motion(double time, const Eigen::Ve
   Eigen::Vector2d motion(y(pin_[1]), y(pin_[3]));
   if (liner_) {
     const double tilt = y(liner_->tilt);
-    motion -= Eigen::Vector2d(y(liner_->lateral) - tilt * crank_.piston_pin(time).position, tilt);
+    const double height = turn_ >= 0 ? crank_.piston_pin(time).position + y(pin_[2])
+                                     : crank_.piston_pin(time).position;
+    motion -= Eigen::Vector2d(y(liner_->lateral) - tilt * height, tilt);
   }
   return motion;
 }
@@ -141,7 +145,7 @@ void CylinderComponent::record(const System& system, const StageState& state,
   for (int e = elements_.first; e < elements_.end; ++e) {
     const ForceElement& element = system.element(e);
     // The joints' histories have their names, those of contact and rings are the cylinder's.
-    history.set_prefix(&element == contact_ || &element == rings_ ? prefix : "");
+    history.set_prefix(&element == contact_element_ || &element == rings_ ? prefix : "");
     element.record(history);
   }
   history.set_prefix("");

@@ -56,7 +56,7 @@ class CylinderComponent : public Component {
   Eigen::Vector2d pin_axis_ = Eigen::Vector2d::Zero();  // (x, y) of the pin's centre [m]
   PinNode pin_{-1, -1, -1, -1, -1, -1};
   const film::PistonLiner* contact_ = nullptr;
-  const ForceElement* rings_ = nullptr;
+  const ForceElement *contact_element_ = nullptr, *rings_ = nullptr;
   std::optional<LinerFit> liner_;
 };
 

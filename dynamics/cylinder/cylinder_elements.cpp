@@ -6,50 +6,14 @@
 
 #include "core/base/error.hpp"
 #include "dynamics/cylinder/clearance.hpp"
-#include "dynamics/cylinder/crank_pin.hpp"
 #include "dynamics/cylinder/cylinder_loads.hpp"
-#include "dynamics/cylinder/cylinder_rod.hpp"
-#include "dynamics/cylinder/journal_joint.hpp"
+#include "dynamics/cylinder/real_crank_element.hpp"
 #include "dynamics/cylinder/ring_table.hpp"
 #include "dynamics/cylinder/shape_scale.hpp"
-#include "dynamics/force/joint_friction.hpp"
 #include "dynamics/force/pin_guide.hpp"
 
 namespace clatter::dynamics {
 namespace {
-
-/// An end of the rod with its rotation, of which the ideal one is prescribed; of an elastic rod
-/// that of its rigid motion. A massless one has no coordinate, and no friction.
-JournalSide rod_side(const CylinderBodies& bodies, const SliderCrank& crank, bool small) {
-  auto point = rod_end(bodies, crank, small);
-  std::optional<int> turn;
-  if (bodies.spec.rod.model != RodModel::kMassless)
-    turn = bodies.model.system.coordinate(bodies.rod_index(), 2);
-  return {std::move(point),
-          {turn, [crank](double time) { return crank.rod_angle(time).velocity; }}};
-}
-
-/// The sides of a joint on which forces are recorded, and the other one.
-struct JointSides {
-  JournalSide a, b;
-};
-
-/// The joint by its law. @param journal_first side a is the journal, else b.
-std::unique_ptr<ForceElement> rod_joint(const std::string& name, const JointSpec& spec,
-                                        JointSides sides, bool journal_first) {
-  if (spec.film) {
-    const BearingFilm film(spec.film->size, spec.film->model);
-    if (!journal_first) std::swap(sides.a, sides.b);
-    return std::make_unique<JournalJoint>(name, std::move(sides.a), std::move(sides.b), film,
-                                          journal_first ? 1.0 : -1.0);
-  }
-  if (spec.friction)
-    return std::make_unique<FrictionJoint>(name, std::move(sides.a.point), std::move(sides.b.point),
-                                           spec.law, *spec.friction, sides.a.rotation,
-                                           sides.b.rotation);
-  return std::make_unique<Joint>(name, std::move(sides.a.point), std::move(sides.b.point),
-                                 spec.law);
-}
 
 /// A contact grid with the y indices of its patches and of the rigid motion that fits them.
 struct GridOfBody {
@@ -106,28 +70,6 @@ PinNode pin_node(const CylinderBodies& bodies) {
   return pin;
 }
 
-std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                        const PinNode& pin) {
-  PointWeights centre;
-  centre.add(pin[1], 1.0, 0.0);
-  centre.add(pin[2], 0.0, 1.0);
-  JournalSide piston{std::make_unique<LinearAnchor>(std::move(centre)), {pin[3], {}}};
-  return rod_joint(bodies.spec.name_of("pin"), bodies.spec.small_end,
-                   {std::move(piston), rod_side(bodies, crank, true)}, true);
-}
-
-std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank) {
-  JournalSide rod = rod_side(bodies, crank, false);
-  auto centre = crank_pin(bodies, crank);
-  std::optional<int> turn;
-  if (bodies.spec.has_free_crank())
-    turn = bodies.model.system.coordinate(bodies.model.body(CrankBody::kName),
-                                          bodies.spec.crankshaft->turn());
-  JournalSide shaft{std::move(centre), {turn, [crank](double time) { return crank.spin(time); }}};
-  return rod_joint(bodies.spec.name_of("crank_pin"), bodies.spec.big_end,
-                   {std::move(rod), std::move(shaft)}, false);
-}
-
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
                                         const PinNode& pin) {
   std::optional<std::array<int, 3>> block;
@@ -137,8 +79,10 @@ std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const Slid
     block = {system.frame_coordinate(b, 0), system.frame_coordinate(b, 4),
              system.frame_coordinate(b, 5)};
   }
-  return std::make_unique<PinGuide>(bodies.spec.name_of("pin_guide"), bodies.spec.guide, crank,
-                                    std::array{pin[0], pin[4], pin[5]}, block);
+  const CrankView view(bodies, crank);
+  const GuidePath path = path_of_pin(crank.pin_offset(), view.motion().stroke);
+  return view.follow(std::make_unique<PinGuide>(bodies.spec.name_of("pin_guide"), bodies.spec.guide,
+                                                path, std::array{pin[0], pin[4], pin[5]}, block));
 }
 
 void set_layer_range(const SliderCrank& crank, film::PistonLinerOptions& options) {
@@ -197,25 +141,27 @@ LinerContact liner_contact(const CylinderBodies& bodies, const SliderCrank& cran
     surfaces.liner_axial = axial.at - cylinder.pin;
     coordinates.push_back(axial.coordinate);
   }
-  surfaces.stroke = [crank](double time) {
-    const auto motion = crank.piston_pin(time);
+  const CrankView view(bodies, crank);
+  surfaces.stroke = [stroke = view.motion().stroke](double time) {
+    const Motion<double> motion = stroke(time);
     return film::StrokeState{motion.position, motion.velocity};
   };
   film::PistonLinerOptions options = *spec.contact;
   options.name = spec.name_of(options.name);
   if (options.liner_layer) {
     set_layer_range(crank, options);
-    load_layer_rings(spec.rings, gauge_pressure(bodies, crank, gas), *options.liner_layer);
+    load_layer_rings(spec.rings, gauge_pressure(bodies, view.motion(), gas), *options.liner_layer);
   }
   if (options.warm_clearance) set_stroke(crank, *options.warm_clearance);
   for (const auto& [specs, shapes] : {std::pair{&spec.scaled_bore, &options.scaled_bore},
                                       {&spec.scaled_skirt, &options.scaled_skirt}})
     for (const ScaledShapeSpec& shape : *specs)
-      shapes->push_back(scaled_shape(shape, spec, crank, gas));
-  auto element = with_context(spec.contact_where, [&] {
+      shapes->push_back(scaled_shape(shape, spec, view.motion(), gas));
+  auto contact = with_context(spec.contact_where, [&] {
     return std::make_unique<film::PistonLiner>(options, surfaces, coordinates);
   });
-  return {std::move(element), fit};
+  const film::PistonLiner* const found = contact.get();
+  return {view.follow(std::move(contact), along_stroke(pin[2])), found, fit};
 }
 
 }  // namespace clatter::dynamics

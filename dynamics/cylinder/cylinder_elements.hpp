@@ -9,7 +9,7 @@
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
 #include "dynamics/film/piston_liner.hpp"
-#include "dynamics/force/joint.hpp"
+#include "dynamics/force/element.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
@@ -26,8 +26,9 @@ struct LinerFit {
 
 /// Piston and liner.
 struct LinerContact {
-  std::unique_ptr<film::PistonLiner> element;
-  std::optional<LinerFit> liner;  // of an elastic block
+  std::unique_ptr<ForceElement> element;
+  const film::PistonLiner* contact;  // it, or what it consists of
+  std::optional<LinerFit> liner;     // of an elastic block
 };
 
 /// Sets the heights of the layer on the liner, which `options` has: from below the skirt's lowest
@@ -48,9 +49,6 @@ struct LinerSide {
 // be numbered, and returns the element. InputError for sets that a body lacks.
 
 PinNode pin_node(const CylinderBodies& bodies);
-std::unique_ptr<ForceElement> pin_joint(const CylinderBodies& bodies, const SliderCrank& crank,
-                                        const PinNode& pin);
-std::unique_ptr<ForceElement> crank_joint(const CylinderBodies& bodies, const SliderCrank& crank);
 std::unique_ptr<ForceElement> pin_guide(const CylinderBodies& bodies, const SliderCrank& crank,
                                         const PinNode& pin);
 /// Of a cylinder on an elastic block.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/cylinder/cylinder_bodies.hpp"
+#include "dynamics/cylinder/real_crank.hpp"
 #include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
@@ -14,9 +15,8 @@ namespace clatter::dynamics {
 /// Absolute pressure over the crank angle from firing TDC [Pa] of a cylinder with [gas].
 std::optional<Spline> gas_pressure(const CylinderSpec& spec);
 
-/// Gauge pressure over time [Pa], which grows over the ramp of the start; empty without `gas`. Of a
-/// free crank that of the clock's angle.
-TimeFunction gauge_pressure(const CylinderBodies& bodies, const SliderCrank& crank,
+/// Gauge pressure over time [Pa], which grows over the ramp of the start; empty without `gas`.
+TimeFunction gauge_pressure(const CylinderBodies& bodies, const CrankMotion& crank,
                             const std::optional<Spline>& gas);
 
 /// A unit load per Pa of a cylinder's gas.

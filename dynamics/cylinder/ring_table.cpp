@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/base/units.hpp"
+#include "dynamics/cylinder/cylinder_loads.hpp"
+#include "dynamics/cylinder/real_crank_element.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -82,8 +84,8 @@ void load_layer_rings(const std::vector<RingSpec>& rings, const TimeFunction& ga
   }
 }
 
-std::unique_ptr<RingPack> ring_pack(const CylinderBodies& bodies, const SliderCrank& crank,
-                                    const PinNode& pin, TimeFunction gas) {
+std::unique_ptr<ForceElement> ring_pack(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, const std::optional<Spline>& gas) {
   const CylinderSpec& spec = bodies.spec;
   const auto acts = [](const RingSpec& ring) { return ring.acts(); };
   if (std::none_of(spec.rings.begin(), spec.rings.end(), acts)) return nullptr;
@@ -98,8 +100,9 @@ std::unique_ptr<RingPack> ring_pack(const CylinderBodies& bodies, const SliderCr
   RingPackBodies parts;
   parts.bore_axis = cylinder.bore - cylinder.pin;
   parts.liner_axial = parts.bore_axis;
-  parts.stroke = [crank](double time) { return crank.piston_pin(time); };
-  parts.gas = std::move(gas);
+  const CrankView view(bodies, crank);
+  parts.stroke = view.motion().stroke;
+  parts.gas = gauge_pressure(bodies, view.motion(), gas);
   std::vector<int> coordinates;
   const auto liner = bodies.block() != nullptr ? std::optional(liner_side(bodies)) : std::nullopt;
   if (liner) {
@@ -109,7 +112,9 @@ std::unique_ptr<RingPack> ring_pack(const CylinderBodies& bodies, const SliderCr
   }
   coordinates.insert(coordinates.end(), pin.begin(), pin.end());
   if (liner) coordinates.push_back(liner->axial);
-  return std::make_unique<RingPack>(std::move(options), std::move(parts), std::move(coordinates));
+  return view.follow(
+      std::make_unique<RingPack>(std::move(options), std::move(parts), std::move(coordinates)),
+      along_stroke(pin[2]));
 }
 
 }  // namespace clatter::dynamics

@@ -19,9 +19,9 @@ std::vector<RingSpec> read_rings(const Config& contact, film::PistonLinerOptions
 void load_layer_rings(const std::vector<RingSpec>& rings, const TimeFunction& gas,
                       film::LinerLayerOptions& layer);
 
-/// Friction of the rings, nullptr where none has any. @param gas gauge pressure over time [Pa];
-/// empty: none.
-std::unique_ptr<RingPack> ring_pack(const CylinderBodies& bodies, const SliderCrank& crank,
-                                    const PinNode& pin, TimeFunction gas);
+/// Friction of the rings, nullptr where none has any. @param gas the cylinder's pressure, when it
+/// has one.
+std::unique_ptr<ForceElement> ring_pack(const CylinderBodies& bodies, const SliderCrank& crank,
+                                        const PinNode& pin, const std::optional<Spline>& gas);
 
 }  // namespace clatter::dynamics

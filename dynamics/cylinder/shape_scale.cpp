@@ -13,10 +13,9 @@ namespace clatter::dynamics {
 namespace {
 
 /// The factor by the gas pressure, or by its table, over time.
-film::ScaleState scale_at(const SliderCrank& crank, const Spline& table, double zero, double size,
-                          double time) {
-  const double angle = crank.angle(time), speed = crank.speed(time);
-  return {(table(angle) - zero) / size, table.slope(angle) * speed / size};
+film::ScaleState scale_at(const Motion<double>& turn, const Spline& table, double zero,
+                          double size) {
+  return {(table(turn.position) - zero) / size, table.slope(turn.position) * turn.velocity / size};
 }
 
 void refuse_elastic(const std::vector<ScaledShapeSpec>& shapes, const char* part) {
@@ -49,15 +48,16 @@ std::optional<ShapeScale> read_shape_scale(const Config& entry) {
 }
 
 film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& cylinder,
-                               const SliderCrank& crank, const std::optional<Spline>& gas) {
+                               const CrankMotion& crank, const std::optional<Spline>& gas) {
   const ShapeScale& scale = spec.scale;
   if (scale.factor)
-    return {spec.shape, [crank, table = *scale.factor](double time) {
-              return scale_at(crank, table, 0.0, 1.0, time);
+    return {spec.shape, [turn = crank.turn, table = *scale.factor](double time) {
+              return scale_at(turn(time), table, 0.0, 1.0);
             }};
   if (!gas) throw InputError(scale.where + ": found \"gas\" in a scene without it, expected [gas]");
-  return {spec.shape, [crank, table = *gas, ambient = cylinder.gas->ambient, at = scale.reference](
-                          double time) { return scale_at(crank, table, ambient, at, time); }};
+  return {spec.shape,
+          [turn = crank.turn, table = *gas, ambient = cylinder.gas->ambient,
+           at = scale.reference](double time) { return scale_at(turn(time), table, ambient, at); }};
 }
 
 void check_scaled_shapes(const CylinderSpec& cylinder, bool elastic_block) {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/base/config.hpp"
+#include "dynamics/cylinder/real_crank.hpp"
 #include "dynamics/film/cycle_scale.hpp"
-#include "dynamics/given/crank.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -33,7 +33,7 @@ std::optional<ShapeScale> read_shape_scale(const Config& entry);
 /// The shape with its factor over time. @param gas the cylinder's pressure. InputError for gas that
 /// the scene does not have.
 film::ScaledShape scaled_shape(const ScaledShapeSpec& spec, const CylinderSpec& cylinder,
-                               const SliderCrank& crank, const std::optional<Spline>& gas);
+                               const CrankMotion& crank, const std::optional<Spline>& gas);
 
 /// InputError where a gas deformation is added to a part that is elastic, and so has it already.
 void check_scaled_shapes(const CylinderSpec& cylinder, bool elastic_block);

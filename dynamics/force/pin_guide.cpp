@@ -10,15 +10,16 @@ namespace {
 constexpr int kTilt = 4;  // ry of the block among the element's coordinates
 constexpr int kYaw = 5;   // rz of the block
 
-std::function<Motion<Eigen::Vector2d>(double)> path_of_pin(const SliderCrank& crank) {
-  return [crank](double time) {
-    const Motion<double> stroke = crank.piston_pin(time);
-    return Motion<Eigen::Vector2d>{
-        {crank.pin_offset(), stroke.position}, {0.0, stroke.velocity}, {0.0, stroke.acceleration}};
-  };
-}
-
 }  // namespace
+
+GuidePath path_of_pin(double offset, std::function<Motion<double>(double)> stroke) {
+  return {[offset, stroke = std::move(stroke)](double time) {
+            const Motion<double> z = stroke(time);
+            return Motion<Eigen::Vector2d>{
+                {offset, z.position}, {0.0, z.velocity}, {0.0, z.acceleration}};
+          },
+          nullptr};
+}
 
 PinGuide::PinGuide(std::string name, const GuideLaw& law, GuidePath path,
                    const std::array<int, 3>& guided, const std::optional<std::array<int, 3>>& block)
@@ -37,7 +38,10 @@ PinGuide::PinGuide(std::string name, const GuideLaw& law, GuidePath path,
 
 PinGuide::PinGuide(std::string name, const GuideLaw& law, const SliderCrank& crank,
                    const std::array<int, 3>& pin, const std::optional<std::array<int, 3>>& block)
-    : PinGuide(std::move(name), law, {path_of_pin(crank), nullptr}, pin, block) {}
+    : PinGuide(
+          std::move(name), law,
+          path_of_pin(crank.pin_offset(), [crank](double time) { return crank.piston_pin(time); }),
+          pin, block) {}
 
 PinGuide::Motion3 PinGuide::motion(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const {
   Eigen::Vector3d prescribed = Eigen::Vector3d::Zero();

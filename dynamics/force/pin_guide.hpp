@@ -22,6 +22,9 @@ struct GuidePath {
   std::function<Motion<double>(double)> turn;  // of its own axes about x [rad]; empty: none
 };
 
+/// The path of a pin that moves along z at y = `offset`; `stroke` is z.
+GuidePath path_of_pin(double offset, std::function<Motion<double>(double)> stroke);
+
 /// Linear springs and dampers between the pin and the engine block, at the height of the pin:
 ///
 ///   d = (x - x_b - z_B ry_b + y_pin rz_b,  ry - ry_b,  rz - rz_b),   f = G^T (-k d - c d')
@@ -36,7 +39,7 @@ class PinGuide : public ForceElement {
   /// the guide is at rest.
   PinGuide(std::string name, const GuideLaw& law, GuidePath path, const std::array<int, 3>& guided,
            const std::optional<std::array<int, 3>>& block);
-  /// The guide of a piston at its pin.
+  /// The guide of a piston at its pin, by the clock.
   PinGuide(std::string name, const GuideLaw& law, const SliderCrank& crank,
            const std::array<int, 3>& pin, const std::optional<std::array<int, 3>>& block);
   std::string name() const override { return name_; }

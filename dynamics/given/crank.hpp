@@ -31,8 +31,9 @@ class SliderCrank {
   double pin_offset() const { return pin_offset_; }
   /// Angular velocity of the crankshaft about +x [rad/s].
   double spin(double time) const { return sign_ * clock_.turn(time).velocity; }
+  /// theta by the clock [rad], [rad/s], [rad/s2].
+  Motion<double> turn(double time) const;
   double angle(double time) const { return clock_.angle(time) - firing_; }  // theta [rad]
-  double speed(double time) const { return clock_.turn(time).velocity; }    // theta' [rad/s]
   double time(double angle) const { return clock_.time(angle + firing_); }
 
   Motion<Eigen::Vector2d> crank_pin(double time) const;  // (y, z) [m]
@@ -40,6 +41,12 @@ class SliderCrank {
   Motion<double> piston_pin(double time) const;          // z_B [m]
   /// Point of the rod at `distance` from the crank pin, (y, z) [m].
   Motion<Eigen::Vector2d> rod_point(double time, double distance) const;
+
+  // The same where theta is not that of the clock.
+  Motion<Eigen::Vector2d> crank_pin(const Motion<double>& theta) const;
+  Motion<double> rod_angle(const Motion<double>& theta) const;
+  Motion<double> piston_pin(const Motion<double>& theta) const;
+  Motion<Eigen::Vector2d> rod_point(const Motion<double>& theta, double distance) const;
 
  private:
   double radius_, rod_length_, pin_offset_, firing_, sign_;

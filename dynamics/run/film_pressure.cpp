@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "dynamics/film/piston_liner.hpp"
@@ -29,12 +31,16 @@ std::string position_of_largest(const film::PistonLiner& contact) {
                      pad->angle[around] * 180.0 / std::numbers::pi, 1e3 * pad->axial[along]);
 }
 
-size_t entry_of(const History& scalars, const std::string& name) {
+size_t entry_of(const History& scalars, const std::string& component, const std::string& name) {
   const auto& entries = scalars.entries();
+  const std::string complete = component.empty() ? name : component + "_" + name;
   size_t k = 0;
-  while (k < entries.size() && entries[k].name != name) ++k;
+  while (k < entries.size() && entries[k].name != complete) ++k;
   return k;
 }
+
+/// The pin's six coordinates alone: neither skirt nor liner is elastic.
+bool is_rigid(const film::PistonLiner& contact) { return contact.size() == 6; }
 
 }  // namespace
 
@@ -44,22 +50,26 @@ void FilmPressureWatch::look(const Model& model, const History& scalars, double 
     for (const auto& component : model.components) {
       if (component->contact() == nullptr) continue;
       const std::string name = component->name();
-      const size_t entry =
-          entry_of(scalars, name.empty() ? "film_pressure_max" : name + "_film_pressure_max");
-      if (entry < scalars.entries().size()) watched_->push_back({component.get(), entry});
+      const size_t pressure = entry_of(scalars, name, "film_pressure_max"),
+                   force = entry_of(scalars, name, "side_force");
+      if (std::max(pressure, force) < scalars.entries().size())
+        watched_->push_back({component.get(), pressure, force});
     }
   }
   for (Watched& one : *watched_) {
-    const double pressure = scalars.entries()[one.entry].value;
+    const double pressure = scalars.entries()[one.pressure].value;
     if (!(pressure > one.largest)) continue;
     one.largest = pressure;
     const std::string name = one.component->name();
     one.warning = fmt::format(
         "{}film pressure {:.3g} GPa at crank angle {:.1f} deg on {} is above {:.3g} GPa, which "
-        "neither oil nor skirt bear as modelled: reduce the speed or the clearance, or use elastic "
-        "bodies",
+        "neither oil nor skirt bear as modelled, under a side force of {:.3g} N: reduce the loads "
+        "on "
+        "the piston, the speed or the clearance{}",
         name.empty() ? "" : name + ": ", 1e-9 * pressure, model.clock->angle_deg(time),
-        position_of_largest(*one.component->contact()), 1e-9 * kLargestFilmPressure);
+        position_of_largest(*one.component->contact()), 1e-9 * kLargestFilmPressure,
+        std::abs(scalars.entries()[one.force].value),
+        is_rigid(*one.component->contact()) ? ", or use elastic bodies" : "");
   }
 }
 

@@ -22,14 +22,14 @@ class FilmPressureWatch {
  public:
   /// `scalars`: what model.record() reports of the state at `time` [s].
   void look(const Model& model, const History& scalars, double time);
-  /// For each contact one warning with time, position and remedy when its largest pressure is above
-  /// kLargestFilmPressure.
+  /// For each contact one warning with time, position, side force and remedy when its largest
+  /// pressure is above kLargestFilmPressure.
   std::vector<std::string> warnings() const;
 
  private:
   struct Watched {
     const Component* component;
-    size_t entry;  // of its film_pressure_max among the scalars
+    size_t pressure, force;  // film_pressure_max, side_force among the scalars
     double largest = kLargestFilmPressure;
     std::string warning = {};
   };

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/dynamics/mirrored.hpp"
 #include "tests/dynamics/slap_scene.hpp"
 #include "tests/dynamics/synthetic.hpp"
@@ -17,13 +19,15 @@ constexpr double kOffset = 0.8e-3;  // of the pin [m]
 /// by.
 class MirrorImage : public testing::SlapScenes {
  protected:
-  /// Runs both engines with `changes`.
-  void run(const std::string& changes) {
+  /// Runs both engines with `changes` and, where a shape has sides, their own `of_forward` and
+  /// `of_backward`.
+  void run(const std::string& changes, const std::string& of_forward = "",
+           const std::string& of_backward = "") {
     const rom::ReducedModel piston = testing::elastic_piston(0.0535, 3, 4, -kOffset);
     const rom::ReducedModel block = testing::elastic_block(0.0535, 8, 6, {2e-3, -1e-3});
-    forward_ = one(piston, block, "forward", 1e3 * kOffset, changes);
+    forward_ = one(piston, block, "forward", 1e3 * kOffset, changes + of_forward);
     backward_ = one(mirrored(piston, of_piston_), mirrored(block, of_block_), "backward",
-                    -1e3 * kOffset, changes);
+                    -1e3 * kOffset, changes + of_backward);
   }
 
   /// Largest difference of "q", "v" or "a" of all coordinates of a body from the image of the other
@@ -97,6 +101,30 @@ TEST_F(MirrorImage, OfRingsAndFrictionOfThePins) {
                   "diameter_mm = 40\n[big_end]\nfriction_coefficient = 0.02\ndiameter_mm = 70\n") +
       testing::kElasticBlock);
   for (const char* what : {"q", "v", "a"}) EXPECT_LT(difference("piston", what), 1e-8) << what;
+}
+
+TEST_F(MirrorImage, OfOilFilmsInTheJointsOfTheRod) {
+  run(std::string("[contact]\ncavitation = false\n[accuracy]\ntolerance = 1e-3\n"
+                  "[small_end]\nmodel = \"moes\"\ndiameter_mm = 40\nwidth_mm = 30\n"
+                  "clearance_um = 20\nviscosity_mpa_s = 10\n[big_end]\nmodel = \"butenschoen\"\n"
+                  "diameter_mm = 70\nwidth_mm = 30\nclearance_um = 35\nviscosity_mpa_s = 10\n") +
+      testing::kElasticBlock);
+  for (const char* what : {"q", "v", "a"}) EXPECT_LT(difference("piston", what), 1e-8) << what;
+}
+
+TEST_F(MirrorImage, OfWarmShapesThatTheGasScales) {
+  // The image of an order n with its maximum at p is that order with its maximum at 180 deg - p.
+  const auto shapes = [](double bore_deg, double skirt_deg) {
+    return fmt::format(
+        "[[contact.bore_shape]]\norder = 3\nheight_mm = [100, 330]\namplitude_um = [3, 6]\n"
+        "phase_deg = {}\nscale_table = \"scale.csv\"\n[[contact.skirt_shape]]\norder = 2\n"
+        "height_mm = [-50, 50]\namplitude_um = [2, 5]\nphase_deg = {}\n",
+        bore_deg, skirt_deg);
+  };
+  std::ofstream(folder_ / "scale.csv")
+      << "crank_angle [deg], scale [1]\n-360, 1\n-180, 0.9\n0, 1.4\n180, 1.2\n360, 1\n";
+  run("[contact]\ncavitation = false\n", shapes(25.0, 70.0), shapes(155.0, 110.0));
+  for (const char* what : {"q", "v", "a"}) EXPECT_LT(difference("piston", what), 1e-10) << what;
 }
 
 TEST_F(MirrorImage, OfACrankWhoseSpeedFluctuates) {

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What happens at the angle and the speed of a free crank, and not at those of its clock.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+
+#include "dynamics/given/load_table.hpp"
+#include "dynamics/ring/ring_law.hpp"
+#include "tests/dynamics/element_check.hpp"
+#include "tests/dynamics/rod_truss.hpp"
+#include "tests/dynamics/slap_scene.hpp"
+#include "tests/dynamics/synthetic.hpp"
+
+namespace clatter::dynamics {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kSpeed = 2000.0 * std::numbers::pi / 30.0;  // of the clock [rad/s]
+constexpr double kBore = 0.0535, kAmbient = 1e5;             // radius [m], [Pa]
+constexpr double kViscosity = 0.02, kReversal = 0.05;        // [Pa s], [m/s]
+
+// All loads act from the start on: while inertia forces grow, motions depend on the clock.
+constexpr const char* kAtOnce = "[time]\ncycles = 1\nramp_deg = 0\noutput_step_us = 50\n";
+
+constexpr const char* kRing =
+    "[[contact.ring]]\nheight_mm = 45\nface_radius_mm = 20\nload_n_mm = 1\nwidth_mm = 2.5\n"
+    "thickness_mm = 4\ngas_share = 1\nfriction_coefficient = 0.1\n";
+
+RingSpec ring() {
+  RingSpec ring;
+  ring.face_radius = 0.02;
+  ring.load = 1e3;
+  ring.width = 2.5e-3;
+  ring.gas_share = 1.0;
+  ring.boundary = 0.1;
+  return ring;
+}
+
+/// A rigid slider-crank with flywheel under gas, the friction T of a ring, constant load:
+///   J theta'' + J'(theta) theta'^2 / 2 = (T - (p - p_0) A) z'(theta) - L
+class RigidEngine {
+ public:
+  RigidEngine(Spline gas, double polar, double load)
+      : gas_(std::move(gas)), polar_(polar), load_(load) {}
+
+  /// theta at ascending times [s], from -2 pi at the clock's angle and speed, by the classical
+  /// method of fourth order in steps of at most 2 us.
+  std::vector<double> angles(const std::vector<double>& times) const {
+    std::vector<double> found;
+    double q = -2.0 * std::numbers::pi, v = kSpeed, last = q / kSpeed;
+    for (const double time : times) {
+      const double span = time - last;
+      last = time;
+      const int parts = static_cast<int>(std::ceil(span / 2e-6));
+      const double h = span / parts;
+      for (int k = 0; k < parts; ++k) {
+        const double a1 = rate(q, v), v2 = v + 0.5 * h * a1;
+        const double a2 = rate(q + 0.5 * h * v, v2), v3 = v + 0.5 * h * a2;
+        const double a3 = rate(q + 0.5 * h * v2, v3), v4 = v + h * a3;
+        const double a4 = rate(q + h * v3, v4);
+        q += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+        v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+      }
+      found.push_back(q);
+    }
+    return found;
+  }
+
+ private:
+  double rate(double q, double v) const {
+    constexpr double r = 0.065, l = 0.21, d = 0.07, piston = 1.9, rod = 2.2, inertia = 0.02,
+                     area = 8.992e-3;
+    const double s = std::sin(q), c = std::cos(q);
+    const double sine = -r * s / l, cosine = std::sqrt(1.0 - sine * sine);
+    const double phi_1 = -r * c / (l * cosine), phi_2 = (r * s / l + phi_1 * phi_1 * sine) / cosine;
+    // First and second derivatives by theta of the pin's z and of the rod's centre.
+    const auto height = [&](double arm) {
+      return std::pair{-r * s - arm * sine * phi_1,
+                       -r * c - arm * (cosine * phi_1 * phi_1 + sine * phi_2)};
+    };
+    const auto [z_1, z_2] = height(l);
+    const auto [w_1, w_2] = height(d);
+    const double y_1 = -r * c - d * cosine * phi_1,
+                 y_2 = r * s + d * (sine * phi_1 * phi_1 - cosine * phi_2);
+    const double total =
+        polar_ + piston * z_1 * z_1 + rod * (y_1 * y_1 + w_1 * w_1) + inertia * phi_1 * phi_1;
+    const double half_slope =
+        piston * z_1 * z_2 + rod * (y_1 * y_2 + w_1 * w_2) + inertia * phi_1 * phi_2;
+    const double gauge = gas_(q) - kAmbient;
+    double on_piston = -gauge * area;
+    const double normal = ring().load + std::max(gauge, 0.0) * ring().width;
+    on_piston += 2.0 * std::numbers::pi * kBore *
+                 ring_shear(ring(), kViscosity, normal, z_1 * v, kReversal).force;
+    return (on_piston * z_1 - load_ - half_slope * v * v) / total;
+  }
+
+  Spline gas_;
+  double polar_, load_;
+};
+
+class FreeCranks : public testing::SlapScenes {
+ protected:
+  /// Values of a history at equal intervals of the run.
+  static std::vector<double> sampled(const H5File& file, const std::string& name, int count) {
+    const auto time = file.read_doubles("history/time"), all = file.read_doubles("history/" + name);
+    std::vector<double> found;
+    size_t k = 0;
+    for (int i = 0; i <= count; ++i) {
+      const double t = time.front() + (time.back() - time.front()) * i / count;
+      while (k + 2 < time.size() && time[k + 1] < t) ++k;
+      const double share = (t - time[k]) / (time[k + 1] - time[k]);
+      found.push_back((1.0 - share) * all[k] + share * all[k + 1]);
+    }
+    return found;
+  }
+};
+
+TEST_F(FreeCranks, TurnAsARigidSliderCrankDoes) {
+  constexpr double kPolar = 0.3, kLoad = 5.0;  // [kg m2], [N m]
+  const std::string stiff =
+      "clearance_um = 0\nsoft_stiffness_n_m = 0\nstiffness = 1e13\ndamping_n_s_m = 1e5\n";
+  const std::string described =
+      std::string(kAtOnce) +
+      "method = \"tr-bdf2\"\nlargest_step_us = 20\n[accuracy]\ntolerance = 1e-6\n"
+      "[small_end]\n" +
+      stiff + "[big_end]\n" + stiff +
+      fmt::format(
+          "[contact]\nlubrication = \"none\"\nfriction = false\nclearance_um = 0\n"
+          "barrel_top_um = 0\nbarrel_bottom_um = 0\nviscosity_pa_s = {}\n"
+          "reversal_speed_m_s = {}\n[crank]\nspeed = \"free\"\npolar_kg_m2 = {}\n"
+          "[crank.load]\nlaw = \"constant\"\ntorque_n_m = {}\n{}",
+          kViscosity, kReversal, kPolar, kLoad, kRing);
+  const H5File file = recorded(scene(described), "free");
+  const auto time = file.read_doubles("history/time"),
+             deviation = file.read_doubles("history/crank_deviation");
+  const RigidEngine engine(
+      read_gas_table(folder_ / "motored.csv", "pressure", Spline::Kind::kMonotoneCubic), kPolar,
+      kLoad);
+  const auto angles = engine.angles(time);
+  double most = 0.0, apart = 0.0;
+  for (size_t k = 0; k < time.size(); ++k) {
+    const double expected = angles[k] - kSpeed * time[k];
+    most = std::max(most, std::abs(expected));
+    apart = std::max(apart, std::abs(deviation[k] - expected));
+  }
+  std::printf("crank up to %.4f rad from its clock, %.1e rad from a rigid one, residue %.1e\n",
+              most, apart, result_.energy_residue);
+  EXPECT_GT(most, 0.01);
+  EXPECT_LT(apart, 1e-6);
+  EXPECT_LT(result_.energy_residue, 1e-7);
+}
+
+/// A clock whose speed varies, but not at the start.
+constexpr const char* kUneven = "[[engine.order]]\norder = 2\namplitude_rpm = 60\nphase_deg = 90\n";
+
+TEST_F(FreeCranks, MoveWhateverTheirClockDoes) {
+  // The clock is a choice of coordinates: skirt, rings and shapes move as with any other.
+  const std::string described =
+      std::string(kAtOnce) +
+      "[accuracy]\ntolerance = 1e-4\n[contact]\nviscosity_pa_s = 0.02\ncavitation = false\n"
+      "reversal_speed_m_s = 0.5\n"
+      "clearance_um = 10\n" +
+      kRing +
+      "groove_coefficient = 0.05\nmass_g = 30\n[[contact.bore_shape]]\norder = 0\n"
+      "height_mm = [100, 330]\namplitude_um = [4, 4]\nscale = \"gas\"\nat_bar = 40\n"
+      "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n[crank.load]\nlaw = \"constant\"\n"
+      "torque_n_m = 0\n";
+  std::map<std::string, std::vector<double>> of[2];
+  for (const int k : {0, 1}) {
+    const H5File file =
+        recorded(scene(described + (k == 1 ? kUneven : "")), k == 1 ? "uneven" : "even");
+    EXPECT_LT(result_.energy_residue, 1e-5);
+    for (const char* name :
+         {"crank_speed", "piston_lateral", "piston_tilt", "side_force", "friction_force",
+          "film_min", "ring_friction_force", "ring_groove_force", "gas_pressure"})
+      of[k][name] = sampled(file, name, 720);
+  }
+  for (const auto& [name, values] : of[0]) {
+    double most = 0.0, apart = 0.0;
+    for (size_t i = 0; i < values.size(); ++i) {
+      most = std::max(most, std::abs(values[i]));
+      apart = std::max(apart, std::abs(values[i] - of[1][name][i]));
+    }
+    std::printf("%-20s %.1e of %.3g\n", name.c_str(), apart / most, most);
+    // Forces between accepted steps are interpolated.
+    const bool force = name == "side_force" || name.starts_with("ring_");
+    EXPECT_LT(apart, (force ? 5e-3 : 5e-4) * most) << name;
+  }
+}
+
+TEST_F(FreeCranks, StretchAnElasticRodWhateverTheirClockDoes) {
+  testing::write_rom(folder_ / "rod.rom.h5", testing::rod_model(testing::rod_truss(2e9, 0.3)));
+  const std::string described =
+      std::string(kAtOnce) +
+      "[accuracy]\ntolerance = 1e-4\n[contact]\ncavitation = false\nviscosity_pa_s = 0.02\n"
+      "clearance_um = 10\n[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n"
+      "[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n[crank.load]\nlaw = \"constant\"\n"
+      "torque_n_m = 0\n";
+  RowMatrix of[2];
+  for (const int k : {0, 1}) {
+    of[k] = recorded(scene(described + (k == 1 ? kUneven : "")), k == 1 ? "uneven" : "even")
+                .read_rows("bodies/rod/q");
+    EXPECT_LT(result_.energy_residue, 1e-5);
+  }
+  ASSERT_EQ(of[0].rows(), of[1].rows());
+  const double most = of[0].cwiseAbs().maxCoeff(), apart = (of[0] - of[1]).cwiseAbs().maxCoeff();
+  std::printf("rod's deformation: %.1e of %.3g\n", apart / most, most);
+  EXPECT_LT(apart, 4e-3 * most);
+}
+
+TEST_F(FreeCranks, HaveTangentsAndPowersAtTheirOwnSpeed) {
+  const Scene described = scene(
+      std::string(kAtOnce) + testing::kElasticBlock +
+      "[contact]\ncavitation = false\nviscosity_pa_s = 0.02\n" + kRing +
+      "groove_coefficient = 0.05\nmass_g = 30\n[crank]\nspeed = \"free\"\npolar_kg_m2 = 0.5\n");
+  const LoadedBodies bodies = load_bodies(described);
+  const auto model = build_model(described, bodies);
+  System& system = model->system;
+  int checked = 0;
+  for (int e = 0; e < system.elements(); ++e) {
+    ForceElement& element = system.element(e);
+    const std::string name = element.name();
+    if (name != "piston_liner" && name != "rings" && name != "pin_guide") continue;
+    ++checked;
+    const auto n = static_cast<Eigen::Index>(element.coordinates().size());
+    VectorXd y(n), v(n);  // some state; the last coordinate is the rotation of the crank
+    for (Eigen::Index i = 0; i < n; ++i) {
+      y(i) = 1e-7 * std::sin(1.0 + static_cast<double>(i));
+      v(i) = 1e-3 * std::cos(2.0 * static_cast<double>(i));
+    }
+    y(n - 1) = 0.03;
+    v(n - 1) = 8.0;
+    const Stage stage{0.0021, 2e-5, 1, {}};
+    const VectorXd before = y - stage.kappa * v;
+    Response at, more, less;
+    element.evaluate(stage, y, v, true, at);
+    const Eigen::MatrixXd tangent = testing::complete_tangent(at);
+    VectorXd a = y, b = y;
+    constexpr double kStep = 1e-8;
+    a(n - 1) += kStep;
+    b(n - 1) -= kStep;
+    element.evaluate(stage, a, (a - before) / stage.kappa, false, more);
+    element.evaluate(stage, b, (b - before) / stage.kappa, false, less);
+    const VectorXd column = (more.force - less.force) / (2.0 * kStep);
+    EXPECT_GT(column.norm(), 0.0) << name;
+    EXPECT_LT((tangent.col(n - 1) - column).norm(), 1e-3 * column.norm()) << name;
+    EXPECT_EQ(at.force(n - 1), 0.0);
+    // At constant rates, of which the tableau's start knows as much.
+    std::vector<double> state = element.save();
+    ASSERT_GE(state.size(), 2U);
+    state.end()[-2] = v(n - 1);
+    state.end()[-1] = 0.0;
+    element.restore(state);
+    const auto power = [&](double later) {
+      const Stage now{stage.time + later, 1e-6, 1, {}};
+      const VectorXd there = y + later * v;
+      element.evaluate(now, there, v, false, at);
+      element.finish_stage(now);
+      return element.power(there, v);
+    };
+    constexpr double kApart = 1e-6;
+    const double stored = (power(kApart).stored - power(-kApart).stored) / (2.0 * kApart);
+    const Power here = power(0.0);
+    EXPECT_GT(here.lost, 0.0);
+    EXPECT_NEAR(at.force.dot(v) + stored + here.lost, here.input,
+                1e-6 * (std::abs(here.lost) + std::abs(here.input) + std::abs(stored)))
+        << name;
+  }
+  EXPECT_EQ(checked, 3);
+}
+
+}  // namespace
+}  // namespace clatter::dynamics
