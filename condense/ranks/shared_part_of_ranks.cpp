@@ -41,8 +41,8 @@ class PartOfRanks : public SharedPart {
     }
   }
   const rom::EliminationOrder& order() const override { return order_; }
-  const Entries& K() const { return matrices_.K; }
-  const Entries& M() const { return matrices_.M; }
+  const ranks::SharedMatrices& matrices() const { return matrices_; }
+  const ranks::SharedPencil& whole_pencil() const { return whole_; }
 
  private:
   ranks::SharedMatrices matrices_;
@@ -83,16 +83,18 @@ PartitionedModel share_part(const ranks::Ranks& all, const std::filesystem::path
   const Numbering numbering = ranks::number_dofs(all, path, dofs.interior, dofs.boundary, order);
   const RowShares shares(static_cast<int64_t>(dofs.interior.size()), numbering.boundary,
                          all.size());
-  ranks::SharedMatrices matrices = ranks::read_matrices(all, path, numbering, shares);
-  part.free =
-      ranks::free_motions(all, matrices, shares, {ranks::Extent::kWhole, numbering}, model.rigid);
+  const auto shared = std::make_shared<PartOfRanks>(
+      all, shares, numbering, ranks::read_matrices(all, path, numbering, shares));
+  const ranks::SharedMatrices& matrices = shared->matrices();
+  part.free = ranks::free_motions(all, matrices, shares, {ranks::Extent::kWhole, numbering},
+                                  shared->whole_pencil(), model.rigid);
   check_boundary_holds(model, dofs, part.free);
   dofs.interior.clear();
   for (const int64_t row : shares.rows_of(all.rank(), false))
     dofs.interior.push_back(numbering.dof[static_cast<size_t>(row)]);
   part.K = boundary_blocks(all, shares, matrices.K);
   part.M = boundary_blocks(all, shares, matrices.M);
-  part.shared = std::make_shared<PartOfRanks>(all, shares, numbering, std::move(matrices));
+  part.shared = shared;
   return part;
 }
 
