@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/ranks/shared_fe_model.hpp"
 #include "core/ranks/shared_pencil.hpp"
@@ -19,7 +21,11 @@ class PartOfRanks : public SharedPart {
  public:
   PartOfRanks(const ranks::Ranks& all, RowShares shares, const Numbering& numbering,
               ranks::SharedMatrices matrices)
-      : matrices_(std::move(matrices)),
+      : all_(all),
+        shares_(shares),
+        index_(numbering.index),
+        dof_(numbering.dof),
+        matrices_(std::move(matrices)),
         order_(numbering.stored),
         interior_(all, shares, matrices_.K, matrices_.M, ranks::Extent::kInterior),
         whole_(all, shares, matrices_.K, matrices_.M, ranks::Extent::kWhole) {
@@ -43,8 +49,31 @@ class PartOfRanks : public SharedPart {
   const rom::EliminationOrder& order() const override { return order_; }
   const ranks::SharedMatrices& matrices() const { return matrices_; }
   const ranks::SharedPencil& whole_pencil() const { return whole_; }
+  std::vector<DofEntry> mass_entries() const override {
+    std::vector<DofEntry> out;
+    out.reserve(matrices_.M.size());
+    for (const Entry& entry : matrices_.M)
+      out.emplace_back(dof_[static_cast<size_t>(entry.row)],
+                       dof_[static_cast<size_t>(entry.column)], entry.value);
+    return out;
+  }
+  RowProduct product_with(const std::vector<DofEntry>& own_rows) const override {
+    Entries entries;
+    entries.reserve(own_rows.size());
+    for (const DofEntry& entry : own_rows)
+      entries.push_back({index_[static_cast<size_t>(entry.row())],
+                         index_[static_cast<size_t>(entry.col())], entry.value()});
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.row != b.row ? a.row < b.row : a.column < b.column;
+    });
+    const auto matrix = std::make_shared<ranks::SharedMatrix>(all_, shares_, entries, true);
+    return [matrix](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(*matrix * x); };
+  }
 
  private:
+  const ranks::Ranks& all_;
+  RowShares shares_;
+  std::vector<int32_t> index_, dof_;
   ranks::SharedMatrices matrices_;
   rom::EliminationOrder order_;
   ranks::SharedPencil interior_, whole_;
