@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -87,8 +88,12 @@ FactorFolder::FactorFolder() {
   if (::mkdtemp(name.data()) == nullptr) refuse_folder(place, "no folder can be made");
   path_ = name;
   alive_ = watch(path_);
-  lock_ = ::open((path_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  // Held before it has its name: else another rank might find it free.
+  const std::filesystem::path unnamed = path_ / "new";
+  lock_ = ::open(unnamed.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0 &&
+      ::rename(unnamed.c_str(), (path_ / kLock).c_str()) == 0)
+    return;
   const int reason = errno;
   if (lock_ >= 0) ::close(lock_);
   if (alive_ >= 0) ::close(alive_);
