@@ -159,11 +159,6 @@ rom::ReducedModel condense(const fe::FeModel& model, const CondenseOptions& opti
 rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& options,
                            StepClock& clock) {
   const fe::FeModel& model = part.full;
-  if (options.inertia_invariants && part.shared)
-    throw InputError(
-        fmt::format("{}: inertia_invariants: found true, which clatter-condense computes, expected "
-                    "false with several processes",
-                    model.name));
   report_repeated(part.dofs);
   SkinRecovery recovery(part, options.skin, options.rows);
   StaticPart statics = static_part(part, recovery.unknowns(), clock, options.order);

@@ -69,10 +69,9 @@ void declare_condense(CommandLine& line, const Reducer& reducer) {
   line.flag("--no-certificate", a->uncertified,
             "omit costly checks: the count of modes, the spectrum and condition of the reduced "
             "matrices; the file records this");
-  if (reducer.verifies)
-    line.option("--verify", a->verify_hz,
-                "compare with modes of the full model up to this frequency [Hz] and put the "
-                "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
+  line.option("--verify", a->verify_hz,
+              "compare with modes of the full model up to this frequency [Hz] and put the "
+              "largest error and the smallest MAC into the certificate; 0: up to accurate_to_hz");
   line.blas();
   line.memory_limit();
   line.action([a, reducer](const CommonOptions& common) { condense_part(*a, reducer, common); });

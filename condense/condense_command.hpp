@@ -16,8 +16,7 @@ struct Reducer {
                                   const CondenseOptions& options, double verify_hz,
                                   const CommonOptions& common, StepClock& clock)>
       reduce;
-  bool verifies = true;  // --verify exists
-  bool writes = true;    // this process prints the results and writes the file
+  bool writes = true;  // this process prints the results and writes the file
 };
 
 /// By this process alone.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """slepc_modes.py COUNT TOLERANCE [HZ]: the lowest modes of block.K.npz, block.M.npz [Hz] by SLEPc with MUMPS. With HZ all
-modes below it by spectrum slicing, which counts them by inertia."""
+modes below it by spectrum slicing, which counts them by inertia. Under mpirun each process has some of the rows."""
 import glob
 import sys
 
@@ -19,11 +19,16 @@ for prefix in ("", "st_", "eps_"):  # METIS; one process: inertia of the root; d
         PETSc.Options().setValue(f"{prefix}mat_mumps_{name}", value)
 
 
+COMM = PETSc.COMM_WORLD
+
+
 def matrix(name):
     with np.load(f"block.{name}.npz") as f:
-        index = PETSc.IntType
-        rows = f["indptr"].astype(index), f["indices"].astype(index), f["data"]
-        A = PETSc.Mat().createAIJ(size=tuple(f["shape"]), csr=rows)
+        index, starts, n = PETSc.IntType, f["indptr"], int(f["shape"][0])
+        begin, end = (n * part // COMM.size for part in (COMM.rank, COMM.rank + 1))
+        own = slice(starts[begin], starts[end])
+        rows = (starts[begin:end + 1] - starts[begin]).astype(index), f["indices"][own].astype(index), f["data"][own]
+        A = PETSc.Mat().createAIJ(size=((end - begin, n), (end - begin, n)), csr=rows)
     A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
     return A
 
@@ -55,4 +60,5 @@ else:
     ksp.getPC().setFactorSolverType("mumps")
 eps.solve()
 values = np.sort([eps.getEigenvalue(j).real for j in range(eps.getConverged())])
-print(*np.sqrt(np.abs(values)) / (2 * np.pi))
+if COMM.rank == 0:
+    print(*np.sqrt(np.abs(values)) / (2 * np.pi))

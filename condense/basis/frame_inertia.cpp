@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "condense/basis/row_inertia.hpp"
 #include "core/base/error.hpp"
 #include "core/fe/assemble.hpp"
 #include "core/sparse/dense_product.hpp"
@@ -16,17 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Entries (3 a, 3 b) of a matrix that couples no directions.
-SparseMatrix without_directions(const SparseMatrix& M) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < M.outerSize(); j += 3)
-    for (SparseMatrix::InnerIterator it(M, j); it; ++it)
-      if (it.row() % 3 == 0) entries.emplace_back(it.row() / 3, j / 3, it.value());
-  SparseMatrix m(M.rows() / 3, M.cols() / 3);
-  m.setFromTriplets(entries.begin(), entries.end());
-  return m;
-}
 
 /// T^T (m x I_3) T, lower triangle.
 SparseMatrix with_directions(const SparseMatrix& m, const SparseMatrix& T) {
@@ -84,10 +74,21 @@ double difference(const MatrixXd& found, const MatrixXd& expected) {
 
 }  // namespace
 
-SparseMatrix nodal_mass(const fe::FeModel& model) {
+SparseMatrix without_directions(const SparseMatrix& M) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < M.outerSize(); j += 3)
+    for (SparseMatrix::InnerIterator it(M, j); it; ++it)
+      if (it.row() % 3 == 0) entries.emplace_back(it.row() / 3, j / 3, it.value());
+  SparseMatrix m(M.rows() / 3, M.cols() / 3);
+  m.setFromTriplets(entries.begin(), entries.end());
+  return m;
+}
+
+SparseMatrix nodal_mass(const fe::FeModel& model, const std::function<SparseMatrix()>& direct,
+                        const std::function<bool(const SparseMatrix& m)>& gives_back) {
   if (model.T.rows() == model.size()) {
-    const SparseMatrix m = without_directions(model.M);
-    if (gives_back(m, model)) return m;
+    const SparseMatrix m = direct();
+    if (gives_back(m)) return m;
   }
   if (!model.cells.blocks.empty()) {
     mesh::Mesh mesh;
@@ -99,7 +100,7 @@ SparseMatrix nodal_mass(const fe::FeModel& model) {
     for (const auto form : {fe::MassForm::kConsistent, fe::MassForm::kHrz}) {
       const SparseMatrix m =
           without_directions(fe::assemble(mesh, model.cells.materials, pattern, form).M);
-      if (gives_back(m, model)) return m;
+      if (gives_back(m)) return m;
     }
   }
   throw InputError(fmt::format(
@@ -108,7 +109,14 @@ SparseMatrix nodal_mass(const fe::FeModel& model) {
       model.name));
 }
 
+SparseMatrix nodal_mass(const fe::FeModel& model) {
+  return nodal_mass(
+      model, [&] { return without_directions(model.M); },
+      [&](const SparseMatrix& m) { return gives_back(m, model); });
+}
+
 rom::InertiaInvariants frame_inertia(const PartitionedModel& part, const ReducedBasis& basis) {
+  if (part.shared) return frame_inertia_of_rows(part, basis);
   constexpr Index kBlock = 256;
   const SparseMatrix m = nodal_mass(part.full);
   const sparse::SymmetricProduct mass(m);
@@ -142,12 +150,17 @@ rom::InertiaInvariants frame_inertia(const PartitionedModel& part, const Reduced
               sparse::transposed_product(other[k], m_U[l]);
     }
   }
-  for (size_t k = 0; k < 3; ++k) {
-    MatrixXd& own = out.product[4 * k];
-    own = (0.5 * (own + own.transpose())).eval();
-    for (size_t l = k + 1; l < 3; ++l) out.product[3 * l + k] = out.product[3 * k + l].transpose();
-  }
+  complete_products(out);
   return out;
+}
+
+void complete_products(rom::InertiaInvariants& invariants) {
+  for (size_t k = 0; k < 3; ++k) {
+    MatrixXd& own = invariants.product[4 * k];
+    own = (0.5 * (own + own.transpose())).eval();
+    for (size_t l = k + 1; l < 3; ++l)
+      invariants.product[3 * l + k] = invariants.product[3 * k + l].transpose();
+  }
 }
 
 double inertia_error(const rom::ReducedModel& reduced, bool free_body) {

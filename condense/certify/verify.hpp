@@ -16,4 +16,9 @@ namespace clatter::condense {
 /// NumericsError when the models differ in the number of their modes.
 modes::Comparison verify(rom::ReducedModel& reduced, const fe::FeModel& model, double to_hz);
 
+/// The same with the full model's modes by another solver. Collective where several processes share
+/// it: the one that receives the vectors compares.
+modes::Comparison verify(rom::ReducedModel& reduced, const fe::FeModel& model, double to_hz,
+                         const modes::ModeSolver& solve);
+
 }  // namespace clatter::condense

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/ranks/shared_fe_model.hpp"
 #include "core/ranks/shared_pencil.hpp"
@@ -19,7 +21,11 @@ class PartOfRanks : public SharedPart {
  public:
   PartOfRanks(const ranks::Ranks& all, RowShares shares, const Numbering& numbering,
               ranks::SharedMatrices matrices)
-      : matrices_(std::move(matrices)),
+      : all_(all),
+        shares_(shares),
+        index_(numbering.index),
+        dof_(numbering.dof),
+        matrices_(std::move(matrices)),
         order_(numbering.stored),
         interior_(all, shares, matrices_.K, matrices_.M, ranks::Extent::kInterior),
         whole_(all, shares, matrices_.K, matrices_.M, ranks::Extent::kWhole) {
@@ -41,10 +47,33 @@ class PartOfRanks : public SharedPart {
     }
   }
   const rom::EliminationOrder& order() const override { return order_; }
-  const Entries& K() const { return matrices_.K; }
-  const Entries& M() const { return matrices_.M; }
+  const ranks::SharedMatrices& matrices() const { return matrices_; }
+  const ranks::SharedPencil& whole_pencil() const { return whole_; }
+  std::vector<DofEntry> mass_entries() const override {
+    std::vector<DofEntry> out;
+    out.reserve(matrices_.M.size());
+    for (const Entry& entry : matrices_.M)
+      out.emplace_back(dof_[static_cast<size_t>(entry.row)],
+                       dof_[static_cast<size_t>(entry.column)], entry.value);
+    return out;
+  }
+  RowProduct product_with(const std::vector<DofEntry>& own_rows) const override {
+    Entries entries;
+    entries.reserve(own_rows.size());
+    for (const DofEntry& entry : own_rows)
+      entries.push_back({index_[static_cast<size_t>(entry.row())],
+                         index_[static_cast<size_t>(entry.col())], entry.value()});
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.row != b.row ? a.row < b.row : a.column < b.column;
+    });
+    const auto matrix = std::make_shared<ranks::SharedMatrix>(all_, shares_, entries, true);
+    return [matrix](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(*matrix * x); };
+  }
 
  private:
+  const ranks::Ranks& all_;
+  RowShares shares_;
+  std::vector<int32_t> index_, dof_;
   ranks::SharedMatrices matrices_;
   rom::EliminationOrder order_;
   ranks::SharedPencil interior_, whole_;
@@ -83,16 +112,18 @@ PartitionedModel share_part(const ranks::Ranks& all, const std::filesystem::path
   const Numbering numbering = ranks::number_dofs(all, path, dofs.interior, dofs.boundary, order);
   const RowShares shares(static_cast<int64_t>(dofs.interior.size()), numbering.boundary,
                          all.size());
-  ranks::SharedMatrices matrices = ranks::read_matrices(all, path, numbering, shares);
-  part.free =
-      ranks::free_motions(all, matrices, shares, {ranks::Extent::kWhole, numbering}, model.rigid);
+  const auto shared = std::make_shared<PartOfRanks>(
+      all, shares, numbering, ranks::read_matrices(all, path, numbering, shares));
+  const ranks::SharedMatrices& matrices = shared->matrices();
+  part.free = ranks::free_motions(all, matrices, shares, {ranks::Extent::kWhole, numbering},
+                                  shared->whole_pencil(), model.rigid);
   check_boundary_holds(model, dofs, part.free);
   dofs.interior.clear();
   for (const int64_t row : shares.rows_of(all.rank(), false))
     dofs.interior.push_back(numbering.dof[static_cast<size_t>(row)]);
   part.K = boundary_blocks(all, shares, matrices.K);
   part.M = boundary_blocks(all, shares, matrices.M);
-  part.shared = std::make_shared<PartOfRanks>(all, shares, numbering, std::move(matrices));
+  part.shared = shared;
   return part;
 }
 

@@ -132,11 +132,13 @@ ModesOptions request(const CompareOptions& options, const rom::ReducedModel& red
   return modes;
 }
 
-[[noreturn]] void refuse_nothing(const fe::FeModel& full, const ModesOptions& requested,
-                                 int rigid) {
+/// @param analyse_full gives modes of the full model.
+template <class Analyse>
+[[noreturn]] void refuse_nothing(const fe::FeModel& full, const ModesOptions& requested, int rigid,
+                                 const Analyse& analyse_full) {
   ModesOptions first;
   first.count = rigid + 1;
-  const PartModes found = analyse(full, first);
+  const PartModes found = analyse_full(first);
   const std::string range = requested.count > 0
                                 ? fmt::format("among the {} lowest", requested.count)
                                 : fmt::format("below {:.6g} Hz", requested.fmax_hz);
@@ -184,11 +186,15 @@ Comparison Comparison::without_stated_error() const {
   return part_of(*this, [&](double hz) { return accurate_to_hz > 0.0 && hz > accurate_to_hz; });
 }
 
-Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
-                   const CompareOptions& options) {
+namespace {
+
+template <class Analyse>
+Comparison compare_with(const fe::FeModel& full, const rom::ReducedModel& reduced,
+                        const CompareOptions& options, const Analyse& analyse_full) {
   const ModesOptions requested = request(options, reduced);
-  const PartModes a = analyse(full, requested);
-  if (a.modes.size() <= a.modes.rigid) refuse_nothing(full, requested, a.modes.rigid);
+  const PartModes a = analyse_full(requested);
+  if (a.modes.size() <= a.modes.rigid) refuse_nothing(full, requested, a.modes.rigid, analyse_full);
+  if (a.modes.vectors.cols() == 0) return {};  // another process has them
   ModesOptions all;
   all.count =
       std::min(reduced.size(), 2 * a.modes.size() + 10);  // with neighbours for the projection
@@ -225,6 +231,20 @@ Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
   out.mac_matrix = mac_of(rows.full.rightCols(elastic), rows.reduced.middleCols(first, elastic));
   out.column_hz = reduced_hz.segment(first, elastic);
   return out;
+}
+
+}  // namespace
+
+Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
+                   const CompareOptions& options) {
+  return compare_with(full, reduced, options,
+                      [&](const ModesOptions& modes) { return analyse(full, modes); });
+}
+
+Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
+                   const CompareOptions& options, const ModeSolver& solve) {
+  return compare_with(full, reduced, options,
+                      [&](const ModesOptions& modes) { return analyse(full, modes, solve); });
 }
 
 std::vector<std::string> table_of(const Comparison& comparison) {

@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/json_line.hpp"
 #include "core/fe/fe_model.hpp"
+#include "core/modes/analysis.hpp"
 #include "core/rom/reduced_model.hpp"
 
 namespace clatter::modes {
@@ -60,6 +61,12 @@ struct NothingCompared : NumericsError {
 /// when their modes differ in number, NothingCompared naming the first elastic frequency.
 Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
                    const CompareOptions& options);
+
+/// The same with modes of the full model by another solver, whose K and M may be left out. Where
+/// another process receives their vectors nothing is compared: no modes, and `reduced` may lack
+/// rows.
+Comparison compare(const fe::FeModel& full, const rom::ReducedModel& reduced,
+                   const CompareOptions& options, const ModeSolver& solve);
 
 /// The comparison as an aligned table; the last line summarises the modes up to accurate_to_hz, a
 /// line before it those above.

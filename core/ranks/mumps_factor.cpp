@@ -14,6 +14,7 @@
 #include "core/base/log.hpp"
 #include "core/base/memory_limit.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/ranks/factor_folder.hpp"
 #include "core/ranks/mumps_impl.hpp"
 
 namespace clatter::ranks {
@@ -47,9 +48,13 @@ struct MumpsFactor::Impl {
   void take_solution(MatrixXd& x, Index count);
   MatrixXd solve(const Eigen::Ref<const MatrixXd>& b);
 
+  /// Gives MUMPS the folder of its files.
+  void use_disk();
+
   const Ranks& ranks;
   RowShares shares;  // a copy: small
   Extent extent;
+  std::unique_ptr<FactorFolder> folder;  // outlives the instance, which removes its files first
   MumpsInstance mumps;
   Triplets triplets;
   std::vector<MUMPS_INT> order, schur_rows, rhs_rows, solution_rows;
@@ -98,7 +103,20 @@ void MumpsFactor::Impl::analyse(const sparse::FactorOptions& options) {
     say(fmt::format("the factor needs {} of each rank, {} are left: it is kept on disk",
                     memory_text(report.predicted_gib), memory_text(left)));
   mumps.icntl(22) = on_disk ? 1 : 0;
+  if (on_disk) use_disk();
   report.analyse_seconds = clock.seconds();
+}
+
+void MumpsFactor::Impl::use_disk() {
+  folder = std::make_unique<FactorFolder>();
+  DMUMPS_STRUC_C& data = mumps.data();
+  const std::string path = folder->path().string(), prefix = "factor";
+  if (path.size() >= sizeof(data.ooc_tmpdir))
+    throw FileError(
+        fmt::format("{}: found a path of {} characters (TMPDIR), expected fewer than {}", path,
+                    path.size(), sizeof(data.ooc_tmpdir)));
+  std::copy_n(path.c_str(), path.size() + 1, data.ooc_tmpdir);
+  std::copy_n(prefix.c_str(), prefix.size() + 1, data.ooc_prefix);
 }
 
 void MumpsFactor::Impl::factorise_all() {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/ranks/index_places.hpp"
 #include "core/ranks/mumps_impl.hpp"
 
 namespace clatter::ranks {
@@ -16,12 +17,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// diag(K)^(-1/2) rounded to powers of two; 1 where the diagonal is not positive.
-VectorXd scale_of(const Entries& K, const RowShares& shares, Index rows) {
+/// diag(K)^(-1/2) of the rank's rows rounded to powers of two; 1 where the diagonal is not
+/// positive.
+VectorXd scale_of(const Entries& K, const RowShares& shares, int rank, Index rows) {
   VectorXd scale = VectorXd::Ones(rows);
-  for (const Entry& entry : K)
-    if (entry.row == entry.column && shares.local(entry.row) < rows && entry.value > 0.0)
-      scale[shares.local(entry.row)] = std::exp2(-std::round(0.5 * std::log2(entry.value)));
+  for (const Entry& entry : K) {
+    if (entry.row != entry.column || !(entry.value > 0.0)) continue;
+    const int64_t row = shares.local(entry.row, rank);
+    if (row < rows) scale[row] = std::exp2(-std::round(0.5 * std::log2(entry.value)));
+  }
   return scale;
 }
 
@@ -36,10 +40,10 @@ bool belongs(const Entry& entry, const RowShares& shares, Extent extent) {
 ScaledTriplets scaled_triplets(const Ranks& ranks, const RowShares& shares,
                                const ShiftedEntries& from, Extent extent) {
   const bool whole = extent == Extent::kWhole;
-  const auto own = static_cast<Index>(shares.rows_of(ranks.rank(), whole).size());
+  const int self = ranks.rank();
+  const auto own = static_cast<Index>(shares.rows_of(self, whole).size());
   ScaledTriplets out;
-  out.scale = scale_of(from.K, shares, own);
-  std::vector<int64_t> columns;
+  out.scale = scale_of(from.K, shares, self, own);
   const auto each = [&](const auto& use) {
     for (const Entries* part : {&from.K, from.sigma != 0.0 ? &from.M : nullptr}) {
       if (part == nullptr) continue;
@@ -48,21 +52,27 @@ ScaledTriplets scaled_triplets(const Ranks& ranks, const RowShares& shares,
         if (entry.column <= entry.row && belongs(entry, shares, extent)) use(entry, factor);
     }
   };
-  each([&](const Entry& entry, double) { columns.push_back(entry.column); });
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  VectorXd all = VectorXd::Ones(
-      static_cast<Index>(shares.rows_of(ranks.rank(), true).size()));  // boundary rows: 1
+  IndexPlaces used(shares.size());
+  size_t count = 0;
+  each([&](const Entry& entry, double) {
+    used.add(entry.column);
+    ++count;
+  });
+  const std::vector<int64_t> columns = used.number();
+  VectorXd all =
+      VectorXd::Ones(static_cast<Index>(shares.rows_of(self, true).size()));  // boundary rows: 1
   all.head(own) = out.scale;
   VectorXd by_column(static_cast<Index>(columns.size()));
   RowExchange(ranks, shares, columns).fetch(all.data(), by_column.data(), 1);
   Triplets& triplets = out.triplets;
+  triplets.rows.reserve(count);
+  triplets.columns.reserve(count);
+  triplets.values.reserve(count);
   each([&](const Entry& entry, double factor) {
-    const auto place = std::lower_bound(columns.begin(), columns.end(), entry.column);
     triplets.rows.push_back(entry.row + 1);
     triplets.columns.push_back(entry.column + 1);
-    triplets.values.push_back(factor * entry.value * all[shares.local(entry.row)] *
-                              by_column[place - columns.begin()]);
+    triplets.values.push_back(factor * entry.value * all[shares.local(entry.row, self)] *
+                              by_column[used[entry.column]]);
   });
   return out;
 }

@@ -34,31 +34,28 @@ void move_rows(const Ranks& ranks, const Rows& from, const Rows& to, const doubl
 }  // namespace
 
 RowShares::RowShares(int64_t interior, int64_t boundary, int ranks)
-    : interior_(interior), boundary_(boundary), ranks_(ranks) {}
+    : interior_(interior), boundary_(boundary), ranks_(ranks) {
+  for (int r = 0; r <= ranks; ++r) {
+    interior_starts_.push_back(interior * r / ranks);
+    boundary_starts_.push_back(boundary * r / ranks);
+  }
+}
 
 int RowShares::owner(int64_t index) const {
   const bool inside = index < interior_;
+  const Starts& starts = inside ? interior_starts_ : boundary_starts_;
   const int64_t size = inside ? interior_ : boundary_, at = inside ? index : index - interior_;
-  int rank = static_cast<int>(at * ranks_ / size);
-  while (first(size, rank, ranks_) > at) --rank;
-  while (first(size, rank + 1, ranks_) <= at) ++rank;
-  return rank;
-}
-
-int64_t RowShares::local(int64_t index) const {
-  const int rank = owner(index);
-  const int64_t begin = first(interior_, rank, ranks_);
-  if (index < interior_) return index - begin;
-  return first(interior_, rank + 1, ranks_) - begin + index - interior_ -
-         first(boundary_, rank, ranks_);
+  auto rank = static_cast<size_t>(at * ranks_ / size);
+  while (starts[rank] > at) --rank;
+  while (starts[rank + 1] <= at) ++rank;
+  return static_cast<int>(rank);
 }
 
 std::vector<int64_t> RowShares::rows_of(int rank, bool with_boundary) const {
+  const auto r = static_cast<size_t>(rank);
   std::vector<int64_t> rows;
-  for (int64_t i = first(interior_, rank, ranks_); i < first(interior_, rank + 1, ranks_); ++i)
-    rows.push_back(i);
-  for (int64_t b = first(boundary_, rank, ranks_);
-       with_boundary && b < first(boundary_, rank + 1, ranks_); ++b)
+  for (int64_t i = interior_starts_[r]; i < interior_starts_[r + 1]; ++i) rows.push_back(i);
+  for (int64_t b = boundary_starts_[r]; with_boundary && b < boundary_starts_[r + 1]; ++b)
     rows.push_back(interior_ + b);
   return rows;
 }

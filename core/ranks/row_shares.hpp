@@ -18,15 +18,27 @@ class RowShares {
   int64_t boundary() const { return boundary_; }
   int ranks() const { return ranks_; }
   int owner(int64_t index) const;
+  bool owns(int rank, int64_t index) const {
+    const Starts& starts = index < interior_ ? interior_starts_ : boundary_starts_;
+    const int64_t at = index < interior_ ? index : index - interior_;
+    return starts[static_cast<size_t>(rank)] <= at && at < starts[static_cast<size_t>(rank) + 1];
+  }
   /// The indices of a rank: its interior ones, then its boundary ones, ascending.
   std::vector<int64_t> rows_of(int rank, bool with_boundary) const;
   /// The row of an index on its owner.
-  int64_t local(int64_t index) const;
+  int64_t local(int64_t index) const { return local(index, owner(index)); }
+  /// The same, with the owner known.
+  int64_t local(int64_t index, int owner) const {
+    const auto r = static_cast<size_t>(owner);
+    if (index < interior_) return index - interior_starts_[r];
+    return interior_starts_[r + 1] - interior_starts_[r] + index - interior_ - boundary_starts_[r];
+  }
 
  private:
-  static int64_t first(int64_t size, int rank, int ranks) { return size * rank / ranks; }
+  using Starts = std::vector<int64_t>;
   int64_t interior_, boundary_;
   int ranks_;
+  Starts interior_starts_, boundary_starts_;  // first row of each rank, and their end
 };
 
 /// Moves rows from their owners to where they are needed.

@@ -101,6 +101,28 @@ SparseMatrix interior_pattern(const std::filesystem::path& path,
                                         rows.data(), zeros.data());
 }
 
+/// The entries of all parts by row, then by column: counted by row, since only rows are short
+/// enough to be sorted in cache.
+Entries sorted(const std::vector<Entries>& parts, const RowShares& shares, int rank) {
+  std::vector<int64_t> next(shares.rows_of(rank, true).size() + 1, 0);
+  const auto row_of = [&](const Entry& entry) {
+    return static_cast<size_t>(shares.local(entry.row, rank));
+  };
+  for (const Entries& part : parts)
+    for (const Entry& entry : part) ++next[row_of(entry) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  Entries own(static_cast<size_t>(next.back()));
+  for (const Entries& part : parts)
+    for (const Entry& entry : part) own[static_cast<size_t>(next[row_of(entry)]++)] = entry;
+  int64_t begin = 0;
+  for (size_t row = 0; row + 1 < next.size(); ++row) {
+    std::sort(own.begin() + begin, own.begin() + next[row],
+              [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    begin = next[row];
+  }
+  return own;
+}
+
 Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
                      const std::string& group, const Numbering& numbering,
                      const RowShares& shares) {
@@ -125,12 +147,7 @@ Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
       if (i != j) send(j, i, values[static_cast<size_t>(k)]);
     }
   }
-  Entries own;
-  for (const Entries& part : ranks.exchange(out)) own.insert(own.end(), part.begin(), part.end());
-  std::sort(own.begin(), own.end(), [](const Entry& a, const Entry& b) {
-    return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
-  return own;
+  return sorted(ranks.exchange(out), shares, ranks.rank());
 }
 
 /// Places of the own rows.
@@ -203,10 +220,9 @@ SharedMatrices read_matrices(const Ranks& ranks, const std::filesystem::path& pa
 }
 
 fe::FreeMotions free_motions(const Ranks& ranks, const SharedMatrices& matrices,
-                             const RowShares& shares, const PartRows& rows, const MatrixXd& rigid) {
-  const bool whole = rows.extent == Extent::kWhole;
+                             const RowShares& shares, const PartRows& rows,
+                             const SharedPencil& pencil, const MatrixXd& rigid) {
   const std::vector<int32_t> own = own_places(ranks, shares, rows);
-  const SharedMatrix K(ranks, shares, matrices.K, whole), M(ranks, shares, matrices.M, whole);
   const auto with = [&](const auto& product) {
     return [&, product](const MatrixXd& x) {
       MatrixXd all = MatrixXd::Zero(x.rows(), x.cols());
@@ -216,9 +232,9 @@ fe::FreeMotions free_motions(const Ranks& ranks, const SharedMatrices& matrices,
   };
   return fe::free_motions(
       fe::RigidProducts{bodies_of(ranks, matrices, rows),
-                        with([&](const MatrixXd& x) { return MatrixXd(M * x); }),
-                        with([&](const MatrixXd& x) { return MatrixXd(K * x); }),
-                        with([&](const MatrixXd& x) { return K.magnitude_times(x); })},
+                        with([&](const MatrixXd& x) { return pencil.mass_times(x); }),
+                        with([&](const MatrixXd& x) { return pencil.stiffness_times(x); }),
+                        with([&](const MatrixXd& x) { return pencil.magnitude_times(x); })},
       rigid);
 }
 

@@ -8,6 +8,7 @@
 #include "core/fe/free_motions.hpp"
 #include "core/ranks/mumps_factor.hpp"
 #include "core/ranks/shared_matrix.hpp"
+#include "core/ranks/shared_pencil.hpp"
 #include "core/rom/elimination_order.hpp"
 
 namespace clatter::ranks {
@@ -49,9 +50,10 @@ struct PartRows {
 };
 
 /// The free rigid-body motions of these rows, n x m, complete on every rank.
+/// @param pencil of these rows and matrices.
 /// @param rigid n x 6, unit rigid-body motions of these rows.
 fe::FreeMotions free_motions(const Ranks& ranks, const SharedMatrices& matrices,
                              const RowShares& shares, const PartRows& rows,
-                             const Eigen::MatrixXd& rigid);
+                             const SharedPencil& pencil, const Eigen::MatrixXd& rigid);
 
 }  // namespace clatter::ranks

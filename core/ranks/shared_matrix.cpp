@@ -6,6 +6,7 @@
 
 #include "core/base/matrix.hpp"
 #include "core/base/threads.hpp"
+#include "core/ranks/index_places.hpp"
 
 namespace clatter::ranks {
 
@@ -14,30 +15,30 @@ using Eigen::MatrixXd;
 
 SharedMatrix::SharedMatrix(const Ranks& ranks, const RowShares& shares, const Entries& entries,
                            bool with_boundary) {
-  const auto belongs = [&](int64_t index) { return with_boundary || index < shares.interior(); };
-  rows_ = static_cast<Index>(shares.rows_of(ranks.rank(), with_boundary).size());
-  std::vector<int64_t> others;
+  const int self = ranks.rank();
+  const auto each = [&](const auto& use) {
+    for (const Entry& entry : entries)
+      if (with_boundary || (entry.row < shares.interior() && entry.column < shares.interior()))
+        use(entry, shares.owns(self, entry.column));
+  };
+  rows_ = static_cast<Index>(shares.rows_of(self, with_boundary).size());
+  IndexPlaces fetched(shares.size());
   starts_.assign(static_cast<size_t>(rows_) + 1, 0);
-  for (const Entry& entry : entries) {
-    if (!belongs(entry.row) || !belongs(entry.column)) continue;
-    ++starts_[static_cast<size_t>(shares.local(entry.row)) + 1];
-    if (shares.owner(entry.column) != ranks.rank()) others.push_back(entry.column);
-  }
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
+  each([&](const Entry& entry, bool here) {
+    ++starts_[static_cast<size_t>(shares.local(entry.row, self)) + 1];
+    if (!here) fetched.add(entry.column);
+  });
+  const std::vector<int64_t> others = fetched.number();
   for (size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
   columns_.reserve(static_cast<size_t>(starts_.back()));
   values_.reserve(columns_.capacity());
   diagonal_ = Eigen::VectorXd::Zero(rows_);
-  for (const Entry& entry : entries) {
-    if (!belongs(entry.row) || !belongs(entry.column)) continue;
-    const auto own = static_cast<int32_t>(shares.local(entry.column));
-    const auto place = std::lower_bound(others.begin(), others.end(), entry.column);
-    const bool here = shares.owner(entry.column) == ranks.rank();
-    columns_.push_back(here ? own : static_cast<int32_t>(rows_ + (place - others.begin())));
+  each([&](const Entry& entry, bool here) {
+    columns_.push_back(static_cast<int32_t>(here ? shares.local(entry.column, self)
+                                                 : rows_ + fetched[entry.column]));
     values_.push_back(entry.value);
-    if (entry.row == entry.column) diagonal_[own] = entry.value;
-  }
+    if (entry.row == entry.column) diagonal_[columns_.back()] = entry.value;
+  });
   fetched_ = static_cast<int64_t>(others.size());
   others_ = std::make_unique<RowExchange>(ranks, shares, others);
 }

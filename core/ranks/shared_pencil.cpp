@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/ranks/parpack.hpp"
 
 namespace clatter::ranks {
 namespace {
@@ -102,6 +103,10 @@ std::unique_ptr<sparse::SymmetricOperator> SharedPencil::stiffness(
 std::unique_ptr<sparse::SymmetricOperator> SharedPencil::mass(
     const std::vector<int64_t>& /*order*/) const {
   return std::make_unique<KeptMatrix>(M_);
+}
+
+std::unique_ptr<sparse::ArpackRoutines> SharedPencil::arpack() const {
+  return std::make_unique<ParpackRoutines>(ranks_);
 }
 
 }  // namespace clatter::ranks

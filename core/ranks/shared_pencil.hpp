@@ -30,6 +30,7 @@ class SharedPencil : public sparse::MatrixPencil {
   Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const override {
     return K_->magnitude_times(x);
   }
+  std::unique_ptr<sparse::ArpackRoutines> arpack() const override;
   /// The factor of K with the coupling to the boundary.
   std::unique_ptr<sparse::Factor> factor_with_boundary() const;
 

@@ -35,7 +35,7 @@ sparse::ModeSet solve_shared(const ranks::Ranks& all, const std::filesystem::pat
   // Matrices imported without positions have no known rigid-body motions.
   if ((model.rigid.colwise().squaredNorm().array() > 0.0).all()) {
     const fe::FreeMotions free =
-        ranks::free_motions(all, matrices, shares, {ranks::Extent::kInterior, numbering},
+        ranks::free_motions(all, matrices, shares, {ranks::Extent::kInterior, numbering}, pencil,
                             model.rigid(left, Eigen::all));
     options.rigid = Eigen::MatrixXd(free.q(own, Eigen::all));
   }

@@ -2,6 +2,7 @@
 """Runs the programs of several processes for tests, and compares reduced models."""
 import os
 import subprocess
+import time
 
 import h5py
 import numpy as np
@@ -22,10 +23,32 @@ def command(name, count, *arguments):
     return [*MPIRUN, "-n", str(count), *program(name), *map(str, arguments), "--threads", "1"]
 
 
+def finish(words, folder, **environment):
+    """Runs a command of several processes to its end; returns the finished process with its output."""
+    return subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=300, env={**ENVIRONMENT, **environment})
+
+
 def run(name, count, *arguments, folder, **environment):
     """Runs clatter-<name>-mpi on `count` ranks; returns the finished process with its output."""
-    return subprocess.run(command(name, count, *arguments), cwd=folder, text=True, capture_output=True, timeout=300,
-                          env={**ENVIRONMENT, **environment})
+    return finish(command(name, count, *arguments), folder, **environment)
+
+
+def ranks_of(process, count):
+    """Process ids of the ranks that mpirun started, when all are there."""
+    children = []
+    while len(children) < count and process.poll() is None:
+        listed = subprocess.run(["pgrep", "-P", str(process.pid), "clatter"], capture_output=True, text=True)
+        children = [int(word) for word in listed.stdout.split()]
+    return children
+
+
+def wait_until(condition, what, seconds=30.0):
+    """AssertionError naming `what` when the condition does not become true."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(what)
+        time.sleep(0.02)
 
 
 def read(path):
@@ -37,6 +60,8 @@ def read(path):
         model["boundary"] = len(model["M_rr"]) - len(model["fixed_interface_hz"])
         model["certificate"] = {name: float(value) for name, value in file["certificate"].attrs.items()}
         model["order"] = file["ordering/permutation"][()]
+        inertia = file.get("inertia_invariants", {})
+        model["inertia"] = {name: inertia[name][()] for name in inertia}
     return model
 
 
@@ -45,7 +70,10 @@ def with_signs_of(model, other):
     n_b = model["boundary"]
     sign = np.sign(np.sum(model["M_rr"][:n_b] * other["M_rr"][:n_b], axis=0))
     sign[:n_b] = 1.0
-    return {**model, "M_rr": sign[:, None] * model["M_rr"] * sign, "K_rr": sign[:, None] * model["K_rr"] * sign,
+    squares = {name for name, values in model["inertia"].items() if name.startswith("product")}
+    inertia = {name: sign[:, None] * values * sign if name in squares else values * sign if name != "place" else values
+               for name, values in model["inertia"].items()}
+    return {**model, "inertia": inertia, "M_rr": sign[:, None] * model["M_rr"] * sign, "K_rr": sign[:, None] * model["K_rr"] * sign,
             "T": model["T"] * sign, "loads": {name: load * sign for name, load in model["loads"].items()}}
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """clatter-condense-mpi on one to four ranks against clatter-condense."""
+import fcntl
 import os
 import signal
 import subprocess
@@ -58,6 +59,11 @@ class OfRanks(stages.PipelineTest):
         found, expected = (ranks.frequencies(model)[elastic] for model in (other, one))
         # With the residual modes; eigh's own rounding is that of the highest of them, 3000 times the first.
         self.assertLess(np.abs(found / expected - 1.0).max(), 1e-6)
+        self.assertEqual(set(one["inertia"]), set(other["inertia"]))
+        for name, values in one["inertia"].items():
+            rows = slice(0, size if name.startswith("product") else None)
+            columns = slice(0, size if name != "place" else None)
+            self.assertLess(ranks.largest_difference(other["inertia"][name][rows, columns], values[rows, columns]), 1e-8, name)
         self.assertEqual(set(one["certificate"]), set(other["certificate"]))
         for name, value in one["certificate"].items():
             if name not in ROUNDING:
@@ -92,11 +98,63 @@ class Condense(OfRanks):
                 self.assert_same(one, other)
 
 
+    def test_inertia_invariants_of_a_free_part(self):
+        # They are proved against M_rr and the rigid motions, or refused.
+        self.edit("beam.fe.toml", *FREE_PART[0])
+        self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 8\ninertia_invariants = true")
+        done = stages.run_stage("assembly", *self.command("assembly"), folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for one, other, _ in self.both():
+            self.assertEqual(len(other["inertia"]), 9)
+            self.assert_same(one, other)
+
+    def test_inertia_invariants_of_a_lumped_mass_of_a_clamped_part(self):
+        self.edit("beam.rom.toml", "fmax_hz = 4000.0", "count = 4\ninertia_invariants = true")
+        text = (self.folder / "beam.fe.toml").read_text()
+        (self.folder / "beam.fe.toml").write_text(text + "\n[mass]\nlumping = \"hrz\"\n")
+        done = stages.run_stage("assembly", *self.command("assembly"), folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for one, other, _ in self.both((3,)):
+            self.assert_same(one, other)
+
+    def test_arpack(self):
+        self.edit("beam.rom.toml", "fmax_hz = 4000.0", 'fmax_hz = 4000.0\neigen_solver = "arpack"')
+        for one, other, _ in self.both((3,)):
+            self.assert_same(one, other)
+            self.assertEqual(other["certificate"]["count_proved"], 1.0)
+
+    def test_verification_by_the_full_model(self):
+        arguments = ["beam.fe.h5", "-c", "beam.rom.toml", "--verify", "0", "-o"]
+        self.assertEqual(stages.run_stage("condense", *arguments, "beam.rom.h5", folder=self.folder).returncode, 0)
+        one = ranks.read(self.folder / "beam.rom.h5")["certificate"]
+        done = ranks.run("condense", 3, *arguments, "shared.rom.h5", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shared = ranks.read(self.folder / "shared.rom.h5")["certificate"]
+        for name, tolerance in (("verified_to_hz", 1e-3), ("verified_modes", 0.0), ("verified_frequency_error", 1e-8),
+                                ("verified_mac", 1e-8)):
+            self.assertAlmostEqual(shared[name], one[name], delta=tolerance, msg=name)
+        self.assertIn("smallest MAC", done.stdout)
+
+    def test_static_matrices_by_a_complex_step(self):
+        # The programs solve real systems for Psi; this takes both matrices from one complex factorisation.
+        self.assertEqual(self.condense(count=2, output="shared.rom.h5").returncode, 0)
+        for count in (1, 3):
+            words = [*ranks.MPIRUN, "-n", str(count), str(stages.BIN.parent / "tests/complex_step"), "beam.fe.h5", "shared.rom.h5",
+                     "tip", "sensor_tip"]
+            done = ranks.finish(words, self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            K, M = map(float, done.stdout.split())
+            self.assertLess(K, 1e-9)
+            self.assertLess(M, 1e-9)
+            print(f"    {count} ranks: K_rr {K:.1e}, M_rr {M:.1e} of their largest entries")
+
+
 class Failures(OfRanks):
     def test_all_ranks_end_with_one_line_and_the_code_of_one_process(self):
         cases = [("beam.rom.toml", 'boundary = ["tip", "sensor_tip"]', 'boundary = ["nothing"]', 2, "nothing"),
                  ("beam.rom.toml", "fmax_hz = 4000.0", "fmax = 4000.0", 2, "fmax_hz"),
-                 ("beam.rom.toml", "fmax_hz = 4000.0", "fmax_hz = 4000.0\ninertia_invariants = true", 2, "inertia_invariants")]
+                 ("beam.rom.toml", "fmax_hz = 4000.0", 'fmax_hz = 4000.0\neigen_solver = "amls"', 2,
+                  'eigen_solver: found "amls", which one process computes')]
         for name, old, new, code, says in cases:
             with self.subTest(says):
                 before = (self.folder / name).read_text()
@@ -130,26 +188,101 @@ class Failures(OfRanks):
     def test_a_killed_rank_ends_all_and_leaves_nothing(self):
         process = subprocess.Popen(ranks.command("condense", 3, "beam.fe.h5", "-c", "beam.rom.toml", "-o", "killed.rom.h5"),
                                    cwd=self.folder, env=ranks.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        children = []
-        while len(children) < 3 and process.poll() is None:
-            listed = subprocess.run(["pgrep", "-P", str(process.pid), "clatter"], capture_output=True, text=True)
-            children = [int(word) for word in listed.stdout.split()]
+        children = ranks.ranks_of(process, 3)
         time.sleep(0.3)
         os.kill(children[-1], signal.SIGKILL)
         self.assertNotEqual(process.wait(timeout=60), 0)
         self.assertFalse((self.folder / "killed.rom.h5").exists())
-        end = time.monotonic() + 20.0
-        while any(os.path.exists(f"/proc/{child}") for child in children):
-            self.assertLess(time.monotonic(), end, "a rank is left")
-            time.sleep(0.1)
+        ranks.wait_until(lambda: not any(os.path.exists(f"/proc/{child}") for child in children), "a rank is left")
 
-    def test_a_damaged_order_is_replaced(self):
+    def test_a_wrong_order_is_replaced(self):
         self.assertEqual(self.condense().returncode, 0)
         one = ranks.read(self.folder / "beam.rom.h5")
-        with h5py.File(self.folder / "beam.rom.h5", "r+") as file:
-            file["ordering/permutation"][0] = file["ordering/permutation"][1]
-        self.assertEqual(self.condense(count=2).returncode, 0)
+        self.assertIn("stored order", self.condense(count=2).stderr)
+
+        def repeat_an_unknown(order):
+            order["permutation"][0] = order["permutation"][1]
+
+        def of_fewer_unknowns(order):
+            kept = order["permutation"][:-3]
+            del order["permutation"]
+            order["permutation"] = kept
+
+        for wrong in (repeat_an_unknown, of_fewer_unknowns):
+            with self.subTest(wrong.__name__):
+                with h5py.File(self.folder / "beam.rom.h5", "r+") as file:
+                    wrong(file["ordering"])
+                done = self.condense(count=2)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertNotIn("stored order", done.stderr)
+                self.assert_same(one, ranks.with_signs_of(ranks.read(self.folder / "beam.rom.h5"), one))
+
+
+class OnDisk(OfRanks):
+    """A factor that does not fit into the memory of a rank: 106 MiB, of which 36 MiB stay in memory."""
+    LIMIT = ["--memory-limit", "0.21"]  # 60 MiB are left
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        toml = cls.master / "beam.mesh.toml"
+        toml.write_text(toml.read_text().replace("element_size_mm = 15.0", "element_size_mm = 7.5"))
+        for stage in ("mesh", "assembly"):
+            stages.run_stage(stage, *cls.command(stage), folder=cls.master).check_returncode()
+
+    def setUp(self):
+        super().setUp()
+        self.scratch = self.folder / "scratch"
+        self.scratch.mkdir()
+
+    def arguments(self, output="beam.rom.h5"):
+        return ["beam.fe.h5", "-c", "beam.rom.toml", "-o", output, *self.LIMIT]
+
+    def folders(self, place=None):
+        return sorted((place or self.scratch).glob("clatter-factor-*"))
+
+    def test_the_same_model_and_what_killed_programs_left_is_removed(self):
+        left, used = (self.scratch / f"clatter-factor-{name}" for name in ("left", "used"))
+        for folder in (left, used):
+            folder.mkdir()
+            (folder / "lock").touch()
+            (folder / "factor").write_bytes(b"part of a factor")
+        done = self.condense(count=2, output="memory.rom.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("on disk", done.stderr)
+        with (used / "lock").open() as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = ranks.run("condense", 2, *self.arguments(), folder=self.folder, TMPDIR=str(self.scratch))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("it is kept on disk", done.stderr)
+        self.assertEqual(self.folders(), [used])
+        one = ranks.read(self.folder / "memory.rom.h5")
         self.assert_same(one, ranks.with_signs_of(ranks.read(self.folder / "beam.rom.h5"), one))
+
+    def test_a_killed_rank_leaves_no_factor(self):
+        process = subprocess.Popen(ranks.command("condense", 2, *self.arguments("killed.rom.h5")), cwd=self.folder,
+                                   env={**ranks.ENVIRONMENT, "TMPDIR": str(self.scratch)}, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        children = ranks.ranks_of(process, 2)
+        ranks.wait_until(lambda: len(list(self.scratch.glob("clatter-factor-*/factor_*"))) >= 2, "no factor on disk", 120.0)
+        os.kill(children[-1], signal.SIGKILL)
+        self.assertNotEqual(process.wait(timeout=60), 0)
+        self.assertFalse((self.folder / "killed.rom.h5").exists())
+        ranks.wait_until(lambda: not any(os.path.exists(f"/proc/{child}") for child in children), "a rank is left")
+        ranks.wait_until(lambda: not self.folders(), f"left: {self.folders()}")
+
+    def test_a_full_disk_on_one_rank(self):
+        small = interrupted_test.HardH2DiskFull.small_disk(self)
+        program = [*ranks.program("condense"), *self.arguments("full.rom.h5"), "--threads", "1"]
+        words = [*ranks.MPIRUN, "-n", "1", "-x", f"TMPDIR={self.scratch}", *program, ":", "-n", "1", "-x", f"TMPDIR={small}",
+                 *program]
+        done = ranks.finish(words, self.folder)
+        errors = [line for line in done.stderr.splitlines() if "error:" in line]
+        self.assertEqual((done.returncode, len(errors)), (4, 1), done.stderr)
+        self.assertIn("could not write its factor to disk", errors[0])
+        self.assertIn("TMPDIR", errors[0])
+        self.assertFalse((self.folder / "full.rom.h5").exists())
+        ranks.wait_until(lambda: not self.folders() and not self.folders(small), "a factor is left")
 
 
 if __name__ == "__main__":

@@ -37,6 +37,12 @@ class Modal(stages.PipelineTest):
             with self.subTest(ranks=count):
                 self.assert_same(count, "--fmax-hz", "3000")
 
+    def test_arpack_with_the_rows_of_its_vectors_spread(self):
+        (self.folder / "arpack.modes.toml").write_text('count = 12\neigen_solver = "arpack"\n')
+        for count in (1, 2, 3, 4):
+            with self.subTest(ranks=count):
+                self.assert_same(count, "-c", "arpack.modes.toml")
+
     def test_by_count_with_a_clamped_set(self):
         (self.folder / "clamped.modes.toml").write_text('count = 6\nfixed = ["tip"]\n')
         self.assert_same(3, "-c", "clamped.modes.toml")

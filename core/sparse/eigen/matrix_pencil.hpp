@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/sparse.hpp"
+#include "core/sparse/eigen/arpack_solver.hpp"
 #include "core/sparse/factor/factor.hpp"
 #include "core/sparse/factor/inertia.hpp"
 #include "core/sparse/row_team.hpp"
@@ -52,6 +53,10 @@ class MatrixPencil {
   virtual Eigen::MatrixXd magnitude_times(const Eigen::MatrixXd& x) const = 0;
   /// The complete matrices; null where a team shares them.
   virtual const LocalMatrices* local() const { return nullptr; }
+  /// ARPACK for vectors whose rows this process, or the team, has.
+  virtual std::unique_ptr<ArpackRoutines> arpack() const {
+    return std::make_unique<ArpackRoutines>();
+  }
 };
 
 /// The pencil of one process.

@@ -60,11 +60,10 @@ EigenResult ModeSource::attempt(int count, int retry) {
   if (dense()) return by_dense(count);
   const bool room = 2 * count + 6 * 24 < n_;
   if (room && options_.method == EigenMethod::kBlockLanczos) return by_block_lanczos(count, retry);
-  if (given_.local() == nullptr)
+  if (given_.local() == nullptr && options_.method == EigenMethod::kAmls)
     throw InputError(
-        fmt::format("modes: found {} of {} unknowns by {}, expected fewer, by {}: the "
-                    "only eigen_solver of several processes",
-                    count, n_, name_of(options_.method), name_of(EigenMethod::kBlockLanczos)));
+        "eigen_solver: found \"amls\", which one process computes, expected \"block-lanczos\" or "
+        "\"arpack\" with several");
   pencil_.find_shift(wanted_, options_.seed);
   if (room && options_.method == EigenMethod::kAmls) return by_amls(count, retry);
   return by_arpack(count, retry);
@@ -112,7 +111,7 @@ EigenResult ModeSource::by_arpack(int count, int retry) {
   options.basis = static_cast<int>(std::min<Index>(n_, static_cast<Index>(2 + retry) * count + 10));
   options.start = start(retry);
   method_ = name_of(EigenMethod::kArpack);
-  return solve_arpack(pencil_.problem(), options);
+  return solve_arpack(pencil_.problem(), options, *given_.arpack());
 }
 
 VectorXd ModeSource::start(int retry) const {

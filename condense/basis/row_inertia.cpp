@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "condense/basis/row_inertia.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condense/basis/frame_inertia.hpp"
+
+namespace clatter::condense {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows of this process in matrices of the nodal masses.
+class OwnRows {
+ public:
+  explicit OwnRows(const PartitionedModel& part);
+  /// Own rows of T_k^T m T_l, by DoFs.
+  std::vector<DofEntry> of_product(const SparseMatrix& complete, size_t k, size_t l) const;
+  /// Own rows of T_k^T f.
+  MatrixXd of_forces(const MatrixXd& f, size_t k) const { return own_[k].transpose() * f; }
+  /// V^T f of own rows of f.
+  MatrixXd project(const ReducedBasis& basis, const MatrixXd& f) const;
+  /// Own rows of columns of V.
+  MatrixXd columns(const ReducedBasis& basis, Index first, Index count) const;
+  SparseMatrix mass_without_directions() const;
+  bool gives_back(const SparseMatrix& m) const;
+
+ private:
+  const PartitionedModel& part_;
+  const std::vector<int32_t>& dofs_;
+  Index inside_;                     // own rows of the interior
+  std::vector<Index> boundary_;      // coordinates of the own boundary rows
+  std::array<SparseMatrix, 3> T_;    // n_nodes x n
+  std::array<SparseMatrix, 3> own_;  // n_nodes x own rows
+};
+
+OwnRows::OwnRows(const PartitionedModel& part)
+    : part_(part),
+      dofs_(part.shared->whole_dofs()),
+      inside_(static_cast<Index>(part.dofs.interior.size())) {
+  for (auto dof = dofs_.begin() + inside_; dof != dofs_.end(); ++dof)
+    boundary_.push_back(std::find(part.dofs.boundary.begin(), part.dofs.boundary.end(), *dof) -
+                        part.dofs.boundary.begin());
+  const SparseMatrix& T = part.full.T;
+  std::array<std::vector<Eigen::Triplet<double>>, 3> all, own;
+  for (int j = 0; j < T.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(T, j); it; ++it)
+      all[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, j, it.value());
+  for (size_t k = 0; k < dofs_.size(); ++k)
+    for (SparseMatrix::InnerIterator it(T, dofs_[k]); it; ++it)
+      own[static_cast<size_t>(it.row() % 3)].emplace_back(it.row() / 3, static_cast<int>(k),
+                                                          it.value());
+  for (size_t d = 0; d < 3; ++d) {
+    T_[d].resize(T.rows() / 3, T.cols());
+    T_[d].setFromTriplets(all[d].begin(), all[d].end());
+    own_[d].resize(T.rows() / 3, static_cast<Index>(dofs_.size()));
+    own_[d].setFromTriplets(own[d].begin(), own[d].end());
+  }
+}
+
+std::vector<DofEntry> OwnRows::of_product(const SparseMatrix& complete, size_t k, size_t l) const {
+  const SparseMatrix left = (complete * own_[k]).eval().transpose();  // m is symmetric
+  const SparseMatrix rows = left * T_[l];
+  std::vector<DofEntry> out;
+  out.reserve(static_cast<size_t>(rows.nonZeros()));
+  for (int j = 0; j < rows.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(rows, j); it; ++it)
+      out.emplace_back(dofs_[static_cast<size_t>(it.row())], j, it.value());
+  return out;
+}
+
+MatrixXd OwnRows::project(const ReducedBasis& basis, const MatrixXd& f) const {
+  MatrixXd at_boundary = MatrixXd::Zero(basis.boundary(), f.cols());
+  at_boundary(boundary_, Eigen::all) = f.bottomRows(f.rows() - inside_);
+  return basis.project(f.topRows(inside_), part_.team().sum(std::move(at_boundary)));
+}
+
+MatrixXd OwnRows::columns(const ReducedBasis& basis, Index first, Index count) const {
+  const MatrixXd unit = MatrixXd::Identity(basis.size(), basis.size()).middleCols(first, count);
+  MatrixXd out(static_cast<Index>(dofs_.size()), count);
+  out.topRows(inside_) = basis.interior(unit);
+  out.bottomRows(out.rows() - inside_) = unit(boundary_, Eigen::all);
+  return out;
+}
+
+/// The masses between x displacements, lower triangle, complete on every process.
+SparseMatrix OwnRows::mass_without_directions() const {
+  RowMatrix own(0, 3);
+  std::vector<DofEntry> entries = part_.shared->mass_entries();
+  std::erase_if(entries, [](const DofEntry& e) {
+    return e.row() % 3 != 0 || e.col() % 3 != 0 || e.row() < e.col();
+  });
+  own.resize(static_cast<Index>(entries.size()), 3);
+  for (Index k = 0; k < own.rows(); ++k) {
+    const DofEntry& entry = entries[static_cast<size_t>(k)];
+    own.row(k) << entry.row(), entry.col(), entry.value();
+  }
+  const auto count = static_cast<Index>(part_.team().sum(static_cast<double>(own.rows())));
+  RowMatrix all = part_.team().gather(own);
+  all.conservativeResize(count, 3);
+  part_.team().agree(all.data(), all.size());
+  std::vector<Eigen::Triplet<double>> masses;
+  for (Index k = 0; k < count; ++k)
+    masses.emplace_back(static_cast<int>(all(k, 0)) / 3, static_cast<int>(all(k, 1)) / 3,
+                        all(k, 2));
+  SparseMatrix m(part_.full.size() / 3, part_.full.size() / 3);
+  m.setFromTriplets(masses.begin(), masses.end());
+  return m;
+}
+
+/// Whether the own rows of T^T (m x I_3) T are those of M, on all processes.
+bool OwnRows::gives_back(const SparseMatrix& m) const {
+  const SparseMatrix complete = m.selfadjointView<Eigen::Lower>();
+  std::vector<DofEntry> rest = part_.shared->mass_entries();
+  double largest = 0.0, worst = 0.0;
+  for (DofEntry& entry : rest) {
+    largest = std::max(largest, std::abs(entry.value()));
+    entry = {entry.row(), entry.col(), -entry.value()};
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    const std::vector<DofEntry> found = of_product(complete, k, k);
+    rest.insert(rest.end(), found.begin(), found.end());
+  }
+  SparseMatrix sum(part_.full.size(), part_.full.size());
+  sum.setFromTriplets(rest.begin(), rest.end());
+  if (sum.nonZeros() > 0) worst = sum.coeffs().abs().maxCoeff();
+  return -part_.team().least(-worst) <= -1e-10 * part_.team().least(-largest);
+}
+
+}  // namespace
+
+rom::InertiaInvariants frame_inertia_of_rows(const PartitionedModel& part,
+                                             const ReducedBasis& basis) {
+  constexpr Index kBlock = 64;
+  const OwnRows rows(part);
+  const SparseMatrix m = nodal_mass(
+      part.full, [&] { return rows.mass_without_directions(); },
+      [&](const SparseMatrix& tried) { return rows.gives_back(tried); });
+  const SparseMatrix complete = m.selfadjointView<Eigen::Lower>();
+  MatrixXd moments(m.rows(), 4);  // m x, m 1
+  moments.leftCols(3) = complete * part.full.nodes;
+  moments.col(3) = complete * VectorXd::Ones(m.rows());
+  rom::InertiaInvariants out;
+  out.place = part.full.nodes.transpose() * moments.leftCols(3);
+  const Index r = basis.size();
+  std::vector<std::pair<size_t, RowProduct>> products;  // by place in out.product
+  for (size_t k = 0; k < 3; ++k) {
+    const MatrixXd projected = rows.project(basis, rows.of_forces(moments, k));
+    out.first[k] = projected.col(3);
+    for (size_t l = 0; l < 3; ++l) out.moment[3 * l + k] = projected.col(static_cast<Index>(l));
+    for (size_t l = k; l < 3; ++l) {
+      out.product[3 * k + l].resize(r, r);
+      products.emplace_back(3 * k + l, part.shared->product_with(rows.of_product(complete, k, l)));
+    }
+  }
+  for (Index begin = 0; begin < r; begin += kBlock) {
+    const Index count = std::min(kBlock, r - begin);
+    const MatrixXd V = rows.columns(basis, begin, count);
+    for (const auto& [place, product] : products)
+      out.product[place].middleCols(begin, count) = rows.project(basis, product(V));
+  }
+  complete_products(out);
+  return out;
+}
+
+}  // namespace clatter::condense
