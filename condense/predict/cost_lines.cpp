@@ -24,34 +24,28 @@ std::string ranks_text(int ranks) {
 
 std::vector<std::string> describe(const PredictedCost& cost) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "{} DoF to eliminate, {} boundary coordinates: L has {:.3g} entries ({}), one factorisation "
-      "{:.3g} operations (exact for the order of {}; counted in {}, {})",
+  const auto say = [&](const char* text, const auto&... parts) {
+    lines.push_back(fmt::format(fmt::runtime(text), parts...));
+  };
+  say("{} DoF to eliminate, {} boundary coordinates: L has {:.3g} entries ({}), one factorisation "
+      "{:.3g} operations (exact in the order of {}; counted in {}, {})",
       cost.size, cost.boundary, cost.entries, memory_text(8.0 * cost.entries / kBytesPerGib),
-      cost.flops, cost.ordering, seconds_text(cost.count_seconds), memory_text(cost.count_gib)));
-  lines.push_back(fmt::format(
-      "{}: {} at most ({} of them for L and its fronts), up to {:.0f} % of the operations beside "
-      "{:.0f} % on average (measured: 0.7 to 1.6 times the memory, 0.9 to 1.4 times the share)",
-      ranks_text(cost.ranks()), memory_text(cost.total_gib()), memory_text(cost.factor_gib()),
-      100.0 * cost.most_flops() / cost.flops, 100.0 / cost.ranks()));
-  if (cost.ranks() > 1)
-    lines.push_back(
-        fmt::format("messages of one factorisation: {} by all ranks (measured: 0.6 to "
-                    "1.1 times)",
-                    memory_text(cost.sent_gib())));
-  const double columns = static_cast<double>(cost.boundary) / 64.0;
-  lines.push_back(fmt::format(
-      "{}: one factorisation {}, 64 solves {}, the {} static shapes {}; at {:.3g} Gflop/s of a "
-      "core "
-      "({}), without the time of messages: expect up to three times as much",
-      cost.ranks() == 1 ? "1 core" : fmt::format("{} cores", cost.ranks()),
-      seconds_text(cost.factor_seconds()), seconds_text(cost.solve_seconds()), cost.boundary,
-      seconds_text(1.5 * columns * cost.solve_seconds()), cost.gflops,
-      cost.product_gflops > 0.0 ? fmt::format("a matrix product here: {:.3g}", cost.product_gflops)
-                                : "as given"));
-  if (cost.ranks() > 1)
-    lines.push_back(
-        fmt::format("rank 0 orders: {} for the pattern of K", memory_text(cost.count_gib)));
+      cost.flops, cost.ordering, seconds_text(cost.count_seconds), memory_text(cost.count_gib));
+  say("memory of {}: {} at most, {} of them for L with its fronts (MUMPS: 0.7 to 1.5 times that)",
+      ranks_text(cost.ranks()), memory_text(cost.total_gib()), memory_text(cost.factor_gib()));
+  if (cost.ranks() > 1) {
+    say("rank 0 orders and analyses for all: {} at most", memory_text(cost.analysis_gib()));
+    say("largest share of the operations: {:.3g} %, {:.3g} % on average (MUMPS: 0.9 to 1.4 times "
+        "the largest); messages of one factorisation: {} (0.6 to 1.5 times)",
+        100.0 * cost.most_flops() / cost.flops, 100.0 / cost.ranks(), memory_text(cost.sent_gib()));
+  }
+  const std::string rate = cost.product_gflops > 0.0
+                               ? fmt::format("a matrix product here: {:.3g}", cost.product_gflops)
+                               : "as given";
+  say("seconds at {:.3g} Gflop/s of a core ({}): one factorisation {}, 64 solves {}, the static "
+      "shapes {}; messages come on top: expect one to three times as much",
+      cost.gflops, rate, seconds_text(cost.factor_seconds()), seconds_text(cost.solve_seconds()),
+      seconds_text(1.5 / 64.0 * static_cast<double>(cost.boundary) * cost.solve_seconds()));
   return lines;
 }
 
@@ -79,6 +73,8 @@ JsonMembers json_of(const PredictedCost& cost) {
           {"core_gflops", json_number(cost.gflops)},
           {"factor_seconds", json_number(cost.factor_seconds())},
           {"solve_seconds", json_number(cost.solve_seconds())},
+          {"analysis_gib", json_number(cost.analysis_gib())},
+          {"analysis_gib", json_number(cost.analysis_gib())},
           {"count_gib", json_number(cost.count_gib)},
           {"count_seconds", json_number(cost.count_seconds)}};
 }

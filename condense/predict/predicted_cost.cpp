@@ -2,6 +2,7 @@
 #include "condense/predict/predicted_cost.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <numeric>
 
 #include "condense/basis/dof_partition.hpp"
@@ -15,13 +16,15 @@
 namespace clatter::condense {
 namespace {
 
-// Measured with MUMPS 5.5.1 on the block of the truck diesel, by bench/ranks.py (docs/accuracy.md).
-constexpr double kShareOfProduct = 0.35;  // of a factorisation's flops, in those of a product
-constexpr double kSolveGflops = 5.0;      // of a core in a solve: memory limits it
-constexpr double kWorkspace = 1.3;        // ICNTL(14) = 30 of MUMPS
-constexpr double kBuffers = 4.0;          // [GiB] at most: messages are counted in 32 bits
-constexpr double kModelBytes = 400.0;     // of a DoF on every rank
-constexpr double kColumns = 64.0;         // right-hand sides of a solve
+// Measured with MUMPS 5.5.1 on the block of the truck diesel, by bench/predict_ranks.py
+// (docs/accuracy.md).
+constexpr double kShareOfProduct = 0.3;  // of a factorisation's flops, in those of a product
+constexpr double kSolveShare = 0.75;     // of a solve's flops, in those of a factorisation
+constexpr double kWorkspace = 1.3;       // ICNTL(14) = 30 of MUMPS
+constexpr double kBuffers = 4.0;         // [GiB] at most: messages are counted in 32 bits
+constexpr double kModelBytes = 400.0;    // of a DoF on every rank
+constexpr double kPatternBytes = 16.0;   // of an entry of K, in MUMPS's analysis on rank 0
+constexpr double kColumns = 64.0;        // right-hand sides of a solve
 
 template <class Value>
 double most(const std::vector<sparse::RankLoad>& load, Value sparse::RankLoad::*value) {
@@ -30,7 +33,7 @@ double most(const std::vector<sparse::RankLoad>& load, Value sparse::RankLoad::*
   return most;
 }
 
-/// Of a product of two matrices by one thread [1e9/s]; the best of three.
+/// Of a product of two matrices by one thread [1e9/s]; the best of four, by processor seconds.
 double measured_product_gflops() {
   constexpr int kSize = 768;
   const BlasThreads one(1);
@@ -38,9 +41,10 @@ double measured_product_gflops() {
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(kSize, kSize);
   double best = 0.0;
   for (int run = 0; run < 4; ++run) {
-    const Stopwatch clock;
+    const std::clock_t begin = std::clock();
     sparse::add_product(1.0, A, A, C);
-    best = std::max(best, 2e-9 * kSize * kSize * kSize / clock.seconds());
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    best = std::max(best, 2e-9 * kSize * kSize * kSize / std::max(seconds, 1e-3));
   }
   return best;
 }
@@ -71,6 +75,11 @@ double PredictedCost::model_gib() const {
   return kModelBytes * static_cast<double>(size + boundary) / kBytesPerGib;
 }
 
+double PredictedCost::analysis_gib() const {
+  return std::max(count_gib, matrices_gib() + model_gib() +
+                                 kPatternBytes * static_cast<double>(K_entries) / kBytesPerGib);
+}
+
 double PredictedCost::sent_gib() const {
   double sum = 0.0;
   for (const sparse::RankLoad& one : load) sum += one.sent;
@@ -80,7 +89,7 @@ double PredictedCost::sent_gib() const {
 double PredictedCost::factor_seconds() const { return most_flops() / (1e9 * gflops); }
 
 double PredictedCost::solve_seconds() const {
-  return 4e-9 * kColumns * most(load, &sparse::RankLoad::entries) / kSolveGflops;
+  return 4e-9 * kColumns * most(load, &sparse::RankLoad::entries) / (kSolveShare * gflops);
 }
 
 PredictedCost predict_cost(const CostRequest& request) {

@@ -37,6 +37,8 @@ struct PredictedCost {
   double matrices_gib() const;
   double model_gib() const;
   double total_gib() const { return factor_gib() + matrices_gib() + model_gib(); }
+  /// Of rank 0 while it orders, or while it analyses for all.
+  double analysis_gib() const;
   double sent_gib() const;  // by all ranks, in one factorisation
   /// Wall time without that of messages: of the rank with the most operations, or entries of L.
   double factor_seconds() const;
