@@ -43,7 +43,7 @@ void require_memory(const std::string& what, double gib, const std::string& advi
   const double left = memory_left_gib(gib);
   if (gib <= left) return;
   throw MemoryShort(fmt::format("{} needs {}, {} of {} are left: {}", what, memory_text(gib),
-                                  memory_text(left), memory_text(memory_limit_gib()), advice));
+                                memory_text(left), memory_text(memory_limit_gib()), advice));
 }
 
 std::string memory_text(double gib) {

@@ -10,7 +10,7 @@
 namespace clatter::ranks {
 namespace {
 
-TEST(HardC4_MumpsCounts, NegativeOnesAreMillions) {
+TEST(HardC4, NegativeCountsOfMumpsAreMillions) {
   EXPECT_EQ(count_of(0), 0);
   EXPECT_EQ(count_of(2147483647), 2147483647);
   EXPECT_EQ(count_of(-2148), int64_t{2148000000});
@@ -34,7 +34,7 @@ Entries star(const Ranks& ranks, const RowShares& shares) {
   return own;
 }
 
-TEST(HardC4_MumpsCounts, FactorsBeyond32BitsAreCountedAndRefusedBeforeTheyAreMade) {
+TEST(HardC4, MumpsCountsFactorsBeyond32BitsAndTheyAreRefusedBeforeTheyAreMade) {
   // With the centre of the star eliminated first, L is dense: n (n + 1) / 2 entries.
   const Ranks& ranks = test::all_ranks();
   const int64_t n = 66000;
@@ -53,7 +53,7 @@ TEST(HardC4_MumpsCounts, FactorsBeyond32BitsAreCountedAndRefusedBeforeTheyAreMad
   EXPECT_NEAR(entries, 0.5 * static_cast<double>(n * (n + 1)), 1e6);  // given in millions
 }
 
-TEST(HardC4_MumpsCounts, ABoundaryWhoseSchurComplementCannotBeCountedIsRefused) {
+TEST(HardC4, ABoundaryWhoseSchurComplementCannotBeCountedIsRefused) {
   const Ranks& ranks = test::all_ranks();
   const RowShares shares(10, 46341, ranks.size());
   Entries K;
