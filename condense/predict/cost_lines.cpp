@@ -31,11 +31,11 @@ std::vector<std::string> describe(const PredictedCost& cost) {
       "{:.3g} operations (exact in the order of {}; counted in {}, {})",
       cost.size, cost.boundary, cost.entries, memory_text(8.0 * cost.entries / kBytesPerGib),
       cost.flops, cost.ordering, seconds_text(cost.count_seconds), memory_text(cost.count_gib));
-  say("memory of {}: {} at most, {} of them for L with its fronts (MUMPS: 0.7 to 1.5 times that)",
+  say("memory of {}: {} at most, {} of them for L with its fronts (MUMPS: 0.7 to 1.6 times that)",
       ranks_text(cost.ranks()), memory_text(cost.total_gib()), memory_text(cost.factor_gib()));
   if (cost.ranks() > 1) {
     say("rank 0 orders and analyses for all: {} at most", memory_text(cost.analysis_gib()));
-    say("largest share of the operations: {:.3g} %, {:.3g} % on average (MUMPS: 0.9 to 1.4 times "
+    say("largest share of the operations: {:.3g} %, {:.3g} % on average (MUMPS: 1.0 to 1.4 times "
         "the largest); messages of one factorisation: {} (0.6 to 1.5 times)",
         100.0 * cost.most_flops() / cost.flops, 100.0 / cost.ranks(), memory_text(cost.sent_gib()));
   }
