@@ -9,6 +9,7 @@
 #include "condense/certify/verify.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/memory_limit.hpp"
 #include "core/base/whole_file.hpp"
 #include "core/base/write_artefact.hpp"
 
@@ -43,6 +44,11 @@ void condense_part(const CondenseArguments& a, const Reducer& reducer,
   print_json_result(a.output, json_of(reduced), clock, common);
 }
 
+/// clatter-condense-mpi does it too.
+bool several_processes_could(const CondenseOptions& options) {
+  return options.modes.method != sparse::EigenMethod::kAmls;
+}
+
 }  // namespace
 
 Reducer one_process_reducer() {
@@ -51,7 +57,11 @@ Reducer one_process_reducer() {
     const fe::FeModel model = fe::read_fe_model(path);
     fe::require_unknowns(model, "a reduction");
     clock.lap(fmt::format("read {} DoF", model.size()));
-    rom::ReducedModel reduced = condense(model, options, clock);
+    rom::ReducedModel reduced = with_memory_advice(
+        several_processes_could(options) ? "or share the part among processes: mpirun -n 4 "
+                                           "clatter-condense-mpi (docs/cluster.md)"
+                                         : "",
+        [&] { return condense(model, options, clock); });
     for (const std::string& text : describe(reduced)) print_result(text);
     if (std::isnan(verify_hz)) return reduced;
     const modes::Comparison compared = verify(reduced, model, verify_hz);

@@ -3,6 +3,7 @@
 #include "condense/add_rows_command.hpp"
 #include "condense/condense_command.hpp"
 #include "condense/export_command.hpp"
+#include "condense/predict_command.hpp"
 #include "core/base/blas_kernel.hpp"
 #include "core/base/command_line.hpp"
 #include "core/base/large_pages.hpp"
@@ -18,10 +19,12 @@ int main(int argc, char** argv) {
       "         clatter-condense piston.fe.h5 -c piston.rom.toml -o piston.rom.h5 --json\n"
       "         clatter-condense export block.rom.h5 block.mtx\n"
       "         clatter-condense add-rows block.fe.h5 --of block.rom.h5 --surface liner_2_bore "
-      "--set sensor_x -o block2.rom.h5");
+      "--set sensor_x -o block2.rom.h5\n"
+      "         clatter-condense predict block.fe.h5 -c block.rom.toml --ranks 32");
   condense::declare_condense(program);
   condense::declare_export(program);
   condense::declare_add_rows(program);
+  condense::declare_predict(program);
   program.moved("--export", "clatter-condense export REDUCED FILE ...");
   program.moved("--add-rows",
                 "clatter-condense add-rows MODEL --of REDUCED --surface NAME --set NAME -o OUTPUT");

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/base/memory_limit.hpp"
 #include "core/base/write_artefact.hpp"
 #include "modal/first_frequency.hpp"
 #include "modal/modes_file.hpp"
@@ -78,7 +79,12 @@ ModeFinder one_process_finder() {
                           fe::FeModel& model, StepClock& clock) {
     model = fe::read_fe_model(path);
     clock.lap(fmt::format("read {} DoF", model.size()));
-    return modes::analyse(model, options);
+    const bool shareable = options.method != sparse::EigenMethod::kAmls;
+    return with_memory_advice(
+        shareable ? "or share the part among processes: mpirun -n 4 clatter-modal-mpi "
+                    "(docs/cluster.md)"
+                  : "",
+        [&] { return modes::analyse(model, options); });
   };
   return finder;
 }

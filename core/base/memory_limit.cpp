@@ -42,8 +42,8 @@ double memory_left_gib(double enough) {
 void require_memory(const std::string& what, double gib, const std::string& advice) {
   const double left = memory_left_gib(gib);
   if (gib <= left) return;
-  throw NumericsError(fmt::format("{} needs {}, {} of {} are left: {}", what, memory_text(gib),
-                                  memory_text(left), memory_text(memory_limit_gib()), advice));
+  throw MemoryShort(fmt::format("{} needs {}, {} of {} are left: {}", what, memory_text(gib),
+                                memory_text(left), memory_text(memory_limit_gib()), advice));
 }
 
 std::string memory_text(double gib) {

@@ -3,6 +3,9 @@
 // Memory limit of the process.
 #include <limits>
 #include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
 
 namespace clatter {
 
@@ -20,7 +23,23 @@ double memory_in_use_gib();
 /// costs time.
 double memory_left_gib(double enough = std::numeric_limits<double>::infinity());
 
-/// Throws NumericsError "<what> needs 1.25 GiB, 340 MiB of 1 GiB are left: <advice>" when `gib` is
+/// More memory is needed than is left.
+struct MemoryShort : NumericsError {
+  using NumericsError::NumericsError;
+};
+
+/// Runs `body`; a MemoryShort of it ends with "; <advice>" in addition, unless that is empty.
+template <class Body>
+auto with_memory_advice(const std::string& advice, Body&& body) {
+  try {
+    return std::forward<Body>(body)();
+  } catch (const MemoryShort& error) {
+    if (advice.empty()) throw;
+    throw MemoryShort(error.what() + ("; " + advice));
+  }
+}
+
+/// Throws MemoryShort "<what> needs 1.25 GiB, 340 MiB of 1 GiB are left: <advice>" when `gib` is
 /// more than is left.
 void require_memory(const std::string& what, double gib, const std::string& advice);
 

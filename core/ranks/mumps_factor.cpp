@@ -73,6 +73,7 @@ void MumpsFactor::Impl::analyse(const sparse::FactorOptions& options) {
   const int64_t size = extent == Extent::kInterior ? shares.interior() : shares.size();
   give_matrix(mumps, triplets, order, size);
   if (coupled) {
+    require_schur_counts(mumps, shares.boundary());
     schur_rows.resize(static_cast<size_t>(shares.boundary()));
     std::iota(schur_rows.begin(), schur_rows.end(), static_cast<MUMPS_INT>(shares.interior() + 1));
     if (ranks.rank() == 0) schur.resize(schur_rows.size() * schur_rows.size());
@@ -94,10 +95,10 @@ void MumpsFactor::Impl::analyse(const sparse::FactorOptions& options) {
   if (on_disk && from_disk > left) {
     mumps.end();
     throw NumericsError(fmt::format(
-        "the factor of {} unknowns needs {} of each of {} ranks, {} with the factor on disk, {} "
-        "are left: use more ranks or raise the limit (--memory-limit)",
-        report.size, memory_text(report.predicted_gib), ranks.size(), memory_text(from_disk),
-        memory_text(left)));
+        "the factor of {} unknowns needs {} of each of {} ranks ({} entries), {} with the factor "
+        "on disk, {} are left: use more ranks or raise the limit (--memory-limit)",
+        report.size, memory_text(report.predicted_gib), ranks.size(), report.entries,
+        memory_text(from_disk), memory_text(left)));
   }
   if (on_disk)
     say(fmt::format("the factor needs {} of each rank, {} are left: it is kept on disk",

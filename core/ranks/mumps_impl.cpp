@@ -112,6 +112,16 @@ void factorise(MumpsInstance& mumps, const std::string& what) {
   fail(mumps, what);
 }
 
+void require_schur_counts(MumpsInstance& mumps, int64_t boundary) {
+  constexpr int64_t kMost = 46340;  // its square is the last below 2^31
+  if (boundary <= kMost) return;
+  mumps.end();
+  throw NumericsError(
+      fmt::format("found {} boundary coordinates, expected at most {} with several ranks: their "
+                  "Schur complement has 2^31 entries or more",
+                  boundary, kMost));
+}
+
 void give_matrix(MumpsInstance& mumps, Triplets& triplets, std::vector<MUMPS_INT>& order,
                  int64_t size) {
   if (size >= std::numeric_limits<MUMPS_INT>::max()) {

@@ -14,6 +14,11 @@ namespace clatter::ranks {
 enum MumpsJob { kStart = -1, kEnd = -2, kAnalyse = 1, kFactorise = 2, kSolve = 3 };
 enum class Definite { kYes, kNo };
 
+/// A count of entries as MUMPS gives it in 32 bits: a negative one is in millions.
+inline int64_t count_of(MUMPS_INT given) {
+  return given < 0 ? -int64_t{1000000} * given : int64_t{given};
+}
+
 /// One instance; parameters are numbered as in MUMPS's guide.
 class MumpsInstance {
  public:
@@ -49,10 +54,7 @@ class MumpsInstance {
   }
   MUMPS_INT& icntl(int i) { return data_.icntl[i - 1]; }
   MUMPS_INT infog(int i) const { return data_.infog[i - 1]; }
-  /// A count; negative ones are in millions.
-  int64_t count(int i) const {
-    return infog(i) < 0 ? -int64_t{1000000} * infog(i) : int64_t{infog(i)};
-  }
+  int64_t count(int i) const { return count_of(infog(i)); }
   double rinfog(int i) const { return data_.rinfog[i - 1]; }
   DMUMPS_STRUC_C& data() { return data_; }
 
@@ -80,6 +82,9 @@ ScaledTriplets scaled_triplets(const Ranks& ranks, const RowShares& shares,
 /// Gives the matrix, and its indices as the elimination order; both must outlive the instance.
 void give_matrix(MumpsInstance& mumps, Triplets& triplets, std::vector<MUMPS_INT>& order,
                  int64_t size);
+
+/// NumericsError where MUMPS cannot count the entries of the Schur complement in 32 bits.
+void require_schur_counts(MumpsInstance& mumps, int64_t boundary);
 
 /// Factorises; where the workspace predicted is too small it is raised and the step repeated.
 void factorise(MumpsInstance& mumps, const std::string& what);

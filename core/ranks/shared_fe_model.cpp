@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/h5_slab.hpp"
+#include "core/fe/stored_pattern.hpp"
 #include "core/sparse/factor/ordering.hpp"
 
 namespace clatter::ranks {
@@ -17,46 +18,15 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Columns [first, first + columns) of a stored lower triangle.
-struct Columns {
-  int64_t first = 0;
-  std::vector<int64_t> starts;  // columns + 1, from 0
-  std::vector<int32_t> rows;
-};
-
 [[noreturn]] void refuse_matrix(const std::filesystem::path& path, const std::string& group,
                                 const std::string& what) {
   throw InputError(fmt::format("{}: {}: {}", path.string(), group, what));
 }
 
-Columns read_columns(const std::filesystem::path& path, const std::string& group, int64_t n,
-                     int64_t first, int64_t count) {
-  const auto indptr = read_part_of_ints(path, group + "/indptr", first, count + 1);
-  Columns out;
-  out.first = first;
-  if (!std::is_sorted(indptr.begin(), indptr.end()) || indptr.front() < 0)
-    refuse_matrix(path, group, "indptr falls, expected ascending offsets");
-  for (const int32_t at : indptr) out.starts.push_back(int64_t{at} - indptr.front());
-  out.rows = read_part_of_ints(path, group + "/indices", indptr.front(), out.starts.back());
-  for (int64_t c = 0; c < count; ++c) {
-    int64_t above = first + c - 1;
-    for (int64_t k = out.starts[static_cast<size_t>(c)]; k < out.starts[static_cast<size_t>(c) + 1];
-         ++k) {
-      const int32_t row = out.rows[static_cast<size_t>(k)];
-      if (row <= above || row >= n)
-        refuse_matrix(path, group,
-                      fmt::format("column {} has row index {}, expected ascending within {} to {}",
-                                  first + c, row, first + c, n - 1));
-      above = row;
-    }
-  }
-  return out;
-}
-
 /// A symmetric positive semidefinite matrix has no negative diagonal entry; where one is zero, the
 /// column is zero.
 void check_diagonal(const std::filesystem::path& path, const std::string& group,
-                    const Columns& columns, const std::vector<double>& values) {
+                    const fe::StoredColumns& columns, const std::vector<double>& values) {
   for (size_t c = 0; c + 1 < columns.starts.size(); ++c) {
     const auto begin = static_cast<size_t>(columns.starts[c]);
     const auto end = static_cast<size_t>(columns.starts[c + 1]);
@@ -77,28 +47,6 @@ void check_diagonal(const std::filesystem::path& path, const std::string& group,
                                 "column",
                                 *first));
   }
-}
-
-/// Pattern of the block of the DoFs `interior` of K, lower triangle; the values are zero.
-SparseMatrix interior_pattern(const std::filesystem::path& path,
-                              const std::vector<int32_t>& interior, int64_t n) {
-  const Columns K = read_columns(path, "K", n, 0, n);
-  std::vector<int32_t> place(static_cast<size_t>(n), -1);
-  for (size_t k = 0; k < interior.size(); ++k)
-    place[static_cast<size_t>(interior[k])] = static_cast<int32_t>(k);
-  std::vector<int32_t> starts{0}, rows;
-  rows.reserve(K.rows.size());
-  for (const int32_t column : interior) {
-    const auto c = static_cast<size_t>(column);
-    for (int64_t k = K.starts[c]; k < K.starts[c + 1]; ++k)
-      if (const int32_t row = place[static_cast<size_t>(K.rows[static_cast<size_t>(k)])]; row >= 0)
-        rows.push_back(row);
-    starts.push_back(static_cast<int32_t>(rows.size()));
-  }
-  const std::vector<double> zeros(rows.size(), 0.0);
-  const auto size = static_cast<Index>(interior.size());
-  return Eigen::Map<const SparseMatrix>(size, size, static_cast<Index>(rows.size()), starts.data(),
-                                        rows.data(), zeros.data());
 }
 
 /// The entries of all parts by row, then by column: counted by row, since only rows are short
@@ -129,7 +77,7 @@ Entries read_entries(const Ranks& ranks, const std::filesystem::path& path,
   const int64_t n = shares.size();
   const int64_t first = n * ranks.rank() / ranks.size();
   const int64_t count = n * (ranks.rank() + 1) / ranks.size() - first;
-  const Columns columns = read_columns(path, group, n, first, count);
+  const fe::StoredColumns columns = fe::read_columns(path, group, n, first, count);
   const int64_t offset =
       count > 0 ? read_part_of_ints(path, group + "/indptr", first, 1).front() : 0;
   const auto values = read_part_of_doubles(path, group + "/data", offset, columns.starts.back());
@@ -189,9 +137,8 @@ Numbering number_dofs(const Ranks& ranks, const std::filesystem::path& path,
                       const rom::EliminationOrder& known) {
   Numbering out;
   out.boundary = static_cast<int64_t>(boundary.size());
-  const auto n = static_cast<int64_t>(interior.size() + boundary.size());
   if (ranks.rank() == 0) {
-    const SparseMatrix pattern = interior_pattern(path, interior, n);
+    const SparseMatrix pattern = fe::read_stiffness_pattern(path, interior, boundary).ii;
     out.stored = known;
     out.stored.method = "given";
     if (!known.fits(pattern)) {

@@ -102,7 +102,16 @@ class HardC4Memory(Failing):
     def test_a_limit_that_the_factor_does_not_fit(self):
         for stage in ("modal", "condense"):
             with self.subTest(stage=stage):
-                self.fails(stage, 3, says=["MiB", " are left", "--memory-limit"], extra=["--memory-limit", "0.02"])
+                self.fails(stage, 3, says=["MiB", " are left", "--memory-limit", f"mpirun -n 4 clatter-{stage}-mpi"],
+                           extra=["--memory-limit", "0.02"])
+
+    def test_no_advice_to_use_several_processes_where_they_would_refuse(self):
+        config = self.folder / "beam.rom.toml"
+        config.write_text(config.read_text() + '\neigen_solver = "amls"\n')
+        done = stages.run_stage("condense", *self.command("condense"), "--memory-limit", "0.02", folder=self.folder)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn(" are left", done.stderr)
+        self.assertNotIn("mpirun", done.stderr)
 
     def test_a_meaningless_limit(self):
         self.fails("modal", 2, says=["--memory-limit"], extra=["--memory-limit", "-1"])

@@ -90,7 +90,7 @@ class Output(stages.PipelineTest):
 
 class Commands(stages.PipelineTest):
     """`clatter-modal statics ...`: what a program does besides its usual job."""
-    COMMANDS = {"mesh": ["faces", "export"], "modal": ["statics", "shape", "compare", "export"], "condense": ["export", "add-rows"],
+    COMMANDS = {"mesh": ["faces", "export"], "modal": ["statics", "shape", "compare", "export"], "condense": ["export", "add-rows", "predict"],
                 "recover": ["sound", "listen"], "dynamics": ["response"]}
     # Options that became commands: (stage, arguments, words of the error).
     OLD = [("mesh", ["--faces", "beam.step"], "--faces is now a command: clatter-mesh faces PART"),

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, report, slaps, sweep
+from . import collect, drive_command, export_command, fired_cycle, info, levels, motored_cycle, predict, report, slaps, sweep
 from .artefact import BadArtefact, CannotWrite
 from .study import command as study
 from .study.run import Failed
@@ -52,6 +52,8 @@ def parser():
     motored_cycle.add_arguments(one)
     one = commands.add_parser("fired-cycle", help="write the pressure table of a fired engine, for [gas] of a scene")
     fired_cycle.add_arguments(one)
+    one = commands.add_parser("predict", help="say what the reduction of a part by several processes will cost")
+    predict.add_arguments(one)
     one = commands.add_parser("rules", help="print the path of clatter.mk, for `include`")
     one.add_argument("--snakemake", action="store_true", help="of clatter.smk instead, for a Snakefile")
     return top
@@ -140,6 +142,8 @@ def main(arguments, rules):
             motored_cycle.write_motored_cycle(options)
         elif options.command == "fired-cycle":
             fired_cycle.write_fired_cycle(options)
+        elif options.command == "predict":
+            return predict.run(options)
         elif options.command == "rules":
             print(pathlib.Path(rules).with_suffix(".smk") if options.snakemake else rules)
     except BadArtefact as error:

@@ -4,6 +4,8 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 
 namespace clatter::sparse {
@@ -12,7 +14,7 @@ namespace {
 /// CHOLMOD's settings and workspace; messages are off because we report errors ourselves.
 class Common {
  public:
-  Common() {
+  explicit Common(bool merged) {
     cholmod_l_start(&data_);
     data_.print = 0;
     data_.error_handler = nullptr;
@@ -20,9 +22,10 @@ class Common {
     data_.nmethods = 1;
     data_.method[0].ordering = CHOLMOD_GIVEN;
     // Larger blocks than CHOLMOD's own choice: our fronts and sweeps rely on BLAS-3.
-    data_.nrelax[0] = 8;
-    data_.nrelax[1] = 32;
-    data_.nrelax[2] = 96;
+    data_.nrelax[0] = merged ? 8 : 0;
+    data_.nrelax[1] = merged ? 32 : 0;
+    data_.nrelax[2] = merged ? 96 : 0;
+    if (!merged) std::fill_n(data_.zrelax, 3, 0.0);
   }
   ~Common() { cholmod_l_finish(&data_); }
   Common(const Common&) = delete;
@@ -83,9 +86,9 @@ void take_supernodes(const cholmod_factor& factor, SupernodeTree& tree) {
 
 }  // namespace
 
-void find_supernodes(const SparseMatrix& lower, const std::vector<int64_t>& order,
+void find_supernodes(const SparseMatrix& lower, const std::vector<int64_t>& order, bool merged,
                      SupernodeTree& tree) {
-  Common common;
+  Common common(merged);
   LongPattern pattern(lower);
   std::vector<SuiteSparse_long> given(order.begin(), order.end());
   cholmod_factor* factor =

@@ -43,7 +43,7 @@ void refuse_if_too_large(const FactorReport& report, const FactorOptions& option
   const double left = options.memory_limit_gib > 0.0 ? options.memory_limit_gib
                                                      : memory_left_gib(report.predicted_gib);
   if (report.predicted_gib <= left) return;
-  throw NumericsError(fmt::format(
+  throw MemoryShort(fmt::format(
       "the factor of {} unknowns needs {} ({} entries), {} are left: use a coarser mesh or raise "
       "the limit (--memory-limit)",
       report.size, memory_text(report.predicted_gib), report.entries, memory_text(left)));

@@ -126,7 +126,7 @@ SupernodeTree analyse_tree(const SparseMatrix& lower, const TreeOptions& options
   if (order.size() != static_cast<size_t>(tree.size))
     throw NumericsError(fmt::format("ordering: found a permutation of {} unknowns, expected {}",
                                     order.size(), tree.size));
-  find_supernodes(lower, order, tree);
+  find_supernodes(lower, order, options.merged, tree);
   find_parents(tree);
   if (coupling.cols() > 0) add_boundary_rows(coupling, tree);
   tree.panel_start.assign(1, 0);

@@ -60,10 +60,11 @@ struct SupernodeTree {
 struct TreeOptions {
   Ordering ordering = Ordering::kMetis;
   std::vector<int64_t> permutation;  // used instead of an ordering when not empty
+  bool merged = true;                // supernodes are merged where this adds few zeros
 };
 
 /// Orders A and finds the supernodes of its factor (CHOLMOD's analysis: Chen, Davis, Hager and
-/// Rajamanickam 2008), merged where this adds few zeros.
+/// Rajamanickam 2008).
 /// @param lower n x n, lower triangle.
 /// @param coupling n x n_b, pattern of the columns not eliminated (K_ib), or empty.
 /// Throws NumericsError when memory runs out or the given permutation is invalid.
