@@ -99,13 +99,15 @@ TEST_F(HardT12, OneRevolutionPerMinuteIsQuasiStatic) {
 }
 
 TEST_F(HardT12, AStarvedFilmIsADryContact) {
-  run("dry", with("[contact]\nlubrication = \"none\"\n"));
+  // Where the methods agree about the impacts: 11 % apart at 1e-3, 3 at 1e-4, 1 at 3e-5.
+  const std::string fine = "[accuracy]\ntolerance = 1e-4\n";
+  run("dry", with("[contact]\nlubrication = \"none\"\n" + fine));
   const double dry = largest("side_force");
-  run("1 nm of oil", with("[contact]\noil_thickness_um = 0.001\n"));
+  run("1 nm of oil", with("[contact]\noil_thickness_um = 0.001\n" + fine));
   EXPECT_EQ(largest("film_pressure_max"), 0.0);
   const double thin = largest("side_force");
-  EXPECT_NEAR(thin, dry, 0.05 * dry);  // another method and other steps: impacts differ
-  run("no oil", with("[contact]\ninitial_fill = 0.0\nsupply_fill = 0.0\n"));
+  EXPECT_NEAR(thin, dry, 0.05 * dry);
+  run("no oil", with("[contact]\ninitial_fill = 0.0\nsupply_fill = 0.0\n" + fine));
   EXPECT_EQ(largest("film_fill"), 0.0);
   EXPECT_NEAR(largest("side_force"), thin, 1e-9 * thin);
 }

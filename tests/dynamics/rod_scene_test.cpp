@@ -33,7 +33,7 @@ soft_stiffness_n_m = 0.0
 clearance_um = 0.0
 soft_stiffness_n_m = 0.0
 [accuracy]
-tolerance = 1e-4
+tolerance = 1e-5
 )";
 constexpr const char* kElastic = "[rod]\nmodel = \"elastic\"\nrom = \"rod.rom.h5\"\n";
 
