@@ -23,7 +23,7 @@ class Weight(stages.PipelineTest):
         done = stages.run_stage(stage, *arguments, folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_the_weight_of_a_clamped_beam_and_the_refusal_of_a_file_without_it(self):
+    def test_hardB9_the_weight_of_a_clamped_beam_and_the_refusal_of_a_file_without_it(self):
         self.edit("beam.fe.toml", "ratio = 0.002", "ratio = 0.5")
         self.run_stage("assembly", "beam.mesh.h5", "-c", "beam.fe.toml", "-o", "beam.fe.h5")
         self.run_stage("condense", "beam.fe.h5", "-c", "beam.rom.toml", "-o", "beam.rom.h5")
