@@ -9,6 +9,7 @@
 
 #include "condense/basis/cutoff_search.hpp"
 #include "condense/basis/frame_inertia.hpp"
+#include "condense/basis/inertia_force.hpp"
 #include "condense/basis/modal_damping.hpp"
 #include "condense/certify/certificate.hpp"
 #include "condense/rows/recovery_rows.hpp"
@@ -186,6 +187,8 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
     inertia = frame_inertia(part, source.basis);
     clock.lap("inertia invariants");
   }
+  Eigen::MatrixXd of_frame;
+  if (!part.free.all_free()) of_frame = inertia_force(part, source.basis);
   rom::ReducedModel reduced{.name = model.name,
                             .method = options.method,
                             .n_boundary = static_cast<int>(part.dofs.boundary.size()),
@@ -195,6 +198,7 @@ rom::ReducedModel condense(const PartitionedModel& part, const CondenseOptions& 
                             .beta = model.beta,
                             .modal_damping = options.modal_damping,
                             .rigid = boundary_rows(part, model.rigid, source.M_rr.rows()),
+                            .inertia_force = std::move(of_frame),
                             .sets = std::move(rows.sets),
                             .grids = std::move(rows.grids),
                             .loads = std::move(loads),

@@ -19,6 +19,10 @@ int dof_of(const rom::DofSet& set, size_t k) {
   return static_cast<int>(axis) + (set.is_rotation[k] != 0 ? 3 : 0);
 }
 
+SparseMatrix six_rows(const SparseMatrix& T, Eigen::Index row) {
+  return SparseMatrix(SparseMatrix(T.transpose()).middleCols(row, 6)).transpose();
+}
+
 void check_takes(const PointMassSpec& spec, const rom::DofSet& set) {
   if (set.kind == "contact_grid" || set.kind == "mean" || set.kind == "bolt")
     throw InputError(fmt::format("{}: found a set of kind {}, expected a coupling, point or nodes",
@@ -73,10 +77,16 @@ void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& s
 
 void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix& T,
                   Eigen::Index row) {
-  const SparseMatrix T_p = SparseMatrix(SparseMatrix(T.transpose()).middleCols(row, 6)).transpose();
+  const SparseMatrix T_p = six_rows(T, row);
   const SparseMatrix block = mass_block(spec).eval().sparseView();
   const SparseMatrix change = SparseMatrix(T_p.transpose()) * SparseMatrix(block * T_p);
   M += SparseMatrix(change.triangularView<Eigen::Lower>());
+}
+
+void add_between(SparseMatrix& M_sq, const PointMassSpec& spec, const SparseMatrix& T_s,
+                 const SparseMatrix& T, Eigen::Index row) {
+  const SparseMatrix block = mass_block(spec).eval().sparseView();
+  M_sq += SparseMatrix(six_rows(T_s, row).transpose()) * SparseMatrix(block * six_rows(T, row));
 }
 
 void add_moments(MassMoments& moments, const PointMassSpec& spec, const rom::DofSet& set) {

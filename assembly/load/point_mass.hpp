@@ -23,6 +23,11 @@ void add_to_set(SparseMatrix& M, const PointMassSpec& spec, const rom::DofSet& s
 void add_to_point(SparseMatrix& M, const PointMassSpec& spec, const SparseMatrix& T,
                   Eigen::Index row);
 
+/// Adds the mass on a point between supported coordinates and the others: M_sq += T_s,p^T block
+/// T_p.
+void add_between(SparseMatrix& M_sq, const PointMassSpec& spec, const SparseMatrix& T_s,
+                 const SparseMatrix& T, Eigen::Index row);
+
 /// Adds the mass to the moments; the nodes of a set share it evenly.
 void add_moments(MassMoments& moments, const PointMassSpec& spec, const rom::DofSet& set);
 

@@ -92,9 +92,9 @@ rom::DofSet support_set(const std::vector<HeldDof>& held, const DofNumbers& numb
   return set;
 }
 
-/// The supported coordinates. @param K its blocks sq and ss are taken.
+/// The supported coordinates. @param K, M blocks sq, and ss of K, are taken.
 fe::FeSupports supports_of(const PartData& part, const Constrained& constrained,
-                           CoordinateBlocks& K) {
+                           CoordinateBlocks& K, CoordinateBlocks& M) {
   std::vector<std::string> names;
   for (const SupportSpec& spec : part.recipe.supports) names.push_back(spec.name);
   std::vector<int32_t> support;
@@ -105,6 +105,7 @@ fe::FeSupports supports_of(const PartData& part, const Constrained& constrained,
           .T = nodal_rows(constrained.elimination.T_s, part.numbers.nodal()),
           .K_sq = taken(K.sq),
           .K_ss = taken(K.ss),
+          .M_sq = taken(M.sq),
           .rigid = constrained.rigid_s};
 }
 
@@ -117,22 +118,30 @@ Eigen::Index point_of(const DofNumbers& numbers, const PointMassSpec& spec) {
   return found == points.end() ? -1 : found - points.begin();
 }
 
-/// M with the point masses: on points through their rows of T, on sets directly, since these are
-/// coordinates of the model.
-/// @param M of the cells, n x n, lower triangle; left empty.
-SparseMatrix with_point_masses(SparseMatrix&& M, const PartData& part,
-                               const Constrained& constrained, const fe::FePoints& points) {
-  SparseMatrix sum = taken(M);
+/// The mass of the cells. Its blocks with supported coordinates have no rows without supports.
+CoordinateBlocks mass_blocks(SparseMatrix&& nodal, const Elimination& elimination) {
+  if (elimination.supports() > 0) return transform_with_supports(std::move(nodal), elimination);
+  CoordinateBlocks M;
+  M.qq = transform(std::move(nodal), elimination);
+  M.sq.resize(0, elimination.size());
+  return M;
+}
+
+/// Adds the point masses: on points through their rows of T and T_s, on sets directly, since these
+/// are coordinates of the model.
+/// @param M blocks qq and sq of the cells.
+void add_point_masses(CoordinateBlocks& M, const PartData& part, const Constrained& constrained,
+                      const fe::FePoints& points) {
   for (const PointMassSpec& spec : part.recipe.point_masses) {
     const Eigen::Index point = point_of(part.numbers, spec);
     if (point < 0) {
-      add_to_set(sum, spec, find_named(constrained.sets, part.mesh.name, "set", spec.on));
+      add_to_set(M.qq, spec, find_named(constrained.sets, part.mesh.name, "set", spec.on));
     } else {
-      add_to_point(sum, spec, points.T, 6 * point);
+      add_to_point(M.qq, spec, points.T, 6 * point);
+      if (M.sq.rows() > 0) add_between(M.sq, spec, points.T_s, points.T, 6 * point);
     }
   }
-  sum.makeCompressed();
-  return sum;
+  M.qq.makeCompressed();
 }
 
 /// Of the cells and point masses.
@@ -171,24 +180,24 @@ BuiltModel build_fe_model(const mesh::Mesh& mesh, const Recipe& recipe, StepCloc
   LoadInputs inputs{.momentum = momentum_of(nodal.M, recipe), .heat = solve_heat(part, pattern)};
   if (!inputs.heat.empty()) clock.lap("heat");
   CoordinateBlocks K = transform_with_supports(std::move(nodal.K), elimination);
-  SparseMatrix M_cells = transform(std::move(nodal.M), elimination);
+  CoordinateBlocks M = mass_blocks(std::move(nodal.M), elimination);
   add_springs(recipe.springs, constrained.springs, elimination, K);
   clock.lap("transform");
-  SparseMatrix M = with_point_masses(std::move(M_cells), part, constrained, points);
+  add_point_masses(M, part, constrained, points);
   const rom::MassProperties mass = mass_of(part, constrained);
-  check_references(mesh.name, constrained.sets, M);
+  check_references(mesh.name, constrained.sets, M.qq);
   check_stiffness(mesh, constrained.sets, K.qq);
   LoadVectors loads = load_vectors(part, constrained, inputs);
   clock.lap("masses and loads");
 
   BuiltModel built{
       .model = {.name = mesh.name,
-                .M = taken(M),
+                .M = taken(M.qq),
                 .K = taken(K.qq),
                 .T = taken(T),
                 .nodes = mesh.nodes,
                 .rigid = constrained.rigid,
-                .supports = supports_of(part, constrained, K),
+                .supports = supports_of(part, constrained, K, M),
                 .points = {points.names, points.position, taken(points.T), taken(points.T_s)},
                 .alpha = recipe.damping.alpha,
                 .beta = recipe.damping.beta,

@@ -153,6 +153,7 @@ rom::ReducedModel transformed(const rom::ReducedModel& model, const Split& split
   out.K_rr = projected(model.K_rr, W);
   for (auto& [name, load] : out.loads) load = W.transpose() * model.loads.at(name);
   out.inertia = model.inertia.in(W);
+  if (model.inertia_force.rows() > 0) out.inertia_force = W.transpose() * model.inertia_force;
   if (model.skin.T.rows() > 0) out.skin.T = model.skin.T * W;
   const Index n_S = static_cast<Index>(split.become.size());
   out.combined.resize(n_S + model.combined.rows(), W.cols());

@@ -28,6 +28,7 @@ struct FeSupports {
   SparseMatrix T;                  // T_s, 3 n_nodes x n_s
   SparseMatrix K_sq;               // n_s x n [N/m]
   SparseMatrix K_ss;               // n_s x n_s, lower triangle [N/m]
+  SparseMatrix M_sq;               // n_s x n [kg]; no entries in files of older versions
   Eigen::MatrixXd rigid;           // n_s x 6: s of unit rigid-body motions
 
   int size() const { return static_cast<int>(support.size()); }

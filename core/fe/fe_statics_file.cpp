@@ -22,6 +22,7 @@ void write_supports(H5File& file, const FeSupports& supports) {
   write_sparse(file, "supports/T_s", supports.T, false);
   write_sparse(file, "supports/K_sq", supports.K_sq, false);
   write_sparse(file, "supports/K_ss", supports.K_ss, true);
+  write_sparse(file, "supports/M_sq", supports.M_sq, false);
 }
 
 void read_supports(const H5File& file, FeModel& model) {
@@ -31,6 +32,7 @@ void read_supports(const H5File& file, FeModel& model) {
   if (!file.has("supports")) {
     supports.T.resize(nodal, 0);
     supports.K_sq.resize(0, model.size());
+    supports.M_sq.resize(0, model.size());
     supports.rigid.resize(0, 6);
     return;
   }
@@ -57,9 +59,12 @@ void read_supports(const H5File& file, FeModel& model) {
   supports.T = read_sparse(file, "supports/T_s");
   supports.K_sq = read_sparse(file, "supports/K_sq");
   supports.K_ss = read_sparse(file, "supports/K_ss");
+  supports.M_sq.resize(n, model.size());
+  if (file.has("supports/M_sq")) supports.M_sq = read_sparse(file, "supports/M_sq");
   check_shape(file, "supports/T_s", supports.T, nodal, n);
   check_shape(file, "supports/K_sq", supports.K_sq, n, model.size());
   check_shape(file, "supports/K_ss", supports.K_ss, n, n);
+  check_shape(file, "supports/M_sq", supports.M_sq, n, model.size());
 }
 
 void read_points(const H5File& file, FeModel& model) {

@@ -222,6 +222,7 @@ void write_reduced_model(H5File& file, const ReducedModel& model) {
   file.write("M_rr", model.M_rr);
   file.write("K_rr", model.K_rr);
   file.write("rigid", model.rigid);
+  if (model.inertia_force.rows() > 0) file.write("inertia_force", model.inertia_force);
   file.write("fixed_interface_hz", model.fixed_interface_hz);
   for (const auto& [name, load] : model.loads) file.write("loads/" + name, load);
   write_dof_sets(file, model.sets, model.grids);
@@ -248,6 +249,7 @@ ReducedModel read_reduced_model(const std::filesystem::path& path, bool with_ski
   model.M_rr = read_symmetric(file, "M_rr", size);
   model.K_rr = read_symmetric(file, "K_rr", size);
   model.rigid = read_checked(file, "rigid", size, 6);
+  if (file.has("inertia_force")) model.inertia_force = read_checked(file, "inertia_force", size, 6);
   model.fixed_interface_hz = file.read_vector("fixed_interface_hz");
   for (const auto& name : file.list("loads")) {
     model.loads[name] = read_sized(file, "loads/" + name, size);

@@ -79,6 +79,10 @@ struct ReducedModel {
   DampingTable modal_damping;  // added to both
   Eigen::MatrixXd
       rigid;  // r x 6: q of unit rigid-body motions x, y, z, rx, ry, rz about the origin
+  /// r x 6: inertia forces on q of unit accelerations of the part's frame, V^T (M R + M_qs R_s), of
+  /// a part with supports, whose basis V does not contain the rigid motions R; 0 rows for free
+  /// parts, where they are M_rr rigid.
+  Eigen::MatrixXd inertia_force{};
   std::map<std::string, DofSet> sets;        // boundary sets
   std::map<std::string, ContactGrid> grids;  // contact grids, key: name of their set
   std::map<std::string, Eigen::VectorXd>

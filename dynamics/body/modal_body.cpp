@@ -145,7 +145,10 @@ ModalBody make_modal_body(const rom::ReducedModel& model, const ModalBodyOptions
     const double limit = std::pow(2.0 * std::numbers::pi * options.mode_limit_hz, 2);
     body.inertia = (body.omega_squared.array() <= limit).cast<double>();
   }
-  body.rigid = spectrum.shapes.transpose() * (M * rigid);
+  if (model.inertia_force.rows() > 0)
+    body.rigid = body.shapes.transpose() * model.inertia_force;
+  else
+    body.rigid = spectrum.shapes.transpose() * (M * rigid);
   body.is_rotation = rotations(model);
   body.mass = model.mass.mass;
   return body;

@@ -42,7 +42,8 @@ struct ModalBody {
   Eigen::VectorXd omega_squared;  // n_m [1/s2], ascending; exactly 0 for rigid modes
   Eigen::VectorXd damping;        // n_m [1/s], alpha omega^2 + beta + 2 zeta omega; rigid: 0
   Eigen::VectorXd inertia;        // n_m, 1 or 0
-  Eigen::MatrixXd rigid;          // n_m x 6, M-weighted: shapes^T M_rr r of the unit rigid motions
+  Eigen::MatrixXd rigid;          // n_m x 6, M-weighted: shapes^T M_rr r of the unit rigid motions,
+                                  // or shapes^T inertia_force of a part with supports
   std::vector<int32_t> is_rotation;  // r + c, 1 where the DoF is a rotation
   int rigid_modes = 0;               // the first ones
   double mass = 0.0;                 // [kg]

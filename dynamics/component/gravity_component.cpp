@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/component/gravity_component.hpp"
 
-#include <Eigen/Geometry>
+#include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/base/error.hpp"
 #include "dynamics/component/model_builder.hpp"
 
 namespace clatter::dynamics {
+namespace {
+
+/// InputError for a part with supports without its inertia forces: M_rr rigid lacks the weight that
+/// the modes of the interior carry.
+void check_weight(const LoadedBody& body) {
+  const rom::ReducedModel& model = body.model;
+  if (model.inertia_force.rows() > 0 || body.modal.rigid_modes == 6) return;
+  const Eigen::MatrixXd motions = model.rigid.leftCols<3>();
+  const Eigen::Vector3d found = (motions.transpose() * model.M_rr * motions).diagonal();
+  // Reduced mass properties are accepted up to 1e-9 of the full model's.
+  constexpr double kComplete = 1e-6;
+  if (((found.array() - model.mass.mass).abs() <= kComplete * model.mass.mass).all()) return;
+  throw InputError(
+      fmt::format("{}: gravity_m_s2: {}: found no inertia_force, expected it of a part with "
+                  "supports: condense the part again with this version",
+                  body.spec.where, body.spec.rom.string()));
+}
+
+}  // namespace
 
 void GravityComponent::add_loads(ModelBuilder& model) {
   if (gravity_ <= 0.0) return;
   for (const auto& [name, body] : model.bodies()) {
     const LoadedBody* loaded = find_body(model.loaded, name);
+    if (loaded != nullptr) check_weight(*loaded);
     const Shaft* shaft = loaded == nullptr ? nullptr : model.shaft_of(loaded->spec);
     if (shaft == nullptr) {
       model.system.add_load({"gravity", body, frame_force(model.system, body, 2),

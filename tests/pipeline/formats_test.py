@@ -148,7 +148,7 @@ class Formats(stages.PipelineTest):
         def look(name, item):
             matrix, _, leaf = name.rpartition("/")
             if leaf in ("data", "indices", "indptr") and "format" in item.parent.attrs:
-                return self.assertIn(matrix.rpartition("/")[2], {"K", "M", "T", "T_s", "K_sq", "K_ss"})
+                return self.assertIn(matrix.rpartition("/")[2], {"K", "M", "T", "T_s", "K_sq", "K_ss", "M_sq"})
             if name == "certificate":
                 known = [word.replace("*", "") for word in document.certificate]
                 found.extend((f"certificate@{key}", any(key == word or "_" == word[-1] and key.startswith(word) for word in known))
