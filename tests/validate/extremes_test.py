@@ -32,7 +32,7 @@ class HardT12Sample(unittest.TestCase):
         done = self.simulated(name, changes, time)
         self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(self.folder / f"{name}.run.h5") as file:
-            self.assertLess(file["certificate"].attrs["energy_residue"], 1e-5)
+            self.assertLess(file["certificate"].attrs["energy_residue"], 3e-4)
             found = {key: values[()] for key, values in file["history"].items()}
             self.assertTrue(all(np.isfinite(file[f"bodies/{body}/v"][()]).all() for body in ("block", "piston")))
         self.assertTrue(all(np.isfinite(values).all() for values in found.values()))
