@@ -18,6 +18,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import h5py
@@ -152,7 +153,7 @@ def fitted(sizes, values, at):
     return slope, float(np.exp(offset + slope * np.log(at)))
 
 
-def growth_table(bench, factorise):
+def growth_table(bench):
     found = [bench.predicted(bench.block(*size), 32) for size in SIZES]
     whole = [one for one, (_, cylinders) in zip(found, SIZES) if cylinders == 4]
     dofs = [one["dofs"] for one in whole]
@@ -169,11 +170,6 @@ def growth_table(bench, factorise):
     text = (f"{wide(dofs[at])} DoF from the two smaller blocks of four cylinders: {guess['factor_entries'] / 1e6:.0f}e6 entries and "
             f"{guess['factor_flops'] / 1e9:.0f} Gflop; counted from its graph {whole[at]['factor_entries'] / 1e6:.0f}e6 and "
             f"{whole[at]['factor_flops'] / 1e9:.0f}")
-    if factorise:
-        factors = [job(of_rank, 2) for of_rank in bench.counted(bench.block(*FACTORISED), 2)]
-        text += (f"; factorised by two ranks {sum(count_of(f['info'][26]) for f in factors) / 1e6:.0f}e6 and "
-                 f"{sum(f['rinfo'][2] for f in factors) / 1e9:.0f}, {factors[0]['infog'][15] / 1e3:.2f} GB of a rank by MUMPS's estimate, "
-                 f"{max(f['info'][21] for f in factors) / 1e3:.2f} GB used, predicted {bench.predicted(bench.block(*FACTORISED), 2)['factor_gib'] * 1.0737:.2f}")
     lines += ["", text + ".", ""]
     rows = []
     for million in MILLIONS:
@@ -208,15 +204,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tables", nargs="+", default=["counts", "scaling", "growth", "assembly"],
                         choices=["counts", "scaling", "growth", "assembly"])
-    parser.add_argument("--folder", type=Path, default=Path("/tmp/clatter-predict"), help="models are kept there (4 GB)")
+    parser.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "clatter-predict", help="models are kept there (4 GB)")
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
-    parser.add_argument("--factorise", action="store_true", help="of growth: the measured factor as well")
     parser.add_argument("--write", action="store_true", help="put the tables into docs/accuracy.md")
     options = parser.parse_args()
     bench = Bench(options)
     tables = {"counts": lambda: count_table(bench, SIZES[0], (2, 4, 8, 16, 32)) + [""] + count_table(bench, SIZES[1], (1, 2, 4, 8)),
               "scaling": lambda: scaling_table(bench, SIZES[1:3]),
-              "growth": lambda: growth_table(bench, options.factorise),
+              "growth": lambda: growth_table(bench),
               "assembly": lambda: assembly_table(bench)}
     for name in options.tables:
         lines = tables[name]()

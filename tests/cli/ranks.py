@@ -52,11 +52,14 @@ def wait_until(condition, what, seconds=30.0):
 
 
 def read(path):
-    """The matrices, frequencies, loads, rows and certificate of a reduced model."""
+    """The matrices, frequencies, loads, inertia forces, rows and certificate of a reduced model."""
     with h5py.File(path) as file:
         model = {name: file[name][()] for name in ("M_rr", "K_rr", "fixed_interface_hz")}
         model["T"] = file["skin/T"][()] if "skin/T" in file else np.zeros((0, len(model["M_rr"])))
         model["loads"] = {name: load[()] for name, load in file.get("loads", {}).items()}
+        # Of a part with supports: the loads by accelerations of its frame.
+        if "inertia_force" in file:
+            model["loads"] |= {f"acceleration {k}": load for k, load in enumerate(file["inertia_force"][()].T)}
         model["boundary"] = len(model["M_rr"]) - len(model["fixed_interface_hz"])
         model["certificate"] = {name: float(value) for name, value in file["certificate"].attrs.items()}
         model["order"] = file["ordering/permutation"][()]

@@ -75,6 +75,7 @@ class Condense(OfRanks):
         for one, other, done in self.both():
             self.assert_same(one, other)
             self.assertEqual(other["certificate"]["count_proved"], 1.0)
+            self.assertIn("acceleration 2", other["loads"])  # it has supports
             self.assertEqual(sorted(other["order"]), sorted(one["order"]))
             self.assertEqual(done.stdout.count("basis holds modes"), 1)  # rank 0 speaks for all
 
@@ -122,6 +123,7 @@ class Condense(OfRanks):
         for one, other, _ in self.both((3,)):
             self.assert_same(one, other)
             self.assertEqual(other["certificate"]["count_proved"], 1.0)
+            self.assertIn("acceleration 2", other["loads"])  # it has supports
 
     def test_verification_by_the_full_model(self):
         arguments = ["beam.fe.h5", "-c", "beam.rom.toml", "--verify", "0", "-o"]
