@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Orders, references, differences, step sizes and keys of `clatter study`."""
+import pathlib
+import tempfile
+import tomllib
+import unittest
+
+import h5py
+import numpy as np
+
+from clatter_tools.artefact import BadArtefact
+from clatter_tools.study import convergence, plan, quantities, toml_text
+
+
+class Convergence(unittest.TestCase):
+    def test_orders_of_uneven_steps_are_exact(self):
+        for p in (0.5, 1.0, 2.0, 4.3):
+            h = [3.0, 2.0, 0.7]
+            q = [5.0 - 0.4 * one**p for one in h]
+            self.assertAlmostEqual(convergence.order_of(h, q), p, delta=1e-9)
+            self.assertAlmostEqual(convergence.limit_of(h, q, p), 5.0, delta=1e-12)
+
+    def test_what_has_no_order_gives_none(self):
+        h = [4.0, 2.0, 1.0]
+        for q in ([1.0, 2.0, 1.5], [1.0, 1.0, 1.0], [1.0, 1.1, 1.3]):
+            self.assertTrue(np.isnan(convergence.order_of(h, q)), q)
+
+    def test_orders_that_disagree_give_the_finest_value_as_reference(self):
+        q = [quantities.number(one) for one in (1.0, 0.5, 0.45, 0.40)]
+        found = convergence.line("auto", [0, 1, 2, 3], [8.0, 4.0, 2.0, 1.0], q, q[1])
+        self.assertEqual((found.source, found.reference.values[0]), ("finest", 0.40))
+        self.assertAlmostEqual(found.base_error.values[0], 0.1)
+
+    def test_the_pareto_front_is_what_nothing_beats(self):
+        self.assertEqual(convergence.pareto([1.0, 2.0, 3.0, 2.5, 9.0], [1.0, 0.5, 0.6, 0.1, float("nan")]), [0, 1, 3])
+
+
+class Values(unittest.TestCase):
+    def test_differences_of_curves_are_where_both_are_known(self):
+        one = quantities.Value(np.array([1.0, 2.0, 3.0]), np.array([100.0, 125.0, 160.0]))
+        other = quantities.Value(np.array([1.5, 5.0]), np.array([125.0, 160.0]))
+        np.testing.assert_array_equal(one.minus(other).values, [0.5, -2.0])
+        self.assertEqual((one.minus(other).size(), one.minus(other).number()), (2.0, -2.0))
+        np.testing.assert_array_equal(one.plus(other).values, [3.5, 8.0])
+
+    def test_histories_are_reduced_over_their_last_cycle(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.run.h5"
+            with h5py.File(path, "w") as file:
+                angle = np.linspace(0.0, 1440.0, 2881)
+                file["history/crank_angle_deg"], file["history/force"] = angle, np.where(angle < 700.0, 99.0, np.cos(np.radians(angle)))
+                file["history/c_tension_a_b"], file["history/c_tension_min"] = 7.0 + 0.0 * angle, 9.0 + 0.0 * angle
+                file["energy/terms/piston_liner lost"], file["energy/time"], file["energy/crank_angle_deg"] = angle**2, angle / 1440.0, angle
+            take = lambda reduce: quantities.extract(path, "dataset", {"path": "history/force", "reduce": reduce, "column": 0, "last_cycle_only": True})  # noqa: E731
+            self.assertAlmostEqual(take("max").number(), 1.0)
+            self.assertAlmostEqual(take("range").number(), 2.0)
+            self.assertAlmostEqual(take("rms").number(), np.sqrt(0.5), delta=1e-3)
+            curve = take("curve")
+            np.testing.assert_allclose(curve.values, np.cos(2.0 * 2.0 * np.pi * curve.at), atol=1e-4)
+            self.assertEqual(quantities.extract(path, "link_force", {"chain": "c"}).number(), 7.0)
+            self.assertAlmostEqual(quantities.extract(path, "loss", {"element": "piston_liner"}).number(), (1440.0**2 - 720.0**2) / 0.5)
+
+    def test_a_table_is_the_same_after_it_was_written(self):
+        text = """a = 1\nb = "x\\"y"\nc = [1.5, 2]\nd = inf\n"odd key" = true\n[t]\ne = 2024-01-02\n[t.u]\nf = [{ g = 1 }, 2]\n[[list]]\nname = "n"\n[[list.inner]]\nh = -1e-3\n[[list]]\nk = []\n"""
+        table = tomllib.loads(text)
+        self.assertEqual(tomllib.loads(toml_text.text_of(table)), table)
+
+    def test_keys_go_through_names_and_numbers_of_tables_in_lists(self):
+        table = {"body": [{"name": "a", "v": 1}, {"name": "b", "v": 2}], "load": [{"v": 3}], "list": [1, 2]}
+        for path, value in ((("body", "b", "v"), 2), (("load", "0", "v"), 3), (("list", "1"), 2)):
+            self.assertEqual(toml_text.value_at(table, path), value)
+            toml_text.set_value("", table, path, 9)
+            self.assertEqual(toml_text.value_at(table, path), 9)
+        toml_text.set_value("", table, ("new", "key"), True)
+        self.assertIs(table["new"]["key"], True)
+        with self.assertRaisesRegex(BadArtefact, "found no table c, expected one"):
+            toml_text.set_value("x", table, ("body", "c", "v"), 1)
+
+    def test_step_sizes_follow_the_only_number_that_changes(self):
+        self.assertEqual(plan.step_sizes([(4,), (2,)]), [4.0, 2.0])
+        self.assertEqual(plan.step_sizes([(10, 24), (10, 48)]), [1 / 24, 1 / 48])
+        self.assertIsNone(plan.step_sizes([(10, 24), (20, 64)]))
+        self.assertIsNone(plan.step_sizes([("a",), ("b",)]))
+        self.assertIsNone(plan.step_sizes([(1,), (3,), (2,)]))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
