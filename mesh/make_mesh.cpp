@@ -9,6 +9,7 @@
 #include "core/base/plausible.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/mesh_file.hpp"
+#include "core/mesh/pieces.hpp"
 #include "mesh/cad_alone.hpp"
 #include "mesh/deck/import.hpp"
 #include "mesh/deck/msh/reader.hpp"
@@ -139,6 +140,11 @@ std::vector<std::string> describe(const NewMesh& result) {
     lines.push_back(fmt::format("mesh: region {}: volume {:.6g} m3", result.mesh.regions[r],
                                 cell_volume(result.mesh, static_cast<int32_t>(r))));
   }
+  if (const Pieces pieces = pieces_of(result.mesh); pieces.count > 1)
+    lines.push_back(fmt::format(
+        "mesh: {} pieces share no node; {} nodes of one lie on nodes of another: each piece moves "
+        "by itself unless a tie, bolt or coupling joins it",
+        pieces.count, pieces.coincident_nodes));
   if (c.volume_against_cad)
     lines.push_back(fmt::format("mesh: volume against CAD {:+.2e}", *c.volume_against_cad));
   lines.push_back(fmt::format("mesh: volume against the surface integral {:.1e}",

@@ -24,10 +24,12 @@ void bisect(const RowMatrix& coordinates, Iterator first, Iterator last, size_t 
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const Iterator middle = first + static_cast<std::ptrdiff_t>(count / 2);
-  // Equal coordinates are ordered by node number, so that groups do not depend on the platform.
-  std::sort(first, last, [&](int32_t a, int32_t b) {
-    return std::tuple(coordinates(a, axis), a) < std::tuple(coordinates(b, axis), b);
-  });
+  // Equal coordinates are ordered by the other two, so that groups do not depend on node numbers.
+  const auto key = [&](int32_t node) {
+    return std::tuple(coordinates(node, axis), coordinates(node, (axis + 1) % 3),
+                      coordinates(node, (axis + 2) % 3), node);
+  };
+  std::sort(first, last, [&](int32_t a, int32_t b) { return key(a) < key(b); });
   bisect(coordinates, first, middle, limit, groups);
   bisect(coordinates, middle, last, limit, groups);
 }

@@ -9,8 +9,8 @@
 namespace clatter::assembly {
 
 /// Groups of at most `limit` nodes each, by recursive bisection at the median of the longest
-/// extent. `coordinates` n x 3; each node is in one group. The result depends on the coordinates
-/// and node numbers only.
+/// extent. `coordinates` n x 3; each node is in one group. Node numbers decide only between nodes
+/// of one position.
 std::vector<std::vector<int32_t>> cluster_nodes(const RowMatrix& coordinates,
                                                 const std::vector<int32_t>& nodes, size_t limit);
 

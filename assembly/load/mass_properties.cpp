@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/load/mass_integral.hpp"
+#include "core/rom/rigid_mass.hpp"
 
 namespace clatter::assembly {
 namespace {
@@ -16,48 +17,49 @@ Eigen::Matrix3d inertia_of(const Eigen::Matrix3d& second) {
 }  // namespace
 
 MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Material>& materials) {
-  MassMoments sum;
+  const Eigen::Vector3d about = mesh.nodes.colwise().mean().transpose();
+  double mass = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const mesh::CellBlock& block : mesh.cells) {
     const double density = materials.at(static_cast<size_t>(block.region)).density;
     for_each_mass_point(mesh, block, density,
                         [&](Eigen::Index, const auto&, const Eigen::Vector3d& at, double dm) {
-                          sum.mass += dm;
-                          sum.first += dm * at;
-                          sum.second += dm * at * at.transpose();
+                          const Eigen::Vector3d arm = at - about;
+                          mass += dm;
+                          first += dm * arm;
+                          second += dm * arm * arm.transpose();
                         });
   }
-  return sum;
+  const Eigen::Vector3d from = first / mass;
+  return {mass, about + from, second - mass * from * from.transpose()};
 }
 
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,
                const Eigen::Matrix3d& inertia) {
-  moments.mass += mass;
-  moments.first += mass * position;
-  // J = tr(S) I - S has the inverse S = tr(J)/2 I - J.
-  moments.second += mass * position * position.transpose() +
+  const double total = moments.mass + mass;
+  const Eigen::Vector3d arm = position - moments.centre;
+  // J = tr(S) I - S has the inverse S = tr(J)/2 I - J; both S move to the common centre (Steiner).
+  moments.second += moments.mass / total * mass * arm * arm.transpose() +
                     0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
+  moments.centre += mass / total * arm;
+  moments.mass = total;
 }
 
 rom::MassProperties properties_of(const MassMoments& moments) {
   rom::MassProperties out;
   out.mass = moments.mass;
-  out.centre = moments.first / moments.mass;
-  out.inertia = inertia_of(moments.second - moments.mass * out.centre * out.centre.transpose());
+  out.centre = moments.centre;
+  out.inertia = inertia_of(moments.second);
   return out;
 }
 
 rom::MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid) {
-  const Eigen::Matrix<double, 6, 6> mass = rigid.transpose() * multiply_symmetric(M, rigid);
-  rom::MassProperties out;
-  out.mass = mass.topLeftCorner<3, 3>().trace() / 3.0;
-  // Column 3 + j holds the momentum of a unit spin about j: e_j x (m c).
-  out.centre =
-      Eigen::Vector3d(mass(1, 5) - mass(2, 4), mass(2, 3) - mass(0, 5), mass(0, 4) - mass(1, 3)) /
-      (2.0 * out.mass);
-  const double m = out.mass;
-  out.inertia = mass.bottomRightCorner<3, 3>() -
-                inertia_of(Eigen::Matrix3d(m * out.centre * out.centre.transpose()));
-  return out;
+  const auto about = [&](const Eigen::Vector3d& point) {
+    const Eigen::MatrixXd motions = rom::rigid_about(rigid, point);
+    return rom::properties_of(motions.transpose() * multiply_symmetric(M, motions), point);
+  };
+  return about(about(Eigen::Vector3d::Zero()).centre);
 }
 
 MassDifference compare(const rom::MassProperties& a, const rom::MassProperties& b) {

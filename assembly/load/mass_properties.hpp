@@ -11,11 +11,12 @@
 
 namespace clatter::assembly {
 
-/// Moments of the mass distribution about the origin.
+/// Moments of the mass distribution about its centre c: about the origin a part far from it, or a
+/// heavy point mass, would lose the digits of the rest (hard cases F2, F3).
 struct MassMoments {
   double mass = 0.0;                                 // int dm [kg]
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // int x dm [kg m]
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // int x x^T dm [kg m2]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // c [m]
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // int (x - c) (x - c)^T dm [kg m2]
 };
 
 /// Integrals of rho, rho x and rho x x^T over all cells; exact for curved cells too (degree 7).
@@ -25,10 +26,11 @@ MassMoments integrate_mass(const mesh::Mesh& mesh, const std::vector<fe::Materia
 void add_point(MassMoments& moments, double mass, const Eigen::Vector3d& position,
                const Eigen::Matrix3d& inertia);
 
-/// Inertia about the centre of mass: J = tr(S) I - S of the centred second moments.
+/// Inertia about the centre of mass: J = tr(S) I - S of the second moments.
 rom::MassProperties properties_of(const MassMoments& moments);
 
-/// The same from the matrices: R^T M R is [m I, -m c x; m c x, J_origin] for rigid motions R.
+/// The same from the matrices: R^T M R is [m I, -m c x; m c x, J] for rigid motions R about a
+/// point, c from there; first about the origin, then about the centre that this gives.
 rom::MassProperties properties_of(const SparseMatrix& M, const Eigen::MatrixXd& rigid);
 
 /// Relative differences of mass, centre (over the radius of gyration) and inertia.

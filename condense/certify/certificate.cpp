@@ -9,6 +9,7 @@
 
 #include "condense/basis/frame_inertia.hpp"
 #include "core/base/error.hpp"
+#include "core/rom/rigid_mass.hpp"
 #include "core/sparse/dense_eigen.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 
@@ -18,8 +19,9 @@ namespace {
 constexpr double kMassLimit = 1e-9;    // hard case B5
 constexpr double kRigidLimit = 1e-10;  // hard case B4
 
-Eigen::MatrixXd rigid_mass(const PartitionedModel& part) {
-  const Eigen::MatrixXd rigid = part.rows_of_whole(part.full.rigid);
+/// R^T M R of the full model for rigid motions about `point`.
+Eigen::MatrixXd rigid_mass(const PartitionedModel& part, const Eigen::Vector3d& point) {
+  const Eigen::MatrixXd rigid = rom::rigid_about(part.rows_of_whole(part.full.rigid), point);
   return part.team().sum(rigid.transpose() * part.whole()->mass_times(rigid));
 }
 
@@ -78,20 +80,6 @@ void certify_modes(rom::ReducedModel& reduced, const CraigBampton& source) {
 
 }  // namespace
 
-rom::MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass) {
-  rom::MassProperties out;
-  out.mass = rigid_mass.topLeftCorner<3, 3>().trace() / 3.0;
-  // Column j is the momentum m e_j x c of a unit rotation about axis j.
-  const Eigen::Matrix3d S = rigid_mass.topRightCorner<3, 3>();
-  out.centre = Eigen::Vector3d(S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0));
-  out.centre *= 0.5 / out.mass;
-  const Eigen::Vector3d& c = out.centre;
-  const Eigen::Matrix3d about_origin = rigid_mass.bottomRightCorner<3, 3>();
-  out.inertia =
-      about_origin - out.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
-  return out;
-}
-
 MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected) {
   MassError error;
   const double moment = expected.inertia.norm();
@@ -104,6 +92,10 @@ MassError compare_mass(const rom::MassProperties& found, const rom::MassProperti
 
 double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r) {
   if (r.cols() == 0) return 0.0;
+  if (r.cols() == reduced.K_rr.rows()) {  // a rigid body: all of K_rr is rounding (hard case F1)
+    reduced.K_rr.setZero();
+    return 0.0;
+  }
   const Eigen::MatrixXd unit = r.colwise().normalized();  // metres and radians have equal weight
   const double residue = (reduced.K_rr * unit).colwise().norm().maxCoeff() / reduced.K_rr.norm();
   const Eigen::MatrixXd Mr = reduced.M_rr * unit;
@@ -117,9 +109,12 @@ double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& 
 void certify(rom::ReducedModel& reduced, const PartitionedModel& part, const CraigBampton& source,
              const ReducedMotions& free, int dropped, bool spectrum) {
   rom::ReducedCertificate& out = reduced.certificate;
-  const Eigen::MatrixXd reduced_mass = reduced.rigid.transpose() * reduced.M_rr * reduced.rigid;
-  const rom::MassProperties found = mass_properties_of(reduced_mass);
-  const rom::MassProperties full = mass_properties_of(rigid_mass(part));
+  const Eigen::Vector3d centre =
+      rom::properties_of(rigid_mass(part, Eigen::Vector3d::Zero())).centre;
+  const Eigen::MatrixXd rigid = rom::rigid_about(reduced.rigid, centre);
+  const rom::MassProperties found =
+      rom::properties_of(rigid.transpose() * reduced.M_rr * rigid, centre);
+  const rom::MassProperties full = rom::properties_of(rigid_mass(part, centre), centre);
   out.rigid_stiffness_residue = clear_rigid_stiffness(reduced, free.q);
   out.rigid_shape_error = source.rigid_error;
   const bool free_body = free.all_free;  // a held body cannot move rigidly

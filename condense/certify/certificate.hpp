@@ -17,14 +17,12 @@ struct MassError {
   double largest() const { return std::max({mass, centre, inertia}); }
 };
 
-/// Ten mass properties from a 6 x 6 rigid mass matrix r^T M r about the origin.
-rom::MassProperties mass_properties_of(const Eigen::MatrixXd& rigid_mass);
 MassError compare_mass(const rom::MassProperties& found, const rom::MassProperties& expected);
 
 /// Removes from K_rr the spurious stiffness by rounding against the free motions r, K_rr <- P^T
 /// K_rr P with P = I - r (r^T M_rr r)^{-1} r^T M_rr, so that K_rr r = 0. Couplings with many nodes
 /// have entries in K up to 1e6 times those of K_rr, and rounding grows with them. Returns |K_rr r|
-/// / (|K_rr| |r|) before the change.
+/// / (|K_rr| |r|) before the change; 0 where nothing but the motions is left.
 /// @param r the free motions in reduced coordinates, size x m.
 double clear_rigid_stiffness(rom::ReducedModel& reduced, const Eigen::MatrixXd& r);
 

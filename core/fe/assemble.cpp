@@ -158,7 +158,10 @@ NodalMatrices assemble(const mesh::Mesh& mesh, const std::vector<Material>& mate
       parallel_pieces(count, [&](int64_t begin, int64_t end) {
         for (int64_t c = begin; c < end; ++c) {
           ElementMatrices& cell = chunk[static_cast<size_t>(c)];
-          compute_element(block.type, mesh::cell_nodes(mesh, block, first + c), material, cell);
+          // From the cell's first node: far from the origin differences of positions would lose
+          // digits in each derivative (hard case F2).
+          const mesh::CellNodes x = mesh::cell_nodes(mesh, block, first + c);
+          compute_element(block.type, x.rowwise() - x.row(0), material, cell);
           require_positive(mesh, block, first + c, cell.min_jacobian);
           if (form == MassForm::kHrz) lump_hrz(cell.mass);
           if (in_one_body(rigid_of_node, block, first + c)) cell.stiffness.setZero();

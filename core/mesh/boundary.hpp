@@ -30,22 +30,24 @@ struct BoundaryFace {
 /// Boundary faces by corner nodes.
 using BoundaryFaces = std::map<FaceKey, BoundaryFace>;
 
-/// Faces that belong to exactly one cell. InputError when a face has three cells or more, or when
-/// two cells that share its corners do not share its mid-side nodes: displacements would be
-/// discontinuous there.
+/// Faces that belong to exactly one cell. InputError when two cells have the same corners (hard
+/// case F4), when a face has three cells or more, or when two cells that share its corners do not
+/// share its mid-side nodes: displacements would be discontinuous there.
 BoundaryFaces boundary_faces(const Mesh& mesh);
 
 /// All boundary faces as a surface, ordered by corners.
 Surface skin_of(const BoundaryFaces& faces);
 
-/// Integrals over curved faces, exact except for the area.
+/// Integrals over curved faces, exact except for the area. What x . n dS encloses is measured from
+/// `about`, which a closed surface does not feel but for rounding.
 struct SurfaceIntegrals {
   double area = 0.0;                                 // integral of |n| dS [m2]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // integral of n dS [m2]; 0 when closed
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // area-weighted mean of x [m]
   double enclosed = 0.0;  // (1/3) integral of x . n dS [m3]; the volume when closed
 };
-SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface);
+SurfaceIntegrals integrate(const Mesh& mesh, const Surface& surface,
+                           const Eigen::Vector3d& about = Eigen::Vector3d::Zero());
 
 /// Volume of all cells of a region, -1 for all [m3]; exact.
 double cell_volume(const Mesh& mesh, int32_t region = -1);

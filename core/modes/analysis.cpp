@@ -83,6 +83,17 @@ sparse::ModeSet solve_named(const fe::FeModel& model, const std::vector<int32_t>
   }
 }
 
+/// A frequency that rounding of K may move by all of itself has no digit (hard case F6).
+void refuse_rounding(const std::string& name, const sparse::ModeSet& modes) {
+  Eigen::Index worst = 0;
+  if (modes.size() == 0 || modes.rounding.maxCoeff(&worst) <= 1.0) return;
+  throw NumericsError(fmt::format(
+      "{}: mode {} at {:.4g} Hz: found that rounding of the entries of K may move it by {:.2g} of "
+      "its frequency, expected less than 1: choose cells that are less flat, or smaller jumps of "
+      "stiffness",
+      name, worst + 1, modes.frequencies_hz()[worst], modes.rounding[worst]));
+}
+
 }  // namespace
 
 ModesOptions read_modes_options(const Config& config) {
@@ -141,6 +152,7 @@ PartModes analyse(const fe::FeModel& model, const ModesOptions& options, const M
   const std::vector<int32_t> left = dofs_left(model, options.fixed);
   const sparse::EigenOptions eigen = eigen_options(options, static_cast<int>(left.size()));
   part.modes = solve(left, eigen);
+  refuse_rounding(part.name, part.modes);
   if (!options.fixed.empty()) spread(left, model.size(), part.modes.vectors);
   return part;
 }

@@ -193,7 +193,8 @@ std::vector<Blunt> blunt_corners(const Mesh& mesh) {
     alone.cells = {block};
     std::map<int32_t, std::vector<FaceKey>> faces;
     for (const auto& [key, face] : boundary_faces(alone)) faces[face.cell].push_back(key);
-    for (const auto& [c, keys] : faces) {
+    for (const auto& [c, faces_of_c] : faces) {
+      const std::vector<FaceKey>& keys = faces_of_c;
       if (keys.size() != 2) continue;
       Eigen::Matrix<double, 4, 3> x;
       for (int i = 0; i < 4; ++i) x.row(i) = mesh.nodes.row(block.nodes(c, i));

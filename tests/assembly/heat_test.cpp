@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Heat conduction against closed forms; what a [[heat]] refuses; temperatures of loads.
+// Heat conduction against closed forms; what a [[heat]] refuses.
 #include "core/fe/heat.hpp"
 
 #include <fmt/format.h>
@@ -8,53 +8,26 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <random>
-#include <set>
 
 #include "assembly/recipe/profile.hpp"
-#include "assembly/recipe/temperature_table.hpp"
-#include "block_mesh.hpp"
 #include "core/base/artefact.hpp"
 #include "one_cell.hpp"
 #include "small_solver.hpp"
 #include "tests/refusal.hpp"
 #include "two_parts.hpp"
+#include "warm_wall.hpp"
 
 namespace clatter::assembly::testing {
 namespace {
 
 using mesh::CellType;
 
-const std::string kIron =
-    "[material.iron]\nregions = [\"body\"]\nE = 1.1e11\nnu = 0.26\nrho = 7200.0\n"
-    "expansion = 1.1e-5\nconductivity = 50.0\n";
-
-/// Heat along z through a wall of 0.1 x 0.2 x 0.4 m.
-const std::string kWall = R"(
-[[heat]]
-name = "warm"
-[[heat.film]]
-surface = "z0"
-coefficient = 500.0
-temperature_c = 20.0
-[[heat.film]]
-surface = "z1"
-coefficient = 200.0
-temperature_c = 300.0
-)";
-
 fe::Material conductor(double k) {
   fe::Material material = kSteel;
   material.conductivity.setConstant(k);
   return material;
-}
-
-mesh::Mesh wall_of(CellType type) {
-  BlockOptions options;
-  options.type = type;
-  return block_mesh({2, 2, 3}, shaken_brick({0.1, 0.2, 0.4}, {2, 2, 3}, 0.2), options);
 }
 
 TEST(CellConduction, OfAUnitTetrahedronByHand) {
@@ -342,129 +315,12 @@ TEST(HeatInput, WrongKeysAndValuesAreNamed) {
                      {"heat: found value as well, expected one of: "});
 }
 
-TEST(TemperatureLoad, OfAHeatIsItsTemperatureAboveTheReference) {
-  const fe::FeModel model = build_all(wall_of(CellType::kTet10), kIron + kWall + R"(
-[[load]]
-name = "expansion"
-kind = "temperature"
-heat = "warm"
-reference_c = 25.0
-)")
-                                .model;
-  const Eigen::VectorXd rise = model.heat.at("warm").temperature.array() - 298.15;
-  EXPECT_LT((model.temperature_rise.at("expansion") - rise).cwiseAbs().maxCoeff(), 1e-12);
-}
-
-TEST(TemperatureLoad, ByRegionsIsConstantInEachAndTheMeanBetween) {
-  mesh::Mesh mesh = wall_of(CellType::kHex8);
-  // The upper third of the wall is another region.
-  mesh.regions.push_back("top");
-  mesh::CellBlock top = mesh.cells[0];
-  const Eigen::Index third = top.nodes.rows() / 3;
-  top.region = 1;
-  std::vector<Eigen::Index> above, below;
-  for (Eigen::Index c = 0; c < top.nodes.rows(); ++c) {
-    double z = 0.0;
-    for (const int32_t node : top.nodes.row(c)) z += mesh.nodes(node, 2) / 8.0;
-    (z > 0.26 ? above : below).push_back(c);
-  }
-  ASSERT_EQ(static_cast<Eigen::Index>(above.size()), third);
-  top.nodes = IndexMatrix(mesh.cells[0].nodes(above, Eigen::all));
-  mesh.cells[0].nodes = IndexMatrix(mesh.cells[0].nodes(below, Eigen::all));
-  mesh.cells.push_back(top);
-  std::string both = kIron;
-  both.replace(both.find("\"body\""), 6, "\"body\", \"top\"");
-  const fe::FeModel model =
-      build_all(mesh, both +
-                          "[[load]]\nname = \"t\"\nkind = \"temperature\"\nregions = { body = "
-                          "10.0, top = 70.0 }\n")
-          .model;
-  const Eigen::VectorXd& rise = model.temperature_rise.at("t");
-  std::set<double> values(rise.data(), rise.data() + rise.size());
-  EXPECT_EQ(values, (std::set<double>{10.0, 40.0, 70.0}));
-  test::expect_parts(test::refusal_of([&] {
-                       build_all(mesh, both +
-                                           "[[load]]\nname = \"t\"\nkind = \"temperature\"\n"
-                                           "regions = { bdoy = 10.0 }\n");
-                     }),
-                     {"bdoy: found \"bdoy\", expected one of: body, top"});
-}
-
 TEST(HeatInput, OneTieHasOneConductance) {
   const mesh::Mesh mesh =
       two_parts(slab(CellType::kHex8, {1, 1, 1}, 0.0), slab(CellType::kHex8, {1, 1, 1}, 0.0, 1.0));
   const std::string contact = "[[heat.contact]]\ntie = \"joint\"\nconductance = 1.0\n";
   test::expect_parts(test::refusal_of([&] { build_all(mesh, two_slabs(contact + contact)); }),
                      {"tie: found \"joint\" twice, expected one conductance"});
-}
-
-class TemperatureFile : public ::testing::Test {
- protected:
-  void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() /
-            ("clatter_temperature_" + std::to_string(getpid()) + ".csv");
-  }
-  void TearDown() override { std::filesystem::remove(path_); }
-  void write(const std::string& text) const { std::ofstream(path_) << text; }
-  std::filesystem::path path_;
-};
-
-TEST_F(TemperatureFile, IsReadInTheUnitsOfItsHeader) {
-  write("x,y,z,temperature_c\n1,2,3,20\n4, 5, 6, -3.15\n\n");
-  const TemperatureTable table = read_temperature_table(path_, 1e-3);
-  EXPECT_EQ(table.points, (RowMatrix(2, 3) << 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3).finished());
-  EXPECT_NEAR(table.temperature(0), 293.15, 1e-12);
-  EXPECT_NEAR(table.temperature(1), 270.0, 1e-12);
-}
-
-TEST_F(TemperatureFile, ThatIsDifferentIsRefusedWithItsLine) {
-  const auto message = [&](const std::string& text) {
-    write(text);
-    return test::refusal_of([&] { read_temperature_table(path_, 1.0); });
-  };
-  test::expect_parts(message("x,y,z,T\n1,2,3,4\n"),
-                     {".csv:1: found \"x,y,z,T\", expected the header \"x,y,z,temperature_c\""});
-  test::expect_parts(message("x,y,z,temperature_c\n1,2,3\n"), {".csv:2: found 3 numbers"});
-  test::expect_parts(message("x,y,z,temperature_c\n1,2,3,nan\n"), {".csv:2: found "});
-  test::expect_parts(message("x,y,z,temperature_c\n1,2,3,-400\n"),
-                     {".csv:2: found -400 degrees Celsius, expected at least -273.15"});
-  test::expect_parts(message("x,y,z,temperature_c\n"), {"found no point, expected at least one"});
-}
-
-TEST_F(TemperatureFile, GivesTheRiseOfALoadAtTheNodes) {
-  const mesh::Mesh mesh = wall_of(CellType::kTet10);
-  std::string text = "x,y,z,temperature_c\n";
-  for (Eigen::Index a = mesh.nodes.rows() - 1; a >= 0; --a)
-    text += fmt::format("{},{},{},{}\n", mesh.nodes(a, 0), mesh.nodes(a, 1), mesh.nodes(a, 2),
-                        20.0 + 7.0 * static_cast<double>(a % 13));
-  write(text);
-  const fe::FeModel model =
-      build_all(mesh, kIron + "[[load]]\nname = \"t\"\nkind = \"temperature\"\ntable = \"" +
-                          path_.string() + "\"\n")
-          .model;
-  for (Eigen::Index a = 0; a < mesh.nodes.rows(); ++a)
-    EXPECT_NEAR(model.temperature_rise.at("t")(a), 7.0 * static_cast<double>(a % 13), 1e-9);
-}
-
-TEST(TemperatureTable, LinearFieldsAreInterpolatedExactly) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  TemperatureTable table{RowMatrix(200, 3), Eigen::VectorXd(200)};
-  const Eigen::RowVector3d slope(30.0, -20.0, 50.0);
-  for (double& x : table.points.reshaped()) x = unit(random);
-  table.temperature = (table.points * slope.transpose()).array() + 300.0;
-  RowMatrix nodes(50, 3);
-  for (double& x : nodes.reshaped()) x = unit(random);
-  const Eigen::VectorXd exact = (nodes * slope.transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes) - exact).cwiseAbs().maxCoeff(), 1e-9);
-  // Points in a plane: the field of the plane, constant across it.
-  table.points.col(2).setZero();
-  table.temperature = (table.points * slope.transpose()).array() + 300.0;
-  const Eigen::VectorXd flat = (nodes.leftCols(2) * slope.head<2>().transpose()).array() + 300.0;
-  EXPECT_LT((temperatures_at(table, nodes) - flat).cwiseAbs().maxCoeff(), 1e-8);
-  // One point: its temperature everywhere.
-  const TemperatureTable one{RowMatrix::Zero(1, 3), Eigen::VectorXd::Constant(1, 333.0)};
-  EXPECT_LT((temperatures_at(one, nodes).array() - 333.0).abs().maxCoeff(), 1e-12);
 }
 
 TEST(HeatFile, ReturnsTheFieldsAndTheConductivity) {

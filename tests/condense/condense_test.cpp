@@ -11,6 +11,7 @@
 #include "condense/rows/skin_faces.hpp"
 #include "core/base/error.hpp"
 #include "core/base/log.hpp"
+#include "core/rom/rigid_mass.hpp"
 #include "core/sparse/eigen/dense_solver.hpp"
 #include "tests/condense/box_model.hpp"
 #include "tests/refusal.hpp"
@@ -194,7 +195,7 @@ TEST(CraigBamptonTest, BoundaryCoordinatesAreTheDisplacementsOfTheirDofs) {
 TEST(CertificateTest, MassPropertiesOfARigidMassMatrixAreItsOwn) {
   const auto box = test::spring_box(3, 4, 5);
   const MatrixXd rigid_mass = box.rigid.transpose() * MatrixXd(box.M) * box.rigid;
-  const rom::MassProperties found = mass_properties_of(rigid_mass);
+  const rom::MassProperties found = rom::properties_of(rigid_mass);
   EXPECT_LT(compare_mass(found, test::point_mass_properties(box)).largest(), 1e-13);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "mesh/part/metis_partition.hpp"
+#include "tests/observed.hpp"
 #include "tests/plain_faults.hpp"
 #include "tests/refusal.hpp"
 
@@ -57,6 +58,7 @@ TEST(HardM1, QuadraticTetrahedraThatShareAnEdgeAreNoNeighbours) {
   EXPECT_TRUE(cell_neighbours(mesh).neighbour.empty());
   EXPECT_EQ(cell_neighbours(mesh).bodies(), (std::vector<int32_t>{0, 1}));
   EXPECT_NE(partition_refusal(mesh, 2).find("found 2 bodies"), std::string::npos);
+  test::observed("refused: " + partition_refusal(mesh, 2));
 }
 
 TEST(HardM1, CubesOfASmallMeshAreSeparated) {
@@ -70,6 +72,7 @@ TEST(HardM2, OnePartIsTheEntireMeshAndMetisIsNotCalled) {
   const Partition one = partition_cells(cubes(2), 1);
   EXPECT_EQ(one.part, std::vector<int32_t>(8, 0));
   EXPECT_EQ(one.cut, 0);
+  test::expect_at_most("faces cut by one part", static_cast<double>(one.cut), 0.0);
 }
 
 TEST(HardM3, EveryPartHasCellsAndIsConnected) {
@@ -80,10 +83,14 @@ TEST(HardM3, EveryPartHasCellsAndIsConnected) {
     std::map<int32_t, int> sizes;
     for (const int32_t part : p.part) ++sizes[part];
     ASSERT_EQ(sizes.size(), static_cast<size_t>(parts));
+    int largest = 0;
     for (const auto& [part, size] : sizes) {
       // METIS allows 3 % over the mean; contiguous parts of few cells need a cell or two more.
       EXPECT_LE(size, 1.03 * 216.0 / parts + 2.0);
+      largest = std::max(largest, size);
     }
+    test::expect_at_most(fmt::format("cells of the largest of {} parts", parts), largest,
+                         1.03 * 216.0 / parts + 2.0);
     EXPECT_EQ(p.part, partition_cells(mesh, parts).part);  // the same on every run
   }
   EXPECT_EQ(graph.neighbour.size(), 2u * 3u * 6u * 6u * 5u);
@@ -120,8 +127,9 @@ TEST(HardM4, MetisThatDiesIsAnErrorHere) {
   broken.start = {0, 1000000000, 2000000000};
   broken.neighbour = {1, 0};
   const test::PlainFaults plain;
-  test::expect_parts(test::refusal_of<NumericsError>([&] { metis_parts(broken, 2); }),
-                     {"partition: METIS ended with signal 11"});
+  const std::string said = test::refusal_of<NumericsError>([&] { metis_parts(broken, 2); });
+  test::expect_parts(said, {"partition: METIS ended with signal 11"});
+  test::observed("refused: " + said);
 }
 
 TEST(HardM5, NodeNumbersFromOneAreRefusedByTheValidator) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/sparse/dense_eigen.hpp"
@@ -20,6 +21,9 @@ constexpr double kClose = 0.1;     // of the lowest value: distance of a shift b
 constexpr double kTooFar = 100.0;  // largest ratio of shift to lowest value
 constexpr double kZero = 1e-10;    // of the shift
 constexpr int kShifts = 12;
+constexpr double kLargerShift = 30.0;  // factor on a shift at the rounding level of K
+constexpr double kFirstShift = 1e-12;  // of the largest K_jj / M_jj, where no other is known
+constexpr double kLastShift = 1e3;     // the same, where all of K may be rounding
 
 /// All pairs with nu > 0 except the rigid-body modes.
 EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& rigid,
@@ -53,7 +57,9 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
   // modes.
   const VectorXd& nu = solver.values;
   const double zero = 1e-14 * nu.cwiseAbs().maxCoeff();
-  const Index n = nu.size(), found = (nu.array() > zero).count();
+  // What is left of rigid motions is rounding, which may be all there is.
+  const Index n = nu.size(), elastic = n - rigid.cols();
+  const Index found = std::min<Index>((nu.array() > zero).count(), elastic);
   const VectorXd kept = nu.tail(found).reverse();
   result.values = kept.cwiseInverse().array() + sigma;
   const MatrixXd Z = solver.vectors.middleCols(n - found, found).rowwise().reverse();
@@ -61,6 +67,27 @@ EigenResult solve_shifted(const MatrixXd& K, const MatrixXd& M, const MatrixXd& 
   result.vectors = factor.matrixU().solve(Z) * kept.cwiseSqrt().cwiseInverse().asDiagonal();
   result.status = EigenStatus::kConverged;
   result.solves = n;
+  return result;
+}
+
+/// The same from the first of the shifts `shift`, 30 `shift`, ... that makes K - sigma M definite:
+/// where most of K is zero to rounding, as on a statically determinate boundary, so is the median
+/// that the shift came from (hard case F1).
+EigenResult solve_shifted_enough(const MatrixXd& K, const MatrixXd& M, const MatrixXd& rigid,
+                                 double& shift) {
+  EigenResult result;
+  if (shift < 0.0) result = solve_shifted(K, M, rigid, shift);
+  if (result.ok()) return result;
+  double largest = 0.0;
+  for (Index j = 0; j < K.rows(); ++j)
+    if (M(j, j) > 0.0) largest = std::max(largest, std::abs(K(j, j)) / M(j, j));
+  if (!(largest > 0.0) || !std::isfinite(largest)) largest = 1.0;  // K = 0: any shift will do
+  for (double size = std::max(-shift, kFirstShift * largest); size <= kLastShift * largest;
+       size *= kLargerShift) {
+    shift = -size;
+    result = solve_shifted(K, M, rigid, shift);
+    if (result.ok()) break;
+  }
   return result;
 }
 
@@ -102,7 +129,8 @@ EigenResult solve_dense(const MatrixXd& K, const MatrixXd& M, const MatrixXd& ri
                         std::optional<double> sigma, int count) {
   const bool held = !sigma && rigid.cols() == 0 && clearly_definite(K);
   double shift = sigma.value_or(held ? 0.0 : dense_shift(K, M));
-  EigenResult all = solve_shifted(K, M, rigid, shift);
+  EigenResult all =
+      sigma || held ? solve_shifted(K, M, rigid, shift) : solve_shifted_enough(K, M, rigid, shift);
   if (sigma || !all.ok()) {
     keep_first(count, all);
     return all;
@@ -141,7 +169,7 @@ double dense_shift(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
     if (M(j, j) > 0.0) quotient.push_back(K(j, j) / M(j, j));
   if (quotient.empty()) return 0.0;
   std::sort(quotient.begin(), quotient.end());
-  return -1e-3 * quotient[quotient.size() / 2];
+  return -1e-3 * std::max(quotient[quotient.size() / 2], 0.0);  // rounding may be negative
 }
 
 Eigen::MatrixXd dense_symmetric(const SparseMatrix& lower) {

@@ -127,8 +127,14 @@ void Search::prove(double limit) {
   const InertiaCount count = pencil_.count_below(limit, source_.order());
   modes_.proof.seconds += count.seconds;
   if (count.zero > 0) {
-    throw NumericsError(fmt::format("modes: {:.6g} Hz is an eigenfrequency; choose another limit",
-                                    hz_of_value(limit)));
+    const double hz = hz_of_value(limit);
+    if (options_.fmax_hz > 0.0)
+      throw NumericsError(
+          fmt::format("modes: {:.6g} Hz is an eigenfrequency; choose another limit", hz));
+    throw NumericsError(fmt::format(
+        "modes: K - mu M is singular to rounding at {:.6g} Hz, between two computed modes, so that "
+        "none can be counted: the model has cells that are too flat, or jumps of stiffness",
+        hz));
   }
   modes_.proof.below = count.negative;
 }
@@ -144,6 +150,11 @@ void Search::match_proof(int count) {
     const std::string mismatch =
         fmt::format("inertia counts {} modes below {:.6g} Hz, the solver found {}",
                     modes_.proof.below, hz_of_value(modes_.proof.limit), found);
+    if (source_.return_to_first_shift()) {
+      say(mismatch + "; searching again from the first shift");
+      --retry;
+      continue;
+    }
     if (retry >= options_.max_retries) throw NumericsError("modes: " + mismatch);
     warn(mismatch + "; searching again from a new start");
   }
@@ -188,6 +199,10 @@ void Search::find_by_count() {
     if (!found_gap && approximate()) break;  // the errors leave no gap: no proof possible
     prove(limit);
     if (options_.prove_count && !agrees()) {
+      if (source_.return_to_first_shift()) {
+        say("a mode is missing; searching again from the first shift");
+        continue;
+      }
       ++modes_.retries;
       if (modes_.retries > options_.max_retries) {
         throw NumericsError(
@@ -272,7 +287,8 @@ void Search::finish() {
     };
     measure();
     // With massless DoFs, one step removes rounding components of infinite modes.
-    const int least = modes_.massless > 0 ? 1 : 0;
+    // After the return to a large shift, it gives low values their digits.
+    const int least = modes_.massless > 0 || source_.returned() ? 1 : 0;
     for (int k = 0;
          k < kMaxRefinements && !small() && !approximate() && (k < least || worth_refining());
          ++k) {

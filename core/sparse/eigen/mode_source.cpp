@@ -21,6 +21,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kAlmostAll = 4;      // that many fewer are left to the gap after the wanted modes
+constexpr Index kAllDense = 2000;  // largest model whose complete spectrum is computed
+
 MatrixXd rigid_modes(const MatrixPencil& problem, const EigenOptions& options) {
   if (!options.rigid) return MatrixXd(problem.rows(), 0);
   return orthonormal_in_mass(problem, *options.rigid);
@@ -44,6 +47,18 @@ ModeSource::ModeSource(const MatrixPencil& problem, const EigenOptions& options,
     pencil_.shift_to(*options.sigma);
   else
     pencil_.start_shift(options.rigid.has_value());
+}
+
+bool ModeSource::dense() const {
+  if (given_.local() == nullptr) return false;
+  // All modes: Krylov methods find one less than there are unknowns.
+  const bool nearly_all = options_.count + kAlmostAll >= n_ && n_ <= kAllDense;
+  return n_ <= options_.dense_limit || nearly_all;
+}
+
+bool ModeSource::return_to_first_shift() {
+  if (dense() || !pencil_.return_to_first()) return false;
+  return returned_ = true;
 }
 
 EigenResult ModeSource::solve(int count, int retry) {
@@ -105,6 +120,10 @@ EigenResult ModeSource::by_amls(int count, int retry) {
 }
 
 EigenResult ModeSource::by_arpack(int count, int retry) {
+  if (count >= n_)
+    throw InputError(fmt::format(
+        "modes: found a request of {} modes of {} unknowns, expected fewer, or at most {} unknowns",
+        count, n_, kAllDense));
   ArpackOptions options;
   options.count = count;
   options.seed = seed(retry);

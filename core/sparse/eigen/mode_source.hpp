@@ -16,9 +16,13 @@ class ModeSource {
   ModeSource(const MatrixPencil& problem, const EigenOptions& options, const Factor* factor);
 
   /// Whether a dense solver is used: rows keep their order, else they are in elimination order.
-  bool dense() const { return n_ <= options_.dense_limit && given_.local() != nullptr; }
+  bool dense() const;
   /// The lowest `count` modes besides the rigid-body modes; each retry uses other start vectors.
   EigenResult solve(int count, int retry);
+  /// Another attempt with the first shift of the search, if that has moved; false if not.
+  bool return_to_first_shift();
+  /// That has happened: values far below the shift need refinement.
+  bool returned() const { return returned_; }
   /// Estimated number of modes below a value [rad2/s2]; for sparse problems.
   int estimated_below(double limit);
 
@@ -53,6 +57,7 @@ class ModeSource {
   const Wanted wanted_;
   ShiftedPencil pencil_;
   double dense_sigma_ = 0.0;
+  bool returned_ = false;
   std::string method_;
   int64_t solves_ = 0;
   double seconds_ = 0.0;

@@ -114,6 +114,14 @@ void ShiftedPencil::start_shift(bool known) {
   least_ = pencil_.bounds().smallest_shift();
   moves_left_ = kMoves;
   shift_from(std::max(-pencil_.default_shift(), least_));
+  first_ = sigma();
+}
+
+bool ShiftedPencil::return_to_first() {
+  if (given_ != nullptr || !(first_ < 0.0) || sigma() == first_) return false;
+  moves_left_ = 0;
+  shift_to(first_);
+  return true;
 }
 
 void ShiftedPencil::shift_from(double size) {

@@ -47,6 +47,11 @@ class ShiftedPencil {
   /// Repeats follow() with the Ritz values of a few blocks until the shift is final.
   void find_shift(const Wanted& wanted, uint64_t seed);
 
+  /// Returns to the first shift, for good, if follow() has left it: with modes so far below the
+  /// others that beside them rounding hides these, as of a stiff part on soft springs, only the
+  /// larger shift shows all (hard case F12). False if nothing has moved.
+  bool return_to_first();
+
   /// Without the rigid-body motions, in elimination order.
   const ShiftInvert& problem() const { return problem_; }
   /// The complete operator, including rigid-body motions.
@@ -87,6 +92,7 @@ class ShiftedPencil {
   int factors_ = 0;
   int moves_left_ = 0;          // of the shift; 0 when it is final
   double least_ = 0.0;          // smallest shift
+  double first_ = 0.0;          // chosen from the matrices only
   bool rigid_complete_ = true;  // all rigid-body motions are known
 };
 

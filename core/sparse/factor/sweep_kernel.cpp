@@ -11,7 +11,8 @@ namespace {
 
 /// kLanes doubles; the compiler splits them where registers are narrower. Never passed to a
 /// function, since the CPU-specific clones below use different registers.
-using Vector = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+using Vector __attribute__((aligned(8), may_alias)) =
+    double __attribute__((vector_size(kLanes * sizeof(double))));
 
 // Accumulators that fit into registers; two products per cycle with latency four need at least
 // eight.
@@ -23,22 +24,23 @@ constexpr int kRegisterRows = 6;
 
 #define CLATTER_INLINE inline __attribute__((always_inline))
 
-CLATTER_INLINE Vector& vector_at(const Lanes& lanes, int64_t i) {
-  return *reinterpret_cast<Vector*>(lanes.at + i * lanes.stride);
-}
+// Row i of the lanes. A macro, because clang forgets the alignment of 8 in a reference that a
+// function returns, and then requires that of the registers.
+#define CLATTER_VECTOR_AT(lanes, i) \
+  (*reinterpret_cast<Vector*>((lanes).at + static_cast<int64_t>(i) * (lanes).stride))
 
 /// R rows of y.
 template <int R>
 CLATTER_INLINE void product_rows(const double* A, int64_t stride, int columns, const Lanes& x,
                                  const Lanes& y) {
   Vector sum[R];
-  for (int r = 0; r < R; ++r) sum[r] = vector_at(y, r);
+  for (int r = 0; r < R; ++r) sum[r] = CLATTER_VECTOR_AT(y, r);
   for (int j = 0; j < columns; ++j) {
-    const Vector xj = vector_at(x, j);
+    const Vector xj = CLATTER_VECTOR_AT(x, j);
     const double* a = A + j * stride;
     for (int r = 0; r < R; ++r) sum[r] -= a[r] * xj;
   }
-  for (int r = 0; r < R; ++r) vector_at(y, r) = sum[r];
+  for (int r = 0; r < R; ++r) CLATTER_VECTOR_AT(y, r) = sum[r];
 }
 
 /// R rows of x.
@@ -46,12 +48,12 @@ template <int R>
 CLATTER_INLINE void transposed_rows(const double* A, int64_t stride, int rows, const Lanes& y,
                                     const Lanes& x) {
   Vector sum[R];
-  for (int j = 0; j < R; ++j) sum[j] = vector_at(x, j);
+  for (int j = 0; j < R; ++j) sum[j] = CLATTER_VECTOR_AT(x, j);
   for (int r = 0; r < rows; ++r) {
-    const Vector yr = vector_at(y, r);
+    const Vector yr = CLATTER_VECTOR_AT(y, r);
     for (int j = 0; j < R; ++j) sum[j] -= A[r + j * stride] * yr;
   }
-  for (int j = 0; j < R; ++j) vector_at(x, j) = sum[j];
+  for (int j = 0; j < R; ++j) CLATTER_VECTOR_AT(x, j) = sum[j];
 }
 
 /// body(constant of value `count`) for count <= Most, nothing for 0: the remaining rows in one go.
@@ -103,9 +105,9 @@ CLATTER_EACH_CPU void solve_lower(const double* L, int64_t stride, int n, Lanes 
     const int end = std::min(n, begin + kRegisterRows);
     for (int j = begin; j < end; ++j) {
       const double* column = L + j * stride;
-      const Vector xj = vector_at(x, j) * (1.0 / column[j]);
-      vector_at(x, j) = xj;
-      for (int r = j + 1; r < end; ++r) vector_at(x, r) -= column[r] * xj;
+      const Vector xj = CLATTER_VECTOR_AT(x, j) * (1.0 / column[j]);
+      CLATTER_VECTOR_AT(x, j) = xj;
+      for (int r = j + 1; r < end; ++r) CLATTER_VECTOR_AT(x, r) -= column[r] * xj;
     }
     product(L + begin * stride + end, stride, n - end, end - begin, x.row(begin), x.row(end));
   }
@@ -117,9 +119,9 @@ CLATTER_EACH_CPU void solve_lower_transposed(const double* L, int64_t stride, in
     transposed(L + begin * stride + end, stride, n - end, end - begin, x.row(end), x.row(begin));
     for (int j = end - 1; j >= begin; --j) {
       const double* column = L + j * stride;
-      Vector sum = vector_at(x, j);
-      for (int r = j + 1; r < end; ++r) sum -= column[r] * vector_at(x, r);
-      vector_at(x, j) = sum * (1.0 / column[j]);
+      Vector sum = CLATTER_VECTOR_AT(x, j);
+      for (int r = j + 1; r < end; ++r) sum -= column[r] * CLATTER_VECTOR_AT(x, r);
+      CLATTER_VECTOR_AT(x, j) = sum * (1.0 / column[j]);
     }
   }
 }

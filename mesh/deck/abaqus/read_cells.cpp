@@ -34,7 +34,7 @@ int32_t id_of(std::string_view field, const Lines& lines, std::string_view what)
   const auto id = to_integer(field);
   if (!id || *id < 1) {
     lines.source().fail(lines.origin(),
-                        fmt::format("found {}, expected {} (1 or more)", shown(field), what));
+                        fmt::format("found {}, expected {} (1 to 2147483647)", shown(field), what));
   }
   return *id;
 }

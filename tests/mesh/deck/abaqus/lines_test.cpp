@@ -54,7 +54,7 @@ TEST(AbaqusLines, TooManyNodesAreRefusedUnlessTheUserIgnoresThem) {
 TEST(AbaqusLines, RefusalsNameFileLineAndWhatWasFound) {
   EXPECT_EQ(refusal("*NODE\n1,0,0,zero\n"), "deck.inp:2: found 'zero', expected a coordinate");
   EXPECT_EQ(refusal("*NODE\n-1,0,0,0\n"),
-            "deck.inp:2: found '-1', expected the number of a node (1 or more)");
+            "deck.inp:2: found '-1', expected the number of a node (1 to 2147483647)");
   EXPECT_EQ(refusal("1, 2\n").substr(0, 11), "deck.inp:1:");
   EXPECT_EQ(refusal(kModel + "*SHELL SECTION, ELSET=S\n1.\n"),
             "deck.inp:24: keyword *SHELL SECTION is not supported; ignore = [\"*SHELL SECTION\"] "
