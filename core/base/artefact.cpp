@@ -9,11 +9,15 @@
 #include <fstream>
 #include <memory>
 
+#include "core/base/changed_inputs.hpp"
 #include "core/base/error.hpp"
 
 namespace clatter {
 
 namespace {
+
+// Instead of the hash of an input that changed while the stage worked (hard case P5).
+constexpr const char* kChangedInput = "changed while it was in use";
 
 class Sha256 {
  public:
@@ -62,7 +66,7 @@ void write_provenance(H5File& file, const Provenance& provenance) {
   std::vector<std::string> paths, hashes;
   for (const auto& input : provenance.inputs) {
     paths.push_back(input.string());
-    hashes.push_back(sha256_of_file(input));
+    hashes.push_back(changed_since_planned(input) ? kChangedInput : sha256_of_file(input));
   }
   file.write("inputs/path", paths);
   file.write("inputs/sha256", hashes);

@@ -65,7 +65,9 @@ void change_entries(toml::array& entries, toml::table& changes, const std::strin
 
 /// Merges `over` into `base`. Nodes are moved, not copied, to keep file and line.
 void overlay(toml::table& base, toml::table& over, const std::string& prefix) {
-  for (auto&& [key, value] : over) {
+  for (auto&& entry : over) {
+    const toml::key& key = entry.first;
+    toml::node& value = entry.second;
     toml::node* below = base.get(key);
     const auto inner = fmt::format("{}{}.", prefix, std::string_view(key.str()));
     if (below != nullptr && below->is_table() && value.is_table()) {

@@ -5,13 +5,17 @@
 
 #include "core/base/part_names.hpp"
 #include "core/base/refusal.hpp"
+#include "core/base/standard_streams.hpp"
 
 namespace clatter {
 
 int run_guarded(std::string_view program, const std::function<int()>& body) {
+  secure_standard_streams();
   remove_parts_on_signals();
   try {
-    return body();
+    const int code = body();
+    finish_standard_output();
+    return code;
   } catch (const Error& error) {
     return report_error(program, error.what(), error.code());
   } catch (const std::bad_alloc&) {

@@ -49,6 +49,8 @@ H5File H5File::create(const std::filesystem::path& path) {
   impl->final_path = path;
   std::filesystem::path part = path;
   part += ".part";
+  impl->lock = PartLock(part);
+  impl->part_path = part;
   const Id access = checked_access(), creation = checked_creation(H5P_FILE_CREATE);
   impl->unfinished = PartName(part);
   impl->file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, creation, access);
@@ -56,7 +58,6 @@ H5File H5File::create(const std::filesystem::path& path) {
     throw FileError(fmt::format(
         "{}: cannot be created (folder missing, no permission or disk full)", part.string()));
   }
-  impl->part_path = part;
   return H5File(std::move(impl));
 }
 
@@ -75,6 +76,7 @@ void H5File::commit() {
   if (!synced) fail("synced");
   if (std::rename(part.c_str(), impl_->final_path.c_str()) != 0) fail("renamed");
   impl_->part_path.clear();
+  impl_->lock = PartLock();  // readers of the finished file are not kept out
 }
 
 void H5File::commit(const std::filesystem::path& final_path) {

@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/h5_checks.hpp"
 #include "core/base/h5_file.hpp"
+#include "core/base/part_lock.hpp"
 #include "core/base/part_names.hpp"
 
 namespace clatter {
@@ -61,6 +62,7 @@ struct H5File::Impl {
   std::filesystem::path final_path;
   std::filesystem::path part_path;  // empty when reading
   PartName unfinished;
+  PartLock lock;
   hid_t file = -1;
   bool single = false;  // doubles are stored in single precision
 

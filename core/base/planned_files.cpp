@@ -3,12 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <vector>
 
+#include "core/base/changed_inputs.hpp"
 #include "core/base/error.hpp"
 
 namespace clatter {
@@ -25,9 +27,30 @@ struct Output {
   std::vector<fs::path> written() const { return {path, path.string() + ".part"}; }
 };
 
+/// Changes whenever the file is written to or another one gets its name; 0 where there is none.
+struct Identity {
+  dev_t device = 0;
+  ino_t inode = 0;
+  off_t bytes = 0;
+  time_t seconds = 0;
+  long nanoseconds = 0;
+
+  explicit Identity(const fs::path& path) {
+    struct stat state = {};
+    if (::stat(path.c_str(), &state) != 0) return;
+    device = state.st_dev;
+    inode = state.st_ino;
+    bytes = state.st_size;
+    seconds = state.st_mtim.tv_sec;
+    nanoseconds = state.st_mtim.tv_nsec;
+  }
+  bool operator==(const Identity&) const = default;
+};
+
 struct Input {
   fs::path path;
   std::string named_by;
+  Identity identity;
 };
 
 // Global per process: options, configuration and readers add to the same lists.
@@ -104,9 +127,15 @@ void will_write(const std::string& requested_by, const fs::path& path) {
 }
 
 void will_read(const fs::path& path, const std::string& named_by) {
-  const Input input{path, named_by};
+  const Input input{path, named_by, Identity(path)};
   for (const Output& output : outputs) keep_apart(output, input);
   inputs.push_back(input);
+}
+
+bool changed_since_planned(const fs::path& path) {
+  for (const Input& input : inputs)
+    if (input.path == path) return input.identity != Identity(path);
+  return false;
 }
 
 bool is_planned(const fs::path& path) {

@@ -6,8 +6,12 @@
 #include <unistd.h>
 
 #include <iterator>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/part_lock.hpp"
 
 namespace clatter {
 namespace {
@@ -24,11 +28,27 @@ bool synced(const std::filesystem::path& path) {
   return ::close(file) == 0 && good;
 }
 
+// By their names; the lock of a part lives until its WholeFile ends.
+std::mutex guard;
+std::map<std::filesystem::path, PartLock> locks;
+
+std::filesystem::path locked(const std::filesystem::path& part) {
+  PartLock lock(part);
+  const std::lock_guard<std::mutex> alone(guard);
+  locks.insert_or_assign(part, std::move(lock));
+  return part;
+}
+
+void unlock(const std::filesystem::path& part) {
+  const std::lock_guard<std::mutex> alone(guard);
+  locks.erase(part);
+}
+
 }  // namespace
 
 WholeFile::WholeFile(const std::filesystem::path& path)
     : path_(path),
-      part_(path.string() + ".part"),
+      part_(locked(path.string() + ".part")),
       unfinished_(part_),
       stream_(part_, std::ios::binary) {
   if (!stream_) fail(path_);
@@ -39,6 +59,7 @@ WholeFile::~WholeFile() {
   stream_.close();
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
+  unlock(part_);
 }
 
 void WholeFile::commit() {
@@ -47,6 +68,7 @@ void WholeFile::commit() {
   std::error_code trouble;
   std::filesystem::rename(part_, path_, trouble);
   if (trouble) throw FileError(fmt::format("{}: {}", path_.string(), trouble.message()));
+  unlock(part_);
   part_.clear();
 }
 

@@ -4,10 +4,50 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+
+#include "core/base/changed_inputs.hpp"
+#include "core/base/error.hpp"
 #include "core/base/log.hpp"
 #include "core/base/whole_file.hpp"
 
 namespace clatter {
+namespace {
+
+/// An artefact of content that an input no longer has gets a time before that of the input, so that
+/// make remakes it (hard case P5).
+void date_before_changed_inputs(const std::filesystem::path& output,
+                                const std::vector<std::filesystem::path>& inputs) {
+  std::error_code ignored;
+  auto date = std::filesystem::last_write_time(output, ignored);
+  for (const auto& input : inputs) {
+    if (!changed_since_planned(input)) continue;
+    warn(fmt::format("{} changed while it was in use: {} is of its older content, make remakes it",
+                     input.string(), output.string()));
+    const auto changed = std::filesystem::last_write_time(input, ignored);
+    if (!ignored) date = std::min(date, changed - std::chrono::seconds(1));
+    std::filesystem::last_write_time(output, date, ignored);
+  }
+}
+
+/// A path as a prerequisite in a makefile, or as a target: signs with a meaning there are quoted.
+std::string make_word(const std::filesystem::path& path, bool target) {
+  std::string word;
+  for (const char sign : path.string()) {
+    if (sign == '\n')
+      throw InputError(fmt::format("--depfile: found a line end in {}, which no make rule can name",
+                                   json_text(path.string())));
+    if (sign == '$') word += '$';
+    if (std::string_view(target ? " \t#:%" : " \t#:").find(sign) != std::string_view::npos)
+      word += '\\';
+    word += sign;
+  }
+  return word;
+}
+
+}  // namespace
 
 void write_artefact(const std::filesystem::path& output, const Provenance& provenance,
                     const StepClock& clock, const CommonOptions& common,
@@ -23,6 +63,7 @@ void finish_artefact(H5File& file, const std::filesystem::path& output,
   write_provenance(file, provenance);
   write_timing(file, clock);
   file.commit(output);
+  date_before_changed_inputs(output, provenance.inputs);
   write_depfile(common.depfile, output, provenance.inputs);
 }
 
@@ -48,11 +89,11 @@ void write_depfile(const std::filesystem::path& depfile, const std::filesystem::
   if (depfile.empty()) return;
   WholeFile file(depfile);
   std::ostream& stream = file.stream();
-  stream << target.string() << ":";
-  for (const auto& input : inputs) stream << " " << input.string();
+  stream << make_word(target, true) << ":";
+  for (const auto& input : inputs) stream << " " << make_word(input, false);
   stream << "\n";
   // A deleted input must not stop make: each is also a target without a recipe.
-  for (const auto& input : inputs) stream << input.string() << ":\n";
+  for (const auto& input : inputs) stream << make_word(input, true) << ":\n";
   file.commit();
 }
 

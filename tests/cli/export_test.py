@@ -361,7 +361,7 @@ class MakeRules(Exported):
         self.make("beam.mtx")
         self.assertIn("up to date", self.make("beam.mtx"))
         self.edit("beam.rom.toml", "4000.0", "3000.0")
-        self.assertIn("export beam.rom.h5 beam.mtx", self.make("beam.mtx"))
+        self.assertIn("export 'beam.rom.h5' 'beam.mtx'", self.make("beam.mtx"))
 
 
 if __name__ == "__main__":

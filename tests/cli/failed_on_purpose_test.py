@@ -9,6 +9,7 @@ import unittest
 import h5py
 import numpy as np
 import stages
+from observed import observed
 
 
 class Failing(stages.PipelineTest):
@@ -36,6 +37,7 @@ class Failing(stages.PipelineTest):
             for text in says:
                 self.assertIn(text, error)
             self.assertEqual(self.listing(), before)
+        self.show_refusal(error)
         output.write_bytes(b"an older result")
 
     def listing(self):
@@ -142,6 +144,9 @@ class HardH1Interrupted(Failing):
         process.stderr.close()
         self.assertEqual(process.wait(), -number)
         self.assertEqual(self.listing(), before)
+        if not getattr(self, "shown", False):
+            observed(f"clatter-{stage} ended by {number.name}: every file as before, none left over")
+        self.shown = True
 
 
 if __name__ == "__main__":

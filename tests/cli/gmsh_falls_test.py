@@ -9,6 +9,7 @@ import time
 import unittest
 
 import stages
+from observed import observed
 
 BUILD = pathlib.Path(os.environ.get("CLATTER_BUILD", stages.SOURCE / "build/release"))
 SHIM = BUILD / "tests/cli/libfalling_gmsh.so"
@@ -64,6 +65,7 @@ class HardN17GmshFalls(unittest.TestCase):
         said = self.assert_falls("abort", ["crashed (signal 6, Aborted)", "gmsh: meshing", "element_size_mm = 9",
                                            "elements_per_turn = 12", "without elements_per_turn", "heal the part"],
                                  part="curved.mesh.toml")
+        observed(f"refused: {next(line for line in said.splitlines() if 'error: ' in line).partition('error: ')[2]}")
         self.assertEqual(said.count("warning: "), 1)
         self.assertIn("trying again without elements_per_turn", said)
         self.assert_falls("abort", ["MeshAdapt"])

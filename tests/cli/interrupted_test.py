@@ -11,6 +11,7 @@ import unittest
 
 import h5py
 import stages
+from observed import expect_at_least, observed
 
 
 class HardH1KilledHalfWay(stages.PipelineTest):
@@ -25,6 +26,7 @@ class HardH1KilledHalfWay(stages.PipelineTest):
             for _ in range(4):
                 with self.subTest(stage=stage):
                     self.kill_once(stage, arguments, output, draw.uniform(0.0, 1.1 * duration))
+        observed("five stages killed four times each: the older artefact or a complete one, and a later run removes what is left")
 
     def kill_once(self, stage, arguments, output, delay):
         before = stages.fingerprint(output)
@@ -68,6 +70,7 @@ class HardN11Terminated(stages.PipelineTest):
                     self.assertEqual(run.attrs["complete"], 0)
                     self.assertEqual(len(run["output/time"]), len(run["bodies/beam/q"]))
                     self.assertEqual(len(run["history/time"]), len(run["energy/kinetic"]))
+                    expect_at_least(self, f"samples that {number.name} keeps", len(run["output/time"]), 1)
                 interrupted.unlink()
 
     def test_both_signals_before_the_first_step_end_it_with_the_same_code(self):

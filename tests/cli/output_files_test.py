@@ -36,6 +36,7 @@ class OutputTest(stages.PipelineTest):
         for text in says:
             self.assertIn(text, lines[0])
         self.assertEqual(self.listing(), before)
+        self.show_refusal(lines[0])
 
     def with_output(self, stage, option, name, inputs=None):
         """A command line of the stage whose `option` names this file; -o is given in any case."""

@@ -9,6 +9,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from observed import observed  # noqa: E402
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("CLATTER_BIN", SOURCE / "build/release/bin"))
 STAGES = ("mesh", "assembly", "modal", "condense", "dynamics", "recover")
@@ -107,4 +110,10 @@ class PipelineTest(unittest.TestCase):
             self.assertIn(text, lines[0])
         self.assertEqual(before, fingerprint(output) if output.exists() else None, "the older artefact was touched")
         self.assertFalse((self.folder / (arguments[-1] + ".part")).exists(), "a part file is left")
-        print(f"    {lines[0]}", file=sys.stderr)
+        self.show_refusal(lines[0])
+
+    def show_refusal(self, line):
+        """The first refusal of a test, for the page of `make hard`."""
+        if not getattr(self, "shown", False):
+            observed(f"refused: {line.partition('error: ')[2]}")
+        self.shown = True
