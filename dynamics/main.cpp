@@ -25,6 +25,7 @@ file, stem.run.interrupted.h5 (attribute complete = 0); --resume continues from 
 sample commands
   clatter-dynamics slap.run.toml -o slap.run.h5
   clatter-dynamics slap.run.toml -o slap.run.h5 --resume
+  clatter-dynamics --effects slap.run.toml
 
 see also: clatter motored-cycle (the pressure table of a motored engine), clatter-condense (makes .rom.h5),
 clatter-recover (surface velocity from .run.h5))";

@@ -11,6 +11,7 @@
 #include "core/base/log.hpp"
 #include "core/base/planned_files.hpp"
 #include "core/base/write_artefact.hpp"
+#include "dynamics/effects_command.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "dynamics/run/run_size.hpp"
 #include "dynamics/run/run_summary.hpp"
@@ -24,7 +25,7 @@ void request_stop(int) { stop_requested.store(true); }
 
 struct RunArguments {
   std::filesystem::path scene, output;
-  bool resume = false;
+  bool resume = false, effects = false;
 };
 
 /// From here on SIGINT and SIGTERM end the run after a step; an ignored signal stays ignored.
@@ -96,13 +97,16 @@ void declare_run(CommandLine& line) {
   line.output("-o,--output", a->output, "the run file to write; default: the scene's stem.run.h5");
   line.flag("--resume", a->resume,
             "continue from the checkpoint beside the output, if it belongs to this scene");
+  line.flag("--effects", a->effects,
+            "print the effects of the scene with equations, switches and predicted cost, and do "
+            "not run it; a run of it at the output gives its measured seconds instead");
   line.blas();
   line.action([a](const CommonOptions& common) {
-    if (a->output.empty()) {
-      a->output = std::filesystem::path(a->scene).replace_extension(".h5");
-      will_write("--output by default", a->output);
-    }
+    const bool named = !a->output.empty();
+    if (!named) a->output = std::filesystem::path(a->scene).replace_extension(".h5");
     set_blas_threads(1);  // the matrices of a stage are too small for more
+    if (a->effects) return print_effects(a->scene, a->output);
+    if (!named) will_write("--output by default", a->output);
     run_scene(*a, common);
   });
 }

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
+#include "dynamics/chain/chain_catalogue.hpp"
 #include "dynamics/chain/plane_vector.hpp"
 
 namespace clatter::dynamics {
@@ -147,16 +148,17 @@ void ChainComponent::add_elements(ModelBuilder& model) {
 }
 
 void ChainComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
-  effects.add(
-      "chain " + spec_.name, true,
+  Effect& row = effects.add(
+      find_effect(kChainEffects, "chain"), "chain " + spec_.name, true,
       fmt::format("[[chain]]: {} links in the plane, 3 coordinates each", spec_.make.links()),
       spec_.name + " joints");
+  row.unknowns = size().modes;
 }
 
 void ChainComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   for (const ChainOver& over : spec_.over)
-    effects.add(fmt::format("chain on {}", over.name), true,
-                over.teeth > 0 ? fmt::format("sprocket of {} teeth", over.teeth) : "guide",
+    effects.add(find_effect(kChainEffects, "chain on a sprocket or guide"), "chain on " + over.name,
+                true, over.teeth > 0 ? fmt::format("sprocket of {} teeth", over.teeth) : "guide",
                 fmt::format("{} {}", spec_.name, over.name));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/rigid_body_component.hpp"
 #include "dynamics/force/moving_frame.hpp"
@@ -53,13 +54,16 @@ void read_motion(const Config& table, BodySpec& spec) {
 
 void add_body_effect(const LoadedBody& body, EffectTable& effects) {
   const BodySpec& spec = body.spec;
-  effects.add(fmt::format("elastic {}", spec.name), spec.elastic,
-              spec.elastic ? body_size(body) : spec.name + ".model = \"rigid\": 6 modes");
+  effects
+      .add(find_effect(kComponentEffects, "elastic body"), "elastic " + spec.name, spec.elastic,
+           spec.elastic ? body_size(body) : spec.name + ".model = \"rigid\": 6 modes")
+      .unknowns = spec.elastic ? body.modal.modes() : 0;
+  const EffectEntry* large = find_effect(kComponentEffects, "large motion of a reduced part");
   if (spec.motion == BodyMotion::kSpace)
-    effects.add("large motion of " + spec.name, true, "motion = \"space\": eq. (9), mean axes",
-                spec.name + " rotation");
+    effects.add(large, "large motion of " + spec.name, true,
+                "motion = \"space\": eq. (9), mean axes", spec.name + " rotation");
   if (spec.motion == BodyMotion::kDrive)
-    effects.add("large motion of " + spec.name, true,
+    effects.add(large, "large motion of " + spec.name, true,
                 fmt::format("drive = \"{}\": eq. (9), prescribed", spec.drive),
                 spec.name + " frame");
 }
@@ -104,7 +108,7 @@ void BlockComponent::add_body_effects(const ModelBuilder& model, EffectTable& ef
   if (spec_.elastic) {
     BodyComponent::add_body_effects(model, effects);
   } else {
-    effects.add("elastic block", false,
+    effects.add(find_effect(kComponentEffects, "elastic body"), "elastic block", false,
                 "block.model = \"rigid\": liner and bearings at rest, no body");
   }
 }

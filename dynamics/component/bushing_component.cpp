@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/component/bushing_component.hpp"
 
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/law_table.hpp"
 #include "dynamics/force/port_element.hpp"
 #include "dynamics/force/table_bushing.hpp"
@@ -29,7 +30,8 @@ std::vector<std::filesystem::path> BushingComponent::inputs() const {
 }
 
 void BushingComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  if (!bushings_.empty()) effects.add("elastic joints", true, "[[bushing]]", "bushing");
+  if (!bushings_.empty())
+    effects.add(find_effect(kComponentEffects, "elastic joints"), true, "[[bushing]]", "bushing");
 }
 
 ComponentList read_bushings(const Config& root) {

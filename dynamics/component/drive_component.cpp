@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
@@ -103,7 +104,8 @@ void DriveComponent::add_bodies(ModelBuilder& model) {
 }
 
 void DriveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
-  effects.add("drive " + spec_.name, true, "[[drive]]: turns as prescribed, no body");
+  effects.add(find_effect(kComponentEffects, "drive"), "drive " + spec_.name, true,
+              "[[drive]]: turns as prescribed, no body");
 }
 
 double speed_of_drive(const Config& root, const Config& table, std::string_view key) {

@@ -7,19 +7,26 @@
 
 namespace clatter::dynamics {
 
-void EffectTable::add(const std::string& name, bool on, const std::string& why,
-                      const std::string& element) {
-  effects_.push_back({name, on, why, element, 0.0});
+Effect& EffectTable::add(const EffectEntry* entry, bool on, const std::string& why,
+                         const std::string& element) {
+  return add(entry, std::string(entry->name), on, why, element);
 }
 
-void EffectTable::charge(const std::string& element, double seconds) {
+Effect& EffectTable::add(const EffectEntry* entry, const std::string& name, bool on,
+                         const std::string& why, const std::string& element) {
+  return effects_.emplace_back(Effect{entry, name, on, why, element});
+}
+
+bool EffectTable::charge(const std::string& element, double seconds, int64_t evaluations) {
   for (auto& effect : effects_) {
     if (effect.on && (effect.element == element ||
                       (!effect.element.empty() && element.starts_with(effect.element + " ")))) {
       effect.seconds += seconds;
-      return;
+      effect.evaluations += evaluations;
+      return true;
     }
   }
+  return false;
 }
 
 std::vector<std::string> EffectTable::lines(bool with_cost) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/model_builder.hpp"
 
 namespace clatter::dynamics {
@@ -55,7 +56,7 @@ void GravityComponent::add_loads(ModelBuilder& model) {
 }
 
 void GravityComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  effects.add("gravity", gravity_ > 0.0, "gravity_m_s2");
+  effects.add(find_effect(kComponentEffects, "gravity"), gravity_ > 0.0, "gravity_m_s2");
 }
 
 ComponentList read_gravity(const Config& root) {

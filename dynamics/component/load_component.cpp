@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "dynamics/component/component_keys.hpp"
@@ -15,18 +16,26 @@ namespace {
 
 constexpr std::string_view kComponents[] = {"x", "y", "z", "rx", "ry", "rz"};
 
-/// The value of a [[load]] over time, without the ramp of the start.
-TimeFunction load_value(const ModelBuilder& model, const LoadSpec& load) {
-  if (load.table.empty()) return [value = load.scale](double) { return value; };
+/// A [[load]] over time, without the ramp of the start.
+struct LoadInTime {
+  TimeFunction value, next_row;
+};
+
+LoadInTime load_in_time(const ModelBuilder& model, const LoadSpec& load) {
+  if (load.table.empty()) return {[value = load.scale](double) { return value; }, {}};
   if (model.clock) {
     const auto table = read_cycle_table(load.table, load.column, load.unit, load.interpolation);
-    return [table, scale = load.scale, clock = *model.clock](double t) {
-      return scale * table(clock.angle(t));
-    };
+    return {[table, scale = load.scale, clock = *model.clock](double t) {
+              return scale * table(clock.angle(t));
+            },
+            rows_in_time(
+                table, [clock = *model.clock](double t) { return clock.angle(t); },
+                [clock = *model.clock](double angle) { return clock.time(angle); })};
   }
   const auto table = read_time_table(load.table, load.column, load.unit, load.interpolation,
                                      model.time.begin, model.time.end);
-  return [table, scale = load.scale](double t) { return scale * table(t); };
+  return {[table, scale = load.scale](double t) { return scale * table(t); },
+          [table](double t) { return table.next_point(t); }};
 }
 
 /// On a body with a reduced model.
@@ -111,8 +120,10 @@ void LoadComponent::add_loads(ModelBuilder& model) {
         loaded != nullptr && !loaded->shapes
             ? modal_force(*loaded, load)
             : force_at_centre(model.system.bodies()[static_cast<size_t>(body)], load);
+    LoadInTime in_time = load_in_time(model, load);
     model.system.add_load({fmt::format("load {} on {}", ++count, load.body), body, modal,
-                           ramped(model.time, load_value(model, load))});
+                           ramped(model.time, std::move(in_time.value)),
+                           std::move(in_time.next_row)});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/model_builder.hpp"
 #include "dynamics/force/mount.hpp"
 
@@ -74,7 +75,7 @@ void MountComponent::add_elements(ModelBuilder& model) {
 
 void MountComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   const bool on = elements_.end > elements_.first;
-  effects.add("mounts", on,
+  effects.add(find_effect(kComponentEffects, "mounts"), on,
               on                ? "[[mount]]"
               : mounts_.empty() ? "no [[mount]]"
                                 : "no mounted body",

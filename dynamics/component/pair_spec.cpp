@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
@@ -25,6 +26,10 @@ PairSpec read_pair(const Config& table, const std::string& kind, size_t number) 
 }
 
 PairPorts ports_of(const PairSpec& pair, ModelBuilder& model) {
+  if (pair.a.body == pair.b.body && pair.a.set.empty() && pair.b.set.empty())
+    throw InputError(fmt::format(
+        "{}: is a point of {} as a is, which never move apart, expected one of another body",
+        pair.b.where, pair.a.body.empty() ? "the ground" : '"' + pair.a.body + '"'));
   PairPorts ports;
   ports.a = model.port(pair.a);
   ports.b = model.port(pair.b, model.position(pair.a, std::nullopt));

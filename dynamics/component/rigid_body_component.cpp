@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/rigid_body.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/force/spatial_port.hpp"
 
@@ -214,14 +215,15 @@ void record_attitude(const std::string& name, const SpatialBody& body, const Sta
 
 void RigidBodyComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
   static constexpr const char* kPlanes[] = {"yz", "zx", "xy"};
-  if (spec_.motion == Freedom::kSlide)
-    return effects.add("rigid " + spec_.name, true, "slides along an axis, 1 coordinate");
-  const bool is_planar = spec_.motion == Freedom::kPlane;
-  effects.add(
-      "rigid " + spec_.name, true,
-      is_planar ? fmt::format("large motion in the plane {}, 3 coordinates", kPlanes[spec_.normal])
-                : "large motion in space, 10 coordinates",
-      is_planar ? "" : spec_.name + " rotation");
+  const bool is_planar = spec_.motion == Freedom::kPlane, slides = spec_.motion == Freedom::kSlide;
+  Effect& row = effects.add(
+      find_effect(kComponentEffects, "rigid body"), "rigid " + spec_.name, true,
+      slides ? "slides along an axis, 1 coordinate"
+      : is_planar
+          ? fmt::format("large motion in the plane {}, 3 coordinates", kPlanes[spec_.normal])
+          : "large motion in space, 10 coordinates",
+      is_planar || slides ? "" : spec_.name + " rotation");
+  row.unknowns = size().modes;
 }
 
 void RigidBodyComponent::record(const System&, const StageState& state, History& history) const {

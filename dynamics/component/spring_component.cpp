@@ -3,6 +3,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/force/port_element.hpp"
 
 namespace clatter::dynamics {
@@ -22,7 +23,8 @@ void SpringComponent::add_elements(ModelBuilder& model) {
 }
 
 void SpringComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  if (!springs_.empty()) effects.add("springs", true, "[[spring]]", "spring");
+  if (!springs_.empty())
+    effects.add(find_effect(kComponentEffects, "springs"), true, "[[spring]]", "spring");
 }
 
 ComponentList read_springs(const Config& root) {

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/component_keys.hpp"
 
 namespace clatter::dynamics {
@@ -72,7 +73,8 @@ PortState at_start(const ModelBuilder& model, const Port& port) {
   return state;
 }
 
-std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model) {
+std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model,
+                                std::vector<const RigidStop*>& rigid) {
   auto a = model.port(stop.a), b = model.port(stop.b, model.position(stop.a, std::nullopt));
   if (a->size() + b->size() == 0)
     throw InputError(stop.where + ": a and b: found no body that can move, expected one");
@@ -88,14 +90,29 @@ std::unique_ptr<Stop> make_stop(const StopSpec& stop, ModelBuilder& model) {
         fmt::format("{}: found {:.4g} mm behind the plane at the start, expected on the side to "
                     "which normal points",
                     stop.a.where, -gap / kMilli));
-  return std::make_unique<RigidStop>(stop.name, std::move(pair), *stop.restitution,
-                                     stop.rest_stiffness);
+  auto made = std::make_unique<RigidStop>(stop.name, std::move(pair), *stop.restitution,
+                                          stop.rest_stiffness);
+  rigid.push_back(made.get());
+  return made;
 }
 
 }  // namespace
 
 void StopComponent::add_elements(ModelBuilder& model) {
-  for (const StopSpec& stop : stops_) model.system.add_element(make_stop(stop, model));
+  for (const StopSpec& stop : stops_) model.system.add_element(make_stop(stop, model, rigid_));
+}
+
+std::vector<std::string> StopComponent::warnings() const {
+  std::vector<std::string> found;
+  for (const RigidStop* stop : rigid_) {
+    if (!stop->has_sunk()) continue;
+    found.push_back(fmt::format(
+        "{}: impacts followed each other too closely to be computed, and the spring "
+        "rest_stiffness_n_m = {:g} that holds the point then let it sink {:.3g} um into the "
+        "plane: set a higher one, or a compliant contact by stiffness_n_m",
+        stop->name(), stop->rest_stiffness(), stop->deepest() / kMicro));
+  }
+  return found;
 }
 
 void StopComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
@@ -103,7 +120,7 @@ void StopComponent::add_effects(const ModelBuilder&, EffectTable& effects) const
   const auto rigid = std::count_if(stops_.begin(), stops_.end(), [](const StopSpec& stop) {
     return stop.restitution.has_value();
   });
-  effects.add("stops", true,
+  effects.add(find_effect(kComponentEffects, "stops"), true,
               fmt::format("[[stop]]: {} rigid with impacts, {} compliant", rigid,
                           static_cast<long>(stops_.size()) - rigid),
               "stop");

@@ -35,9 +35,12 @@ class StopComponent : public Component {
   /// behind the plane at the start.
   void add_elements(ModelBuilder& model) override;
   void add_effects(const ModelBuilder& model, EffectTable& effects) const override;
+  /// Rigid contacts that were held too softly.
+  std::vector<std::string> warnings() const override;
 
  private:
   std::vector<StopSpec> stops_;
+  std::vector<const RigidStop*> rigid_;  // of this copy's model
 };
 
 ComponentList read_stops(const Config& root);

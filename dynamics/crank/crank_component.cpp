@@ -5,7 +5,9 @@
 
 #include <memory>
 
+#include "dynamics/component/component_catalogue.hpp"
 #include "dynamics/component/model_builder.hpp"
+#include "dynamics/crank/crank_catalogue.hpp"
 #include "dynamics/crank/crank_gyroscope.hpp"
 #include "dynamics/crank/crank_load.hpp"
 #include "dynamics/given/load_table.hpp"
@@ -110,25 +112,29 @@ void CrankComponent::add_loads(ModelBuilder& model) {
 }
 
 void CrankComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
-  effects.add(
-      "crankshaft", true,
+  Effect& row = effects.add(
+      find_effect(kCrankEffects, "crankshaft"), true,
       fmt::format("[crank]: rigid, {}{}{}", spec_.body.in_bearings ? "displacements and tilts" : "",
                   spec_.body.in_bearings && spec_.body.is_free ? ", " : "",
                   spec_.body.is_free ? "rotation" : ""));
+  row.unknowns = size().modes;
 }
 
 void CrankComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   const CrankBody& body = spec_.body;
   const bool gyroscope = body.in_bearings && body.polar > 0.0;
-  effects.add("main bearings", body.in_bearings,
-              body.in_bearings ? "[[crank.bearing]], instead of block.bearings"
-                               : "no [[crank.bearing]]: the crank follows block.bearings",
-              body.in_bearings ? std::string("bearing ") + CrankBody::kName : "");
-  effects.add("gyroscopic moments of the crank", gyroscope,
+  effects
+      .add(find_effect(kComponentEffects, "main bearings"), body.in_bearings,
+           body.in_bearings ? "[[crank.bearing]], instead of block.bearings"
+                            : "no [[crank.bearing]]: the crank follows block.bearings",
+           body.in_bearings ? std::string("bearing ") + CrankBody::kName : "")
+      .unknowns = size().film_cells;
+  effects.add(find_effect(kCrankEffects, "gyroscopic moments of the crank"), gyroscope,
               gyroscope ? "crank.polar_kg_m2" : "no [[crank.bearing]] or no crank.polar_kg_m2",
               gyroscope ? "gyroscope crankshaft" : "");
-  effects.add("unbalance of the crank", !spec_.unbalances.empty(), "[[crank.unbalance]]");
-  effects.add("free rotation of the crank", body.is_free,
+  effects.add(find_effect(kCrankEffects, "unbalance of the crank"), !spec_.unbalances.empty(),
+              "[[crank.unbalance]]");
+  effects.add(find_effect(kCrankEffects, "free rotation of the crank"), body.is_free,
               body.is_free ? "crank.speed = \"free\", [crank.load]"
                            : "crank.speed = \"prescribed\": the drive holds it",
               body.is_free ? "crank load" : "");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/units.hpp"
+#include "dynamics/cylinder/cylinder_catalogue.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -49,12 +50,15 @@ void set_stroke(const SliderCrank& crank, film::WarmClearance& warm) {
 
 void add_clearance_effect(const std::string& cylinder, const SliderCrank& crank,
                           const film::PistonLinerOptions& contact, EffectTable& effects) {
-  const std::string effect = (cylinder.empty() ? "" : cylinder + ": ") + "minimum warm clearance";
-  if (!contact.warm_clearance)
-    return effects.add(effect, false, "contact.clearance_um is given instead");
+  const EffectEntry* entry = find_effect(kCylinderEffects, "minimum warm clearance");
+  const std::string effect = (cylinder.empty() ? "" : cylinder + ": ") + std::string(entry->name);
+  if (!contact.warm_clearance) {
+    effects.add(entry, effect, false, "contact.clearance_um is given instead");
+    return;
+  }
   const film::NearestPoint at = film::nearest_point(contact, *contact.warm_clearance);
   effects.add(
-      effect, true,
+      entry, effect, true,
       fmt::format("contact.minimum_warm_clearance_um: {:.4g} um of clearance between the cold "
                   "surfaces, smallest warm gap {:.3g} mm above the pin, {:.0f} deg around, {:.0f} "
                   "deg after TDC",

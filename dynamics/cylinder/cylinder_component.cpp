@@ -109,7 +109,7 @@ void CylinderComponent::add_body_effects(const ModelBuilder& model, EffectTable&
 void CylinderComponent::add_effects(const ModelBuilder& model, EffectTable& effects) const {
   const bool on_block = spec_.bore && model.has_body("block");
   const std::string ends = contact_ != nullptr ? liner_ends_text(crank_, contact_->options()) : "";
-  add_cylinder_effects(spec_, on_block, ends, effects);
+  add_cylinder_effects(spec_, size(), on_block, ends, effects);
   if (contact_ != nullptr) add_clearance_effect(spec_.name, crank_, contact_->options(), effects);
 }
 

@@ -13,11 +13,14 @@ namespace {
 std::vector<Load> gas_loads(const CylinderBodies& bodies, const SliderCrank& crank,
                             const Spline& gas) {
   const TimeFunction pressure = gauge_pressure(bodies, clock_motion(crank), gas);
+  const TimeFunction rows = rows_in_time(
+      gas, [crank](double t) { return crank.angle(t); },
+      [crank](double angle) { return crank.time(angle); });
   std::vector<Load> loads;
   for (const GasLoad& load : gas_unit_loads(bodies)) {
     const Eigen::VectorXd modal =
         load.body->modal.shapes.transpose() * unit_load(load.body->model, load.unit_load);
-    loads.push_back({load.term, load.index, modal, pressure});
+    loads.push_back({load.term, load.index, modal, pressure, rows});
   }
   return loads;
 }

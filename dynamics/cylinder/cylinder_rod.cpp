@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/body/elastic_rod.hpp"
+#include "dynamics/cylinder/cylinder_catalogue.hpp"
 #include "dynamics/cylinder/real_crank_element.hpp"
 #include "dynamics/force/elastic_rod_anchor.hpp"
 #include "dynamics/force/massless_rod.hpp"
@@ -171,10 +172,11 @@ std::vector<Load> rod_inertia(const CylinderBodies& bodies, const SliderCrank& c
 
 std::vector<RodEffect> rod_effects(const CylinderSpec& spec) {
   const RodProperties& rod = spec.engine.rod;
+  const EffectEntry* inertia = find_effect(kCylinderEffects, "inertia of the rod");
   std::vector<RodEffect> rows;
   switch (spec.rod.model) {
     case RodModel::kRigid:
-      rows = {{"inertia of the rod", true, "moving and turning frame, exact in the plane", ""}};
+      rows = {{inertia, true, "moving and turning frame, exact in the plane", ""}};
       break;
     case RodModel::kTwoMass: {
       std::string why =
@@ -182,23 +184,24 @@ std::vector<RodEffect> rod_effects(const CylinderSpec& spec) {
       if (spec.rod.given_inertia > 0.0)
         why += fmt::format(", {:+.1f} % of rod.inertia_kg_m2",
                            100.0 * (rod.inertia / spec.rod.given_inertia - 1.0));
-      rows = {{"inertia of the rod", true, why, ""}};
+      rows = {{inertia, true, why, ""}};
       break;
     }
     case RodModel::kMassless:
-      rows = {{"inertia of the rod", false,
+      rows = {{inertia, false,
                "rod.model = \"massless\": a bar between its joints; mass_kg, inertia_kg_m2, "
                "centre_mm are not used",
                ""}};
       break;
     case RodModel::kElastic:
-      rows = {{"inertia of the rod", true,
+      rows = {{inertia, true,
                fmt::format("rod.model = \"elastic\": eq. (9), turning frame; {:.4g} kg, {:.4g} kg "
                            "m2, centre at {:.4g} mm by rod.rom, not by mass_kg, inertia_kg_m2, "
                            "centre_mm",
                            rod.mass, rod.inertia, rod.centre / kMilli),
                "rod frame"},
-              {"rod guide", true, "[pin_guide]: an elastic rod along and about y, z", "rod_guide"}};
+              {find_effect(kCylinderEffects, "rod guide"), true,
+               "[pin_guide]: an elastic rod along and about y, z", "rod_guide"}};
       break;
   }
   return rows;

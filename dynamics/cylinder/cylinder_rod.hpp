@@ -40,7 +40,7 @@ std::vector<Load> rod_inertia(const CylinderBodies& bodies, const SliderCrank& c
 
 /// A row of the table of effects: inertia, and of an elastic rod its guide.
 struct RodEffect {
-  std::string name;
+  const EffectEntry* entry;
   bool on;
   std::string why, element;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamics/component/component.hpp"
+#include "dynamics/cylinder/cylinder_catalogue.hpp"
 
 namespace clatter::dynamics {
 
@@ -18,7 +19,8 @@ class ParkedCylinder : public Component {
   }
   std::string name() const override { return name_; }
   void add_effects(const ModelBuilder&, EffectTable& effects) const override {
-    effects.add(name_ + ": piston and rod", false, "cylinder.parked, with its gas and contact");
+    effects.add(find_effect(kCylinderEffects, "piston and rod"), name_ + ": piston and rod", false,
+                "cylinder.parked, with its gas and contact");
   }
 
  private:

@@ -146,6 +146,8 @@ bool RigidStop::at_accumulation(int index) {
   return true;
 }
 
+bool RigidStop::has_sunk() const { return deepest_ > kLiftHeight; }
+
 void RigidStop::record(History& history) const {
   Stop::record(history);
   history.put(impulse_name_, "N s", impulse_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Contact of a point of one body with a plane of another.
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -34,6 +35,7 @@ class Stop : public ForceElement {
   void accept_step(double) override { accepted_ = finished_; }
   Power power(const Eigen::VectorXd& y, const Eigen::VectorXd& v) const override;
   void record(History& history) const override;
+  double gap() const { return accepted_[0]; }           // [m]
   double normal_force() const { return accepted_[1]; }  // [N]
 
  protected:
@@ -100,7 +102,16 @@ class RigidStop : public Stop {
   std::vector<double> save() const override;
   void restore(const std::vector<double>& state) override;
 
+  void accept_step(double time) override {
+    Stop::accept_step(time);
+    if (held_) deepest_ = std::max(deepest_, -gap());
+  }
+
   bool is_held() const { return held_; }
+  double rest_stiffness() const { return stiffness_; }  // [N/m]
+  double deepest() const { return deepest_; }           // below the plane while held [m]
+  /// It was held so softly that the contact was not rigid (hard case S5).
+  bool has_sunk() const;
 
  protected:
   NormalForce normal(double depth, double rate) const override;
@@ -111,6 +122,7 @@ class RigidStop : public Stop {
   bool held_ = false;
   double mass_ = 0.0;     // of the contact point along the normal, at the last impact [kg]
   double impulse_ = 0.0;  // [N s]
+  double deepest_ = 0.0;  // [m]
   std::string impulse_name_;
 };
 

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/given/csv_table.hpp"
+#include "dynamics/given/overshoot.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSame = 1e-9;
 
-void refuse(const std::filesystem::path& path, int line, const std::string& message) {
+[[noreturn]] void refuse(const std::filesystem::path& path, int line, const std::string& message) {
   throw InputError(fmt::format("{}:{}: {}", path.string(), line, message));
 }
 
@@ -63,6 +64,23 @@ CsvColumns period_columns(const std::filesystem::path& path, const std::string& 
   return table;
 }
 
+/// The periodic spline through a table. InputError when it swings beside a flank.
+PeriodicSpline spline_through(CsvColumns table, const std::filesystem::path& path, double period,
+                              int degree) {
+  PeriodicSpline spline(degree, table.x, table.y, period);
+  table.x.push_back(table.x.front() + period);
+  table.y.push_back(table.y.front());
+  const Overshoot found =
+      find_overshoot([&](double at) { return spline.at(at).value; }, table.x, table.y);
+  if (!found.is_wild()) return spline;
+  refuse(path, table.lines[found.row],
+         fmt::format("{}: the smooth curve leaves the rows by {:.3g} {} between {:.9g} and {:.9g} "
+                     "deg, more than the largest step from row to row, {:.3g}, expected more rows "
+                     "beside the steep flanks",
+                     table.name, found.size, table.unit, table.x[found.row] / kDegree,
+                     table.x[found.row + 1] / kDegree, found.step));
+}
+
 }  // namespace
 
 CamLaw::CamLaw(std::variant<Polynomial, PeriodicSpline> law) : law_(std::move(law)) {}
@@ -86,8 +104,7 @@ SplinePoint CamLaw::at(double angle) const {
 
 PeriodicSpline read_angle_table(const std::filesystem::path& path, const std::string& column,
                                 const std::string& unit, double period, int degree) {
-  CsvColumns table = period_columns(path, column, unit, period);
-  return PeriodicSpline(degree, std::move(table.x), table.y, period);
+  return spline_through(period_columns(path, column, unit, period), path, period, degree);
 }
 
 CamLaw read_cam_table(const std::filesystem::path& path, const std::string& column, int degree) {
@@ -97,7 +114,7 @@ CamLaw read_cam_table(const std::filesystem::path& path, const std::string& colu
       refuse(path, table.lines[i],
              fmt::format("{}: found {:g} mm, expected a lift of at least 0", table.name,
                          table.y[i] / kMilli));
-  return CamLaw::table(PeriodicSpline(degree, std::move(table.x), table.y, kTurn));
+  return CamLaw::table(spline_through(std::move(table), path, kTurn, degree));
 }
 
 }  // namespace clatter::dynamics

@@ -15,6 +15,8 @@
 namespace clatter::dynamics {
 namespace {
 
+constexpr double kLargest = 1e20;  // of any number of a table, in its unit (hard case S7)
+
 struct Unit {
   std::string si;
   double factor;
@@ -73,8 +75,10 @@ struct Heading {
 Heading heading(const std::string& cell, const std::string& position) {
   const auto open = cell.find('['), close = cell.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) {
-    throw InputError(fmt::format("{}: found \"{}\", expected a header such as \"pressure [bar]\"",
-                                 position, cell));
+    throw InputError(
+        fmt::format("{}: found \"{}\", expected a name with its unit in brackets, as \"time [s]\", "
+                    "\"pressure [bar]\"",
+                    position, cell));
   }
   const auto unit = trimmed(cell.substr(open + 1, close - open - 1));
   const auto found = units().find(unit);
@@ -95,6 +99,10 @@ double number(const std::string& cell, const std::string& position, const std::s
   if (cell.empty() || parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
     throw InputError(
         fmt::format("{}: {}: found \"{}\", expected a finite number", position, column, cell));
+  }
+  if (std::abs(value) > kLargest) {
+    throw InputError(fmt::format("{}: {}: found \"{}\", expected a number from {:g} to {:g}",
+                                 position, column, cell, -kLargest, kLargest));
   }
   return value;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -118,6 +119,16 @@ Spline read_gas_table(const std::filesystem::path& path, const std::string& colu
         path.string(), table.lines[i], table.name, 1e-5 * table.y[i], 1e-5 * kLargestPressure));
   }
   return cycle_spline(std::move(table), kind);
+}
+
+std::function<double(double)> rows_in_time(Spline table, std::function<double(double)> angle,
+                                           std::function<double(double)> time) {
+  return [table = std::move(table), angle = std::move(angle), time = std::move(time)](double now) {
+    double row = table.next_point(angle(now));
+    // The time of a row that the crank has just reached may round to one not after now.
+    while (time(row) <= now) row = table.next_point(row);
+    return time(row);
+  };
 }
 
 Spline read_time_table(const std::filesystem::path& path, const std::string& column,

@@ -2,6 +2,7 @@
 #pragma once
 // Load tables: over the crank angle (periodic) or over time.
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "dynamics/given/spline.hpp"
@@ -20,6 +21,11 @@ Spline read_cycle_table(const std::filesystem::path& path, const std::string& co
 /// also for a value below 0 or above 1 GPa.
 Spline read_gas_table(const std::filesystem::path& path, const std::string& column,
                       Spline::Kind kind);
+
+/// When a crank is next at a point of a table over its angle, after a time [s].
+/// @param angle of the crank [rad] at a time [s], ascending. @param time of an angle, its inverse.
+std::function<double(double)> rows_in_time(Spline table, std::function<double(double)> angle,
+                                           std::function<double(double)> time);
 
 /// Reads a table over time [s] that must cover [begin, end].
 Spline read_time_table(const std::filesystem::path& path, const std::string& column,

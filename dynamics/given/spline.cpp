@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clatter::dynamics {
 namespace {
@@ -55,6 +56,20 @@ double Spline::operator()(double at) const {
   const double u = 1.0 - t;
   return y_[i] * u * u * (1.0 + 2.0 * t) + y_[right] * t * t * (3.0 - 2.0 * t) +
          h * t * u * (slope_[i] * u - slope_[right] * t);
+}
+
+double Spline::next_point(double at) const {
+  if (period_ <= 0.0) {
+    const auto next = std::upper_bound(x_.begin(), x_.end(), at);
+    return next == x_.end() ? std::numeric_limits<double>::infinity() : *next;
+  }
+  // Without the closing point; a turn further where rounding puts `at` at the end of its turn.
+  for (double turn = std::floor((at - x_.front()) / period_);; ++turn) {
+    const double begin = turn * period_;
+    auto next = std::upper_bound(x_.begin(), x_.end() - 1, at - begin);
+    for (; next != x_.end() - 1; ++next)
+      if (begin + *next > at) return begin + *next;
+  }
 }
 
 double Spline::slope(double at) const {

@@ -20,6 +20,9 @@ class Spline {
   /// dy/dx; at a point of a linear one that of the interval after it (at the end, before it), 0
   /// beyond the ends.
   double slope(double at) const;
+  /// The first of the given points above `at`; infinity above the last one of a table that is not
+  /// periodic.
+  double next_point(double at) const;
 
  private:
   Kind kind_;

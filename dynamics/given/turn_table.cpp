@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "dynamics/given/csv_table.hpp"
+#include "dynamics/given/overshoot.hpp"
 #include "dynamics/given/spline.hpp"
 
 namespace clatter::dynamics {
@@ -94,8 +96,18 @@ TurnTable read_turn_table(const std::filesystem::path& path, const std::string& 
     fail(table.lines.back(),
          fmt::format("the table covers {:.6g} to {:.6g} s, expected {:.6g} to {:.6g} s",
                      table.x.front(), table.x.back(), begin, end));
-  return table.unit == "rad/s" ? TurnTable::of_speed(std::move(table.x), table.y)
-                               : TurnTable::of_angle(std::move(table.x), table.y);
+  if (table.unit == "rad/s") return TurnTable::of_speed(std::move(table.x), table.y);
+  TurnTable turn = TurnTable::of_angle(table.x, table.y);
+  const Overshoot found =
+      find_overshoot([&](double at) { return turn.at(at).position; }, table.x, table.y);
+  if (found.is_wild())
+    fail(table.lines[found.row],
+         fmt::format("{}: the smooth curve leaves the rows by {:.3g} deg between {:.9g} and {:.9g} "
+                     "s, more than the largest step from row to row, {:.3g} deg, expected more "
+                     "rows beside the steep flanks, or a table of the speed",
+                     table.name, found.size / kDegree, table.x[found.row], table.x[found.row + 1],
+                     found.step / kDegree));
+  return turn;
 }
 
 }  // namespace clatter::dynamics

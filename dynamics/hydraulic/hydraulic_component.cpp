@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "dynamics/given/csv_table.hpp"
 #include "dynamics/given/load_table.hpp"
+#include "dynamics/hydraulic/hydraulic_catalogue.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -112,29 +113,27 @@ void HydraulicComponent::add_elements(ModelBuilder& model) {
 }
 
 void HydraulicComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
-  switch (spec_.model) {
-    case HydraulicModel::kHydraulic:
-      return effects.add(element_name(), true, "model = \"hydraulic\": content of the chamber",
-                         element_name());
-    case HydraulicModel::kConstantPressure:
-      return effects.add(element_name(), true, "model = \"constant_pressure\": that of the supply",
-                         element_name());
-    case HydraulicModel::kConstantForce:
-      return effects.add(element_name(), true, "model = \"constant_force\": that of the start",
-                         element_name());
-  }
+  const char* why = spec_.model == HydraulicModel::kHydraulic
+                        ? "model = \"hydraulic\": content of the chamber"
+                    : spec_.model == HydraulicModel::kConstantPressure
+                        ? "model = \"constant_pressure\": that of the supply"
+                        : "model = \"constant_force\": that of the start";
+  Effect& row = effects.add(find_effect(kHydraulicEffects, "hydraulic element"), element_name(),
+                            true, why, element_name());
+  row.unknowns = size().modes;
 }
 
 void HydraulicComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   const ChamberSpec& chamber = spec_.chamber;
   using Ball = CheckValveSpec::Ball;
-  effects.add(element_name() + " oil", is_hydraulic() && !chamber.dry,
+  effects.add(find_effect(kHydraulicEffects, "oil of the chamber"), element_name() + " oil",
+              is_hydraulic() && !chamber.dry,
               chamber.dry ? "dry: chamber and supply are full of air" : "free air, leak gap");
-  effects.add(element_name() + " check valve",
+  effects.add(find_effect(kHydraulicEffects, "check valve"), element_name() + " check valve",
               is_hydraulic() && chamber.valve.ball != Ball::kStuckShut,
               text_of(chamber.valve.ball));
-  effects.add(element_name() + " relief valve", is_hydraulic() && chamber.relief.opening > 0.0,
-              "relief");
+  effects.add(find_effect(kHydraulicEffects, "relief valve"), element_name() + " relief valve",
+              is_hydraulic() && chamber.relief.opening > 0.0, "relief");
 }
 
 ComponentList read_tensioners(const Config& root) { return read_all(root, "tensioner", {}); }

@@ -101,6 +101,9 @@ class Integrator {
   /// Largest of e_y, the errors of the bodies, and where asked for those of forces and
   /// accelerations, over their limits; infinite when not finite.
   double measure(const Eigen::VectorXd& e_y);
+  /// What the last attempt missed of loads by tables with rows within the step, as the error of a
+  /// velocity over its limit.
+  double missed_impulse();
   const StageState& end() const { return stages_[static_cast<size_t>(tableau_->stages - 1)]; }
 
   System& system_;
@@ -114,6 +117,7 @@ class Integrator {
   std::vector<StageState> stages_;
   double last_error_ = 0.0;
   Eigen::VectorXd e_eta_, e_v_;  // local errors of the last attempt
+  Eigen::VectorXd missed_;       // velocities
 
  private:
   const StageOperator& ladder_operator(int rung);

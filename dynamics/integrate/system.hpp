@@ -20,6 +20,9 @@ struct Load {
   int body = 0;
   Eigen::VectorXd direction;            // modal, n_m of the body: shapes^T f_r of the unit load
   std::function<double(double)> value;  // of time [s]
+  /// The time of the first row of the load's table after a time [s]; infinity after the last one.
+  /// Empty: there is no table.
+  std::function<double(double)> next_row{};
 };
 
 /// A sum of DoFs of a body's q; a rotation, or a displacement.

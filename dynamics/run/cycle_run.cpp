@@ -10,7 +10,6 @@
 #include "core/base/log.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/run/mounted_motion.hpp"
-#include "dynamics/run/run_end.hpp"
 #include "dynamics/run/run_file.hpp"
 #include "dynamics/run/start_state.hpp"
 
@@ -70,9 +69,7 @@ CycleRun::CycleRun(const Scene& scene, const LoadedBodies& bodies, const Checkpo
 
 /// From the places given, from static equilibrium, or from the end of another run.
 void CycleRun::start() {
-  const auto& other = scene_.time.start;
-  const ModalStart at =
-      other.empty() ? start_state(scene_, bodies_, *model_) : read_end(other, *model_, bodies_);
+  const ModalStart at = first_state(scene_, bodies_, *model_);
   method_->start(span_.begin, at.eta, at.v);
 }
 
@@ -162,7 +159,7 @@ double CycleRun::change() const {
 void CycleRun::report(RunResult& result) const {
   result.energy_residue = energy_.residue();
   result.oil.reset();
-  result.energy_exchanged = energy_.now().exchanged;
+  result.energy_exchanged = energy_.exchanged();
   result.periodicity = before_ ? before_->difference() : CycleDifference{};
   result.samples = recorder_.samples();
   result.most_held = std::max(result.most_held, most_held_);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dynamics/run/energy.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/error.hpp"
 
@@ -73,6 +75,15 @@ void EnergyBalance::count_event(double change) {
   now_.kinetic = stages_[0].kinetic;
   now_.strain = stages_[0].strain;
   now_.element = stages_[0].element;
+  follow_stores();
+}
+
+void EnergyBalance::follow_stores() {
+  const double stores[] = {now_.kinetic, now_.strain, now_.element};
+  for (size_t i = 0; i < std::size(stores); ++i) {
+    spans_[i].low = std::min(spans_[i].low, stores[i]);
+    spans_[i].high = std::max(spans_[i].high, stores[i]);
+  }
 }
 
 void EnergyBalance::start_from(const Flow& flow) {
@@ -103,6 +114,8 @@ void EnergyBalance::reset() {
   now_.lost = now_.input = now_.exchanged = 0.0;
   now_.terms.assign(names_.size(), 0.0);
   stored_at_start_ = now_.stored();
+  const double stores[] = {now_.kinetic, now_.strain, now_.element};
+  for (size_t i = 0; i < std::size(stores); ++i) spans_[i] = {stores[i], stores[i]};
 }
 
 void EnergyBalance::accept(double dt) {
@@ -120,6 +133,7 @@ void EnergyBalance::accept(double dt) {
   now_.strain = end.strain;
   now_.element = end.element;
   now_.time = time_;
+  follow_stores();
   stages_[0] = end;
 }
 
@@ -127,8 +141,15 @@ double EnergyBalance::imbalance() const {
   return now_.stored() - stored_at_start_ - now_.input + now_.lost;
 }
 
+double EnergyBalance::exchanged() const {
+  double largest = now_.exchanged;
+  for (const Span& span : spans_) largest = std::max(largest, span.high - span.low);
+  return largest;
+}
+
 double EnergyBalance::residue() const {
-  return now_.exchanged > 0.0 ? std::abs(imbalance()) / now_.exchanged : 0.0;
+  const double all = exchanged();
+  return all > 0.0 ? std::abs(imbalance()) / all : 0.0;
 }
 
 }  // namespace clatter::dynamics

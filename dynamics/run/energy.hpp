@@ -45,8 +45,11 @@ class EnergyBalance : public StageObserver {
   /// them.
   std::vector<double> save() const;
   void restore(const std::vector<double>& state, double time);
-  /// |stored(now) - stored(start) - input + lost| / exchanged since reset; 0 when nothing moved.
+  /// |stored(now) - stored(start) - input + lost| / exchanged() since reset; 0 when nothing moved.
   double residue() const;
+  /// The sum of |work| of all terms, at least the largest change of a stored energy: without losses
+  /// and loads energy only passes between bodies and elements (hard case S1) [J].
+  double exchanged() const;
   double imbalance() const;
 
  private:
@@ -57,6 +60,7 @@ class EnergyBalance : public StageObserver {
   };
   Flow flow(const StageState& state) const;
   void count_event(double change);
+  void follow_stores();
   size_t term(const std::string& name);
   void start_from(const Flow& flow);
 
@@ -68,6 +72,10 @@ class EnergyBalance : public StageObserver {
   std::optional<size_t> events_term_;
   std::vector<char> is_loss_;  // per term
   Flow stages_[3];
+  struct Span {
+    double low = 0.0, high = 0.0;
+  };
+  Span spans_[3];  // of kinetic, strain and element energy since reset [J]
   double time_ = 0.0;
   double stored_at_start_ = 0.0;
   bool started_ = false;

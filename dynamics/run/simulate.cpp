@@ -14,7 +14,7 @@
 namespace clatter::dynamics {
 namespace {
 
-Checkpoint first_state(const Scene& scene) {
+Checkpoint first_point(const Scene& scene) {
   Checkpoint point;
   point.state.time = scene.time.begin;
   return point;
@@ -61,7 +61,7 @@ std::string unsettled_text(const Scene& scene, double change) {
 
 RunResult simulate(const Scene& scene, const LoadedBodies& bodies, const RunControl& control) {
   RunResult result;
-  Checkpoint point = control.resume_from ? *control.resume_from : first_state(scene);
+  Checkpoint point = control.resume_from ? *control.resume_from : first_point(scene);
   const int cycles = most_cycles(scene);
   const std::string mark = cycles > 1 ? fingerprint(scene) : "";
   const double factor = per_second(scene);

@@ -71,4 +71,9 @@ ModalStart start_state(const Scene& scene, const LoadedBodies& bodies, const Mod
   return start;
 }
 
+ModalStart first_state(const Scene& scene, const LoadedBodies& bodies, Model& model) {
+  const std::filesystem::path& other = scene.time.start;
+  return other.empty() ? start_state(scene, bodies, model) : read_end(other, model, bodies);
+}
+
 }  // namespace clatter::dynamics

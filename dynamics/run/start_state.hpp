@@ -11,4 +11,8 @@ namespace clatter::dynamics {
 /// NumericsError naming the body and where it is when none is found.
 ModalStart start_state(const Scene& scene, const LoadedBodies& bodies, const Model& model);
 
+/// The state in which any run starts: start_state(), or the end of the run that time.start_from
+/// names, which also gives the elements of `model` their states.
+ModalStart first_state(const Scene& scene, const LoadedBodies& bodies, Model& model);
+
 }  // namespace clatter::dynamics

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "dynamics/component/component_keys.hpp"
 #include "dynamics/component/drive_component.hpp"
@@ -49,6 +51,28 @@ void check_engine(const Config& root) {
         "body",
         "found no body, expected [engine] with [piston], or [[body]], [[rigid_body]], [[valve]], "
         "[[shaft]]");
+  }
+}
+
+/// Histories, energies and states of elements are found by name, so each is given once (hard case
+/// S3).
+void check_names(const Config& root) {
+  for (const char* kind : {"bushing", "spring", "stop", "torque", "cam_torque", "tensioner",
+                           "lash_adjuster", "follower", "valve_spring"}) {
+    if (!root.has(kind)) continue;
+    std::map<std::string, std::string> found;  // as in the names of histories, and as given
+    size_t number = 0;
+    for (const Config& table : root.tables(kind)) {
+      const std::string given = table.has("name") ? read_name(table) : std::to_string(number + 1);
+      ++number;
+      std::string name = given;
+      std::replace(name.begin(), name.end(), ' ', '_');
+      const auto [first, is_new] = found.emplace(name, given);
+      if (!is_new)
+        table.fail("name", fmt::format("found \"{}\" after a {} \"{}\", expected each name once "
+                                       "(_ and blank are the same)",
+                                       given, kind, first->second));
+    }
   }
 }
 
@@ -108,6 +132,7 @@ Scene read_scene(const Config& root, const std::filesystem::path& path) {
   scene.title = root.text_or("title", path.stem().stem().string());
   check_known(root);
   check_engine(root);
+  check_names(root);
   scene.clock = read_clock(root);
   read_time(root, scene);
   scene.components = read_components(root);

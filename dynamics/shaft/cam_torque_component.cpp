@@ -7,6 +7,7 @@
 
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/shaft/shaft_catalogue.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -65,8 +66,8 @@ void CamTorqueComponent::add_elements(ModelBuilder& model) {
 
 void CamTorqueComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   if (torques_.empty()) return;
-  effects.add("cam torque", true, "[[cam_torque]]: springs and inertia, quasi-static",
-              "cam_torque");
+  effects.add(find_effect(kShaftEffects, "cam torque"), true,
+              "[[cam_torque]]: springs and inertia, quasi-static", "cam_torque");
 }
 
 ComponentList read_cam_torques(const Config& root) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "dynamics/shaft/shaft_catalogue.hpp"
 
 namespace clatter::dynamics {
 
@@ -104,23 +105,29 @@ void ShaftComponent::add_body_effects(const ModelBuilder&, EffectTable& effects)
       : spec_.model == ShaftModel::kTorsion
           ? fmt::format("model = torsion, {} slices with their angle", stations)
           : "model = rigid, one angle";
-  effects.add("shaft " + spec_.name, true, what);
+  effects.add(find_effect(kShaftEffects, "shaft"), "shaft " + spec_.name, true, what).unknowns =
+      size().modes;
 }
 
 void ShaftComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  const auto add = [&](const char* what, bool on, const char* why, const char* element) {
-    effects.add(spec_.name + " " + what, on, why, on ? element + (" " + spec_.name) : "");
+  const auto add = [&](const EffectEntry* entry, const char* what, bool on, const char* why,
+                       const char* element) {
+    effects.add(entry, spec_.name + " " + what, on, why, on ? element + (" " + spec_.name) : "");
   };
   const bool bends = bodies_.bends, rigid = spec_.model == ShaftModel::kRigid;
-  effects.add(spec_.name + " torsion", !rigid, bends ? "with bending" : "model",
-              bends || rigid ? "" : "torsion " + spec_.name);
-  add("bending", bends, "model", "beam");
-  add("gyroscopic moments", bends, "model", "gyroscope");
+  effects.add(find_effect(kShaftEffects, "torsion of a shaft"), spec_.name + " torsion", !rigid,
+              bends ? "with bending" : "model", bends || rigid ? "" : "torsion " + spec_.name);
+  add(find_effect(kShaftEffects, "bending of a shaft"), "bending", bends, "model", "beam");
+  add(find_effect(kShaftEffects, "gyroscopic moments of a shaft"), "gyroscopic moments", bends,
+      "model", "gyroscope");
   if (!spec_.bearings.empty())
-    add("bearings", bends, bends ? "[[shaft.bearing]]" : "model: the axis is fixed", "bearing");
+    add(find_effect(kShaftEffects, "bearings of a shaft"), "bearings", bends,
+        bends ? "[[shaft.bearing]]" : "model: the axis is fixed", "bearing");
   bool phaser = false;
   for (const ShaftDiscSpec& disc : spec_.discs) phaser = phaser || disc.phaser;
-  if (phaser) add("phaser", !rigid, rigid ? "model = rigid" : "disc.phaser", "phaser");
+  if (phaser)
+    add(find_effect(kShaftEffects, "phaser"), "phaser", !rigid,
+        rigid ? "model = rigid" : "disc.phaser", "phaser");
 }
 
 void ShaftComponent::record(const System& system, const StageState& state, History& history) const {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/shaft/shaft_catalogue.hpp"
 
 namespace clatter::dynamics {
 namespace {
@@ -91,7 +92,8 @@ void TorqueComponent::add_elements(ModelBuilder& model) {
 }
 
 void TorqueComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  if (!torques_.empty()) effects.add("torques over angle", true, "[[torque]]", "torque");
+  if (!torques_.empty())
+    effects.add(find_effect(kShaftEffects, "torques over angle"), true, "[[torque]]", "torque");
 }
 
 ComponentList read_torques(const Config& root) {

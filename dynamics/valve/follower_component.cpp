@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/valve/valve_catalogue.hpp"
 
 namespace clatter::dynamics {
 
@@ -31,7 +32,7 @@ std::string lost_text(const std::string& name, const RollerContact& roller, doub
 
 void add_cam_effect(const std::string& name, const std::string& element, const CamProfile& profile,
                     EffectTable& effects) {
-  effects.add(name, true,
+  effects.add(find_effect(kValveEffects, "roller on cam"), name, true,
               fmt::format("roller on a {} profile, smallest radius {:.4g} mm",
                           profile.is_convex() ? "convex" : "partly hollow",
                           profile.smallest_radius() / kMilli),
@@ -64,7 +65,10 @@ void FollowerComponent::add_elements(ModelBuilder& model) {
 }
 
 void FollowerComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
-  effects.add("follower " + table_.name, true, "large motion in a plane, 3 coordinates");
+  effects
+      .add(find_effect(kValveEffects, "follower"), "follower " + table_.name, true,
+           "large motion in a plane, 3 coordinates")
+      .unknowns = 3;
 }
 
 void FollowerComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {

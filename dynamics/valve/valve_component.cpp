@@ -11,6 +11,7 @@
 #include "dynamics/body/rigid_body.hpp"
 #include "dynamics/shaft/torque_component.hpp"
 #include "dynamics/valve/follower_component.hpp"
+#include "dynamics/valve/valve_catalogue.hpp"
 #include "dynamics/valve/valve_spring_component.hpp"
 
 namespace clatter::dynamics {
@@ -230,23 +231,28 @@ void ValveComponent::add_torque(ModelBuilder& model) {
 
 void ValveComponent::add_body_effects(const ModelBuilder&, EffectTable& effects) const {
   const bool full = spec_.model == ValveModel::kFull;
-  effects.add("valve train " + spec_.name, full,
-              full ? fmt::format("model = \"full\": {} valves as bodies", spec_.lobes.size())
-                   : fmt::format("model = \"quasi_static\": torque on {} cams by the lift law",
-                                 spec_.lobes.size()));
+  Effect& row =
+      effects.add(find_effect(kValveEffects, "valve train"), "valve train " + spec_.name, full,
+                  full ? fmt::format("model = \"full\": {} valves as bodies", spec_.lobes.size())
+                       : fmt::format("model = \"quasi_static\": torque on {} cams by the lift law",
+                                     spec_.lobes.size()));
+  row.unknowns = size().modes;
 }
 
 void ValveComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
   const std::string prefix = "valve " + spec_.name;
   if (spec_.model == ValveModel::kQuasiStatic)
-    return effects.add(prefix + " torque", true, "springs and inertia, quasi-static", prefix);
+    effects.add(find_effect(kValveEffects, "torque of valves"), prefix + " torque", true,
+                "springs and inertia, quasi-static", prefix);
   add_spring_effect(prefix + " spring", spec_.spring, effects);
-  effects.add(prefix + " adjuster", spec_.hydraulic,
+  effects.add(find_effect(kValveEffects, "lash adjuster of valves"), prefix + " adjuster",
+              spec_.hydraulic,
               spec_.hydraulic ? "lash_adjuster.model = \"hydraulic\": content of the chamber"
                               : "lash_adjuster.model = \"rigid\"",
               prefix + " adjuster");
   add_cam_effect(prefix + " cam", prefix + " cam", *profile_, effects);
-  effects.add(prefix + " contacts", true, "seat, ball and pad of the follower", prefix);
+  effects.add(find_effect(kValveEffects, "contacts of valve and follower"), prefix + " contacts",
+              true, "seat, ball and pad of the follower", prefix);
 }
 
 void ValveComponent::record(const System& system, const StageState& state, History& history) const {

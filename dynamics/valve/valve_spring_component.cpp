@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "dynamics/component/component_keys.hpp"
+#include "dynamics/valve/valve_catalogue.hpp"
 
 namespace clatter::dynamics {
 
@@ -69,16 +70,17 @@ void ValveSpringComponent::add_elements(ModelBuilder& model) {
                                                         masses, spec_.spring));
 }
 
-void add_spring_effect(const std::string& element, const CoilSpringSpec& spring,
-                       EffectTable& effects) {
-  effects.add(element, true,
-              fmt::format("{} masses, coils that touch; {:.4g} N/m, {:.4g} g, surge {:.4g} Hz",
-                          spring.masses, spring.stiffness, 1e3 * spring.mass, spring.surge()),
-              element);
+Effect& add_spring_effect(const std::string& element, const CoilSpringSpec& spring,
+                          EffectTable& effects) {
+  return effects.add(
+      find_effect(kValveEffects, "valve spring"), element, true,
+      fmt::format("{} masses, coils that touch; {:.4g} N/m, {:.4g} g, surge {:.4g} Hz",
+                  spring.masses, spring.stiffness, 1e3 * spring.mass, spring.surge()),
+      element);
 }
 
 void ValveSpringComponent::add_effects(const ModelBuilder&, EffectTable& effects) const {
-  add_spring_effect(element_name(), spec_.spring, effects);
+  add_spring_effect(element_name(), spec_.spring, effects).unknowns = size().modes;
 }
 
 ComponentList read_valve_springs(const Config& root) {

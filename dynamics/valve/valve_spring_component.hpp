@@ -42,8 +42,8 @@ class ValveSpringComponent : public Component {
 };
 
 /// The row of a spring in the table of effects.
-void add_spring_effect(const std::string& element, const CoilSpringSpec& spring,
-                       EffectTable& effects);
+Effect& add_spring_effect(const std::string& element, const CoilSpringSpec& spring,
+                          EffectTable& effects);
 
 ComponentList read_valve_springs(const Config& root);
 

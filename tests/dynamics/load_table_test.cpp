@@ -79,6 +79,14 @@ TEST(CycleTable, BadRowsAreRefusedWithFileAndLine) {
   EXPECT_TRUE(has(refusal("empty", ""), "found no rows"));
 }
 
+TEST(CycleTable, AColumnWithoutUnitIsToldHowToNameIt) {
+  const std::string message = refusal("no_unit", "time, pressure [bar]\n0, 1\n1, 2\n");
+  EXPECT_NE(message.find(
+                ":1: found \"time\", expected a name with its unit in brackets, as \"time [s]\""),
+            std::string::npos)
+      << message;
+}
+
 TEST(Spline, MonotoneCubicKeepsExtremaAndReproducesALine) {
   const Spline step(Spline::Kind::kMonotoneCubic, {0, 1, 2, 3, 4}, {0, 0, 1, 1, 1});
   for (double x = 0.0; x < 4.0; x += 0.01) {
